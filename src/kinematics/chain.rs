@@ -1,0 +1,90 @@
+//! Open chains and closed loops as a mechanism file gives them.
+
+use super::motion::Motion;
+use crate::algebra::number::{Angle, Number};
+use rug::Rational;
+
+/// What a joint lets through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointKind {
+    /// R: one rotation.
+    Revolute,
+    /// P: one translation.
+    Prismatic,
+    /// C: rotation about and translation along one axis.
+    Cylindrical,
+    /// H: a screw, its translation proportional to its rotation.
+    Helical,
+    /// S: a ball.
+    Spherical,
+    /// U: two crossing revolutes.
+    Universal,
+}
+
+/// A joint with the link that follows (DH) or precedes (modified DH) it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Its kind.
+    pub kind: JointKind,
+    /// Link length a.
+    pub a: Number,
+    /// Link twist alpha.
+    pub alpha: Angle,
+    /// Offset along the joint axis: the constant d, for P and C the offset d0 of the variable.
+    pub d: Number,
+    /// Angle about the joint axis: for R and C the offset theta0 of the variable, for P the constant.
+    pub theta0: Angle,
+    /// H only: translation per radian.
+    pub pitch: Option<Number>,
+}
+
+/// A joint given by its axis in the home position (product of exponentials).
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScrewJoint {
+    /// Its kind.
+    pub kind: JointKind,
+    /// Direction of the axis, of any nonzero length.
+    pub axis: [Number; 3],
+    /// A point of the axis.
+    pub point: [Number; 3],
+    /// H only: translation per radian.
+    pub pitch: Option<Number>,
+}
+
+/// A constant rigid motion of a file (base, tool, home, pose): exactly rigid over the rationals, and in f64.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placement {
+    /// The exact motion: the one given where that is exactly rigid, else the nearest one found with rational entries.
+    pub exact: Motion<Rational>,
+    /// The correctly rounded image of the motion, its rotation orthogonal to rounding.
+    pub float: Motion<f64>,
+    /// How far the given rotation was from a rotation: the largest entry of |R - nearest rotation|.
+    pub defect: f64,
+}
+
+/// How the links are described.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Geometry {
+    /// `prod Rz(q + theta0) Tz(d) Tx(a) Rx(alpha)`
+    Dh(Vec<Joint>),
+    /// `prod Rx(alpha) Tx(a) Rz(q + theta0) Tz(d)` (Craig)
+    ModifiedDh(Vec<Joint>),
+    /// Screw axes in the home position of the flange.
+    Screws {
+        /// The joints from base to flange.
+        joints: Vec<ScrewJoint>,
+        /// Pose of the flange with all joint variables zero.
+        home: Placement,
+    },
+}
+
+/// A serial chain: its geometry between a base and a tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    /// Joints and links.
+    pub geometry: Geometry,
+    /// From the world to the first joint.
+    pub base: Placement,
+    /// From the last link to the tool.
+    pub tool: Placement,
+}
