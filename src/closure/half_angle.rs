@@ -1,0 +1,89 @@
+//! The half-angle form: closure equations in which the one unknown next to the cut appears linearly by tan(q3/2).
+//!
+//! A turning pair (x, y) of the right side enters as `(x + i y) e^(-i q3)`. Two complex combinations of the closure
+//! equations contain no `e^(+i q3)`: `P e^(-i q3) + Q = 0`, and with `x3 = tan(q3/2)` they become
+//! `(P + Q) - i x3 (P - Q) = 0`, four real equations linear in x3 without the factor `1 + x3^2`.
+//! [LeeWoernleHiller1991, RaghavanRoth1993]
+
+use super::woernle_lee::{FIXED, MarkedLine, TURNING_X, TURNING_Y, act_on_form, left_columns};
+use crate::algebra::reduction::{Reduction, reduce};
+use crate::algebra::ring::Field;
+use crate::kinematics::closed_loop::ClosedLoop;
+
+/// What remains of the 14 closure equations of a cut when unknowns 4, 5 and 6 are eliminated. Depends on the
+/// constants G3, G4, G5 alone.
+#[derive(Clone, Debug)]
+pub struct HalfAngleForm<F> {
+    /// Four pairs of rows (e0, e1), as rows k and 4 + k: `(e0 + x3 e1) T(G2^-1) u(q1, q2) = 0`.
+    pub rows: [MarkedLine<F>; 8],
+    /// The six equations free of unknowns 4 to 6 before q3 is split off: `M T(Rz(-q3)) T(G2^-1) u(q1, q2) = 0`.
+    pub free_of_last: [MarkedLine<F>; 6],
+    /// Solves the left side: applied to `T(G3^-1) T(Rz(-q3)) T(G2^-1) u`, the values of c5, s5, c4, s4.
+    pub last_monomials: [MarkedLine<F>; 4],
+    /// How far the cut is from losing an equation: 0 lost, near 1 far. A cut at 0 must not be used.
+    pub score: f64,
+}
+
+/// The real equations of two complex rows, or all that there are: `None` where the cut is degenerate and loses some.
+#[must_use]
+pub fn half_angle_form<F: Field>(cut: &ClosedLoop<F>) -> Option<HalfAngleForm<F>> {
+    let columns = left_columns(cut);
+    let left: [[F; 9]; 15] = std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i].clone()));
+    let solved: Reduction<F, 15, 9> = reduce(left);
+    if solved.rank < 9 {
+        return None;
+    }
+    let mut annihilators: [MarkedLine<F>; 6] = std::array::from_fn(|k| solved.transform[9 + k].clone());
+    F::orthonormalise(&mut annihilators);
+    let back = cut.constants[2].inverse();
+    let free_of_last = annihilators.map(|n| act_on_form(&n, &back));
+
+    // Left null vectors (yr, yi) of [[Mx, My], [-My, Mx]]: the combinations without e^(+i q3).
+    let turning: [[F; 8]; 12] = std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let (m, x_block) = (&free_of_last[i % 6], j < 4);
+            match (i < 6, x_block) {
+                (true, true) => m[TURNING_X[j]].clone(),
+                (true, false) => m[TURNING_Y[j - 4]].clone(),
+                (false, true) => m[TURNING_Y[j]].neg(),
+                (false, false) => m[TURNING_X[j - 4]].clone(),
+            }
+        })
+    });
+    let split: Reduction<F, 12, 8> = reduce(turning);
+    if split.rank < 8 {
+        return None;
+    }
+    let mut combinations: [[F; 12]; 4] = std::array::from_fn(|k| split.transform[8 + k].clone());
+    F::orthonormalise(&mut combinations);
+
+    let mut rows: [MarkedLine<F>; 8] = std::array::from_fn(|_| std::array::from_fn(|_| F::zero()));
+    for (k, y) in combinations.iter().enumerate() {
+        let (real, imaginary) = y.split_at(6);
+        let combine = |weights: &[F], at: usize| {
+            weights.iter().zip(&free_of_last).fold(F::zero(), |sum, (w, m)| sum.add(&w.mul(&m[at])))
+        };
+        for (x, y) in TURNING_X.into_iter().zip(TURNING_Y) {
+            let (along, across) = (combine(real, x), combine(imaginary, x));
+            rows[k][x] = along.clone();
+            rows[k][y] = across.neg();
+            rows[4 + k][x] = across;
+            rows[4 + k][y] = along;
+        }
+        for i in FIXED {
+            rows[k][i] = combine(real, i);
+            rows[4 + k][i] = combine(imaginary, i).neg();
+        }
+    }
+    // Monomials run (1, c5, s5) slowly, (1, c4, s4) fast.
+    let solving = |monomial: usize| {
+        let row = solved.columns.iter().position(|&c| c == monomial).expect("all nine columns have a pivot");
+        solved.transform[row].clone()
+    };
+    Some(HalfAngleForm {
+        rows,
+        free_of_last,
+        last_monomials: [solving(3), solving(6), solving(1), solving(2)],
+        score: solved.independence.min(split.independence),
+    })
+}

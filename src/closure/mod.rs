@@ -1,0 +1,4 @@
+//! Mechanism to closure equations, over any ring.
+
+pub mod half_angle;
+pub mod woernle_lee;

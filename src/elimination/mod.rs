@@ -1,0 +1,4 @@
+//! Closure equations to one matrix pencil in the hidden unknown, over any field.
+
+pub mod cut;
+pub mod pencil;

@@ -1,0 +1,359 @@
+//! The canonical form of every single loop: six unknown rotations or translations and six constant motions.
+//!
+//! `V1(x1) G1 V2(x2) G2 ... V6(x6) G6 = I` with each `V` a rotation about or a translation along its own z axis. An arm
+//! at a pose, a loop with one joint given, joints of type R, P and C: nothing else about them survives, so that one code
+//! path serves all. [LeeLiang1988]
+
+use super::chain::{Chain, Geometry, Joint, JointKind, ScrewJoint};
+use super::motion::{Motion, cross, dot, link};
+use crate::algebra::number::{Angle, Number};
+use crate::algebra::ring::Ring;
+use crate::error::Error;
+use rug::Rational;
+
+/// What one unknown does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable {
+    /// Rotation about the z axis, an angle in radians.
+    Rotation,
+    /// Translation along the z axis, a length.
+    Translation,
+}
+
+/// A loop of six unknowns, `prod V_j G_j = I`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClosedLoop<R> {
+    /// What each unknown does.
+    pub variables: [Variable; 6],
+    /// The constant motion behind each unknown.
+    pub constants: [Motion<R>; 6],
+}
+
+/// The geometry of a mechanism without pose or input: six unknowns, the five constants between them, and the two
+/// constants of the gap that a pose or input fills.
+#[derive(Clone, Debug)]
+pub struct OpenLoop<R> {
+    /// What each unknown does, in loop order: the gap stands behind the last one.
+    pub variables: [Variable; 6],
+    /// The constants behind unknowns 1 to 5.
+    pub constants: [Motion<R>; 5],
+    /// The constant between the last unknown and the gap.
+    pub before_gap: Motion<R>,
+    /// The constant between the gap and the first unknown.
+    pub after_gap: Motion<R>,
+}
+
+/// The order of a mechanism's variables, and which of them a loop's input locks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// What each joint variable does, in joint order; a C joint has its angle, then its distance.
+    pub variables: Vec<Variable>,
+    /// Index of the locked variable, for loops.
+    pub locked: Option<usize>,
+}
+
+/// One motion of a chain on the way from base to tool.
+enum Step<R> {
+    Constant(Motion<R>),
+    Unknown(Variable),
+}
+
+impl<R: Ring> OpenLoop<R> {
+    /// The loop whose gap is filled by this motion: `V6 G6` with `G6 = before_gap * filling * after_gap`.
+    #[must_use]
+    pub fn close(&self, filling: &Motion<R>) -> ClosedLoop<R> {
+        let last = self.before_gap.then_after(filling).then_after(&self.after_gap);
+        let constants =
+            std::array::from_fn(|j| if j < 5 { self.constants[j].clone() } else { last.clone() });
+        ClosedLoop { variables: self.variables, constants }
+    }
+}
+
+impl Layout {
+    /// The variables of a chain in joint order.
+    ///
+    /// # Errors
+    /// For joints that are not R, P or C: a message that names the joint.
+    pub fn of(chain: &Chain, locked: Option<usize>) -> Result<Self, Error> {
+        let mut variables = Vec::new();
+        for (i, kind) in chain.joint_kinds().into_iter().enumerate() {
+            match kind {
+                JointKind::Revolute => variables.push(Variable::Rotation),
+                JointKind::Prismatic => variables.push(Variable::Translation),
+                JointKind::Cylindrical => variables.extend([Variable::Rotation, Variable::Translation]),
+                other => {
+                    return Err(Error::unsupported(format!(
+                        "joint {}: {other:?} joints are read but not solved yet; solved are R, P and C",
+                        i + 1
+                    )));
+                }
+            }
+        }
+        Ok(Self { variables, locked })
+    }
+
+    /// Index of the variable that locking `joint` (from 1) by an angle or a distance locks.
+    #[must_use]
+    pub fn variable_of(chain: &Chain, joint: usize, wanted: Variable) -> Option<usize> {
+        let mut index = 0;
+        for (i, kind) in chain.joint_kinds().into_iter().enumerate() {
+            let of_joint: &[Variable] = match kind {
+                JointKind::Cylindrical => &[Variable::Rotation, Variable::Translation],
+                JointKind::Prismatic => &[Variable::Translation],
+                _ => &[Variable::Rotation],
+            };
+            if i + 1 == joint {
+                return of_joint.iter().position(|v| *v == wanted).map(|k| index + k);
+            }
+            index += of_joint.len();
+        }
+        None
+    }
+
+    /// The joint variables in joint order from the six unknowns in loop order and the locked value.
+    #[must_use]
+    pub fn assemble<T: Copy>(&self, unknowns: &[T; 6], locked_value: T) -> Vec<T> {
+        let Some(locked) = self.locked else { return unknowns.to_vec() };
+        // The loop begins behind the locked variable and runs round to the one before it.
+        let total = self.variables.len();
+        let mut q = vec![locked_value; total];
+        for (k, value) in unknowns.iter().enumerate() {
+            q[(locked + 1 + k) % total] = *value;
+        }
+        q
+    }
+
+    /// The inverse of `assemble`: the six unknowns in loop order. Accepts the joint variables with or without the
+    /// locked one; `None` for any other length.
+    #[must_use]
+    pub fn unknowns(&self, q: &[f64]) -> Option<[f64; 6]> {
+        let total = self.variables.len();
+        match self.locked {
+            None => q.try_into().ok(),
+            Some(locked) if q.len() == total => {
+                Some(std::array::from_fn(|k| q[(locked + 1 + k) % total]))
+            }
+            Some(locked) if q.len() + 1 == total => Some(std::array::from_fn(|k| {
+                let index = (locked + 1 + k) % total;
+                q[if index > locked { index - 1 } else { index }]
+            })),
+            Some(_) => None,
+        }
+    }
+}
+
+impl Chain {
+    /// The kinds of the joints from base to tool.
+    #[must_use]
+    pub fn joint_kinds(&self) -> Vec<JointKind> {
+        match &self.geometry {
+            Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => joints.iter().map(|j| j.kind).collect(),
+            Geometry::Screws { joints, .. } => joints.iter().map(|j| j.kind).collect(),
+        }
+    }
+
+    /// The open loop of this chain: of an arm the gap is where the inverse of the pose goes, of a loop the locked
+    /// variable.
+    ///
+    /// # Errors
+    /// For joints that cannot be solved, and where the unknowns are not six.
+    ///
+    /// # Panics
+    /// When a constant of the chain has no image in the ring (a prime that divides a denominator): callers that work
+    /// modulo a prime use [`Chain::try_open_loop`].
+    pub fn open_loop<R: Ring>(&self, layout: &Layout) -> Result<OpenLoop<R>, Error> {
+        self.try_open_loop(layout)?
+            .ok_or_else(|| Error::unsupported("the geometry has no image in this ring (unlucky prime)".into()))
+    }
+
+    /// As [`Chain::open_loop`], with `None` for an unlucky prime.
+    ///
+    /// # Errors
+    /// As [`Chain::open_loop`].
+    pub fn try_open_loop<R: Ring>(&self, layout: &Layout) -> Result<Option<OpenLoop<R>>, Error> {
+        let Some(steps) = self.steps::<R>() else { return Ok(None) };
+        // Collect the unknowns with the constants between them; `constants[k]` stands before unknown k.
+        let mut unknowns = Vec::new();
+        let mut constants = vec![Motion::identity()];
+        for step in steps {
+            match step {
+                Step::Constant(motion) => {
+                    let last = constants.len() - 1;
+                    constants[last] = constants[last].then_after(&motion);
+                }
+                Step::Unknown(variable) => {
+                    unknowns.push(variable);
+                    constants.push(Motion::identity());
+                }
+            }
+        }
+        let total = unknowns.len();
+        let expected = if layout.locked.is_some() { 7 } else { 6 };
+        if total != expected {
+            return Err(Error::unsupported(format!(
+                "{total} joint variables: solved are arms with 6 and loops with 7 (one of them given)"
+            )));
+        }
+        // An arm's gap stands behind its last constant, a loop's at its locked variable.
+        let open = match layout.locked {
+            None => OpenLoop {
+                variables: std::array::from_fn(|k| unknowns[k]),
+                constants: std::array::from_fn(|k| constants[k + 1].clone()),
+                before_gap: constants[6].clone(),
+                after_gap: constants[0].clone(),
+            },
+            Some(locked) => {
+                let ends = constants[7].then_after(&constants[0]);
+                // The constant before unknown k, cyclically.
+                let before = |k: usize| if k % 7 == 0 { ends.clone() } else { constants[k % 7].clone() };
+                OpenLoop {
+                    variables: std::array::from_fn(|k| unknowns[(locked + 1 + k) % 7]),
+                    constants: std::array::from_fn(|k| before(locked + 2 + k)),
+                    before_gap: before(locked),
+                    after_gap: before(locked + 1),
+                }
+            }
+        };
+        Ok(Some(open))
+    }
+
+    /// Everything from base to tool in order; `None` for an unlucky prime.
+    fn steps<R: Ring>(&self) -> Option<Vec<Step<R>>> {
+        let image = |m: &Motion<Rational>| m.map(R::from_rational);
+        let mut steps = vec![Step::Constant(image(&self.base.exact)?)];
+        match &self.geometry {
+            Geometry::Dh(joints) => {
+                for joint in joints {
+                    joint_steps(joint, &mut steps)?;
+                    steps.push(Step::Constant(link(&joint.a, &joint.alpha)?));
+                }
+            }
+            Geometry::ModifiedDh(joints) => {
+                for joint in joints {
+                    steps.push(Step::Constant(link(&joint.a, &joint.alpha)?));
+                    joint_steps(joint, &mut steps)?;
+                }
+            }
+            Geometry::Screws { joints, home } => {
+                for joint in joints {
+                    let frame = axis_frame(joint);
+                    steps.push(Step::Constant(image(&frame)?));
+                    screw_steps(joint.kind, &mut steps);
+                    steps.push(Step::Constant(image(&frame.inverse())?));
+                }
+                steps.push(Step::Constant(image(&home.exact)?));
+            }
+        }
+        steps.push(Step::Constant(image(&self.tool.exact)?));
+        Some(steps)
+    }
+
+    /// Pose of the tool at these joint values, given as one motion per joint variable in joint order.
+    /// `None` for an unlucky prime, or when there are fewer motions than variables.
+    #[must_use]
+    pub fn forward<R: Ring>(&self, joint_motions: &[Motion<R>]) -> Option<Motion<R>> {
+        let mut motions = joint_motions.iter();
+        let mut pose = Motion::identity();
+        for step in self.steps::<R>()? {
+            match step {
+                Step::Constant(motion) => pose = pose.then_after(&motion),
+                Step::Unknown(_) => pose = pose.then_after(motions.next()?),
+            }
+        }
+        Some(pose)
+    }
+}
+
+/// The unknowns of one R, P or C joint and its own constants (offsets).
+fn joint_steps<R: Ring>(joint: &Joint, steps: &mut Vec<Step<R>>) -> Option<()> {
+    screw_steps(joint.kind, steps);
+    let (cos, sin) = R::cos_sin(&joint.theta0)?;
+    let mut offset = Motion::rotation_z(cos, sin);
+    offset.translation[2] = R::from_number(&joint.d)?;
+    steps.push(Step::Constant(offset));
+    Some(())
+}
+
+/// The unknowns of a joint.
+fn screw_steps<R: Ring>(kind: JointKind, steps: &mut Vec<Step<R>>) {
+    match kind {
+        JointKind::Prismatic => steps.push(Step::Unknown(Variable::Translation)),
+        JointKind::Cylindrical => {
+            steps.push(Step::Unknown(Variable::Rotation));
+            steps.push(Step::Unknown(Variable::Translation));
+        }
+        _ => steps.push(Step::Unknown(Variable::Rotation)),
+    }
+}
+
+/// A rational frame whose z axis lies along the axis of a screw joint and whose origin is its given point.
+///
+/// The rotation is that of the quaternion `(1 + n_z, -n_y, n_x, 0)`, rational for a unit vector n with rational
+/// coordinates; a direction of irrational length is first replaced by a rational unit vector within rounding of it.
+fn axis_frame(joint: &ScrewJoint) -> Motion<Rational> {
+    let n = rational_direction(&joint.axis.each_ref().map(|x| x.rational().clone()));
+    let origin = joint.point.each_ref().map(|x| x.rational().clone());
+    let mut frame = Motion::translation(origin);
+    let w = Rational::from(&n[2] + 1);
+    if w.is_zero() {
+        // Pointing straight down: a half turn about x.
+        frame.rotation[1][1] = Rational::from(-1);
+        frame.rotation[2][2] = Rational::from(-1);
+        return frame;
+    }
+    // Columns of the shortest rotation from e_z to n.
+    let (x, y) = (&n[0], &n[1]);
+    frame.rotation[0][0] = Rational::from(1 - Rational::from(x * x) / &w);
+    frame.rotation[0][1] = -Rational::from(x * y) / &w;
+    frame.rotation[1][0] = frame.rotation[0][1].clone();
+    frame.rotation[1][1] = Rational::from(1 - Rational::from(y * y) / &w);
+    for i in 0..3 {
+        frame.rotation[i][2] = n[i].clone();
+    }
+    frame.rotation[2][0] = -x.clone();
+    frame.rotation[2][1] = -y.clone();
+    frame
+}
+
+/// The unit vector along `axis`: exact where its length is rational, else a rational unit vector within rounding.
+fn rational_direction(axis: &[Rational; 3]) -> [Rational; 3] {
+    let square = dot(axis, axis);
+    let (numerator, denominator) = (square.numer(), square.denom());
+    if numerator.is_perfect_square() && denominator.is_perfect_square() {
+        let length = Rational::from((numerator.clone().sqrt(), denominator.clone().sqrt()));
+        return axis.each_ref().map(|x| Rational::from(x / &length));
+    }
+    // Stereographic projection from the pole farther away: rational points of the sphere.
+    let length = rug::Float::with_val(160, &square).sqrt();
+    let unit = axis.each_ref().map(|x| rug::Float::with_val(160, x) / &length);
+    let flip = unit[2] < 0;
+    let below = if flip { rug::Float::with_val(160, 1 - &unit[2]) } else { rug::Float::with_val(160, 1 + &unit[2]) };
+    let rounded = |x: &rug::Float| {
+        let scaled = rug::Float::with_val(160, x / &below) * (1_u64 << 60);
+        Rational::from((scaled.to_integer().unwrap_or_default(), 1_u64 << 60))
+    };
+    let (u, v) = (rounded(&unit[0]), rounded(&unit[1]));
+    let norm = Rational::from(&u * &u) + Rational::from(&v * &v);
+    let scale = Rational::from(&norm + 1).recip();
+    let z = Rational::from(1 - norm) * &scale;
+    [u * 2 * &scale, v * 2 * &scale, if flip { -z } else { z }]
+}
+
+/// The motion of one joint variable: `Rz(angle)` or `Tz(distance)`.
+#[must_use]
+pub fn angle_motion<R: Ring>(angle: &Angle) -> Option<Motion<R>> {
+    let (cos, sin) = R::cos_sin(angle)?;
+    Some(Motion::rotation_z(cos, sin))
+}
+
+/// `Tz(distance)` over any ring.
+#[must_use]
+pub fn distance_motion<R: Ring>(distance: &Number) -> Option<Motion<R>> {
+    Some(Motion::translation_z(R::from_number(distance)?))
+}
+
+/// The moment of a line through `point` with this direction.
+#[must_use]
+pub fn moment<R: Ring>(point: &[R; 3], direction: &[R; 3]) -> [R; 3] {
+    cross(point, direction)
+}

@@ -1,0 +1,5 @@
+//! Geometry over any ring: rigid motions, chains and loops.
+
+pub mod chain;
+pub mod closed_loop;
+pub mod motion;

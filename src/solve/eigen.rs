@@ -1,0 +1,84 @@
+//! Eigenvalues by faer. The only file that names it.
+
+use crate::elimination::pencil::Square;
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd;
+use faer::{Mat, Par};
+use num_complex::Complex;
+
+/// Scratch memory for eigenvalues of 16 x 16 matrices, reused from call to call.
+pub struct EigenWorkspace {
+    matrix: Mat<f64>,
+    real: Diag<f64>,
+    imaginary: Diag<f64>,
+    memory: MemBuffer,
+}
+
+const SIZE: usize = 16;
+
+impl Default for EigenWorkspace {
+    fn default() -> Self {
+        let no = evd::ComputeEigenvectors::No;
+        Self {
+            matrix: Mat::zeros(SIZE, SIZE),
+            real: Diag::zeros(SIZE),
+            imaginary: Diag::zeros(SIZE),
+            memory: MemBuffer::new(evd::evd_scratch::<f64>(SIZE, no, no, Par::Seq, faer::prelude::default())),
+        }
+    }
+}
+
+impl EigenWorkspace {
+    /// The eigenvalues x of `(A0 + A1 x + A2 x^2) y = 0` from the lower half of its companion matrix
+    /// `[[0, I], [-A2^-1 A0, -A2^-1 A1]]`. `None` where the iteration does not converge or an entry is not finite.
+    pub fn companion(
+        &mut self,
+        constant: &Square<f64, 8>,
+        linear: &Square<f64, 8>,
+    ) -> Option<[Complex<f64>; SIZE]> {
+        for i in 0..8 {
+            for j in 0..8 {
+                self.matrix[(i, j)] = 0.0;
+                self.matrix[(i, 8 + j)] = if i == j { 1.0 } else { 0.0 };
+                self.matrix[(8 + i, j)] = -constant[i][j];
+                self.matrix[(8 + i, 8 + j)] = -linear[i][j];
+            }
+        }
+        self.values()
+    }
+
+    /// The eigenvalues of any 16 x 16 matrix: what the speed of the solver is measured against.
+    pub fn of_matrix(&mut self, matrix: &Square<f64, SIZE>) -> Option<[Complex<f64>; SIZE]> {
+        for (i, row) in matrix.iter().enumerate() {
+            for (j, x) in row.iter().enumerate() {
+                self.matrix[(i, j)] = *x;
+            }
+        }
+        self.values()
+    }
+
+    fn values(&mut self) -> Option<[Complex<f64>; SIZE]> {
+        evd::evd_real(
+            self.matrix.as_ref(),
+            self.real.as_mut(),
+            self.imaginary.as_mut(),
+            None,
+            None,
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            faer::prelude::default(),
+        )
+        .ok()?;
+        Some(std::array::from_fn(|k| {
+            Complex::new(self.real.column_vector()[k], self.imaginary.column_vector()[k])
+        }))
+    }
+}
+
+/// The eigenvalues of a small complex matrix of any size, rows given one after the other. Allocates: for rare cases.
+#[must_use]
+pub fn eigenvalues(size: usize, entries: &[Complex<f64>]) -> Vec<Complex<f64>> {
+    let matrix = Mat::from_fn(size, size, |i, j| entries[i * size + j]);
+    matrix.eigenvalues().unwrap_or_default()
+}

@@ -1,0 +1,116 @@
+//! Null vectors of the pencil at a root, and the unknowns they hold.
+
+use super::scalar::Scalar;
+use crate::elimination::pencil::Square;
+
+/// Pivots below this part of the largest one count as zero: a kernel of more than one dimension.
+const SHARED: f64 = 1e-7;
+
+/// The kernel of an 8 x 8 matrix that is singular to rounding.
+#[derive(Clone, Debug)]
+pub struct Kernel<S> {
+    /// Basis vectors; the first `dimension` count. Orthonormal when there are several.
+    pub basis: [[S; 8]; 8],
+    /// Number of basis vectors, at least 1.
+    pub dimension: usize,
+    /// Size of the last but one pivot over the first: how far the kernel is from a second dimension.
+    pub separation: f64,
+}
+
+/// The kernel by elimination with complete pivoting; the smallest pivot always counts as zero.
+#[must_use]
+pub fn kernel<S: Scalar>(matrix: &Square<S, 8>) -> Kernel<S> {
+    let mut a = *matrix;
+    let mut columns: [usize; 8] = std::array::from_fn(|j| j);
+    let mut pivots = [0.0; 8];
+    for k in 0..8 {
+        let (mut best, mut row, mut column) = (-1.0, k, k);
+        for (i, entries) in a.iter().enumerate().skip(k) {
+            for (j, x) in entries.iter().enumerate().skip(k) {
+                if x.size() > best {
+                    (best, row, column) = (x.size(), i, j);
+                }
+            }
+        }
+        a.swap(k, row);
+        columns.swap(k, column);
+        for entries in &mut a {
+            entries.swap(k, column);
+        }
+        pivots[k] = a[k][k].size();
+        let Some(inverse) = a[k][k].inverse() else { break };
+        let pivot_row = a[k];
+        for target in a.iter_mut().skip(k + 1) {
+            let factor = target[k].mul(&inverse);
+            for j in k + 1..8 {
+                target[j] = target[j].sub(&factor.mul(&pivot_row[j]));
+            }
+        }
+    }
+    let separation = if pivots[0] > 0.0 { pivots[6] / pivots[0] } else { 0.0 };
+    let rank = (0..7).take_while(|&k| pivots[k] > SHARED * pivots[0]).count();
+    let dimension = 8 - rank;
+    let mut basis = [[S::zero(); 8]; 8];
+    for (b, vector) in basis.iter_mut().take(dimension).enumerate() {
+        let mut y = [S::zero(); 8];
+        y[rank + b] = S::one();
+        for i in (0..rank).rev() {
+            let mut sum = S::zero();
+            for j in i + 1..8 {
+                sum = sum.add(&a[i][j].mul(&y[j]));
+            }
+            y[i] = sum.neg().over(a[i][i]);
+        }
+        for (value, &column) in y.iter().zip(&columns) {
+            vector[column] = *value;
+        }
+    }
+    if dimension > 1 {
+        orthonormalise(&mut basis[..dimension]);
+    }
+    Kernel { basis, dimension, separation }
+}
+
+fn orthonormalise<S: Scalar>(rows: &mut [[S; 8]]) {
+    for i in 0..rows.len() {
+        let (done, rest) = rows.split_at_mut(i);
+        let row = &mut rest[0];
+        for _ in 0..2 {
+            for other in done.iter() {
+                let dot = row.iter().zip(other).fold(S::zero(), |s, (x, y)| s.add(&x.mul(&y.conjugate())));
+                for (x, y) in row.iter_mut().zip(other) {
+                    *x = x.sub(&dot.mul(y));
+                }
+            }
+            let square: f64 = row.iter().map(|x| x.to_complex().norm_sqr()).sum();
+            for x in row.iter_mut() {
+                *x = x.times(1.0 / square.sqrt().max(f64::MIN_POSITIVE));
+            }
+        }
+    }
+}
+
+/// Cosine and sine of an angle from its half-angle pair `tan(q/2) = sin_half / cos_half`; `None` near tan = +-i, where
+/// no finite angle is.
+#[must_use]
+pub fn double_angle<S: Scalar>(cos_half: S, sin_half: S) -> Option<(S, S)> {
+    let (cc, ss) = (cos_half.mul(&cos_half), sin_half.mul(&sin_half));
+    let norm = cc.add(&ss);
+    if !(norm.size() > 1e-12 * (cc.size() + ss.size())) {
+        return None;
+    }
+    let product = cos_half.mul(&sin_half);
+    Some((cc.sub(&ss).over(norm), product.add(&product).over(norm)))
+}
+
+/// Cosine and sine of the other unknown and of unknown 3 from a one-dimensional kernel.
+///
+/// Ratios of neighbouring entries, taken where they are largest: infinite half-angle tangents are no exception.
+#[must_use]
+pub fn unknowns<S: Scalar>(y: &[S; 8]) -> Option<((S, S), (S, S))> {
+    let square = |part: &[S]| -> f64 { part.iter().map(|x| x.to_complex().norm_sqr()).sum() };
+    let b = if square(&y[..4]) >= square(&y[4..]) { &y[..4] } else { &y[4..] };
+    let other = if b[0].size() >= b[3].size() { double_angle(b[0], b[1]) } else { double_angle(b[2], b[3]) }?;
+    let i = (0..4).max_by(|&i, &j| square(&[y[i], y[i + 4]]).total_cmp(&square(&[y[j], y[j + 4]])))?;
+    Some((other, double_angle(y[i], y[i + 4])?))
+}

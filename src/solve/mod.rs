@@ -1,0 +1,9 @@
+//! Pencil to roots, in f64: eigenvalues, null vectors, back-substitution, polish.
+
+pub mod back_substitution;
+pub mod dense;
+pub mod eigen;
+pub mod kernel;
+pub mod newton;
+pub mod scalar;
+pub mod singular;

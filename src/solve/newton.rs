@@ -1,0 +1,263 @@
+//! The closure of a loop in numbers, its derivative, and Newton's method that only ever goes downhill.
+
+use super::dense::{inverse, times};
+use super::scalar::Scalar;
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::motion::Motion;
+
+/// Six numbers or residuals.
+pub type Six<S> = [S; 6];
+
+/// The closure E = prod V_j G_j of a loop at some unknowns.
+#[derive(Clone, Debug)]
+pub struct Closure<S> {
+    /// The skew-symmetric part of the rotation of E as a vector, and its translation.
+    pub residual: Six<S>,
+    /// Column j is the twist of unknown j in the frame of the cut: the derivative of `residual` where E = I.
+    pub jacobian: [Six<S>; 6],
+    /// The largest entry of |E - I|.
+    pub defect: f64,
+    /// Norms for error bounds, one triple per unknown.
+    pub norms: [StepNorms; 6],
+}
+
+/// Row-sum norms at one step of the product round the loop.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StepNorms {
+    /// Of the product of all steps before this one.
+    pub before: f64,
+    /// Of this step.
+    pub step: f64,
+    /// Of the inverse of the product up to and including this step: by closure, of the product of all steps behind it.
+    pub behind: f64,
+    /// Of the twist of this unknown as a 4 x 4 matrix.
+    pub twist: f64,
+}
+
+fn frame_norm<S: Scalar>(frame: &Motion<S>) -> f64 {
+    let mut largest = 1.0_f64;
+    for i in 0..3 {
+        let row = &frame.rotation[i];
+        largest = largest.max(row[0].bound() + row[1].bound() + row[2].bound() + frame.translation[i].bound());
+    }
+    largest
+}
+
+fn inverse_norm<S: Scalar>(frame: &Motion<S>) -> f64 {
+    let (r, t) = (&frame.rotation, &frame.translation);
+    let mut largest = 1.0_f64;
+    for j in 0..3 {
+        let back = r[0][j].mul(&t[0]).add(&r[1][j].mul(&t[1])).add(&r[2][j].mul(&t[2]));
+        largest = largest.max(r[0][j].bound() + r[1][j].bound() + r[2][j].bound() + back.bound());
+    }
+    largest
+}
+
+/// `frame * constant` for a constant in f64.
+#[inline(always)]
+fn behind<S: Scalar>(frame: &Motion<S>, constant: &Motion<f64>) -> Motion<S> {
+    let row = |r: &[S; 3], column: [f64; 3]| {
+        r[0].times(column[0]).add(&r[1].times(column[1])).add(&r[2].times(column[2]))
+    };
+    let g = &constant.rotation;
+    Motion {
+        rotation: std::array::from_fn(|i| {
+            std::array::from_fn(|j| row(&frame.rotation[i], [g[0][j], g[1][j], g[2][j]]))
+        }),
+        translation: std::array::from_fn(|i| {
+            row(&frame.rotation[i], constant.translation).add(&frame.translation[i])
+        }),
+    }
+}
+
+/// `frame * V(x)` for an unknown given by (cos, sin), or by its distance in the first place.
+#[inline(always)]
+pub fn turn<S: Scalar>(frame: &mut Motion<S>, variable: Variable, (first, second): (S, S)) {
+    for i in 0..3 {
+        let row = &mut frame.rotation[i];
+        match variable {
+            Variable::Rotation => {
+                let (x, y) = (row[0], row[1]);
+                row[0] = x.mul(&first).add(&y.mul(&second));
+                row[1] = y.mul(&first).sub(&x.mul(&second));
+            }
+            Variable::Translation => {
+                frame.translation[i] = frame.translation[i].add(&row[2].mul(&first));
+            }
+        }
+    }
+}
+
+/// The pair with which an unknown enters a motion: (cos, sin) of an angle, (distance, 0) of a translation.
+#[inline(always)]
+pub fn coordinates<S: Scalar>(variable: Variable, value: S) -> (S, S) {
+    match variable {
+        Variable::Rotation => value.cos_sin_of(),
+        Variable::Translation => (value, S::zero()),
+    }
+}
+
+/// The product of the first `count` steps of the loop.
+#[must_use]
+pub fn product<S: Scalar>(closed: &ClosedLoop<f64>, values: &[(S, S)], count: usize) -> Motion<S> {
+    let mut frame = Motion::identity();
+    for j in 0..count {
+        turn(&mut frame, closed.variables[j], values[j]);
+        frame = behind(&frame, &closed.constants[j]);
+    }
+    frame
+}
+
+/// Evaluates the closure of a loop, its derivative and the norms its error bounds need.
+#[must_use]
+pub fn closure<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Closure<S> {
+    let mut frame: Motion<S> = Motion::identity();
+    let mut jacobian = [[S::zero(); 6]; 6];
+    let mut norms = [StepNorms::default(); 6];
+    for j in 0..6 {
+        let z: [S; 3] = std::array::from_fn(|i| frame.rotation[i][2]);
+        let p = &frame.translation;
+        let moment = crate::kinematics::motion::cross(p, &z);
+        let before = frame_norm(&frame);
+        let constant = &closed.constants[j];
+        let pair = coordinates(closed.variables[j], unknowns[j]);
+        let step = match closed.variables[j] {
+            Variable::Rotation => {
+                for i in 0..3 {
+                    jacobian[i][j] = z[i];
+                    jacobian[3 + i][j] = moment[i];
+                }
+                let z = z.map(Scalar::bound);
+                norms[j].twist = (z[1] + z[2] + moment[0].bound())
+                    .max(z[0] + z[2] + moment[1].bound())
+                    .max(z[0] + z[1] + moment[2].bound());
+                frame_norm(constant) * (pair.0.bound() + pair.1.bound()).max(1.0)
+            }
+            Variable::Translation => {
+                for i in 0..3 {
+                    jacobian[3 + i][j] = z[i];
+                }
+                norms[j].twist = z.map(Scalar::bound).into_iter().fold(0.0, f64::max);
+                frame_norm(constant) + pair.0.bound()
+            }
+        };
+        turn(&mut frame, closed.variables[j], pair);
+        frame = behind(&frame, constant);
+        norms[j] = StepNorms { before, step, behind: inverse_norm(&frame), ..norms[j] };
+    }
+    let r = &frame.rotation;
+    let half = |x: S, y: S| x.sub(&y).times(0.5);
+    let t = frame.translation;
+    let mut defect = 0.0_f64;
+    for i in 0..3 {
+        for j in 0..3 {
+            let off = if i == j { r[i][j].sub(&S::one()) } else { r[i][j] };
+            defect = larger(defect, off.size());
+        }
+        defect = larger(defect, t[i].size());
+    }
+    Closure {
+        residual: [half(r[2][1], r[1][2]), half(r[0][2], r[2][0]), half(r[1][0], r[0][1]), t[0], t[1], t[2]],
+        jacobian,
+        defect,
+        norms,
+    }
+}
+
+/// The maximum that keeps NaN, so that nonsense never passes a test of smallness.
+fn larger(x: f64, y: f64) -> f64 {
+    if y > x || y.is_nan() { y } else { x }
+}
+
+/// Unknowns polished on the closure equations.
+#[derive(Clone, Debug)]
+pub struct Polished<S> {
+    /// The unknowns.
+    pub unknowns: Six<S>,
+    /// The closure there.
+    pub closure: Closure<S>,
+    /// The inverse of the Jacobian there or one step before; `None` where it is singular.
+    pub inverse: Option<[Six<S>; 6]>,
+    /// The defect before the first step.
+    pub raw: f64,
+    /// How far the polish moved: the largest change of an unknown.
+    pub moved: f64,
+}
+
+/// Closure defects below this are rounding: no further step can improve them.
+const ROUNDING: f64 = 2e-15;
+/// Enough for linear convergence to a double root to come down to rounding.
+const MOST_STEPS: usize = 40;
+
+/// Newton's method on all six unknowns: a step is taken only if the defect falls; where a full step does not help,
+/// a damped one is tried; ends when nothing improves.
+#[must_use]
+pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S> {
+    let mut unknowns = *start;
+    let mut here = closure(closed, &unknowns);
+    let raw = here.defect;
+    let mut known_inverse = None;
+    for count in 0..MOST_STEPS {
+        if !here.defect.is_finite() || (here.defect <= ROUNDING && known_inverse.is_some()) {
+            break;
+        }
+        let inverted = inverse(&here.jacobian);
+        if let Some(matrix) = &inverted {
+            let step = times(matrix, &here.residual);
+            let next: Six<S> = std::array::from_fn(|k| unknowns[k].sub(&step[k]));
+            let there = closure(closed, &next);
+            if there.defect < here.defect {
+                let slow = there.defect > 0.25 * here.defect && there.defect < 1e-13;
+                (unknowns, here, known_inverse) = (next, there, inverted);
+                // At a regular root one step from here lands on rounding; creeping below 1e-13 is noise.
+                if slow {
+                    break;
+                }
+                continue;
+            }
+            known_inverse = inverted;
+        }
+        if here.defect <= 1e-13 && count > 0 {
+            break;
+        }
+        let Some((next, there)) = damped(closed, &unknowns, &here) else { break };
+        (unknowns, here) = (next, there);
+        known_inverse = None;
+    }
+    if known_inverse.is_none() {
+        known_inverse = inverse(&here.jacobian);
+    }
+    let moved = (0..6).map(|k| unknowns[k].sub(&start[k]).size()).fold(0.0, larger);
+    Polished { unknowns, closure: here, inverse: known_inverse, raw, moved }
+}
+
+/// A Levenberg-Marquardt step, `(J* J + l^2) d = -J* F`, with growing damping l until one goes downhill.
+fn damped<S: Scalar>(
+    closed: &ClosedLoop<f64>,
+    unknowns: &Six<S>,
+    here: &Closure<S>,
+) -> Option<(Six<S>, Closure<S>)> {
+    let j = &here.jacobian;
+    let product = |a: usize, b: usize| {
+        (0..6).fold(S::zero(), |sum, i| sum.add(&j[i][a].conjugate().mul(&j[i][b])))
+    };
+    let normal: [Six<S>; 6] = std::array::from_fn(|a| std::array::from_fn(|b| product(a, b)));
+    let gradient: Six<S> = std::array::from_fn(|a| {
+        (0..6).fold(S::zero(), |sum, i| sum.add(&j[i][a].conjugate().mul(&here.residual[i])))
+    });
+    let scale = (0..6).map(|a| normal[a][a].size()).fold(0.0, f64::max);
+    for damping in [1e-12, 1e-9, 1e-6, 1e-4, 1e-2] {
+        let mut matrix = normal;
+        for (a, row) in matrix.iter_mut().enumerate() {
+            row[a] = row[a].add(&S::from_f64(damping * scale));
+        }
+        let Some(inverted) = inverse(&matrix) else { continue };
+        let step = times(&inverted, &gradient);
+        let next: Six<S> = std::array::from_fn(|k| unknowns[k].sub(&step[k]));
+        let there = closure(closed, &next);
+        if there.defect < here.defect {
+            return Some((next, there));
+        }
+    }
+    None
+}

@@ -1,0 +1,212 @@
+//! Singular solutions: how multiple, or on which self-motion.
+//!
+//! At a solution whose Jacobian has corank 1 the bordered system `F(q) + g b = 0, c.(q - q0) = h` is regular: it
+//! follows the one direction in which the loop can give way, and g(h) is the part of the closure that cannot be met
+//! there. g vanishes to the order of the multiplicity; if it vanishes altogether the solution lies on a self-motion.
+
+use super::dense::{inverse, times};
+use super::newton::{Six, closure};
+use super::scalar::Scalar;
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use nalgebra::{Matrix6, Vector6};
+
+/// What a singular solution is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nature {
+    /// Isolated, of this multiplicity.
+    Isolated(usize),
+    /// A point of a self-motion of this dimension.
+    SelfMotion(usize),
+    /// Singular in a way not resolved: corank above 1 with no self-motion found.
+    Unresolved,
+}
+
+/// Singular values below this part of the largest count as zero on a curve.
+const RANK: f64 = 1e-6;
+/// The closure that a self-motion keeps at a finite distance, in scaled lengths.
+const CURVE: f64 = 1e-11;
+
+/// The border: any vectors in general position do.
+const BORDER: [f64; 6] = [0.41, -0.37, 0.53, 0.29, -0.47, 0.33];
+const COBORDER: [f64; 6] = [0.39, 0.45, -0.31, 0.51, 0.35, -0.43];
+
+/// Follows the bordered system to the displacement `h` from `origin` along the kernel; the unknowns and g there.
+fn follow<S: Scalar>(closed: &ClosedLoop<f64>, origin: &Six<S>, direction: &Six<S>, h: f64) -> Option<(Six<S>, S)> {
+    let mut q: Six<S> = std::array::from_fn(|k| origin[k].add(&direction[k].times(h)));
+    let along = (0..6).fold(S::zero(), |sum, k| sum.add(&direction[k].times(COBORDER[k]))).times(h);
+    let mut g = S::zero();
+    for _ in 0..20 {
+        let here = closure(closed, &q);
+        let inverted = inverse(&bordered(&here.jacobian))?;
+        let mut right = [S::zero(); 7];
+        for k in 0..6 {
+            right[k] = here.residual[k].add(&g.times(BORDER[k]));
+            right[6] = right[6].add(&q[k].sub(&origin[k]).times(COBORDER[k]));
+        }
+        right[6] = right[6].sub(&along);
+        let step = times(&inverted, &right);
+        let mut largest = 0.0_f64;
+        for k in 0..6 {
+            q[k] = q[k].sub(&step[k]);
+            largest = largest.max(step[k].size());
+        }
+        g = g.sub(&step[6]);
+        if !(largest < 1.0) {
+            return None;
+        }
+        if largest < 1e-14 {
+            break;
+        }
+    }
+    Some((q, g))
+}
+
+fn bordered<S: Scalar>(jacobian: &[Six<S>; 6]) -> [[S; 7]; 7] {
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| match (i < 6, j < 6) {
+            (true, true) => jacobian[i][j],
+            (true, false) => S::from_f64(BORDER[i]),
+            (false, true) => S::from_f64(COBORDER[j]),
+            (false, false) => S::zero(),
+        })
+    })
+}
+
+/// What the singular solution at `unknowns` is, by following its one free direction.
+#[must_use]
+pub fn nature<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Nature {
+    let here = closure(closed, unknowns);
+    let Some(inverted) = inverse(&bordered(&here.jacobian)) else { return Nature::Unresolved };
+    // The kernel vector is the answer of the bordered matrix to (0, 1); a large answer means corank above 1.
+    let direction: Six<S> = std::array::from_fn(|k| inverted[k][6]);
+    let length = direction.iter().map(|x| x.size()).fold(0.0, f64::max);
+    let largest = inverted.iter().flatten().map(|x| x.size()).fold(0.0, f64::max);
+    if !(length > 0.0) || !(largest < 1e7) {
+        return Nature::Unresolved;
+    }
+    let direction = direction.map(|x| x.times(1.0 / length));
+    let mut orders = 0.0;
+    let mut least = f64::INFINITY;
+    let mut greatest = 0.0_f64;
+    for h in [0.01, -0.01] {
+        let (Some((_, near)), Some((_, far))) =
+            (follow(closed, unknowns, &direction, h), follow(closed, unknowns, &direction, 2.0 * h))
+        else {
+            return Nature::Unresolved;
+        };
+        let (near, far) = (near.to_complex().norm(), far.to_complex().norm());
+        greatest = greatest.max(near).max(far);
+        orders += 0.5 * (far / near).log2();
+        least = least.min(near);
+    }
+    if greatest < CURVE {
+        return Nature::SelfMotion(1);
+    }
+    if !(orders > 0.5 && orders < 15.5) || least == 0.0 {
+        return Nature::Unresolved;
+    }
+    Nature::Isolated(orders.round() as usize)
+}
+
+/// Rank of the Jacobian at real unknowns, and its right singular vectors from the largest to the smallest value.
+fn rank(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> (usize, [Six<f64>; 6]) {
+    let here = closure(closed, unknowns);
+    let matrix = Matrix6::from_fn(|i, j| here.jacobian[i][j]);
+    let svd = matrix.svd(false, true);
+    let mut order: [usize; 6] = std::array::from_fn(|k| k);
+    let values = svd.singular_values;
+    order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+    let largest = values[order[0]];
+    let count = order.iter().filter(|&&k| values[k] > RANK * largest).count();
+    let vectors = svd.v_t.map_or([[0.0; 6]; 6], |v| order.map(|k| std::array::from_fn(|j| v[(k, j)])));
+    (count, vectors)
+}
+
+/// Slides back onto the solution set by Gauss-Newton steps with the pseudo-inverse; the closure defect reached.
+fn project(closed: &ClosedLoop<f64>, unknowns: &mut Six<f64>, full_rank: usize) -> f64 {
+    let mut defect = f64::INFINITY;
+    for _ in 0..30 {
+        let here = closure(closed, unknowns);
+        if !(here.defect < 0.9 * defect) {
+            defect = defect.min(here.defect);
+            break;
+        }
+        defect = here.defect;
+        let svd = Matrix6::from_fn(|i, j| here.jacobian[i][j]).svd(true, true);
+        let mut values: Vec<f64> = svd.singular_values.iter().copied().collect();
+        values.sort_by(|a, b| b.total_cmp(a));
+        // Keep as many directions as the solution set leaves transversal ones.
+        let cut = values[full_rank - 1].max(1e-9 * values[0]) * 0.999;
+        let Ok(step) = svd.solve(&Vector6::from(here.residual), cut) else { break };
+        for k in 0..6 {
+            unknowns[k] -= step[k];
+        }
+    }
+    defect
+}
+
+/// Whether a real solution lies on a self-motion, for any corank: steps in directions of the kernel and slides back.
+/// The dimension is the corank of the Jacobian where it is least on the points found.
+#[must_use]
+pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usize> {
+    let (count, vectors) = rank(closed, unknowns);
+    if count == 6 || count == 0 {
+        return None;
+    }
+    let corank = 6 - count;
+    let mut best: Option<usize> = None;
+    // Kernel directions, then mixtures of them: curves leave a point of higher corank only along special ones.
+    let mixtures = 2 * corank + if corank > 1 { 24 } else { 0 };
+    for trial in 0..mixtures {
+        let weight = |k: usize| -> f64 {
+            if trial < 2 * corank {
+                if trial / 2 == k { if trial % 2 == 0 { 1.0 } else { -1.0 } } else { 0.0 }
+            } else {
+                // A fixed sequence of directions, spread by the golden angle.
+                ((trial * 7 + k * 13) as f64 * 2.399_963).sin()
+            }
+        };
+        let norm = (0..corank).map(|k| weight(k).powi(2)).sum::<f64>().sqrt().max(1e-9);
+        let mut q = *unknowns;
+        for k in 0..corank {
+            for (x, v) in q.iter_mut().zip(&vectors[count + k]) {
+                *x += 0.02 * weight(k) / norm * v;
+            }
+        }
+        for keep in (count..6).filter(|&r| r <= 5) {
+            let mut slid = q;
+            let defect = project(closed, &mut slid, keep);
+            let distance = (0..6).map(|k| (slid[k] - unknowns[k]).abs()).fold(0.0, f64::max);
+            if defect < CURVE && distance > 1e-3 && distance < 0.5 {
+                let (there, _) = rank(closed, &slid);
+                if there < 6 {
+                    let dimension = 6 - there;
+                    best = Some(best.map_or(dimension, |b: usize| b.min(dimension)));
+                }
+                break;
+            }
+        }
+    }
+    best
+}
+
+/// The largest rank of the twists of the loop's joints over a few fixed generic positions of the unknowns, the loop
+/// not being closed: below 6 the mechanism is structurally deficient.
+#[must_use]
+pub fn structural_rank(closed: &ClosedLoop<f64>) -> usize {
+    (1..=3)
+        .map(|trial| {
+            let q: Six<f64> = std::array::from_fn(|k| match closed.variables[k] {
+                Variable::Rotation => 3.0 * ((trial * 17 + k * 5) as f64 * 2.399_963).sin(),
+                Variable::Translation => ((trial * 11 + k * 3) as f64 * 2.399_963).cos(),
+            });
+            let here = closure(closed, &q);
+            let matrix = Matrix6::from_fn(|i, j| here.jacobian[i][j]);
+            let values = matrix.singular_values();
+            let largest = values.max();
+            values.iter().filter(|&&v| v > 1e-12 * largest).count()
+        })
+        .max()
+        .unwrap_or(0)
+}
+
