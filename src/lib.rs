@@ -5,3 +5,5 @@ pub mod error;
 
 pub mod algebra;
 pub mod kinematics;
+
+pub mod catalogue;

@@ -3,7 +3,6 @@
 use super::chain::Placement;
 use super::motion::Motion;
 use crate::algebra::number::{Number, nearest_f64};
-use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
 use rug::{Float, Rational};
 
