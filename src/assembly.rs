@@ -1,6 +1,6 @@
 //! Roots to assembly modes: prepare a geometry once, then find every way to close it, pose after pose.
 
-use crate::certify::{Certificate, certificate};
+use crate::certify::mode::{Certificate, certificate};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
@@ -195,6 +195,12 @@ impl Solver {
     #[must_use]
     pub fn structural_rank(&self) -> usize {
         self.structural_rank
+    }
+
+    /// Whether no cut fits: translations stand where the elimination cannot take them.
+    #[must_use]
+    pub fn is_out_of_reach(&self) -> bool {
+        !Cut::ALL.iter().any(|cut| cut.fits(self.open.variables))
     }
 
     /// The best score of a cut that needs no pose; 0 if there is none.

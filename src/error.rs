@@ -1,12 +1,77 @@
-//! The one error type.
-/// e
-#[derive(Debug, thiserror::Error)]
+//! The one error of the crate: what cannot go on, with the numbers in the message.
+//!
+//! Mathematical outcomes (unreachable pose, self-motion) are values and never errors.
+
+use thiserror::Error;
+
+/// Shorthand for a result with this crate's [`Error`].
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why something could not be done.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Error {
-    /// u
+    /// A file says something that cannot be read: what was found and what was expected.
+    #[error("{path}:{line}: {message}")]
+    File {
+        /// The file as it was named.
+        path: String,
+        /// Line of the fault, from 1.
+        line: usize,
+        /// What was found and what was expected.
+        message: String,
+    },
+    /// A file could not be read or written at all.
+    #[error("{path}: {message}")]
+    Io {
+        /// The file as it was named.
+        path: String,
+        /// What the system or the reader said.
+        message: String,
+    },
+    /// Neither a file nor an entry of the built-in library.
+    #[error("`{name}` is neither a file nor a built-in entry{}", did_you_mean(near))]
+    UnknownEntry {
+        /// The name asked for.
+        name: String,
+        /// Names of the library that resemble it.
+        near: Vec<String>,
+    },
+    /// A value that cannot be used: what was found and what was expected.
+    #[error("{0}")]
+    Invalid(String),
+    /// Well-formed, but beyond what is implemented.
     #[error("unsupported: {0}")]
     Unsupported(String),
 }
+
 impl Error {
-    /// u
-    pub fn unsupported(m: String) -> Self { Self::Unsupported(m) }
+    /// The same fault, placed in a file: an [`Error::Invalid`] becomes an [`Error::File`], others stay as they are
+    /// (an unsupported feature only gains the place).
+    #[must_use]
+    pub fn at(self, path: &str, line: usize) -> Self {
+        match self {
+            Self::Invalid(message) => Self::File { path: path.to_owned(), line, message },
+            Self::Unsupported(message) => Self::Unsupported(format!("{path}:{line}: {message}")),
+            other => other,
+        }
+    }
+
+    /// The exit code of the program: 4 for what is unsupported, 1 for every other error.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Unsupported(_) => 4,
+            _ => 1,
+        }
+    }
+}
+
+/// `; did you mean ...?`, empty without suggestions.
+fn did_you_mean(near: &[String]) -> String {
+    if near.is_empty() {
+        return String::new();
+    }
+    let quoted: Vec<String> = near.iter().map(|name| format!("`{name}`")).collect();
+    format!("; did you mean {}?", quoted.join(" or "))
 }

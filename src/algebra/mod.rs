@@ -1,5 +1,9 @@
 //! Exact and generic arithmetic; knows nothing of mechanisms.
 
+mod approximation;
+mod expression;
+mod half_tangent;
 pub mod number;
 pub mod reduction;
 pub mod ring;
+mod value;

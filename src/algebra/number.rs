@@ -1,22 +1,53 @@
 //! Numbers and angles as a mechanism file gives them: exact where they can be, correctly rounded where not.
 
-use rug::{Float, Rational};
+use super::approximation::simplest_within;
+use super::expression::{Quantified, Unit, evaluate, shortened};
+use super::value::{BITS, Value};
+use crate::error::{Error, Result};
+use rug::{Float, Rational, ops::Pow};
 
-/// A real number of a file: its exact rational value, or a rational within 1e-16 of an irrational one.
+pub use super::half_tangent::HalfTangent;
+
+/// Sizes beyond this (and, but for zero, below its inverse) are taken for mistakes: their squares leave f64.
+const LARGEST: f64 = 1e150;
+/// Decimal digits to which irrational values are replaced by rationals for exact work, by default.
+pub const DIGITS: u32 = 15;
+/// Most digits that can be asked for; the working precision carries 77.
+pub const MOST_DIGITS: u32 = 60;
+
+/// What a number of a file measures, and hence which units may follow it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A length: m, cm, mm.
+    Length,
+    /// A bare number: no unit.
+    Ratio,
+}
+
+/// How numbers of a file are read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// Metres per unit of a length given without one.
+    pub length: Rational,
+    /// Whether angles given without a unit are degrees.
+    pub degrees: bool,
+    /// Decimal digits to which irrational values are replaced by rationals for exact work.
+    pub digits: u32,
+}
+
+impl Default for Reading {
+    /// Metres, radians, 15 digits.
+    fn default() -> Self {
+        Self { length: Rational::from(1), degrees: false, digits: DIGITS }
+    }
+}
+
+/// A real number of a file: its exact rational value, or a rational within 1e-17 (relative) of an irrational one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number {
     rational: Rational,
     exact: bool,
     float: f64,
-}
-
-/// The tangent of half an angle, infinite at pi.
-#[derive(Clone, Debug, PartialEq)]
-pub enum HalfTangent {
-    /// An angle other than pi.
-    Finite(Rational),
-    /// The angle pi.
-    Infinite,
 }
 
 /// An angle of a file, known twice: correctly rounded in f64, and as an exact rational half-angle tangent.
@@ -42,6 +73,77 @@ impl Number {
         Self { rational, exact: true, float }
     }
 
+    /// A rational that stands for a nearby real number.
+    #[must_use]
+    pub fn rounded(rational: Rational) -> Self {
+        Self { exact: false, ..Self::exact(rational) }
+    }
+
+    /// The simplest rational within `10^-digits` (relative) of a float.
+    ///
+    /// # Panics
+    /// When `float` is not finite.
+    #[must_use]
+    pub fn near(float: &Float, digits: u32) -> Rational {
+        simplest_within(float, &(relative(digits) * float.clone().abs()))
+    }
+
+    /// The number 0.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self::exact(Rational::new())
+    }
+
+    /// A float, taken as the exact binary fraction it is.
+    ///
+    /// # Panics
+    /// When `float` is NaN or infinite.
+    #[must_use]
+    pub fn from_f64(float: f64) -> Self {
+        let rational = Rational::from_f64(float).expect("a finite number was promised");
+        Self { rational, exact: true, float }
+    }
+
+    /// Reads the text of a number: an integer, a decimal or an expression, with or without a unit.
+    ///
+    /// # Units
+    /// Lengths come out in metres.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] saying what was found instead of a number, a wrong unit, or a size beyond 1e150.
+    ///
+    /// # Example
+    /// ```
+    /// use looproot::algebra::number::{Number, Quantity, Reading};
+    /// let length = Number::parse("150 mm", Quantity::Length, &Reading::default())?;
+    /// assert_eq!(*length.rational(), rug::Rational::from((3, 20)));
+    /// # Ok::<(), looproot::error::Error>(())
+    /// ```
+    pub fn parse(text: &str, quantity: Quantity, reading: &Reading) -> Result<Self> {
+        let expected = match quantity {
+            Quantity::Length => "a length",
+            Quantity::Ratio => "a number without unit",
+        };
+        let Quantified { value, unit } = read(text, expected)?;
+        let scale = match (quantity, unit) {
+            (Quantity::Length, None) => reading.length.clone(),
+            (Quantity::Length, Some(Unit::Metre)) | (Quantity::Ratio, None) => Rational::from(1),
+            (Quantity::Length, Some(Unit::Centimetre)) => Rational::from((1, 100)),
+            (Quantity::Length, Some(Unit::Millimetre)) => Rational::from((1, 1000)),
+            _ => return Err(Error::Invalid(format!("found `{}`, expected {expected}", shortened(text)))),
+        };
+        let value = value.mul(&Value::from_rational(scale));
+        check_size(&value.float, text)?;
+        Ok(match value.rational {
+            Some(rational) => Self::exact(rational),
+            None => Self {
+                rational: Self::near(&value.float, 17.max(reading.digits + 2)),
+                exact: false,
+                float: value.float.to_f64(),
+            },
+        })
+    }
+
     /// The exact value, or the rational taken in its place.
     #[must_use]
     pub fn rational(&self) -> &Rational {
@@ -62,6 +164,113 @@ impl Number {
 }
 
 impl Angle {
+    /// The angle 0.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self::from_half_tangent(HalfTangent::Finite(Rational::new()))
+    }
+
+    /// The angle in (-pi, pi] with this half-angle tangent.
+    #[must_use]
+    pub fn from_half_tangent(half_tangent: HalfTangent) -> Self {
+        let (radians, cos_sin) = match &half_tangent {
+            HalfTangent::Infinite => (std::f64::consts::PI, (-1.0, 0.0)),
+            HalfTangent::Finite(t) => {
+                let square = Rational::from(t.square_ref());
+                let length = Rational::from(&square + 1);
+                let cos = nearest_f64(&((1 - square) / &length));
+                let sin = nearest_f64(&(Rational::from(t * 2) / length));
+                ((Float::with_val(BITS, t).atan() * 2_u32).to_f64(), (cos, sin))
+            }
+        };
+        Self { radians, cos_sin, half_tangent, exact: true }
+    }
+
+    /// The angle that a float is, radians; its half-angle tangent rounded to 15 digits.
+    ///
+    /// # Panics
+    /// When `radians` is NaN or infinite.
+    #[must_use]
+    pub fn from_radians(radians: f64) -> Self {
+        assert!(radians.is_finite(), "a finite angle was promised, got {radians}");
+        Self::rounded(&Float::with_val(BITS, radians), DIGITS)
+    }
+
+    /// Reads the text of an angle: an expression, with or without a unit.
+    ///
+    /// # Units
+    /// Without a unit radians, or degrees where `reading` says so; `pi` and inverse functions are radians already
+    /// and then need their unit written.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] saying what was found instead of an angle.
+    ///
+    /// # Example
+    /// ```
+    /// use looproot::algebra::number::{Angle, HalfTangent, Reading};
+    /// let angle = Angle::parse("-acos(3/5)", &Reading::default())?;
+    /// assert_eq!(*angle.half_tangent(), HalfTangent::Finite((-1, 2).into()));
+    /// # Ok::<(), looproot::error::Error>(())
+    /// ```
+    pub fn parse(text: &str, reading: &Reading) -> Result<Self> {
+        let Quantified { value, unit } = read(text, "an angle")?;
+        let found = || shortened(text);
+        let degrees = match unit {
+            None if reading.degrees && value.radians => {
+                return Err(Error::Invalid(format!(
+                    "found `{0}` where plain angles are degrees, expected its unit: `{0} rad` or `{0} deg`",
+                    found()
+                )));
+            }
+            None => reading.degrees,
+            Some(Unit::Degree) => true,
+            Some(Unit::Radian) => false,
+            Some(_) => return Err(Error::Invalid(format!("found `{}`, expected an angle", found()))),
+        };
+        let value =
+            if degrees { value.mul(&Value::from_turns(Rational::from((1, 180)), true)) } else { value };
+        check_size(&value.float, text)?;
+        Ok(match value.half_tangent() {
+            Some(half_tangent) => {
+                Self { radians: value.float.to_f64(), ..Self::from_half_tangent(half_tangent) }
+            }
+            None => Self::rounded(&value.float, reading.digits),
+        })
+    }
+
+    /// Reads the half-angle tangent of an angle: a rational number or `inf`.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] saying what was found instead.
+    pub fn parse_half_tangent(text: &str, reading: &Reading) -> Result<Self> {
+        if text.trim() == "inf" {
+            return Ok(Self::from_half_tangent(HalfTangent::Infinite));
+        }
+        let number = Number::parse(text, Quantity::Ratio, reading)?;
+        let exact = number.exact;
+        Ok(Self { exact, ..Self::from_half_tangent(HalfTangent::Finite(number.rational)) })
+    }
+
+    /// An angle without a known rational half-angle tangent.
+    fn rounded(radians: &Float, digits: u32) -> Self {
+        let tolerance = relative(digits + 1);
+        let tangent = Float::with_val(BITS, radians / 2_u32).tan();
+        // An error of d in the half-angle tangent t turns the angle by 2 d / (1 + t^2).
+        let distance_from_pi = Float::with_val(BITS, 2 / &tangent).abs();
+        let half_tangent = if tangent.is_infinite() || distance_from_pi < tolerance {
+            HalfTangent::Infinite
+        } else {
+            let allowed = (Float::with_val(BITS, tangent.square_ref()) + 1_u32) / 2_u32 * tolerance;
+            HalfTangent::Finite(simplest_within(&tangent, &allowed))
+        };
+        Self {
+            radians: radians.to_f64(),
+            cos_sin: (radians.clone().cos().to_f64(), radians.clone().sin().to_f64()),
+            half_tangent,
+            exact: false,
+        }
+    }
+
     /// The angle, correctly rounded, as given (not reduced modulo 2 pi). Radians.
     #[must_use]
     pub fn radians(&self) -> f64 {
@@ -84,5 +293,147 @@ impl Angle {
     #[must_use]
     pub fn is_exact(&self) -> bool {
         self.exact
+    }
+}
+
+/// `10^-digits`
+fn relative(digits: u32) -> Float {
+    Float::with_val(BITS, 10).pow(-f64::from(digits.min(MOST_DIGITS)))
+}
+
+fn read(text: &str, expected: &str) -> Result<Quantified> {
+    evaluate(text).map_err(|found| Error::Invalid(format!("found {found}, expected {expected}")))
+}
+
+fn check_size(value: &Float, text: &str) -> Result<()> {
+    let size = value.clone().abs();
+    if size > LARGEST || (!size.is_zero() && size < 1.0 / LARGEST) {
+        let found = shortened(text);
+        return Err(Error::Invalid(format!("found `{found}`, expected a size between 1e-150 and 1e150, or 0")));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ratio(text: &str) -> Number {
+        Number::parse(text, Quantity::Ratio, &Reading::default()).unwrap()
+    }
+
+    fn angle(text: &str) -> Angle {
+        Angle::parse(text, &Reading::default()).unwrap()
+    }
+
+    fn refused(text: &str) -> String {
+        Number::parse(text, Quantity::Ratio, &Reading::default()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn decimals_are_read_from_their_text() {
+        assert_eq!(*ratio("0.1").rational(), Rational::from((1, 10)));
+        assert_eq!(*ratio("-1.5e-2").rational(), Rational::from((-3, 200)));
+        assert_eq!(*ratio("(1/2 + 1/3) * -6").rational(), -5);
+        assert_eq!(*ratio("sqrt(9/4)").rational(), Rational::from((3, 2)));
+        assert_eq!(*ratio("cos(pi/3) + sin(-pi/6)").rational(), 0);
+        assert_eq!(*ratio("1_000").rational(), 1000);
+        assert!(ratio("sqrt(9/4)").is_exact() && !ratio("sqrt(2)").is_exact());
+        assert_eq!(ratio("sqrt(2)/2").to_f64(), std::f64::consts::FRAC_1_SQRT_2);
+        assert_eq!(ratio("sqrt(2)*sqrt(2) - 2").to_f64(), 0.0);
+    }
+
+    #[test]
+    fn units_scale() {
+        let length = |text: &str, reading: &Reading| Number::parse(text, Quantity::Length, reading);
+        let millimetres = Reading { length: Rational::from((1, 1000)), degrees: true, digits: DIGITS };
+        assert_eq!(*length("15 cm", &millimetres).unwrap().rational(), Rational::from((3, 20)));
+        assert_eq!(*length("150", &millimetres).unwrap().rational(), Rational::from((3, 20)));
+        assert_eq!(Angle::parse("90", &millimetres).unwrap(), angle("pi/2"));
+        assert!(Angle::parse("pi/2", &millimetres).unwrap_err().to_string().contains("`pi/2 rad`"));
+        assert!(length("90 deg", &millimetres).is_err());
+        assert!(Angle::parse("3 mm", &millimetres).is_err());
+    }
+
+    #[test]
+    fn angles_stay_exact_where_their_half_tangent_is_rational() {
+        let t = |text: &str| (angle(text).half_tangent().clone(), angle(text).is_exact());
+        let exactly = |n: i32, d: i32| (HalfTangent::Finite(Rational::from((n, d))), true);
+        assert_eq!(t("0"), exactly(0, 1));
+        assert_eq!(t("pi/2"), exactly(1, 1));
+        assert_eq!(t("-pi/2"), exactly(-1, 1));
+        assert_eq!(t("-90 deg"), exactly(-1, 1));
+        assert_eq!(t("pi"), (HalfTangent::Infinite, true));
+        assert_eq!(t("-540 deg"), (HalfTangent::Infinite, true));
+        assert_eq!(t("acos(3/5)"), exactly(1, 2));
+        assert_eq!(t("asin(3/5)"), exactly(1, 3));
+        assert_eq!(t("2*atan(1/3)"), exactly(1, 3));
+        assert_eq!(t("acos(3/5)/2 + acos(3/5)/2"), exactly(1, 2));
+        assert_eq!(t("acos(3/5) + pi/2"), exactly(3, 1));
+        assert_eq!(t("-3*acos(3/5)"), exactly(-11, 2));
+        assert_eq!(t("atan2(0, -1)"), (HalfTangent::Infinite, true));
+        assert_eq!(t("pi/4 + pi/4"), exactly(1, 1));
+        assert_eq!(angle("pi/2").cos_sin_f64(), (0.0, 1.0));
+        assert_eq!(angle("pi").cos_sin_f64(), (-1.0, 0.0));
+        assert_eq!(angle("-pi").radians(), -std::f64::consts::PI);
+    }
+
+    #[test]
+    fn other_angles_are_rounded_and_say_so() {
+        let decimal = angle("1.5707963267948966");
+        assert!(!decimal.is_exact());
+        assert_eq!(decimal.cos_sin_f64().0, 1.923_132_169_163_975_3e-17);
+        for text in ["1", "pi/3", "1 deg", "-2.5", "3.14159", "1e-40", "100"] {
+            let angle = angle(text);
+            let HalfTangent::Finite(t) = angle.half_tangent() else { panic!("{text} is not pi") };
+            let turned = Angle::from_half_tangent(HalfTangent::Finite(t.clone()));
+            assert!(!angle.is_exact());
+            let (c, s) = (angle.cos_sin_f64(), turned.cos_sin_f64());
+            assert!((c.0 - s.0).abs() < 1e-15 && (c.1 - s.1).abs() < 1e-15, "{text}");
+        }
+        assert_eq!(*angle("3.14159265358979323846").half_tangent(), HalfTangent::Infinite);
+        assert_eq!(Angle::from_radians(1.0).radians(), 1.0);
+    }
+
+    #[test]
+    fn half_tangents_are_read() {
+        let read = |text: &str| Angle::parse_half_tangent(text, &Reading::default());
+        assert_eq!(read("inf").unwrap().radians(), std::f64::consts::PI);
+        assert_eq!(read("1").unwrap(), angle("pi/2"));
+        assert!(read("pi deg").is_err());
+    }
+
+    #[test]
+    fn nonsense_is_refused_with_what_was_found() {
+        for (text, found) in [
+            ("", "nothing"),
+            ("1/0", "division by zero"),
+            ("1/(sqrt(2)*sqrt(2)-2)", "division by zero"),
+            ("nan", "not a finite number"),
+            ("-inf", "not a finite number"),
+            ("1e999", "power of ten"),
+            ("1e300", "between"),
+            ("1e-300", "between"),
+            ("1e400*1e400*1e400*1e400", "absurdly large"),
+            ("sqrt(-1)", "negative"),
+            ("acos(2)", "outside"),
+            ("tan(pi/2)", "right angle"),
+            ("atan2(0,0)", "atan2"),
+            ("1 +", "too early"),
+            ("(1", "not closed"),
+            ("foo", "neither"),
+            ("1 2", "cannot be read"),
+            ("1 furlong", "none of"),
+            ("1 mm + 2 mm", "cannot be read"),
+            ("1 + 2 mm", "one unit"),
+            ("2 mm", "without unit"),
+            ("--+.", "not a number"),
+            ("\u{e9}", "should stand"),
+        ] {
+            assert!(refused(text).contains(found), "{text}: {}", refused(text));
+        }
+        assert!(refused(&"(".repeat(500)).contains("nested"));
+        assert!(refused(&"1".repeat(2000)).contains("characters"));
+        assert!(!angle(&format!("{}atan(1/3)", "64*".repeat(60))).is_exact());
     }
 }

@@ -82,7 +82,7 @@ impl Layout {
                 JointKind::Prismatic => variables.push(Variable::Translation),
                 JointKind::Cylindrical => variables.extend([Variable::Rotation, Variable::Translation]),
                 other => {
-                    return Err(Error::unsupported(format!(
+                    return Err(Error::Unsupported(format!(
                         "joint {}: {other:?} joints are read but not solved yet; solved are R, P and C",
                         i + 1
                     )));
@@ -163,7 +163,7 @@ impl Chain {
     /// modulo a prime use [`Chain::try_open_loop`].
     pub fn open_loop<R: Ring>(&self, layout: &Layout) -> Result<OpenLoop<R>, Error> {
         self.try_open_loop(layout)?
-            .ok_or_else(|| Error::unsupported("the geometry has no image in this ring (unlucky prime)".into()))
+            .ok_or_else(|| Error::Unsupported("the geometry has no image in this ring (unlucky prime)".into()))
     }
 
     /// As [`Chain::open_loop`], with `None` for an unlucky prime.
@@ -190,7 +190,7 @@ impl Chain {
         let total = unknowns.len();
         let expected = if layout.locked.is_some() { 7 } else { 6 };
         if total != expected {
-            return Err(Error::unsupported(format!(
+            return Err(Error::Unsupported(format!(
                 "{total} joint variables: solved are arms with 6 and loops with 7 (one of them given)"
             )));
         }

@@ -3,3 +3,4 @@
 pub mod chain;
 pub mod closed_loop;
 pub mod motion;
+pub mod placement;

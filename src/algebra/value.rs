@@ -1,0 +1,247 @@
+//! Values of expressions: 256 bits always, and beside them whatever is known exactly.
+
+use super::half_tangent::{Direction, HalfTangent, square_root};
+use rug::{Float, Integer, Rational, float::Constant, ops::Pow};
+
+/// Working precision: far more than any result keeps, so that results are correctly rounded.
+pub(super) const BITS: u32 = 256;
+/// Sums that lose this many bits to cancellation are zero.
+const CANCELLED: i32 = 220;
+/// Numerators and denominators beyond this many bits are refused.
+const LONGEST: u32 = 20_000;
+/// Largest multiple of an angle followed exactly.
+const MULTIPLE: i32 = 256;
+
+/// A real number with its exact forms, as far as they are known.
+#[derive(Clone, Debug)]
+pub(super) struct Value {
+    pub(super) float: Float,
+    /// The value itself.
+    pub(super) rational: Option<Rational>,
+    /// The value as a multiple of pi.
+    turns: Option<Rational>,
+    /// The direction of the value as an angle.
+    direction: Option<Direction>,
+    /// Whether the value came from pi or an inverse function: an angle in radians.
+    pub(super) radians: bool,
+}
+
+impl Value {
+    pub(super) fn from_rational(rational: Rational) -> Self {
+        if rational.is_zero() {
+            return Self::from_turns(rational, false);
+        }
+        let float = Float::with_val(BITS, &rational);
+        Self { float, rational: Some(rational), turns: None, direction: None, radians: false }
+    }
+
+    /// `turns * pi`
+    pub(super) fn from_turns(turns: Rational, radians: bool) -> Self {
+        let float = Float::with_val(BITS, Constant::Pi) * &turns;
+        let rational = turns.is_zero().then(Rational::new);
+        Self { float, rational, direction: Direction::of_turns(&turns), turns: Some(turns), radians }
+    }
+
+    fn inexact(float: Float, radians: bool) -> Self {
+        Self { float, rational: None, turns: None, direction: None, radians }
+    }
+
+    /// The exact half-angle tangent of the value taken as an angle, where it is rational.
+    pub(super) fn half_tangent(&self) -> Option<HalfTangent> {
+        self.direction.as_ref()?.half_tangent()
+    }
+
+    /// The value, if it is neither infinite, undefined nor overlong.
+    pub(super) fn checked(self) -> Result<Self, String> {
+        let long = |q: &Rational| q.numer().significant_bits().max(q.denom().significant_bits()) > LONGEST;
+        if self.rational.as_ref().is_some_and(long) || self.turns.as_ref().is_some_and(long) {
+            return Err("a number with too many digits".to_owned());
+        }
+        if !self.float.is_finite() || self.float.get_exp().is_some_and(|exponent| exponent > 4000) {
+            return Err("a value that is not finite or absurdly large".to_owned());
+        }
+        Ok(self)
+    }
+
+    pub(super) fn add(&self, other: &Self) -> Self {
+        let radians = self.radians || other.radians;
+        if let (Some(x), Some(y)) = (&self.rational, &other.rational) {
+            return Self { radians, ..Self::from_rational(Rational::from(x + y)) };
+        }
+        if let (Some(x), Some(y)) = (&self.turns, &other.turns) {
+            return Self::from_turns(Rational::from(x + y), radians);
+        }
+        let mut float = Float::with_val(BITS, &self.float + &other.float);
+        let exponent = |x: &Float| x.get_exp().unwrap_or(i32::MIN / 2);
+        if exponent(&float) < exponent(&self.float).max(exponent(&other.float)).saturating_sub(CANCELLED) {
+            float = Float::new(BITS);
+        }
+        let direction = self.direction.as_ref().zip(other.direction.as_ref()).and_then(|(x, y)| x.plus(y));
+        Self { float, rational: None, turns: None, direction, radians }
+    }
+
+    pub(super) fn neg(&self) -> Self {
+        let flip = |q: &Rational| Rational::from(-q);
+        Self {
+            float: -self.float.clone(),
+            rational: self.rational.as_ref().map(flip),
+            turns: self.turns.as_ref().map(flip),
+            direction: self.direction.as_ref().map(Direction::opposite),
+            radians: self.radians,
+        }
+    }
+
+    pub(super) fn mul(&self, other: &Self) -> Self {
+        let radians = self.radians || other.radians;
+        match (&self.rational, &other.rational) {
+            (Some(x), Some(y)) => Self { radians, ..Self::from_rational(Rational::from(x * y)) },
+            (Some(factor), None) => other.scaled(factor),
+            (None, Some(factor)) => self.scaled(factor),
+            (None, None) => Self::inexact(Float::with_val(BITS, &self.float * &other.float), radians),
+        }
+    }
+
+    fn scaled(&self, factor: &Rational) -> Self {
+        if let Some(turns) = &self.turns {
+            return Self::from_turns(Rational::from(turns * factor), self.radians);
+        }
+        let float = Float::with_val(BITS, &self.float * factor);
+        let direction = self.direction.as_ref().and_then(|direction| {
+            let numerator = factor.numer().to_i32().filter(|n| n.abs() <= MULTIPLE)?;
+            let multiple = direction.times(numerator)?;
+            match factor.denom().to_u32()? {
+                1 => Some(multiple),
+                // Half an angle is half the one in (-pi, pi] only if that is what is halved.
+                2 if Float::with_val(BITS, &float * 2).abs() <= Float::with_val(BITS, Constant::Pi) => {
+                    multiple.halved()
+                }
+                _ => None,
+            }
+        });
+        Self { float, rational: None, turns: None, direction, radians: self.radians }
+    }
+
+    pub(super) fn div(&self, other: &Self) -> Result<Self, String> {
+        if other.float.is_zero() {
+            return Err("a division by zero".to_owned());
+        }
+        if let Some(divisor) = &other.rational {
+            return Ok(self.mul(&Self::from_rational(divisor.clone().recip())));
+        }
+        if let (Some(x), Some(y)) = (&self.turns, &other.turns) {
+            return Ok(Self::from_rational(Rational::from(x / y)));
+        }
+        Ok(Self::inexact(Float::with_val(BITS, &self.float / &other.float), self.radians || other.radians))
+    }
+
+    pub(super) fn sqrt(&self) -> Result<Self, String> {
+        if self.float.is_sign_negative() && !self.float.is_zero() {
+            return Err(format!("the square root of {}, a negative number", self.float.to_f64()));
+        }
+        if let Some(root) = self.rational.as_ref().and_then(square_root) {
+            return Ok(Self::from_rational(root));
+        }
+        Ok(Self::inexact(self.float.clone().sqrt(), false))
+    }
+
+    /// Cosine and sine, exact where rational.
+    fn cos_sin(&self) -> (Self, Self) {
+        if let Some((cos, sin)) = self.direction.as_ref().and_then(Direction::cos_sin) {
+            return (Self::from_rational(cos), Self::from_rational(sin));
+        }
+        let cosine_of_turns = |turns: Rational| {
+            // Niven: beside right angles only multiples of pi/3 have a rational cosine, here 1/2 or -1/2.
+            let thirds: Rational = turns * 3;
+            thirds.is_integer().then(|| match thirds.numer().mod_u(6) {
+                1 | 5 => Rational::from((1, 2)),
+                2 | 4 => Rational::from((-1, 2)),
+                0 => Rational::from(1),
+                _ => Rational::from(-1),
+            })
+        };
+        let exact = |turns: Option<Rational>| turns.and_then(cosine_of_turns).map(Self::from_rational);
+        let complement = self.turns.as_ref().map(|turns| Rational::from((1, 2)) - turns);
+        let cos = exact(self.turns.clone()).unwrap_or_else(|| Self::inexact(self.float.clone().cos(), false));
+        let sin = exact(complement).unwrap_or_else(|| Self::inexact(self.float.clone().sin(), false));
+        (cos, sin)
+    }
+
+    pub(super) fn cos(&self) -> Self {
+        self.cos_sin().0
+    }
+
+    pub(super) fn sin(&self) -> Self {
+        self.cos_sin().1
+    }
+
+    pub(super) fn tan(&self) -> Result<Self, String> {
+        if let Some(tangent) = self.direction.as_ref().and_then(Direction::tangent) {
+            return Ok(Self::from_rational(tangent));
+        }
+        let (cos, sin) = self.cos_sin();
+        sin.div(&cos).map_err(|_| "the tangent of a right angle".to_owned())
+    }
+
+    pub(super) fn acos(&self) -> Result<Self, String> {
+        self.within_one("acos")?;
+        if let Some(cosine) = &self.rational {
+            for (numerator, turns) in [(2, (0, 1)), (1, (1, 3)), (0, (1, 2)), (-1, (2, 3)), (-2, (1, 1))] {
+                if *cosine == Rational::from((numerator, 2)) {
+                    return Ok(Self::from_turns(Rational::from(turns), true));
+                }
+            }
+        }
+        let direction = self.rational.as_ref().and_then(|x| Direction::new(x.clone(), complement(x)?));
+        Ok(Self { direction, ..Self::inexact(self.float.clone().acos(), true) })
+    }
+
+    pub(super) fn asin(&self) -> Result<Self, String> {
+        self.within_one("asin")?;
+        if let Some(sine) = &self.rational {
+            for (numerator, turns) in [(2, (1, 2)), (1, (1, 6)), (0, (0, 1)), (-1, (-1, 6)), (-2, (-1, 2))] {
+                if *sine == Rational::from((numerator, 2)) {
+                    return Ok(Self::from_turns(Rational::from(turns), true));
+                }
+            }
+        }
+        let direction = self.rational.as_ref().and_then(|y| Direction::new(complement(y)?, y.clone()));
+        Ok(Self { direction, ..Self::inexact(self.float.clone().asin(), true) })
+    }
+
+    /// The angle of the direction (x, y); `atan(y)` is `atan2(y, 1)`.
+    pub(super) fn atan2(&self, x: &Self) -> Result<Self, String> {
+        if self.float.is_zero() && x.float.is_zero() {
+            return Err("atan2(0, 0)".to_owned());
+        }
+        let direction = self.rational.clone().zip(x.rational.clone()).and_then(|(y, x)| Direction::new(x, y));
+        let float = self.float.clone().atan2(&x.float);
+        if let (Some(y), Some(x)) = (&self.rational, &x.rational) {
+            let steep = y.clone().abs() == x.clone().abs();
+            if steep || y.is_zero() || x.is_zero() {
+                let quarters = Float::with_val(BITS, &float * 4) / Float::with_val(BITS, Constant::Pi);
+                if let Some(quarters) = quarters.round().to_i32_saturating() {
+                    return Ok(Self::from_turns(Rational::from((quarters, 4)), true));
+                }
+            }
+        }
+        Ok(Self { direction, ..Self::inexact(float, true) })
+    }
+
+    fn within_one(&self, function: &str) -> Result<(), String> {
+        if self.float > 1 || self.float < -1 {
+            return Err(format!("{function} of {}, outside [-1, 1]", self.float.to_f64()));
+        }
+        Ok(())
+    }
+}
+
+/// `sqrt(1 - x^2)`, where it is rational.
+fn complement(x: &Rational) -> Option<Rational> {
+    square_root(&(1 - Rational::from(x.square_ref())))
+}
+
+/// The decimal `digits * 10^exponent`.
+pub(super) fn decimal(digits: Integer, exponent: i32) -> Rational {
+    let power = Integer::from(10).pow(exponent.unsigned_abs());
+    if exponent < 0 { Rational::from((digits, power)) } else { Rational::from(digits * power) }
+}

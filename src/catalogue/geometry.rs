@@ -1,0 +1,235 @@
+//! The `[mechanism]` table: joints, base, tool and limits.
+
+use super::entry::Kind;
+use super::node::Node;
+use super::scope::{Scope, Table};
+use crate::algebra::number::{Angle, Number, Quantity};
+use crate::error::{Error, Result};
+use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
+
+/// The mechanism of a file.
+pub(super) struct Mechanism {
+    pub(super) kind: Kind,
+    pub(super) chain: Chain,
+    pub(super) limits: Vec<[f64; 2]>,
+}
+
+/// What one joint variable measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Variable {
+    Rotation,
+    Translation,
+}
+
+/// The variables of a joint, in the order in which solutions list them.
+pub(super) fn variables(kind: JointKind) -> &'static [Variable] {
+    use Variable::{Rotation, Translation};
+    match kind {
+        JointKind::Revolute | JointKind::Helical => &[Rotation],
+        JointKind::Prismatic => &[Translation],
+        JointKind::Cylindrical => &[Rotation, Translation],
+        JointKind::Universal => &[Rotation, Rotation],
+        JointKind::Spherical => &[Rotation, Rotation, Rotation],
+    }
+}
+
+/// The joint kinds of a chain, in joint order.
+pub(super) fn kinds(chain: &Chain) -> Vec<JointKind> {
+    match &chain.geometry {
+        Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => joints.iter().map(|joint| joint.kind).collect(),
+        Geometry::Screws { joints, .. } => joints.iter().map(|joint| joint.kind).collect(),
+    }
+}
+
+/// Reads the `[mechanism]` table.
+pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
+    let anything = ["kind", "convention", "joints", "base", "tool", "home", "limits", "plate", "legs", "legs_squared"];
+    let table = scope.table(node, "[mechanism]", &anything)?;
+    let kind_node = scope.need(&table, "kind")?;
+    let kind = match scope.word(kind_node, "kind", &["arm", "loop", "platform"])? {
+        "arm" => Kind::Arm,
+        "loop" => Kind::Loop,
+        _ => {
+            let message = "mechanisms of kind \"platform\" are read but not solved yet".to_owned();
+            return Err(Error::Unsupported(message).at(scope.path, kind_node.line));
+        }
+    };
+    let table = match kind {
+        Kind::Arm => {
+            scope.table(node, "the [mechanism] of an arm", &["kind", "convention", "joints", "base", "tool", "home", "limits"])?
+        }
+        _ => scope.table(node, "the [mechanism] of a loop", &["kind", "convention", "joints", "home", "limits"])?,
+    };
+    let convention = scope.need(&table, "convention")?;
+    let convention = scope.word(convention, "convention", &["dh", "modified-dh", "screws"])?;
+    let joints = scope.need(&table, "joints")?;
+    let nodes = scope.list(joints, "joints")?;
+    if nodes.len() > 64 {
+        return Err(scope.fail(joints.line, format!("found {} joints, expected at most 64", nodes.len())));
+    }
+    let geometry = if convention == "screws" {
+        screws(scope, &table, kind, nodes)?
+    } else {
+        if let Some(home) = table.get("home") {
+            return Err(scope.fail(home.line, "found `home` beside DH joints, expected it only with convention \"screws\""));
+        }
+        let joints = nodes.iter().map(|node| joint(scope, node)).collect::<Result<_>>()?;
+        if convention == "dh" { Geometry::Dh(joints) } else { Geometry::ModifiedDh(joints) }
+    };
+    let placed = |key: &str| table.get(key).map_or(Ok(Placement::identity()), |node| scope.matrix(node, key));
+    let chain = Chain { geometry, base: placed("base")?, tool: placed("tool")? };
+    let expected = match kind {
+        Kind::Arm => (6, "expected 6 for an arm"),
+        _ => (7, "expected 7 for a loop: one given as input, six to find"),
+    };
+    check_count(scope, &chain, joints.line, expected)?;
+    let limits = table.get("limits").map_or(Ok(Vec::new()), |node| limits(scope, node, &chain))?;
+    Ok(Mechanism { kind, chain, limits })
+}
+
+/// Refuses a chain whose number of joint variables does not fit its kind.
+pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expected: (usize, &str)) -> Result<()> {
+    let kinds = kinds(chain);
+    let count: usize = kinds.iter().map(|kind| variables(*kind).len()).sum();
+    if count == expected.0 {
+        return Ok(());
+    }
+    let joints = kinds.len();
+    Err(scope.fail(
+        line,
+        format!("found {joints} joints with {count} variables (R, P and H count 1, C and U 2, S 3), {}", expected.1),
+    ))
+}
+
+fn joint_kind(scope: &Scope<'_>, node: &Node) -> Result<JointKind> {
+    Ok(match scope.word(node, "type", &["R", "P", "C", "H", "U", "S"])? {
+        "R" => JointKind::Revolute,
+        "P" => JointKind::Prismatic,
+        "C" => JointKind::Cylindrical,
+        "H" => JointKind::Helical,
+        "U" => JointKind::Universal,
+        _ => JointKind::Spherical,
+    })
+}
+
+/// The kind of a joint, read before its other keys are judged by it.
+fn kind_of(scope: &Scope<'_>, node: &Node, known: &[&str]) -> Result<JointKind> {
+    let table = scope.table(node, "a joint", known)?;
+    joint_kind(scope, scope.need(&table, "type")?)
+}
+
+const DH_KEYS: [&str; 12] = [
+    "type", "a", "alpha", "tan_half_alpha", "d", "theta0", "tan_half_theta0", "d0", "theta", "tan_half_theta", "pitch",
+    "name",
+];
+
+/// A joint of a DH list.
+fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
+    let kind = kind_of(scope, node, &DH_KEYS)?;
+    let link = ["type", "name", "a", "alpha", "tan_half_alpha"];
+    let (own, what): (&[&str], &str) = match kind {
+        JointKind::Revolute => (&["d", "theta0", "tan_half_theta0"], "an R joint"),
+        JointKind::Prismatic => (&["d0", "theta", "tan_half_theta"], "a P joint"),
+        JointKind::Cylindrical => (&["d0", "theta0", "tan_half_theta0"], "a C joint"),
+        JointKind::Helical => (&["d", "theta0", "tan_half_theta0", "pitch"], "an H joint"),
+        JointKind::Universal => (&["d"], "a U joint"),
+        JointKind::Spherical => (&[], "an S joint"),
+    };
+    let table = scope.table(node, what, &[&link, own].concat())?;
+    let a = scope.length(scope.need(&table, "a")?, "a")?;
+    let alpha = angle(scope, &table, "alpha", "tan_half_alpha", true)?;
+    let optional = |key: &str| table.get(key).map_or(Ok(Number::zero()), |node| scope.length(node, key));
+    let d = match kind {
+        JointKind::Revolute | JointKind::Helical => scope.length(scope.need(&table, "d")?, "d")?,
+        JointKind::Prismatic | JointKind::Cylindrical => optional("d0")?,
+        JointKind::Universal => optional("d")?,
+        JointKind::Spherical => Number::zero(),
+    };
+    let theta0 = match kind {
+        JointKind::Prismatic => angle(scope, &table, "theta", "tan_half_theta", true)?,
+        JointKind::Universal | JointKind::Spherical => Angle::zero(),
+        _ => angle(scope, &table, "theta0", "tan_half_theta0", false)?,
+    };
+    Ok(Joint { kind, a, alpha, d, theta0, pitch: pitch(scope, &table, kind)? })
+}
+
+fn pitch(scope: &Scope<'_>, table: &Table<'_>, kind: JointKind) -> Result<Option<Number>> {
+    if kind == JointKind::Helical { scope.length(scope.need(table, "pitch")?, "pitch").map(Some) } else { Ok(None) }
+}
+
+/// An angle given as such or by its half-angle tangent, but not by both.
+fn angle(scope: &Scope<'_>, table: &Table<'_>, key: &str, half: &str, obligatory: bool) -> Result<Angle> {
+    match (table.get(key), table.get(half)) {
+        (Some(_), Some(node)) => {
+            Err(scope.fail(node.line, format!("found both `{key}` and `{half}`, expected one of them")))
+        }
+        (Some(node), None) => scope.angle(node, key),
+        (None, Some(node)) => scope.half_tangent(node, half),
+        (None, None) if obligatory => {
+            Err(scope.fail(table.line(), format!("found neither `{key}` nor `{half}` in a joint, expected one of them")))
+        }
+        (None, None) => Ok(Angle::zero()),
+    }
+}
+
+fn screws(scope: &Scope<'_>, table: &Table<'_>, kind: Kind, nodes: &[Node]) -> Result<Geometry> {
+    let joints = nodes.iter().map(|node| screw_joint(scope, node)).collect::<Result<_>>()?;
+    let home = match (table.get("home"), kind) {
+        (Some(node), _) => scope.matrix(node, "home")?,
+        (None, Kind::Loop) => Placement::identity(),
+        (None, _) => scope.matrix(scope.need(table, "home")?, "home")?,
+    };
+    Ok(Geometry::Screws { joints, home })
+}
+
+/// A joint of a list of screw axes.
+fn screw_joint(scope: &Scope<'_>, node: &Node) -> Result<ScrewJoint> {
+    let kind = kind_of(scope, node, &["type", "name", "axis", "point", "pitch"])?;
+    let allowed: &[&str] = match kind {
+        JointKind::Helical => &["type", "name", "axis", "point", "pitch"],
+        JointKind::Universal => {
+            return Err(scope.fail(node.line, "found a U joint among screw axes, expected its two R joints"));
+        }
+        _ => &["type", "name", "axis", "point"],
+    };
+    let table = scope.table(node, "a screw joint", allowed)?;
+    let axis_node = scope.need(&table, "axis")?;
+    let axis = scope.vector(axis_node, Quantity::Ratio, "axis")?;
+    if axis.iter().all(|component| component.rational().is_zero()) {
+        return Err(scope.fail(axis_node.line, "found the axis [0, 0, 0], expected a direction"));
+    }
+    let point = match (table.get("point"), kind) {
+        // A translation has a direction but no place.
+        (None, JointKind::Prismatic) => std::array::from_fn(|_| Number::zero()),
+        _ => scope.vector(scope.need(&table, "point")?, Quantity::Length, "point")?,
+    };
+    Ok(ScrewJoint { kind, axis, point, pitch: pitch(scope, &table, kind)? })
+}
+
+fn limits(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Vec<[f64; 2]>> {
+    let variables: Vec<Variable> = kinds(chain).iter().flat_map(|kind| variables(*kind)).copied().collect();
+    let nodes = scope.list(node, "limits")?;
+    if nodes.len() != variables.len() {
+        let (found, expected) = (nodes.len(), variables.len());
+        return Err(scope.fail(node.line, format!("found {found} pairs of limits, expected {expected}, one per joint variable")));
+    }
+    let mut limits = Vec::with_capacity(nodes.len());
+    for (pair, variable) in nodes.iter().zip(variables) {
+        let [low, high] = scope.exactly::<2>(pair, "limits")?;
+        let read = |node| variable_value(scope, node, variable, "limits");
+        let (low, high) = (read(low)?, read(high)?);
+        if low > high {
+            return Err(scope.fail(pair.line, format!("found the limits [{low}, {high}], expected the lower one first")));
+        }
+        limits.push([low, high]);
+    }
+    Ok(limits)
+}
+
+/// The value of a joint variable, radians or metres.
+pub(super) fn variable_value(scope: &Scope<'_>, node: &Node, variable: Variable, what: &str) -> Result<f64> {
+    Ok(match variable {
+        Variable::Rotation => scope.angle(node, what)?.radians(),
+        Variable::Translation => scope.length(node, what)?.to_f64(),
+    })
+}

@@ -1,0 +1,70 @@
+//! The built-in library: the files of equations/, embedded.
+
+use super::entry::Entry;
+use super::scope::nearest;
+use super::source::{Format, Options, load_text};
+use crate::error::{Error, Result};
+use include_dir::{Dir, DirEntry, include_dir};
+
+static LIBRARY: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/equations");
+
+/// The names of all built-in entries, such as `arm/puma560`, in order.
+#[must_use]
+pub fn builtin_names() -> Vec<String> {
+    let mut names = Vec::new();
+    collect(&LIBRARY, &mut names);
+    names.sort();
+    names
+}
+
+fn collect(folder: &Dir<'_>, names: &mut Vec<String>) {
+    for entry in folder.entries() {
+        match entry {
+            DirEntry::Dir(folder) => collect(folder, names),
+            DirEntry::File(file) => {
+                let path = file.path().to_string_lossy().replace('\\', "/");
+                if let Some(name) = path.strip_suffix(".toml") {
+                    names.push(name.to_owned());
+                }
+            }
+        }
+    }
+}
+
+/// The text of the built-in entry of this name, with or without its folder, and its full name.
+fn find(name: &str) -> Option<(String, &'static str)> {
+    let name = name.strip_suffix(".toml").unwrap_or(name);
+    let is_wanted = |full: &String| full == name || full.rsplit('/').next() == Some(name);
+    let full = builtin_names().into_iter().find(is_wanted)?;
+    let text = LIBRARY.get_file(format!("{full}.toml"))?.contents_utf8()?;
+    Some((full, text))
+}
+
+/// Whether the library has an entry of this name.
+pub(super) fn has(name: &str) -> bool {
+    find(name).is_some()
+}
+
+/// Names of the library that resemble this one.
+pub(super) fn similar(name: &str) -> Vec<String> {
+    let names = builtin_names();
+    nearest(name, names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]))
+}
+
+/// The built-in entry of a name, with or without its folder: `puma560` or `arm/puma560`.
+///
+/// # Errors
+/// [`Error::UnknownEntry`] with the names that come near.
+///
+/// # Example
+/// ```
+/// let puma = looproot::catalogue::builtin("puma560", &Default::default())?;
+/// assert_eq!(puma.name, "puma560");
+/// # Ok::<(), looproot::error::Error>(())
+/// ```
+pub fn builtin(name: &str, options: &Options) -> Result<Entry> {
+    let Some((full, text)) = find(name) else {
+        return Err(Error::UnknownEntry { name: name.to_owned(), near: similar(name) });
+    };
+    load_text(text, &format!("equations/{full}.toml"), Format::Toml, options)
+}

@@ -1,0 +1,198 @@
+//! A mechanism ready to solve: what a file says, prepared once, answered case by case.
+
+use crate::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
+use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
+use crate::certify::verdict::{Bound, Verdict, verdict};
+use crate::error::{Error, Result};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::{Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::motion::Motion;
+use num_complex::Complex;
+use std::f64::consts::TAU;
+use std::sync::OnceLock;
+use std::time::Instant;
+
+/// One solution as a user reads it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FullMode {
+    /// Joint variables in joint order; a C joint has its angle, then its distance; the given joint of a loop included.
+    pub q: Vec<Complex<f64>>,
+    /// Whether all of them are real.
+    pub real: bool,
+    /// How many solutions coincide here; 0 where that is not known.
+    pub multiplicity: usize,
+    /// Closure residual, dimensionless: see [`crate::assembly::Mode::residual`].
+    pub residual: f64,
+    /// Condition number of the Jacobian.
+    pub condition: f64,
+    /// Whether exactly one solution was proved to lie within `radius`.
+    pub certified: bool,
+    /// Error bound of every joint variable (radians; lengths over the scale of the mechanism); infinite without proof.
+    pub radius: f64,
+    /// Whether a real solution respects the joint limits; `None` for complex ones or without limits.
+    pub within_limits: Option<bool>,
+}
+
+/// The answer to one case of a file.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// Is the list complete, and why.
+    pub verdict: Verdict,
+    /// Isolated solutions, real ones first.
+    pub modes: Vec<FullMode>,
+    /// What the reader of the file and the solver want known.
+    pub warnings: Vec<String>,
+    /// Microseconds for the preparation of the geometry, spent once for all cases.
+    pub prepare_us: f64,
+    /// Microseconds for this case.
+    pub solve_us: f64,
+}
+
+/// The solver of one choice of the locked joint (of an arm: the only one).
+struct Prepared {
+    layout: Layout,
+    solver: Solver,
+    bound: OnceLock<Bound>,
+    prepare_us: f64,
+}
+
+/// A mechanism file, prepared. Shared between threads; every thread brings its own [`Workspace`].
+pub struct Mechanism {
+    chain: Chain,
+    kind: Kind,
+    limits: Vec<[f64; 2]>,
+    prepared: Vec<Prepared>,
+}
+
+impl Mechanism {
+    /// Prepares an entry for all its cases.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for platforms and for joints other than R, P and C.
+    pub fn prepare(entry: &Entry) -> Result<Self> {
+        if entry.kind == Kind::Platform {
+            return Err(Error::Unsupported("platforms are read but not solved yet".to_owned()));
+        }
+        let mut prepared: Vec<Prepared> = Vec::new();
+        for case in &entry.cases {
+            let locked = locked_variable(&entry.chain, entry.kind, case)?;
+            if prepared.iter().any(|p| p.layout.locked == locked) {
+                continue;
+            }
+            let layout = Layout::of(&entry.chain, locked)?;
+            let open: OpenLoop<f64> = entry.chain.open_loop(&layout)?;
+            let start = Instant::now();
+            let solver = Solver::prepare(&open);
+            let prepare_us = start.elapsed().as_secs_f64() * 1e6;
+            if solver.is_out_of_reach() {
+                return Err(Error::Unsupported(
+                    "too many translations for the elimination of five and six rotations".to_owned(),
+                ));
+            }
+            prepared.push(Prepared { layout, solver, bound: OnceLock::new(), prepare_us });
+        }
+        Ok(Self { chain: entry.chain.clone(), kind: entry.kind, limits: entry.limits.clone(), prepared })
+    }
+
+    /// Solves one case.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a case whose locked joint was not prepared.
+    pub fn solve(
+        &self,
+        case: &Case,
+        roots: Roots,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> Result<Solution> {
+        let locked = locked_variable(&self.chain, self.kind, case)?;
+        let prepared = self
+            .prepared
+            .iter()
+            .find(|p| p.layout.locked == locked)
+            .ok_or_else(|| Error::Invalid("the case locks a joint that was not prepared".to_owned()))?;
+        let filling: Motion<f64> = filling(case)?;
+        let most = prepared.bound.get().map_or(16, |b| b.count);
+        let start = Instant::now();
+        prepared.solver.solve_up_to(&filling, roots, most, workspace, assembly);
+        let solve_us = start.elapsed().as_secs_f64() * 1e6;
+        let verdict = verdict(
+            assembly,
+            roots,
+            prepared.solver.structural_rank(),
+            || prepared.bound.get_or_init(Bound::general).clone(),
+            || None,
+        );
+        let locked_value = Complex::from(locked_value(case));
+        let modes = assembly.modes.iter().map(|mode| {
+            let q = prepared.layout.assemble(&mode.unknowns, locked_value);
+            FullMode {
+                real: mode.real,
+                multiplicity: mode.multiplicity,
+                residual: mode.residual,
+                condition: mode.condition,
+                certified: mode.certificate.is_some(),
+                radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius),
+                within_limits: (mode.real && !self.limits.is_empty())
+                    .then(|| within_limits(&q, &prepared.layout.variables, &self.limits)),
+                q,
+            }
+        });
+        Ok(Solution {
+            verdict,
+            modes: modes.collect(),
+            warnings: case.warnings.clone(),
+            prepare_us: prepared.prepare_us,
+            solve_us,
+        })
+    }
+}
+
+/// The variable that the input of a loop locks; `None` for arms.
+fn locked_variable(chain: &Chain, kind: Kind, case: &Case) -> Result<Option<usize>> {
+    if kind == Kind::Arm {
+        return Ok(None);
+    }
+    let [input] = case.input.as_slice() else {
+        return Err(Error::Unsupported(format!(
+            "{} given joint variables: a loop of seven variables takes one",
+            case.input.len()
+        )));
+    };
+    let wanted = match input.value {
+        InputValue::Angle(_) => Variable::Rotation,
+        InputValue::Distance(_) => Variable::Translation,
+    };
+    let variable = Layout::variable_of(chain, input.joint, wanted);
+    variable.map(Some).ok_or_else(|| Error::Invalid(format!("joint {} has no such variable", input.joint)))
+}
+
+/// What fills the gap of the loop: the inverse of an arm's pose, a loop's locked joint.
+fn filling(case: &Case) -> Result<Motion<f64>> {
+    if let Some(pose) = &case.pose {
+        return Ok(pose.float.inverse());
+    }
+    let motion = case.input.first().and_then(|input| match &input.value {
+        InputValue::Angle(angle) => angle_motion(angle),
+        InputValue::Distance(distance) => distance_motion(distance),
+    });
+    motion.ok_or_else(|| Error::Invalid("a case without pose and input".to_owned()))
+}
+
+fn locked_value(case: &Case) -> f64 {
+    case.input.first().map_or(0.0, |input| match &input.value {
+        InputValue::Angle(angle) => wrapped(angle.radians()),
+        InputValue::Distance(distance) => distance.to_f64(),
+    })
+}
+
+/// Whether every joint can be within its limits, angles modulo whole turns.
+fn within_limits(q: &[Complex<f64>], variables: &[Variable], limits: &[[f64; 2]]) -> bool {
+    q.iter().zip(variables).zip(limits).all(|((value, variable), [low, high])| match variable {
+        Variable::Translation => (*low..=*high).contains(&value.re),
+        Variable::Rotation => {
+            let above = value.re + TAU * ((low - value.re) / TAU).ceil();
+            above <= *high
+        }
+    })
+}
