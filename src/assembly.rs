@@ -1,6 +1,6 @@
 //! Roots to assembly modes: prepare a geometry once, then find every way to close it, pose after pose.
 
-use crate::certify::mode::{Certificate, certificate};
+use crate::certify::{Certificate, certificate};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};

@@ -15,8 +15,10 @@ pub mod elimination;
 
 pub mod solve;
 
+pub mod certify;
+
 pub mod assembly;
 
-pub mod certify;
+pub mod verdict;
 
 pub mod mechanism;

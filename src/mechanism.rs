@@ -2,7 +2,7 @@
 
 use crate::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
-use crate::certify::verdict::{Bound, Verdict, verdict};
+use crate::verdict::{Bound, Verdict, verdict};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{Layout, OpenLoop, Variable, angle_motion, distance_motion};
