@@ -1,6 +1,6 @@
 //! Roots to assembly modes: prepare a geometry once, then find every way to close it, pose after pose.
 
-use crate::certify::{Certificate, certificate};
+use crate::certify::{Certificate, certificate, certificate_in_any_frame, refined_certificate};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
@@ -142,6 +142,8 @@ mod limits {
     pub const SAME: f64 = 1e-5;
     /// Imaginary parts below this are rounding of a real solution.
     pub const REAL_PART: f64 = 1e-8;
+    /// Norm of the inverse Jacobian above which a solution counts as singular.
+    pub const SINGULAR: f64 = 1e7;
     /// Separation of the kernel below which a root that does not close may belong to a family.
     pub const SHARED: f64 = 1e-7;
 }
@@ -473,21 +475,40 @@ impl Search<'_> {
         }
         let inverse_norm = polished.inverse.as_ref().map_or(f64::INFINITY, dense::norm);
         let reach = self.solver.reach;
-        let mode = Mode {
+        let mut mode = Mode {
             unknowns,
             real: S::REAL,
             multiplicity: 1,
             residual: residual(polished, reach),
             condition: dense::norm(&polished.closure.jacobian) * inverse_norm,
-            certificate: polished.inverse.as_ref().and_then(|inverse| certificate(&polished.closure, inverse)),
+            certificate: None,
             hits: 1,
         };
+        self.prove(polished, &mut mode);
         if !S::REAL {
             let mut conjugate = mode.clone();
             conjugate.unknowns = mode.unknowns.map(|z| z.conj());
             self.merge(conjugate);
         }
         self.merge(mode);
+    }
+
+    /// Proves a polished solution by the cheapest way that works.
+    fn prove<S: Scalar>(&self, polished: &Polished<S>, mode: &mut Mode) {
+        let Some(inverse) = polished.inverse.as_ref() else { return };
+        mode.certificate = certificate(&polished.closure, inverse);
+        // Beside a double root a proof would single out one of two solutions that cannot be told apart.
+        if mode.certificate.is_some() || dense::norm(inverse) > limits::SINGULAR {
+            return;
+        }
+        if !S::REAL {
+            mode.certificate = certificate_in_any_frame(self.closed, &polished.unknowns);
+        }
+        if mode.certificate.is_none() {
+            if let Some((unknowns, proof)) = refined_certificate(self.closed, &mode.unknowns) {
+                (mode.unknowns, mode.certificate) = (unknowns, Some(proof));
+            }
+        }
     }
 
     fn merge(&mut self, mode: Mode) {
@@ -625,7 +646,7 @@ fn residual<S: Scalar>(polished: &Polished<S>, reach: f64) -> f64 {
     let growth = if S::REAL {
         1.0
     } else {
-        polished.closure.norms.iter().map(|n| n.before * n.behind).fold(1.0, f64::max)
+        polished.closure.norms.iter().map(|n| n.before * n.step * n.behind).fold(1.0, f64::max)
     };
     let _ = reach;
     polished.closure.defect / growth

@@ -30,8 +30,8 @@ const CURVE: f64 = 1e-11;
 const BORDER: [f64; 6] = [0.41, -0.37, 0.53, 0.29, -0.47, 0.33];
 const COBORDER: [f64; 6] = [0.39, 0.45, -0.31, 0.51, 0.35, -0.43];
 
-/// Follows the bordered system to the displacement `h` from `origin` along the kernel; the unknowns and g there.
-fn follow<S: Scalar>(closed: &ClosedLoop<f64>, origin: &Six<S>, direction: &Six<S>, h: f64) -> Option<(Six<S>, S)> {
+/// Follows the bordered system to the displacement `h` from `origin` along the kernel; g there.
+fn follow<S: Scalar>(closed: &ClosedLoop<f64>, origin: &Six<S>, direction: &Six<S>, h: f64) -> Option<S> {
     let mut q: Six<S> = std::array::from_fn(|k| origin[k].add(&direction[k].times(h)));
     let along = (0..6).fold(S::zero(), |sum, k| sum.add(&direction[k].times(COBORDER[k]))).times(h);
     let mut g = S::zero();
@@ -58,7 +58,7 @@ fn follow<S: Scalar>(closed: &ClosedLoop<f64>, origin: &Six<S>, direction: &Six<
             break;
         }
     }
-    Some((q, g))
+    Some(g)
 }
 
 fn bordered<S: Scalar>(jacobian: &[Six<S>; 6]) -> [[S; 7]; 7] {
@@ -85,27 +85,33 @@ pub fn nature<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Nature 
         return Nature::Unresolved;
     }
     let direction = direction.map(|x| x.times(1.0 / length));
-    let mut orders = 0.0;
-    let mut least = f64::INFINITY;
-    let mut greatest = 0.0_f64;
-    for h in [0.01, -0.01] {
-        let (Some((_, near)), Some((_, far))) =
-            (follow(closed, unknowns, &direction, h), follow(closed, unknowns, &direction, 2.0 * h))
-        else {
-            return Nature::Unresolved;
-        };
-        let (near, far) = (near.to_complex().norm(), far.to_complex().norm());
-        greatest = greatest.max(near).max(far);
-        orders += 0.5 * (far / near).log2();
-        least = least.min(near);
+    // A neighbouring solution spoils the order at a large displacement, rounding at a small one.
+    for h in [1e-2, 3e-3, 1e-3, 3e-4] {
+        let Some([left, right]) = orders(closed, unknowns, &direction, h) else { continue };
+        if h > 5e-3 && left.1 < CURVE && right.1 < CURVE {
+            return Nature::SelfMotion(1);
+        }
+        let order = left.0.round();
+        if (left.0 - order).abs() < 0.2 && (right.0 - order).abs() < 0.2 && (1.0..16.0).contains(&order) {
+            return Nature::Isolated(order as usize);
+        }
     }
-    if greatest < CURVE {
-        return Nature::SelfMotion(1);
-    }
-    if !(orders > 0.5 && orders < 15.5) || least == 0.0 {
-        return Nature::Unresolved;
-    }
-    Nature::Isolated(orders.round() as usize)
+    Nature::Unresolved
+}
+
+/// On either side: the order with which g grows from a displacement `h` to `2 h`, and the larger |g|.
+fn orders<S: Scalar>(
+    closed: &ClosedLoop<f64>,
+    origin: &Six<S>,
+    direction: &Six<S>,
+    h: f64,
+) -> Option<[(f64, f64); 2]> {
+    let side = |h: f64| {
+        let near = follow(closed, origin, direction, h)?.to_complex().norm();
+        let far = follow(closed, origin, direction, 2.0 * h)?.to_complex().norm();
+        Some(((far / near).log2(), near.max(far)))
+    };
+    Some([side(h)?, side(-h)?])
 }
 
 /// Rank of the Jacobian at real unknowns, and its right singular vectors from the largest to the smallest value.
