@@ -1,9 +1,15 @@
 //! Exact and generic arithmetic; knows nothing of mechanisms.
 
 mod approximation;
+pub mod dual;
 mod expression;
 mod half_tangent;
+pub mod interval;
+pub mod matrix;
+pub mod modp;
 pub mod number;
+pub mod ratio;
+pub mod rational;
 pub mod reduction;
 pub mod ring;
 mod value;
