@@ -211,7 +211,10 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>)
     let word: String = word.chars().take(60).collect();
     let mut scored: Vec<(usize, &str)> = candidates
         .map(|candidate| (strsim::damerau_levenshtein(&word, candidate), candidate))
-        .filter(|(distance, candidate)| *distance <= (candidate.len().max(word.len()) / 3).max(1))
+        .filter(|(distance, candidate)| {
+            let longest = candidate.len().max(word.len());
+            longest > 1 && *distance <= (longest / 3).max(1)
+        })
         .collect();
     scored.sort();
     scored.into_iter().take(3).map(|(_, candidate)| candidate.to_owned()).collect()
