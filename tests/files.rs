@@ -295,25 +295,53 @@ fn unknown_names_suggest_near_ones() {
     assert!(fault.to_string().contains("did you mean `puma560`"), "{fault}");
 }
 
-/// `base * prod * tool` of the claim's joint variables.
+/// `base * prod * tool` of the claim's joint variables, written here once more in f64 as the formats define it.
 fn forward(entry: &Entry, q: &[f64]) -> Motion<f64> {
-    let Geometry::Dh(joints) = &entry.chain.geometry else { panic!("the library is in classic DH") };
-    let mut motion = entry.chain.base.float.clone();
     let mut values = q.iter();
-    for joint in joints {
-        let mut value = || *values.next().unwrap();
-        let (angle, distance) = match joint.kind {
-            JointKind::Revolute => (value(), 0.0),
-            JointKind::Prismatic => (0.0, value()),
-            JointKind::Cylindrical => (value(), value()),
-            _ => panic!("no such joint in the library"),
-        };
-        let angle = angle + joint.theta0.radians();
-        motion = motion.then_after(&Motion::rotation_z(angle.cos(), angle.sin()));
-        motion = motion.then_after(&Motion::translation_z(distance + joint.d.to_f64()));
-        motion = motion.then_after(&looproot::kinematics::motion::link(&joint.a, &joint.alpha).unwrap());
+    let mut variables = |kind: JointKind| match kind {
+        JointKind::Revolute => (*values.next().unwrap(), 0.0),
+        JointKind::Prismatic => (0.0, *values.next().unwrap()),
+        JointKind::Cylindrical => (*values.next().unwrap(), *values.next().unwrap()),
+        _ => panic!("no such joint in the library"),
+    };
+    let mut motion = entry.chain.base.float.clone();
+    match &entry.chain.geometry {
+        Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
+            let craig = matches!(entry.chain.geometry, Geometry::ModifiedDh(_));
+            for joint in joints {
+                let (angle, distance) = variables(joint.kind);
+                let angle = angle + joint.theta0.radians();
+                let mut turn = Motion::rotation_z(angle.cos(), angle.sin());
+                turn.translation[2] = distance + joint.d.to_f64();
+                let link = looproot::kinematics::motion::link(&joint.a, &joint.alpha).unwrap();
+                let (first, second) = if craig { (link, turn) } else { (turn, link) };
+                motion = motion.then_after(&first).then_after(&second);
+            }
+        }
+        Geometry::Screws { joints, home } => {
+            for joint in joints {
+                let (angle, distance) = variables(joint.kind);
+                let axis = joint.axis.each_ref().map(Number::to_f64);
+                motion = motion.then_after(&screw(axis, joint.point.each_ref().map(Number::to_f64), angle, distance));
+            }
+            motion = motion.then_after(&home.float);
+        }
     }
     motion.then_after(&entry.chain.tool.float)
+}
+
+/// Rotation about and translation along an axis (Rodrigues).
+fn screw(axis: [f64; 3], point: [f64; 3], angle: f64, distance: f64) -> Motion<f64> {
+    let norm = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let n = axis.map(|x| x / norm);
+    let (sin, cos) = angle.sin_cos();
+    let cross = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
+    let entry = |i: usize, j: usize| f64::from(u8::from(i == j)) * cos + sin * cross[i][j] + (1.0 - cos) * n[i] * n[j];
+    let mut motion = Motion::identity();
+    motion.rotation = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+    let turned = motion.rotate(&point);
+    motion.translation = std::array::from_fn(|i| point[i] - turned[i] + distance * n[i]);
+    motion
 }
 
 #[test]
