@@ -1,4 +1,5 @@
 //! Reading mechanism files: the library, every kind of mistake with its line, and arbitrary damage.
+#![allow(clippy::float_cmp)] // correctly rounded values are compared as such
 
 use looproot::algebra::number::{HalfTangent, Number};
 use looproot::catalogue::entry::{Entry, InputValue, Kind};
@@ -169,7 +170,9 @@ fn a_table_and_a_robot_description_are_read() {
 fn screws_are_read() {
     let joint = r#"{ type = "R", axis = [0, 0, 1], point = [0, 0, 0] },"#;
     let text = |joints: &str, home: &str| {
-        format!("[mechanism]\nkind = \"arm\"\nconvention = \"screws\"\njoints = [{joints}]\n{home}\n[[pose]]\nposition = [1, 2, 3]\nquaternion = [1, 0, 0, 0]\n")
+        format!(
+            "[mechanism]\nkind = \"arm\"\nconvention = \"screws\"\njoints = [{joints}]\n{home}\n[[pose]]\nposition = [1, 2, 3]\nquaternion = [1, 0, 0, 0]\n"
+        )
     };
     let home = "home = [[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]";
     assert!(read(&text(&joint.repeat(6), home)).is_ok());
@@ -182,17 +185,33 @@ fn screws_are_read() {
 #[test]
 fn mistakes_are_named_with_their_line() {
     for (from, to, message) in [
-        ("kind = \"arm\"", "kind = \"hand\"", "test.toml:5: found \"hand\" as `kind`, expected one of arm, loop, platform"),
+        (
+            "kind = \"arm\"",
+            "kind = \"hand\"",
+            "test.toml:5: found \"hand\" as `kind`, expected one of arm, loop, platform",
+        ),
         ("convention = \"dh\"\n", "", "test.toml:4: found no `convention` in the [mechanism] of an arm"),
         ("convention = \"dh\"", "convention = \"DH\"", "test.toml:6: found \"DH\" as `convention`"),
-        ("convention", "convetion", "test.toml:6: found the unknown key `convetion` in [mechanism]; did you mean `convention`?"),
+        (
+            "convention",
+            "convetion",
+            "test.toml:6: found the unknown key `convetion` in [mechanism]; did you mean `convention`?",
+        ),
         ("title", "titel", "test.toml:1: found the unknown key `titel` in the file; did you mean `title`?"),
         ("d = 0, theta0", "q = 0, theta0", "test.toml:9: found the unknown key `q` in a joint; expected one of type"),
-        ("type = \"R\", a = 0, alpha = \"pi/2\"", "type = \"X\", a = 0, alpha = \"pi/2\"", "test.toml:8: found \"X\" as `type`"),
+        (
+            "type = \"R\", a = 0, alpha = \"pi/2\"",
+            "type = \"X\", a = 0, alpha = \"pi/2\"",
+            "test.toml:8: found \"X\" as `type`",
+        ),
         ("a = 0, alpha = \"pi/2\"", "a = nan, alpha = \"pi/2\"", "test.toml:8: found `nan`, not a finite number"),
         ("a = 0, alpha = \"pi/2\"", "a = inf, alpha = \"pi/2\"", "test.toml:8: found `inf`, not a finite number"),
         ("a = 0, alpha = \"pi/2\"", "a = 1e200, alpha = \"pi/2\"", "test.toml:8: found `1e200`, expected a size"),
-        ("a = 0, alpha = \"pi/2\"", "a = true, alpha = \"pi/2\"", "test.toml:8: found a truth value as `a`, expected a number"),
+        (
+            "a = 0, alpha = \"pi/2\"",
+            "a = true, alpha = \"pi/2\"",
+            "test.toml:8: found a truth value as `a`, expected a number",
+        ),
         ("a = 0, alpha = \"pi/2\"", "a = 1979-05-27, alpha = \"pi/2\"", "test.toml:8: found a date as `a`"),
         ("a = 0, alpha = \"pi/2\"", "a = \"1/0\", alpha = \"pi/2\"", "test.toml:8: found a division by zero"),
         ("a = 0, alpha = \"pi/2\"", "a = \"3 deg\", alpha = \"pi/2\"", "test.toml:8: found `3 deg`, expected a length"),
@@ -203,7 +222,11 @@ fn mistakes_are_named_with_their_line() {
         ("alpha = \"pi/2\", d = 0", "alpha = \"pi/2\"", "test.toml:8: found no `d` in an R joint"),
         ("type = \"R\", a = 0, alpha = \"pi/2\"", "a = 0, alpha = \"pi/2\"", "test.toml:8: found no `type` in a joint"),
         ("    { type = \"R\", a = 0, alpha = 0, d = 0 },\n", "", "test.toml:7: found 5 joints with 5 variables"),
-        ("    { type = \"R\", a = 0, alpha = 0, d = 0 },\n", "{ type = \"S\", a = 0, alpha = 0 },", "test.toml:7: found 6 joints with 8 variables"),
+        (
+            "    { type = \"R\", a = 0, alpha = 0, d = 0 },\n",
+            "{ type = \"S\", a = 0, alpha = 0 },",
+            "test.toml:7: found 6 joints with 8 variables",
+        ),
         ("[0, 1, 0, 0], ", "", "test.toml:15: found a list of 3 as `tool`, expected a list of 4"),
         ("[0.6, -0.8, 0, 0.3]", "[0.6, -0.8, 0]", "test.toml:20: found a list of 3 as `matrix`"),
         ("[0.6, -0.8, 0, 0.3]", "[0.7, -0.8, 0, 0.3]", "test.toml:19: found a rotation matrix off by"),
@@ -235,10 +258,14 @@ fn loops_need_seven_variables_and_one_input() {
     };
     assert!(json("\"type\": \"R\", \"a\": 100", "\"type\": \"C\", \"a\": 100").contains("unknown key `d`"));
     assert!(json("\"a\": 1, \"alpha\": 20, \"d\": 1.5e1", "\"a\": 1").contains("test.json:12: found neither `alpha`"));
-    assert!(json(",\n      { \"type\": \"R\", \"a\": 1, \"alpha\": 20, \"d\": 1.5e1 }", "").contains("with 6 variables"));
+    assert!(
+        json(",\n      { \"type\": \"R\", \"a\": 1, \"alpha\": 20, \"d\": 1.5e1 }", "").contains("with 6 variables")
+    );
     assert!(json("\"joint\": 1", "\"joint\": 8").contains("test.json:16: found joint 8, expected one from 1 to 5"));
     assert!(json("\"joint\": 1, ", "").contains("test.json:16: found no `joint`"));
-    assert!(json("\"angle\": 90 }", "\"distance\": 90 }").contains("test.json:16: found a distance as input of joint 1"));
+    assert!(
+        json("\"angle\": 90 }", "\"distance\": 90 }").contains("test.json:16: found a distance as input of joint 1")
+    );
     assert!(json("\"angle\": 90 }", "\"angle\": 90, \"tan_half\": 1 }").contains("exactly one"));
     assert!(json("\"title\"", "\"units\": {}, \"title\"").contains("found the key `units` twice"));
     assert!(json("\"title\"", "// no\n\"title\"").contains("not JSON"));
@@ -271,7 +298,9 @@ fn what_is_no_mechanism_file_at_all_is_refused() {
     let path = |name: &str| folder.join(name).to_string_lossy().into_owned();
     assert!(load(&path(""), &Options::default()).unwrap_err().to_string().contains("directory"));
     std::fs::write(path("binary.toml"), [b'a', b'\n', 0xff, 0xfe]).unwrap();
-    assert!(load(&path("binary.toml"), &Options::default()).unwrap_err().to_string().contains("binary.toml:2: found bytes"));
+    assert!(
+        load(&path("binary.toml"), &Options::default()).unwrap_err().to_string().contains("binary.toml:2: found bytes")
+    );
     std::fs::write(path("arm"), ARM).unwrap();
     assert!(load(&path("arm"), &Options::default()).is_ok());
     std::fs::write(path("loop"), LOOP).unwrap();
@@ -356,7 +385,7 @@ fn every_claim_of_the_library_closes() {
             let target = case.pose.as_ref().map_or_else(Motion::identity, |pose| pose.float.clone());
             for claim in &case.expected.solutions {
                 let reached = forward(&entry, &claim.q);
-                let tolerance = 30.0 * 10.0_f64.powi(-(claim.digits.min(13) as i32));
+                let tolerance = 30.0 * 10.0_f64.powf(-f64::from(claim.digits.min(13)));
                 for i in 0..3 {
                     let off = (reached.translation[i] - target.translation[i]).abs();
                     assert!(off < tolerance, "{name}:{}: off by {off}", claim.line);
@@ -395,8 +424,29 @@ enum Damage {
 
 fn damage() -> impl Strategy<Value = Damage> {
     let values = prop::sample::select(vec![
-        "nan", "-inf", "1e999", "1e308", "-1e149", "1e-320", "0", "\"\"", "\"1/0\"", "\"pi\"", "\"((((\"", "[]", "{}", "9999999999999999999999999",
-        "\"tan(pi/2)\"", "\"1 deg\"", "\"inf\"", "0x10", "true", "\"sqrt(-1)\"", "1_0", "-0.0", "3.0000000001",
+        "nan",
+        "-inf",
+        "1e999",
+        "1e308",
+        "-1e149",
+        "1e-320",
+        "0",
+        "\"\"",
+        "\"1/0\"",
+        "\"pi\"",
+        "\"((((\"",
+        "[]",
+        "{}",
+        "9999999999999999999999999",
+        "\"tan(pi/2)\"",
+        "\"1 deg\"",
+        "\"inf\"",
+        "0x10",
+        "true",
+        "\"sqrt(-1)\"",
+        "1_0",
+        "-0.0",
+        "3.0000000001",
     ]);
     prop_oneof![
         (any::<usize>(), any::<u8>()).prop_map(|(at, byte)| Damage::Flip(at, byte)),
@@ -432,7 +482,9 @@ fn damaged(text: &str, damage: &[Damage]) -> String {
             }
             Damage::Number(at, value) => {
                 let starts: Vec<usize> = (1..bytes.len())
-                    .filter(|at| bytes[*at].is_ascii_digit() && !bytes[at - 1].is_ascii_alphanumeric() && bytes[at - 1] != b'.')
+                    .filter(|at| {
+                        bytes[*at].is_ascii_digit() && !bytes[at - 1].is_ascii_alphanumeric() && bytes[at - 1] != b'.'
+                    })
                     .collect();
                 if let Some(start) = starts.get(at % starts.len().max(1)).copied() {
                     let rest = &bytes[start..];

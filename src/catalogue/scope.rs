@@ -109,11 +109,9 @@ impl<'a> Scope<'a> {
     pub(super) fn count(&self, node: &Node, what: &str) -> Result<usize> {
         let expected = "a whole number from 0 to 10000";
         match &node.value {
-            Value::Number(text) => text
-                .parse()
-                .ok()
-                .filter(|count| *count <= 10_000)
-                .ok_or_else(|| self.unexpected(node, what, expected)),
+            Value::Number(text) => {
+                text.parse().ok().filter(|count| *count <= 10_000).ok_or_else(|| self.unexpected(node, what, expected))
+            }
             _ => Err(self.unexpected(node, what, expected)),
         }
     }
@@ -216,6 +214,6 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>)
             longest > 1 && *distance <= (longest / 3).max(1)
         })
         .collect();
-    scored.sort();
+    scored.sort_unstable();
     scored.into_iter().take(3).map(|(_, candidate)| candidate.to_owned()).collect()
 }
