@@ -418,7 +418,8 @@ fn every_entry_is_in_the_table_of_the_readme() {
     let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/equations/README.md")).unwrap();
     let listed: Vec<&str> =
         readme.lines().filter_map(|line| line.strip_prefix("| `")?.split_once("` | ")).map(|(name, _)| name).collect();
-    let listed: Vec<&str> = listed.into_iter().filter(|name| name.contains('/')).collect();
+    let listed: Vec<&str> =
+        listed.into_iter().filter(|name| name.starts_with("arm/") || name.starts_with("loop/")).collect();
     assert_eq!(listed, builtin_names());
 }
 
