@@ -221,15 +221,16 @@ impl Solver {
     /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing
     /// once `assembly` has grown to its size, but for degenerate poses.
     pub fn solve(&self, filling: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
-        self.solve_up_to(filling, roots, 16, workspace, assembly);
+        self.solve_up_to(filling, roots, &|| 16, workspace, assembly);
     }
 
-    /// As [`Solver::solve`], for a geometry known to have no more than `most` solutions: stops looking for more.
+    /// As [`Solver::solve`], for a geometry known to have no more than `most()` solutions: stops looking for more.
+    /// `most` is asked only where fewer than 16 are found.
     pub fn solve_up_to(
         &self,
         filling: &Motion<f64>,
         roots: Roots,
-        most: usize,
+        most: &dyn Fn() -> usize,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) {
@@ -267,7 +268,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(&mut self, most: usize) {
+    fn run(&mut self, most: &dyn Fn() -> usize) {
         let solver = self.solver;
         for prepared in &solver.prepared {
             let cut = prepared.cut.of(self.closed);
@@ -308,7 +309,7 @@ impl Search<'_> {
         view: &ClosedLoop<f64>,
         form: &HalfAngleForm<f64>,
         rows: &[MarkedLine<f64>; 8],
-        most: usize,
+        most: &dyn Fn() -> usize,
     ) -> bool {
         let equations = bilinear(rows, view);
         let first = Shifted::best(&equations, Hidden::First);
@@ -342,12 +343,12 @@ impl Search<'_> {
     }
 
     /// Whether more pencils are of no use.
-    fn done(&self, most: usize, clean: bool) -> bool {
+    fn done(&self, most: &dyn Fn() -> usize, clean: bool) -> bool {
         match self.roots {
             Roots::Real => clean,
             Roots::All => {
                 let proved: usize = self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
-                proved >= most || (clean && (self.fruitless >= 2 || self.assembly.modes.len() >= most))
+                proved >= 16 || (clean && (self.fruitless >= 2 || self.assembly.modes.len() >= most()))
             }
         }
     }
