@@ -2,9 +2,15 @@
 
 mod approximation;
 pub mod double_double;
+pub mod dual;
 mod expression;
 mod half_tangent;
+pub mod interval;
+pub mod matrix;
+pub mod modp;
 pub mod number;
+pub mod ratio;
+pub mod rational;
 pub mod reduction;
 pub mod ring;
 mod value;
