@@ -1,6 +1,7 @@
 //! Exact and generic arithmetic; knows nothing of mechanisms.
 
 mod approximation;
+pub mod determinant;
 pub mod double_double;
 pub mod dual;
 mod expression;
@@ -13,4 +14,6 @@ pub mod ratio;
 pub mod rational;
 pub mod reduction;
 pub mod ring;
+pub mod sturm;
+pub mod univariate;
 mod value;

@@ -67,7 +67,7 @@ pub fn exact_cos_sin(angle: &Angle) -> (Rational, Rational) {
         HalfTangent::Finite(t) => {
             let square = Rational::from(t * t);
             let denominator = Rational::from(&square + 1);
-            (Rational::from(1 - square) / &denominator, Rational::from(t * 2) / denominator)
+            ((1 - square) / &denominator, Rational::from(t * 2) / denominator)
         }
     }
 }
