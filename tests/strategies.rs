@@ -35,6 +35,7 @@ pub enum Expression {
 
 impl Expression {
     /// The value over any ring; `None` if a number has no image there.
+    #[must_use]
     pub fn evaluate<R: Ring>(&self, x: &R) -> Option<R> {
         Some(match self {
             Self::Variable => x.clone(),
@@ -47,6 +48,7 @@ impl Expression {
     }
 
     /// The value with every term taken positive: the scale of its rounding errors.
+    #[must_use]
     pub fn majorant(&self, x: f64) -> f64 {
         match self {
             Self::Variable => x.abs(),
@@ -93,6 +95,7 @@ pub fn nonzero_polynomial(len: usize) -> impl Strategy<Value = Univariate<Ration
 }
 
 /// The polynomial with the given coefficients, constant term first.
+#[must_use]
 pub fn integers(coefficients: &[i32]) -> Univariate<Rational> {
     Univariate::new(coefficients.iter().map(|&c| Rational::from(c)).collect())
 }
@@ -108,6 +111,7 @@ pub fn matrix<const R: usize, const C: usize>() -> impl Strategy<Value = [[Ratio
 /// Elements of a ring built from rationals.
 pub trait Sample: Ring {
     /// An element; several rationals so that composite rings get more than images of rationals.
+    #[must_use]
     fn sample(q: &[Rational; 4]) -> Self;
 }
 

@@ -87,7 +87,7 @@ fn unknown_numbers_stay_unknown() {
     let huge = Interval::from_f64(f64::MAX);
     assert_eq!(huge.add(&huge), Interval::new(f64::MAX, f64::INFINITY));
     assert_eq!(huge.mul(&huge.neg()), Interval::new(f64::NEG_INFINITY, f64::MIN));
-    assert_eq!(unknown.mid(), 0.0);
+    assert!(unknown.mid().is_finite());
 }
 
 #[test]

@@ -39,7 +39,7 @@ proptest! {
         prop_assert!(left.rank <= 2);
         prop_assert_eq!(left.rank, matrix::lu(&matrix::transpose(&a)).rank());
         for row in left.rows() {
-            prop_assert_eq!(matrix::multiply(&[row.clone()], &a), [<[Rational; 4]>::default()]);
+            prop_assert_eq!(matrix::apply(&matrix::transpose(&a), row), <[Rational; 4]>::default());
         }
         let right = matrix::right_null_space(&a);
         prop_assert_eq!(right.rows().len(), 4 - left.rank);

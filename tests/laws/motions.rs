@@ -10,19 +10,19 @@ use proptest::prelude::*;
 use rug::Rational;
 
 /// A dual quaternion, and the same motion from matrices by another road.
-fn both<F: Field>([s, c, t, u]: &[F; 4]) -> Option<(DualQuaternion<F>, Motion<F>)> {
+fn both<F: Field>([sine, cosine, x, y]: &[F; 4]) -> Option<(DualQuaternion<F>, Motion<F>)> {
     let cos_sin = |c: &F, s: &F| {
         let (cc, ss) = (c.mul(c), s.mul(s));
         let inverse = cc.add(&ss).inverse()?;
         let cs = c.mul(s);
         Some((cc.sub(&ss).mul(&inverse), cs.add(&cs).mul(&inverse)))
     };
-    let t = [t.clone(), u.clone(), s.clone()];
-    let (cos_z, sin_z) = cos_sin(c, s)?;
-    let (cos_x, sin_x) = cos_sin(&t[0], u)?;
-    let quaternion = DualQuaternion::rotation_z(c.clone(), s.clone())
+    let t = [x.clone(), y.clone(), sine.clone()];
+    let (cos_z, sin_z) = cos_sin(cosine, sine)?;
+    let (cos_x, sin_x) = cos_sin(x, y)?;
+    let quaternion = DualQuaternion::rotation_z(cosine.clone(), sine.clone())
         .mul(&DualQuaternion::translation(&t))
-        .mul(&DualQuaternion::rotation_x(t[0].clone(), u.clone()));
+        .mul(&DualQuaternion::rotation_x(x.clone(), y.clone()));
     let motion = Motion::rotation_z(cos_z, sin_z)
         .then_after(&Motion::translation(t))
         .then_after(&Motion::rotation_x(cos_x, sin_x));
@@ -30,13 +30,13 @@ fn both<F: Field>([s, c, t, u]: &[F; 4]) -> Option<(DualQuaternion<F>, Motion<F>
 }
 
 fn agree<F: Field>(a: &[F; 4], b: &[F; 4], p: &[F; 3]) -> Result<(), TestCaseError> {
-    let (Some((q, m)), Some((r, n))) = (both(a), both(b)) else { return Ok(()) };
-    let (product, composed) = (q.mul(&r), m.then_after(&n));
+    let (Some((q, motion)), Some((r, other))) = (both(a), both(b)) else { return Ok(()) };
+    let (product, composed) = (q.mul(&r), motion.then_after(&other));
     prop_assert_eq!(product.to_motion(), Some(composed.clone()));
-    prop_assert_eq!(q.conjugate().to_motion(), Some(m.inverse()));
+    prop_assert_eq!(q.conjugate().to_motion(), Some(motion.inverse()));
     prop_assert!(product.study_residual().is_zero());
-    let (x, y) = product.study();
-    prop_assert_eq!(&DualQuaternion::from_study(&x, &y), &product);
+    let (study_x, study_y) = product.study();
+    prop_assert_eq!(&DualQuaternion::from_study(&study_x, &study_y), &product);
     let (image, norm) = product.scaled_image(p);
     prop_assert_eq!(image, composed.apply(p).map(|c| c.mul(&norm)));
     let identity = composed.then_after(&composed.inverse());

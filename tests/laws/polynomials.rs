@@ -70,7 +70,7 @@ proptest! {
     #[test]
     fn have_primitive_integer_forms(f in nonzero_polynomial(6)) {
         let integers = f.primitive_integers();
-        let content = integers.iter().fold(Integer::new(), |g, c| g.gcd(c));
+        let content = integers.iter().fold(Integer::new(), Integer::gcd);
         prop_assert_eq!(content, 1);
         prop_assert!(integers[integers.len() - 1] > 0);
         let again = Poly::new(integers.into_iter().map(Rational::from).collect());
