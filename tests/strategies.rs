@@ -154,12 +154,8 @@ impl<R: Sample> Sample for Complex<R> {
 }
 
 impl<R: Sample> Sample for Univariate<R> {
-    fn sample([a, b, c, d]: &[Rational; 4]) -> Self {
-        let turned = |k: usize| {
-            let mut q = [a.clone(), b.clone(), c.clone(), d.clone()];
-            q.rotate_left(k);
-            R::sample(&q)
-        };
+    fn sample(q: &[Rational; 4]) -> Self {
+        let turned = |k: usize| R::sample(&std::array::from_fn(|i| q[(i + k) % 4].clone()));
         Self::new((0..4).map(turned).collect())
     }
 }

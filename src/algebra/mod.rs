@@ -1,8 +1,8 @@
 //! Exact and generic arithmetic; knows nothing of mechanisms.
 
 mod approximation;
-pub mod double_double;
 pub mod determinant;
+pub mod double_double;
 pub mod dual;
 mod expression;
 mod half_tangent;

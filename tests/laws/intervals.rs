@@ -2,9 +2,16 @@
 
 use crate::holds;
 use crate::strategies::{double, rational};
-use looproot::algebra::{interval::Interval, ring::Ring};
+use looproot::algebra::{
+    interval::Interval,
+    number::{Angle, HalfTangent, Number, Reading, nearest_f64},
+    ring::{Ring, exact_cos_sin},
+};
 use proptest::prelude::*;
-use rug::{Float, Rational, float::Round};
+use rug::{
+    Float, Rational,
+    float::{Constant, Round},
+};
 
 fn is_rounded(interval: Interval, exact: impl Fn(Round) -> Float) -> Result<(), TestCaseError> {
     let (lo, hi) = (exact(Round::Down).to_f64_round(Round::Down), exact(Round::Up).to_f64_round(Round::Up));
@@ -74,6 +81,40 @@ proptest! {
             prop_assert_eq!(b.contains(x), a.intersection(&b).is_some_and(|common| common.contains(x)));
         }
     }
+}
+
+#[test]
+fn enclose_the_angles_and_numbers_of_a_file_and_not_their_stand_ins() {
+    let third = Float::with_val(300, Rational::from((1, 3)));
+    let pi = Float::with_val(300, Constant::Pi);
+    let angles = [
+        ("pi/3", pi.clone() / 3_u32),
+        ("0.3", Float::with_val(300, Rational::from((3, 10)))),
+        ("-2.5", Float::with_val(300, -2.5)),
+        ("acos(1/3)", third.acos()),
+        ("3.1415", Float::with_val(300, Rational::from((31415, 10000)))),
+        ("1.5707963267948966", Float::with_val(300, Float::parse("1.5707963267948966").unwrap())),
+        ("pi/2", pi.clone() / 2_u32),
+        ("pi", pi),
+    ];
+    for (text, radians) in angles {
+        let (cos, sin) = Interval::cos_sin(&Angle::parse(text, &Reading::default()).unwrap()).unwrap();
+        for (interval, value) in [(cos, radians.clone().cos()), (sin, radians.sin())] {
+            // The reference is itself an ulp of 300 bits off: pi/2 has cosine 1e-90 there, and exactly 0 in truth.
+            assert!(interval.lo() - 1e-80 <= value && value <= interval.hi() + 1e-80, "{text}: {interval:?}");
+            assert!(interval.radius() <= 2.0 * f64::EPSILON, "{text}: {interval:?}");
+        }
+    }
+    let turned = Angle::from_half_tangent(HalfTangent::Finite(Rational::from((1, 3))));
+    let (cos, sin) = Interval::cos_sin(&turned).unwrap();
+    let (exact_cos, exact_sin) = exact_cos_sin(&turned);
+    assert!(holds(&cos, &exact_cos) && holds(&sin, &exact_sin));
+
+    let third = Rational::from((1, 3));
+    assert!(holds(&Interval::from_number(&Number::exact(third.clone())).unwrap(), &third));
+    assert_eq!(Interval::from_number(&Number::exact(Rational::from(3))), Some(Interval::from_f64(3.0)));
+    let rounded = Interval::from_number(&Number::rounded(third.clone())).unwrap();
+    assert!(rounded.lo() < nearest_f64(&third) && nearest_f64(&third) < rounded.hi());
 }
 
 #[test]

@@ -29,16 +29,16 @@ fn both<F: Field>([sine, cosine, x, y]: &[F; 4]) -> Option<(DualQuaternion<F>, M
     Some((quaternion, motion))
 }
 
-fn agree<F: Field>(a: &[F; 4], b: &[F; 4], p: &[F; 3]) -> Result<(), TestCaseError> {
-    let (Some((q, motion)), Some((r, other))) = (both(a), both(b)) else { return Ok(()) };
+fn agree<F: Field>(first: &[F; 4], second: &[F; 4], point: &[F; 3]) -> Result<(), TestCaseError> {
+    let (Some((q, motion)), Some((r, other))) = (both(first), both(second)) else { return Ok(()) };
     let (product, composed) = (q.mul(&r), motion.then_after(&other));
     prop_assert_eq!(product.to_motion(), Some(composed.clone()));
     prop_assert_eq!(q.conjugate().to_motion(), Some(motion.inverse()));
     prop_assert!(product.study_residual().is_zero());
     let (study_x, study_y) = product.study();
     prop_assert_eq!(&DualQuaternion::from_study(&study_x, &study_y), &product);
-    let (image, norm) = product.scaled_image(p);
-    prop_assert_eq!(image, composed.apply(p).map(|c| c.mul(&norm)));
+    let (image, norm) = product.scaled_image(point);
+    prop_assert_eq!(image, composed.apply(point).map(|c| c.mul(&norm)));
     let identity = composed.then_after(&composed.inverse());
     prop_assert_eq!(identity, Motion::identity());
     Ok(())
