@@ -13,7 +13,7 @@ use crate::solve::eigen::EigenWorkspace;
 use crate::solve::kernel::{double_angle, kernel};
 use crate::solve::newton::{Polished, Six, polish};
 use crate::solve::scalar::Scalar;
-use crate::solve::singular::{Nature, nature, self_motion, structural_rank};
+use crate::solve::singular::{Nature, nature, partner, self_motion, spread, structural_rank};
 use num_complex::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -142,6 +142,10 @@ mod limits {
     pub const SAME: f64 = 1e-5;
     /// Imaginary parts below this are rounding of a real solution.
     pub const REAL_PART: f64 = 1e-8;
+    /// Condition above which a solution may have a partner that the pencil did not tell apart.
+    pub const NEARLY_DOUBLE: f64 = 1e4;
+    /// Starts of a search without a pencil to lead it.
+    pub const CASTS: usize = 40;
     /// Norm of the inverse Jacobian above which a solution counts as singular.
     pub const SINGULAR: f64 = 1e7;
     /// Separation of the kernel below which a root that does not close may belong to a family.
@@ -239,6 +243,10 @@ impl Solver {
         let closed = self.close(filling);
         let mut search = Search { solver: self, closed: &closed, roots, workspace, assembly, fruitless: 0 };
         search.run(most);
+        if !search.assembly.clean {
+            search.cast_about();
+        }
+        search.recover_partners();
         search.resolve_singular();
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
@@ -535,6 +543,30 @@ impl Search<'_> {
             }
         }
         self.assembly.modes.push(mode);
+    }
+
+    /// Where no pencil was clean solutions form families, as a rule: looks for points of them from everywhere.
+    fn cast_about(&mut self) {
+        for trial in 1..=limits::CASTS {
+            self.admit::<f64>(&spread(&self.closed.variables, trial));
+        }
+    }
+
+    /// Adds the other solution of every nearly double one, should a root have led to only one of them.
+    fn recover_partners(&mut self) {
+        for k in 0..self.assembly.modes.len() {
+            let mode = &self.assembly.modes[k];
+            if mode.certificate.is_none() || mode.condition < limits::NEARLY_DOUBLE {
+                continue;
+            }
+            if mode.real {
+                if let Some(other) = partner(self.closed, &mode.unknowns.map(|z| z.re)) {
+                    self.admit(&other);
+                }
+            } else if let Some(other) = partner(self.closed, &mode.unknowns) {
+                self.admit(&other);
+            }
+        }
     }
 
     /// Decides what the modes without certificate are: multiple, points of a self-motion, or unknown.

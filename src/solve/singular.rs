@@ -75,16 +75,7 @@ fn bordered<S: Scalar>(jacobian: &[Six<S>; 6]) -> [[S; 7]; 7] {
 /// What the singular solution at `unknowns` is, by following its one free direction.
 #[must_use]
 pub fn nature<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Nature {
-    let here = closure(closed, unknowns);
-    let Some(inverted) = inverse(&bordered(&here.jacobian)) else { return Nature::Unresolved };
-    // The kernel vector is the answer of the bordered matrix to (0, 1); a large answer means corank above 1.
-    let direction: Six<S> = std::array::from_fn(|k| inverted[k][6]);
-    let length = direction.iter().map(|x| x.size()).fold(0.0, f64::max);
-    let largest = inverted.iter().flatten().map(|x| x.size()).fold(0.0, f64::max);
-    if !(length > 0.0) || !(largest < 1e7) {
-        return Nature::Unresolved;
-    }
-    let direction = direction.map(|x| x.times(1.0 / length));
+    let Some(direction) = free_direction(closed, unknowns) else { return Nature::Unresolved };
     // A neighbouring solution spoils the order at a large displacement, rounding at a small one.
     for h in [1e-2, 3e-3, 1e-3, 3e-4] {
         let Some([left, right]) = orders(closed, unknowns, &direction, h) else { continue };
@@ -112,6 +103,52 @@ fn orders<S: Scalar>(
         Some(((far / near).log2(), near.max(far)))
     };
     Some([side(h)?, side(-h)?])
+}
+
+/// The other solution of a nearly double one: where the parabola through g at three displacements along the nearly free
+/// direction has its second zero. `None` where there is none within `REACH`.
+#[must_use]
+pub fn partner<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<Six<S>> {
+    /// Displacements at which g is taken.
+    const STEP: f64 = 1e-3;
+    /// How far away a partner is looked for.
+    const REACH: f64 = 1e-2;
+    let direction = free_direction(closed, unknowns)?;
+    let ahead = follow(closed, unknowns, &direction, STEP)?;
+    let behind = follow(closed, unknowns, &direction, -STEP)?;
+    let here = follow(closed, unknowns, &direction, 0.0)?;
+    let curvature = ahead.add(&behind).sub(&here).sub(&here).halved().times(1.0 / (STEP * STEP));
+    let slope = ahead.sub(&behind).halved().times(1.0 / STEP);
+    if !(curvature.size() > 0.0) {
+        return None;
+    }
+    let shift = slope.neg().over(curvature);
+    (shift.size() < REACH).then(|| std::array::from_fn(|k| unknowns[k].add(&direction[k].mul(&shift))))
+}
+
+/// The direction in which the loop gives way at a singular solution of corank 1, its largest entry 1; `None` for a
+/// higher corank.
+fn free_direction<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<Six<S>> {
+    // The kernel vector is the answer of the bordered matrix to (0, 1); a large answer means corank above 1.
+    let inverted = inverse(&bordered(&closure(closed, unknowns).jacobian))?;
+    let direction: Six<S> = std::array::from_fn(|k| inverted[k][6]);
+    let length = direction.iter().map(|x| x.size()).fold(0.0, f64::max);
+    let largest = inverted.iter().flatten().map(|x| x.size()).fold(0.0, f64::max);
+    (length > 0.0 && largest < 1e7).then(|| direction.map(|x| x.times(1.0 / length)))
+}
+
+/// Real unknowns spread over the whole range, the same ones every time: starts for a search that nothing else leads.
+#[must_use]
+pub fn spread(variables: &[Variable; 6], trial: usize) -> Six<f64> {
+    std::array::from_fn(|k| {
+        // Multiples of square roots of primes, modulo 1: an even spread in six dimensions.
+        let root = [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0][k].sqrt();
+        let fraction = (trial as f64 * root).fract();
+        match variables[k] {
+            Variable::Rotation => (2.0 * fraction - 1.0) * std::f64::consts::PI,
+            Variable::Translation => 4.0 * fraction - 2.0,
+        }
+    })
 }
 
 /// Rank of the Jacobian at real unknowns, and its right singular vectors from the largest to the smallest value.
@@ -202,10 +239,7 @@ pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usiz
 pub fn structural_rank(closed: &ClosedLoop<f64>) -> usize {
     (1..=3)
         .map(|trial| {
-            let q: Six<f64> = std::array::from_fn(|k| match closed.variables[k] {
-                Variable::Rotation => 3.0 * ((trial * 17 + k * 5) as f64 * 2.399_963).sin(),
-                Variable::Translation => ((trial * 11 + k * 3) as f64 * 2.399_963).cos(),
-            });
+            let q = spread(&closed.variables, trial);
             let here = closure(closed, &q);
             let matrix = Matrix6::from_fn(|i, j| here.jacobian[i][j]);
             let values = matrix.singular_values();
