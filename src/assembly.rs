@@ -11,9 +11,9 @@ use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
 use crate::solve::eigen::EigenWorkspace;
 use crate::solve::kernel::{double_angle, kernel};
-use crate::solve::newton::{Polished, Six, polish};
-use crate::solve::scalar::Scalar;
-use crate::solve::singular::{Nature, nature, partner, self_motion, spread, structural_rank};
+use crate::solve::newton::{Closure, Polished, Six, closure, polish};
+use crate::solve::scalar::{Number, Scalar};
+use crate::solve::singular::{Nature, nature, pair, self_motion, spread, structural_rank};
 use num_complex::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -35,8 +35,8 @@ pub struct Mode {
     pub real: bool,
     /// How many solutions coincide here; 0 where that is not known.
     pub multiplicity: usize,
-    /// Largest entry of |E - I| of the closure E, translations over the reach; of a complex mode over the largest
-    /// product of norms round the loop, too.
+    /// Largest entry of |E - I| of the closure E, translations over the scale of the mechanism (its mean link length,
+    /// rounded to a power of two); of a complex mode over the largest product of norms round the loop, too.
     pub residual: f64,
     /// Row-sum condition number of the Jacobian, lengths over the scale of the mechanism.
     pub condition: f64,
@@ -109,8 +109,6 @@ pub struct Solver {
     open: OpenLoop<f64>,
     /// Lengths inside the solver are lengths of the mechanism over this power of two.
     scale: f64,
-    /// Sum of the link lengths, scaled, at least 1.
-    reach: f64,
     /// Cuts that need no pose, best first.
     prepared: Vec<PreparedCut>,
     structural_rank: usize,
@@ -142,12 +140,12 @@ mod limits {
     pub const SAME: f64 = 1e-5;
     /// Imaginary parts below this are rounding of a real solution.
     pub const REAL_PART: f64 = 1e-8;
-    /// Condition above which a solution may have a partner that the pencil did not tell apart.
-    pub const NEARLY_DOUBLE: f64 = 1e4;
+    /// Solutions nearer than this are one double solution: rounding of the input alone moves them by 1e-8 and more.
+    pub const TOLD_APART: f64 = 3e-7;
     /// Starts of a search without a pencil to lead it.
     pub const CASTS: usize = 40;
-    /// Norm of the inverse Jacobian above which a solution counts as singular.
-    pub const SINGULAR: f64 = 1e7;
+    /// Norm of the inverse Jacobian above which a solution may be one of a pair, to be proved together.
+    pub const SINGULAR: f64 = 1e5;
     /// Separation of the kernel below which a root that does not close may belong to a family.
     pub const SHARED: f64 = 1e-7;
 }
@@ -190,10 +188,8 @@ impl Solver {
             })
             .collect();
         prepared.sort_by(|a, b| b.form.score.total_cmp(&a.form.score));
-        let reach = open.constants.iter().chain([&open.before_gap, &open.after_gap]).map(length);
-        let reach = reach.map(f64::sqrt).sum::<f64>().max(1.0);
         let structural_rank = structural_rank(&closed);
-        Self { open, scale, reach, prepared, structural_rank }
+        Self { open, scale, prepared, structural_rank }
     }
 
     /// The largest rank the six joints reach in general position: below 6 the arm is structurally deficient, and every
@@ -246,7 +242,7 @@ impl Solver {
         if !search.assembly.clean {
             search.cast_about();
         }
-        search.recover_partners();
+        search.resolve_pairs();
         search.resolve_singular();
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
@@ -449,7 +445,7 @@ impl Search<'_> {
     /// Polishes a candidate and takes it into the list if it closes. Whether it was a solution from the start.
     fn admit<S: Scalar>(&mut self, start: &Six<S>) -> bool {
         let polished = polish(self.closed, start);
-        let growth = growth(&polished);
+        let growth = 6.0 * growth(&polished.closure, false);
         if !(polished.closure.defect <= limits::CLOSED.max((1e-14 * growth).min(1e-4))) {
             return false;
         }
@@ -483,12 +479,11 @@ impl Search<'_> {
             }
         }
         let inverse_norm = polished.inverse.as_ref().map_or(f64::INFINITY, dense::norm);
-        let reach = self.solver.reach;
         let mut mode = Mode {
             unknowns,
             real: S::REAL,
             multiplicity: 1,
-            residual: residual(polished, reach),
+            residual: polished.closure.defect / growth(&polished.closure, S::REAL),
             condition: dense::norm(&polished.closure.jacobian) * inverse_norm,
             certificate: None,
             hits: 1,
@@ -552,21 +547,64 @@ impl Search<'_> {
         }
     }
 
-    /// Adds the other solution of every nearly double one, should a root have led to only one of them.
-    fn recover_partners(&mut self) {
+    /// Proves solutions that are nearly double, both or none: the pencil may have led to one of a pair only, and f64
+    /// cannot tell them apart.
+    fn resolve_pairs(&mut self) {
         for k in 0..self.assembly.modes.len() {
             let mode = &self.assembly.modes[k];
-            if mode.certificate.is_none() || mode.condition < limits::NEARLY_DOUBLE {
+            if mode.certificate.is_some() {
                 continue;
             }
-            if mode.real {
-                if let Some(other) = partner(self.closed, &mode.unknowns.map(|z| z.re)) {
-                    self.admit(&other);
-                }
-            } else if let Some(other) = partner(self.closed, &mode.unknowns) {
-                self.admit(&other);
+            let starts = if mode.real {
+                pair(self.closed, &mode.unknowns.map(|z| z.re))
+            } else {
+                pair(self.closed, &mode.unknowns)
+            };
+            let Some(starts) = starts else { continue };
+            let separation = distance(&self.closed.variables, &starts[0], &starts[1]);
+            if separation < limits::TOLD_APART {
+                continue;
+            }
+            let [Some(one), Some(two)] = starts.map(|start| self.proved_mode(&start)) else { continue };
+            if one.distance_to(&two, &self.closed.variables) < 0.1 * separation {
+                continue;
+            }
+            let hits = self.assembly.modes[k].hits;
+            self.assembly.modes.swap_remove(k);
+            for mut mode in [one, two] {
+                mode.hits = hits;
+                self.merge(mode);
+            }
+            return self.resolve_pairs();
+        }
+    }
+
+    /// A solution proved in double-double arithmetic from a start nearby, real if its imaginary parts vanish.
+    fn proved_mode(&self, start: &Six<Complex<f64>>) -> Option<Mode> {
+        let (mut unknowns, certificate) = refined_certificate(self.closed, start)?;
+        let imaginary = unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
+        // Conjugation maps the ball of the proof into one three times as large: a single solution there is its own
+        // conjugate.
+        let real = imaginary <= certificate.radius && 3.0 * certificate.radius <= certificate.isolation;
+        if real {
+            unknowns = unknowns.map(|z| z.re.into());
+        }
+        for (z, variable) in unknowns.iter_mut().zip(self.closed.variables) {
+            if variable == Variable::Rotation {
+                z.re = wrapped(z.re);
             }
         }
+        let here = closure(self.closed, &unknowns);
+        let inverse_norm = dense::inverse(&here.jacobian).map_or(f64::INFINITY, |a| dense::norm(&a));
+        Some(Mode {
+            unknowns,
+            real,
+            multiplicity: 1,
+            residual: here.defect / growth(&here, real),
+            condition: dense::norm(&here.jacobian) * inverse_norm,
+            certificate: Some(certificate),
+            hits: 1,
+        })
     }
 
     /// Decides what the modes without certificate are: multiple, points of a self-motion, or unknown.
@@ -669,20 +707,10 @@ impl Pencil<f64> {
     }
 }
 
-/// How much rounding errors may grow round the loop: 1 in size for real unknowns, large for large imaginary parts.
-fn growth<S: Scalar>(polished: &Polished<S>) -> f64 {
-    polished.closure.norms.iter().map(|n| n.before * n.step * n.behind).sum()
-}
-
-/// The closure residual of a mode, see [`Mode::residual`].
-fn residual<S: Scalar>(polished: &Polished<S>, reach: f64) -> f64 {
-    let growth = if S::REAL {
-        1.0
-    } else {
-        polished.closure.norms.iter().map(|n| n.before * n.step * n.behind).fold(1.0, f64::max)
-    };
-    let _ = reach;
-    polished.closure.defect / growth
+/// How much rounding errors may grow round the loop: 1 for real unknowns, the largest product of norms for complex
+/// ones, which large imaginary parts make large.
+fn growth<S: Number>(at: &Closure<S>, real: bool) -> f64 {
+    if real { 1.0 } else { at.norms.iter().map(|n| n.before * n.step * n.behind).fold(1.0, f64::max) }
 }
 
 /// An angle in (-pi, pi].
@@ -695,6 +723,14 @@ pub fn wrapped(angle: f64) -> f64 {
         x += TAU;
     }
     x
+}
+
+impl Mode {
+    /// The largest difference of an unknown between two modes, angles modulo 2 pi.
+    #[must_use]
+    pub fn distance_to(&self, other: &Self, variables: &[Variable; 6]) -> f64 {
+        distance(variables, &self.unknowns, &other.unknowns)
+    }
 }
 
 /// The largest difference of two unknowns, angles modulo 2 pi.

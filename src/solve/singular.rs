@@ -9,6 +9,7 @@ use super::newton::{Six, closure};
 use super::scalar::Scalar;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use nalgebra::{Matrix6, Vector6};
+use num_complex::Complex;
 
 /// What a singular solution is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,25 +106,28 @@ fn orders<S: Scalar>(
     Some([side(h)?, side(-h)?])
 }
 
-/// The other solution of a nearly double one: where the parabola through g at three displacements along the nearly free
-/// direction has its second zero. `None` where there is none within `REACH`.
+/// The two solutions of a nearly double one: where the parabola through g at three displacements along the nearly free
+/// direction vanishes. `None` where they are not both near. Accurate to about 1e-8.
 #[must_use]
-pub fn partner<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<Six<S>> {
+pub fn pair<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<[Six<Complex<f64>>; 2]> {
     /// Displacements at which g is taken.
     const STEP: f64 = 1e-3;
-    /// How far away a partner is looked for.
+    /// How far away the solutions may be.
     const REACH: f64 = 1e-2;
     let direction = free_direction(closed, unknowns)?;
-    let ahead = follow(closed, unknowns, &direction, STEP)?;
-    let behind = follow(closed, unknowns, &direction, -STEP)?;
-    let here = follow(closed, unknowns, &direction, 0.0)?;
-    let curvature = ahead.add(&behind).sub(&here).sub(&here).halved().times(1.0 / (STEP * STEP));
-    let slope = ahead.sub(&behind).halved().times(1.0 / STEP);
-    if !(curvature.size() > 0.0) {
+    let [behind, here, ahead] = [-STEP, 0.0, STEP].map(|h| follow(closed, unknowns, &direction, h));
+    let (behind, here, ahead) = (behind?.to_complex(), here?.to_complex(), ahead?.to_complex());
+    let curvature = (ahead + behind - 2.0 * here) / (2.0 * STEP * STEP);
+    let slope = (ahead - behind) / (2.0 * STEP);
+    if !(curvature.norm() > 0.0) {
         return None;
     }
-    let shift = slope.neg().over(curvature);
-    (shift.size() < REACH).then(|| std::array::from_fn(|k| unknowns[k].add(&direction[k].mul(&shift))))
+    let root = (slope * slope - 4.0 * curvature * here).sqrt();
+    let shifts = [(root - slope) / (2.0 * curvature), (-root - slope) / (2.0 * curvature)];
+    let at = |shift: Complex<f64>| {
+        std::array::from_fn(|k| unknowns[k].to_complex() + direction[k].to_complex() * shift)
+    };
+    shifts.iter().all(|shift| shift.norm() < REACH).then(|| shifts.map(at))
 }
 
 /// The direction in which the loop gives way at a singular solution of corank 1, its largest entry 1; `None` for a
