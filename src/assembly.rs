@@ -150,14 +150,6 @@ mod limits {
     pub const SHARED: f64 = 1e-7;
 }
 
-/// How one cut went.
-struct Trial {
-    /// The pencil was regular, and every root led to solutions or to infinity.
-    clean: bool,
-    /// The pencil was regular.
-    regular: bool,
-}
-
 impl Solver {
     /// Prepares a geometry: all that does not depend on the pose, and the order of the cuts.
     #[must_use]
@@ -216,6 +208,23 @@ impl Solver {
         let filling =
             Motion { translation: filling.translation.map(|x| x / self.scale), ..filling.clone() };
         self.open.close(&filling)
+    }
+
+    /// The 16 x 16 matrix whose eigenvalues the first pencil of this pose asks for; `None` where that is singular.
+    #[must_use]
+    pub fn companion(&self, filling: &Motion<f64>) -> Option<[[f64; 16]; 16]> {
+        let prepared = self.prepared.first()?;
+        let cut = prepared.cut.of(&self.close(filling));
+        let rows = prepared.rows.unwrap_or_else(|| before_second_link(&prepared.form, &cut.constants[1]));
+        let shifted = Shifted::best(&bilinear(&rows, &cut), Hidden::First);
+        let (constant, linear) = shifted.monic()?;
+        Some(std::array::from_fn(|i| {
+            std::array::from_fn(|j| match (i < 8, j < 8) {
+                (true, _) => f64::from(u8::from(j == 8 + i)),
+                (false, true) => -constant[i - 8][j],
+                (false, false) => -linear[i - 8][j - 8],
+            })
+        }))
     }
 
     /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing
@@ -330,16 +339,14 @@ impl Search<'_> {
                 None => continue,
             };
             let before = self.assembly.modes.len();
-            let trial = self.one_pencil(cut, view, form, &shifted);
+            let clean = self.one_pencil(cut, view, form, &shifted);
             self.assembly.tries += 1;
             let grown = self.assembly.modes.len() > before;
-            if trial.clean {
+            if clean {
                 self.assembly.clean = true;
                 self.fruitless = if grown { 0 } else { self.fruitless + 1 };
-            } else if trial.regular && !grown {
-                self.fruitless += 0;
             }
-            if self.done(most, trial.clean) {
+            if self.done(most, clean) {
                 return true;
             }
         }
@@ -357,23 +364,17 @@ impl Search<'_> {
         }
     }
 
-    /// Solves one pencil and admits what its roots lead to.
+    /// Solves one pencil and admits what its roots lead to. Whether the pencil was regular and every root accounted for:
+    /// it led to solutions or to infinity.
     fn one_pencil(
         &mut self,
         cut: Cut,
         view: &ClosedLoop<f64>,
         form: &HalfAngleForm<f64>,
         shifted: &Shifted,
-    ) -> Trial {
-        if !(shifted.quality > limits::LEADING) {
-            return Trial { clean: false, regular: false };
-        }
-        let [a0, a1, _] = &shifted.pencil.coefficients;
-        let constant = dense::solve(&shifted.factors, &shifted.order, a0);
-        let linear = dense::solve(&shifted.factors, &shifted.order, a1);
-        let Some(roots) = self.workspace.eigen.companion(&constant, &linear) else {
-            return Trial { clean: false, regular: false };
-        };
+    ) -> bool {
+        let Some((constant, linear)) = shifted.monic() else { return false };
+        let Some(roots) = self.workspace.eigen.companion(&constant, &linear) else { return false };
         let real_view = CutView::<f64>::new(view, form, shifted.hidden);
         let mut complex_view: Option<CutView<Complex<f64>>> = None;
         let mut clean = true;
@@ -409,7 +410,7 @@ impl Search<'_> {
             let outcome = self.one_root(cut, complex_view, shifted, x);
             clean &= outcome.settled && !outcome.unresolved;
         }
-        Trial { clean, regular: true }
+        clean
     }
 
     /// Everything one root of the pencil leads to.
@@ -690,6 +691,15 @@ impl Shifted {
             }
         }
         best.expect("four offsets were tried")
+    }
+}
+
+impl Shifted {
+    /// `A2^-1 A0` and `A2^-1 A1`; `None` for a singular leading matrix.
+    fn monic(&self) -> Option<([[f64; 8]; 8], [[f64; 8]; 8])> {
+        let [a0, a1, _] = &self.pencil.coefficients;
+        let divided = |a: &[[f64; 8]; 8]| dense::solve(&self.factors, &self.order, a);
+        (self.quality > limits::LEADING).then(|| (divided(a0), divided(a1)))
     }
 }
 

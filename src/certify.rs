@@ -128,8 +128,9 @@ pub fn refined_certificate(
     // Angles live as w = e^(iq): any w but 0 is an exact angle, and no cosine is needed in this precision.
     let mut state: Six<Quad> = std::array::from_fn(|j| match variables[j] {
         Variable::Rotation => {
-            let (cos, sin) = unknowns[j].cos_sin_of();
-            quad(cos + Complex::new(-sin.im, sin.re))
+            // From cosine and sine it would cancel for large imaginary parts.
+            let (sin, cos) = unknowns[j].re.sin_cos();
+            quad(Complex::new(cos, sin) * (-unknowns[j].im).exp())
         }
         Variable::Translation => quad(unknowns[j]),
     });

@@ -22,3 +22,5 @@ pub mod assembly;
 pub mod verdict;
 
 pub mod mechanism;
+
+pub mod benchmark;

@@ -69,12 +69,12 @@ fn modular_loop(chain: &Chain, layout: &Layout, filling: Motion<Mod>) -> Option<
 }
 
 fn bound_from(degree: Degree, place: &str) -> Bound {
-    let because = if degree.spurious == 0 {
+    let because = if degree.left_out == 0 {
         format!("a closure polynomial of degree 16 {place}")
     } else {
         format!(
-            "a closure polynomial of degree 16 less the factor (1 + x^2)^{} {place} (modulo 2^61 - 1)",
-            degree.spurious
+            "a closure polynomial of degree 16, of whose roots {} belong to no solution {place} (modulo 2^61 - 1)",
+            degree.left_out
         )
     };
     Bound { count: degree.solutions, because }
@@ -85,9 +85,9 @@ impl Prepared {
     fn bound(&self, chain: &Chain) -> &Bound {
         self.bound.get_or_init(|| {
             let locked = self.layout.locked.map(|k| self.layout.variables[k]);
-            let counted = general_filling(locked)
-                .and_then(|filling| modular_loop(chain, &self.layout, filling))
-                .and_then(|closed| degree(&closed));
+            let general = |choice| modular_loop(chain, &self.layout, general_filling(locked, choice)?);
+            let other = if locked.is_none() { general(1) } else { None };
+            let counted = general(0).and_then(|closed| degree(&closed, other.as_ref()));
             counted.map_or_else(Bound::general, |d| bound_from(d, "at general poses"))
         })
     }
@@ -160,7 +160,7 @@ impl Mechanism {
             || prepared.bound(&self.chain).clone(),
             || {
                 let closed = modular_loop(&self.chain, &prepared.layout, filling::<Mod>(case).ok()?)?;
-                Some(bound_from(degree(&closed)?, "at this pose"))
+                Some(bound_from(degree(&closed, None)?, "at this pose"))
             },
         );
         let locked_value = Complex::from(locked_value(case));

@@ -2,9 +2,11 @@
 //!
 //! Every finite solution of a cut that loses no equation is a root of the pencil's determinant, a polynomial in x =
 //! tan(q/2) of degree 16; solutions that share a root give it at least their number as multiplicity. Roots x = +-i
-//! belong to no finite angle. So 16 less the power of 1 + x^2 bounds the number of isolated solutions, and the least
-//! such bound over all cuts holds. Over a general pose of a geometry it holds for all its poses, because isolated
-//! solutions with multiplicity can only become fewer in special positions. [SommeseWampler2005]
+//! belong to no finite angle, and roots that an arm shows at two general poses alike to no solution: a joint that stood
+//! still at all poses would leave five joints for six freedoms. What remains of 16 bounds the number of isolated
+//! solutions, and the least such bound over all cuts holds. Over a general pose of a geometry it holds for all its
+//! poses, because isolated solutions with multiplicity can only become fewer in special positions.
+//! [SommeseWampler2005]
 
 use super::cut::{Cut, Hidden};
 use super::pencil::{before_second_link, bilinear, offset, pencil};
@@ -31,8 +33,8 @@ pub struct ClosurePolynomial<F> {
 pub struct Degree {
     /// At most this many finite solutions, with multiplicity.
     pub solutions: usize,
-    /// The power of `1 + x^2` that was left out.
-    pub spurious: usize,
+    /// How many roots of the polynomial of degree 16 were left out.
+    pub left_out: usize,
     /// Distinct values of the hidden unknown among them: degree of the square-free part.
     pub distinct: usize,
 }
@@ -65,20 +67,25 @@ pub fn closure_polynomial<F: Field + Domain>(closed: &ClosedLoop<F>, cut: Cut, h
     Some(ClosurePolynomial { polynomial, spurious, cofactor })
 }
 
-/// The least bound over all cuts; `None` if all are degenerate.
+/// The least bound over all cuts; `None` if all are degenerate. `other` is the same arm at another general pose, by
+/// which roots independent of the pose are known; none for a loop, or where the count at one special pose is wanted.
 #[must_use]
-pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>) -> Option<Degree> {
+pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>) -> Option<Degree> {
     let mut best: Option<Degree> = None;
     for cut in Cut::ALL {
         for hidden in [Hidden::First, Hidden::Second] {
             let Some(found) = closure_polynomial(closed, cut, hidden) else { continue };
+            let standing = other.and_then(|other| closure_polynomial(other, cut, hidden)).map_or(0, |other| {
+                found.cofactor.gcd(&other.cofactor).degree().unwrap_or(0)
+            });
             let distinct = found.cofactor.square_free_part().degree().unwrap_or(0);
-            let bound = Degree { solutions: 16 - 2 * found.spurious, spurious: found.spurious, distinct };
+            let left_out = 2 * found.spurious + standing;
+            let bound = Degree { solutions: 16 - left_out, left_out, distinct };
             if best.is_none_or(|b| bound.solutions < b.solutions) {
                 best = Some(bound);
             }
             // Sixteen different roots: no cut can show fewer solutions.
-            if bound.distinct == 16 {
+            if bound.distinct == 16 && standing == 0 {
                 return best;
             }
         }
@@ -86,12 +93,13 @@ pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>) -> Option<Degree> {
     best
 }
 
-/// A motion in general position, to fill the gap of an arm's loop, or of a loop's locked variable.
+/// A motion in general position, to fill the gap of an arm's loop, or of a loop's locked variable; another one for
+/// every `choice`.
 #[must_use]
-pub fn general_filling<F: Field>(locked: Option<Variable>) -> Option<Motion<F>> {
-    let tangent = |n: i32| half_tangent_pair(&F::from_integer(n));
+pub fn general_filling<F: Field>(locked: Option<Variable>, choice: i32) -> Option<Motion<F>> {
+    let tangent = |n: i32| half_tangent_pair(&F::from_integer(n + 1009 * choice));
     match locked {
-        Some(Variable::Translation) => Some(Motion::translation_z(F::from_integer(1_234_577))),
+        Some(Variable::Translation) => Some(Motion::translation_z(F::from_integer(1_234_577 + choice))),
         Some(Variable::Rotation) => {
             let (cos, sin) = tangent(1_234_577)?;
             Some(Motion::rotation_z(cos, sin))
@@ -103,7 +111,7 @@ pub fn general_filling<F: Field>(locked: Option<Variable>) -> Option<Motion<F>> 
             let turn = Motion::rotation_z(c1, s1)
                 .then_after(&Motion::rotation_x(c2, s2))
                 .then_after(&Motion::rotation_z(c3, s3));
-            let shift = [2_718_281, 1_414_213, 1_732_051].map(F::from_integer);
+            let shift = [2_718_281, 1_414_213, 1_732_051].map(|n| F::from_integer(n - 4099 * choice));
             Some(Motion { translation: shift, ..turn })
         }
     }
