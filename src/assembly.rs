@@ -140,6 +140,8 @@ mod limits {
     pub const SAME: f64 = 1e-5;
     /// Imaginary parts below this are rounding of a real solution.
     pub const REAL_PART: f64 = 1e-8;
+    /// Solutions farther apart than this are polished to different points and have a place in the list each.
+    pub const MERGED: f64 = 1e-4;
     /// Solutions nearer than this are one double solution: rounding of the input alone moves them by 1e-8 and more.
     pub const TOLD_APART: f64 = 3e-7;
     /// Starts of a search without a pencil to lead it.
@@ -561,18 +563,29 @@ impl Search<'_> {
             } else {
                 pair(self.closed, &mode.unknowns)
             };
-            let Some(starts) = starts else { continue };
-            let separation = distance(&self.closed.variables, &starts[0], &starts[1]);
-            if separation < limits::TOLD_APART {
+            let own = mode.unknowns;
+            let variables = self.closed.variables;
+            let apart = |starts: &[Six<Complex<f64>>; 2]| distance(&variables, &starts[0], &starts[1]);
+            if starts.as_ref().is_some_and(|starts| apart(starts) < limits::TOLD_APART) {
                 continue;
             }
-            let [Some(one), Some(two)] = starts.map(|start| self.proved_mode(&start)) else { continue };
-            if one.distance_to(&two, &self.closed.variables) < 0.1 * separation {
+            let both = starts.map(|starts| (apart(&starts), starts.map(|start| self.proved_mode(&start))));
+            let proved = match both {
+                Some((apart, [Some(one), Some(two)]))
+                    if distance(&variables, &one.unknowns, &two.unknowns) > 0.5 * apart =>
+                {
+                    [Some(one), Some(two)]
+                }
+                // A pair that close is proved together or not at all.
+                Some((near, _)) if near < limits::MERGED => continue,
+                _ => [self.proved_mode(&own).filter(|m| distance(&variables, &m.unknowns, &own) < limits::SAME), None],
+            };
+            if proved[0].is_none() {
                 continue;
             }
             let hits = self.assembly.modes[k].hits;
             self.assembly.modes.swap_remove(k);
-            for mut mode in [one, two] {
+            for mut mode in proved.into_iter().flatten() {
                 mode.hits = hits;
                 self.merge(mode);
             }
@@ -733,14 +746,6 @@ pub fn wrapped(angle: f64) -> f64 {
         x += TAU;
     }
     x
-}
-
-impl Mode {
-    /// The largest difference of an unknown between two modes, angles modulo 2 pi.
-    #[must_use]
-    pub fn distance_to(&self, other: &Self, variables: &[Variable; 6]) -> f64 {
-        distance(variables, &self.unknowns, &other.unknowns)
-    }
 }
 
 /// The largest difference of two unknowns, angles modulo 2 pi.

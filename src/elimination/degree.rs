@@ -84,10 +84,6 @@ pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLo
             if best.is_none_or(|b| bound.solutions < b.solutions) {
                 best = Some(bound);
             }
-            // Sixteen different roots: no cut can show fewer solutions.
-            if bound.distinct == 16 && standing == 0 {
-                return best;
-            }
         }
     }
     best

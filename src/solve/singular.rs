@@ -110,8 +110,8 @@ fn orders<S: Scalar>(
 /// direction vanishes. `None` where they are not both near. Accurate to about 1e-8.
 #[must_use]
 pub fn pair<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<[Six<Complex<f64>>; 2]> {
-    /// Displacements at which g is taken.
-    const STEP: f64 = 1e-3;
+    /// Displacements at which g is taken: large against the rounding of g, its square small against the pair.
+    const STEP: f64 = 1e-5;
     /// How far away the solutions may be.
     const REACH: f64 = 1e-2;
     let direction = free_direction(closed, unknowns)?;
