@@ -21,7 +21,7 @@ fn simplest_between(low: Rational, high: Rational) -> Rational {
         return Rational::new();
     }
     if high < 0 {
-        return -simplest_positive(Rational::from(-high), Rational::from(-low));
+        return -simplest_positive(-high, -low);
     }
     simplest_positive(low, high)
 }
@@ -63,7 +63,10 @@ mod tests {
         assert_eq!(within(0.01), Rational::from((22, 7)));
         assert_eq!(within(1e-6), Rational::from((355, 113)));
         assert_eq!(within(4.0), 0);
-        assert_eq!(simplest_within(&Float::with_val(200, -pi.clone()), &Float::with_val(200, 1e-6)), Rational::from((-355, 113)));
+        assert_eq!(
+            simplest_within(&Float::with_val(200, -pi.clone()), &Float::with_val(200, 1e-6)),
+            Rational::from((-355, 113))
+        );
     }
 
     #[test]

@@ -227,13 +227,10 @@ impl Angle {
             Some(Unit::Radian) => false,
             Some(_) => return Err(Error::Invalid(format!("found `{}`, expected an angle", found()))),
         };
-        let value =
-            if degrees { value.mul(&Value::from_turns(Rational::from((1, 180)), true)) } else { value };
+        let value = if degrees { value.mul(&Value::from_turns(Rational::from((1, 180)), true)) } else { value };
         check_size(&value.float, text)?;
         Ok(match value.half_tangent() {
-            Some(half_tangent) => {
-                Self { radians: value.float.to_f64(), ..Self::from_half_tangent(half_tangent) }
-            }
+            Some(half_tangent) => Self { radians: value.float.to_f64(), ..Self::from_half_tangent(half_tangent) },
             None => Self::rounded(&value.float, reading.digits),
         })
     }
@@ -315,6 +312,7 @@ fn check_size(value: &Float, text: &str) -> Result<()> {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // correctly rounded values are compared as such
 mod tests {
     use super::*;
 

@@ -55,9 +55,11 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
         }
     };
     let table = match kind {
-        Kind::Arm => {
-            scope.table(node, "the [mechanism] of an arm", &["kind", "convention", "joints", "base", "tool", "home", "limits"])?
-        }
+        Kind::Arm => scope.table(
+            node,
+            "the [mechanism] of an arm",
+            &["kind", "convention", "joints", "base", "tool", "home", "limits"],
+        )?,
         _ => scope.table(node, "the [mechanism] of a loop", &["kind", "convention", "joints", "home", "limits"])?,
     };
     let convention = scope.need(&table, "convention")?;
@@ -71,7 +73,9 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
         screws(scope, &table, kind, nodes)?
     } else {
         if let Some(home) = table.get("home") {
-            return Err(scope.fail(home.line, "found `home` beside DH joints, expected it only with convention \"screws\""));
+            return Err(
+                scope.fail(home.line, "found `home` beside DH joints, expected it only with convention \"screws\"")
+            );
         }
         let joints = nodes.iter().map(|node| joint(scope, node)).collect::<Result<_>>()?;
         if convention == "dh" { Geometry::Dh(joints) } else { Geometry::ModifiedDh(joints) }
@@ -119,7 +123,17 @@ fn kind_of(scope: &Scope<'_>, node: &Node, known: &[&str]) -> Result<JointKind> 
 }
 
 const DH_KEYS: [&str; 12] = [
-    "type", "a", "alpha", "tan_half_alpha", "d", "theta0", "tan_half_theta0", "d0", "theta", "tan_half_theta", "pitch",
+    "type",
+    "a",
+    "alpha",
+    "tan_half_alpha",
+    "d",
+    "theta0",
+    "tan_half_theta0",
+    "d0",
+    "theta",
+    "tan_half_theta",
+    "pitch",
     "name",
 ];
 
@@ -166,7 +180,8 @@ fn angle(scope: &Scope<'_>, table: &Table<'_>, key: &str, half: &str, obligatory
         (Some(node), None) => scope.angle(node, key),
         (None, Some(node)) => scope.half_tangent(node, half),
         (None, None) if obligatory => {
-            Err(scope.fail(table.line(), format!("found neither `{key}` nor `{half}` in a joint, expected one of them")))
+            Err(scope
+                .fail(table.line(), format!("found neither `{key}` nor `{half}` in a joint, expected one of them")))
         }
         (None, None) => Ok(Angle::zero()),
     }
@@ -211,7 +226,8 @@ fn limits(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Vec<[f64; 2]>
     let nodes = scope.list(node, "limits")?;
     if nodes.len() != variables.len() {
         let (found, expected) = (nodes.len(), variables.len());
-        return Err(scope.fail(node.line, format!("found {found} pairs of limits, expected {expected}, one per joint variable")));
+        return Err(scope
+            .fail(node.line, format!("found {found} pairs of limits, expected {expected}, one per joint variable")));
     }
     let mut limits = Vec::with_capacity(nodes.len());
     for (pair, variable) in nodes.iter().zip(variables) {
@@ -219,7 +235,9 @@ fn limits(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Vec<[f64; 2]>
         let read = |node| variable_value(scope, node, variable, "limits");
         let (low, high) = (read(low)?, read(high)?);
         if low > high {
-            return Err(scope.fail(pair.line, format!("found the limits [{low}, {high}], expected the lower one first")));
+            return Err(
+                scope.fail(pair.line, format!("found the limits [{low}, {high}], expected the lower one first"))
+            );
         }
         limits.push([low, high]);
     }

@@ -31,9 +31,9 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
         let kind = if kind == Kind::Arm { "an arm" } else { "a loop" };
         return Err(scope.fail(node.line, format!("found `{foreign}` in the file of {kind}, expected `{own}`")));
     }
-    let nodes = scope.list(scope.need(&table, own)?, own)?;
-    let mut cases = Vec::with_capacity(nodes.len());
-    for node in nodes {
+    let blocks = scope.list(scope.need(&table, own)?, own)?;
+    let mut cases = Vec::with_capacity(blocks.len());
+    for node in blocks {
         let mut case = if kind == Kind::Arm { pose(scope, node, &chain)? } else { input(scope, node, &chain)? };
         case.warnings.splice(0..0, shared.iter().cloned());
         cases.push(case);
@@ -45,7 +45,8 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
     let top = expected(scope, &table, &chain)?;
     if top != Expected::default() {
         if first.expected != Expected::default() {
-            return Err(scope.fail(first.line, "found claims about this case here and at the top of the file, expected one place"));
+            return Err(scope
+                .fail(first.line, "found claims about this case here and at the top of the file, expected one place"));
         }
         first.expected = top;
     }
@@ -57,7 +58,7 @@ fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
     if let Some(length) = table.get("length") {
         let unit = scope.word(length, "length", &["m", "cm", "mm"])?;
         let metre = Number::parse(&format!("1 {unit}"), Quantity::Length, &scope.reading)?;
-        scope.reading.length = metre.rational().clone();
+        scope.reading.length.clone_from(metre.rational());
     }
     if let Some(angle) = table.get("angle") {
         scope.reading.degrees = scope.word(angle, "angle", &["rad", "deg"])? == "deg";
@@ -78,7 +79,8 @@ fn pose(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
         (Some(matrix), None, None) => scope.matrix(matrix, "matrix")?,
         (None, Some(position), Some(quaternion)) => scope.quaternion_position(quaternion, position)?,
         _ => {
-            let message = "found a [[pose]] without exactly one of `matrix` and `position` with `quaternion`, expected one";
+            let message =
+                "found a [[pose]] without exactly one of `matrix` and `position` with `quaternion`, expected one";
             return Err(scope.fail(table.line(), message));
         }
     };
@@ -147,7 +149,9 @@ fn claim(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Claim> {
     let variables: Vec<_> = kinds(chain).iter().flat_map(|kind| variables(*kind)).copied().collect();
     if nodes.len() != variables.len() {
         let (found, expected) = (nodes.len(), variables.len());
-        return Err(scope.fail(list.line, format!("found {found} values in `q`, expected {expected}, one per joint variable")));
+        return Err(
+            scope.fail(list.line, format!("found {found} values in `q`, expected {expected}, one per joint variable"))
+        );
     }
     // Claims are compared in f64: they do not make the mechanism a rounded one.
     let own = Scope::new(scope.path, scope.reading.clone());

@@ -109,11 +109,9 @@ impl<'a> Scope<'a> {
     pub(super) fn count(&self, node: &Node, what: &str) -> Result<usize> {
         let expected = "a whole number from 0 to 10000";
         match &node.value {
-            Value::Number(text) => text
-                .parse()
-                .ok()
-                .filter(|count| *count <= 10_000)
-                .ok_or_else(|| self.unexpected(node, what, expected)),
+            Value::Number(text) => {
+                text.parse().ok().filter(|count| *count <= 10_000).ok_or_else(|| self.unexpected(node, what, expected))
+            }
             _ => Err(self.unexpected(node, what, expected)),
         }
     }
@@ -211,8 +209,11 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>)
     let word: String = word.chars().take(60).collect();
     let mut scored: Vec<(usize, &str)> = candidates
         .map(|candidate| (strsim::damerau_levenshtein(&word, candidate), candidate))
-        .filter(|(distance, candidate)| *distance <= (candidate.len().max(word.len()) / 3).max(1))
+        .filter(|(distance, candidate)| {
+            let longest = candidate.len().max(word.len());
+            longest > 1 && *distance <= (longest / 3).max(1)
+        })
         .collect();
-    scored.sort();
+    scored.sort_unstable();
     scored.into_iter().take(3).map(|(_, candidate)| candidate.to_owned()).collect()
 }

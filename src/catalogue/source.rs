@@ -136,7 +136,7 @@ fn bounded(reader: impl Read, name: &str) -> Result<Vec<u8>> {
 fn utf8(bytes: Vec<u8>, name: &str) -> Result<String> {
     String::from_utf8(bytes).map_err(|fault| {
         let valid = fault.utf8_error().valid_up_to();
-        let line = fault.as_bytes()[..valid].iter().filter(|byte| **byte == b'\n').count() + 1;
+        let line = String::from_utf8_lossy(&fault.as_bytes()[..valid]).matches('\n').count() + 1;
         Error::Invalid("found bytes that are not UTF-8, expected text".to_owned()).at(name, line)
     })
 }

@@ -109,20 +109,24 @@ fn between<'a, 'i>(scope: &Scope<'_>, robot: Element<'a, 'i>, options: &Options)
             return Ok(());
         }
         let near = super::scope::nearest(name, names.iter().copied());
-        let hint = near.first().map_or_else(|| format!("expected one of {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
+        let hint = near
+            .first()
+            .map_or_else(|| format!("expected one of {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
         Err(scope.fail(line(robot), format!("found no link `{name}`; {hint}")))
     };
-    let tip = match &options.tip_link {
-        Some(tip) => tip.as_str(),
-        None => {
-            let leaves: Vec<&str> =
-                names.iter().copied().filter(|name| !ends.iter().any(|(parent, _)| parent == name)).collect();
-            let [leaf] = leaves[..] else {
-                let found = leaves.join(", ");
-                return Err(scope.fail(line(robot), format!("found {} end links ({found}), expected a tip link to be named", leaves.len())));
-            };
-            leaf
-        }
+    let tip = if let Some(tip) = &options.tip_link {
+        tip.as_str()
+    } else {
+        let leaves: Vec<&str> =
+            names.iter().copied().filter(|name| !ends.iter().any(|(parent, _)| parent == name)).collect();
+        let [leaf] = leaves[..] else {
+            let found = leaves.join(", ");
+            return Err(scope.fail(
+                line(robot),
+                format!("found {} end links ({found}), expected a tip link to be named", leaves.len()),
+            ));
+        };
+        leaf
     };
     known(tip)?;
     if let Some(base) = &options.base_link {
@@ -135,7 +139,10 @@ fn between<'a, 'i>(scope: &Scope<'_>, robot: Element<'a, 'i>, options: &Options)
             match &options.base_link {
                 None => break,
                 Some(base) => {
-                    return Err(scope.fail(line(robot), format!("found no chain from link `{base}` to link `{tip}`, expected one")));
+                    return Err(scope.fail(
+                        line(robot),
+                        format!("found no chain from link `{base}` to link `{tip}`, expected one"),
+                    ));
                 }
             }
         };
@@ -171,7 +178,7 @@ fn origin(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<Motion<Rational>>
     }
     if let Some(xyz) = triple(scope, element, "xyz")? {
         for (image, node) in motion.translation.iter_mut().zip(&xyz) {
-            *image = scope.length(node, "xyz")?.rational().clone();
+            image.clone_from(scope.length(node, "xyz")?.rational());
         }
     }
     Ok(motion)
@@ -179,7 +186,8 @@ fn origin(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<Motion<Rational>>
 
 /// The rotation about a coordinate axis.
 fn about(axis: usize, angle: &Angle) -> Motion<Rational> {
-    let (cos, sin) = Rational::cos_sin(angle).expect("the rationals have every cosine of a rational half-angle tangent");
+    let (cos, sin) =
+        Rational::cos_sin(angle).expect("the rationals have every cosine of a rational half-angle tangent");
     match axis {
         0 => Motion::rotation_x(cos, sin),
         1 => {
@@ -198,7 +206,7 @@ fn axis(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<[Rational; 3]> {
     let Some(nodes) = triple(scope, element, "xyz")? else { return Ok(standard()) };
     let mut axis = standard();
     for (image, node) in axis.iter_mut().zip(&nodes) {
-        *image = scope.number(node, Quantity::Ratio, "axis")?.rational().clone();
+        image.clone_from(scope.number(node, Quantity::Ratio, "axis")?.rational());
     }
     if axis.iter().all(Ring::is_zero) {
         return Err(scope.fail(line(element), "found the axis 0 0 0, expected a direction"));

@@ -28,10 +28,8 @@ impl Placement {
     #[must_use]
     pub fn from_motion_exact(exact: Motion<Rational>) -> Self {
         let row = |v: &[Rational; 3]| std::array::from_fn(|k| nearest_f64(&v[k]));
-        let float = Motion {
-            rotation: std::array::from_fn(|k| row(&exact.rotation[k])),
-            translation: row(&exact.translation),
-        };
+        let float =
+            Motion { rotation: std::array::from_fn(|k| row(&exact.rotation[k])), translation: row(&exact.translation) };
         Self { exact, float, defect: 0.0 }
     }
 
@@ -49,8 +47,7 @@ impl Placement {
             let [a, b, c, d] = last;
             return Err(Error::Invalid(format!("found the last row [{a}, {b}, {c}, {d}], expected [0, 0, 0, 1]")));
         }
-        let given: Matrix3<Rational> =
-            std::array::from_fn(|i| std::array::from_fn(|j| rows[i][j].rational().clone()));
+        let given: Matrix3<Rational> = std::array::from_fn(|i| std::array::from_fn(|j| rows[i][j].rational().clone()));
         let translation = std::array::from_fn(|i| rows[i][3].rational().clone());
         if determinant(&given) <= 0 {
             let found = nearest_f64(&determinant(&given));
@@ -80,7 +77,10 @@ impl Placement {
     ///
     /// # Errors
     /// [`Error::Invalid`] when the quaternion's norm is more than 1e-4 from 1.
-    pub fn from_quaternion_position(quaternion: &[Number; 4], position: &[Number; 3]) -> Result<(Self, Option<String>)> {
+    pub fn from_quaternion_position(
+        quaternion: &[Number; 4],
+        position: &[Number; 3],
+    ) -> Result<(Self, Option<String>)> {
         let [w, x, y, z]: [&Rational; 4] = std::array::from_fn(|k| quaternion[k].rational());
         let square: Rational = [w, x, y, z].iter().map(|q| Rational::from(q.square_ref())).sum();
         let norm = Float::with_val(BITS, &square).sqrt();
@@ -130,8 +130,7 @@ fn rotation_of([w, x, y, z]: [&Rational; 4]) -> Matrix3<Rational> {
 
 /// A rational rotation within `10^-DIGITS` of the polar factor of a matrix that is nearly a rotation.
 fn nearest_rotation(given: &Matrix3<Rational>) -> Result<Matrix3<Rational>> {
-    let mut m: Matrix3<Float> =
-        std::array::from_fn(|i| std::array::from_fn(|j| Float::with_val(BITS, &given[i][j])));
+    let mut m: Matrix3<Float> = std::array::from_fn(|i| std::array::from_fn(|j| Float::with_val(BITS, &given[i][j])));
     // Newton-Schulz M (3 - M^T M) / 2 converges quadratically to the polar factor; the first error bounds the rest.
     for step in 0..8 {
         let gram: Matrix3<Float> = std::array::from_fn(|i| std::array::from_fn(|j| column_product(&m, i, j)));
@@ -141,7 +140,8 @@ fn nearest_rotation(given: &Matrix3<Rational>) -> Result<Matrix3<Rational>> {
                 error = error.max(Float::with_val(BITS, entry - u32::from(i == j)).abs().to_f64());
             }
         }
-        if step == 0 && !(error < 8.0 * REFUSED) {
+        // The diagonal of the Gram matrix bounds every entry, so that the error is a number.
+        if step == 0 && error >= 8.0 * REFUSED {
             return Err(not_a_rotation(error / 2.0));
         }
         if error < 1e-40 {
@@ -149,7 +149,8 @@ fn nearest_rotation(given: &Matrix3<Rational>) -> Result<Matrix3<Rational>> {
         }
         m = std::array::from_fn(|i| {
             std::array::from_fn(|j| {
-                let image: Float = (0..3).map(|k| Float::with_val(BITS, &m[i][k] * &gram[k][j])).fold(Float::new(BITS), |s, x| s + x);
+                let image: Float =
+                    (0..3).map(|k| Float::with_val(BITS, &m[i][k] * &gram[k][j])).fold(Float::new(BITS), |s, x| s + x);
                 (Float::with_val(BITS, &m[i][j] * 3_u32) - image) / 2_u32
             })
         });
@@ -165,9 +166,8 @@ fn column_product(m: &Matrix3<Float>, i: usize, j: usize) -> Float {
 fn rational_rotation(m: &Matrix3<Float>) -> Matrix3<Rational> {
     let plus = |a: &Float, b: &Float| Float::with_val(BITS, a + b);
     let minus = |a: &Float, b: &Float| Float::with_val(BITS, a - b);
-    let trace = |s: [i32; 3]| {
-        (0..3).fold(Float::with_val(BITS, 1), |sum, k| sum + Float::with_val(BITS, &m[k][k] * s[k]))
-    };
+    let trace =
+        |s: [i32; 3]| (0..3).fold(Float::with_val(BITS, 1), |sum, k| sum + Float::with_val(BITS, &m[k][k] * s[k]));
     // Four times the outer product of the quaternion with itself; the row with the largest diagonal is taken.
     let table: [[Float; 4]; 4] = [
         [trace([1, 1, 1]), minus(&m[2][1], &m[1][2]), minus(&m[0][2], &m[2][0]), minus(&m[1][0], &m[0][1])],
@@ -181,9 +181,8 @@ fn rational_rotation(m: &Matrix3<Float>) -> Matrix3<Rational> {
             best = k;
         }
     }
-    let ratio: [Rational; 4] = std::array::from_fn(|k| {
-        Number::near(&Float::with_val(BITS, &table[best][k] / &table[best][best]), DIGITS)
-    });
+    let ratio: [Rational; 4] =
+        std::array::from_fn(|k| Number::near(&Float::with_val(BITS, &table[best][k] / &table[best][best]), DIGITS));
     rotation_of([&ratio[0], &ratio[1], &ratio[2], &ratio[3]])
 }
 
@@ -260,6 +259,12 @@ mod tests {
         let half = [n(0.5), n(0.5), n(0.5), n(0.500_000_1)];
         let (placement, warning) = Placement::from_quaternion_position(&half, &[n(0.0), n(0.0), n(0.0)]).unwrap();
         assert!(is_orthonormal(&placement.exact.rotation) && warning.is_some());
-        assert!(Placement::from_quaternion_position(&[n(0.0), n(0.0), n(0.0), n(0.0)], &half[..3].to_vec().try_into().unwrap()).is_err());
+        assert!(
+            Placement::from_quaternion_position(
+                &[n(0.0), n(0.0), n(0.0), n(0.0)],
+                &half[..3].to_vec().try_into().unwrap()
+            )
+            .is_err()
+        );
     }
 }

@@ -1,0 +1,528 @@
+//! Reading mechanism files: the library, every kind of mistake with its line, and arbitrary damage.
+#![allow(clippy::float_cmp)] // correctly rounded values are compared as such
+
+use looproot::algebra::number::{HalfTangent, Number};
+use looproot::catalogue::entry::{Entry, InputValue, Kind};
+use looproot::catalogue::{Format, Options, builtin, builtin_names, load, load_text};
+use looproot::error::Error;
+use looproot::kinematics::chain::{Geometry, JointKind};
+use looproot::kinematics::motion::Motion;
+use proptest::prelude::*;
+
+const ARM: &str = r#"title = "Test arm"
+source = { key = "Looproot" }
+
+[mechanism]
+kind = "arm"
+convention = "dh"
+joints = [
+    { type = "R", a = 0, alpha = "pi/2", d = 0 },
+    { type = "R", a = 0.4318, alpha = 0, d = 0, theta0 = "90 deg" },
+    { type = "R", a = "20 mm", tan_half_alpha = "-1", d = 0.15 },
+    { type = "R", a = 0, alpha = "-acos(3/5)", d = "1/2" },
+    { type = "R", a = 0, alpha = 1.25, d = 0, tan_half_theta0 = "inf" },
+    { type = "R", a = 0, alpha = 0, d = 0 },
+]
+tool = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0.1], [0, 0, 0, 1]]
+limits = [[-3, 3], [-3, 3], [-3, 3], [-3, 3], [-3, 3], ["-160 deg", "160 deg"]]
+
+[[pose]]
+matrix = [
+    [0.6, -0.8, 0, 0.3],
+    [0.8, 0.6, 0, 0.2],
+    [0, 0, 1, 0.1],
+    [0, 0, 0, 1],
+]
+
+[[pose]]
+position = [0.1, 0.2, 0.3]
+quaternion = [1, 0, 0, 0]
+expected = { complex = 8, real = 2 }
+
+[[pose.solution]]
+q = [0, 1, 2, 3, "pi", -1.5]
+digits = 10
+
+[expected]
+complex = 16
+"#;
+
+const LOOP: &str = r#"{
+  "title": "Test loop",
+  "units": { "length": "mm", "angle": "deg" },
+  "mechanism": {
+    "kind": "loop",
+    "convention": "modified-dh",
+    "joints": [
+      { "type": "R", "a": 100, "alpha": 90, "d": 0 },
+      { "type": "P", "a": 1, "alpha": "30", "theta": 0, "d0": 5 },
+      { "type": "C", "a": 1, "tan_half_alpha": "1/3" },
+      { "type": "C", "a": 1, "alpha": 20 },
+      { "type": "R", "a": 1, "alpha": 20, "d": 1.5e1 }
+    ]
+  },
+  "input": [
+    { "joint": 1, "angle": 90 },
+    { "joint": 2, "distance": "3/2" },
+    { "joint": 3, "tan_half": "2/3" }
+  ],
+  "solution": [{ "q": [90, 1, 10, 2, 20, 3, 30] }]
+}
+"#;
+
+const URDF: &str = r#"<?xml version="1.0"?>
+<robot name="six">
+  <link name="l0"/><link name="l1"/><link name="l2"/><link name="l3"/><link name="l4"/><link name="l5"/><link name="l6"/>
+  <link name="flange"/>
+  <joint name="j1" type="revolute">
+    <parent link="l0"/><child link="l1"/><origin xyz="0 0 0.4" rpy="0 0 0"/><axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/>
+  </joint>
+  <joint name="j2" type="revolute"><parent link="l1"/><child link="l2"/><origin xyz="0 0 1" rpy="0 1.5707963267948966 0"/><axis xyz="0 1 0"/></joint>
+  <joint name="j3" type="continuous"><parent link="l2"/><child link="l3"/><origin xyz="0 0 1"/><axis xyz="0 1 0"/></joint>
+  <joint name="j4" type="revolute"><parent link="l3"/><child link="l4"/><origin xyz="0 0 1"/></joint>
+  <joint name="j5" type="prismatic"><parent link="l4"/><child link="l5"/><axis xyz="0 1 0"/></joint>
+  <joint name="j6" type="revolute"><parent link="l5"/><child link="l6"/><axis xyz="0 0 1"/></joint>
+  <joint name="fix" type="fixed"><parent link="l6"/><child link="flange"/><origin xyz="0 0 0.1"/></joint>
+</robot>
+"#;
+
+const TABLE: &str = "type,a,alpha,d,theta0
+R,0,pi/2,0,0
+R,0.4318,0,0,90 deg
+R,20 mm,-pi/2,0.15,0
+R,0,pi/2,0.4318,0
+R,0,-pi/2,0,0
+R,0,0,0,0
+";
+
+fn read(text: &str) -> Result<Entry, Error> {
+    load_text(text, "test.toml", Format::Toml, &Options::default())
+}
+
+fn complaint(text: &str) -> String {
+    read(text).expect_err("the file has a mistake").to_string()
+}
+
+/// The complaint about `ARM` with a piece replaced.
+fn changed(from: &str, to: &str) -> String {
+    assert!(ARM.contains(from), "{from}");
+    complaint(&ARM.replacen(from, to, 1))
+}
+
+#[test]
+fn an_arm_is_read() {
+    let entry = read(ARM).unwrap();
+    assert_eq!((entry.name.as_str(), entry.title.as_str(), entry.kind), ("test", "Test arm", Kind::Arm));
+    let Geometry::Dh(joints) = &entry.chain.geometry else { panic!("dh") };
+    assert_eq!(joints[1].theta0.cos_sin_f64(), (0.0, 1.0));
+    assert_eq!(*joints[2].a.rational(), rug::Rational::from((1, 50)));
+    assert_eq!(joints[2].alpha.radians(), -std::f64::consts::FRAC_PI_2);
+    assert_eq!(*joints[3].alpha.half_tangent(), HalfTangent::Finite(rug::Rational::from((-1, 2))));
+    assert_eq!(*joints[4].theta0.half_tangent(), HalfTangent::Infinite);
+    assert!(!joints[4].alpha.is_exact() && entry.rounded);
+    assert_eq!(entry.limits.len(), 6);
+    assert_eq!(entry.cases.len(), 2);
+    assert_eq!(entry.cases[0].line, 18);
+    assert_eq!(entry.cases[0].expected.complex, Some(16));
+    assert_eq!(entry.cases[0].pose.as_ref().unwrap().defect, 0.0);
+    let second = &entry.cases[1].expected;
+    assert_eq!((second.complex, second.real, second.solutions[0].digits), (Some(8), Some(2), 10));
+    assert_eq!(second.solutions[0].q[4], std::f64::consts::PI);
+}
+
+#[test]
+fn a_loop_is_read_from_json_with_its_units() {
+    let entry = load_text(LOOP, "test.json", Format::Json, &Options::default()).unwrap();
+    let Geometry::ModifiedDh(joints) = &entry.chain.geometry else { panic!("modified-dh") };
+    assert_eq!(*joints[0].a.rational(), rug::Rational::from((1, 10)));
+    assert_eq!(*joints[0].alpha.half_tangent(), HalfTangent::Finite(1.into()));
+    assert_eq!(joints[1].kind, JointKind::Prismatic);
+    assert_eq!(entry.cases.len(), 3);
+    let InputValue::Distance(distance) = &entry.cases[1].input[0].value else { panic!("a distance") };
+    assert_eq!(*distance.rational(), rug::Rational::from((3, 2000)));
+    let q = &entry.cases[0].expected.solutions[0].q;
+    assert!((q[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-15 && (q[1] - 0.001).abs() < 1e-15);
+}
+
+#[test]
+fn a_table_and_a_robot_description_are_read() {
+    let options = Options::default();
+    let table = load_text(TABLE, "arm.csv", Format::Csv, &options).unwrap();
+    assert!(table.cases.is_empty() && matches!(table.chain.geometry, Geometry::Dh(_)));
+    let robot = load_text(URDF, "six.urdf", Format::Urdf, &options).unwrap();
+    let Geometry::Screws { joints, home } = &robot.chain.geometry else { panic!("screws") };
+    assert_eq!((robot.title.as_str(), joints.len(), robot.limits[0]), ("six", 6, [-3.0, 3.0]));
+    assert!((home.float.translation[0] - 2.1).abs() < 1e-12 && (home.float.translation[2] - 1.4).abs() < 1e-12);
+    assert_eq!(joints[2].axis.each_ref().map(Number::to_f64), [0.0, 1.0, 0.0]);
+    let tip = |name: &str| Options { tip_link: Some(name.to_owned()), ..Options::default() };
+    let named = |name: &str| load_text(URDF, "six.urdf", Format::Urdf, &tip(name));
+    assert!(named("l6").is_ok());
+    assert!(named("l5").unwrap_err().to_string().contains("found 5 joints"));
+    assert!(named("flnge").unwrap_err().to_string().contains("did you mean `flange`"));
+    let csv = |text: &str| load_text(text, "arm.csv", Format::Csv, &options).unwrap_err().to_string();
+    assert!(csv("a,b\n").starts_with("arm.csv:1: found the header"));
+    assert!(csv(&TABLE.replace("R,0,0,0,0", "R,0,0,0")).starts_with("arm.csv:7: found 4 values"));
+    assert!(csv(&TABLE.replace("20 mm", "20 furlong")).starts_with("arm.csv:4: found unit `furlong`"));
+}
+
+#[test]
+fn screws_are_read() {
+    let joint = r#"{ type = "R", axis = [0, 0, 1], point = [0, 0, 0] },"#;
+    let text = |joints: &str, home: &str| {
+        format!(
+            "[mechanism]\nkind = \"arm\"\nconvention = \"screws\"\njoints = [{joints}]\n{home}\n[[pose]]\nposition = [1, 2, 3]\nquaternion = [1, 0, 0, 0]\n"
+        )
+    };
+    let home = "home = [[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]";
+    assert!(read(&text(&joint.repeat(6), home)).is_ok());
+    assert!(complaint(&text(&joint.repeat(6), "")).contains("found no `home`"));
+    assert!(complaint(&text(&joint.repeat(5), home)).contains("found 5 joints"));
+    assert!(complaint(&text(&joint.replace("0, 0, 1", "0, 0, 0").repeat(6), home)).contains("a direction"));
+    assert!(complaint(&text(&joint.replace("0, 0, 1", "0, 0").repeat(6), home)).contains("a list of 3"));
+}
+
+#[test]
+fn mistakes_are_named_with_their_line() {
+    for (from, to, message) in [
+        (
+            "kind = \"arm\"",
+            "kind = \"hand\"",
+            "test.toml:5: found \"hand\" as `kind`, expected one of arm, loop, platform",
+        ),
+        ("convention = \"dh\"\n", "", "test.toml:4: found no `convention` in the [mechanism] of an arm"),
+        ("convention = \"dh\"", "convention = \"DH\"", "test.toml:6: found \"DH\" as `convention`"),
+        (
+            "convention",
+            "convetion",
+            "test.toml:6: found the unknown key `convetion` in [mechanism]; did you mean `convention`?",
+        ),
+        ("title", "titel", "test.toml:1: found the unknown key `titel` in the file; did you mean `title`?"),
+        ("d = 0, theta0", "q = 0, theta0", "test.toml:9: found the unknown key `q` in a joint; expected one of type"),
+        (
+            "type = \"R\", a = 0, alpha = \"pi/2\"",
+            "type = \"X\", a = 0, alpha = \"pi/2\"",
+            "test.toml:8: found \"X\" as `type`",
+        ),
+        ("a = 0, alpha = \"pi/2\"", "a = nan, alpha = \"pi/2\"", "test.toml:8: found `nan`, not a finite number"),
+        ("a = 0, alpha = \"pi/2\"", "a = inf, alpha = \"pi/2\"", "test.toml:8: found `inf`, not a finite number"),
+        ("a = 0, alpha = \"pi/2\"", "a = 1e200, alpha = \"pi/2\"", "test.toml:8: found `1e200`, expected a size"),
+        (
+            "a = 0, alpha = \"pi/2\"",
+            "a = true, alpha = \"pi/2\"",
+            "test.toml:8: found a truth value as `a`, expected a number",
+        ),
+        ("a = 0, alpha = \"pi/2\"", "a = 1979-05-27, alpha = \"pi/2\"", "test.toml:8: found a date as `a`"),
+        ("a = 0, alpha = \"pi/2\"", "a = \"1/0\", alpha = \"pi/2\"", "test.toml:8: found a division by zero"),
+        ("a = 0, alpha = \"pi/2\"", "a = \"3 deg\", alpha = \"pi/2\"", "test.toml:8: found `3 deg`, expected a length"),
+        ("alpha = \"pi/2\"", "alpha = \"pi/\"", "test.toml:8: found an expression that ends too early"),
+        ("alpha = \"pi/2\"", "alpha = \"90 mm\"", "test.toml:8: found `90 mm`, expected an angle"),
+        ("alpha = \"pi/2\",", "", "test.toml:8: found neither `alpha` nor `tan_half_alpha`"),
+        ("alpha = \"pi/2\",", "alpha = 0, tan_half_alpha = 0,", "test.toml:8: found both `alpha` and `tan_half_alpha`"),
+        ("alpha = \"pi/2\", d = 0", "alpha = \"pi/2\"", "test.toml:8: found no `d` in an R joint"),
+        ("type = \"R\", a = 0, alpha = \"pi/2\"", "a = 0, alpha = \"pi/2\"", "test.toml:8: found no `type` in a joint"),
+        ("    { type = \"R\", a = 0, alpha = 0, d = 0 },\n", "", "test.toml:7: found 5 joints with 5 variables"),
+        (
+            "    { type = \"R\", a = 0, alpha = 0, d = 0 },\n",
+            "{ type = \"S\", a = 0, alpha = 0 },",
+            "test.toml:7: found 6 joints with 8 variables",
+        ),
+        ("[0, 1, 0, 0], ", "", "test.toml:15: found a list of 3 as `tool`, expected a list of 4"),
+        ("[0.6, -0.8, 0, 0.3]", "[0.6, -0.8, 0]", "test.toml:20: found a list of 3 as `matrix`"),
+        ("[0.6, -0.8, 0, 0.3]", "[0.7, -0.8, 0, 0.3]", "test.toml:19: found a rotation matrix off by"),
+        ("[0, 0, 1, 0.1],\n", "[0, 0, -1, 0.1],\n", "test.toml:19: found a rotation with determinant -1"),
+        ("[0, 0, 0, 1],\n]", "[0, 0, 0.5, 1],\n]", "test.toml:19: found the last row"),
+        ("quaternion = [1, 0, 0, 0]", "quaternion = [2, 0, 0, 0]", "test.toml:28: found a quaternion of norm 2"),
+        ("quaternion = [1, 0, 0, 0]", "", "test.toml:26: found a [[pose]] without exactly one"),
+        ("[-3, 3], [-3, 3],", "[-3, 3],", "test.toml:16: found 5 pairs of limits, expected 6"),
+        ("[-3, 3]", "[3, -3]", "test.toml:16: found the limits [3, -3]"),
+        ("q = [0, 1,", "q = [0,", "test.toml:32: found 5 values in `q`, expected 6"),
+        ("digits = 10", "digits = 100", "test.toml:33: found `digits` out of range"),
+        ("complex = 8, real = 2", "complex = 2, real = 8", "test.toml:29: found 8 real of 2 complex"),
+        ("complex = 16", "complex = -16", "test.toml:36: found the number -16 as `complex`"),
+        ("[[pose]]", "[[input]]", "found `input` in the file of an arm"),
+        ("[mechanism]", "[mechanism", "test.toml:4: found text that is not TOML"),
+        ("title =", "units = { length = \"inch\" }\ntitle =", "test.toml:1: found \"inch\" as `length`"),
+    ] {
+        let found = changed(from, to);
+        assert!(found.contains(message), "{from} -> {to}\n  found:    {found}\n  expected: {message}");
+    }
+}
+
+#[test]
+fn loops_need_seven_variables_and_one_input() {
+    let json = |from: &str, to: &str| {
+        assert!(LOOP.contains(from), "{from}");
+        let text = LOOP.replacen(from, to, 1);
+        load_text(&text, "test.json", Format::Json, &Options::default()).unwrap_err().to_string()
+    };
+    assert!(json("\"type\": \"R\", \"a\": 100", "\"type\": \"C\", \"a\": 100").contains("unknown key `d`"));
+    assert!(json("\"a\": 1, \"alpha\": 20, \"d\": 1.5e1", "\"a\": 1").contains("test.json:12: found neither `alpha`"));
+    assert!(
+        json(",\n      { \"type\": \"R\", \"a\": 1, \"alpha\": 20, \"d\": 1.5e1 }", "").contains("with 6 variables")
+    );
+    assert!(json("\"joint\": 1", "\"joint\": 8").contains("test.json:16: found joint 8, expected one from 1 to 5"));
+    assert!(json("\"joint\": 1, ", "").contains("test.json:16: found no `joint`"));
+    assert!(
+        json("\"angle\": 90 }", "\"distance\": 90 }").contains("test.json:16: found a distance as input of joint 1")
+    );
+    assert!(json("\"angle\": 90 }", "\"angle\": 90, \"tan_half\": 1 }").contains("exactly one"));
+    assert!(json("\"title\"", "\"units\": {}, \"title\"").contains("found the key `units` twice"));
+    assert!(json("\"title\"", "// no\n\"title\"").contains("not JSON"));
+    assert!(json("\"title\": \"Test loop\"", "\"title\": null").contains("found null as `title`"));
+    assert!(json("\"alpha\": 90", "\"alpha\": \"pi/2\"").contains("expected its unit"));
+}
+
+#[test]
+fn platforms_are_recognised_and_unsupported() {
+    let fault = read("[mechanism]\nkind = \"platform\"\n").unwrap_err();
+    assert!(matches!(fault, Error::Unsupported(_)) && fault.exit_code() == 4, "{fault}");
+}
+
+#[test]
+fn what_is_no_mechanism_file_at_all_is_refused() {
+    let empty = complaint(" \n");
+    assert!(empty.contains("empty file"), "{empty}");
+    assert!(complaint("a = \"\0\"").contains("zero byte"));
+    assert!(complaint(&"[".repeat(100_000)).contains("nested deeper"));
+    assert!(complaint(&format!("{} = 1", "a.".repeat(100_000))).contains("nested deeper"));
+    assert!(complaint(&format!("a = {}", "[\"]\",".repeat(100_000))).starts_with("test.toml:1:"));
+    let json = load_text(&"[".repeat(100_000), "x.json", Format::Json, &Options::default());
+    assert!(json.unwrap_err().to_string().contains("nested deeper"));
+    let json = load_text(&"[\"]\",".repeat(100_000), "x.json", Format::Json, &Options::default());
+    assert!(json.unwrap_err().to_string().starts_with("x.json:1:"));
+    let xml = load_text(&"<a>".repeat(100_000), "x.urdf", Format::Urdf, &Options::default());
+    assert!(xml.unwrap_err().to_string().contains("nested deeper"));
+    let folder = std::env::temp_dir().join(format!("looproot-files-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    assert!(load(&path(""), &Options::default()).unwrap_err().to_string().contains("directory"));
+    std::fs::write(path("binary.toml"), [b'a', b'\n', 0xff, 0xfe]).unwrap();
+    assert!(
+        load(&path("binary.toml"), &Options::default()).unwrap_err().to_string().contains("binary.toml:2: found bytes")
+    );
+    std::fs::write(path("arm"), ARM).unwrap();
+    assert!(load(&path("arm"), &Options::default()).is_ok());
+    std::fs::write(path("loop"), LOOP).unwrap();
+    assert!(load(&path("loop"), &Options::default()).is_ok());
+    std::fs::File::create(path("huge.toml")).unwrap().set_len((64 << 20) + 1).unwrap();
+    assert!(load(&path("huge.toml"), &Options::default()).unwrap_err().to_string().contains("64 MiB"));
+    assert!(matches!(load(&path("nothing.toml"), &Options::default()), Err(Error::UnknownEntry { .. })));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_printed_pose_is_projected_with_a_warning() {
+    let entry = read(&ARM.replacen("[0.6, -0.8, 0, 0.3]", "[0.60001, -0.8, 0, 0.3]", 1)).unwrap();
+    assert!(entry.cases[0].warnings[0].contains("nearest rotation"), "{:?}", entry.cases[0].warnings);
+    assert!(entry.cases[1].warnings.is_empty());
+}
+
+#[test]
+fn unknown_names_suggest_near_ones() {
+    let fault = load("puma56", &Options::default()).unwrap_err();
+    assert!(fault.to_string().contains("did you mean `puma560`"), "{fault}");
+}
+
+/// `base * prod * tool` of the claim's joint variables, written here once more in f64 as the formats define it.
+fn forward(entry: &Entry, q: &[f64]) -> Motion<f64> {
+    let mut values = q.iter();
+    let mut variables = |kind: JointKind| match kind {
+        JointKind::Revolute => (*values.next().unwrap(), 0.0),
+        JointKind::Prismatic => (0.0, *values.next().unwrap()),
+        JointKind::Cylindrical => (*values.next().unwrap(), *values.next().unwrap()),
+        _ => panic!("no such joint in the library"),
+    };
+    let mut motion = entry.chain.base.float.clone();
+    match &entry.chain.geometry {
+        Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
+            let craig = matches!(entry.chain.geometry, Geometry::ModifiedDh(_));
+            for joint in joints {
+                let (angle, distance) = variables(joint.kind);
+                let angle = angle + joint.theta0.radians();
+                let mut turn = Motion::rotation_z(angle.cos(), angle.sin());
+                turn.translation[2] = distance + joint.d.to_f64();
+                let link = looproot::kinematics::motion::link(&joint.a, &joint.alpha).unwrap();
+                let (first, second) = if craig { (link, turn) } else { (turn, link) };
+                motion = motion.then_after(&first).then_after(&second);
+            }
+        }
+        Geometry::Screws { joints, home } => {
+            for joint in joints {
+                let (angle, distance) = variables(joint.kind);
+                let axis = joint.axis.each_ref().map(Number::to_f64);
+                motion = motion.then_after(&screw(axis, joint.point.each_ref().map(Number::to_f64), angle, distance));
+            }
+            motion = motion.then_after(&home.float);
+        }
+    }
+    motion.then_after(&entry.chain.tool.float)
+}
+
+/// Rotation about and translation along an axis (Rodrigues).
+fn screw(axis: [f64; 3], point: [f64; 3], angle: f64, distance: f64) -> Motion<f64> {
+    let norm = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let n = axis.map(|x| x / norm);
+    let (sin, cos) = angle.sin_cos();
+    let cross = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
+    let entry = |i: usize, j: usize| f64::from(u8::from(i == j)) * cos + sin * cross[i][j] + (1.0 - cos) * n[i] * n[j];
+    let mut motion = Motion::identity();
+    motion.rotation = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+    let turned = motion.rotate(&point);
+    motion.translation = std::array::from_fn(|i| point[i] - turned[i] + distance * n[i]);
+    motion
+}
+
+#[test]
+fn every_claim_of_the_library_closes() {
+    let names = builtin_names();
+    assert!(names.len() >= 30, "{} entries", names.len());
+    for name in names {
+        let entry = builtin(&name, &Options::default()).unwrap_or_else(|fault| panic!("{fault}"));
+        assert!(entry.source.is_some() && entry.notes.is_some(), "{name} has no source or notes");
+        for case in &entry.cases {
+            assert!(case.warnings.is_empty(), "{name}: {:?}", case.warnings);
+            let target = case.pose.as_ref().map_or_else(Motion::identity, |pose| pose.float.clone());
+            for claim in &case.expected.solutions {
+                let reached = forward(&entry, &claim.q);
+                let tolerance = 30.0 * 10.0_f64.powf(-f64::from(claim.digits.min(13)));
+                for i in 0..3 {
+                    let off = (reached.translation[i] - target.translation[i]).abs();
+                    assert!(off < tolerance, "{name}:{}: off by {off}", claim.line);
+                    for j in 0..3 {
+                        let off = (reached.rotation[i][j] - target.rotation[i][j]).abs();
+                        assert!(off < tolerance, "{name}:{}: off by {off}", claim.line);
+                    }
+                }
+            }
+            if let (Some(real), 0) = (case.expected.real, case.expected.dimension.unwrap_or(1)) {
+                let listed = case.expected.solutions.len();
+                assert!(listed == real, "{name}:{}: {listed} solutions listed of {real}", case.line);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_source_of_the_library_is_in_the_references() {
+    let references = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/equations/REFERENCES.md")).unwrap();
+    for name in builtin_names() {
+        let source = builtin(&name, &Options::default()).unwrap().source.unwrap();
+        assert!(references.contains(&format!("`[{}]`", source.key)), "{name}: no reference `[{}]`", source.key);
+    }
+}
+
+/// Damage to a text.
+#[derive(Clone, Debug)]
+enum Damage {
+    Flip(usize, u8),
+    Cut(usize),
+    Remove(usize),
+    Double(usize),
+    Number(usize, &'static str),
+}
+
+fn damage() -> impl Strategy<Value = Damage> {
+    let values = prop::sample::select(vec![
+        "nan",
+        "-inf",
+        "1e999",
+        "1e308",
+        "-1e149",
+        "1e-320",
+        "0",
+        "\"\"",
+        "\"1/0\"",
+        "\"pi\"",
+        "\"((((\"",
+        "[]",
+        "{}",
+        "9999999999999999999999999",
+        "\"tan(pi/2)\"",
+        "\"1 deg\"",
+        "\"inf\"",
+        "0x10",
+        "true",
+        "\"sqrt(-1)\"",
+        "1_0",
+        "-0.0",
+        "3.0000000001",
+    ]);
+    prop_oneof![
+        (any::<usize>(), any::<u8>()).prop_map(|(at, byte)| Damage::Flip(at, byte)),
+        any::<usize>().prop_map(Damage::Cut),
+        any::<usize>().prop_map(Damage::Remove),
+        any::<usize>().prop_map(Damage::Double),
+        (any::<usize>(), values).prop_map(|(at, value)| Damage::Number(at, value)),
+    ]
+}
+
+fn damaged(text: &str, damage: &[Damage]) -> String {
+    let mut bytes = text.as_bytes().to_vec();
+    for one in damage {
+        if bytes.is_empty() {
+            break;
+        }
+        let lines = |bytes: &[u8]| bytes.split_inclusive(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect::<Vec<_>>();
+        match one {
+            Damage::Flip(at, byte) => {
+                let at = at % bytes.len();
+                bytes[at] = *byte;
+            }
+            Damage::Cut(at) => bytes.truncate(at % bytes.len()),
+            Damage::Remove(at) | Damage::Double(at) => {
+                let mut all = lines(&bytes);
+                let at = at % all.len();
+                if matches!(one, Damage::Remove(_)) {
+                    all.remove(at);
+                } else {
+                    all.insert(at, all[at].clone());
+                }
+                bytes = all.concat();
+            }
+            Damage::Number(at, value) => {
+                let starts: Vec<usize> = (1..bytes.len())
+                    .filter(|at| {
+                        bytes[*at].is_ascii_digit() && !bytes[at - 1].is_ascii_alphanumeric() && bytes[at - 1] != b'.'
+                    })
+                    .collect();
+                if let Some(start) = starts.get(at % starts.len().max(1)).copied() {
+                    let rest = &bytes[start..];
+                    let end = rest.iter().position(|b| !(b.is_ascii_digit() || *b == b'.')).unwrap_or(rest.len());
+                    bytes.splice(start..start + end, value.bytes());
+                }
+            }
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn damage_never_panics_and_is_named(which in 0..4_usize, damage in prop::collection::vec(damage(), 1..4)) {
+        let (text, path, format) = [
+            (ARM, "x.toml", Format::Toml),
+            (LOOP, "x.json", Format::Json),
+            (TABLE, "x.csv", Format::Csv),
+            (URDF, "x.urdf", Format::Urdf),
+        ][which];
+        let text = damaged(text, &damage);
+        match load_text(&text, path, format, &Options::default()) {
+            Ok(_) | Err(Error::Unsupported(_)) => {}
+            Err(Error::File { path: named, line, message }) => {
+                prop_assert_eq!(named, path);
+                prop_assert!(line >= 1 && line <= text.lines().count().max(1) + 1);
+                prop_assert!(message.starts_with("found"), "{}", message);
+            }
+            Err(other) => prop_assert!(false, "{}", other),
+        }
+    }
+
+    #[test]
+    fn no_text_panics_a_number(text in "[-+*/(). 0-9a-z,]{0,60}") {
+        let reading = looproot::algebra::number::Reading::default();
+        let _ = looproot::algebra::number::Angle::parse(&text, &reading);
+    }
+}
