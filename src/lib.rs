@@ -22,3 +22,7 @@ pub mod assembly;
 pub mod verdict;
 
 pub mod mechanism;
+
+pub mod claims;
+
+pub mod report;

@@ -1,0 +1,10 @@
+//! One file per verb, and what they share.
+
+pub mod arguments;
+pub mod check;
+pub mod completions;
+pub mod exit;
+pub mod list;
+pub mod output;
+pub mod show;
+pub mod solve;
