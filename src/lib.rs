@@ -24,3 +24,7 @@ pub mod verdict;
 pub mod mechanism;
 
 pub mod benchmark;
+
+pub mod claims;
+
+pub mod report;

@@ -1,1 +1,24 @@
-fn main(){}
+//! The command line of looproot.
+
+mod command;
+
+use clap::Parser;
+use command::arguments::{Arguments, Verb};
+use command::exit::Exit;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(misuse) => return command::exit::misuse(&misuse).into(),
+    };
+    let outcome = match &arguments.verb {
+        Verb::Solve(options) => command::solve::run(options),
+        Verb::List(options) => command::list::run(options),
+        Verb::Show(options) => command::show::run(options),
+        Verb::Check(options) => command::check::run(options),
+        Verb::Bench(options) => command::bench::run(options),
+        Verb::Completions(options) => command::completions::run(options),
+    };
+    outcome.unwrap_or_else(|fault| Exit::from_fault(&fault)).into()
+}

@@ -54,16 +54,20 @@ pub struct Job {
     pub roots: Roots,
 }
 
-/// Runs a job on all cores; `tick` is called after every arm.
+/// Runs a job on all threads of the pool it is called in; `tick` is called after every arm. Once `running` says no,
+/// the arms not begun are left out of the counts.
 ///
 /// # Errors
 /// None in practice, see [`sample`].
-pub fn run(job: Job, tick: impl Fn() + Sync) -> Result<Counts> {
+pub fn run(job: Job, running: impl Fn() -> bool + Sync, tick: impl Fn() + Sync) -> Result<Counts> {
     (0..job.count)
         .into_par_iter()
         .map_init(
             || (Workspace::default(), Assembly::default()),
             |(workspace, assembly), index| {
+                if !running() {
+                    return Ok(Counts::default());
+                }
                 let counts = one(job, index, workspace, assembly);
                 tick();
                 counts

@@ -40,6 +40,32 @@ fn find(name: &str) -> Option<(String, &'static str)> {
     Some((full, text))
 }
 
+/// The text of the file of a built-in entry, with or without its folder; `None` for an unknown name.
+#[must_use]
+pub fn builtin_text(name: &str) -> Option<&'static str> {
+    find(name).map(|(_, text)| text)
+}
+
+/// The citation behind a key of equations/REFERENCES.md, on one line; `None` for an unknown key.
+///
+/// # Example
+/// ```
+/// let citation = looproot::catalogue::citation("LeeLiang1988").unwrap();
+/// assert!(citation.starts_with("H.-Y. Lee"));
+/// ```
+#[must_use]
+pub fn citation(key: &str) -> Option<String> {
+    let text = LIBRARY.get_file("REFERENCES.md")?.contents_utf8()?;
+    let item = format!("- `[{key}]`");
+    let mut lines = text.lines().skip_while(|line| !line.starts_with(&item));
+    let mut citation = lines.next()?[item.len()..].trim().to_owned();
+    for line in lines.take_while(|line| line.starts_with("  ")) {
+        citation.push(' ');
+        citation.push_str(line.trim());
+    }
+    Some(citation)
+}
+
 /// Whether the library has an entry of this name.
 pub(super) fn has(name: &str) -> bool {
     find(name).is_some()

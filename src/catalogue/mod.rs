@@ -10,5 +10,5 @@ mod scope;
 mod source;
 mod urdf;
 
-pub use library::{builtin, builtin_names};
+pub use library::{builtin, builtin_names, builtin_text, citation};
 pub use source::{Format, Options, load, load_text};

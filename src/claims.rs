@@ -1,0 +1,245 @@
+//! Are the claims of a mechanism file true: counts against what is found, solutions against the closure itself.
+
+use crate::assembly::{Assembly, Roots, Workspace, wrapped};
+use crate::catalogue::entry::{Case, Claim, Entry, InputValue};
+use crate::error::{Error, Result};
+use crate::kinematics::chain::{Chain, Geometry};
+use crate::kinematics::closed_loop::{Layout, Variable};
+use crate::kinematics::motion::Motion;
+use crate::mechanism::{FullMode, Mechanism, Solution};
+use crate::verdict::Status;
+
+/// The sorts of claims, in the order of reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sort {
+    /// How many isolated complex solutions there are.
+    Complex,
+    /// How many isolated real solutions there are.
+    Real,
+    /// The dimension of the solution set.
+    Dimension,
+    /// A listed solution closes the loop.
+    Closes,
+    /// A listed solution is among those found.
+    Found,
+}
+
+impl Sort {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Complex, Self::Real, Self::Dimension, Self::Closes, Self::Found];
+
+    /// A heading.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Complex => "complex",
+            Self::Real => "real",
+            Self::Dimension => "dimension",
+            Self::Closes => "closes",
+            Self::Found => "found",
+        }
+    }
+}
+
+/// A claim, judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Number of the case in the file, from 1.
+    pub case: usize,
+    /// Line of the claim, or of its case.
+    pub line: usize,
+    /// What is claimed.
+    pub sort: Sort,
+    /// Whether it is so.
+    pub holds: bool,
+    /// What was claimed and what was found.
+    pub message: String,
+}
+
+/// All claims of one file, judged.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Judgement {
+    /// The claims in the order of the file.
+    pub findings: Vec<Finding>,
+    /// Number of cases.
+    pub cases: usize,
+    /// Cases whose list of solutions was proved complete.
+    pub complete: usize,
+}
+
+impl Judgement {
+    /// How many claims of a sort hold, and how many there are.
+    #[must_use]
+    pub fn score(&self, sort: Sort) -> (usize, usize) {
+        let of_sort = self.findings.iter().filter(|finding| finding.sort == sort);
+        (of_sort.clone().filter(|finding| finding.holds).count(), of_sort.count())
+    }
+
+    /// The claims that do not hold.
+    pub fn failures(&self) -> impl Iterator<Item = &Finding> {
+        self.findings.iter().filter(|finding| !finding.holds)
+    }
+}
+
+/// Solves every case of an entry and judges its claims.
+///
+/// # Errors
+/// As [`Mechanism::prepare`].
+///
+/// # Example
+/// ```
+/// use looproot::{catalogue, claims};
+/// let puma = catalogue::builtin("puma560", &Default::default())?;
+/// assert_eq!(claims::judge(&puma)?.failures().count(), 0);
+/// # Ok::<(), looproot::error::Error>(())
+/// ```
+pub fn judge(entry: &Entry) -> Result<Judgement> {
+    let mechanism = Mechanism::prepare(entry)?;
+    let variables = Layout::of(&entry.chain, None)?.variables;
+    let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+    let mut judgement = Judgement { cases: entry.cases.len(), ..Judgement::default() };
+    for (index, case) in entry.cases.iter().enumerate() {
+        let solution = mechanism.solve(case, Roots::All, &mut workspace, &mut assembly)?;
+        if matches!(solution.verdict.status, Status::Complete | Status::Unreachable) {
+            judgement.complete += 1;
+        }
+        let judge = Judge { entry, variables: &variables, case, number: index + 1, solution: &solution };
+        judge.counts(&mut judgement.findings);
+        for claim in &case.expected.solutions {
+            judge.solution(claim, &mut judgement.findings)?;
+        }
+    }
+    Ok(judgement)
+}
+
+/// One case with its answer.
+struct Judge<'a> {
+    entry: &'a Entry,
+    variables: &'a [Variable],
+    case: &'a Case,
+    number: usize,
+    solution: &'a Solution,
+}
+
+impl Judge<'_> {
+    fn finding(&self, line: usize, sort: Sort, holds: bool, message: String) -> Finding {
+        Finding { case: self.number, line, sort, holds, message }
+    }
+
+    fn counts(&self, findings: &mut Vec<Finding>) {
+        let (expected, verdict) = (&self.case.expected, &self.solution.verdict);
+        let counts = [
+            (Sort::Complex, expected.complex, verdict.complex),
+            (Sort::Real, expected.real, verdict.real),
+            (Sort::Dimension, expected.dimension, verdict.self_motion),
+        ];
+        for (sort, claimed, found) in counts {
+            if let Some(claimed) = claimed {
+                let what = match sort {
+                    Sort::Complex => "complex solutions",
+                    Sort::Real => "real solutions",
+                    _ => "dimensions",
+                };
+                let message = format!("claims {claimed} {what}, found {found}: {}", verdict.reason);
+                findings.push(self.finding(self.case.line, sort, claimed == found, message));
+            }
+        }
+    }
+
+    fn solution(&self, claim: &Claim, findings: &mut Vec<Finding>) -> Result<()> {
+        let q = self.complete(&claim.q)?;
+        // Half a unit of the last digit on paper; a whole one forgives a copy that cut digits off.
+        let tolerance = 10_f64.powi(-i32::try_from(claim.digits.min(14)).unwrap_or(14));
+        let defect = self.closure(&q)?;
+        let allowed = tolerance * q.len() as f64;
+        let message = format!("the solution claims {} digits, its closure is off by {defect:.1e}", claim.digits);
+        findings.push(self.finding(claim.line, Sort::Closes, defect <= allowed, message));
+        if self.solution.verdict.self_motion > 0 {
+            // A point of a curve of solutions need not be in a list of isolated ones.
+            return Ok(());
+        }
+        let real = self.solution.modes.iter().filter(|mode| mode.real);
+        let nearest = real.map(|mode| (self.distance(mode, &q), mode)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let (holds, message) = match nearest {
+            None => (false, "the solution is claimed, but no real one was found".to_owned()),
+            Some((distance, mode)) => {
+                // A multiple root is known to about half of the digits.
+                let known = if mode.multiplicity == 1 { 4.0 * f64::EPSILON * mode.condition.min(1e8) } else { 1e-6 };
+                (distance <= tolerance.max(known), format!("the nearest solution found is {distance:.1e} away"))
+            }
+        };
+        findings.push(self.finding(claim.line, Sort::Found, holds, message));
+        Ok(())
+    }
+
+    /// The joint variables with the given one put in where the claim leaves it out.
+    fn complete(&self, q: &[f64]) -> Result<Vec<f64>> {
+        let mut q = q.to_vec();
+        if let (Some(input), true) = (self.case.input.first(), q.len() + 1 == self.variables.len()) {
+            let (wanted, value) = match &input.value {
+                InputValue::Angle(angle) => (Variable::Rotation, angle.radians()),
+                InputValue::Distance(distance) => (Variable::Translation, distance.to_f64()),
+            };
+            if let Some(index) = Layout::variable_of(&self.entry.chain, input.joint, wanted) {
+                q.insert(index, value);
+            }
+        }
+        if q.len() == self.variables.len() {
+            return Ok(q);
+        }
+        let (found, expected) = (q.len(), self.variables.len());
+        Err(Error::Invalid(format!("found a solution of {found} values, expected {expected}, one per joint variable")))
+    }
+
+    /// How far these joints are from closing: the largest entry of the difference of two poses, lengths over the reach.
+    fn closure(&self, q: &[f64]) -> Result<f64> {
+        let motions: Vec<Motion<f64>> = q.iter().zip(self.variables).map(|(x, v)| joint_motion(*x, *v)).collect();
+        let reached = self.entry.chain.forward(&motions);
+        let reached = reached.ok_or_else(|| Error::Invalid("the joints of the claim have no pose".to_owned()))?;
+        let wanted = self.case.pose.as_ref().map_or_else(Motion::identity, |pose| pose.float.clone());
+        let lengths: f64 = q.iter().zip(self.variables).filter(|(_, v)| **v == Variable::Translation).map(|(x, _)| x.abs()).sum();
+        let reach = reach(&self.entry.chain) + lengths;
+        let mut defect = 0.0_f64;
+        for i in 0..3 {
+            for j in 0..3 {
+                defect = defect.max((reached.rotation[i][j] - wanted.rotation[i][j]).abs());
+            }
+            let off = (reached.translation[i] - wanted.translation[i]).abs();
+            defect = defect.max(if reach > 0.0 { off / reach } else { off });
+        }
+        Ok(defect)
+    }
+
+    /// The largest difference of a joint variable, angles modulo whole turns, lengths over the reach.
+    fn distance(&self, mode: &FullMode, q: &[f64]) -> f64 {
+        let reach = reach(&self.entry.chain).max(f64::MIN_POSITIVE);
+        let differences = mode.q.iter().zip(q).zip(self.variables).map(|((found, claimed), variable)| match variable {
+            Variable::Rotation => wrapped(found.re - claimed).abs(),
+            Variable::Translation => (found.re - claimed).abs() / reach,
+        });
+        differences.fold(0.0, f64::max)
+    }
+}
+
+/// The motion of one joint variable.
+fn joint_motion(value: f64, variable: Variable) -> Motion<f64> {
+    match variable {
+        Variable::Rotation => Motion::rotation_z(value.cos(), value.sin()),
+        Variable::Translation => Motion::translation_z(value),
+    }
+}
+
+/// The sum of all constant lengths of a chain.
+fn reach(chain: &Chain) -> f64 {
+    let length = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let ends = length(&chain.base.float.translation) + length(&chain.tool.float.translation);
+    ends + match &chain.geometry {
+        Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
+            joints.iter().map(|joint| joint.a.to_f64().abs() + joint.d.to_f64().abs()).sum::<f64>()
+        }
+        Geometry::Screws { joints, home } => {
+            let points = joints.iter().map(|joint| length(&joint.point.each_ref().map(|x| x.to_f64())));
+            length(&home.float.translation) + points.sum::<f64>()
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! The words of the command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use looproot::catalogue::Options;
+use std::path::PathBuf;
+
+/// All solutions of kinematic closure equations, with a verdict on completeness.
+#[derive(Parser)]
+#[command(version, about, disable_help_subcommand = true, after_help = EXIT_CODES)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes: 0 complete and certified, 1 usage or input, 2 not proved complete or a self-motion,
+            3 no real solution, 4 unsupported, 130 interrupted; of several answers 1, 4, 2, 3, 0 in this order.";
+
+/// The verbs.
+#[derive(Subcommand)]
+pub enum Verb {
+    /// Find every solution of a mechanism file
+    Solve(SolveOptions),
+    /// List the built-in library
+    List(ListOptions),
+    /// Print a mechanism as it was understood
+    Show(ShowOptions),
+    /// Test every claim of mechanism files
+    Check(CheckOptions),
+    /// Measure accuracy and speed on random arms
+    Bench(BenchOptions),
+    /// Print the completions of a shell
+    Completions(CompletionsOptions),
+}
+
+/// How to read the mechanism.
+#[derive(Args)]
+pub struct ReadOptions {
+    /// Decimal digits of the rationals that replace irrational numbers in exact work
+    #[arg(long, value_name = "N", default_value_t = 15)]
+    pub digits: u32,
+    /// URDF: the link at the root of the chain
+    #[arg(long, value_name = "LINK")]
+    pub base_link: Option<String>,
+    /// URDF: the link at the end of the chain
+    #[arg(long, value_name = "LINK")]
+    pub tip_link: Option<String>,
+}
+
+impl ReadOptions {
+    /// As the reader wants them.
+    pub fn options(&self) -> Options {
+        Options { digits: self.digits, base_link: self.base_link.clone(), tip_link: self.tip_link.clone() }
+    }
+}
+
+/// Where the output goes.
+#[derive(Args)]
+pub struct OutputOptions {
+    /// Write to a file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Colour the verdict (NO_COLOR is respected)
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    pub color: Colour,
+}
+
+/// When to use colours.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Colour {
+    /// On a terminal.
+    Auto,
+    /// In any case.
+    Always,
+    /// In no case.
+    Never,
+}
+
+/// What to do with solutions outside the joint limits.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Limits {
+    /// List and mark them.
+    Mark,
+    /// Leave them out; the verdict still counts them.
+    Drop,
+}
+
+/// `looproot solve`
+#[derive(Args)]
+pub struct SolveOptions {
+    /// A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input
+    pub mechanism: String,
+    /// List complex solutions too
+    #[arg(long)]
+    pub complex: bool,
+    /// Look for real solutions only: faster, mostly without a proof of completeness
+    #[arg(long, conflicts_with = "complex")]
+    pub real: bool,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// JSON Lines: one result a line, as soon as it is there
+    #[arg(long, conflicts_with = "json")]
+    pub jsonl: bool,
+    /// Solve this pose of the file only, counted from 1
+    #[arg(long, value_name = "K")]
+    pub pose: Option<usize>,
+    /// Solve this input of the file only, counted from 1, or another one: 7="90 deg", 3="20 mm"
+    #[arg(long, value_name = "K|JOINT=VALUE", conflicts_with = "pose")]
+    pub input: Option<String>,
+    /// Solve the pose that these joint values reach: "10 deg, 0.3, pi/2, ..."
+    #[arg(long, value_name = "Q", conflicts_with_all = ["pose", "input"], allow_hyphen_values = true)]
+    pub joints: Option<String>,
+    /// Solutions outside the joint limits
+    #[arg(long, value_name = "HOW", default_value = "mark")]
+    pub limits: Limits,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Print verdicts only
+    #[arg(short, long)]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// `looproot list`
+#[derive(Args)]
+pub struct ListOptions {
+    /// A JSON document
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `looproot show`
+#[derive(Args)]
+pub struct ShowOptions {
+    /// A file, the name of a built-in entry, or - for standard input
+    pub mechanism: String,
+    /// The text of the file itself
+    #[arg(long, conflicts_with = "json")]
+    pub source: bool,
+    /// A JSON document, in radians and metres
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+}
+
+/// `looproot check`
+#[derive(Args)]
+pub struct CheckOptions {
+    /// Files, folders, names of built-in entries; the whole built-in library if none is given
+    pub paths: Vec<String>,
+    /// A JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Print failures and the summary only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// `looproot bench`
+#[derive(Args)]
+pub struct BenchOptions {
+    /// What to measure.
+    #[command(subcommand)]
+    pub measure: Measure,
+}
+
+/// What can be measured.
+#[derive(Subcommand)]
+pub enum Measure {
+    /// Solutions found, lost, spurious, duplicated against planted configurations
+    Accuracy(AccuracyOptions),
+    /// Times on one core beside the eigenvalues of one 16 x 16 matrix
+    Speed(SpeedOptions),
+}
+
+/// `looproot bench accuracy`
+#[derive(Args)]
+pub struct AccuracyOptions {
+    /// general, structured, near-singular, badly-scaled or calibrated
+    #[arg(long, default_value = "general")]
+    pub set: String,
+    /// Number of arms
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub count: u64,
+    /// Seed of the draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Look for real solutions only
+    #[arg(long)]
+    pub real: bool,
+    /// A JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+/// `looproot bench speed`
+#[derive(Args)]
+pub struct SpeedOptions {
+    /// Number of arms
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub count: u64,
+    /// How often each stage is timed over all arms
+    #[arg(long, value_name = "N", default_value_t = 101)]
+    pub repeats: usize,
+    /// Seed of the draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+}
+
+/// `looproot completions`
+#[derive(Args)]
+pub struct CompletionsOptions {
+    /// The shell
+    pub shell: Shell,
+}

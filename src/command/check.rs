@@ -1,0 +1,176 @@
+//! `looproot check`
+
+use super::arguments::CheckOptions;
+use super::exit::{Exit, Fault, complain};
+use super::output::{pool, print};
+use looproot::catalogue::{Options, builtin, builtin_names, load};
+use looproot::claims::{Judgement, Sort, judge};
+use looproot::error::Error;
+use looproot::report::number::{counted, duration};
+use looproot::report::table::Columns;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::Path;
+use std::time::Instant;
+
+/// A file or built-in entry, and what became of its claims.
+struct Checked {
+    name: String,
+    outcome: Result<Judgement, Error>,
+    microseconds: f64,
+}
+
+/// Solves everything named and compares it with its claims.
+pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
+    let is_library = options.paths.is_empty();
+    let names = if is_library { builtin_names() } else { files(&options.paths)? };
+    let checked: Vec<Checked> = pool(options.threads)?.install(|| {
+        let one = |name: &String| {
+            let start = Instant::now();
+            let reading = Options::default();
+            let entry = if is_library { builtin(name, &reading) } else { load(name, &reading) };
+            let outcome = entry.and_then(|entry| judge(&entry));
+            Checked { name: name.clone(), outcome, microseconds: start.elapsed().as_secs_f64() * 1e6 }
+        };
+        names.par_iter().map(one).collect()
+    });
+    print(&if options.json { document(&checked) } else { text(&checked, options.quiet) })?;
+    let mut exit = Exit::Complete;
+    for one in &checked {
+        exit = exit.max(match &one.outcome {
+            Ok(judgement) if judgement.failures().next().is_none() => Exit::Complete,
+            Ok(_) => Exit::NotProved,
+            Err(error) => {
+                complain(&error.to_string());
+                Exit::of_error(error)
+            }
+        });
+    }
+    Ok(exit)
+}
+
+/// The mechanism files under these paths, in order; names of built-in entries pass as they are.
+fn files(paths: &[String]) -> Result<Vec<String>, Error> {
+    let mut files = Vec::new();
+    for path in paths {
+        if Path::new(path).is_dir() {
+            let before = files.len();
+            collect(Path::new(path), &mut files)?;
+            if files.len() == before {
+                let message = "found no mechanism file (.toml) in it".to_owned();
+                return Err(Error::Io { path: path.clone(), message });
+            }
+        } else {
+            files.push(path.clone());
+        }
+    }
+    Ok(files)
+}
+
+fn collect(folder: &Path, files: &mut Vec<String>) -> Result<(), Error> {
+    let fault = |error: std::io::Error| Error::Io { path: folder.display().to_string(), message: error.to_string() };
+    let mut inside = Vec::new();
+    for item in std::fs::read_dir(folder).map_err(fault)? {
+        inside.push(item.map_err(fault)?.path());
+    }
+    inside.sort();
+    for path in inside {
+        // Links to folders may lead in circles.
+        if path.is_dir() && !path.is_symlink() {
+            collect(&path, files)?;
+        } else if path.is_file() && path.extension().is_some_and(|extension| extension == "toml") {
+            files.push(path.display().to_string());
+        }
+    }
+    Ok(())
+}
+
+fn text(checked: &[Checked], quiet: bool) -> String {
+    let mut text = String::new();
+    if !quiet {
+        let mut header = vec!["entry", "cases", "complete"];
+        header.extend(Sort::ALL.map(Sort::word));
+        header.extend(["time", "claims"]);
+        let mut table = Columns::new(&header, &["entry", "claims"]);
+        for one in checked {
+            table.row(row(one));
+        }
+        text += &table.text();
+        text.push('\n');
+    }
+    for one in checked {
+        for failure in one.outcome.iter().flat_map(Judgement::failures) {
+            let _ = writeln!(text, "{}:{}: case {}: {}", one.name, failure.line, failure.case, failure.message);
+        }
+    }
+    let judged = || checked.iter().filter_map(|one| one.outcome.as_ref().ok());
+    let claims: usize = judged().map(|judgement| judgement.findings.len()).sum();
+    let failed: usize = judged().map(|judgement| judgement.failures().count()).sum();
+    let cases: usize = judged().map(|judgement| judgement.cases).sum();
+    let complete: usize = judged().map(|judgement| judgement.complete).sum();
+    let in_entries = format!("in {}", counted(judged().count(), "entry"));
+    let _ = match failed {
+        0 => writeln!(text, "{} {in_entries} hold; {complete} of {cases} cases proved complete", counted(claims, "claim")),
+        _ => writeln!(
+            text,
+            "{failed} of {} {in_entries} FAIL; {complete} of {cases} cases proved complete",
+            counted(claims, "claim")
+        ),
+    };
+    let unread = checked.len() - judged().count();
+    if unread > 0 {
+        let _ = writeln!(text, "{} could not be checked", counted(unread, "entry"));
+    }
+    text
+}
+
+fn row(one: &Checked) -> Vec<String> {
+    let mut row = vec![one.name.clone()];
+    match &one.outcome {
+        Ok(judgement) => {
+            row.extend([judgement.cases.to_string(), judgement.complete.to_string()]);
+            row.extend(Sort::ALL.map(|sort| match judgement.score(sort) {
+                (_, 0) => String::new(),
+                (good, all) if good == all => all.to_string(),
+                (good, all) => format!("{good}/{all}"),
+            }));
+            row.push(duration(one.microseconds));
+            row.push(if judgement.failures().next().is_none() { "hold" } else { "FAIL" }.to_owned());
+        }
+        Err(error) => {
+            row.extend(vec![String::new(); 3 + Sort::ALL.len()]);
+            row.push(if error.exit_code() == 4 { "unsupported" } else { "unreadable" }.to_owned());
+        }
+    }
+    row
+}
+
+fn document(checked: &[Checked]) -> String {
+    let lines = checked.iter().map(|one| {
+        let mut line = json!({ "entry": one.name });
+        match &one.outcome {
+            Ok(judgement) => {
+                line["holds"] = json!(judgement.failures().next().is_none());
+                line["cases"] = json!(judgement.cases);
+                line["complete"] = json!(judgement.complete);
+                line["claims"] = json!(judgement.findings.len());
+                let failures = judgement.failures().map(|failure| -> Value {
+                    json!({
+                        "line": failure.line,
+                        "case": failure.case,
+                        "claim": failure.sort.word(),
+                        "message": failure.message,
+                    })
+                });
+                line["failures"] = json!(failures.collect::<Vec<_>>());
+            }
+            Err(error) => {
+                line["holds"] = Value::Null;
+                line["error"] = json!(error.to_string());
+            }
+        }
+        line.to_string()
+    });
+    format!("[\n  {}\n]\n", lines.collect::<Vec<_>>().join(",\n  "))
+}

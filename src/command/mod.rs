@@ -1,0 +1,11 @@
+//! One file per verb, and what they share.
+
+pub mod arguments;
+pub mod bench;
+pub mod check;
+pub mod completions;
+pub mod exit;
+pub mod list;
+pub mod output;
+pub mod show;
+pub mod solve;

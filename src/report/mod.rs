@@ -1,0 +1,7 @@
+//! What a reader sees: the verdict in one line, tables, normalised models, JSON.
+
+pub mod json;
+pub mod model;
+pub mod number;
+pub mod table;
+pub mod text;

@@ -1,0 +1,261 @@
+//! Solutions for a human: the verdict first, then the modes, then why, then what to beware of.
+
+use super::number::{at_most, counted, duration, magnitude, short};
+use super::table::Columns;
+use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
+use crate::kinematics::chain::JointKind;
+use crate::kinematics::closed_loop::Variable;
+use crate::mechanism::{FullMode, Solution};
+use crate::verdict::Status;
+use num_complex::Complex;
+use std::fmt::Write;
+
+/// What to show of a solution.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct View {
+    /// Complex modes too.
+    pub complex: bool,
+    /// Leave out real modes outside the joint limits.
+    pub drop_outside_limits: bool,
+    /// Nothing but the verdict.
+    pub quiet: bool,
+    /// Colour the verdict.
+    pub colour: bool,
+}
+
+impl View {
+    /// Whether a mode is shown.
+    #[must_use]
+    pub fn shows(&self, mode: &FullMode) -> bool {
+        (mode.real || self.complex) && !(self.drop_outside_limits && mode.within_limits == Some(false))
+    }
+
+    /// The text in a colour of the terminal: 31 red, 32 green, 33 yellow.
+    #[must_use]
+    pub fn painted(&self, text: &str, colour: u8) -> String {
+        if self.colour { format!("\x1b[{colour}m{text}\x1b[0m") } else { text.to_owned() }
+    }
+}
+
+/// The verdict in one line.
+#[must_use]
+pub fn verdict(kind: Kind, solution: &Solution) -> String {
+    let verdict = &solution.verdict;
+    let found = verdict.complex;
+    match verdict.status {
+        Status::Complete => {
+            let at_infinity = match verdict.at_infinity {
+                0 => String::new(),
+                n => format!(", {n} more at infinity"),
+            };
+            format!("{found} of {found} roots ({} real{at_infinity}), {}", verdict.real, quality(solution))
+        }
+        Status::Unreachable => {
+            let what = match kind {
+                Kind::Arm => "this pose cannot be reached",
+                _ => "the loop cannot be assembled at this input",
+            };
+            format!("0 real of {found} roots, {}: {what}, {}", certified(solution), measured(solution))
+        }
+        Status::SelfMotion => {
+            let beside = match found {
+                0 => "no isolated root".to_owned(),
+                n => format!("{} beside it ({} real)", counted(n, "isolated root"), verdict.real),
+            };
+            format!("self-motion of dimension {}, {beside}, {}", verdict.self_motion, measured(solution))
+        }
+        Status::Incomplete => {
+            format!("incomplete, not proved: {}", verdict.reason.strip_prefix("not proved: ").unwrap_or(&verdict.reason))
+        }
+        Status::Unsupported => format!("unsupported: {}", verdict.reason),
+    }
+}
+
+/// `all certified, residual <= 3e-16, 0.05 ms`
+fn quality(solution: &Solution) -> String {
+    format!("{}, {}", certified(solution), measured(solution))
+}
+
+/// How much of the list is proved.
+fn certified(solution: &Solution) -> String {
+    let proved = solution.verdict.certified;
+    let multiple: Vec<usize> = solution.modes.iter().map(|m| m.multiplicity).filter(|k| *k > 1).collect();
+    match solution.modes.len() {
+        0 => "none to certify".to_owned(),
+        all if proved == all => "all certified".to_owned(),
+        all if proved + multiple.len() == all => {
+            let counted: usize = multiple.iter().sum();
+            format!("{proved} certified, {} multiple (counted {counted})", multiple.len())
+        }
+        all => format!("{proved} of {all} certified"),
+    }
+}
+
+fn measured(solution: &Solution) -> String {
+    let time = duration(solution.solve_us);
+    if solution.modes.is_empty() {
+        return time;
+    }
+    let residual = solution.modes.iter().map(|m| m.residual).fold(0.0, f64::max);
+    format!("residual <= {}, {time}", at_most(residual))
+}
+
+/// Everything about one case, its verdict first; `case` is its number in the file, from 1.
+#[must_use]
+pub fn solution(entry: &Entry, number: usize, case: &Case, solution: &Solution, view: &View) -> String {
+    let colour = match solution.verdict.status {
+        Status::Complete => 32,
+        Status::Incomplete | Status::SelfMotion => 33,
+        Status::Unreachable | Status::Unsupported => 31,
+    };
+    let mut text = view.painted(&verdict(entry.kind, solution), colour) + "\n";
+    if view.quiet {
+        return text;
+    }
+    if solution.verdict.status == Status::Incomplete {
+        let _ = match solution.verdict.complex {
+            0 => writeln!(text, "no root found, {}", measured(solution)),
+            n => writeln!(text, "{} found ({} real), {}", counted(n, "root"), solution.verdict.real, quality(solution)),
+        };
+    }
+    let _ = writeln!(text, "{}", heading(entry, number, case));
+    let shown: Vec<&FullMode> = solution.modes.iter().filter(|mode| view.shows(mode)).collect();
+    if !shown.is_empty() {
+        text.push('\n');
+        text.push_str(&modes(entry, &shown).text());
+    }
+    let remarks = remarks(entry, solution, view);
+    if !remarks.is_empty() {
+        text.push('\n');
+        text.push_str(&remarks);
+    }
+    text
+}
+
+/// The title, and which of several cases this is.
+fn heading(entry: &Entry, number: usize, case: &Case) -> String {
+    let mut text = entry.title.clone();
+    if entry.cases.len() > 1 {
+        let noun = if entry.kind == Kind::Arm { "pose" } else { "input" };
+        let _ = write!(text, ", {noun} {number} of {}", entry.cases.len());
+    }
+    for input in &case.input {
+        let value = match &input.value {
+            InputValue::Angle(angle) => format!("{} deg", short(angle.radians().to_degrees(), 6)),
+            InputValue::Distance(distance) => format!("{} m", short(distance.to_f64(), 9)),
+        };
+        let _ = write!(text, ", q{} = {value}", input.joint);
+    }
+    text
+}
+
+/// Why the list is complete, and what to beware of.
+fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
+    let mut text = String::new();
+    if solution.verdict.status != Status::Incomplete && solution.verdict.status != Status::Unsupported {
+        let _ = writeln!(text, "why: {}", solution.verdict.reason);
+    }
+    if !entry.limits.is_empty() {
+        let _ = writeln!(text, "joint limits: {}", limits(entry));
+        let real = solution.modes.iter().filter(|m| m.within_limits.is_some()).count();
+        let outside = solution.modes.iter().filter(|m| m.within_limits == Some(false)).count();
+        let fate = if view.drop_outside_limits && outside > 0 { ", the others are not listed" } else { "" };
+        if real > 0 {
+            let _ = writeln!(text, "within them: {} of {real} real solutions{fate}", real - outside);
+        }
+    }
+    let hidden = solution.modes.iter().filter(|m| !m.real).count();
+    if hidden > 0 && !view.complex {
+        let _ = writeln!(text, "not listed: {hidden} complex roots (--complex)");
+    }
+    for warning in &solution.warnings {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    let proved = matches!(solution.verdict.status, Status::Complete | Status::Unreachable);
+    if entry.rounded && proved && solution.verdict.complex < 16 {
+        // Fewer than 16 roots are complete by exact work on the geometry only.
+        text.push_str("note: irrational numbers of the file were rounded for exact work (--digits)\n");
+    }
+    text
+}
+
+fn limits(entry: &Entry) -> String {
+    let variables = variables(entry);
+    let pairs = entry.limits.iter().zip(&variables).map(|([low, high], (name, variable))| match variable {
+        Variable::Rotation => {
+            format!("{name} {}..{} deg", short(low.to_degrees(), 2), short(high.to_degrees(), 2))
+        }
+        Variable::Translation => format!("{name} {}..{} m", short(*low, 4), short(*high, 4)),
+    });
+    pairs.collect::<Vec<_>>().join(", ")
+}
+
+/// The name of every joint variable and what it measures: `q1`, ..., of a C joint `q3` and `d3`.
+#[must_use]
+pub fn variables(entry: &Entry) -> Vec<(String, Variable)> {
+    let mut names = Vec::new();
+    for (index, kind) in entry.chain.joint_kinds().into_iter().enumerate() {
+        let joint = index + 1;
+        let angle = (format!("q{joint}"), Variable::Rotation);
+        match kind {
+            JointKind::Prismatic => names.push((format!("q{joint}"), Variable::Translation)),
+            JointKind::Cylindrical => names.extend([angle, (format!("d{joint}"), Variable::Translation)]),
+            JointKind::Universal => names.extend([angle.clone(), angle]),
+            JointKind::Spherical => names.extend([angle.clone(), angle.clone(), angle]),
+            JointKind::Revolute | JointKind::Helical => names.push(angle),
+        }
+    }
+    names
+}
+
+/// The modes, one a row; columns that would say nothing are left out.
+fn modes(entry: &Entry, modes: &[&FullMode]) -> Columns {
+    let variables = variables(entry);
+    let multiple = modes.iter().any(|mode| mode.multiplicity != 1);
+    let limited = modes.iter().any(|mode| mode.within_limits.is_some());
+    let mut header = vec!["#".to_owned()];
+    header.extend(variables.iter().map(|(name, variable)| match variable {
+        Variable::Rotation => format!("{name} [deg]"),
+        Variable::Translation => format!("{name} [m]"),
+    }));
+    if multiple {
+        header.push("multiplicity".to_owned());
+    }
+    header.extend(["residual", "condition", "certified"].map(str::to_owned));
+    if limited {
+        header.push("in limits".to_owned());
+    }
+    let mut table = Columns::new(&header, &["certified", "in limits"]);
+    for (index, mode) in modes.iter().enumerate() {
+        let mut row = vec![(index + 1).to_string()];
+        row.extend(mode.q.iter().zip(&variables).map(|(value, (_, variable))| shown(value, *variable, mode.real)));
+        if multiple {
+            row.push(if mode.multiplicity == 0 { "?".to_owned() } else { mode.multiplicity.to_string() });
+        }
+        row.extend([at_most(mode.residual), magnitude(mode.condition)]);
+        row.push(if mode.certified { "yes" } else { "no" }.to_owned());
+        if limited {
+            row.push(mode.within_limits.map_or("", |within| if within { "yes" } else { "no" }).to_owned());
+        }
+        table.row(row);
+    }
+    table
+}
+
+/// Degrees or metres; a complex value as `re+imi`.
+fn shown(value: &Complex<f64>, variable: Variable, real: bool) -> String {
+    let (scale, decimals) = match variable {
+        Variable::Rotation => (1_f64.to_degrees(), 4),
+        Variable::Translation => (1.0, 6),
+    };
+    let (re, im) = (value.re * scale, value.im * scale);
+    let plain = |x: f64| {
+        let text = format!("{x:.decimals$}");
+        if text.trim_start_matches('-').bytes().all(|b| b == b'0' || b == b'.') {
+            text.trim_start_matches('-').to_owned()
+        } else {
+            text
+        }
+    };
+    if real || im == 0.0 { plain(re) } else { format!("{}{}{}i", plain(re), if im < 0.0 { "-" } else { "+" }, plain(im.abs())) }
+}
