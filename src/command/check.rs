@@ -111,7 +111,11 @@ fn text(checked: &[Checked], quiet: bool) -> String {
     let complete: usize = judged().map(|judgement| judgement.complete).sum();
     let in_entries = format!("in {}", counted(judged().count(), "entry"));
     let _ = match failed {
-        0 => writeln!(text, "{} {in_entries} hold; {complete} of {cases} cases proved complete", counted(claims, "claim")),
+        0 => writeln!(
+            text,
+            "{} {in_entries} hold; {complete} of {cases} cases proved complete",
+            counted(claims, "claim")
+        ),
         _ => writeln!(
             text,
             "{failed} of {} {in_entries} FAIL; {complete} of {cases} cases proved complete",
