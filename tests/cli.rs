@@ -221,11 +221,19 @@ fn joint_limits_mark_or_drop() {
     let limits = "limits = [[-0.1, 0.1], [-4, 4], [-4, 4], [-4, 4], [-4, 4], [-4, 4]]\n\n";
     let path = file("limits.toml", head + limits + &pose);
     let marked = run(&["solve", &path]);
-    assert!(marked.out.contains("in limits") && marked.out.contains("joint limits: q1 -5.73..5.73 deg"), "{}", marked.out);
+    assert!(
+        marked.out.contains("in limits") && marked.out.contains("joint limits: q1 -5.73..5.73 deg"),
+        "{}",
+        marked.out
+    );
     let document = json(&run(&["solve", &path, "--json"]).out);
     assert_eq!(document["results"][0]["modes"].as_array().unwrap().len(), 2);
-    let outside =
-        document["results"][0]["modes"].as_array().unwrap().iter().filter(|mode| mode["within_limits"] == false).count();
+    let outside = document["results"][0]["modes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|mode| mode["within_limits"] == false)
+        .count();
     let dropped = json(&run(&["solve", &path, "--json", "--limits", "drop"]).out);
     assert_eq!(dropped["results"][0]["modes"].as_array().unwrap().len(), 2 - outside);
     assert_eq!(dropped["results"][0]["verdict"]["real"], 2);

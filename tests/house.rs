@@ -124,7 +124,8 @@ fn layers_import_in_one_direction() {
         if module == "lib" || BINARY.contains(&module.as_str()) {
             continue;
         }
-        let own = place(&module).unwrap_or_else(|| panic!("{}: give `{module}` its place among the layers", path.display()));
+        let own =
+            place(&module).unwrap_or_else(|| panic!("{}: give `{module}` its place among the layers", path.display()));
         for import in imports(&text) {
             let imported = place(&import);
             assert!(imported.is_some_and(|imported| imported <= own), "{} imports crate::{import}", path.display());
@@ -141,8 +142,9 @@ fn layers_import_in_one_direction() {
 fn lib_declares_the_layers_in_order() {
     let text = fs::read_to_string(root().join("src/lib.rs")).unwrap();
     let declared = text.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
-    let places: Vec<usize> =
-        declared.map(|name| LAYERS.iter().position(|layer| *layer == name).unwrap_or_else(|| panic!("{name}"))).collect();
+    let places: Vec<usize> = declared
+        .map(|name| LAYERS.iter().position(|layer| *layer == name).unwrap_or_else(|| panic!("{name}")))
+        .collect();
     assert!(places.is_sorted(), "{places:?}");
 }
 
@@ -177,7 +179,8 @@ fn citations(text: &str) -> Vec<String> {
     for (at, _) in text.match_indices('[') {
         let inside: String = text[at + 1..].chars().take_while(|c| c.is_alphanumeric()).collect();
         let behind = text[at + 1 + inside.len()..].chars().next();
-        let letters = inside.trim_end_matches(|c: char| c.is_ascii_lowercase()).trim_end_matches(|c: char| c.is_ascii_digit());
+        let letters =
+            inside.trim_end_matches(|c: char| c.is_ascii_lowercase()).trim_end_matches(|c: char| c.is_ascii_digit());
         let digits = inside[letters.len()..].bytes().take_while(u8::is_ascii_digit).count();
         let tail = inside.len() - letters.len() - digits;
         let is_key = inside.starts_with(|c: char| c.is_ascii_uppercase())
@@ -185,7 +188,7 @@ fn citations(text: &str) -> Vec<String> {
             && letters.chars().all(char::is_alphabetic)
             && digits == 4
             && tail <= 1
-            && matches!(behind, Some(']' | ','));
+            && matches!(behind, Some(']' | ',' | '\\'));
         if is_key {
             found.push(inside);
         }
@@ -206,7 +209,8 @@ fn every_citation_resolves() {
             assert!(known.contains(&key), "{} cites [{key}], which equations/REFERENCES.md lacks", path.display());
         }
         if path.starts_with("equations") && path.extension().is_some_and(|e| e == "toml") {
-            let source = text.lines().find_map(|line| line.strip_prefix("source")?.split_once("key = \"")?.1.split_once('"'));
+            let source =
+                text.lines().find_map(|line| line.strip_prefix("source")?.split_once("key = \"")?.1.split_once('"'));
             let key = source.unwrap_or_else(|| panic!("{} has no source", path.display())).0;
             assert!(known.contains(key), "{}: {key}", path.display());
         }

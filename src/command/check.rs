@@ -42,7 +42,8 @@ pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
             Ok(judgement) if judgement.failures().next().is_none() => Exit::Complete,
             Ok(_) => Exit::NotProved,
             Err(error) => {
-                complain(&error.to_string());
+                let message = error.to_string();
+                complain(&if message.contains(&one.name) { message } else { format!("{}: {message}", one.name) });
                 Exit::of_error(error)
             }
         });
