@@ -1,6 +1,6 @@
 //! Roots to assembly modes: prepare a geometry once, then find every way to close it, pose after pose.
 
-use crate::certify::{Certificate, certificate};
+use crate::certify::{Certificate, certificate, certificate_in_any_frame, refined_certificate};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
@@ -11,9 +11,9 @@ use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
 use crate::solve::eigen::EigenWorkspace;
 use crate::solve::kernel::{double_angle, kernel};
-use crate::solve::newton::{Polished, Six, polish};
-use crate::solve::scalar::Scalar;
-use crate::solve::singular::{Nature, nature, self_motion, structural_rank};
+use crate::solve::newton::{Closure, Polished, Six, closure, polish};
+use crate::solve::scalar::{Number, Scalar};
+use crate::solve::singular::{Nature, nature, pair, self_motion, spread, structural_rank};
 use num_complex::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -35,8 +35,8 @@ pub struct Mode {
     pub real: bool,
     /// How many solutions coincide here; 0 where that is not known.
     pub multiplicity: usize,
-    /// Largest entry of |E - I| of the closure E, translations over the reach; of a complex mode over the largest
-    /// product of norms round the loop, too.
+    /// Largest entry of |E - I| of the closure E, translations over the scale of the mechanism (its mean link length,
+    /// rounded to a power of two); of a complex mode over the largest product of norms round the loop, too.
     pub residual: f64,
     /// Row-sum condition number of the Jacobian, lengths over the scale of the mechanism.
     pub condition: f64,
@@ -109,8 +109,6 @@ pub struct Solver {
     open: OpenLoop<f64>,
     /// Lengths inside the solver are lengths of the mechanism over this power of two.
     scale: f64,
-    /// Sum of the link lengths, scaled, at least 1.
-    reach: f64,
     /// Cuts that need no pose, best first.
     prepared: Vec<PreparedCut>,
     structural_rank: usize,
@@ -142,16 +140,16 @@ mod limits {
     pub const SAME: f64 = 1e-5;
     /// Imaginary parts below this are rounding of a real solution.
     pub const REAL_PART: f64 = 1e-8;
+    /// Solutions farther apart than this are polished to different points and have a place in the list each.
+    pub const MERGED: f64 = 1e-4;
+    /// Solutions nearer than this are one double solution: rounding of the input alone moves them by 1e-8 and more.
+    pub const TOLD_APART: f64 = 3e-7;
+    /// Starts of a search without a pencil to lead it.
+    pub const CASTS: usize = 40;
+    /// Norm of the inverse Jacobian above which a solution may be one of a pair, to be proved together.
+    pub const SINGULAR: f64 = 1e5;
     /// Separation of the kernel below which a root that does not close may belong to a family.
     pub const SHARED: f64 = 1e-7;
-}
-
-/// How one cut went.
-struct Trial {
-    /// The pencil was regular, and every root led to solutions or to infinity.
-    clean: bool,
-    /// The pencil was regular.
-    regular: bool,
 }
 
 impl Solver {
@@ -184,10 +182,8 @@ impl Solver {
             })
             .collect();
         prepared.sort_by(|a, b| b.form.score.total_cmp(&a.form.score));
-        let reach = open.constants.iter().chain([&open.before_gap, &open.after_gap]).map(length);
-        let reach = reach.map(f64::sqrt).sum::<f64>().max(1.0);
         let structural_rank = structural_rank(&closed);
-        Self { open, scale, reach, prepared, structural_rank }
+        Self { open, scale, prepared, structural_rank }
     }
 
     /// The largest rank the six joints reach in general position: below 6 the arm is structurally deficient, and every
@@ -216,18 +212,36 @@ impl Solver {
         self.open.close(&filling)
     }
 
+    /// The 16 x 16 matrix whose eigenvalues the first pencil of this pose asks for; `None` where that is singular.
+    #[must_use]
+    pub fn companion(&self, filling: &Motion<f64>) -> Option<[[f64; 16]; 16]> {
+        let prepared = self.prepared.first()?;
+        let cut = prepared.cut.of(&self.close(filling));
+        let rows = prepared.rows.unwrap_or_else(|| before_second_link(&prepared.form, &cut.constants[1]));
+        let shifted = Shifted::best(&bilinear(&rows, &cut), Hidden::First);
+        let (constant, linear) = shifted.monic()?;
+        Some(std::array::from_fn(|i| {
+            std::array::from_fn(|j| match (i < 8, j < 8) {
+                (true, _) => f64::from(u8::from(j == 8 + i)),
+                (false, true) => -constant[i - 8][j],
+                (false, false) => -linear[i - 8][j - 8],
+            })
+        }))
+    }
+
     /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing
     /// once `assembly` has grown to its size, but for degenerate poses.
     pub fn solve(&self, filling: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
-        self.solve_up_to(filling, roots, 16, workspace, assembly);
+        self.solve_up_to(filling, roots, &|| 16, workspace, assembly);
     }
 
-    /// As [`Solver::solve`], for a geometry known to have no more than `most` solutions: stops looking for more.
+    /// As [`Solver::solve`], for a geometry known to have no more than `most()` solutions: stops looking for more.
+    /// `most` is asked only where fewer than 16 are found.
     pub fn solve_up_to(
         &self,
         filling: &Motion<f64>,
         roots: Roots,
-        most: usize,
+        most: &dyn Fn() -> usize,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) {
@@ -236,6 +250,10 @@ impl Solver {
         let closed = self.close(filling);
         let mut search = Search { solver: self, closed: &closed, roots, workspace, assembly, fruitless: 0 };
         search.run(most);
+        if !search.assembly.clean {
+            search.cast_about();
+        }
+        search.resolve_pairs();
         search.resolve_singular();
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
@@ -265,7 +283,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(&mut self, most: usize) {
+    fn run(&mut self, most: &dyn Fn() -> usize) {
         let solver = self.solver;
         for prepared in &solver.prepared {
             let cut = prepared.cut.of(self.closed);
@@ -306,7 +324,7 @@ impl Search<'_> {
         view: &ClosedLoop<f64>,
         form: &HalfAngleForm<f64>,
         rows: &[MarkedLine<f64>; 8],
-        most: usize,
+        most: &dyn Fn() -> usize,
     ) -> bool {
         let equations = bilinear(rows, view);
         let first = Shifted::best(&equations, Hidden::First);
@@ -323,16 +341,14 @@ impl Search<'_> {
                 None => continue,
             };
             let before = self.assembly.modes.len();
-            let trial = self.one_pencil(cut, view, form, &shifted);
+            let clean = self.one_pencil(cut, view, form, &shifted);
             self.assembly.tries += 1;
             let grown = self.assembly.modes.len() > before;
-            if trial.clean {
+            if clean {
                 self.assembly.clean = true;
                 self.fruitless = if grown { 0 } else { self.fruitless + 1 };
-            } else if trial.regular && !grown {
-                self.fruitless += 0;
             }
-            if self.done(most, trial.clean) {
+            if self.done(most, clean) {
                 return true;
             }
         }
@@ -340,33 +356,27 @@ impl Search<'_> {
     }
 
     /// Whether more pencils are of no use.
-    fn done(&self, most: usize, clean: bool) -> bool {
+    fn done(&self, most: &dyn Fn() -> usize, clean: bool) -> bool {
         match self.roots {
             Roots::Real => clean,
             Roots::All => {
                 let proved: usize = self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
-                proved >= most || (clean && (self.fruitless >= 2 || self.assembly.modes.len() >= most))
+                proved >= 16 || (clean && (self.fruitless >= 2 || self.assembly.modes.len() >= most()))
             }
         }
     }
 
-    /// Solves one pencil and admits what its roots lead to.
+    /// Solves one pencil and admits what its roots lead to. Whether the pencil was regular and every root accounted for:
+    /// it led to solutions or to infinity.
     fn one_pencil(
         &mut self,
         cut: Cut,
         view: &ClosedLoop<f64>,
         form: &HalfAngleForm<f64>,
         shifted: &Shifted,
-    ) -> Trial {
-        if !(shifted.quality > limits::LEADING) {
-            return Trial { clean: false, regular: false };
-        }
-        let [a0, a1, _] = &shifted.pencil.coefficients;
-        let constant = dense::solve(&shifted.factors, &shifted.order, a0);
-        let linear = dense::solve(&shifted.factors, &shifted.order, a1);
-        let Some(roots) = self.workspace.eigen.companion(&constant, &linear) else {
-            return Trial { clean: false, regular: false };
-        };
+    ) -> bool {
+        let Some((constant, linear)) = shifted.monic() else { return false };
+        let Some(roots) = self.workspace.eigen.companion(&constant, &linear) else { return false };
         let real_view = CutView::<f64>::new(view, form, shifted.hidden);
         let mut complex_view: Option<CutView<Complex<f64>>> = None;
         let mut clean = true;
@@ -402,7 +412,7 @@ impl Search<'_> {
             let outcome = self.one_root(cut, complex_view, shifted, x);
             clean &= outcome.settled && !outcome.unresolved;
         }
-        Trial { clean, regular: true }
+        clean
     }
 
     /// Everything one root of the pencil leads to.
@@ -438,7 +448,7 @@ impl Search<'_> {
     /// Polishes a candidate and takes it into the list if it closes. Whether it was a solution from the start.
     fn admit<S: Scalar>(&mut self, start: &Six<S>) -> bool {
         let polished = polish(self.closed, start);
-        let growth = growth(&polished);
+        let growth = 6.0 * growth(&polished.closure, false);
         if !(polished.closure.defect <= limits::CLOSED.max((1e-14 * growth).min(1e-4))) {
             return false;
         }
@@ -472,22 +482,40 @@ impl Search<'_> {
             }
         }
         let inverse_norm = polished.inverse.as_ref().map_or(f64::INFINITY, dense::norm);
-        let reach = self.solver.reach;
-        let mode = Mode {
+        let mut mode = Mode {
             unknowns,
             real: S::REAL,
             multiplicity: 1,
-            residual: residual(polished, reach),
+            residual: polished.closure.defect / growth(&polished.closure, S::REAL),
             condition: dense::norm(&polished.closure.jacobian) * inverse_norm,
-            certificate: polished.inverse.as_ref().and_then(|inverse| certificate(&polished.closure, inverse)),
+            certificate: None,
             hits: 1,
         };
+        self.prove(polished, &mut mode);
         if !S::REAL {
             let mut conjugate = mode.clone();
             conjugate.unknowns = mode.unknowns.map(|z| z.conj());
             self.merge(conjugate);
         }
         self.merge(mode);
+    }
+
+    /// Proves a polished solution by the cheapest way that works.
+    fn prove<S: Scalar>(&self, polished: &Polished<S>, mode: &mut Mode) {
+        let Some(inverse) = polished.inverse.as_ref() else { return };
+        mode.certificate = certificate(&polished.closure, inverse);
+        // Beside a double root a proof would single out one of two solutions that cannot be told apart.
+        if mode.certificate.is_some() || dense::norm(inverse) > limits::SINGULAR {
+            return;
+        }
+        if !S::REAL {
+            mode.certificate = certificate_in_any_frame(self.closed, &polished.unknowns);
+        }
+        if mode.certificate.is_none() {
+            if let Some((unknowns, proof)) = refined_certificate(self.closed, &mode.unknowns) {
+                (mode.unknowns, mode.certificate) = (unknowns, Some(proof));
+            }
+        }
     }
 
     fn merge(&mut self, mode: Mode) {
@@ -513,6 +541,84 @@ impl Search<'_> {
             }
         }
         self.assembly.modes.push(mode);
+    }
+
+    /// Where no pencil was clean solutions form families, as a rule: looks for points of them from everywhere.
+    fn cast_about(&mut self) {
+        for trial in 1..=limits::CASTS {
+            self.admit::<f64>(&spread(&self.closed.variables, trial));
+        }
+    }
+
+    /// Proves solutions that are nearly double, both or none: the pencil may have led to one of a pair only, and f64
+    /// cannot tell them apart.
+    fn resolve_pairs(&mut self) {
+        for k in 0..self.assembly.modes.len() {
+            let mode = &self.assembly.modes[k];
+            if mode.certificate.is_some() {
+                continue;
+            }
+            let starts = if mode.real {
+                pair(self.closed, &mode.unknowns.map(|z| z.re))
+            } else {
+                pair(self.closed, &mode.unknowns)
+            };
+            let own = mode.unknowns;
+            let variables = self.closed.variables;
+            let apart = |starts: &[Six<Complex<f64>>; 2]| distance(&variables, &starts[0], &starts[1]);
+            if starts.as_ref().is_some_and(|starts| apart(starts) < limits::TOLD_APART) {
+                continue;
+            }
+            let both = starts.map(|starts| (apart(&starts), starts.map(|start| self.proved_mode(&start))));
+            let proved = match both {
+                Some((apart, [Some(one), Some(two)]))
+                    if distance(&variables, &one.unknowns, &two.unknowns) > 0.5 * apart =>
+                {
+                    [Some(one), Some(two)]
+                }
+                // A pair that close is proved together or not at all.
+                Some((near, _)) if near < limits::MERGED => continue,
+                _ => [self.proved_mode(&own).filter(|m| distance(&variables, &m.unknowns, &own) < limits::SAME), None],
+            };
+            if proved[0].is_none() {
+                continue;
+            }
+            let hits = self.assembly.modes[k].hits;
+            self.assembly.modes.swap_remove(k);
+            for mut mode in proved.into_iter().flatten() {
+                mode.hits = hits;
+                self.merge(mode);
+            }
+            return self.resolve_pairs();
+        }
+    }
+
+    /// A solution proved in double-double arithmetic from a start nearby, real if its imaginary parts vanish.
+    fn proved_mode(&self, start: &Six<Complex<f64>>) -> Option<Mode> {
+        let (mut unknowns, certificate) = refined_certificate(self.closed, start)?;
+        let imaginary = unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
+        // Conjugation maps the ball of the proof into one three times as large: a single solution there is its own
+        // conjugate.
+        let real = imaginary <= certificate.radius && 3.0 * certificate.radius <= certificate.isolation;
+        if real {
+            unknowns = unknowns.map(|z| z.re.into());
+        }
+        for (z, variable) in unknowns.iter_mut().zip(self.closed.variables) {
+            if variable == Variable::Rotation {
+                z.re = wrapped(z.re);
+            }
+        }
+        let here = closure(self.closed, &unknowns);
+        let inverse_norm = dense::inverse(&here.jacobian).map_or(f64::INFINITY, |a| dense::norm(&a));
+        Some(Mode {
+            unknowns,
+            real,
+            multiplicity: 1,
+            residual: here.defect / growth(&here, real),
+            condition: dense::norm(&here.jacobian) * inverse_norm,
+            certificate: Some(certificate),
+            hits: 1,
+        })
     }
 
     /// Decides what the modes without certificate are: multiple, points of a self-motion, or unknown.
@@ -601,6 +707,15 @@ impl Shifted {
     }
 }
 
+impl Shifted {
+    /// `A2^-1 A0` and `A2^-1 A1`; `None` for a singular leading matrix.
+    fn monic(&self) -> Option<([[f64; 8]; 8], [[f64; 8]; 8])> {
+        let [a0, a1, _] = &self.pencil.coefficients;
+        let divided = |a: &[[f64; 8]; 8]| dense::solve(&self.factors, &self.order, a);
+        (self.quality > limits::LEADING).then(|| (divided(a0), divided(a1)))
+    }
+}
+
 impl Pencil<f64> {
     /// The pencil at a root, divided by `1 + |x|^2` so that large roots do not overflow.
     fn at_root<S: Scalar>(&self, x: S) -> [[S; 8]; 8] {
@@ -615,20 +730,10 @@ impl Pencil<f64> {
     }
 }
 
-/// How much rounding errors may grow round the loop: 1 in size for real unknowns, large for large imaginary parts.
-fn growth<S: Scalar>(polished: &Polished<S>) -> f64 {
-    polished.closure.norms.iter().map(|n| n.before * n.step * n.behind).sum()
-}
-
-/// The closure residual of a mode, see [`Mode::residual`].
-fn residual<S: Scalar>(polished: &Polished<S>, reach: f64) -> f64 {
-    let growth = if S::REAL {
-        1.0
-    } else {
-        polished.closure.norms.iter().map(|n| n.before * n.behind).fold(1.0, f64::max)
-    };
-    let _ = reach;
-    polished.closure.defect / growth
+/// How much rounding errors may grow round the loop: 1 for real unknowns, the largest product of norms for complex
+/// ones, which large imaginary parts make large.
+fn growth<S: Number>(at: &Closure<S>, real: bool) -> f64 {
+    if real { 1.0 } else { at.norms.iter().map(|n| n.before * n.step * n.behind).fold(1.0, f64::max) }
 }
 
 /// An angle in (-pi, pi].

@@ -17,9 +17,15 @@
 //! steps behind it magnify by at most their norm. Constants of the loop count as known to a few roundings, so that the
 //! proof covers the mechanism as given and not only as stored.
 
-use crate::solve::dense::{norm, times};
-use crate::solve::newton::{Closure, Six};
-use crate::solve::scalar::Scalar;
+use crate::elimination::cut::Cut;
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::motion::Motion;
+use crate::solve::dense::{inverse, norm, times};
+use crate::solve::newton::{Closure, Six, closure, closure_at};
+use num_complex::Complex;
+use crate::algebra::double_double::DoubleDouble;
+use crate::algebra::ring::Ring;
+use crate::solve::scalar::{Number, Scalar};
 
 /// What was proved of a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,8 +36,6 @@ pub struct Certificate {
     pub isolation: f64,
 }
 
-/// Unit roundoff.
-const U: f64 = f64::EPSILON / 2.0;
 /// Roundings per step of the product: cosine and sine (2), their use (4), the stored constant (8), the product (6), with
 /// room for complex products (a factor of sqrt 8 on each operation).
 const ROUNDINGS: f64 = 60.0;
@@ -40,17 +44,17 @@ const MARGIN: f64 = 1.01;
 
 /// Proves that exactly one solution lies near these unknowns; `None` where that cannot be shown.
 #[must_use]
-pub fn certificate<S: Scalar>(closure: &Closure<S>, inverse: &[Six<S>; 6]) -> Option<Certificate> {
-    let product_error = ROUNDINGS * U * closure.norms.iter().map(|n| n.before * n.step * n.behind).sum::<f64>();
-    let off_identity = 8.0 * closure.defect + product_error;
+pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]) -> Option<Certificate> {
+    let product_error = ROUNDINGS * S::UNIT_ROUNDOFF * at.norms.iter().map(|n| n.before * n.step * n.behind).sum::<f64>();
+    let off_identity = 8.0 * at.defect + product_error;
     if !(off_identity < 1e-3) {
         return None;
     }
-    let inverse_norm = norm(inverse) * MARGIN;
+    let inverse_norm = norm(approximate_inverse) * MARGIN;
     // |A F| with the error of F and of the product A F.
-    let step = times(inverse, &closure.residual).into_iter().map(Scalar::bound).fold(0.0, f64::max);
-    let residual = closure.residual.iter().map(|x| x.bound()).fold(0.0, f64::max);
-    let y = MARGIN * (step + inverse_norm * (product_error + 16.0 * U * residual));
+    let step = times(approximate_inverse, &at.residual).into_iter().map(Number::bound).fold(0.0, f64::max);
+    let residual = at.residual.iter().map(|x| x.bound()).fold(0.0, f64::max);
+    let y = MARGIN * (step + inverse_norm * (product_error + 16.0 * S::UNIT_ROUNDOFF * residual));
     // |I - A J|, the error of J as the derivative, and the roundings of this very product.
     let mut deviation = [[S::zero(); 6]; 6];
     let mut sums = 0.0_f64;
@@ -59,7 +63,7 @@ pub fn certificate<S: Scalar>(closure: &Closure<S>, inverse: &[Six<S>; 6]) -> Op
         for (j, entry) in row.iter_mut().enumerate() {
             let mut value = if i == j { S::one() } else { S::zero() };
             for k in 0..6 {
-                let term = inverse[i][k].mul(&closure.jacobian[k][j]);
+                let term = approximate_inverse[i][k].mul(&at.jacobian[k][j]);
                 sum += term.bound();
                 value = value.sub(&term);
             }
@@ -67,10 +71,10 @@ pub fn certificate<S: Scalar>(closure: &Closure<S>, inverse: &[Six<S>; 6]) -> Op
         }
         sums = sums.max(sum);
     }
-    let twists: f64 = MARGIN * closure.norms.iter().map(|n| n.twist).sum::<f64>();
+    let twists: f64 = MARGIN * at.norms.iter().map(|n| n.twist).sum::<f64>();
     // The derivative is L(Z_j E): J differs from it by |Z_j| |E - I|, and Z_j is computed from a product of steps.
     let derivative_error = twists * (2.0 * off_identity + 4.0 * product_error);
-    let z0 = MARGIN * (norm(&deviation) + 40.0 * U * sums + inverse_norm * derivative_error);
+    let z0 = MARGIN * (norm(&deviation) + 40.0 * S::UNIT_ROUNDOFF * sums + inverse_norm * derivative_error);
     if !(z0 < 0.5) {
         return None;
     }
@@ -90,4 +94,117 @@ pub fn certificate<S: Scalar>(closure: &Closure<S>, inverse: &[Six<S>; 6]) -> Op
         }
     }
     Some(Certificate { radius, isolation })
+}
+
+/// As [`certificate`], with the loop opened in turn behind each of its joints: imaginary parts make some frames far
+/// worse than others.
+#[must_use]
+pub fn certificate_in_any_frame<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<Certificate> {
+    (1..6).find_map(|k| {
+        let rotated = Cut { rotation: k, reversed: false }.of(closed);
+        let here = closure(&rotated, &std::array::from_fn(|j| unknowns[(k + j) % 6]));
+        certificate(&here, &inverse(&here.jacobian)?)
+    })
+}
+
+type Quad = Complex<DoubleDouble>;
+
+fn quad(z: Complex<f64>) -> Quad {
+    Complex { re: DoubleDouble::from(z.re), im: DoubleDouble::from(z.im) }
+}
+
+/// A proof in double-double arithmetic, for solutions that f64 cannot prove: badly conditioned ones, and those with
+/// large imaginary parts. Also returns the unknowns, rounded from that precision.
+///
+/// The proof is of the loop whose constants are the rigid motions nearest to the stored ones. Real unknowns that pass
+/// are real: the solution in the ball is the only one, and its conjugate lies there, too.
+#[must_use]
+pub fn refined_certificate(
+    closed: &ClosedLoop<f64>,
+    unknowns: &Six<Complex<f64>>,
+) -> Option<(Six<Complex<f64>>, Certificate)> {
+    let variables = closed.variables;
+    let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
+    // Angles live as w = e^(iq): any w but 0 is an exact angle, and no cosine is needed in this precision.
+    let mut state: Six<Quad> = std::array::from_fn(|j| match variables[j] {
+        Variable::Rotation => {
+            // From cosine and sine it would cancel for large imaginary parts.
+            let (sin, cos) = unknowns[j].re.sin_cos();
+            quad(Complex::new(cos, sin) * (-unknowns[j].im).exp())
+        }
+        Variable::Translation => quad(unknowns[j]),
+    });
+    let mut moved = [Complex::new(0.0, 0.0); 6];
+    for round in 0..8 {
+        let mut pairs = [(Quad::zero(), Quad::zero()); 6];
+        for j in 0..6 {
+            pairs[j] = match variables[j] {
+                Variable::Rotation => {
+                    let back = crate::algebra::ring::Field::inverse(&state[j])?;
+                    let cos = state[j].add(&back).halved();
+                    // sin = (w - 1/w) / (2i)
+                    let difference = state[j].sub(&back).halved();
+                    (cos, Complex { re: difference.im, im: difference.re.neg() })
+                }
+                Variable::Translation => (state[j], Quad::zero()),
+            };
+        }
+        let here = closure_at::<Quad>(&precise, &pairs);
+        let jacobian = here.jacobian.map(|row| row.map(|x| Complex::new(x.re.to_f64(), x.im.to_f64())));
+        let inverse = inverse(&jacobian)?.map(|row| row.map(quad));
+        let step = times(&inverse, &here.residual);
+        let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max);
+        if !(size < 1e-3) {
+            return None;
+        }
+        if size < 1e-26 || round == 7 {
+            let proof = certificate(&here, &inverse)?;
+            let refined: Six<Complex<f64>> = std::array::from_fn(|j| unknowns[j] + moved[j]);
+            // The reported unknowns are those of the proof, rounded.
+            let largest = refined.iter().map(|x| x.bound()).fold(1.0, f64::max);
+            let rounding = 4.0 * f64::EPSILON * largest;
+            return Some((refined, Certificate { radius: proof.radius + rounding, ..proof }));
+        }
+        for j in 0..6 {
+            let d = step[j].neg();
+            moved[j] += Complex::new(d.re.to_f64(), d.im.to_f64());
+            match variables[j] {
+                // e^(id) to order 5: steps are below 1e-3 once and then tiny.
+                Variable::Rotation => {
+                    let turn = d.mul(&Complex { re: DoubleDouble::zero(), im: DoubleDouble::one() });
+                    let mut factor = Quad::one();
+                    for k in (1..=5).rev() {
+                        let term = turn.mul(&factor).times(DoubleDouble::from(1.0 / f64::from(k)));
+                        factor = Quad::one().add(&term);
+                    }
+                    state[j] = state[j].mul(&factor);
+                }
+                Variable::Translation => state[j] = state[j].add(&d),
+            }
+        }
+    }
+    None
+}
+
+/// The rigid motion nearest to a stored one: two steps of Newton's iteration for the polar factor.
+fn rigid(stored: &Motion<f64>) -> Motion<DoubleDouble> {
+    let mut rotation = stored.rotation.map(|row| row.map(DoubleDouble::from));
+    for _ in 0..2 {
+        // R (3 I - R^T R) / 2
+        let gram = |i: usize, j: usize| {
+            (0..3).fold(DoubleDouble::zero(), |sum, k| sum.add(&rotation[k][i].mul(&rotation[k][j])))
+        };
+        let factor: [[DoubleDouble; 3]; 3] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let three = DoubleDouble::from(if i == j { 3.0 } else { 0.0 });
+                three.sub(&gram(i, j)).halved()
+            })
+        });
+        rotation = rotation.map(|row| times_row(&row, &factor));
+    }
+    Motion { rotation, translation: stored.translation.map(DoubleDouble::from) }
+}
+
+fn times_row(row: &[DoubleDouble; 3], matrix: &[[DoubleDouble; 3]; 3]) -> [DoubleDouble; 3] {
+    std::array::from_fn(|j| (0..3).fold(DoubleDouble::zero(), |sum, k| sum.add(&row[k].mul(&matrix[k][j]))))
 }

@@ -17,6 +17,7 @@ fn main() -> ExitCode {
         Verb::List(options) => command::list::run(options),
         Verb::Show(options) => command::show::run(options),
         Verb::Check(options) => command::check::run(options),
+        Verb::Bench(options) => command::bench::run(options),
         Verb::Completions(options) => command::completions::run(options),
     };
     outcome.unwrap_or_else(|fault| Exit::from_fault(&fault)).into()

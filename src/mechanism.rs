@@ -1,11 +1,14 @@
 //! A mechanism ready to solve: what a file says, prepared once, answered case by case.
 
+use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
 use crate::verdict::{Bound, Verdict, verdict};
+use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
-use crate::kinematics::closed_loop::{Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
 use crate::kinematics::motion::Motion;
 use num_complex::Complex;
 use std::f64::consts::TAU;
@@ -54,6 +57,40 @@ struct Prepared {
     solver: Solver,
     bound: OnceLock<Bound>,
     prepare_us: f64,
+}
+
+/// The field of exact degree counts.
+type Mod = ModP<PRIME_61>;
+
+/// The loop of a chain modulo a prime, its gap filled.
+fn modular_loop(chain: &Chain, layout: &Layout, filling: Motion<Mod>) -> Option<ClosedLoop<Mod>> {
+    let open: OpenLoop<Mod> = chain.try_open_loop(layout).ok()??;
+    Some(open.close(&filling))
+}
+
+fn bound_from(degree: Degree, place: &str) -> Bound {
+    let because = if degree.left_out == 0 {
+        format!("a closure polynomial of degree 16 {place}")
+    } else {
+        format!(
+            "a closure polynomial of degree 16, of whose roots {} belong to no solution {place} (modulo 2^61 - 1)",
+            degree.left_out
+        )
+    };
+    Bound { count: degree.solutions, because }
+}
+
+impl Prepared {
+    /// The bound on the number of solutions at every pose or input, computed when first asked for.
+    fn bound(&self, chain: &Chain) -> &Bound {
+        self.bound.get_or_init(|| {
+            let locked = self.layout.locked.map(|k| self.layout.variables[k]);
+            let general = |choice| modular_loop(chain, &self.layout, general_filling(locked, choice)?);
+            let other = if locked.is_none() { general(1) } else { None };
+            let counted = general(0).and_then(|closed| degree(&closed, other.as_ref()));
+            counted.map_or_else(Bound::general, |d| bound_from(d, "at general poses"))
+        })
+    }
 }
 
 /// A mechanism file, prepared. Shared between threads; every thread brings its own [`Workspace`].
@@ -111,17 +148,20 @@ impl Mechanism {
             .iter()
             .find(|p| p.layout.locked == locked)
             .ok_or_else(|| Error::Invalid("the case locks a joint that was not prepared".to_owned()))?;
-        let filling: Motion<f64> = filling(case)?;
-        let most = prepared.bound.get().map_or(16, |b| b.count);
+        let filling_here: Motion<f64> = filling(case)?;
+        let most = || prepared.bound(&self.chain).count;
         let start = Instant::now();
-        prepared.solver.solve_up_to(&filling, roots, most, workspace, assembly);
+        prepared.solver.solve_up_to(&filling_here, roots, &most, workspace, assembly);
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
         let verdict = verdict(
             assembly,
             roots,
             prepared.solver.structural_rank(),
-            || prepared.bound.get_or_init(Bound::general).clone(),
-            || None,
+            || prepared.bound(&self.chain).clone(),
+            || {
+                let closed = modular_loop(&self.chain, &prepared.layout, filling::<Mod>(case).ok()?)?;
+                Some(bound_from(degree(&closed, None)?, "at this pose"))
+            },
         );
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {
@@ -168,13 +208,13 @@ fn locked_variable(chain: &Chain, kind: Kind, case: &Case) -> Result<Option<usiz
 }
 
 /// What fills the gap of the loop: the inverse of an arm's pose, a loop's locked joint.
-fn filling(case: &Case) -> Result<Motion<f64>> {
-    if let Some(pose) = &case.pose {
-        return Ok(pose.float.inverse());
-    }
-    let motion = case.input.first().and_then(|input| match &input.value {
-        InputValue::Angle(angle) => angle_motion(angle),
-        InputValue::Distance(distance) => distance_motion(distance),
+fn filling<R: Ring>(case: &Case) -> Result<Motion<R>> {
+    let motion = case.pose.as_ref().and_then(|pose| pose.exact.inverse().map(R::from_rational));
+    let motion = motion.or_else(|| {
+        case.input.first().and_then(|input| match &input.value {
+            InputValue::Angle(angle) => angle_motion(angle),
+            InputValue::Distance(distance) => distance_motion(distance),
+        })
     });
     motion.ok_or_else(|| Error::Invalid("a case without pose and input".to_owned()))
 }

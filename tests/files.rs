@@ -284,6 +284,7 @@ fn what_is_no_mechanism_file_at_all_is_refused() {
     let empty = complaint(" \n");
     assert!(empty.contains("empty file"), "{empty}");
     assert!(complaint("a = \"\0\"").contains("zero byte"));
+    assert!(read(&format!("\u{feff}{ARM}")).is_ok() && read(&ARM.replace('\n', "\r\n")).is_ok());
     assert!(complaint(&"[".repeat(100_000)).contains("nested deeper"));
     assert!(complaint(&format!("{} = 1", "a.".repeat(100_000))).contains("nested deeper"));
     assert!(complaint(&format!("a = {}", "[\"]\",".repeat(100_000))).starts_with("test.toml:1:"));
@@ -410,6 +411,16 @@ fn every_source_of_the_library_is_in_the_references() {
         let source = builtin(&name, &Options::default()).unwrap().source.unwrap();
         assert!(references.contains(&format!("`[{}]`", source.key)), "{name}: no reference `[{}]`", source.key);
     }
+}
+
+#[test]
+fn every_entry_is_in_the_table_of_the_readme() {
+    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/equations/README.md")).unwrap();
+    let listed: Vec<&str> =
+        readme.lines().filter_map(|line| line.strip_prefix("| `")?.split_once("` | ")).map(|(name, _)| name).collect();
+    let listed: Vec<&str> =
+        listed.into_iter().filter(|name| name.starts_with("arm/") || name.starts_with("loop/")).collect();
+    assert_eq!(listed, builtin_names());
 }
 
 /// Damage to a text.

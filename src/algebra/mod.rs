@@ -1,9 +1,19 @@
 //! Exact and generic arithmetic; knows nothing of mechanisms.
 
 mod approximation;
+pub mod determinant;
+pub mod double_double;
+pub mod dual;
 mod expression;
 mod half_tangent;
+pub mod interval;
+pub mod matrix;
+pub mod modp;
 pub mod number;
+pub mod ratio;
+pub mod rational;
 pub mod reduction;
 pub mod ring;
+pub mod sturm;
+pub mod univariate;
 mod value;

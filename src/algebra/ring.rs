@@ -5,7 +5,7 @@
 
 use super::number::{Angle, HalfTangent};
 use num_complex::Complex;
-use rug::{Rational, ops::NegAssign};
+use rug::Rational;
 use std::fmt::Debug;
 
 /// A commutative ring with one, into which the rationals (almost) map.
@@ -13,16 +13,22 @@ use std::fmt::Debug;
 /// `is_zero` is structural, never a tolerance.
 pub trait Ring: Clone + PartialEq + Debug {
     /// The neutral element of addition.
+    #[must_use]
     fn zero() -> Self;
     /// The neutral element of multiplication.
+    #[must_use]
     fn one() -> Self;
     /// `self + other`.
+    #[must_use]
     fn add(&self, other: &Self) -> Self;
     /// `self - other`.
+    #[must_use]
     fn sub(&self, other: &Self) -> Self;
     /// `self * other`.
+    #[must_use]
     fn mul(&self, other: &Self) -> Self;
     /// `-self`.
+    #[must_use]
     fn neg(&self) -> Self;
     /// Whether this is the zero of the ring, exactly.
     fn is_zero(&self) -> bool;
@@ -33,28 +39,36 @@ pub trait Ring: Clone + PartialEq + Debug {
     ///
     /// # Panics
     /// Never: integers have an image in every ring.
+    #[must_use]
     fn from_integer(n: i32) -> Self {
         Self::from_rational(&Rational::from(n)).expect("integers map into every ring")
     }
 
-    /// Cosine and sine of an angle: `((1 - t^2)/(1 + t^2), 2t/(1 + t^2))` of its rational half-angle tangent t.
+    /// Cosine and sine of an angle, see [`exact_cos_sin`].
     /// Inexact rings override this with the correctly rounded values. `None` for an unlucky prime.
+    #[must_use]
     fn cos_sin(angle: &Angle) -> Option<(Self, Self)> {
-        match angle.half_tangent() {
-            HalfTangent::Infinite => Some((Self::one().neg(), Self::zero())),
-            HalfTangent::Finite(t) => {
-                let square = Rational::from(t * t);
-                let denominator = Rational::from(&square + 1);
-                let cos = Rational::from(1 - square) / &denominator;
-                let sin = Rational::from(t * 2) / denominator;
-                Some((Self::from_rational(&cos)?, Self::from_rational(&sin)?))
-            }
-        }
+        let (cos, sin) = exact_cos_sin(angle);
+        Some((Self::from_rational(&cos)?, Self::from_rational(&sin)?))
     }
 
     /// The image of a number of a mechanism file. `None` for an unlucky prime.
+    #[must_use]
     fn from_number(number: &super::number::Number) -> Option<Self> {
         Self::from_rational(number.rational())
+    }
+}
+
+/// `((1 - t^2)/(1 + t^2), 2t/(1 + t^2))`, cosine and sine of an angle from its rational half-angle tangent t.
+#[must_use]
+pub fn exact_cos_sin(angle: &Angle) -> (Rational, Rational) {
+    match angle.half_tangent() {
+        HalfTangent::Infinite => (Rational::from(-1), Rational::new()),
+        HalfTangent::Finite(t) => {
+            let square = Rational::from(t * t);
+            let denominator = Rational::from(&square + 1);
+            ((1 - square) / &denominator, Rational::from(t * 2) / denominator)
+        }
     }
 }
 
@@ -70,12 +84,14 @@ pub trait Domain: Ring {
     ///
     /// # Panics
     /// When `other` is zero.
+    #[must_use]
     fn div_exact(&self, other: &Self) -> Self;
 }
 
 /// A ring in which every element but zero has an inverse.
 pub trait Field: Ring {
     /// The inverse; `None` for zero.
+    #[must_use]
     fn inverse(&self) -> Option<Self>;
 
     /// How good a pivot this is: the absolute value in inexact fields, 1 for every nonzero element of an exact one.
@@ -84,6 +100,16 @@ pub trait Field: Ring {
 
     /// Pivots of this relative size or below are zero: 0 in exact fields, a rounding level in inexact ones.
     const PIVOT_ZERO: f64;
+
+    /// Scales a coefficient list that ends in a nonzero number to the one chosen to stand for all its multiples: ending
+    /// in 1, or over the rationals primitive integers ending in a positive one, which keeps Euclid's algorithm short.
+    fn normalise(coefficients: &mut [Self]) {
+        if let Some(inverse) = coefficients.last().and_then(Self::inverse) {
+            for c in coefficients {
+                *c = c.mul(&inverse);
+            }
+        }
+    }
 
     /// Makes rows orthonormal where that improves conditioning; leaves them alone in exact fields (the default).
     fn orthonormalise<const N: usize>(_rows: &mut [[Self; N]]) {}
@@ -207,6 +233,13 @@ impl<T: Ring> Ring for Complex<T> {
     }
 }
 
+impl<T: Field + Domain> Domain for Complex<T> {
+    fn div_exact(&self, other: &Self) -> Self {
+        let inverse = other.inverse().expect("the divisor is not zero");
+        self.mul(&inverse)
+    }
+}
+
 impl<T: Field> Field for Complex<T> {
     #[inline(always)]
     fn inverse(&self) -> Option<Self> {
@@ -220,52 +253,4 @@ impl<T: Field> Field for Complex<T> {
         if re > im { re } else { im }
     }
     const PIVOT_ZERO: f64 = T::PIVOT_ZERO;
-}
-
-impl Ring for Rational {
-    fn zero() -> Self {
-        Rational::new()
-    }
-    fn one() -> Self {
-        Rational::from(1)
-    }
-    fn add(&self, other: &Self) -> Self {
-        Rational::from(self + other)
-    }
-    fn sub(&self, other: &Self) -> Self {
-        Rational::from(self - other)
-    }
-    fn mul(&self, other: &Self) -> Self {
-        Rational::from(self * other)
-    }
-    fn neg(&self) -> Self {
-        let mut x = self.clone();
-        x.neg_assign();
-        x
-    }
-    fn is_zero(&self) -> bool {
-        self.cmp0() == std::cmp::Ordering::Equal
-    }
-    fn from_rational(q: &Rational) -> Option<Self> {
-        Some(q.clone())
-    }
-    fn from_integer(n: i32) -> Self {
-        Rational::from(n)
-    }
-}
-
-impl Domain for Rational {
-    fn div_exact(&self, other: &Self) -> Self {
-        Rational::from(self / other)
-    }
-}
-
-impl Field for Rational {
-    fn inverse(&self) -> Option<Self> {
-        (!self.is_zero()).then(|| self.clone().recip())
-    }
-    fn pivot_size(&self) -> f64 {
-        if self.is_zero() { 0.0 } else { 1.0 }
-    }
-    const PIVOT_ZERO: f64 = 0.0;
 }

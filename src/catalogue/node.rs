@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use jsonc_parser::ast;
+use std::collections::HashSet;
 use toml::de::{DeTable, DeValue};
 
 /// Deepest nesting of tables and lists read: far beyond any mechanism, far within the stack.
@@ -38,7 +39,7 @@ impl Node {
     /// The kind of value, for messages.
     pub(super) fn describe(&self) -> String {
         match &self.value {
-            Value::Number(text) => format!("the number {text}"),
+            Value::Number(text) => format!("the number {}", text.chars().take(40).collect::<String>()),
             Value::Text(text) => format!("the string \"{}\"", text.chars().take(40).collect::<String>()),
             Value::List(items) => format!("a list of {}", items.len()),
             Value::Table(_) => "a table".to_owned(),
@@ -142,9 +143,10 @@ fn json_node(value: &ast::Value<'_>, lines: &Lines, path: &str) -> Result<Node> 
         }
         ast::Value::Object(object) => {
             let mut fields: Vec<Field> = Vec::new();
+            let mut keys = HashSet::new();
             for property in &object.properties {
                 let (key, line) = (property.name.as_str().to_owned(), lines.at(property.range.start));
-                if fields.iter().any(|field| field.key == key) {
+                if !keys.insert(key.clone()) {
                     let message = format!("found the key `{key}` twice, expected it once");
                     return Err(Error::File { path: path.to_owned(), line, message });
                 }

@@ -94,6 +94,7 @@ pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> R
     if text.len() as u64 > LARGEST {
         return Err(too_large(path));
     }
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if text.trim().is_empty() {
         return Err(Error::Invalid("found an empty file, expected a mechanism".to_owned()).at(path, 1));
     }

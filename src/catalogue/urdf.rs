@@ -13,6 +13,9 @@ use crate::kinematics::motion::Motion;
 use roxmltree::{Document, Node as Element};
 use rug::Rational;
 
+/// Most joints or links read.
+const LARGEST: usize = 10_000;
+
 /// Reads the arm between two links; it has no pose.
 pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options) -> Result<Entry> {
     let document = parse(scope, text)?;
@@ -114,6 +117,9 @@ fn between<'a, 'i>(scope: &Scope<'_>, robot: Element<'a, 'i>, options: &Options)
             .map_or_else(|| format!("expected one of {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
         Err(scope.fail(line(robot), format!("found no link `{name}`; {hint}")))
     };
+    if joints.len().max(names.len()) > LARGEST {
+        return Err(scope.fail(line(robot), format!("found more than {LARGEST} joints or links, expected a robot")));
+    }
     let tip = if let Some(tip) = &options.tip_link {
         tip.as_str()
     } else {

@@ -29,6 +29,8 @@ pub enum Verb {
     Show(ShowOptions),
     /// Test every claim of mechanism files
     Check(CheckOptions),
+    /// Measure accuracy and speed on random arms
+    Bench(BenchOptions),
     /// Print the completions of a shell
     Completions(CompletionsOptions),
 }
@@ -163,6 +165,60 @@ pub struct CheckOptions {
     /// Print failures and the summary only
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// `looproot bench`
+#[derive(Args)]
+pub struct BenchOptions {
+    /// What to measure.
+    #[command(subcommand)]
+    pub measure: Measure,
+}
+
+/// What can be measured.
+#[derive(Subcommand)]
+pub enum Measure {
+    /// Solutions found, lost, spurious, duplicated against planted configurations
+    Accuracy(AccuracyOptions),
+    /// Times on one core beside the eigenvalues of one 16 x 16 matrix
+    Speed(SpeedOptions),
+}
+
+/// `looproot bench accuracy`
+#[derive(Args)]
+pub struct AccuracyOptions {
+    /// general, structured, near-singular, badly-scaled or calibrated
+    #[arg(long, default_value = "general")]
+    pub set: String,
+    /// Number of arms
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub count: u64,
+    /// Seed of the draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Look for real solutions only
+    #[arg(long)]
+    pub real: bool,
+    /// A JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+/// `looproot bench speed`
+#[derive(Args)]
+pub struct SpeedOptions {
+    /// Number of arms
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub count: u64,
+    /// How often each stage is timed over all arms
+    #[arg(long, value_name = "N", default_value_t = 101)]
+    pub repeats: usize,
+    /// Seed of the draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
 }
 
 /// `looproot completions`

@@ -1,6 +1,7 @@
 //! One file per verb, and what they share.
 
 pub mod arguments;
+pub mod bench;
 pub mod check;
 pub mod completions;
 pub mod exit;

@@ -84,7 +84,7 @@ fn solve(
 }
 
 /// Raised by the first Ctrl-C, which lets what is done be printed; the second one ends the program at once.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
+pub fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&stop);
     // Without a handler Ctrl-C still ends the program, only less politely.

@@ -1,4 +1,5 @@
 //! Closure equations to one matrix pencil in the hidden unknown, over any field.
 
 pub mod cut;
+pub mod degree;
 pub mod pencil;

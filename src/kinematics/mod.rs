@@ -2,5 +2,6 @@
 
 pub mod chain;
 pub mod closed_loop;
+pub mod dual_quaternion;
 pub mod motion;
 pub mod placement;

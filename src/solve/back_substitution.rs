@@ -26,6 +26,13 @@ pub struct CutView<'a, S> {
     start: MarkedLine<S>,
 }
 
+/// Angles at which a family of solutions is sampled.
+const SAMPLES: [f64; 2] = [0.7, -1.9];
+
+fn sample<S: Scalar>(angle: f64) -> Option<(S, S)> {
+    Some((S::from_f64(angle.cos()), S::from_f64(angle.sin())))
+}
+
 /// The candidates of one root, without allocation.
 #[derive(Clone, Debug)]
 pub struct Candidates<S> {
@@ -46,7 +53,8 @@ impl<S: Scalar> Candidates<S> {
         &self.list[..self.count]
     }
 
-    fn push(&mut self, candidate: Six<S>) {
+    fn extend(&mut self, candidate: Option<Six<S>>) {
+        let Some(candidate) = candidate else { return };
         if self.count < MOST {
             self.list[self.count] = candidate;
             self.count += 1;
@@ -103,26 +111,30 @@ impl<'a, S: Scalar> CutView<'a, S> {
         if kernel.dimension == 1 {
             if let Some((other, third)) = unknowns(&kernel.basis[0]) {
                 let (pairs, u) = self.behind_two(hidden, other);
-                if let Some(all) = self.complete(pairs, third, &u) {
-                    found.push(all);
-                }
+                found.extend(self.complete(pairs, third, &u));
             }
             return found;
         }
         // Several solutions share the hidden unknown: separate the other one inside the kernel.
-        let Some(others) = separate(kernel) else {
+        let others = separate(kernel).unwrap_or_else(|| {
+            // A family: any value of the other unknown may do, so sample it and let the closure judge.
             found.unresolved = true;
-            return found;
-        };
+            let mut samples = [None; 8];
+            samples[..SAMPLES.len()].copy_from_slice(&SAMPLES.map(sample));
+            samples
+        });
         for other in others.into_iter().flatten() {
             let (pairs, u) = self.behind_two(hidden, other);
             match self.third(&u) {
-                Third::Free => found.unresolved = true,
+                Third::Free => {
+                    found.unresolved = true;
+                    for third in SAMPLES.into_iter().filter_map(sample) {
+                        found.extend(self.complete(pairs, third, &u));
+                    }
+                }
                 Third::Values(values) => {
                     for third in values.into_iter().flatten() {
-                        if let Some(all) = self.complete(pairs, third, &u) {
-                            found.push(all);
-                        }
+                        found.extend(self.complete(pairs, third, &u));
                     }
                 }
             }

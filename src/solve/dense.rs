@@ -1,10 +1,10 @@
 //! Small dense matrices in f64 or complex f64, on the stack.
 
-use super::scalar::Scalar;
+use super::scalar::Number;
 
 /// The inverse by Gauss-Jordan elimination with partial pivoting; `None` for a singular matrix.
 #[must_use]
-pub fn inverse<S: Scalar, const N: usize>(matrix: &[[S; N]; N]) -> Option<[[S; N]; N]> {
+pub fn inverse<S: Number, const N: usize>(matrix: &[[S; N]; N]) -> Option<[[S; N]; N]> {
     let mut a = *matrix;
     let mut pivots = [0; N];
     for k in 0..N {
@@ -48,7 +48,7 @@ pub fn inverse<S: Scalar, const N: usize>(matrix: &[[S; N]; N]) -> Option<[[S; N
 /// `matrix * vector`
 #[inline(always)]
 #[must_use]
-pub fn times<S: Scalar, const R: usize, const C: usize>(matrix: &[[S; C]; R], vector: &[S; C]) -> [S; R] {
+pub fn times<S: Number, const R: usize, const C: usize>(matrix: &[[S; C]; R], vector: &[S; C]) -> [S; R] {
     std::array::from_fn(|i| {
         let mut sum = S::zero();
         for (x, y) in matrix[i].iter().zip(vector) {
@@ -61,7 +61,7 @@ pub fn times<S: Scalar, const R: usize, const C: usize>(matrix: &[[S; C]; R], ve
 /// The largest sum of absolute values (bounded by |re| + |im|) in a row.
 #[inline(always)]
 #[must_use]
-pub fn norm<S: Scalar, const R: usize, const C: usize>(matrix: &[[S; C]; R]) -> f64 {
+pub fn norm<S: Number, const R: usize, const C: usize>(matrix: &[[S; C]; R]) -> f64 {
     let mut largest = 0.0_f64;
     for row in matrix {
         largest = largest.max(row.iter().map(|x| x.bound()).sum());

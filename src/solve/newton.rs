@@ -1,7 +1,7 @@
 //! The closure of a loop in numbers, its derivative, and Newton's method that only ever goes downhill.
 
 use super::dense::{inverse, times};
-use super::scalar::Scalar;
+use super::scalar::{Number, Scalar};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::Motion;
 
@@ -34,7 +34,7 @@ pub struct StepNorms {
     pub twist: f64,
 }
 
-fn frame_norm<S: Scalar>(frame: &Motion<S>) -> f64 {
+fn frame_norm<S: Number>(frame: &Motion<S>) -> f64 {
     let mut largest = 1.0_f64;
     for i in 0..3 {
         let row = &frame.rotation[i];
@@ -43,7 +43,7 @@ fn frame_norm<S: Scalar>(frame: &Motion<S>) -> f64 {
     largest
 }
 
-fn inverse_norm<S: Scalar>(frame: &Motion<S>) -> f64 {
+fn inverse_norm<S: Number>(frame: &Motion<S>) -> f64 {
     let (r, t) = (&frame.rotation, &frame.translation);
     let mut largest = 1.0_f64;
     for j in 0..3 {
@@ -53,10 +53,10 @@ fn inverse_norm<S: Scalar>(frame: &Motion<S>) -> f64 {
     largest
 }
 
-/// `frame * constant` for a constant in f64.
+/// `frame * constant`.
 #[inline(always)]
-fn behind<S: Scalar>(frame: &Motion<S>, constant: &Motion<f64>) -> Motion<S> {
-    let row = |r: &[S; 3], column: [f64; 3]| {
+fn behind<S: Number>(frame: &Motion<S>, constant: &Motion<S::Real>) -> Motion<S> {
+    let row = |r: &[S; 3], column: [S::Real; 3]| {
         r[0].times(column[0]).add(&r[1].times(column[1])).add(&r[2].times(column[2]))
     };
     let g = &constant.rotation;
@@ -72,7 +72,7 @@ fn behind<S: Scalar>(frame: &Motion<S>, constant: &Motion<f64>) -> Motion<S> {
 
 /// `frame * V(x)` for an unknown given by (cos, sin), or by its distance in the first place.
 #[inline(always)]
-pub fn turn<S: Scalar>(frame: &mut Motion<S>, variable: Variable, (first, second): (S, S)) {
+pub fn turn<S: Number>(frame: &mut Motion<S>, variable: Variable, (first, second): (S, S)) {
     for i in 0..3 {
         let row = &mut frame.rotation[i];
         match variable {
@@ -110,7 +110,18 @@ pub fn product<S: Scalar>(closed: &ClosedLoop<f64>, values: &[(S, S)], count: us
 
 /// Evaluates the closure of a loop, its derivative and the norms its error bounds need.
 #[must_use]
+#[inline(always)]
 pub fn closure<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Closure<S> {
+    closure_at(closed, &std::array::from_fn(|j| coordinates(closed.variables[j], unknowns[j])))
+}
+
+/// As [`closure`], with the unknowns given by the pairs with which they enter the motions.
+#[must_use]
+#[inline(always)]
+pub fn closure_at<S: Number>(closed: &ClosedLoop<S::Real>, pairs: &[(S, S); 6]) -> Closure<S>
+where
+    S::Real: Number,
+{
     let mut frame: Motion<S> = Motion::identity();
     let mut jacobian = [[S::zero(); 6]; 6];
     let mut norms = [StepNorms::default(); 6];
@@ -120,14 +131,14 @@ pub fn closure<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Closur
         let moment = crate::kinematics::motion::cross(p, &z);
         let before = frame_norm(&frame);
         let constant = &closed.constants[j];
-        let pair = coordinates(closed.variables[j], unknowns[j]);
+        let pair = pairs[j];
         let step = match closed.variables[j] {
             Variable::Rotation => {
                 for i in 0..3 {
                     jacobian[i][j] = z[i];
                     jacobian[3 + i][j] = moment[i];
                 }
-                let z = z.map(Scalar::bound);
+                let z = z.map(Number::bound);
                 norms[j].twist = (z[1] + z[2] + moment[0].bound())
                     .max(z[0] + z[2] + moment[1].bound())
                     .max(z[0] + z[1] + moment[2].bound());
@@ -137,7 +148,7 @@ pub fn closure<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Closur
                 for i in 0..3 {
                     jacobian[3 + i][j] = z[i];
                 }
-                norms[j].twist = z.map(Scalar::bound).into_iter().fold(0.0, f64::max);
+                norms[j].twist = z.map(Number::bound).into_iter().fold(0.0, f64::max);
                 frame_norm(constant) + pair.0.bound()
             }
         };
@@ -146,7 +157,7 @@ pub fn closure<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Closur
         norms[j] = StepNorms { before, step, behind: inverse_norm(&frame), ..norms[j] };
     }
     let r = &frame.rotation;
-    let half = |x: S, y: S| x.sub(&y).times(0.5);
+    let half = |x: S, y: S| x.sub(&y).halved();
     let t = frame.translation;
     let mut defect = 0.0_f64;
     for i in 0..3 {

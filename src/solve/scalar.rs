@@ -1,10 +1,27 @@
-//! The two number types roots are found in: f64 for real roots, complex f64 for all of them.
+//! The number types roots live in: f64 for real ones, complex f64 for all of them, complex double-double for proofs.
 
-use crate::algebra::ring::Field;
+use crate::algebra::double_double::DoubleDouble;
+use crate::algebra::ring::{Field, Ring};
 use num_complex::Complex;
 
-/// A numeric field with the few functions root finding needs.
-pub trait Scalar: Field + Copy {
+/// What linear algebra and error bounds need of a numeric field.
+pub trait Number: Field + Copy {
+    /// The type of the constants it is multiplied by.
+    type Real: Field + Copy;
+    /// Bound on the relative error of one real operation.
+    const UNIT_ROUNDOFF: f64;
+    /// `self * x`.
+    fn times(self, x: Self::Real) -> Self;
+    /// `self / 2`, exactly.
+    fn halved(self) -> Self;
+    /// The absolute value, within a factor sqrt(2): the larger of |re| and |im|.
+    fn size(self) -> f64;
+    /// An upper bound of the absolute value: |re| + |im|.
+    fn bound(self) -> f64;
+}
+
+/// What finding roots needs on top.
+pub trait Scalar: Number<Real = f64> {
     /// Whether values of this type are real.
     const REAL: bool;
     /// A real number.
@@ -13,12 +30,6 @@ pub trait Scalar: Field + Copy {
     fn from_complex(z: Complex<f64>) -> Self;
     /// As a complex number.
     fn to_complex(self) -> Complex<f64>;
-    /// `self * x`.
-    fn times(self, x: f64) -> Self;
-    /// The absolute value, within a factor sqrt(2): the larger of |re| and |im|.
-    fn size(self) -> f64;
-    /// An upper bound of the absolute value: |re| + |im|.
-    fn bound(self) -> f64;
     /// Cosine and sine.
     fn cos_sin_of(self) -> (Self, Self);
     /// A square root; of a negative real zero.
@@ -29,6 +40,82 @@ pub trait Scalar: Field + Copy {
     fn over(self, other: Self) -> Self;
     /// The complex conjugate.
     fn conjugate(self) -> Self;
+}
+
+impl Number for f64 {
+    type Real = f64;
+    const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+    #[inline(always)]
+    fn times(self, x: f64) -> Self {
+        self * x
+    }
+    #[inline(always)]
+    fn halved(self) -> Self {
+        0.5 * self
+    }
+    #[inline(always)]
+    fn size(self) -> f64 {
+        self.abs()
+    }
+    #[inline(always)]
+    fn bound(self) -> f64 {
+        self.abs()
+    }
+}
+
+impl Number for Complex<f64> {
+    type Real = f64;
+    const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+    #[inline(always)]
+    fn times(self, x: f64) -> Self {
+        Complex::new(self.re * x, self.im * x)
+    }
+    #[inline(always)]
+    fn halved(self) -> Self {
+        self.times(0.5)
+    }
+    #[inline(always)]
+    fn size(self) -> f64 {
+        self.re.abs().max(self.im.abs())
+    }
+    #[inline(always)]
+    fn bound(self) -> f64 {
+        self.re.abs() + self.im.abs()
+    }
+}
+
+impl Number for DoubleDouble {
+    type Real = DoubleDouble;
+    const UNIT_ROUNDOFF: f64 = DoubleDouble::UNIT_ROUNDOFF;
+    fn times(self, x: DoubleDouble) -> Self {
+        self.mul(&x)
+    }
+    fn halved(self) -> Self {
+        self.mul(&DoubleDouble::from(0.5))
+    }
+    fn size(self) -> f64 {
+        self.to_f64().abs()
+    }
+    fn bound(self) -> f64 {
+        self.to_f64().abs()
+    }
+}
+
+impl Number for Complex<DoubleDouble> {
+    type Real = DoubleDouble;
+    const UNIT_ROUNDOFF: f64 = DoubleDouble::UNIT_ROUNDOFF;
+    fn times(self, x: DoubleDouble) -> Self {
+        Complex::new(self.re.mul(&x), self.im.mul(&x))
+    }
+    fn halved(self) -> Self {
+        self.times(DoubleDouble::from(0.5))
+    }
+    fn size(self) -> f64 {
+        self.re.to_f64().abs().max(self.im.to_f64().abs())
+    }
+    fn bound(self) -> f64 {
+        self.re.to_f64().abs() + self.im.to_f64().abs()
+    }
 }
 
 impl Scalar for f64 {
@@ -44,18 +131,6 @@ impl Scalar for f64 {
     #[inline(always)]
     fn to_complex(self) -> Complex<f64> {
         Complex::new(self, 0.0)
-    }
-    #[inline(always)]
-    fn times(self, x: f64) -> Self {
-        self * x
-    }
-    #[inline(always)]
-    fn size(self) -> f64 {
-        self.abs()
-    }
-    #[inline(always)]
-    fn bound(self) -> f64 {
-        self.abs()
     }
     #[inline(always)]
     fn cos_sin_of(self) -> (Self, Self) {
@@ -92,18 +167,6 @@ impl Scalar for Complex<f64> {
     #[inline(always)]
     fn to_complex(self) -> Complex<f64> {
         self
-    }
-    #[inline(always)]
-    fn times(self, x: f64) -> Self {
-        Complex::new(self.re * x, self.im * x)
-    }
-    #[inline(always)]
-    fn size(self) -> f64 {
-        self.re.abs().max(self.im.abs())
-    }
-    #[inline(always)]
-    fn bound(self) -> f64 {
-        self.re.abs() + self.im.abs()
     }
     #[inline(always)]
     fn cos_sin_of(self) -> (Self, Self) {

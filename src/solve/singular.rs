@@ -9,6 +9,7 @@ use super::newton::{Six, closure};
 use super::scalar::Scalar;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use nalgebra::{Matrix6, Vector6};
+use num_complex::Complex;
 
 /// What a singular solution is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,8 +31,8 @@ const CURVE: f64 = 1e-11;
 const BORDER: [f64; 6] = [0.41, -0.37, 0.53, 0.29, -0.47, 0.33];
 const COBORDER: [f64; 6] = [0.39, 0.45, -0.31, 0.51, 0.35, -0.43];
 
-/// Follows the bordered system to the displacement `h` from `origin` along the kernel; the unknowns and g there.
-fn follow<S: Scalar>(closed: &ClosedLoop<f64>, origin: &Six<S>, direction: &Six<S>, h: f64) -> Option<(Six<S>, S)> {
+/// Follows the bordered system to the displacement `h` from `origin` along the kernel; g there.
+fn follow<S: Scalar>(closed: &ClosedLoop<f64>, origin: &Six<S>, direction: &Six<S>, h: f64) -> Option<S> {
     let mut q: Six<S> = std::array::from_fn(|k| origin[k].add(&direction[k].times(h)));
     let along = (0..6).fold(S::zero(), |sum, k| sum.add(&direction[k].times(COBORDER[k]))).times(h);
     let mut g = S::zero();
@@ -58,7 +59,7 @@ fn follow<S: Scalar>(closed: &ClosedLoop<f64>, origin: &Six<S>, direction: &Six<
             break;
         }
     }
-    Some((q, g))
+    Some(g)
 }
 
 fn bordered<S: Scalar>(jacobian: &[Six<S>; 6]) -> [[S; 7]; 7] {
@@ -75,37 +76,83 @@ fn bordered<S: Scalar>(jacobian: &[Six<S>; 6]) -> [[S; 7]; 7] {
 /// What the singular solution at `unknowns` is, by following its one free direction.
 #[must_use]
 pub fn nature<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Nature {
-    let here = closure(closed, unknowns);
-    let Some(inverted) = inverse(&bordered(&here.jacobian)) else { return Nature::Unresolved };
+    let Some(direction) = free_direction(closed, unknowns) else { return Nature::Unresolved };
+    // A neighbouring solution spoils the order at a large displacement, rounding at a small one.
+    for h in [1e-2, 3e-3, 1e-3, 3e-4] {
+        let Some([left, right]) = orders(closed, unknowns, &direction, h) else { continue };
+        if h > 5e-3 && left.1 < CURVE && right.1 < CURVE {
+            return Nature::SelfMotion(1);
+        }
+        let order = left.0.round();
+        if (left.0 - order).abs() < 0.2 && (right.0 - order).abs() < 0.2 && (1.0..16.0).contains(&order) {
+            return Nature::Isolated(order as usize);
+        }
+    }
+    Nature::Unresolved
+}
+
+/// On either side: the order with which g grows from a displacement `h` to `2 h`, and the larger |g|.
+fn orders<S: Scalar>(
+    closed: &ClosedLoop<f64>,
+    origin: &Six<S>,
+    direction: &Six<S>,
+    h: f64,
+) -> Option<[(f64, f64); 2]> {
+    let side = |h: f64| {
+        let near = follow(closed, origin, direction, h)?.to_complex().norm();
+        let far = follow(closed, origin, direction, 2.0 * h)?.to_complex().norm();
+        Some(((far / near).log2(), near.max(far)))
+    };
+    Some([side(h)?, side(-h)?])
+}
+
+/// The two solutions of a nearly double one: where the parabola through g at three displacements along the nearly free
+/// direction vanishes. `None` where they are not both near. Accurate to about 1e-8.
+#[must_use]
+pub fn pair<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<[Six<Complex<f64>>; 2]> {
+    /// Displacements at which g is taken: large against the rounding of g, its square small against the pair.
+    const STEP: f64 = 1e-5;
+    /// How far away the solutions may be.
+    const REACH: f64 = 1e-2;
+    let direction = free_direction(closed, unknowns)?;
+    let [behind, here, ahead] = [-STEP, 0.0, STEP].map(|h| follow(closed, unknowns, &direction, h));
+    let (behind, here, ahead) = (behind?.to_complex(), here?.to_complex(), ahead?.to_complex());
+    let curvature = (ahead + behind - 2.0 * here) / (2.0 * STEP * STEP);
+    let slope = (ahead - behind) / (2.0 * STEP);
+    if !(curvature.norm() > 0.0) {
+        return None;
+    }
+    let root = (slope * slope - 4.0 * curvature * here).sqrt();
+    let shifts = [(root - slope) / (2.0 * curvature), (-root - slope) / (2.0 * curvature)];
+    let at = |shift: Complex<f64>| {
+        std::array::from_fn(|k| unknowns[k].to_complex() + direction[k].to_complex() * shift)
+    };
+    shifts.iter().all(|shift| shift.norm() < REACH).then(|| shifts.map(at))
+}
+
+/// The direction in which the loop gives way at a singular solution of corank 1, its largest entry 1; `None` for a
+/// higher corank.
+fn free_direction<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<Six<S>> {
     // The kernel vector is the answer of the bordered matrix to (0, 1); a large answer means corank above 1.
+    let inverted = inverse(&bordered(&closure(closed, unknowns).jacobian))?;
     let direction: Six<S> = std::array::from_fn(|k| inverted[k][6]);
     let length = direction.iter().map(|x| x.size()).fold(0.0, f64::max);
     let largest = inverted.iter().flatten().map(|x| x.size()).fold(0.0, f64::max);
-    if !(length > 0.0) || !(largest < 1e7) {
-        return Nature::Unresolved;
-    }
-    let direction = direction.map(|x| x.times(1.0 / length));
-    let mut orders = 0.0;
-    let mut least = f64::INFINITY;
-    let mut greatest = 0.0_f64;
-    for h in [0.01, -0.01] {
-        let (Some((_, near)), Some((_, far))) =
-            (follow(closed, unknowns, &direction, h), follow(closed, unknowns, &direction, 2.0 * h))
-        else {
-            return Nature::Unresolved;
-        };
-        let (near, far) = (near.to_complex().norm(), far.to_complex().norm());
-        greatest = greatest.max(near).max(far);
-        orders += 0.5 * (far / near).log2();
-        least = least.min(near);
-    }
-    if greatest < CURVE {
-        return Nature::SelfMotion(1);
-    }
-    if !(orders > 0.5 && orders < 15.5) || least == 0.0 {
-        return Nature::Unresolved;
-    }
-    Nature::Isolated(orders.round() as usize)
+    (length > 0.0 && largest < 1e7).then(|| direction.map(|x| x.times(1.0 / length)))
+}
+
+/// Real unknowns spread over the whole range, the same ones every time: starts for a search that nothing else leads.
+#[must_use]
+pub fn spread(variables: &[Variable; 6], trial: usize) -> Six<f64> {
+    std::array::from_fn(|k| {
+        // Multiples of square roots of primes, modulo 1: an even spread in six dimensions.
+        let root = [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0][k].sqrt();
+        let fraction = (trial as f64 * root).fract();
+        match variables[k] {
+            Variable::Rotation => (2.0 * fraction - 1.0) * std::f64::consts::PI,
+            Variable::Translation => 4.0 * fraction - 2.0,
+        }
+    })
 }
 
 /// Rank of the Jacobian at real unknowns, and its right singular vectors from the largest to the smallest value.
@@ -196,10 +243,7 @@ pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usiz
 pub fn structural_rank(closed: &ClosedLoop<f64>) -> usize {
     (1..=3)
         .map(|trial| {
-            let q: Six<f64> = std::array::from_fn(|k| match closed.variables[k] {
-                Variable::Rotation => 3.0 * ((trial * 17 + k * 5) as f64 * 2.399_963).sin(),
-                Variable::Translation => ((trial * 11 + k * 3) as f64 * 2.399_963).cos(),
-            });
+            let q = spread(&closed.variables, trial);
             let here = closure(closed, &q);
             let matrix = Matrix6::from_fn(|i, j| here.jacobian[i][j]);
             let values = matrix.singular_values();

@@ -1,0 +1,214 @@
+//! Counting: what of the planted truth is found, and whether all that is found is true.
+
+use super::sample::{Sample, Set, sample};
+use crate::assembly::{Assembly, Roots, Workspace, wrapped};
+use crate::error::Result;
+use crate::kinematics::motion::Motion;
+use crate::mechanism::{FullMode, Mechanism};
+use crate::verdict::Status;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::fmt::{self, Display};
+
+/// The counts of one run.
+#[derive(Clone, Debug, Default)]
+pub struct Counts {
+    /// Arms solved.
+    pub arms: usize,
+    /// Planted configurations found.
+    pub found: usize,
+    /// Planted configurations that are neither listed nor on a reported self-motion.
+    pub lost: Vec<u64>,
+    /// Planted configurations that lie on a self-motion, which was reported.
+    pub on_self_motion: usize,
+    /// Real modes whose forward kinematics, computed independently, misses the pose by more than 1e-9.
+    pub spurious: usize,
+    /// Pairs of real modes of one pose nearer than 1e-6 radians, not proved to be two.
+    pub duplicates: usize,
+    /// Closure residuals of all modes.
+    pub residuals: Vec<f64>,
+    /// Distances from the planted to the found configuration.
+    pub errors: Vec<f64>,
+    /// How many arms have this many real solutions, with multiplicity.
+    pub real: BTreeMap<usize, usize>,
+    /// How many arms have this many complex solutions, with multiplicity.
+    pub complex: BTreeMap<usize, usize>,
+    /// How many got each verdict.
+    pub verdicts: BTreeMap<&'static str, usize>,
+    /// Why lists are incomplete.
+    pub reasons: BTreeMap<String, usize>,
+    /// Modes found, and how many of them are certified.
+    pub modes: (usize, usize),
+}
+
+/// What was asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Job {
+    /// The family of arms.
+    pub set: Set,
+    /// How many.
+    pub count: u64,
+    /// Seed of the draw.
+    pub seed: u64,
+    /// All roots, or real ones only.
+    pub roots: Roots,
+}
+
+/// Runs a job on all threads of the pool it is called in; `tick` is called after every arm. Once `running` says no,
+/// the arms not begun are left out of the counts.
+///
+/// # Errors
+/// None in practice, see [`sample`].
+pub fn run(job: Job, running: impl Fn() -> bool + Sync, tick: impl Fn() + Sync) -> Result<Counts> {
+    (0..job.count)
+        .into_par_iter()
+        .map_init(
+            || (Workspace::default(), Assembly::default()),
+            |(workspace, assembly), index| {
+                if !running() {
+                    return Ok(Counts::default());
+                }
+                let counts = one(job, index, workspace, assembly);
+                tick();
+                counts
+            },
+        )
+        .try_reduce(Counts::default, |a, b| Ok(a.and(b)))
+}
+
+fn one(job: Job, index: u64, workspace: &mut Workspace, assembly: &mut Assembly) -> Result<Counts> {
+    let drawn = sample(job.set, job.seed, index)?;
+    let mechanism = Mechanism::prepare(&drawn.entry)?;
+    let solution = mechanism.solve(&drawn.entry.cases[0], job.roots, workspace, assembly)?;
+    let mut counts = Counts { arms: 1, ..Counts::default() };
+    let real: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real).collect();
+    let apart = |mode: &FullMode, q: &[f64; 6]| {
+        (0..6).map(|k| wrapped(mode.q[k].re - q[k]).abs()).fold(0.0, f64::max)
+    };
+    let nearest = real.iter().map(|m| apart(m, &drawn.planted)).fold(f64::INFINITY, f64::min);
+    if nearest < job.set.tolerance() {
+        counts.found = 1;
+        counts.errors.push(nearest);
+    } else if solution.verdict.self_motion > 0 && drawn.regularity < 1e-5 {
+        counts.on_self_motion = 1;
+    } else {
+        counts.lost.push(index);
+    }
+    for (k, mode) in real.iter().enumerate() {
+        counts.spurious += usize::from(!(miss(&drawn, mode) < 1e-9));
+        let q: [f64; 6] = std::array::from_fn(|j| mode.q[j].re);
+        counts.duplicates += real[..k]
+            .iter()
+            .filter(|other| apart(other, &q) < 1e-6 && !(mode.certified && other.certified))
+            .count();
+    }
+    counts.residuals = solution.modes.iter().map(|m| m.residual).collect();
+    counts.real.insert(solution.verdict.real, 1);
+    counts.complex.insert(solution.verdict.complex, 1);
+    counts.verdicts.insert(solution.verdict.status.word(), 1);
+    if solution.verdict.status == Status::Incomplete {
+        // Numbers differ from arm to arm: the reason is what is counted.
+        let reason = solution.verdict.reason.split_whitespace();
+        let plain = reason.map(|word| if word.parse::<usize>().is_ok() { "n" } else { word });
+        counts.reasons.insert(plain.collect::<Vec<_>>().join(" "), 1);
+    }
+    counts.modes = (solution.modes.len(), solution.modes.iter().filter(|m| m.certified).count());
+    Ok(counts)
+}
+
+/// How far the tool is from the pose at a mode, by forward kinematics alone: largest entry of the difference.
+fn miss(drawn: &Sample, mode: &FullMode) -> f64 {
+    let turns: Vec<Motion<f64>> = mode.q.iter().map(|q| Motion::rotation_z(q.re.cos(), q.re.sin())).collect();
+    let (Some(reached), Some(wanted)) = (drawn.entry.chain.forward(&turns), &drawn.entry.cases[0].pose) else {
+        return f64::INFINITY;
+    };
+    let mut largest = 0.0_f64;
+    for i in 0..3 {
+        for j in 0..3 {
+            largest = largest.max((reached.rotation[i][j] - wanted.float.rotation[i][j]).abs());
+        }
+        largest = largest.max((reached.translation[i] - wanted.float.translation[i]).abs());
+    }
+    largest
+}
+
+impl Counts {
+    fn and(mut self, mut other: Self) -> Self {
+        self.arms += other.arms;
+        self.found += other.found;
+        self.lost.append(&mut other.lost);
+        self.on_self_motion += other.on_self_motion;
+        self.spurious += other.spurious;
+        self.duplicates += other.duplicates;
+        self.residuals.append(&mut other.residuals);
+        self.errors.append(&mut other.errors);
+        for (key, count) in other.real {
+            *self.real.entry(key).or_default() += count;
+        }
+        for (key, count) in other.complex {
+            *self.complex.entry(key).or_default() += count;
+        }
+        for (key, count) in other.verdicts {
+            *self.verdicts.entry(key).or_default() += count;
+        }
+        for (key, count) in other.reasons {
+            *self.reasons.entry(key).or_default() += count;
+        }
+        self.modes = (self.modes.0 + other.modes.0, self.modes.1 + other.modes.1);
+        self
+    }
+
+    /// Whether nothing is lost, spurious or double.
+    #[must_use]
+    pub fn is_faultless(&self) -> bool {
+        self.lost.is_empty() && self.spurious == 0 && self.duplicates == 0
+    }
+}
+
+/// Quantiles of a sample: median, 99 %, 99.9 %, largest.
+#[must_use]
+pub fn quantiles(values: &[f64]) -> [f64; 4] {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    [0.5, 0.99, 0.999, 1.0].map(|part| {
+        let index = ((sorted.len() as f64 * part).ceil() as usize).clamp(1, sorted.len().max(1)) - 1;
+        sorted.get(index).copied().unwrap_or(f64::NAN)
+    })
+}
+
+impl Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let joined = |map: &BTreeMap<usize, usize>| {
+            map.iter().map(|(key, count)| format!("{key}:{count}")).collect::<Vec<_>>().join("  ")
+        };
+        writeln!(
+            f,
+            "{} arms: {} planted found, {} lost, {} spurious, {} duplicates",
+            self.arms,
+            self.found,
+            self.lost.len(),
+            self.spurious,
+            self.duplicates
+        )?;
+        if self.on_self_motion > 0 {
+            writeln!(f, "  on a self-motion     {} planted, reported as such", self.on_self_motion)?;
+        }
+        if !self.lost.is_empty() {
+            let shown: Vec<String> = self.lost.iter().take(10).map(u64::to_string).collect();
+            writeln!(f, "  lost samples         {}", shown.join(" "))?;
+        }
+        let verdicts: Vec<String> = self.verdicts.iter().map(|(word, count)| format!("{count} {word}")).collect();
+        writeln!(f, "  verdicts             {}", verdicts.join(", "))?;
+        writeln!(f, "  certified            {} of {} modes", self.modes.1, self.modes.0)?;
+        for (name, values) in [("closure residual", &self.residuals), ("distance to planted", &self.errors)] {
+            let [median, p99, p999, largest] = quantiles(values);
+            writeln!(f, "  {name:<21}median {median:.1e}  99% {p99:.1e}  99.9% {p999:.1e}  max {largest:.1e}")?;
+        }
+        writeln!(f, "  real solutions       {}", joined(&self.real))?;
+        write!(f, "  complex solutions    {}", joined(&self.complex))?;
+        for (reason, count) in &self.reasons {
+            write!(f, "\n  incomplete {count:>6}  {reason}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,5 @@
+//! The program measures itself: solutions found, lost, spurious, duplicated against planted truth, and its speed.
+
+pub mod accuracy;
+pub mod sample;
+pub mod speed;

@@ -1,0 +1,114 @@
+//! How many solutions a loop can have: the degree of its closure polynomial, computed exactly.
+//!
+//! Every finite solution of a cut that loses no equation is a root of the pencil's determinant, a polynomial in x =
+//! tan(q/2) of degree 16; solutions that share a root give it at least their number as multiplicity. Roots x = +-i
+//! belong to no finite angle, and roots that an arm shows at two general poses alike to no solution: a joint that stood
+//! still at all poses would leave five joints for six freedoms. What remains of 16 bounds the number of isolated
+//! solutions, and the least such bound over all cuts holds. Over a general pose of a geometry it holds for all its
+//! poses, because isolated solutions with multiplicity can only become fewer in special positions.
+//! [SommeseWampler2005]
+
+use super::cut::{Cut, Hidden};
+use super::pencil::{before_second_link, bilinear, offset, pencil};
+use crate::algebra::determinant::by_interpolation;
+use crate::algebra::ring::{Domain, Field};
+use crate::algebra::univariate::Univariate;
+use crate::closure::half_angle::half_angle_form;
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::motion::Motion;
+
+/// The closure polynomial of one cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClosurePolynomial<F> {
+    /// Determinant of the pencil, its hidden angle turned by the offset of [`half_tangent_pair`] at 3/7.
+    pub polynomial: Univariate<F>,
+    /// The power k of the factor `(1 + x^2)^k`.
+    pub spurious: usize,
+    /// What is left without that factor.
+    pub cofactor: Univariate<F>,
+}
+
+/// A bound on the number of isolated solutions of a loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Degree {
+    /// At most this many finite solutions, with multiplicity.
+    pub solutions: usize,
+    /// How many roots of the polynomial of degree 16 were left out.
+    pub left_out: usize,
+    /// Distinct values of the hidden unknown among them: degree of the square-free part.
+    pub distinct: usize,
+}
+
+/// Cosine and sine of the angle with half-angle tangent `t`; `None` where `1 + t^2` has no inverse.
+#[must_use]
+pub fn half_tangent_pair<F: Field>(t: &F) -> Option<(F, F)> {
+    let square = t.mul(t);
+    let scale = F::one().add(&square).inverse()?;
+    Some((F::one().sub(&square).mul(&scale), t.add(t).mul(&scale)))
+}
+
+/// The closure polynomial of a loop as one cut and one hidden unknown give it; `None` where the cut is degenerate or
+/// the determinant vanishes identically.
+#[must_use]
+pub fn closure_polynomial<F: Field + Domain>(closed: &ClosedLoop<F>, cut: Cut, hidden: Hidden) -> Option<ClosurePolynomial<F>> {
+    if !cut.fits(closed.variables) {
+        return None;
+    }
+    let view = cut.of(closed);
+    let form = half_angle_form(&view)?;
+    let rows = before_second_link(&form, &view.constants[1]);
+    let t = F::from_integer(3).mul(&F::from_integer(7).inverse()?);
+    let (cos, sin) = half_tangent_pair(&t)?;
+    let equations = offset(&bilinear(&rows, &view), hidden, &cos, &sin);
+    let polynomial = by_interpolation(&pencil(&equations, hidden).coefficients);
+    polynomial.degree()?;
+    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
+    let (spurious, cofactor) = polynomial.remove_factor(&circle);
+    Some(ClosurePolynomial { polynomial, spurious, cofactor })
+}
+
+/// The least bound over all cuts; `None` if all are degenerate. `other` is the same arm at another general pose, by
+/// which roots independent of the pose are known; none for a loop, or where the count at one special pose is wanted.
+#[must_use]
+pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>) -> Option<Degree> {
+    let mut best: Option<Degree> = None;
+    for cut in Cut::ALL {
+        for hidden in [Hidden::First, Hidden::Second] {
+            let Some(found) = closure_polynomial(closed, cut, hidden) else { continue };
+            let standing = other.and_then(|other| closure_polynomial(other, cut, hidden)).map_or(0, |other| {
+                found.cofactor.gcd(&other.cofactor).degree().unwrap_or(0)
+            });
+            let distinct = found.cofactor.square_free_part().degree().unwrap_or(0);
+            let left_out = 2 * found.spurious + standing;
+            let bound = Degree { solutions: 16 - left_out, left_out, distinct };
+            if best.is_none_or(|b| bound.solutions < b.solutions) {
+                best = Some(bound);
+            }
+        }
+    }
+    best
+}
+
+/// A motion in general position, to fill the gap of an arm's loop, or of a loop's locked variable; another one for
+/// every `choice`.
+#[must_use]
+pub fn general_filling<F: Field>(locked: Option<Variable>, choice: i32) -> Option<Motion<F>> {
+    let tangent = |n: i32| half_tangent_pair(&F::from_integer(n + 1009 * choice));
+    match locked {
+        Some(Variable::Translation) => Some(Motion::translation_z(F::from_integer(1_234_577 + choice))),
+        Some(Variable::Rotation) => {
+            let (cos, sin) = tangent(1_234_577)?;
+            Some(Motion::rotation_z(cos, sin))
+        }
+        None => {
+            let (c1, s1) = tangent(1_234_577)?;
+            let (c2, s2) = tangent(7_654_321)?;
+            let (c3, s3) = tangent(3_141_593)?;
+            let turn = Motion::rotation_z(c1, s1)
+                .then_after(&Motion::rotation_x(c2, s2))
+                .then_after(&Motion::rotation_z(c3, s3));
+            let shift = [2_718_281, 1_414_213, 1_732_051].map(|n| F::from_integer(n - 4099 * choice));
+            Some(Motion { translation: shift, ..turn })
+        }
+    }
+}
