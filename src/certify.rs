@@ -11,7 +11,7 @@
 //!
 //! every r with `Y + Z0 r + Z2 r^2 / 2 <= r` and `Z0 + Z2 r < 1` has exactly one solution of F = 0 in the ball of radius
 //! r (largest coordinate) around q. F holds the translation and the skew part of the rotation of E; near E = I its zeros
-//! are exactly the closures. [Krawczyk1969]
+//! are exactly the closures. \[Krawczyk1969\]
 //!
 //! Rounding: E is computed as a product of six steps. Step j leaves an error of at most `c u |before| |step|`, which the
 //! steps behind it magnify by at most their norm. Constants of the loop count as known to a few roundings, so that the

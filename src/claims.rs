@@ -1,5 +1,6 @@
 //! Are the claims of a mechanism file true: counts against what is found, solutions against the closure itself.
 
+use crate::algebra::number::Number;
 use crate::assembly::{Assembly, Roots, Workspace, wrapped};
 use crate::catalogue::entry::{Case, Claim, Entry, InputValue};
 use crate::error::{Error, Result};
@@ -197,7 +198,8 @@ impl Judge<'_> {
         let reached = self.entry.chain.forward(&motions);
         let reached = reached.ok_or_else(|| Error::Invalid("the joints of the claim have no pose".to_owned()))?;
         let wanted = self.case.pose.as_ref().map_or_else(Motion::identity, |pose| pose.float.clone());
-        let lengths: f64 = q.iter().zip(self.variables).filter(|(_, v)| **v == Variable::Translation).map(|(x, _)| x.abs()).sum();
+        let lengths: f64 =
+            q.iter().zip(self.variables).filter(|(_, v)| **v == Variable::Translation).map(|(x, _)| x.abs()).sum();
         let reach = reach(&self.entry.chain) + lengths;
         let mut defect = 0.0_f64;
         for i in 0..3 {
@@ -238,7 +240,7 @@ fn reach(chain: &Chain) -> f64 {
             joints.iter().map(|joint| joint.a.to_f64().abs() + joint.d.to_f64().abs()).sum::<f64>()
         }
         Geometry::Screws { joints, home } => {
-            let points = joints.iter().map(|joint| length(&joint.point.each_ref().map(|x| x.to_f64())));
+            let points = joints.iter().map(|joint| length(&joint.point.each_ref().map(Number::to_f64)));
             length(&home.float.translation) + points.sum::<f64>()
         }
     }

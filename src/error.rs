@@ -4,7 +4,7 @@
 
 use thiserror::Error;
 
-/// Shorthand for a result with this crate's [`Error`].
+/// Shorthand for a result with this crate's [`enum@Error`].
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Why something could not be done.

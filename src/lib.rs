@@ -1,5 +1,6 @@
-//! All solutions of kinematic closure equations.
-#![deny(missing_docs)]
+#![doc = include_str!("../README.md")]
+//
+// The modules in layer order, apart so that no formatter sorts them: none imports a later one.
 
 pub mod error;
 

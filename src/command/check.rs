@@ -42,7 +42,8 @@ pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
             Ok(judgement) if judgement.failures().next().is_none() => Exit::Complete,
             Ok(_) => Exit::NotProved,
             Err(error) => {
-                complain(&error.to_string());
+                let message = error.to_string();
+                complain(&if message.contains(&one.name) { message } else { format!("{}: {message}", one.name) });
                 Exit::of_error(error)
             }
         });
@@ -111,7 +112,11 @@ fn text(checked: &[Checked], quiet: bool) -> String {
     let complete: usize = judged().map(|judgement| judgement.complete).sum();
     let in_entries = format!("in {}", counted(judged().count(), "entry"));
     let _ = match failed {
-        0 => writeln!(text, "{} {in_entries} hold; {complete} of {cases} cases proved complete", counted(claims, "claim")),
+        0 => writeln!(
+            text,
+            "{} {in_entries} hold; {complete} of {cases} cases proved complete",
+            counted(claims, "claim")
+        ),
         _ => writeln!(
             text,
             "{failed} of {} {in_entries} FAIL; {complete} of {cases} cases proved complete",

@@ -133,7 +133,11 @@ fn wanted(options: &SolveOptions, entry: &mut Entry) -> Result<Range<usize>, Err
     let count = entry.cases.len();
     match number {
         None if count == 0 => {
-            let hint = if is_arm { "expected a [[pose]], or --joints with joint values that reach one" } else { "expected an [[input]]" };
+            let hint = if is_arm {
+                "expected a [[pose]], or --joints with joint values that reach one"
+            } else {
+                "expected an [[input]]"
+            };
             Err(Error::Invalid(format!("{}: found nothing to solve, {hint}", options.mechanism)))
         }
         None => Ok(0..count),
@@ -170,7 +174,9 @@ fn reached(entry: &Entry, joints: &str) -> Result<Case, Error> {
     let texts: Vec<&str> = joints.split(',').map(str::trim).collect();
     if texts.len() != variables.len() {
         let (found, expected) = (texts.len(), variables.len());
-        return Err(Error::Invalid(format!("found {found} values in --joints, expected {expected}, separated by commas")));
+        return Err(Error::Invalid(format!(
+            "found {found} values in --joints, expected {expected}, separated by commas"
+        )));
     }
     let reading = Reading::default();
     let mut motions = Vec::new();

@@ -3,7 +3,7 @@
 //! With x = tan(q/2) for the hidden unknown, z for the other one and x3 for the third,
 //! `(A0 + A1 x + A2 x^2) y = 0`, `y = (1, z, z^2, z^3, x3, z x3, z^2 x3, z^3 x3)`; the rows are the four equations times
 //! 1 and z. Its determinant has degree 16 and no factor 1 + x^2 in general: the closure polynomial of the loop.
-//! [LeeWoernleHiller1991]
+//! \[LeeWoernleHiller1991\]
 
 use super::cut::Hidden;
 use crate::algebra::ring::{Field, Ring};

@@ -2,7 +2,7 @@
 //!
 //! `V1(x1) G1 V2(x2) G2 ... V6(x6) G6 = I` with each `V` a rotation about or a translation along its own z axis. An arm
 //! at a pose, a loop with one joint given, joints of type R, P and C: nothing else about them survives, so that one code
-//! path serves all. [LeeLiang1988]
+//! path serves all. \[LeeLiang1988\]
 
 use super::chain::{Chain, Geometry, Joint, JointKind, ScrewJoint};
 use super::motion::{Motion, cross, dot, link};

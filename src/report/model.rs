@@ -2,8 +2,9 @@
 
 use super::json::{kind, number};
 use super::number::{counted, short};
-use super::table::Columns;
+use super::table::{Columns, paragraph};
 use super::text::variables;
+use crate::algebra::number::Number;
 use crate::catalogue::citation;
 use crate::catalogue::entry::{Case, Entry, Expected, InputValue, Kind};
 use crate::kinematics::chain::{Geometry, JointKind, Placement};
@@ -92,32 +93,17 @@ pub fn text(entry: &Entry) -> String {
         ("dimension", claimed(entry, |e| e.dimension)),
         ("solutions", if solutions > 0 { solutions.to_string() } else { String::new() }),
     ];
-    let claims: Vec<String> =
-        claims.into_iter().filter(|(_, count)| !count.is_empty()).map(|(what, count)| format!("{what} {count}")).collect();
+    let claims: Vec<String> = claims
+        .into_iter()
+        .filter(|(_, count)| !count.is_empty())
+        .map(|(what, count)| format!("{what} {count}"))
+        .collect();
     if claims.is_empty() {
         text.push_str(", no claims\n");
     } else {
         let _ = writeln!(text, "; claimed: {}", claims.join(", "));
     }
     text
-}
-
-/// Words in lines of at most 100 characters, those after the first indented.
-fn paragraph(text: &mut String, words: &str) {
-    let mut width = 0;
-    for word in words.split_whitespace() {
-        let length = word.chars().count();
-        if width > 0 && width + 1 + length > 100 {
-            text.push_str("\n  ");
-            width = 2;
-        } else if width > 0 {
-            text.push(' ');
-            width += 1;
-        }
-        text.push_str(word);
-        width += length;
-    }
-    text.push('\n');
 }
 
 fn joint_table(entry: &Entry) -> Columns {
@@ -219,14 +205,12 @@ fn matrix(placement: &Placement) -> [[f64; 4]; 4] {
 /// The model in radians and metres.
 #[must_use]
 pub fn json(entry: &Entry) -> Value {
-    let mut value = summary(entry);
-    let object = value.as_object_mut().expect("a summary is an object");
+    let mut object = identity(entry);
     object.insert("notes".into(), json!(entry.notes));
-    if let Some(source) = &entry.source {
-        object.insert("citation".into(), json!(citation(&source.key)));
-    }
+    object.insert("citation".into(), json!(entry.source.as_ref().and_then(|source| citation(&source.key))));
     object.insert("convention".into(), json!(convention(&entry.chain.geometry).0));
-    let list: Vec<Value> = match &entry.chain.geometry {
+    let pitch = |pitch: &Option<Number>| pitch.as_ref().map(|pitch| number(pitch.to_f64()));
+    let joints: Vec<Value> = match &entry.chain.geometry {
         Geometry::Dh(list) | Geometry::ModifiedDh(list) => list
             .iter()
             .map(|joint| {
@@ -236,39 +220,49 @@ pub fn json(entry: &Entry) -> Value {
                     "alpha": number(joint.alpha.radians()),
                     "d": number(joint.d.to_f64()),
                     "theta0": number(joint.theta0.radians()),
-                    "pitch": joint.pitch.as_ref().map(|pitch| number(pitch.to_f64())),
+                    "pitch": pitch(&joint.pitch),
                 })
             })
             .collect(),
         Geometry::Screws { joints: list, home } => {
             object.insert("home".into(), json!(matrix(home)));
-            let vector = |v: &[_; 3]| v.each_ref().map(|x: &crate::algebra::number::Number| number(x.to_f64()));
+            let vector = |v: &[Number; 3]| v.each_ref().map(|x| number(x.to_f64()));
             list.iter()
                 .map(|joint| {
-                    json!({ "type": letter(joint.kind), "axis": vector(&joint.axis), "point": vector(&joint.point) })
+                    json!({
+                        "type": letter(joint.kind),
+                        "axis": vector(&joint.axis),
+                        "point": vector(&joint.point),
+                        "pitch": pitch(&joint.pitch),
+                    })
                 })
                 .collect()
         }
     };
-    object.insert("joints".into(), json!(list));
+    object.insert("joints".into(), json!(joints));
     object.insert("base".into(), json!(matrix(&entry.chain.base)));
     object.insert("tool".into(), json!(matrix(&entry.chain.tool)));
     object.insert("limits".into(), json!(entry.limits));
     object.insert("exact".into(), json!(!entry.rounded));
     object.insert("cases".into(), json!(entry.cases.iter().map(case).collect::<Vec<_>>()));
-    value
+    Value::Object(object)
 }
 
-/// Name, kind and claims: one line of a listing.
+/// What a listing says of an entry.
 #[must_use]
 pub fn summary(entry: &Entry) -> Value {
-    json!({
-        "name": entry.name,
-        "title": entry.title,
-        "kind": kind(entry.kind),
-        "type": entry.chain.joint_kinds().into_iter().map(letter).collect::<String>(),
-        "source": entry.source.as_ref().map(|source| json!({ "key": source.key, "where": source.place })),
-    })
+    Value::Object(identity(entry))
+}
+
+fn identity(entry: &Entry) -> Map<String, Value> {
+    let source = entry.source.as_ref().map(|source| json!({ "key": source.key, "where": source.place }));
+    let mut object = Map::new();
+    object.insert("name".into(), json!(entry.name));
+    object.insert("title".into(), json!(entry.title));
+    object.insert("kind".into(), json!(kind(entry.kind)));
+    object.insert("type".into(), json!(entry.chain.joint_kinds().into_iter().map(letter).collect::<String>()));
+    object.insert("source".into(), json!(source));
+    object
 }
 
 fn case(case: &Case) -> Value {

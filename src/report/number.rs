@@ -38,7 +38,11 @@ pub fn duration(microseconds: f64) -> String {
         _ if x < 9.5 => format!("{x:.1}"),
         _ => format!("{x:.0}"),
     };
-    if microseconds < 1e6 { format!("{} ms", two(microseconds / 1e3)) } else { format!("{} s", two(microseconds / 1e6)) }
+    if microseconds < 1e6 {
+        format!("{} ms", two(microseconds / 1e3))
+    } else {
+        format!("{} s", two(microseconds / 1e6))
+    }
 }
 
 /// A number with at most this many decimals and no trailing zeros: `0.4318`, `90`.

@@ -50,3 +50,21 @@ impl Columns {
 fn cell(text: &str, left: bool) -> Cell {
     Cell::new(text).set_alignment(if left { CellAlignment::Left } else { CellAlignment::Right })
 }
+
+/// Appends words in lines of at most 100 characters, those after the first indented.
+pub fn paragraph(text: &mut String, words: &str) {
+    let mut width = 0;
+    for word in words.split_whitespace() {
+        let length = word.chars().count();
+        if width > 0 && width + 1 + length > 100 {
+            text.push_str("\n  ");
+            width = 2;
+        } else if width > 0 {
+            text.push(' ');
+            width += 1;
+        }
+        text.push_str(word);
+        width += length;
+    }
+    text.push('\n');
+}

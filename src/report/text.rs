@@ -1,7 +1,7 @@
 //! Solutions for a human: the verdict first, then the modes, then why, then what to beware of.
 
 use super::number::{at_most, counted, duration, magnitude, short};
-use super::table::Columns;
+use super::table::{Columns, paragraph};
 use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
 use crate::kinematics::chain::JointKind;
 use crate::kinematics::closed_loop::Variable;
@@ -65,7 +65,10 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
             format!("self-motion of dimension {}, {beside}, {}", verdict.self_motion, measured(solution))
         }
         Status::Incomplete => {
-            format!("incomplete, not proved: {}", verdict.reason.strip_prefix("not proved: ").unwrap_or(&verdict.reason))
+            format!(
+                "incomplete, not proved: {}",
+                verdict.reason.strip_prefix("not proved: ").unwrap_or(&verdict.reason)
+            )
         }
         Status::Unsupported => format!("unsupported: {}", verdict.reason),
     }
@@ -153,23 +156,23 @@ fn heading(entry: &Entry, number: usize, case: &Case) -> String {
 fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
     let mut text = String::new();
     if solution.verdict.status != Status::Incomplete && solution.verdict.status != Status::Unsupported {
-        let _ = writeln!(text, "why: {}", solution.verdict.reason);
+        paragraph(&mut text, &format!("why: {}", solution.verdict.reason));
     }
     if !entry.limits.is_empty() {
-        let _ = writeln!(text, "joint limits: {}", limits(entry));
+        paragraph(&mut text, &format!("joint limits: {}", limits(entry)));
         let real = solution.modes.iter().filter(|m| m.within_limits.is_some()).count();
         let outside = solution.modes.iter().filter(|m| m.within_limits == Some(false)).count();
         let fate = if view.drop_outside_limits && outside > 0 { ", the others are not listed" } else { "" };
         if real > 0 {
-            let _ = writeln!(text, "within them: {} of {real} real solutions{fate}", real - outside);
+            let _ = writeln!(text, "within them: {} of {}{fate}", real - outside, counted(real, "real solution"));
         }
     }
     let hidden = solution.modes.iter().filter(|m| !m.real).count();
     if hidden > 0 && !view.complex {
-        let _ = writeln!(text, "not listed: {hidden} complex roots (--complex)");
+        let _ = writeln!(text, "not listed: {} (--complex)", counted(hidden, "complex root"));
     }
     for warning in &solution.warnings {
-        let _ = writeln!(text, "warning: {warning}");
+        paragraph(&mut text, &format!("warning: {warning}"));
     }
     let proved = matches!(solution.verdict.status, Status::Complete | Status::Unreachable);
     if entry.rounded && proved && solution.verdict.complex < 16 {
@@ -257,5 +260,9 @@ fn shown(value: &Complex<f64>, variable: Variable, real: bool) -> String {
             text
         }
     };
-    if real || im == 0.0 { plain(re) } else { format!("{}{}{}i", plain(re), if im < 0.0 { "-" } else { "+" }, plain(im.abs())) }
+    if real || im == 0.0 {
+        plain(re)
+    } else {
+        format!("{}{}{}i", plain(re), if im < 0.0 { "-" } else { "+" }, plain(im.abs()))
+    }
 }

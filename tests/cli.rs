@@ -1,0 +1,448 @@
+//! The program as a shell sees it: exit codes, streams, files left alone, and no panic whatever comes in.
+#![allow(clippy::unwrap_used)]
+
+use serde_json::Value;
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+
+/// What a run of the program left behind.
+struct Run {
+    code: i32,
+    out: String,
+    err: String,
+}
+
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_looproot"));
+    command.args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).env_remove("NO_COLOR");
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn finish(child: Child) -> Run {
+    let output = child.wait_with_output().unwrap();
+    let run = Run {
+        code: output.status.code().unwrap_or(-1),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    };
+    assert!(!run.err.contains("panicked"), "{}", run.err);
+    run
+}
+
+fn run(arguments: &[&str]) -> Run {
+    finish(command(arguments).spawn().unwrap())
+}
+
+fn run_with_input(arguments: &[&str], input: &[u8]) -> Run {
+    let mut child = command(arguments).stdin(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input).unwrap();
+    finish(child)
+}
+
+/// A file of its own for each test.
+fn file(name: &str, content: impl AsRef<[u8]>) -> String {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(&path, content).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+fn library(name: &str) -> String {
+    fs::read_to_string(format!("{}/equations/{name}.toml", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+/// A general arm up to its first pose, and that pose without claims.
+fn general_arm() -> (String, String) {
+    let text = library("arm/general_02real");
+    let (head, rest) = text.split_once("[[pose]]").unwrap();
+    let pose = &rest[..rest.find("\n]").unwrap() + 2];
+    (head.to_owned(), format!("[[pose]]{pose}\n"))
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+#[test]
+fn a_complete_answer_begins_with_its_verdict() {
+    let run = run(&["solve", "general_16real"]);
+    let first = run.out.lines().next().unwrap();
+    assert!(first.starts_with("16 of 16 roots (16 real), all certified, residual <= "), "{first}");
+    assert!(first.ends_with(" ms"), "{first}");
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    assert_eq!(run.out.lines().filter(|line| line.ends_with("  yes")).count(), 16);
+    assert!(run.out.contains("q1 [deg]") && run.out.contains("\nwhy: 16 distinct certified roots"));
+}
+
+#[test]
+fn an_unreachable_pose_is_an_answer_of_its_own() {
+    let (head, pose) = general_arm();
+    let rows: Vec<&str> = pose.lines().collect();
+    // The same orientation, 3 m away.
+    let far = rows.iter().map(|row| match row.rsplit_once(", ") {
+        Some((row, last)) if last.ends_with("],") && !last.starts_with('1') => format!("{row}, 3],"),
+        _ => (*row).to_owned(),
+    });
+    let far = head + &far.collect::<Vec<_>>().join("\n");
+    let path = file("unreachable.toml", far);
+    let text = run(&["solve", &path]);
+    assert!(text.out.starts_with("0 real of 16 roots, all certified: this pose cannot be reached, "), "{}", text.out);
+    assert_eq!(text.code, 3);
+    let document = run(&["solve", &path, "--json"]);
+    assert_eq!(document.code, 3);
+    assert_eq!(json(&document.out)["results"][0]["verdict"]["status"], "unreachable");
+}
+
+#[test]
+fn the_document_follows_its_schema() {
+    let schema = fs::read_to_string(format!("{}/equations/result.schema.json", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let schema = json(&schema);
+    for arguments in [
+        &["solve", "general_7r", "--json"][..],
+        &["solve", "general_02real", "--json", "--complex"],
+        &["solve", "ur5", "--json", "--complex"],
+        &["solve", "general_12real", "--json", "--real"],
+        &["solve", "three_parallel", "--json"],
+    ] {
+        let run = run(arguments);
+        assert_eq!(run.err, "", "{arguments:?}");
+        validate(&json(&run.out), &schema, &schema, "document");
+    }
+}
+
+/// As much of JSON Schema as result.schema.json uses.
+fn validate(value: &Value, schema: &Value, root: &Value, place: &str) {
+    if let Some(reference) = schema["$ref"].as_str() {
+        return validate(value, root.pointer(&reference[1..]).unwrap(), root, place);
+    }
+    let is = |kind: &Value| match kind.as_str().unwrap() {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "boolean" => value.is_boolean(),
+        "null" => value.is_null(),
+        "integer" => value.is_i64() || value.is_u64(),
+        "number" => value.is_number(),
+        other => panic!("{other}"),
+    };
+    match &schema["type"] {
+        Value::Null => {}
+        Value::Array(kinds) => assert!(kinds.iter().any(is), "{place}: {value}"),
+        kind => assert!(is(kind), "{place}: {value} is no {kind}"),
+    }
+    if let Some(words) = schema["enum"].as_array() {
+        assert!(words.contains(value), "{place}: {value}");
+    }
+    if let (Some(least), Some(number)) = (schema["minimum"].as_f64(), value.as_f64()) {
+        assert!(number >= least, "{place}: {value}");
+    }
+    for key in schema["required"].as_array().into_iter().flatten() {
+        assert!(value.get(key.as_str().unwrap()).is_some(), "{place}: no {key}");
+    }
+    for (key, inner) in schema["properties"].as_object().into_iter().flatten() {
+        if let Some(value) = value.get(key) {
+            validate(value, inner, root, &format!("{place}.{key}"));
+        }
+    }
+    if let (Some(items), Some(values)) = (schema.get("items"), value.as_array()) {
+        for (index, value) in values.iter().enumerate() {
+            validate(value, items, root, &format!("{place}[{index}]"));
+        }
+    }
+    if schema.get("oneOf").is_some() {
+        let pair = value.as_array().is_some_and(|pair| pair.len() == 2 && pair.iter().all(Value::is_number));
+        assert!(value.is_number() || pair, "{place}: {value}");
+    }
+}
+
+#[test]
+fn modes_have_the_promised_fields() {
+    let run = run(&["solve", "general_12real", "--json", "--complex"]);
+    let document = json(&run.out);
+    assert_eq!(document["kind"], "arm");
+    let result = &document["results"][0];
+    let expected = [("status", "complete".into()), ("complex", 16.into()), ("real", Value::from(12))];
+    for (key, value) in expected {
+        assert_eq!(result["verdict"][key], value);
+    }
+    assert!(result["timings_us"]["prepare"].is_number() && result["timings_us"]["solve"].is_number());
+    let modes = result["modes"].as_array().unwrap();
+    assert_eq!(modes.len(), 16);
+    for (index, mode) in modes.iter().enumerate() {
+        assert_eq!(mode["real"], index < 12, "real ones first");
+        assert_eq!(mode["q"].as_array().unwrap().len(), 6);
+        for value in mode["q"].as_array().unwrap() {
+            let angle = if index < 12 { value.as_f64() } else { value[0].as_f64() }.unwrap();
+            assert!(-std::f64::consts::PI < angle && angle <= std::f64::consts::PI);
+        }
+        assert!(mode["certified"].as_bool().unwrap() && mode["radius"].as_f64().unwrap() < 1e-6);
+        assert_eq!(mode["multiplicity"], 1);
+    }
+}
+
+#[test]
+fn lines_are_results_one_by_one() {
+    let run = run(&["solve", "general_7r", "--jsonl"]);
+    let lines: Vec<Value> = run.out.lines().map(json).collect();
+    assert_eq!((run.code, lines.len()), (0, 2));
+    assert_eq!((&lines[0]["case"], &lines[1]["case"]), (&1.into(), &2.into()));
+}
+
+#[test]
+fn one_case_can_be_picked_or_given() {
+    let one = run(&["solve", "general_7r", "--input", "2", "--jsonl"]);
+    assert_eq!(json(&one.out)["case"], 2);
+    let given = run(&["solve", "rrrrrrr", "--input", "7=90 deg"]);
+    assert!(given.code == 0 && given.out.contains("q7 = 90 deg"), "{}", given.out);
+    let reached = run(&["solve", "general_02real", "--joints", "0.1, -20 deg, 0.3, pi/4, 0.5, 0.6"]);
+    assert!(reached.code == 0 && reached.out.contains("-20.0000"), "{}", reached.out);
+    for arguments in [
+        &["solve", "general_7r", "--input", "3"][..],
+        &["solve", "general_7r", "--input", "0"],
+        &["solve", "general_7r", "--input", "8=1"],
+        &["solve", "general_7r", "--input", "1=x"],
+        &["solve", "general_7r", "--pose", "1"],
+        &["solve", "general_7r", "--joints", "1"],
+        &["solve", "general_02real", "--input", "1"],
+        &["solve", "general_02real", "--pose", "9"],
+        &["solve", "general_02real", "--joints", "1,2,3"],
+        &["solve", "general_02real", "--joints", "1,2,3,4,5,nan"],
+    ] {
+        assert_eq!(run(arguments).code, 1, "{arguments:?}");
+    }
+}
+
+#[test]
+fn joint_limits_mark_or_drop() {
+    let (head, pose) = general_arm();
+    let limits = "limits = [[-0.1, 0.1], [-4, 4], [-4, 4], [-4, 4], [-4, 4], [-4, 4]]\n\n";
+    let path = file("limits.toml", head + limits + &pose);
+    let marked = run(&["solve", &path]);
+    assert!(
+        marked.out.contains("in limits") && marked.out.contains("joint limits: q1 -5.73..5.73 deg"),
+        "{}",
+        marked.out
+    );
+    let document = json(&run(&["solve", &path, "--json"]).out);
+    assert_eq!(document["results"][0]["modes"].as_array().unwrap().len(), 2);
+    let outside = document["results"][0]["modes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|mode| mode["within_limits"] == false)
+        .count();
+    let dropped = json(&run(&["solve", &path, "--json", "--limits", "drop"]).out);
+    assert_eq!(dropped["results"][0]["modes"].as_array().unwrap().len(), 2 - outside);
+    assert_eq!(dropped["results"][0]["verdict"]["real"], 2);
+}
+
+#[test]
+fn standard_input_is_a_file_named_dash() {
+    let text = library("arm/general_16real");
+    let run = run_with_input(&["solve", "-"], text.as_bytes());
+    assert_eq!(run.code, 0);
+    assert!(run.out.starts_with("16 of 16 roots"));
+    assert_eq!(run_with_input(&["solve", "-"], b"").code, 1);
+}
+
+#[test]
+fn output_goes_to_a_file_but_never_to_the_input() {
+    let text = library("arm/general_16real");
+    let input = file("kept.toml", &text);
+    let output = file("out.json", "old");
+    let run_to = |output: &str| run(&["solve", &input, "--json", "-o", output]);
+    let done = run_to(&output);
+    assert_eq!((done.code, done.out.as_str()), (0, ""));
+    assert_eq!(json(&fs::read_to_string(&output).unwrap())["results"].as_array().unwrap().len(), 1);
+    let refused = run_to(&input);
+    assert!(refused.code == 1 && refused.err.contains("never changed"), "{}", refused.err);
+    assert_eq!(fs::read_to_string(&input).unwrap(), text);
+    assert_eq!(run_to(&format!("{}/no/such/folder/x", env!("CARGO_TARGET_TMPDIR"))).code, 1);
+}
+
+#[test]
+fn colours_are_asked_for() {
+    let bare = run(&["solve", "general_16real"]);
+    assert!(!bare.out.contains('\x1b'));
+    assert!(run(&["solve", "general_16real", "--color", "always"]).out.starts_with("\x1b[32m16 of 16"));
+    let quiet = run(&["solve", "general_16real", "--quiet"]);
+    assert_eq!(quiet.out.lines().count(), 1);
+}
+
+#[test]
+fn misuse_exits_with_1() {
+    for arguments in [
+        &[][..],
+        &["dance"],
+        &["solve"],
+        &["solve", "ur5", "--dance"],
+        &["solve", "ur5", "--json", "--jsonl"],
+        &["solve", "ur5", "--digits", "many"],
+        &["solve", "ur5", "--digits", "0"],
+        &["show"],
+        &["completions", "dos"],
+    ] {
+        let run = run(arguments);
+        assert_eq!(run.code, 1, "{arguments:?}");
+        assert!(run.out.is_empty() && !run.err.is_empty(), "{arguments:?}");
+    }
+    for arguments in [&["--help"][..], &["--version"], &["solve", "--help"]] {
+        let run = run(arguments);
+        assert!(run.code == 0 && !run.out.is_empty() && run.err.is_empty(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn bad_input_names_its_place_and_exits_with_1() {
+    let good = library("arm/general_16real");
+    let first_joint = good.lines().find(|line| line.trim_start().starts_with("{ type")).unwrap().to_owned();
+    let joints = |n: usize| {
+        let mut lines: Vec<&str> = good.lines().filter(|line| !line.trim_start().starts_with("{ type")).collect();
+        let at = lines.iter().position(|line| line.starts_with("joints")).unwrap();
+        lines.splice(at + 1..=at, std::iter::repeat_n(first_joint.as_str(), n));
+        lines.join("\n")
+    };
+    let pose = good.find("matrix").unwrap();
+    let stretched = format!("{}{}", &good[..pose], good[pose..].replacen("[0.", "[1.", 1).replacen("[-0.", "[-1.", 1));
+    let cases: [(&str, Vec<u8>, &str); 11] = [
+        ("no_convention.toml", good.replace("convention = \"dh\"\n", "").into(), "convention"),
+        ("joint_type.toml", good.replacen("\"R\"", "\"Q\"", 1).into(), "found \"q\""),
+        ("not_rigid.toml", stretched.into(), "rotation"),
+        ("five.toml", joints(5).into(), "5 joints"),
+        ("eight.toml", joints(8).into(), "8 joints"),
+        ("nan.toml", good.replacen("a = ", "a = nan #", 1).into(), "nan"),
+        ("truncated.toml", good.as_bytes()[..good.len() / 2].into(), "expected"),
+        ("binary.toml", (0..=255).cycle().take(5000).collect(), "expected text"),
+        ("empty.toml", Vec::new(), "empty"),
+        ("number.json", b"17".to_vec(), "expected"),
+        ("table.csv", b"type,a,alpha,d,theta0\nR,1,2\n".to_vec(), "expected 5"),
+    ];
+    for (name, content, word) in cases {
+        let path = file(&format!("bad/{name}"), &content);
+        for verb in ["solve", "show", "check"] {
+            let run = run(&[verb, &path]);
+            assert_eq!(run.code, 1, "{verb} {name}: {}", run.err);
+            assert!(run.err.starts_with("error: ") && run.err.contains(name), "{name}: {}", run.err);
+            assert!(run.err.to_lowercase().contains(word), "{name}: {}", run.err);
+        }
+        assert_eq!(fs::read(&path).unwrap(), content, "{name} was changed");
+    }
+}
+
+#[test]
+fn what_is_no_file_is_said_so() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src");
+    let here = run(&["solve", folder]);
+    assert!(here.code == 1 && here.err.contains("directory"), "{}", here.err);
+    let nowhere = run(&["solve", "pumma560"]);
+    assert!(nowhere.code == 1 && nowhere.err.contains("did you mean `puma560`"), "{}", nowhere.err);
+    let huge = file("huge.toml", "");
+    fs::File::options().write(true).open(&huge).unwrap().set_len(1 << 30).unwrap();
+    let refused = run(&["solve", &huge]);
+    fs::remove_file(&huge).unwrap();
+    assert!(refused.code == 1 && refused.err.contains("64 MiB"), "{}", refused.err);
+    let table = file("arm.csv", "type,a,alpha,d,theta0\n".to_owned() + &"R,0.3,1,0.2,0\n".repeat(6));
+    let no_pose = run(&["solve", &table]);
+    assert!(no_pose.code == 1 && no_pose.err.contains("--joints"), "{}", no_pose.err);
+    let posed = run(&["solve", &table, "--joints", "1,2,3,-1,-2,-3", "-q"]);
+    assert!(!posed.out.is_empty() && posed.code != 1, "{}", posed.err);
+}
+
+#[test]
+fn what_is_not_solved_yet_exits_with_4() {
+    let helical = library("arm/general_16real").replacen("\"R\"", "\"H\", pitch = 0.1", 1);
+    let path = file("helical.toml", helical);
+    let text = run(&["solve", &path]);
+    assert!(text.code == 4 && text.out.is_empty() && text.err.contains("unsupported"), "{}{}", text.out, text.err);
+    let document = run(&["solve", &path, "--json"]);
+    assert_eq!(document.code, 4);
+    assert_eq!(json(&document.out)["results"][0]["verdict"]["status"], "unsupported");
+}
+
+#[test]
+fn the_library_is_listed_and_shown() {
+    let list = run(&["list"]);
+    assert_eq!(list.code, 0);
+    let document = run(&["list", "--json"]);
+    let document = json(&document.out);
+    let entries = document.as_array().unwrap();
+    assert!(entries.len() >= 25);
+    assert_eq!(list.out.lines().count(), entries.len() + 2);
+    for entry in entries {
+        assert!(entry["name"].is_string() && entry["kind"].is_string() && entry["source"]["key"].is_string());
+    }
+    let source = run(&["show", "puma560", "--source"]);
+    assert_eq!(source.out, library("arm/puma560"));
+    let shown = run(&["show", "puma560"]);
+    assert!(shown.out.starts_with("Puma 560\n6R arm, dh: "), "{}", shown.out);
+    let model = json(&run(&["show", "ur3e", "--json"]).out);
+    assert_eq!(model["convention"], "screws");
+    assert_eq!(model["joints"].as_array().unwrap().len(), 6);
+    assert_eq!(model["home"].as_array().unwrap().len(), 4);
+}
+
+#[test]
+fn claims_are_tested() {
+    let good = run(&["check", "arm/general_16real", "loop/rrrrrrr"]);
+    assert!(good.code == 0 && good.out.contains("in 2 entries hold"), "{}", good.out);
+    let text = library("arm/general_16real");
+    let q = text.find("q = [").unwrap() + 5;
+    let wrong_q = format!("{}9.5, {}", &text[..q], &text[text[q..].find(", ").unwrap() + q + 2..]);
+    file("claims/wrong_q.toml", wrong_q);
+    file("claims/sub/wrong_count.toml", text.replace("real = 16", "real = 14"));
+    file("claims/README.md", "not a mechanism");
+    let folder = format!("{}/claims", env!("CARGO_TARGET_TMPDIR"));
+    let wrong = run(&["check", &folder]);
+    assert_eq!(wrong.code, 2);
+    assert!(wrong.out.contains("claims 14 real solutions, found 16"), "{}", wrong.out);
+    assert!(wrong.out.contains("its closure is off by"), "{}", wrong.out);
+    assert!(wrong.out.trim_end().lines().last().unwrap().contains("FAIL"), "{}", wrong.out);
+    let document = json(&run(&["check", &folder, "--json"]).out);
+    assert_eq!((&document[0]["holds"], &document[1]["holds"]), (&false.into(), &false.into()));
+    assert_eq!(run(&["check", "/no/such/path"]).code, 1);
+    let empty = format!("{}/nothing", env!("CARGO_TARGET_TMPDIR"));
+    fs::create_dir_all(&empty).unwrap();
+    assert_eq!(run(&["check", &empty]).code, 1);
+}
+
+#[test]
+fn completions_are_printed() {
+    for shell in ["bash", "zsh", "fish"] {
+        assert!(run(&["completions", shell]).out.contains("looproot"));
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_fault() {
+    let mut child = command(&["list"]).spawn().unwrap();
+    drop(child.stdout.take());
+    let run = finish(child);
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_keeps_what_is_done() {
+    let (head, pose) = general_arm();
+    let path = file("many.toml", head + &pose.repeat(3000));
+    for form in ["--json", "--jsonl"] {
+        let mut child = command(&["solve", &path, form, "--threads", "1"]).spawn().unwrap();
+        let mut out = BufReader::new(child.stdout.take().unwrap());
+        let mut text = String::new();
+        // With a full pipe the program waits for its reader: it cannot be done yet.
+        out.read_line(&mut text).unwrap();
+        let kill = format!("kill -INT {}", child.id());
+        assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+        std::thread::sleep(std::time::Duration::from_millis(200));
+        out.read_to_string(&mut text).unwrap();
+        assert_eq!(finish(child).code, 130, "{form}");
+        let done = match form {
+            "--json" => json(&text)["results"].as_array().unwrap().len(),
+            _ => text.lines().map(json).count(),
+        };
+        assert!((1..3000).contains(&done), "{done}");
+    }
+}

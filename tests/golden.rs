@@ -1,0 +1,128 @@
+//! What a reader sees, compared as text with the files of tests/golden. `LOOPROOT_BLESS=1 cargo test --test golden`
+//! writes them anew: read the difference before you commit it.
+#![allow(clippy::unwrap_used)]
+
+use looproot::catalogue::entry::Entry;
+use looproot::catalogue::{Format, Options, builtin, load_text};
+use looproot::mechanism::{FullMode, Solution};
+use looproot::report::text::{View, solution};
+use looproot::report::{json, model};
+use looproot::verdict::{Status, Verdict};
+use num_complex::Complex;
+use std::fs;
+use std::path::PathBuf;
+
+fn compare(name: &str, text: &str) {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name);
+    if std::env::var_os("LOOPROOT_BLESS").is_some() {
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, text).unwrap();
+    }
+    let golden = fs::read_to_string(&path).unwrap_or_default();
+    assert!(golden == text, "tests/golden/{name} says\n{golden}\nbut now it is\n{text}");
+}
+
+/// A loop with a cylindrical joint and limits: every sort of column.
+fn entry() -> Entry {
+    let text = r#"
+        title = "Golden loop"
+        [mechanism]
+        kind = "loop"
+        convention = "dh"
+        joints = [
+            { type = "R", a = 1, alpha = "pi/3", d = 0 }, { type = "C", a = "1/3", alpha = 0.5 },
+            { type = "R", a = 2, alpha = "-30 deg", d = "150 mm", theta0 = "pi/7" }, { type = "P", a = 0, alpha = 1, theta = 0 },
+            { type = "R", a = 1, alpha = 1, d = 0 }, { type = "R", a = 1, alpha = 1, d = 1 },
+        ]
+        limits = [[-1, 1], [-2, 2], [0, 0.5], [-3, 3], [0, 1], [-3, 3], ["-180 deg", "180 deg"]]
+        [[input]]
+        joint = 6
+        angle = "90 deg"
+        [[input]]
+        joint = 4
+        distance = "250 mm"
+    "#;
+    load_text(text, "golden.toml", Format::Toml, &Options::default()).unwrap()
+}
+
+fn mode(real: bool, multiplicity: usize, certified: bool) -> FullMode {
+    let im = if real { 0.0 } else { -0.25 };
+    let q = [0.1, -3.0, 0.375, std::f64::consts::PI, -0.0, 1e-9, 1.5].map(|re| Complex::new(re, im));
+    FullMode {
+        q: q.to_vec(),
+        real,
+        multiplicity,
+        residual: 2.2e-16,
+        condition: if certified { 21.4 } else { f64::INFINITY },
+        certified,
+        radius: if certified { 2e-15 } else { f64::INFINITY },
+        within_limits: real.then_some(multiplicity == 1),
+    }
+}
+
+fn answer(status: Status, modes: Vec<FullMode>, reason: &str) -> Solution {
+    let count = |real: bool| modes.iter().filter(|m| m.real || !real).map(|m| m.multiplicity.max(1)).sum();
+    let verdict = Verdict {
+        status,
+        complex: count(false),
+        real: count(true),
+        at_infinity: if status == Status::Complete { 12 } else { 0 },
+        self_motion: usize::from(status == Status::SelfMotion),
+        certified: modes.iter().filter(|m| m.certified).count(),
+        reason: reason.to_owned(),
+    };
+    let warnings = vec!["the rotation matrix is off by 3e-7; the nearest rotation was taken".to_owned()];
+    Solution { verdict, modes, warnings, prepare_us: 71.25, solve_us: 46.0 }
+}
+
+fn answers() -> Vec<(&'static str, Solution)> {
+    let proved = "4 distinct certified roots of a closure polynomial";
+    let simple = || mode(true, 1, true);
+    vec![
+        ("complete", answer(Status::Complete, vec![simple(), mode(true, 2, false), mode(false, 1, true)], proved)),
+        ("unreachable", answer(Status::Unreachable, vec![mode(false, 1, true), mode(false, 1, true)], proved)),
+        ("incomplete", answer(Status::Incomplete, vec![simple(), mode(true, 0, false)], "not proved: a singular root")),
+        ("nothing", answer(Status::Incomplete, Vec::new(), "structurally deficient")),
+        ("self-motion", answer(Status::SelfMotion, vec![simple()], "solutions form a self-motion of dimension 1")),
+        ("unsupported", answer(Status::Unsupported, Vec::new(), "platforms are read but not solved yet")),
+    ]
+}
+
+#[test]
+fn solutions_read_as_agreed() {
+    let entry = entry();
+    let views = [
+        ("default", View::default()),
+        ("complex, colour", View { complex: true, colour: true, ..View::default() }),
+        ("drop", View { drop_outside_limits: true, ..View::default() }),
+        ("quiet", View { quiet: true, ..View::default() }),
+    ];
+    let mut text = String::new();
+    for (name, answer) in answers() {
+        // All views of the first answer, the default one of the others.
+        let shown = if name == "complete" { &views[..] } else { &views[..1] };
+        for (view_name, view) in shown {
+            text += &format!("=== {name}, {view_name}\n");
+            text += &solution(&entry, 1, &entry.cases[0], &answer, view).replace('\x1b', "ESC");
+        }
+    }
+    compare("solutions.txt", &text);
+}
+
+#[test]
+fn documents_read_as_agreed() {
+    let mut text = json::head(&entry()) + "\n";
+    for (_, answer) in answers() {
+        text += &format!("{}\n", json::result(1, &answer, &View { complex: true, ..View::default() }));
+    }
+    compare("results.json.txt", &text);
+}
+
+#[test]
+fn models_read_as_agreed() {
+    let puma = builtin("puma560_rtb", &Options::default()).unwrap();
+    let screws = builtin("ur3e", &Options::default()).unwrap();
+    let texts = [model::text(&entry()), model::text(&puma), model::text(&screws)];
+    compare("models.txt", &texts.join("===\n"));
+    compare("model.json", &format!("{:#}\n", model::json(&entry())));
+}
