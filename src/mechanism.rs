@@ -63,9 +63,9 @@ struct Prepared {
 type Mod = ModP<PRIME_61>;
 
 /// The loop of a chain modulo a prime, its gap filled.
-fn modular_loop(chain: &Chain, layout: &Layout, filling: Motion<Mod>) -> Option<ClosedLoop<Mod>> {
+fn modular_loop(chain: &Chain, layout: &Layout, filling: &Motion<Mod>) -> Option<ClosedLoop<Mod>> {
     let open: OpenLoop<Mod> = chain.try_open_loop(layout).ok()??;
-    Some(open.close(&filling))
+    Some(open.close(filling))
 }
 
 fn bound_from(degree: Degree, place: &str) -> Bound {
@@ -85,7 +85,7 @@ impl Prepared {
     fn bound(&self, chain: &Chain) -> &Bound {
         self.bound.get_or_init(|| {
             let locked = self.layout.locked.map(|k| self.layout.variables[k]);
-            let general = |choice| modular_loop(chain, &self.layout, general_filling(locked, choice)?);
+            let general = |choice| modular_loop(chain, &self.layout, &general_filling(locked, choice)?);
             let other = if locked.is_none() { general(1) } else { None };
             let counted = general(0).and_then(|closed| degree(&closed, other.as_ref()));
             counted.map_or_else(Bound::general, |d| bound_from(d, "at general poses"))
@@ -159,7 +159,7 @@ impl Mechanism {
             prepared.solver.structural_rank(),
             || prepared.bound(&self.chain).clone(),
             || {
-                let closed = modular_loop(&self.chain, &prepared.layout, filling::<Mod>(case).ok()?)?;
+                let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
                 Some(bound_from(degree(&closed, None)?, "at this pose"))
             },
         );

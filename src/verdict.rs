@@ -76,88 +76,108 @@ pub fn verdict(
     geometry: impl FnOnce() -> Bound,
     pose: impl FnOnce() -> Option<Bound>,
 ) -> Verdict {
-    let certified = assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
-    let mut verdict = Verdict {
-        status: Status::Incomplete,
+    let judged = if assembly.self_motion > 0 {
+        Judged { status: Status::SelfMotion, ..Judged::unproved(self_motion(assembly, structural_rank)) }
+    } else if structural_rank < 6 {
+        let found = if assembly.modes.is_empty() { "no solution was found" } else { "the list is not proved complete" };
+        Judged::unproved(format!("{}; {found}", deficient(structural_rank)))
+    } else if let Some(doubt) = doubt(&assembly.modes) {
+        Judged::unproved(format!("not proved: {doubt}"))
+    } else {
+        count(assembly, roots, geometry, pose)
+    };
+    Verdict {
+        status: judged.status,
         complex: assembly.total(),
         real: assembly.real(),
-        at_infinity: 0,
+        at_infinity: judged.at_infinity,
         self_motion: assembly.self_motion,
-        certified,
-        reason: String::new(),
-    };
-    let deficient =
-        || format!("structurally deficient: the joint axes reach only rank {structural_rank} of 6 in general position");
-    if assembly.self_motion > 0 {
-        verdict.status = Status::SelfMotion;
-        verdict.reason = format!(
-            "solutions form a self-motion of dimension {}{}; the isolated ones are listed, not proved complete",
-            assembly.self_motion,
-            if structural_rank < 6 { format!(" ({})", deficient()) } else { String::new() }
-        );
-        return verdict;
+        certified: certified(&assembly.modes),
+        reason: judged.reason,
     }
-    if structural_rank < 6 {
-        verdict.reason = format!("{}; no solution was found, which is not proved", deficient());
-        if !assembly.modes.is_empty() {
-            verdict.reason = format!("{}; the list is not proved complete", deficient());
-        }
-        return verdict;
+}
+
+/// A status and its reason.
+struct Judged {
+    status: Status,
+    at_infinity: usize,
+    reason: String,
+}
+
+impl Judged {
+    fn unproved(reason: String) -> Self {
+        Self { status: Status::Incomplete, at_infinity: 0, reason }
     }
-    if let Some(mode) = assembly.modes.iter().find(|m| m.multiplicity == 0) {
+}
+
+fn certified(modes: &[Mode]) -> usize {
+    modes.iter().filter(|m| m.certificate.is_some()).count()
+}
+
+fn deficient(rank: usize) -> String {
+    format!("structurally deficient: the joint axes reach only rank {rank} of 6 in general position")
+}
+
+fn self_motion(assembly: &Assembly, structural_rank: usize) -> String {
+    let because = if structural_rank < 6 { format!(" ({})", deficient(structural_rank)) } else { String::new() };
+    format!(
+        "solutions form a self-motion of dimension {}{because}; the isolated ones are listed, not proved complete",
+        assembly.self_motion
+    )
+}
+
+/// What speaks against counting these modes at all.
+fn doubt(modes: &[Mode]) -> Option<String> {
+    if let Some(mode) = modes.iter().find(|m| m.multiplicity == 0) {
         let kind = if mode.real { "real" } else { "complex" };
-        verdict.reason = format!("not proved: a singular {kind} solution of unknown multiplicity");
-        return verdict;
+        return Some(format!("a singular {kind} solution of unknown multiplicity"));
     }
-    let simple = assembly.modes.iter().filter(|m| m.multiplicity == 1 && m.certificate.is_none()).count();
-    let accounted = |bound: &Bound| {
-        let multiple = assembly.modes.iter().filter(|m| m.multiplicity > 1).count();
-        let mut text = format!("{certified} distinct certified roots");
-        if multiple > 0 {
-            let counted: usize = assembly.modes.iter().filter(|m| m.multiplicity > 1).map(|m| m.multiplicity).sum();
-            text += &format!(" and {multiple} multiple ones (counted {counted})");
+    let unproved = modes.iter().filter(|m| m.multiplicity == 1 && m.certificate.is_none()).count();
+    if unproved > 0 {
+        return Some(format!("{unproved} of {} roots have no certificate", modes.len()));
+    }
+    let undecided = modes.iter().any(|mode| !mode.real && !is_proved_complex(mode));
+    undecided.then(|| "a root is neither proved real nor proved complex".to_owned())
+}
+
+/// Compares the number of modes with what is known of the number of solutions.
+fn count(
+    assembly: &Assembly,
+    roots: Roots,
+    geometry: impl FnOnce() -> Bound,
+    pose: impl FnOnce() -> Option<Bound>,
+) -> Judged {
+    let found = assembly.total();
+    let bound = if found == 16 { Bound::general() } else { geometry() };
+    if found > bound.count {
+        return Judged::unproved(format!("contradiction: {found} roots found, but {}", bound.because));
+    }
+    let status = if assembly.real() == 0 { Status::Unreachable } else { Status::Complete };
+    if found == bound.count {
+        return Judged { status, at_infinity: 0, reason: accounted(&assembly.modes, &bound) };
+    }
+    if roots == Roots::Real {
+        return Judged::unproved("not proved: only real roots were looked for".to_owned());
+    }
+    match pose() {
+        Some(here) if here.count == found => {
+            Judged { status, at_infinity: bound.count - found, reason: accounted(&assembly.modes, &here) }
         }
-        format!("{text} of {}", bound.because)
+        here => {
+            let bound = here.filter(|here| here.count < bound.count).unwrap_or(bound);
+            Judged::unproved(format!("not proved: found {found} of up to {} roots of {}", bound.count, bound.because))
+        }
+    }
+}
+
+/// How the modes add up to the bound.
+fn accounted(modes: &[Mode], bound: &Bound) -> String {
+    let multiple: Vec<usize> = modes.iter().map(|m| m.multiplicity).filter(|&m| m > 1).collect();
+    let also = match multiple.len() {
+        0 => String::new(),
+        several => format!(" and {several} multiple ones (counted {})", multiple.iter().sum::<usize>()),
     };
-    let found = verdict.complex;
-    if roots == Roots::Real && found < 16 {
-        let bound = geometry();
-        if found < bound.count || simple > 0 {
-            verdict.reason = "not proved: only real roots were looked for".to_owned();
-            return verdict;
-        }
-        verdict.reason = accounted(&bound);
-    } else if simple > 0 {
-        verdict.reason = format!("not proved: {simple} of {found} roots have no certificate");
-        return verdict;
-    } else {
-        let bound = if found == 16 { Bound::general() } else { geometry() };
-        if found == bound.count {
-            verdict.reason = accounted(&bound);
-        } else if found > bound.count {
-            verdict.reason = format!("contradiction: {found} roots found, but {}", bound.because);
-            return verdict;
-        } else {
-            match pose() {
-                Some(here) if here.count == found => {
-                    verdict.at_infinity = bound.count - found;
-                    verdict.reason = accounted(&here);
-                }
-                here => {
-                    let bound = here.unwrap_or(bound);
-                    verdict.reason =
-                        format!("not proved: found {found} of up to {} roots of {}", bound.count, bound.because);
-                    return verdict;
-                }
-            }
-        }
-    }
-    if !assembly.modes.iter().filter(|m| !m.real).all(is_proved_complex) {
-        verdict.reason = "not proved: a root is neither proved real nor proved complex".to_owned();
-        return verdict;
-    }
-    verdict.status = if verdict.real == 0 { Status::Unreachable } else { Status::Complete };
-    verdict
+    format!("{} distinct certified roots{also} of {}", certified(modes), bound.because)
 }
 
 /// Whether a complex mode is farther from the real numbers than its error.

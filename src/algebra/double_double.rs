@@ -93,7 +93,7 @@ impl Ring for DoubleDouble {
     }
     fn from_rational(q: &Rational) -> Option<Self> {
         let high = nearest_f64(q);
-        let rest = Rational::from_f64(high).map_or(0.0, |h| nearest_f64(&Rational::from(q - h)));
+        let rest = Rational::from_f64(high).map_or(0.0, |h| nearest_f64(&(q - h)));
         let (high, low) = quick_two_sum(high, rest);
         Some(Self { high, low })
     }

@@ -167,7 +167,9 @@ pub fn quantiles(values: &[f64]) -> [f64; 4] {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     [0.5, 0.99, 0.999, 1.0].map(|part| {
-        let index = ((sorted.len() as f64 * part).ceil() as usize).clamp(1, sorted.len().max(1)) - 1;
+        // The smallest value with at least this part of all values at or below it.
+        let below = |k: usize| (k as f64) < sorted.len() as f64 * part;
+        let index = (1..sorted.len()).take_while(|&k| below(k)).count();
         sorted.get(index).copied().unwrap_or(f64::NAN)
     })
 }

@@ -194,7 +194,7 @@ fn screws(scope: &Scope<'_>, table: &Table<'_>, kind: Kind, nodes: &[Node]) -> R
         (None, Kind::Loop) => Placement::identity(),
         (None, _) => scope.matrix(scope.need(table, "home")?, "home")?,
     };
-    Ok(Geometry::Screws { joints, home })
+    Ok(Geometry::Screws { joints, home: Box::new(home) })
 }
 
 /// A joint of a list of screw axes.

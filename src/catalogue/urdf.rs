@@ -50,7 +50,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
         limits.push(limit(scope, joint)?);
     }
     let home = Placement::from_motion_exact(home);
-    let geometry = Geometry::Screws { joints, home };
+    let geometry = Geometry::Screws { joints, home: Box::new(home) };
     let chain = Chain { geometry, base: Placement::identity(), tool: Placement::identity() };
     check_count(scope, &chain, line(robot), (6, "expected 6 for an arm; name the chain by its base and tip links"))?;
     Ok(Entry {

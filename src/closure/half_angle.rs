@@ -24,7 +24,10 @@ pub struct HalfAngleForm<F> {
     pub score: f64,
 }
 
-/// The real equations of two complex rows, or all that there are: `None` where the cut is degenerate and loses some.
+/// Eliminates unknowns 4, 5 and 6 of a cut; `None` where it is degenerate and loses equations.
+///
+/// # Panics
+/// Never: a reduction of full rank has a pivot in every column.
 #[must_use]
 pub fn half_angle_form<F: Field>(cut: &ClosedLoop<F>) -> Option<HalfAngleForm<F>> {
     let columns = left_columns(cut);

@@ -74,7 +74,7 @@ pub enum Geometry {
         /// The joints from base to flange.
         joints: Vec<ScrewJoint>,
         /// Pose of the flange with all joint variables zero.
-        home: Placement,
+        home: Box<Placement>,
     },
 }
 

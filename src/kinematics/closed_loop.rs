@@ -202,7 +202,7 @@ impl Chain {
             Some(locked) => {
                 let ends = constants[7].then_after(&constants[0]);
                 // The constant before unknown k, cyclically.
-                let before = |k: usize| if k % 7 == 0 { ends.clone() } else { constants[k % 7].clone() };
+                let before = |k: usize| if k.is_multiple_of(7) { ends.clone() } else { constants[k % 7].clone() };
                 OpenLoop {
                     variables: std::array::from_fn(|k| unknowns[(locked + 1 + k) % 7]),
                     constants: std::array::from_fn(|k| before(locked + 2 + k)),
@@ -300,10 +300,10 @@ fn axis_frame(joint: &ScrewJoint) -> Motion<Rational> {
     }
     // Columns of the shortest rotation from e_z to n.
     let (x, y) = (&n[0], &n[1]);
-    frame.rotation[0][0] = Rational::from(1 - Rational::from(x * x) / &w);
+    frame.rotation[0][0] = 1 - Rational::from(x * x) / &w;
     frame.rotation[0][1] = -Rational::from(x * y) / &w;
     frame.rotation[1][0] = frame.rotation[0][1].clone();
-    frame.rotation[1][1] = Rational::from(1 - Rational::from(y * y) / &w);
+    frame.rotation[1][1] = 1 - Rational::from(y * y) / &w;
     for i in 0..3 {
         frame.rotation[i][2] = n[i].clone();
     }
@@ -332,7 +332,7 @@ fn rational_direction(axis: &[Rational; 3]) -> [Rational; 3] {
     let (u, v) = (rounded(&unit[0]), rounded(&unit[1]));
     let norm = Rational::from(&u * &u) + Rational::from(&v * &v);
     let scale = Rational::from(&norm + 1).recip();
-    let z = Rational::from(1 - norm) * &scale;
+    let z: Rational = (1 - norm) * &scale;
     [u * 2 * &scale, v * 2 * &scale, if flip { -z } else { z }]
 }
 

@@ -29,8 +29,8 @@ pub struct CutView<'a, S> {
 /// Angles at which a family of solutions is sampled.
 const SAMPLES: [f64; 2] = [0.7, -1.9];
 
-fn sample<S: Scalar>(angle: f64) -> Option<(S, S)> {
-    Some((S::from_f64(angle.cos()), S::from_f64(angle.sin())))
+fn sample<S: Scalar>(angle: f64) -> (S, S) {
+    (S::from_f64(angle.cos()), S::from_f64(angle.sin()))
 }
 
 /// The candidates of one root, without allocation.
@@ -120,7 +120,7 @@ impl<'a, S: Scalar> CutView<'a, S> {
             // A family: any value of the other unknown may do, so sample it and let the closure judge.
             found.unresolved = true;
             let mut samples = [None; 8];
-            samples[..SAMPLES.len()].copy_from_slice(&SAMPLES.map(sample));
+            samples[..SAMPLES.len()].copy_from_slice(&SAMPLES.map(|angle| Some(sample(angle))));
             samples
         });
         for other in others.into_iter().flatten() {
@@ -128,7 +128,7 @@ impl<'a, S: Scalar> CutView<'a, S> {
             match self.third(&u) {
                 Third::Free => {
                     found.unresolved = true;
-                    for third in SAMPLES.into_iter().filter_map(sample) {
+                    for third in SAMPLES.map(sample) {
                         found.extend(self.complete(pairs, third, &u));
                     }
                 }

@@ -11,8 +11,10 @@ pub trait Number: Field + Copy {
     /// Bound on the relative error of one real operation.
     const UNIT_ROUNDOFF: f64;
     /// `self * x`.
+    #[must_use]
     fn times(self, x: Self::Real) -> Self;
     /// `self / 2`, exactly.
+    #[must_use]
     fn halved(self) -> Self;
     /// The absolute value, within a factor sqrt(2): the larger of |re| and |im|.
     fn size(self) -> f64;
@@ -33,12 +35,15 @@ pub trait Scalar: Number<Real = f64> {
     /// Cosine and sine.
     fn cos_sin_of(self) -> (Self, Self);
     /// A square root; of a negative real zero.
+    #[must_use]
     fn root(self) -> Self;
     /// The angle of a pair (cos, sin), normalised or not.
     fn angle_of(cos: Self, sin: Self) -> Self;
     /// `self / other`
+    #[must_use]
     fn over(self, other: Self) -> Self;
     /// The complex conjugate.
+    #[must_use]
     fn conjugate(self) -> Self;
 }
 

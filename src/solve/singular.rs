@@ -83,9 +83,9 @@ pub fn nature<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Nature 
         if h > 5e-3 && left.1 < CURVE && right.1 < CURVE {
             return Nature::SelfMotion(1);
         }
-        let order = left.0.round();
-        if (left.0 - order).abs() < 0.2 && (right.0 - order).abs() < 0.2 && (1.0..16.0).contains(&order) {
-            return Nature::Isolated(order as usize);
+        let near = |order: usize| [left.0, right.0].iter().all(|x| (x - order as f64).abs() < 0.2);
+        if let Some(order) = (1..16).find(|&order| near(order)) {
+            return Nature::Isolated(order);
         }
     }
     Nature::Unresolved

@@ -1,278 +1,25 @@
-//! Roots to assembly modes: prepare a geometry once, then find every way to close it, pose after pose.
+//! One pose being solved: cut after cut, root after root, until nothing is missing.
 
-use crate::certify::{Certificate, certificate, certificate_in_any_frame, refined_certificate};
+use super::limits;
+use super::mode::{Assembly, Mode, Roots, distance, wrapped};
+use super::shifted::Shifted;
+use super::solver::{Solver, Workspace};
+use crate::certify::{certificate, certificate_in_any_frame, refined_certificate};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
-use crate::elimination::pencil::{Bilinear, Pencil, before_second_link, bilinear, offset, pencil};
-use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
-use crate::kinematics::motion::Motion;
+use crate::elimination::pencil::{before_second_link, bilinear};
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
-use crate::solve::eigen::EigenWorkspace;
 use crate::solve::kernel::{double_angle, kernel};
 use crate::solve::newton::{Closure, Polished, Six, closure, polish};
 use crate::solve::scalar::{Number, Scalar};
-use crate::solve::singular::{Nature, nature, pair, self_motion, spread, structural_rank};
+use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
 use num_complex::Complex;
-use std::f64::consts::{PI, TAU};
-
-/// Which roots are wanted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Roots {
-    /// Every complex root polished and certified: what completeness needs.
-    All,
-    /// Real roots only: faster, without a proof that none is missing.
-    Real,
-}
-
-/// One way to assemble the loop.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mode {
-    /// The six unknowns in loop order; angles in (-pi, pi], lengths in the unit of the mechanism.
-    pub unknowns: Six<Complex<f64>>,
-    /// Whether all unknowns are real.
-    pub real: bool,
-    /// How many solutions coincide here; 0 where that is not known.
-    pub multiplicity: usize,
-    /// Largest entry of |E - I| of the closure E, translations over the scale of the mechanism (its mean link length,
-    /// rounded to a power of two); of a complex mode over the largest product of norms round the loop, too.
-    pub residual: f64,
-    /// Row-sum condition number of the Jacobian, lengths over the scale of the mechanism.
-    pub condition: f64,
-    /// The proof, if there is one. Radii are in radians, lengths over the scale.
-    pub certificate: Option<Certificate>,
-    /// In how many cuts it was found.
-    pub hits: usize,
-}
-
-/// What was found at one pose or input.
-#[derive(Clone, Debug, Default)]
-pub struct Assembly {
-    /// Isolated solutions, real ones first.
-    pub modes: Vec<Mode>,
-    /// Dimension of the self-motion, 0 if there is none.
-    pub self_motion: usize,
-    /// Whether some cut gave a pencil whose every root was accounted for.
-    pub clean: bool,
-    /// How many pencils were solved.
-    pub tries: usize,
-}
-
-impl Assembly {
-    /// Number of isolated solutions, with multiplicity.
-    #[must_use]
-    pub fn total(&self) -> usize {
-        self.modes.iter().map(|m| m.multiplicity.max(1)).sum()
-    }
-
-    /// Number of isolated real solutions, with multiplicity.
-    #[must_use]
-    pub fn real(&self) -> usize {
-        self.modes.iter().filter(|m| m.real).map(|m| m.multiplicity.max(1)).sum()
-    }
-}
-
-/// A cut whose elimination does not depend on the pose.
-struct PreparedCut {
-    cut: Cut,
-    form: HalfAngleForm<f64>,
-    /// `form.rows` carried over constant 2, where that is free of the pose too.
-    rows: Option<[MarkedLine<f64>; 8]>,
-}
-
-/// A geometry, prepared: solve many poses of it.
-///
-/// # Example
-/// ```
-/// use looproot::assembly::{Assembly, Roots, Solver, Workspace};
-/// use looproot::kinematics::{closed_loop::{OpenLoop, Variable}, motion::Motion};
-/// // Six axes, each link turned and shifted against the last.
-/// let link = |k: usize| {
-///     let k = k as f64;
-///     let mut m = Motion::rotation_x((1.0 + k).cos(), (1.0 + k).sin());
-///     m.translation = [0.3 + 0.1 * k, 0.2, 0.4 - 0.1 * k];
-///     m
-/// };
-/// let open = OpenLoop {
-///     variables: [Variable::Rotation; 6],
-///     constants: std::array::from_fn(link),
-///     before_gap: Motion::identity(),
-///     after_gap: Motion::identity(),
-/// };
-/// let solver = Solver::prepare(&open);
-/// let mut assembly = Assembly::default();
-/// solver.solve(&link(7), Roots::All, &mut Workspace::default(), &mut assembly);
-/// assert_eq!(assembly.total(), 16);
-/// ```
-pub struct Solver {
-    open: OpenLoop<f64>,
-    /// Lengths inside the solver are lengths of the mechanism over this power of two.
-    scale: f64,
-    /// Cuts that need no pose, best first.
-    prepared: Vec<PreparedCut>,
-    structural_rank: usize,
-}
-
-/// Memory reused from pose to pose: one per thread.
-#[derive(Default)]
-pub struct Workspace {
-    eigen: EigenWorkspace,
-}
-
-/// Thresholds. Lengths are scaled, so all of them are relative.
-mod limits {
-    /// Cuts with a lower score lose equations.
-    pub const SCORE: f64 = 1e-5;
-    /// Leading matrices below this are singular.
-    pub const LEADING: f64 = 1e-9;
-    /// Leading matrices above this need no other offset.
-    pub const GOOD_LEADING: f64 = 1e-2;
-    /// |Im x| / (1 + |x|^2) below which a root may be real: double roots split by 1e-8 and more.
-    pub const NEAR_REAL: f64 = 1e-4;
-    /// Closure before polishing above which a candidate is none: Newton might wander to another solution.
-    pub const RAW: f64 = 1e-3;
-    /// Closure after polishing above which a candidate is no solution.
-    pub const CLOSED: f64 = 1e-12;
-    /// |1 + x^2| / (1 + |x|^2) below which a root belongs to no finite angle.
-    pub const INFINITE: f64 = 1e-2;
-    /// Solutions nearer than this are one unless both are proved and apart.
-    pub const SAME: f64 = 1e-5;
-    /// Imaginary parts below this are rounding of a real solution.
-    pub const REAL_PART: f64 = 1e-8;
-    /// Solutions farther apart than this are polished to different points and have a place in the list each.
-    pub const MERGED: f64 = 1e-4;
-    /// Closure errors that make two solutions one and are no larger than this are rounding of the input: the solution
-    /// counts as double.
-    pub const TOLD_APART: f64 = 1e-13;
-    /// Starts of a search without a pencil to lead it.
-    pub const CASTS: usize = 40;
-    /// Norm of the inverse Jacobian above which a solution may be one of a pair, to be proved together.
-    pub const SINGULAR: f64 = 1e5;
-    /// Separation of the kernel below which a root that does not close may belong to a family.
-    pub const SHARED: f64 = 1e-7;
-}
-
-impl Solver {
-    /// Prepares a geometry: all that does not depend on the pose, and the order of the cuts.
-    #[must_use]
-    pub fn prepare(open: &OpenLoop<f64>) -> Self {
-        let length = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>();
-        let square: f64 = open.constants.iter().map(length).sum::<f64>() / 5.0
-            + 0.5 * (length(&open.before_gap) + length(&open.after_gap)) / 5.0;
-        // A power of two: scaling then costs no digit.
-        let scale = if square > 0.0 { square.sqrt().log2().round().exp2() } else { 1.0 };
-        let scaled = |m: &Motion<f64>| Motion { translation: m.translation.map(|x| x / scale), ..m.clone() };
-        let open = OpenLoop {
-            variables: open.variables,
-            constants: open.constants.each_ref().map(scaled),
-            before_gap: scaled(&open.before_gap),
-            after_gap: scaled(&open.after_gap),
-        };
-        let closed = open.close(&Motion::identity());
-        let mut prepared: Vec<PreparedCut> = Cut::ALL[..Cut::PREPARED]
-            .iter()
-            .filter(|cut| cut.fits(open.variables))
-            .filter_map(|&cut| {
-                let view = cut.of(&closed);
-                let form = half_angle_form(&view)?;
-                // The gap sits in constant 6 of the original loop.
-                let free = cut.constant_index(1) != 5;
-                let rows = free.then(|| before_second_link(&form, &view.constants[1]));
-                (form.score > limits::SCORE).then_some(PreparedCut { cut, form, rows })
-            })
-            .collect();
-        prepared.sort_by(|a, b| b.form.score.total_cmp(&a.form.score));
-        let structural_rank = structural_rank(&closed);
-        Self { open, scale, prepared, structural_rank }
-    }
-
-    /// The largest rank the six joints reach in general position: below 6 the arm is structurally deficient, and every
-    /// solution is part of a self-motion.
-    #[must_use]
-    pub fn structural_rank(&self) -> usize {
-        self.structural_rank
-    }
-
-    /// Whether no cut fits: translations stand where the elimination cannot take them.
-    #[must_use]
-    pub fn is_out_of_reach(&self) -> bool {
-        !Cut::ALL.iter().any(|cut| cut.fits(self.open.variables))
-    }
-
-    /// The best score of a cut that needs no pose; 0 if there is none.
-    #[must_use]
-    pub fn score(&self) -> f64 {
-        self.prepared.first().map_or(0.0, |c| c.form.score)
-    }
-
-    /// The loop at a filling of its gap, scaled.
-    fn close(&self, filling: &Motion<f64>) -> ClosedLoop<f64> {
-        let filling = Motion { translation: filling.translation.map(|x| x / self.scale), ..filling.clone() };
-        self.open.close(&filling)
-    }
-
-    /// The 16 x 16 matrix whose eigenvalues the first pencil of this pose asks for; `None` where that is singular.
-    #[must_use]
-    pub fn companion(&self, filling: &Motion<f64>) -> Option<[[f64; 16]; 16]> {
-        let prepared = self.prepared.first()?;
-        let cut = prepared.cut.of(&self.close(filling));
-        let rows = prepared.rows.unwrap_or_else(|| before_second_link(&prepared.form, &cut.constants[1]));
-        let shifted = Shifted::best(&bilinear(&rows, &cut), Hidden::First);
-        let (constant, linear) = shifted.monic()?;
-        Some(std::array::from_fn(|i| {
-            std::array::from_fn(|j| match (i < 8, j < 8) {
-                (true, _) => f64::from(u8::from(j == 8 + i)),
-                (false, true) => -constant[i - 8][j],
-                (false, false) => -linear[i - 8][j - 8],
-            })
-        }))
-    }
-
-    /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing
-    /// once `assembly` has grown to its size, but for degenerate poses.
-    pub fn solve(&self, filling: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
-        self.solve_up_to(filling, roots, &|| 16, workspace, assembly);
-    }
-
-    /// As [`Solver::solve`], for a geometry known to have no more than `most()` solutions: stops looking for more.
-    /// `most` is asked only where fewer than 16 are found.
-    pub fn solve_up_to(
-        &self,
-        filling: &Motion<f64>,
-        roots: Roots,
-        most: &dyn Fn() -> usize,
-        workspace: &mut Workspace,
-        assembly: &mut Assembly,
-    ) {
-        assembly.modes.clear();
-        (assembly.self_motion, assembly.clean, assembly.tries) = (0, false, 0);
-        let closed = self.close(filling);
-        let mut search = Search { solver: self, closed: &closed, roots, workspace, assembly, fruitless: 0 };
-        search.run(most);
-        if !search.assembly.clean {
-            search.cast_about();
-        }
-        search.resolve_pairs();
-        search.resolve_singular();
-        assembly.modes.sort_by(|a, b| {
-            b.real.cmp(&a.real).then_with(|| {
-                let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));
-                key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal)
-            })
-        });
-        for mode in &mut assembly.modes {
-            for (value, variable) in mode.unknowns.iter_mut().zip(self.open.variables) {
-                if variable == Variable::Translation {
-                    *value *= self.scale;
-                }
-            }
-        }
-    }
-}
 
 /// One pose being solved.
-struct Search<'a> {
+pub(super) struct Search<'a> {
     solver: &'a Solver,
     closed: &'a ClosedLoop<f64>,
     roots: Roots,
@@ -282,8 +29,29 @@ struct Search<'a> {
     fruitless: usize,
 }
 
-impl Search<'_> {
-    fn run(&mut self, most: &dyn Fn() -> usize) {
+impl<'a> Search<'a> {
+    pub fn new(
+        solver: &'a Solver,
+        closed: &'a ClosedLoop<f64>,
+        roots: Roots,
+        workspace: &'a mut Workspace,
+        assembly: &'a mut Assembly,
+    ) -> Self {
+        Self { solver, closed, roots, workspace, assembly, fruitless: 0 }
+    }
+
+    /// Finds all there is to find.
+    pub fn run(&mut self, most: &dyn Fn() -> usize) {
+        self.all_cuts(most);
+        if !self.assembly.clean {
+            self.cast_about();
+        }
+        self.resolve_pairs();
+        self.resolve_singular();
+    }
+
+    /// Solves one pencil after the other, the prepared ones first, until the search is done.
+    fn all_cuts(&mut self, most: &dyn Fn() -> usize) {
         let solver = self.solver;
         for prepared in &solver.prepared {
             let cut = prepared.cut.of(self.closed);
@@ -502,10 +270,10 @@ impl Search<'_> {
         if !S::REAL {
             mode.certificate = certificate_in_any_frame(self.closed, &polished.unknowns);
         }
-        if mode.certificate.is_none() {
-            if let Some((unknowns, proof)) = refined_certificate(self.closed, &mode.unknowns) {
-                (mode.unknowns, mode.certificate) = (unknowns, Some(proof));
-            }
+        if mode.certificate.is_none()
+            && let Some((unknowns, proof)) = refined_certificate(self.closed, &mode.unknowns)
+        {
+            (mode.unknowns, mode.certificate) = (unknowns, Some(proof));
         }
     }
 
@@ -628,7 +396,7 @@ impl Search<'_> {
                     Nature::Unresolved => self_motion(self.closed, &q).map_or(Nature::Unresolved, Nature::SelfMotion),
                     // A curve may lie in a surface.
                     Nature::SelfMotion(_) => Nature::SelfMotion(self_motion(self.closed, &q).unwrap_or(1)),
-                    isolated => isolated,
+                    isolated @ Nature::Isolated(_) => isolated,
                 }
             } else {
                 nature(self.closed, &mode.unknowns)
@@ -664,89 +432,8 @@ struct RootOutcome {
     separation: f64,
 }
 
-/// The pencil of a cut with its hidden unknown turned by an offset, its leading matrix factored.
-struct Shifted {
-    pencil: Pencil<f64>,
-    hidden: Hidden,
-    offset: (f64, f64),
-    factors: [[f64; 8]; 8],
-    order: [usize; 8],
-    /// Smallest over largest pivot of the leading matrix.
-    quality: f64,
-}
-
-impl Shifted {
-    /// The first of four offsets whose leading matrix is good, else the best.
-    fn best(equations: &Bilinear<f64>, hidden: Hidden) -> Self {
-        let mut best: Option<Self> = None;
-        for k in 0..4 {
-            // No multiple of a right angle, where roots of real mechanisms like to sit.
-            let (sin, cos) = (0.4 + 0.25 * TAU * f64::from(k)).sin_cos();
-            let pencil = pencil(&offset(equations, hidden, &cos, &sin), hidden);
-            let mut factors = pencil.coefficients[2];
-            let (quality, order) = dense::factor(&mut factors);
-            if best.as_ref().is_none_or(|b| quality > b.quality) {
-                best = Some(Self { pencil, hidden, offset: (cos, sin), factors, order, quality });
-            }
-            if quality > limits::GOOD_LEADING {
-                break;
-            }
-        }
-        best.expect("four offsets were tried")
-    }
-}
-
-impl Shifted {
-    /// `A2^-1 A0` and `A2^-1 A1`; `None` for a singular leading matrix.
-    fn monic(&self) -> Option<([[f64; 8]; 8], [[f64; 8]; 8])> {
-        let [a0, a1, _] = &self.pencil.coefficients;
-        let divided = |a: &[[f64; 8]; 8]| dense::solve(&self.factors, &self.order, a);
-        (self.quality > limits::LEADING).then(|| (divided(a0), divided(a1)))
-    }
-}
-
-impl Pencil<f64> {
-    /// The pencil at a root, divided by `1 + |x|^2` so that large roots do not overflow.
-    fn at_root<S: Scalar>(&self, x: S) -> [[S; 8]; 8] {
-        let scale = 1.0 / (1.0 + x.to_complex().norm_sqr());
-        let (square, linear) = (x.mul(&x).times(scale), x.times(scale));
-        let [a0, a1, a2] = &self.coefficients;
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                square.times(a2[i][j]).add(&linear.times(a1[i][j])).add(&S::from_f64(scale * a0[i][j]))
-            })
-        })
-    }
-}
-
 /// How much rounding errors may grow round the loop: 1 for real unknowns, the largest product of norms for complex
 /// ones, which large imaginary parts make large.
 fn growth<S: Number>(at: &Closure<S>, real: bool) -> f64 {
     if real { 1.0 } else { at.norms.iter().map(|n| n.before * n.step * n.behind).fold(1.0, f64::max) }
-}
-
-/// An angle in (-pi, pi].
-#[must_use]
-pub fn wrapped(angle: f64) -> f64 {
-    let mut x = angle % TAU;
-    if x > PI {
-        x -= TAU;
-    } else if x <= -PI {
-        x += TAU;
-    }
-    x
-}
-
-/// The largest difference of two unknowns, angles modulo 2 pi.
-#[must_use]
-pub fn distance(variables: &[Variable; 6], a: &Six<Complex<f64>>, b: &Six<Complex<f64>>) -> f64 {
-    let mut largest = 0.0_f64;
-    for k in 0..6 {
-        let mut difference = a[k] - b[k];
-        if variables[k] == Variable::Rotation {
-            difference.re = wrapped(difference.re);
-        }
-        largest = largest.max(difference.re.abs()).max(difference.im.abs());
-    }
-    largest
 }

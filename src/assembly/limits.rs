@@ -1,0 +1,31 @@
+//! Thresholds. Lengths are scaled, so all of them are relative.
+
+/// Cuts with a lower score lose equations.
+pub const SCORE: f64 = 1e-5;
+/// Leading matrices below this are singular.
+pub const LEADING: f64 = 1e-9;
+/// Leading matrices above this need no other offset.
+pub const GOOD_LEADING: f64 = 1e-2;
+/// |Im x| / (1 + |x|^2) below which a root may be real: double roots split by 1e-8 and more.
+pub const NEAR_REAL: f64 = 1e-4;
+/// Closure before polishing above which a candidate is none: Newton might wander to another solution.
+pub const RAW: f64 = 1e-3;
+/// Closure after polishing above which a candidate is no solution.
+pub const CLOSED: f64 = 1e-12;
+/// |1 + x^2| / (1 + |x|^2) below which a root belongs to no finite angle.
+pub const INFINITE: f64 = 1e-2;
+/// Solutions nearer than this are one unless both are proved and apart.
+pub const SAME: f64 = 1e-5;
+/// Imaginary parts below this are rounding of a real solution.
+pub const REAL_PART: f64 = 1e-8;
+/// Solutions farther apart than this are polished to different points and have a place in the list each.
+pub const MERGED: f64 = 1e-4;
+/// Closure errors that make two solutions one and are no larger than this are rounding of the input: the solution
+/// counts as double.
+pub const TOLD_APART: f64 = 1e-13;
+/// Starts of a search without a pencil to lead it.
+pub const CASTS: usize = 40;
+/// Norm of the inverse Jacobian above which a solution may be one of a pair, to be proved together.
+pub const SINGULAR: f64 = 1e5;
+/// Separation of the kernel below which a root that does not close may belong to a family.
+pub const SHARED: f64 = 1e-7;

@@ -1,0 +1,10 @@
+//! Roots to assembly modes: prepare a geometry once, then find every way to close it, pose after pose.
+
+mod limits;
+mod mode;
+mod search;
+mod shifted;
+mod solver;
+
+pub use mode::{Assembly, Mode, Roots, distance, wrapped};
+pub use solver::{Solver, Workspace};

@@ -1,0 +1,89 @@
+//! What is found: modes, and the list of them.
+
+use crate::certify::Certificate;
+use crate::kinematics::closed_loop::Variable;
+use crate::solve::newton::Six;
+use num_complex::Complex;
+use std::f64::consts::{PI, TAU};
+
+/// Which roots are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Roots {
+    /// Every complex root polished and certified: what completeness needs.
+    All,
+    /// Real roots only: faster, without a proof that none is missing.
+    Real,
+}
+
+/// One way to assemble the loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// The six unknowns in loop order; angles in (-pi, pi], lengths in the unit of the mechanism.
+    pub unknowns: Six<Complex<f64>>,
+    /// Whether all unknowns are real.
+    pub real: bool,
+    /// How many solutions coincide here; 0 where that is not known.
+    pub multiplicity: usize,
+    /// Largest entry of |E - I| of the closure E, translations over the scale of the mechanism (its mean link length,
+    /// rounded to a power of two); of a complex mode over the largest product of norms round the loop, too.
+    pub residual: f64,
+    /// Row-sum condition number of the Jacobian, lengths over the scale of the mechanism.
+    pub condition: f64,
+    /// The proof, if there is one. Radii are in radians, lengths over the scale.
+    pub certificate: Option<Certificate>,
+    /// In how many cuts it was found.
+    pub hits: usize,
+}
+
+/// What was found at one pose or input.
+#[derive(Clone, Debug, Default)]
+pub struct Assembly {
+    /// Isolated solutions, real ones first.
+    pub modes: Vec<Mode>,
+    /// Dimension of the self-motion, 0 if there is none.
+    pub self_motion: usize,
+    /// Whether some cut gave a pencil whose every root was accounted for.
+    pub clean: bool,
+    /// How many pencils were solved.
+    pub tries: usize,
+}
+
+impl Assembly {
+    /// Number of isolated solutions, with multiplicity.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.modes.iter().map(|m| m.multiplicity.max(1)).sum()
+    }
+
+    /// Number of isolated real solutions, with multiplicity.
+    #[must_use]
+    pub fn real(&self) -> usize {
+        self.modes.iter().filter(|m| m.real).map(|m| m.multiplicity.max(1)).sum()
+    }
+}
+
+/// An angle in (-pi, pi].
+#[must_use]
+pub fn wrapped(angle: f64) -> f64 {
+    let mut x = angle % TAU;
+    if x > PI {
+        x -= TAU;
+    } else if x <= -PI {
+        x += TAU;
+    }
+    x
+}
+
+/// The largest difference of two unknowns, angles modulo 2 pi.
+#[must_use]
+pub fn distance(variables: &[Variable; 6], a: &Six<Complex<f64>>, b: &Six<Complex<f64>>) -> f64 {
+    let mut largest = 0.0_f64;
+    for k in 0..6 {
+        let mut difference = a[k] - b[k];
+        if variables[k] == Variable::Rotation {
+            difference.re = wrapped(difference.re);
+        }
+        largest = largest.max(difference.re.abs()).max(difference.im.abs());
+    }
+    largest
+}

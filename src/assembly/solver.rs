@@ -1,0 +1,173 @@
+//! A geometry prepared once for many poses.
+
+use super::limits;
+use super::mode::{Assembly, Mode, Roots};
+use super::search::Search;
+use super::shifted::Shifted;
+use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
+use crate::closure::woernle_lee::MarkedLine;
+use crate::elimination::cut::{Cut, Hidden};
+use crate::elimination::pencil::{before_second_link, bilinear};
+use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
+use crate::kinematics::motion::Motion;
+use crate::solve::eigen::EigenWorkspace;
+use crate::solve::singular::structural_rank;
+
+/// A cut whose elimination does not depend on the pose.
+pub(super) struct PreparedCut {
+    pub cut: Cut,
+    pub form: HalfAngleForm<f64>,
+    /// `form.rows` carried over constant 2, where that is free of the pose too.
+    pub rows: Option<[MarkedLine<f64>; 8]>,
+}
+
+/// A geometry, prepared: solve many poses of it.
+///
+/// # Example
+/// ```
+/// use looproot::assembly::{Assembly, Roots, Solver, Workspace};
+/// use looproot::kinematics::{closed_loop::{OpenLoop, Variable}, motion::Motion};
+/// // Six axes, each link turned and shifted against the last.
+/// let link = |k: usize| {
+///     let k = k as f64;
+///     let mut m = Motion::rotation_x((1.0 + k).cos(), (1.0 + k).sin());
+///     m.translation = [0.3 + 0.1 * k, 0.2, 0.4 - 0.1 * k];
+///     m
+/// };
+/// let open = OpenLoop {
+///     variables: [Variable::Rotation; 6],
+///     constants: std::array::from_fn(link),
+///     before_gap: Motion::identity(),
+///     after_gap: Motion::identity(),
+/// };
+/// let solver = Solver::prepare(&open);
+/// let mut assembly = Assembly::default();
+/// solver.solve(&link(7), Roots::All, &mut Workspace::default(), &mut assembly);
+/// assert_eq!(assembly.total(), 16);
+/// ```
+pub struct Solver {
+    open: OpenLoop<f64>,
+    /// Lengths inside the solver are lengths of the mechanism over this power of two.
+    scale: f64,
+    /// Cuts that need no pose, best first.
+    pub(super) prepared: Vec<PreparedCut>,
+    structural_rank: usize,
+}
+
+/// Memory reused from pose to pose: one per thread.
+#[derive(Default)]
+pub struct Workspace {
+    pub(super) eigen: EigenWorkspace,
+}
+
+impl Solver {
+    /// Prepares a geometry: all that does not depend on the pose, and the order of the cuts.
+    #[must_use]
+    pub fn prepare(open: &OpenLoop<f64>) -> Self {
+        let length = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>();
+        let square: f64 = open.constants.iter().map(length).sum::<f64>() / 5.0
+            + 0.5 * (length(&open.before_gap) + length(&open.after_gap)) / 5.0;
+        // A power of two: scaling then costs no digit.
+        let scale = if square > 0.0 { square.sqrt().log2().round().exp2() } else { 1.0 };
+        let scaled = |m: &Motion<f64>| Motion { translation: m.translation.map(|x| x / scale), ..m.clone() };
+        let open = OpenLoop {
+            variables: open.variables,
+            constants: open.constants.each_ref().map(scaled),
+            before_gap: scaled(&open.before_gap),
+            after_gap: scaled(&open.after_gap),
+        };
+        let closed = open.close(&Motion::identity());
+        let mut prepared: Vec<PreparedCut> = Cut::ALL[..Cut::PREPARED]
+            .iter()
+            .filter(|cut| cut.fits(open.variables))
+            .filter_map(|&cut| {
+                let view = cut.of(&closed);
+                let form = half_angle_form(&view)?;
+                // The gap sits in constant 6 of the original loop.
+                let free = cut.constant_index(1) != 5;
+                let rows = free.then(|| before_second_link(&form, &view.constants[1]));
+                (form.score > limits::SCORE).then_some(PreparedCut { cut, form, rows })
+            })
+            .collect();
+        prepared.sort_by(|a, b| b.form.score.total_cmp(&a.form.score));
+        let structural_rank = structural_rank(&closed);
+        Self { open, scale, prepared, structural_rank }
+    }
+
+    /// The largest rank the six joints reach in general position: below 6 the arm is structurally deficient, and every
+    /// solution is part of a self-motion.
+    #[must_use]
+    pub fn structural_rank(&self) -> usize {
+        self.structural_rank
+    }
+
+    /// Whether no cut fits: translations stand where the elimination cannot take them.
+    #[must_use]
+    pub fn is_out_of_reach(&self) -> bool {
+        !Cut::ALL.iter().any(|cut| cut.fits(self.open.variables))
+    }
+
+    /// The best score of a cut that needs no pose; 0 if there is none.
+    #[must_use]
+    pub fn score(&self) -> f64 {
+        self.prepared.first().map_or(0.0, |c| c.form.score)
+    }
+
+    /// The loop at a filling of its gap, scaled.
+    fn close(&self, filling: &Motion<f64>) -> ClosedLoop<f64> {
+        let filling = Motion { translation: filling.translation.map(|x| x / self.scale), ..filling.clone() };
+        self.open.close(&filling)
+    }
+
+    /// The 16 x 16 matrix whose eigenvalues the first pencil of this pose asks for; `None` where that is singular.
+    #[must_use]
+    pub fn companion(&self, filling: &Motion<f64>) -> Option<[[f64; 16]; 16]> {
+        let prepared = self.prepared.first()?;
+        let cut = prepared.cut.of(&self.close(filling));
+        let rows = prepared.rows.unwrap_or_else(|| before_second_link(&prepared.form, &cut.constants[1]));
+        let shifted = Shifted::best(&bilinear(&rows, &cut), Hidden::First);
+        let (constant, linear) = shifted.monic()?;
+        Some(std::array::from_fn(|i| {
+            std::array::from_fn(|j| match (i < 8, j < 8) {
+                (true, _) => f64::from(u8::from(j == 8 + i)),
+                (false, true) => -constant[i - 8][j],
+                (false, false) => -linear[i - 8][j - 8],
+            })
+        }))
+    }
+
+    /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing
+    /// once `assembly` has grown to its size, but for degenerate poses.
+    pub fn solve(&self, filling: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
+        self.solve_up_to(filling, roots, &|| 16, workspace, assembly);
+    }
+
+    /// As [`Solver::solve`], for a geometry known to have no more than `most()` solutions: stops looking for more.
+    /// `most` is asked only where fewer than 16 are found.
+    pub fn solve_up_to(
+        &self,
+        filling: &Motion<f64>,
+        roots: Roots,
+        most: &dyn Fn() -> usize,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) {
+        assembly.modes.clear();
+        (assembly.self_motion, assembly.clean, assembly.tries) = (0, false, 0);
+        let closed = self.close(filling);
+        Search::new(self, &closed, roots, workspace, assembly).run(most);
+        assembly.modes.sort_by(|a, b| {
+            b.real.cmp(&a.real).then_with(|| {
+                let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));
+                key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal)
+            })
+        });
+        for mode in &mut assembly.modes {
+            for (value, variable) in mode.unknowns.iter_mut().zip(self.open.variables) {
+                if variable == Variable::Translation {
+                    *value *= self.scale;
+                }
+            }
+        }
+    }
+}
