@@ -159,10 +159,11 @@ impl Judge<'_> {
             // A point of a curve of solutions need not be in a list of isolated ones.
             return Ok(());
         }
-        let real = self.solution.modes.iter().filter(|mode| mode.real);
-        let nearest = real.map(|mode| (self.distance(mode, &q), mode)).min_by(|a, b| a.0.total_cmp(&b.0));
+        // A double root may have become a complex pair in the rounding of the pose: near enough, it is the one meant.
+        let nearest = self.solution.modes.iter().map(|mode| (self.distance(mode, &q), mode));
+        let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
         let (holds, message) = match nearest {
-            None => (false, "the solution is claimed, but no real one was found".to_owned()),
+            None => (false, "the solution is claimed, but none was found".to_owned()),
             Some((distance, mode)) => {
                 // A multiple root is known to about half of the digits.
                 let known = if mode.multiplicity == 1 { 4.0 * f64::EPSILON * mode.condition.min(1e8) } else { 1e-6 };
@@ -212,12 +213,13 @@ impl Judge<'_> {
         Ok(defect)
     }
 
-    /// The largest difference of a joint variable, angles modulo whole turns, lengths over the reach.
+    /// The largest difference of a joint variable, imaginary parts too, angles modulo whole turns, lengths over the
+    /// reach.
     fn distance(&self, mode: &FullMode, q: &[f64]) -> f64 {
         let reach = reach(&self.entry.chain).max(f64::MIN_POSITIVE);
         let differences = mode.q.iter().zip(q).zip(self.variables).map(|((found, claimed), variable)| match variable {
-            Variable::Rotation => wrapped(found.re - claimed).abs(),
-            Variable::Translation => (found.re - claimed).abs() / reach,
+            Variable::Rotation => wrapped(found.re - claimed).abs().max(found.im.abs()),
+            Variable::Translation => (found.re - claimed).abs().max(found.im.abs()) / reach,
         });
         differences.fold(0.0, f64::max)
     }
