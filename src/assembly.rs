@@ -142,8 +142,9 @@ mod limits {
     pub const REAL_PART: f64 = 1e-8;
     /// Solutions farther apart than this are polished to different points and have a place in the list each.
     pub const MERGED: f64 = 1e-4;
-    /// Solutions nearer than this are one double solution: rounding of the input alone moves them by 1e-8 and more.
-    pub const TOLD_APART: f64 = 3e-7;
+    /// Closure errors that make two solutions one and are no larger than this are rounding of the input: the solution
+    /// counts as double.
+    pub const TOLD_APART: f64 = 1e-13;
     /// Starts of a search without a pencil to lead it.
     pub const CASTS: usize = 40;
     /// Norm of the inverse Jacobian above which a solution may be one of a pair, to be proved together.
@@ -566,10 +567,10 @@ impl Search<'_> {
             let own = mode.unknowns;
             let variables = self.closed.variables;
             let apart = |starts: &[Six<Complex<f64>>; 2]| distance(&variables, &starts[0], &starts[1]);
-            if starts.as_ref().is_some_and(|starts| apart(starts) < limits::TOLD_APART) {
+            if starts.as_ref().is_some_and(|(_, vertex)| *vertex < limits::TOLD_APART) {
                 continue;
             }
-            let both = starts.map(|starts| (apart(&starts), starts.map(|start| self.proved_mode(&start))));
+            let both = starts.map(|(starts, _)| (apart(&starts), starts.map(|start| self.proved_mode(&start))));
             let proved = match both {
                 Some((apart, [Some(one), Some(two)]))
                     if distance(&variables, &one.unknowns, &two.unknowns) > 0.5 * apart =>

@@ -76,9 +76,9 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
         let mut planted: [f64; 6] = std::array::from_fn(|_| random.random_range(-PI..PI));
         if set == Set::NearSingular {
             let away = 10.0_f64.powi(-2 - i32::try_from(index % 5).unwrap_or(0));
-            let Some(singular) = singular_near(&open, planted) else { continue };
+            let Some((singular, joint)) = singular_near(&open, planted) else { continue };
             planted = singular;
-            planted[usize::from(random.random::<bool>())] += away;
+            planted[joint] += away;
         }
         let regularity = regularity(&open, &planted);
         // A deficient arm has no isolated solution to plant.
@@ -164,8 +164,8 @@ fn regularity(open: &OpenLoop<f64>, q: &[f64; 6]) -> f64 {
     values.min() / values.max()
 }
 
-/// A singular configuration, by bisection of the determinant along joint 3, then 4, 5.
-fn singular_near(open: &OpenLoop<f64>, start: [f64; 6]) -> Option<[f64; 6]> {
+/// A singular configuration, by bisection of the determinant along joint 3, else 4, else 5; and the index of that joint.
+fn singular_near(open: &OpenLoop<f64>, start: [f64; 6]) -> Option<([f64; 6], usize)> {
     for joint in 2..5 {
         let at = |value: f64| {
             let mut q = start;
@@ -181,7 +181,7 @@ fn singular_near(open: &OpenLoop<f64>, start: [f64; 6]) -> Option<[f64; 6]> {
             let middle = 0.5 * (low + high);
             if det(middle) * sign > 0.0 { low = middle } else { high = middle }
         }
-        return Some(at(0.5 * (low + high)));
+        return Some((at(0.5 * (low + high)), joint));
     }
     None
 }

@@ -107,9 +107,10 @@ fn orders<S: Scalar>(
 }
 
 /// The two solutions of a nearly double one: where the parabola through g at three displacements along the nearly free
-/// direction vanishes. `None` where they are not both near. Accurate to about 1e-8.
+/// direction vanishes, accurate to about 1e-8; and how far the closure is from a double solution, |g| at the vertex of
+/// that parabola: input off by so much, in scaled lengths, would make them one. `None` where they are not both near.
 #[must_use]
-pub fn pair<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<[Six<Complex<f64>>; 2]> {
+pub fn pair<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<([Six<Complex<f64>>; 2], f64)> {
     /// Displacements at which g is taken: large against the rounding of g, its square small against the pair.
     const STEP: f64 = 1e-5;
     /// How far away the solutions may be.
@@ -122,12 +123,14 @@ pub fn pair<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<[S
     if !(curvature.norm() > 0.0) {
         return None;
     }
-    let root = (slope * slope - 4.0 * curvature * here).sqrt();
+    let discriminant = slope * slope - 4.0 * curvature * here;
+    let vertex = (discriminant / (4.0 * curvature)).norm();
+    let root = discriminant.sqrt();
     let shifts = [(root - slope) / (2.0 * curvature), (-root - slope) / (2.0 * curvature)];
     let at = |shift: Complex<f64>| {
         std::array::from_fn(|k| unknowns[k].to_complex() + direction[k].to_complex() * shift)
     };
-    shifts.iter().all(|shift| shift.norm() < REACH).then(|| shifts.map(at))
+    shifts.iter().all(|shift| shift.norm() < REACH).then(|| (shifts.map(at), vertex))
 }
 
 /// The direction in which the loop gives way at a singular solution of corank 1, its largest entry 1; `None` for a
