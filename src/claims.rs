@@ -66,6 +66,8 @@ pub struct Judgement {
     pub cases: usize,
     /// Cases whose list of solutions was proved complete.
     pub complete: usize,
+    /// Cases with a self-motion, whose list cannot be.
+    pub self_motions: usize,
 }
 
 impl Judgement {
@@ -101,8 +103,10 @@ pub fn judge(entry: &Entry) -> Result<Judgement> {
     let mut judgement = Judgement { cases: entry.cases.len(), ..Judgement::default() };
     for (index, case) in entry.cases.iter().enumerate() {
         let solution = mechanism.solve(case, Roots::All, &mut workspace, &mut assembly)?;
-        if matches!(solution.verdict.status, Status::Complete | Status::Unreachable) {
-            judgement.complete += 1;
+        match solution.verdict.status {
+            Status::Complete | Status::Unreachable => judgement.complete += 1,
+            Status::SelfMotion => judgement.self_motions += 1,
+            Status::Incomplete | Status::Unsupported => {}
         }
         let judge = Judge { entry, variables: &variables, case, number: index + 1, solution: &solution };
         judge.counts(&mut judgement.findings);
