@@ -208,8 +208,7 @@ impl Solver {
 
     /// The loop at a filling of its gap, scaled.
     fn close(&self, filling: &Motion<f64>) -> ClosedLoop<f64> {
-        let filling =
-            Motion { translation: filling.translation.map(|x| x / self.scale), ..filling.clone() };
+        let filling = Motion { translation: filling.translation.map(|x| x / self.scale), ..filling.clone() };
         self.open.close(&filling)
     }
 
@@ -369,13 +368,7 @@ impl Search<'_> {
 
     /// Solves one pencil and admits what its roots lead to. Whether the pencil was regular and every root accounted for:
     /// it led to solutions or to infinity.
-    fn one_pencil(
-        &mut self,
-        cut: Cut,
-        view: &ClosedLoop<f64>,
-        form: &HalfAngleForm<f64>,
-        shifted: &Shifted,
-    ) -> bool {
+    fn one_pencil(&mut self, cut: Cut, view: &ClosedLoop<f64>, form: &HalfAngleForm<f64>, shifted: &Shifted) -> bool {
         let Some((constant, linear)) = shifted.monic() else { return false };
         let Some(roots) = self.workspace.eigen.companion(&constant, &linear) else { return false };
         let real_view = CutView::<f64>::new(view, form, shifted.hidden);
@@ -429,10 +422,7 @@ impl Search<'_> {
         let Some(turned) = double_angle(S::one(), x) else { return outcome };
         // Back from the offset: q = q' + offset.
         let (cos, sin) = shifted.offset;
-        let hidden = (
-            turned.0.times(cos).sub(&turned.1.times(sin)),
-            turned.1.times(cos).add(&turned.0.times(sin)),
-        );
+        let hidden = (turned.0.times(cos).sub(&turned.1.times(sin)), turned.1.times(cos).add(&turned.0.times(sin)));
         let candidates = view.candidates(hidden, &kernel);
         outcome.unresolved = candidates.unresolved;
         outcome.settled = !candidates.as_slice().is_empty();
@@ -635,9 +625,7 @@ impl Search<'_> {
             let kind = if mode.real {
                 let q = mode.unknowns.map(|z| z.re);
                 match nature(self.closed, &q) {
-                    Nature::Unresolved => {
-                        self_motion(self.closed, &q).map_or(Nature::Unresolved, Nature::SelfMotion)
-                    }
+                    Nature::Unresolved => self_motion(self.closed, &q).map_or(Nature::Unresolved, Nature::SelfMotion),
                     // A curve may lie in a surface.
                     Nature::SelfMotion(_) => Nature::SelfMotion(self_motion(self.closed, &q).unwrap_or(1)),
                     isolated => isolated,

@@ -17,15 +17,15 @@
 //! steps behind it magnify by at most their norm. Constants of the loop count as known to a few roundings, so that the
 //! proof covers the mechanism as given and not only as stored.
 
+use crate::algebra::double_double::DoubleDouble;
+use crate::algebra::ring::Ring;
 use crate::elimination::cut::Cut;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::Motion;
 use crate::solve::dense::{inverse, norm, times};
 use crate::solve::newton::{Closure, Six, closure, closure_at};
-use num_complex::Complex;
-use crate::algebra::double_double::DoubleDouble;
-use crate::algebra::ring::Ring;
 use crate::solve::scalar::{Number, Scalar};
+use num_complex::Complex;
 
 /// What was proved of a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,8 @@ const MARGIN: f64 = 1.01;
 /// Proves that exactly one solution lies near these unknowns; `None` where that cannot be shown.
 #[must_use]
 pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]) -> Option<Certificate> {
-    let product_error = ROUNDINGS * S::UNIT_ROUNDOFF * at.norms.iter().map(|n| n.before * n.step * n.behind).sum::<f64>();
+    let product_error =
+        ROUNDINGS * S::UNIT_ROUNDOFF * at.norms.iter().map(|n| n.before * n.step * n.behind).sum::<f64>();
     let off_identity = 8.0 * at.defect + product_error;
     if !(off_identity < 1e-3) {
         return None;

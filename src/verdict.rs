@@ -86,9 +86,8 @@ pub fn verdict(
         certified,
         reason: String::new(),
     };
-    let deficient = || {
-        format!("structurally deficient: the joint axes reach only rank {structural_rank} of 6 in general position")
-    };
+    let deficient =
+        || format!("structurally deficient: the joint axes reach only rank {structural_rank} of 6 in general position");
     if assembly.self_motion > 0 {
         verdict.status = Status::SelfMotion;
         verdict.reason = format!(

@@ -82,9 +82,7 @@ fn one(job: Job, index: u64, workspace: &mut Workspace, assembly: &mut Assembly)
     let solution = mechanism.solve(&drawn.entry.cases[0], job.roots, workspace, assembly)?;
     let mut counts = Counts { arms: 1, ..Counts::default() };
     let real: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real).collect();
-    let apart = |mode: &FullMode, q: &[f64; 6]| {
-        (0..6).map(|k| wrapped(mode.q[k].re - q[k]).abs()).fold(0.0, f64::max)
-    };
+    let apart = |mode: &FullMode, q: &[f64; 6]| (0..6).map(|k| wrapped(mode.q[k].re - q[k]).abs()).fold(0.0, f64::max);
     let nearest = real.iter().map(|m| apart(m, &drawn.planted)).fold(f64::INFINITY, f64::min);
     if nearest < job.set.tolerance() {
         counts.found = 1;
@@ -97,10 +95,8 @@ fn one(job: Job, index: u64, workspace: &mut Workspace, assembly: &mut Assembly)
     for (k, mode) in real.iter().enumerate() {
         counts.spurious += usize::from(!(miss(&drawn, mode) < 1e-9));
         let q: [f64; 6] = std::array::from_fn(|j| mode.q[j].re);
-        counts.duplicates += real[..k]
-            .iter()
-            .filter(|other| apart(other, &q) < 1e-6 && !(mode.certified && other.certified))
-            .count();
+        counts.duplicates +=
+            real[..k].iter().filter(|other| apart(other, &q) < 1e-6 && !(mode.certified && other.certified)).count();
     }
     counts.residuals = solution.modes.iter().map(|m| m.residual).collect();
     counts.real.insert(solution.verdict.real, 1);

@@ -67,11 +67,7 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
     random.set_stream(index);
     loop {
         let joints: Vec<Joint> = (0..6).map(|_| joint(set, &mut random)).collect();
-        let chain = Chain {
-            geometry: Geometry::Dh(joints),
-            base: Placement::identity(),
-            tool: Placement::identity(),
-        };
+        let chain = Chain { geometry: Geometry::Dh(joints), base: Placement::identity(), tool: Placement::identity() };
         let open: OpenLoop<f64> = chain.open_loop(&Layout::of(&chain, None)?)?;
         let mut planted: [f64; 6] = std::array::from_fn(|_| random.random_range(-PI..PI));
         if set == Set::NearSingular {

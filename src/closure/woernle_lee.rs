@@ -92,15 +92,7 @@ pub fn act_on_form<R: Ring>(n: &MarkedLine<R>, g: &Motion<R>) -> MarkedLine<R> {
             dot(&column, x)
         })
     };
-    join(
-        n[0].add(&dot(&b, t)).add(&d.mul(&tt)),
-        back(&on_l),
-        back(&on_p),
-        c.sub(&ft),
-        d.clone(),
-        back(&on_q),
-        back(&f),
-    )
+    join(n[0].add(&dot(&b, t)).add(&d.mul(&tt)), back(&on_l), back(&on_p), c.sub(&ft), d.clone(), back(&on_q), back(&f))
 }
 
 /// The three parts of `T(V(x)) v` for an unknown V: coefficients of (1, cos, sin), or of (1, d, d^2).

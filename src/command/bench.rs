@@ -23,9 +23,10 @@ pub fn run(options: &BenchOptions) -> Result<Exit, Fault> {
 
 fn measure_accuracy(options: &AccuracyOptions) -> Result<Exit, Fault> {
     let names = || Set::NAMED.map(|(name, _)| name).join(", ");
-    let (name, set) = Set::NAMED.into_iter().find(|(name, _)| *name == options.set).ok_or_else(|| {
-        Error::Invalid(format!("found the set `{}`, expected one of {}", options.set, names()))
-    })?;
+    let (name, set) = Set::NAMED
+        .into_iter()
+        .find(|(name, _)| *name == options.set)
+        .ok_or_else(|| Error::Invalid(format!("found the set `{}`, expected one of {}", options.set, names())))?;
     let roots = if options.real { Roots::Real } else { Roots::All };
     let job = Job { set, count: options.count, seed: options.seed, roots };
     let stop = stop_on_interrupt();

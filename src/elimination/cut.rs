@@ -60,11 +60,7 @@ impl Cut {
     /// Which constant of the original loop stands, inverted if reversed, behind unknown j of the cut.
     #[must_use]
     pub fn constant_index(self, j: usize) -> usize {
-        if self.reversed {
-            (self.rotation + if j == 5 { 5 } else { 4 - j }) % 6
-        } else {
-            (self.rotation + j) % 6
-        }
+        if self.reversed { (self.rotation + if j == 5 { 5 } else { 4 - j }) % 6 } else { (self.rotation + j) % 6 }
     }
 
     /// The unknowns' kinds as this cut reads them.

@@ -50,7 +50,11 @@ pub fn half_tangent_pair<F: Field>(t: &F) -> Option<(F, F)> {
 /// The closure polynomial of a loop as one cut and one hidden unknown give it; `None` where the cut is degenerate or
 /// the determinant vanishes identically.
 #[must_use]
-pub fn closure_polynomial<F: Field + Domain>(closed: &ClosedLoop<F>, cut: Cut, hidden: Hidden) -> Option<ClosurePolynomial<F>> {
+pub fn closure_polynomial<F: Field + Domain>(
+    closed: &ClosedLoop<F>,
+    cut: Cut,
+    hidden: Hidden,
+) -> Option<ClosurePolynomial<F>> {
     if !cut.fits(closed.variables) {
         return None;
     }
@@ -75,9 +79,9 @@ pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLo
     for cut in Cut::ALL {
         for hidden in [Hidden::First, Hidden::Second] {
             let Some(found) = closure_polynomial(closed, cut, hidden) else { continue };
-            let standing = other.and_then(|other| closure_polynomial(other, cut, hidden)).map_or(0, |other| {
-                found.cofactor.gcd(&other.cofactor).degree().unwrap_or(0)
-            });
+            let standing = other
+                .and_then(|other| closure_polynomial(other, cut, hidden))
+                .map_or(0, |other| found.cofactor.gcd(&other.cofactor).degree().unwrap_or(0));
             let distinct = found.cofactor.square_free_part().degree().unwrap_or(0);
             let left_out = 2 * found.spurious + standing;
             let bound = Degree { solutions: 16 - left_out, left_out, distinct };

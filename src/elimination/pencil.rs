@@ -107,8 +107,6 @@ impl<R: Ring> Pencil<R> {
     #[must_use]
     pub fn at(&self, x: &R) -> Square<R, 8> {
         let [a0, a1, a2] = &self.coefficients;
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| a2[i][j].mul(x).add(&a1[i][j]).mul(x).add(&a0[i][j]))
-        })
+        std::array::from_fn(|i| std::array::from_fn(|j| a2[i][j].mul(x).add(&a1[i][j]).mul(x).add(&a0[i][j])))
     }
 }

@@ -63,8 +63,7 @@ impl<R: Ring> OpenLoop<R> {
     #[must_use]
     pub fn close(&self, filling: &Motion<R>) -> ClosedLoop<R> {
         let last = self.before_gap.then_after(filling).then_after(&self.after_gap);
-        let constants =
-            std::array::from_fn(|j| if j < 5 { self.constants[j].clone() } else { last.clone() });
+        let constants = std::array::from_fn(|j| if j < 5 { self.constants[j].clone() } else { last.clone() });
         ClosedLoop { variables: self.variables, constants }
     }
 }
@@ -130,9 +129,7 @@ impl Layout {
         let total = self.variables.len();
         match self.locked {
             None => q.try_into().ok(),
-            Some(locked) if q.len() == total => {
-                Some(std::array::from_fn(|k| q[(locked + 1 + k) % total]))
-            }
+            Some(locked) if q.len() == total => Some(std::array::from_fn(|k| q[(locked + 1 + k) % total])),
             Some(locked) if q.len() + 1 == total => Some(std::array::from_fn(|k| {
                 let index = (locked + 1 + k) % total;
                 q[if index > locked { index - 1 } else { index }]

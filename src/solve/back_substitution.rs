@@ -214,9 +214,7 @@ impl<'a, S: Scalar> CutView<'a, S> {
         let mut frame: Motion<S> = product(self.cut, &values, 5);
         // V6 = (G6 V1 G1 ... V5 G5)^-1, a rotation about z.
         let g = &self.cut.constants[5].rotation;
-        let entry = |i: usize, j: usize| {
-            (0..3).fold(S::zero(), |sum, k| sum.add(&frame.rotation[k][j].times(g[i][k])))
-        };
+        let entry = |i: usize, j: usize| (0..3).fold(S::zero(), |sum, k| sum.add(&frame.rotation[k][j].times(g[i][k])));
         let (cos, sin) = (entry(0, 0).add(&entry(1, 1)), entry(0, 1).sub(&entry(1, 0)));
         let sixth = normalised(cos.times(0.5), sin.times(0.5))?;
         turn(&mut frame, self.cut.variables[5], sixth);

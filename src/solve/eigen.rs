@@ -32,11 +32,7 @@ impl Default for EigenWorkspace {
 impl EigenWorkspace {
     /// The eigenvalues x of `(A0 + A1 x + A2 x^2) y = 0` from the lower half of its companion matrix
     /// `[[0, I], [-A2^-1 A0, -A2^-1 A1]]`. `None` where the iteration does not converge or an entry is not finite.
-    pub fn companion(
-        &mut self,
-        constant: &Square<f64, 8>,
-        linear: &Square<f64, 8>,
-    ) -> Option<[Complex<f64>; SIZE]> {
+    pub fn companion(&mut self, constant: &Square<f64, 8>, linear: &Square<f64, 8>) -> Option<[Complex<f64>; SIZE]> {
         for i in 0..8 {
             for j in 0..8 {
                 self.matrix[(i, j)] = 0.0;
@@ -70,9 +66,7 @@ impl EigenWorkspace {
             faer::prelude::default(),
         )
         .ok()?;
-        Some(std::array::from_fn(|k| {
-            Complex::new(self.real.column_vector()[k], self.imaginary.column_vector()[k])
-        }))
+        Some(std::array::from_fn(|k| Complex::new(self.real.column_vector()[k], self.imaginary.column_vector()[k])))
     }
 }
 

@@ -64,9 +64,7 @@ fn behind<S: Number>(frame: &Motion<S>, constant: &Motion<S::Real>) -> Motion<S>
         rotation: std::array::from_fn(|i| {
             std::array::from_fn(|j| row(&frame.rotation[i], [g[0][j], g[1][j], g[2][j]]))
         }),
-        translation: std::array::from_fn(|i| {
-            row(&frame.rotation[i], constant.translation).add(&frame.translation[i])
-        }),
+        translation: std::array::from_fn(|i| row(&frame.rotation[i], constant.translation).add(&frame.translation[i])),
     }
 }
 
@@ -243,19 +241,12 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
 }
 
 /// A Levenberg-Marquardt step, `(J* J + l^2) d = -J* F`, with growing damping l until one goes downhill.
-fn damped<S: Scalar>(
-    closed: &ClosedLoop<f64>,
-    unknowns: &Six<S>,
-    here: &Closure<S>,
-) -> Option<(Six<S>, Closure<S>)> {
+fn damped<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>, here: &Closure<S>) -> Option<(Six<S>, Closure<S>)> {
     let j = &here.jacobian;
-    let product = |a: usize, b: usize| {
-        (0..6).fold(S::zero(), |sum, i| sum.add(&j[i][a].conjugate().mul(&j[i][b])))
-    };
+    let product = |a: usize, b: usize| (0..6).fold(S::zero(), |sum, i| sum.add(&j[i][a].conjugate().mul(&j[i][b])));
     let normal: [Six<S>; 6] = std::array::from_fn(|a| std::array::from_fn(|b| product(a, b)));
-    let gradient: Six<S> = std::array::from_fn(|a| {
-        (0..6).fold(S::zero(), |sum, i| sum.add(&j[i][a].conjugate().mul(&here.residual[i])))
-    });
+    let gradient: Six<S> =
+        std::array::from_fn(|a| (0..6).fold(S::zero(), |sum, i| sum.add(&j[i][a].conjugate().mul(&here.residual[i]))));
     let scale = (0..6).map(|a| normal[a][a].size()).fold(0.0, f64::max);
     for damping in [1e-12, 1e-9, 1e-6, 1e-4, 1e-2] {
         let mut matrix = normal;

@@ -92,12 +92,7 @@ pub fn nature<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Nature 
 }
 
 /// On either side: the order with which g grows from a displacement `h` to `2 h`, and the larger |g|.
-fn orders<S: Scalar>(
-    closed: &ClosedLoop<f64>,
-    origin: &Six<S>,
-    direction: &Six<S>,
-    h: f64,
-) -> Option<[(f64, f64); 2]> {
+fn orders<S: Scalar>(closed: &ClosedLoop<f64>, origin: &Six<S>, direction: &Six<S>, h: f64) -> Option<[(f64, f64); 2]> {
     let side = |h: f64| {
         let near = follow(closed, origin, direction, h)?.to_complex().norm();
         let far = follow(closed, origin, direction, 2.0 * h)?.to_complex().norm();
@@ -127,9 +122,8 @@ pub fn pair<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<([
     let vertex = (discriminant / (4.0 * curvature)).norm();
     let root = discriminant.sqrt();
     let shifts = [(root - slope) / (2.0 * curvature), (-root - slope) / (2.0 * curvature)];
-    let at = |shift: Complex<f64>| {
-        std::array::from_fn(|k| unknowns[k].to_complex() + direction[k].to_complex() * shift)
-    };
+    let at =
+        |shift: Complex<f64>| std::array::from_fn(|k| unknowns[k].to_complex() + direction[k].to_complex() * shift);
     shifts.iter().all(|shift| shift.norm() < REACH).then(|| (shifts.map(at), vertex))
 }
 
@@ -256,4 +250,3 @@ pub fn structural_rank(closed: &ClosedLoop<f64>) -> usize {
         .max()
         .unwrap_or(0)
 }
-
