@@ -66,6 +66,8 @@ pub struct Judgement {
     pub cases: usize,
     /// Cases whose list of solutions was proved complete.
     pub complete: usize,
+    /// Cases with a self-motion, whose list cannot be.
+    pub self_motions: usize,
 }
 
 impl Judgement {
@@ -101,8 +103,10 @@ pub fn judge(entry: &Entry) -> Result<Judgement> {
     let mut judgement = Judgement { cases: entry.cases.len(), ..Judgement::default() };
     for (index, case) in entry.cases.iter().enumerate() {
         let solution = mechanism.solve(case, Roots::All, &mut workspace, &mut assembly)?;
-        if matches!(solution.verdict.status, Status::Complete | Status::Unreachable) {
-            judgement.complete += 1;
+        match solution.verdict.status {
+            Status::Complete | Status::Unreachable => judgement.complete += 1,
+            Status::SelfMotion => judgement.self_motions += 1,
+            Status::Incomplete | Status::Unsupported => {}
         }
         let judge = Judge { entry, variables: &variables, case, number: index + 1, solution: &solution };
         judge.counts(&mut judgement.findings);
@@ -159,10 +163,11 @@ impl Judge<'_> {
             // A point of a curve of solutions need not be in a list of isolated ones.
             return Ok(());
         }
-        let real = self.solution.modes.iter().filter(|mode| mode.real);
-        let nearest = real.map(|mode| (self.distance(mode, &q), mode)).min_by(|a, b| a.0.total_cmp(&b.0));
+        // A double root may have become a complex pair in the rounding of the pose: near enough, it is the one meant.
+        let nearest = self.solution.modes.iter().map(|mode| (self.distance(mode, &q), mode));
+        let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
         let (holds, message) = match nearest {
-            None => (false, "the solution is claimed, but no real one was found".to_owned()),
+            None => (false, "the solution is claimed, but none was found".to_owned()),
             Some((distance, mode)) => {
                 // A multiple root is known to about half of the digits.
                 let known = if mode.multiplicity == 1 { 4.0 * f64::EPSILON * mode.condition.min(1e8) } else { 1e-6 };
@@ -212,12 +217,13 @@ impl Judge<'_> {
         Ok(defect)
     }
 
-    /// The largest difference of a joint variable, angles modulo whole turns, lengths over the reach.
+    /// The largest difference of a joint variable, imaginary parts too, angles modulo whole turns, lengths over the
+    /// reach.
     fn distance(&self, mode: &FullMode, q: &[f64]) -> f64 {
         let reach = reach(&self.entry.chain).max(f64::MIN_POSITIVE);
         let differences = mode.q.iter().zip(q).zip(self.variables).map(|((found, claimed), variable)| match variable {
-            Variable::Rotation => wrapped(found.re - claimed).abs(),
-            Variable::Translation => (found.re - claimed).abs() / reach,
+            Variable::Rotation => wrapped(found.re - claimed).abs().max(found.im.abs()),
+            Variable::Translation => (found.re - claimed).abs().max(found.im.abs()) / reach,
         });
         differences.fold(0.0, f64::max)
     }

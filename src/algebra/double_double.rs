@@ -4,7 +4,7 @@ use super::number::nearest_f64;
 use super::ring::{Field, Ring};
 use rug::Rational;
 
-/// `high + low` with `|low| <= ulp(high) / 2`. [Dekker1971]
+/// `high + low` with `|low| <= ulp(high) / 2`. \[Dekker1971\]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoubleDouble {
     high: f64,

@@ -110,19 +110,11 @@ fn text(checked: &[Checked], quiet: bool) -> String {
     let failed: usize = judged().map(|judgement| judgement.failures().count()).sum();
     let cases: usize = judged().map(|judgement| judgement.cases).sum();
     let complete: usize = judged().map(|judgement| judgement.complete).sum();
-    let in_entries = format!("in {}", counted(judged().count(), "entry"));
-    let _ = match failed {
-        0 => writeln!(
-            text,
-            "{} {in_entries} hold; {complete} of {cases} cases proved complete",
-            counted(claims, "claim")
-        ),
-        _ => writeln!(
-            text,
-            "{failed} of {} {in_entries} FAIL; {complete} of {cases} cases proved complete",
-            counted(claims, "claim")
-        ),
-    };
+    let self_motions: usize = judged().map(|judgement| judgement.self_motions).sum();
+    let what = format!("{} in {}", counted(claims, "claim"), counted(judged().count(), "entry"));
+    let outcome = if failed == 0 { format!("{what} hold") } else { format!("{failed} of {what} FAIL") };
+    let motions = if self_motions > 0 { format!(", {}", counted(self_motions, "self-motion")) } else { String::new() };
+    let _ = writeln!(text, "{outcome}; {complete} of {} proved complete{motions}", counted(cases, "case"));
     let unread = checked.len() - judged().count();
     if unread > 0 {
         let _ = writeln!(text, "{} could not be checked", counted(unread, "entry"));
@@ -159,6 +151,7 @@ fn document(checked: &[Checked]) -> String {
                 line["holds"] = json!(judgement.failures().next().is_none());
                 line["cases"] = json!(judgement.cases);
                 line["complete"] = json!(judgement.complete);
+                line["self_motions"] = json!(judgement.self_motions);
                 line["claims"] = json!(judgement.findings.len());
                 let failures = judgement.failures().map(|failure| -> Value {
                     json!({

@@ -6,7 +6,7 @@
 //! still at all poses would leave five joints for six freedoms. What remains of 16 bounds the number of isolated
 //! solutions, and the least such bound over all cuts holds. Over a general pose of a geometry it holds for all its
 //! poses, because isolated solutions with multiplicity can only become fewer in special positions.
-//! [SommeseWampler2005]
+//! \[SommeseWampler2005\]
 
 use super::cut::{Cut, Hidden};
 use super::pencil::{before_second_link, bilinear, offset, pencil};

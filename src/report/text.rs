@@ -171,6 +171,14 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
     if hidden > 0 && !view.complex {
         let _ = writeln!(text, "not listed: {} (--complex)", counted(hidden, "complex root"));
     }
+    // Nearly double roots: real for one rounding of the pose and complex for the next.
+    let imaginary = |mode: &FullMode| mode.q.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
+    let complex = solution.modes.iter().filter(|mode| !mode.real);
+    let nearly: Vec<f64> = complex.map(imaginary).filter(|size| *size < 1e-5).collect();
+    if !nearly.is_empty() {
+        let size = at_most(nearly.iter().copied().fold(0.0, f64::max));
+        let _ = writeln!(text, "nearly real: {}, imaginary parts <= {size} rad", counted(nearly.len(), "complex root"));
+    }
     for warning in &solution.warnings {
         paragraph(&mut text, &format!("warning: {warning}"));
     }
@@ -261,8 +269,10 @@ fn shown(value: &Complex<f64>, variable: Variable, real: bool) -> String {
         }
     };
     if real || im == 0.0 {
-        plain(re)
-    } else {
-        format!("{}{}{}i", plain(re), if im < 0.0 { "-" } else { "+" }, plain(im.abs()))
+        return plain(re);
     }
+    // An imaginary part that is not zero must not look like it.
+    let size = plain(im.abs());
+    let size = if size.parse() == Ok(0.0) { format!("{:.0e}", im.abs()) } else { size };
+    format!("{}{}{size}i", plain(re), if im < 0.0 { "-" } else { "+" })
 }
