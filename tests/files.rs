@@ -1,5 +1,6 @@
 //! Reading mechanism files: the library, every kind of mistake with its line, and arbitrary damage.
 #![allow(clippy::float_cmp)] // correctly rounded values are compared as such
+#![allow(clippy::unwrap_used)]
 
 use looproot::algebra::number::{HalfTangent, Number};
 use looproot::catalogue::entry::{Entry, InputValue, Kind};
