@@ -25,8 +25,6 @@ pub(super) struct Search<'a> {
     roots: Roots,
     workspace: &'a mut Workspace,
     assembly: &'a mut Assembly,
-    /// Clean pencils in a row that added nothing.
-    fruitless: usize,
 }
 
 impl<'a> Search<'a> {
@@ -37,7 +35,7 @@ impl<'a> Search<'a> {
         workspace: &'a mut Workspace,
         assembly: &'a mut Assembly,
     ) -> Self {
-        Self { solver, closed, roots, workspace, assembly, fruitless: 0 }
+        Self { solver, closed, roots, workspace, assembly }
     }
 
     /// Finds all there is to find.
@@ -108,14 +106,9 @@ impl<'a> Search<'a> {
                 None if index == 1 => Shifted::best(&equations, Hidden::Second),
                 None => continue,
             };
-            let before = self.assembly.modes.len();
             let clean = self.one_pencil(cut, view, form, &shifted);
             self.assembly.tries += 1;
-            let grown = self.assembly.modes.len() > before;
-            if clean {
-                self.assembly.clean = true;
-                self.fruitless = if grown { 0 } else { self.fruitless + 1 };
-            }
+            self.assembly.clean |= clean;
             if self.done(most, clean) {
                 return true;
             }
@@ -128,8 +121,10 @@ impl<'a> Search<'a> {
         match self.roots {
             Roots::Real => clean,
             Roots::All => {
-                let proved: usize = self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
-                proved >= 16 || (clean && (self.fruitless >= 2 || self.assembly.modes.len() >= most()))
+                let proved = self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
+                // What has no proof yet is double, as a rule: the verdict will see.
+                let likely = 2 * self.assembly.modes.len() - proved;
+                proved >= 16 || (clean && (likely >= 16 || likely >= most()))
             }
         }
     }

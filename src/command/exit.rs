@@ -1,6 +1,7 @@
 //! What the program tells the shell.
 
 use looproot::error::Error;
+use looproot::mechanism::Solution;
 use looproot::verdict::Status;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
@@ -43,12 +44,12 @@ impl From<std::io::Error> for Fault {
 }
 
 impl Exit {
-    /// The code of an outcome.
-    pub fn of(status: Status) -> Self {
-        match status {
-            Status::Complete => Self::Complete,
+    /// The code of an answer. A multiple solution has no certificate: a list with one is complete, but not certified.
+    pub fn of(solution: &Solution) -> Self {
+        match solution.verdict.status {
+            Status::Complete if solution.modes.iter().all(|mode| mode.certified) => Self::Complete,
             Status::Unreachable => Self::Unreachable,
-            Status::Incomplete | Status::SelfMotion => Self::NotProved,
+            Status::Complete | Status::Incomplete | Status::SelfMotion => Self::NotProved,
             Status::Unsupported => Self::Unsupported,
         }
     }

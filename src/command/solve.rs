@@ -72,7 +72,7 @@ fn solve(
                 Err(error @ Error::Unsupported(_)) => unsupported(&error),
                 other => other?,
             };
-            exit = exit.max(Exit::of(solution.verdict.status));
+            exit = exit.max(Exit::of(&solution));
             report.add(*index, &solution)?;
         }
         report.flush()?;
