@@ -12,6 +12,7 @@ use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
+use crate::solve::eigen::Method;
 use crate::solve::kernel::{double_angle, kernel};
 use crate::solve::newton::{Closure, Polished, Six, closure, polish};
 use crate::solve::scalar::{Number, Scalar};
@@ -133,7 +134,22 @@ impl<'a> Search<'a> {
     /// it led to solutions or to infinity.
     fn one_pencil(&mut self, cut: Cut, view: &ClosedLoop<f64>, form: &HalfAngleForm<f64>, shifted: &Shifted) -> bool {
         let Some((constant, linear)) = shifted.monic() else { return false };
-        let Some(roots) = self.workspace.eigen.companion(&constant, &linear) else { return false };
+        // The fast routine first; where it leaves a root unaccounted for, the reference decides.
+        [Method::Francis, Method::Faer].into_iter().any(|method| {
+            let roots = self.workspace.eigen.companion(method, &constant, &linear);
+            roots.is_some_and(|roots| self.all_roots(cut, view, form, shifted, roots))
+        })
+    }
+
+    /// Admits what the roots of a pencil lead to. Whether all of them are accounted for.
+    fn all_roots(
+        &mut self,
+        cut: Cut,
+        view: &ClosedLoop<f64>,
+        form: &HalfAngleForm<f64>,
+        shifted: &Shifted,
+        roots: [Complex<f64>; 16],
+    ) -> bool {
         let real_view = CutView::<f64>::new(view, form, shifted.hidden);
         let mut complex_view: Option<CutView<Complex<f64>>> = None;
         let mut clean = true;

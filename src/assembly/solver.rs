@@ -10,7 +10,7 @@ use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
-use crate::solve::eigen::EigenWorkspace;
+use crate::solve::eigen::{EigenWorkspace, companion};
 use crate::solve::singular::structural_rank;
 
 /// A cut whose elimination does not depend on the pose.
@@ -127,13 +127,7 @@ impl Solver {
         let rows = prepared.rows.unwrap_or_else(|| before_second_link(&prepared.form, &cut.constants[1]));
         let shifted = Shifted::best(&bilinear(&rows, &cut), Hidden::First);
         let (constant, linear) = shifted.monic()?;
-        Some(std::array::from_fn(|i| {
-            std::array::from_fn(|j| match (i < 8, j < 8) {
-                (true, _) => f64::from(u8::from(j == 8 + i)),
-                (false, true) => -constant[i - 8][j],
-                (false, false) => -linear[i - 8][j - 8],
-            })
-        }))
+        Some(companion(&constant, &linear))
     }
 
     /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing

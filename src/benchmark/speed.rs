@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::kinematics::closed_loop::{Layout, OpenLoop};
 use crate::kinematics::motion::Motion;
 use crate::solve::eigen::EigenWorkspace;
+use crate::solve::francis;
 use std::fmt::{self, Display};
 use std::hint::black_box;
 use std::time::Instant;
@@ -36,7 +37,13 @@ pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
         solvers.iter().zip(&arms).filter_map(|(solver, (_, pose))| solver.companion(pose)).collect();
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
     let mut eigen = EigenWorkspace::default();
-    let names = ["faer, eigenvalues of 16x16", "real solutions", "all 16 solutions", "prepare a geometry"];
+    let names = [
+        "faer, eigenvalues of 16x16",
+        "own eigenvalues of 16x16",
+        "real solutions",
+        "all 16 solutions",
+        "prepare a geometry",
+    ];
     let mut times = vec![Vec::new(); names.len()];
     for _ in 0..repeats {
         let mut stage = |index: usize, work: &mut dyn FnMut(usize)| {
@@ -49,9 +56,12 @@ pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
         stage(0, &mut |k| {
             black_box(eigen.of_matrix(&matrices[k % matrices.len()]));
         });
-        stage(1, &mut |k| solvers[k].solve(&arms[k].1, Roots::Real, &mut workspace, &mut assembly));
-        stage(2, &mut |k| solvers[k].solve(&arms[k].1, Roots::All, &mut workspace, &mut assembly));
-        stage(3, &mut |k| {
+        stage(1, &mut |k| {
+            black_box(francis::eigenvalues(&mut matrices[k % matrices.len()].clone()));
+        });
+        stage(2, &mut |k| solvers[k].solve(&arms[k].1, Roots::Real, &mut workspace, &mut assembly));
+        stage(3, &mut |k| solvers[k].solve(&arms[k].1, Roots::All, &mut workspace, &mut assembly));
+        stage(4, &mut |k| {
             black_box(Solver::prepare(&arms[k].0));
         });
     }

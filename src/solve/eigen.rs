@@ -1,11 +1,36 @@
-//! Eigenvalues by faer. The only file that names it.
+//! Eigenvalues of pencils: by our own small-matrix routine, and by faer, which is the reference and decides where the
+//! first leaves a root unaccounted for. The only file that names faer.
 
+use super::francis;
 use crate::elimination::pencil::Square;
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd;
 use faer::{Mat, Par};
 use num_complex::Complex;
+
+/// Who computes the eigenvalues.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Our own routine, see [`francis`].
+    Francis,
+    /// faer.
+    Faer,
+}
+
+/// The companion matrix `[[0, I], [-A2^-1 A0, -A2^-1 A1]]` from its two lower blocks, sign reversed.
+#[must_use]
+pub fn companion(constant: &Square<f64, 8>, linear: &Square<f64, 8>) -> Square<f64, SIZE> {
+    let mut matrix = [[0.0; SIZE]; SIZE];
+    for i in 0..8 {
+        matrix[i][8 + i] = 1.0;
+        for j in 0..8 {
+            matrix[8 + i][j] = -constant[i][j];
+            matrix[8 + i][8 + j] = -linear[i][j];
+        }
+    }
+    matrix
+}
 
 /// Scratch memory for eigenvalues of 16 x 16 matrices, reused from call to call.
 pub struct EigenWorkspace {
@@ -32,29 +57,26 @@ impl Default for EigenWorkspace {
 impl EigenWorkspace {
     /// The eigenvalues x of `(A0 + A1 x + A2 x^2) y = 0` from the lower half of its companion matrix
     /// `[[0, I], [-A2^-1 A0, -A2^-1 A1]]`. `None` where the iteration does not converge or an entry is not finite.
-    pub fn companion(&mut self, constant: &Square<f64, 8>, linear: &Square<f64, 8>) -> Option<[Complex<f64>; SIZE]> {
-        for i in 0..8 {
-            for j in 0..8 {
-                self.matrix[(i, j)] = 0.0;
-                self.matrix[(i, 8 + j)] = if i == j { 1.0 } else { 0.0 };
-                self.matrix[(8 + i, j)] = -constant[i][j];
-                self.matrix[(8 + i, 8 + j)] = -linear[i][j];
-            }
+    pub fn companion(
+        &mut self,
+        method: Method,
+        constant: &Square<f64, 8>,
+        linear: &Square<f64, 8>,
+    ) -> Option<[Complex<f64>; SIZE]> {
+        let mut matrix = companion(constant, linear);
+        match method {
+            Method::Francis => francis::eigenvalues(&mut matrix),
+            Method::Faer => self.of_matrix(&matrix),
         }
-        self.values()
     }
 
-    /// The eigenvalues of any 16 x 16 matrix: what the speed of the solver is measured against.
+    /// The eigenvalues of any 16 x 16 matrix by faer: what the speed of the solver is measured against.
     pub fn of_matrix(&mut self, matrix: &Square<f64, SIZE>) -> Option<[Complex<f64>; SIZE]> {
         for (i, row) in matrix.iter().enumerate() {
             for (j, x) in row.iter().enumerate() {
                 self.matrix[(i, j)] = *x;
             }
         }
-        self.values()
-    }
-
-    fn values(&mut self) -> Option<[Complex<f64>; SIZE]> {
         evd::evd_real(
             self.matrix.as_ref(),
             self.real.as_mut(),

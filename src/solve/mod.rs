@@ -3,6 +3,7 @@
 pub mod back_substitution;
 pub mod dense;
 pub mod eigen;
+pub mod francis;
 pub mod kernel;
 pub mod newton;
 pub mod scalar;

@@ -216,7 +216,7 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
             let next: Six<S> = std::array::from_fn(|k| unknowns[k].sub(&step[k]));
             let there = closure(closed, &next);
             if there.defect < here.defect {
-                let slow = there.defect > 0.25 * here.defect && there.defect < 1e-13;
+                let slow = there.defect > 0.5 * here.defect && there.defect < 1e-13;
                 (unknowns, here, known_inverse) = (next, there, inverted);
                 // At a regular root one step from here lands on rounding; creeping below 1e-13 is noise.
                 if slow {
@@ -226,7 +226,7 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
             }
             known_inverse = inverted;
         }
-        if here.defect <= 1e-13 && count > 0 {
+        if here.defect <= 1e-14 && count > 0 {
             break;
         }
         let Some((next, there)) = damped(closed, &unknowns, &here) else { break };
