@@ -113,6 +113,12 @@ pub fn screw(kind: JointKind, frame: &Motion<Rational>) -> ScrewJoint {
     }
 }
 
+/// An arm by its screw axes and its home position.
+#[must_use]
+pub fn screw_chain(joints: Vec<ScrewJoint>, home: Motion<Rational>) -> Chain {
+    chain(Geometry::Screws { joints, home: Box::new(Placement::from_motion_exact(home)) })
+}
+
 /// The motion of a joint variable: half the tangent of an angle, or a distance.
 #[must_use]
 pub fn variable_motion<R: Ring>(variable: Variable, value: &Rational) -> Motion<R> {
