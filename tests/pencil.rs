@@ -17,7 +17,7 @@ use looproot::elimination::pencil::{Pencil, before_second_link, bilinear, offset
 use looproot::kinematics::chain::Chain;
 use looproot::kinematics::closed_loop::ClosedLoop;
 use looproot::solve::dense;
-use looproot::solve::eigen::EigenWorkspace;
+use looproot::solve::eigen::{EigenWorkspace, Method};
 use num_complex::Complex;
 use rug::{Float, Rational};
 
@@ -40,10 +40,10 @@ fn derive<F: Field>(closed: &ClosedLoop<F>, cut: Cut, hidden: Hidden) -> Option<
 
 /// The half tangent of the hidden angle of a cut, before and after the offset.
 fn planted_root(values: &[Rational; 6], cut: Cut, hidden: Hidden) -> Rational {
-    let index = cut.unknown_index(if hidden == Hidden::First { 0 } else { 1 });
+    let index = cut.unknown_index(usize::from(hidden != Hidden::First));
     let x = if cut.reversed { -values[index].clone() } else { values[index].clone() };
     // tan(q/2 - offset/2)
-    Rational::from(&x - turn()) / (1 + x * turn())
+    (&x - turn()) / (1 + x * turn())
 }
 
 fn circle() -> Poly {
@@ -119,13 +119,13 @@ fn modulo_a_prime_the_same_code_gives_the_same_polynomial() {
 }
 
 /// The eigenvalues of the companion matrix of a f64 pencil.
-fn eigenvalues(pencil: &Pencil<f64>) -> [Complex<f64>; 16] {
+fn eigenvalues(pencil: &Pencil<f64>, method: Method) -> [Complex<f64>; 16] {
     let [a0, a1, a2] = &pencil.coefficients;
     let mut factors = *a2;
     let (quality, order) = dense::factor(&mut factors);
     assert!(quality > 1e-6, "the offset leaves roots far from infinity");
     let divided = |a| dense::solve(&factors, &order, a);
-    EigenWorkspace::default().companion(&divided(a0), &divided(a1)).unwrap()
+    EigenWorkspace::default().companion(method, &divided(a0), &divided(a1)).unwrap()
 }
 
 #[test]
@@ -138,12 +138,13 @@ fn the_eigenvalues_in_f64_are_the_roots_of_the_exact_polynomial() {
         let filling = rounded(&pose::<Rational>(&chain, &values).inverse());
         Solver::prepare(&open(&chain)).solve(&filling, Roots::All, &mut Workspace::default(), &mut assembly);
         assert!(assembly.modes.len() == 16 && assembly.modes.iter().all(|m| m.multiplicity == 1), "arm {seed}");
-        for (cut, hidden) in ways() {
-            let place = format!("arm {seed}, {cut:?}, {hidden:?}");
+        // The reference and our own routine under the same test.
+        for ((cut, hidden), method) in ways().flat_map(|way| [(way, Method::Faer), (way, Method::Francis)]) {
+            let place = format!("arm {seed}, {cut:?}, {hidden:?}, {method:?}");
             let p = modular(&derive(&exact, cut, hidden).unwrap().coefficients);
             let slope = p.derivative();
             // A disc of radius 16 |p/p'| holds a root: sixteen disjoint discs hold one each.
-            let discs: Vec<(Complex<f64>, f64)> = eigenvalues(&derive(&inexact, cut, hidden).unwrap())
+            let discs: Vec<(Complex<f64>, f64)> = eigenvalues(&derive(&inexact, cut, hidden).unwrap(), method)
                 .into_iter()
                 .map(|x| {
                     let (size, step) = newton_step(&p, &slope, x);
@@ -164,7 +165,7 @@ fn the_eigenvalues_in_f64_are_the_roots_of_the_exact_polynomial() {
             assert_eq!(real, p.distinct_real_roots(), "{place}");
             assert_eq!(real, assembly.real(), "{place}");
             // The modes and the roots belong to one another.
-            let index = cut.unknown_index(if hidden == Hidden::First { 0 } else { 1 });
+            let index = cut.unknown_index(usize::from(hidden != Hidden::First));
             let mut met = [false; 16];
             for mode in &assembly.modes {
                 let q = mode.unknowns[index] * if cut.reversed { -1.0 } else { 1.0 };

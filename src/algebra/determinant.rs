@@ -1,6 +1,5 @@
 //! Exact determinants: of numbers, of polynomials without fractions, and of matrix polynomials by their values.
 
-use super::matrix::subtract_multiple;
 use super::modp::{Modulus, primes};
 use super::rational::primitive_scale;
 use super::ring::{Domain, Field, Ring};
@@ -267,4 +266,11 @@ fn interpolate_modulo(modulus: &Modulus, mut values: Vec<u64>) -> Vec<u64> {
         }
     }
     values
+}
+
+/// `row -= multiplier * other`
+fn subtract_multiple<F: Ring>(row: &mut [F], multiplier: &F, other: &[F]) {
+    for (x, y) in row.iter_mut().zip(other) {
+        *x = x.sub(&multiplier.mul(y));
+    }
 }

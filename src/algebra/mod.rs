@@ -7,7 +7,6 @@ pub mod dual;
 mod expression;
 mod half_tangent;
 pub mod interval;
-pub mod matrix;
 pub mod modp;
 pub mod number;
 pub mod ratio;

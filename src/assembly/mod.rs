@@ -2,6 +2,7 @@
 
 mod limits;
 mod mode;
+mod prepared;
 mod search;
 mod shifted;
 mod solver;

@@ -2,8 +2,8 @@
 
 use super::limits;
 use super::mode::{Assembly, Mode, Roots, distance, wrapped};
+use super::prepared::PreparedCut;
 use super::shifted::Shifted;
-use super::solver::{Solver, Workspace};
 use crate::certify::{certificate, certificate_in_any_frame, refined_certificate};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
@@ -12,7 +12,7 @@ use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
-use crate::solve::eigen::Method;
+use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{double_angle, kernel};
 use crate::solve::newton::{Closure, Polished, Six, closure, polish};
 use crate::solve::scalar::{Number, Scalar};
@@ -21,22 +21,22 @@ use num_complex::Complex;
 
 /// One pose being solved.
 pub(super) struct Search<'a> {
-    solver: &'a Solver,
+    prepared: &'a [PreparedCut],
     closed: &'a ClosedLoop<f64>,
     roots: Roots,
-    workspace: &'a mut Workspace,
+    eigen: &'a mut EigenWorkspace,
     assembly: &'a mut Assembly,
 }
 
 impl<'a> Search<'a> {
     pub fn new(
-        solver: &'a Solver,
+        prepared: &'a [PreparedCut],
         closed: &'a ClosedLoop<f64>,
         roots: Roots,
-        workspace: &'a mut Workspace,
+        eigen: &'a mut EigenWorkspace,
         assembly: &'a mut Assembly,
     ) -> Self {
-        Self { solver, closed, roots, workspace, assembly }
+        Self { prepared, closed, roots, eigen, assembly }
     }
 
     /// Finds all there is to find.
@@ -51,8 +51,7 @@ impl<'a> Search<'a> {
 
     /// Solves one pencil after the other, the prepared ones first, until the search is done.
     fn all_cuts(&mut self, most: &dyn Fn() -> usize) {
-        let solver = self.solver;
-        for prepared in &solver.prepared {
+        for prepared in self.prepared {
             let cut = prepared.cut.of(self.closed);
             let carried;
             let rows = if let Some(rows) = &prepared.rows {
@@ -136,7 +135,7 @@ impl<'a> Search<'a> {
         let Some((constant, linear)) = shifted.monic() else { return false };
         // The fast routine first; where it leaves a root unaccounted for, the reference decides.
         [Method::Francis, Method::Faer].into_iter().any(|method| {
-            let roots = self.workspace.eigen.companion(method, &constant, &linear);
+            let roots = self.eigen.companion(method, &constant, &linear);
             roots.is_some_and(|roots| self.all_roots(cut, view, form, shifted, roots))
         })
     }

@@ -2,24 +2,16 @@
 
 use super::limits;
 use super::mode::{Assembly, Mode, Roots};
+use super::prepared::PreparedCut;
 use super::search::Search;
 use super::shifted::Shifted;
-use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
-use crate::closure::woernle_lee::MarkedLine;
+use crate::closure::half_angle::half_angle_form;
 use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
 use crate::solve::eigen::{EigenWorkspace, companion};
 use crate::solve::singular::structural_rank;
-
-/// A cut whose elimination does not depend on the pose.
-pub(super) struct PreparedCut {
-    pub cut: Cut,
-    pub form: HalfAngleForm<f64>,
-    /// `form.rows` carried over constant 2, where that is free of the pose too.
-    pub rows: Option<[MarkedLine<f64>; 8]>,
-}
 
 /// A geometry, prepared: solve many poses of it.
 ///
@@ -50,14 +42,14 @@ pub struct Solver {
     /// Lengths inside the solver are lengths of the mechanism over this power of two.
     scale: f64,
     /// Cuts that need no pose, best first.
-    pub(super) prepared: Vec<PreparedCut>,
+    prepared: Vec<PreparedCut>,
     structural_rank: usize,
 }
 
 /// Memory reused from pose to pose: one per thread.
 #[derive(Default)]
 pub struct Workspace {
-    pub(super) eigen: EigenWorkspace,
+    eigen: EigenWorkspace,
 }
 
 impl Solver {
@@ -149,7 +141,7 @@ impl Solver {
         assembly.modes.clear();
         (assembly.self_motion, assembly.clean, assembly.tries) = (0, false, 0);
         let closed = self.close(filling);
-        Search::new(self, &closed, roots, workspace, assembly).run(most);
+        Search::new(&self.prepared, &closed, roots, &mut workspace.eigen, assembly).run(most);
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
                 let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));

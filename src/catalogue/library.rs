@@ -1,8 +1,9 @@
 //! The built-in library: the files of equations/, embedded.
 
 use super::entry::Entry;
+use super::options::Options;
 use super::scope::nearest;
-use super::source::{Format, Options, load_text};
+use super::text::{Format, load_text};
 use crate::error::{Error, Result};
 use include_dir::{Dir, DirEntry, include_dir};
 

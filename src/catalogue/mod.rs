@@ -6,9 +6,13 @@ mod geometry;
 mod job;
 mod library;
 mod node;
+mod options;
 mod scope;
 mod source;
+mod text;
 mod urdf;
 
 pub use library::{builtin, builtin_names, builtin_text, citation};
-pub use source::{Format, Options, load, load_text};
+pub use options::Options;
+pub use source::load;
+pub use text::{Format, load_text};

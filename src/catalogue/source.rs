@@ -1,46 +1,12 @@
-//! Where the text of a mechanism comes from, and which reader it goes to.
+//! Where the text of a mechanism comes from: a file, standard input, the library.
 
 use super::entry::Entry;
-use super::scope::Scope;
-use super::{dh_table, job, library, node, urdf};
-use crate::algebra::number::{DIGITS, MOST_DIGITS, Reading};
+use super::library;
+use super::options::Options;
+use super::text::{Format, LARGEST, load_text, sniffed, too_large};
 use crate::error::{Error, Result};
 use std::io::Read;
 use std::path::Path;
-
-/// Largest file read, bytes.
-const LARGEST: u64 = 64 << 20;
-
-/// The formats of mechanism files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// equations/README.md.
-    Toml,
-    /// The same keys as TOML.
-    Json,
-    /// A DH table with the header `type,a,alpha,d,theta0`.
-    Csv,
-    /// A robot description, of which a chain between two links is taken.
-    Urdf,
-}
-
-/// How to read a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// Decimal digits to which irrational angles and numbers are replaced by rationals for exact work.
-    pub digits: u32,
-    /// URDF: the link at the root of the chain; the root of the robot if none is named.
-    pub base_link: Option<String>,
-    /// URDF: the link at the end of the chain; the only leaf of the robot if none is named.
-    pub tip_link: Option<String>,
-}
-
-impl Default for Options {
-    /// 15 digits, no links named.
-    fn default() -> Self {
-        Self { digits: DIGITS, base_link: None, tip_link: None }
-    }
-}
 
 /// Reads the mechanism named on a command line: a file, `-` for standard input, or a built-in entry.
 ///
@@ -83,50 +49,6 @@ pub fn load(name: &str, options: &Options) -> Result<Entry> {
     load_text(&text, name, format, options)
 }
 
-/// Reads a mechanism from text; `path` is the name that errors give.
-///
-/// # Errors
-/// As [`load`].
-pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Entry> {
-    if !(1..=MOST_DIGITS).contains(&options.digits) {
-        return Err(Error::Invalid(format!("found {} digits, expected 1 to {MOST_DIGITS}", options.digits)));
-    }
-    if text.len() as u64 > LARGEST {
-        return Err(too_large(path));
-    }
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    if text.trim().is_empty() {
-        return Err(Error::Invalid("found an empty file, expected a mechanism".to_owned()).at(path, 1));
-    }
-    if let Some(at) = text.find('\0') {
-        let line = node::Lines::new(text).at(at);
-        return Err(Error::Invalid("found a zero byte, expected text".to_owned()).at(path, line));
-    }
-    let name = Path::new(path).file_stem().map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned());
-    let reading = Reading { digits: options.digits, ..Reading::default() };
-    let mut scope = Scope::new(path, reading);
-    match format {
-        Format::Toml => job::entry(&mut scope, &node::from_toml(text, path)?, &name),
-        Format::Json => job::entry(&mut scope, &node::from_json(text, path)?, &name),
-        Format::Csv => dh_table::entry(&scope, text, &name),
-        Format::Urdf => urdf::entry(&scope, text, &name, options),
-    }
-}
-
-/// The format that the beginning of a text shows.
-fn sniffed(text: &str) -> Format {
-    let start = text.trim_start_matches('\u{feff}').trim_start();
-    if start.starts_with('{') {
-        Format::Json
-    } else if start.starts_with('<') {
-        Format::Urdf
-    } else if start.lines().next().is_some_and(|line| line.starts_with("type") && line.contains(',')) {
-        Format::Csv
-    } else {
-        Format::Toml
-    }
-}
-
 fn bounded(reader: impl Read, name: &str) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let read = reader.take(LARGEST + 1).read_to_end(&mut bytes);
@@ -140,8 +62,4 @@ fn utf8(bytes: Vec<u8>, name: &str) -> Result<String> {
         let line = String::from_utf8_lossy(&fault.as_bytes()[..valid]).matches('\n').count() + 1;
         Error::Invalid("found bytes that are not UTF-8, expected text".to_owned()).at(name, line)
     })
-}
-
-fn too_large(name: &str) -> Error {
-    Error::Io { path: name.to_owned(), message: "found more than 64 MiB, expected a mechanism file".to_owned() }
 }

@@ -3,8 +3,8 @@
 use super::entry::{Entry, Kind};
 use super::geometry::check_count;
 use super::node::{Node, Value};
+use super::options::Options;
 use super::scope::Scope;
-use super::source::Options;
 use crate::algebra::number::{Angle, Number, Quantity};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};

@@ -5,7 +5,7 @@
 //! path serves all. \[LeeLiang1988\]
 
 use super::chain::{Chain, Geometry, Joint, JointKind, ScrewJoint};
-use super::motion::{Motion, cross, dot, link};
+use super::motion::{Motion, dot, link};
 use crate::algebra::number::{Angle, Number};
 use crate::algebra::ring::Ring;
 use crate::error::Error;
@@ -347,10 +347,4 @@ pub fn angle_motion<R: Ring>(angle: &Angle) -> Option<Motion<R>> {
 #[must_use]
 pub fn distance_motion<R: Ring>(distance: &Number) -> Option<Motion<R>> {
     Some(Motion::translation_z(R::from_number(distance)?))
-}
-
-/// The moment of a line through `point` with this direction.
-#[must_use]
-pub fn moment<R: Ring>(point: &[R; 3], direction: &[R; 3]) -> [R; 3] {
-    cross(point, direction)
 }

@@ -2,13 +2,29 @@
 
 use crate::strategies::{matrix, rational};
 use looproot::algebra::{
-    determinant, matrix,
+    determinant,
     modp::{ModP, PRIME_61},
+    reduction::{Reduction, reduce},
     ring::{Field, Ring},
     univariate::Univariate,
 };
 use proptest::prelude::*;
 use rug::Rational;
+
+fn multiply<const A: usize, const B: usize, const C: usize>(
+    a: &[[Rational; B]; A],
+    b: &[[Rational; C]; B],
+) -> [[Rational; C]; A] {
+    let entry = |i: usize, j: usize| (0..B).fold(Rational::new(), |sum, k| sum + Rational::from(&a[i][k] * &b[k][j]));
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+}
+
+fn image<R, const A: usize, const B: usize>(
+    a: &[[Rational; B]; A],
+    map: impl Fn(&Rational) -> Option<R>,
+) -> [[R; B]; A] {
+    a.each_ref().map(|row| row.each_ref().map(|x| map(x).unwrap()))
+}
 
 type Poly = Univariate<Rational>;
 
@@ -16,59 +32,59 @@ proptest! {
     #[test]
     fn have_multiplicative_determinants(a in matrix::<4, 4>(), b in matrix::<4, 4>()) {
         let product = determinant::determinant(&a) * determinant::determinant(&b);
-        prop_assert_eq!(determinant::determinant(&matrix::multiply(&a, &b)), product);
+        prop_assert_eq!(determinant::determinant(&multiply(&a, &b)), product);
         prop_assert_eq!(determinant::bareiss(&a), determinant::determinant(&a));
-        prop_assert_eq!(matrix::lu(&a).determinant(), determinant::determinant(&a));
     }
 
     #[test]
-    fn are_solved(a in matrix::<4, 4>(), b in matrix::<4, 2>()) {
-        let regular = !determinant::determinant(&a).is_zero();
-        prop_assert_eq!(matrix::inverse(&a).is_some(), regular);
-        if let (Some(inverse), Some(x)) = (matrix::inverse(&a), matrix::solve(&a, &b)) {
-            prop_assert_eq!(matrix::multiply(&a, &inverse), matrix::identity::<Rational, 4>());
-            prop_assert_eq!(matrix::multiply(&inverse, &b), x.clone());
-            prop_assert_eq!(matrix::multiply(&a, &x), b);
+    fn are_reduced_to_unit_rows_and_null_rows(b in matrix::<6, 3>(), c in matrix::<3, 4>()) {
+        // Of rank 3 at most, and the transform is regular whatever the rank.
+        let a = multiply(&b, &c);
+        let reduced: Reduction<Rational, 6, 4> = reduce(a.clone());
+        prop_assert!(reduced.rank <= 3 && reduced.independence == 0.0);
+        prop_assert!(!determinant::determinant(&reduced.transform).is_zero());
+        let product = multiply(&reduced.transform, &a);
+        for (i, row) in product.iter().enumerate() {
+            for (k, pivot) in reduced.columns[..reduced.rank].iter().enumerate() {
+                prop_assert_eq!(&row[*pivot], &Rational::from(u32::from(i == k)));
+            }
+            prop_assert!(i < reduced.rank || row.iter().all(Ring::is_zero));
         }
     }
 
     #[test]
-    fn have_null_spaces_of_the_right_dimension(b in matrix::<6, 2>(), c in matrix::<2, 4>()) {
-        let a = matrix::multiply(&b, &c);
-        let left = matrix::left_null_space(&a);
-        prop_assert!(left.rank <= 2);
-        prop_assert_eq!(left.rank, matrix::lu(&matrix::transpose(&a)).rank());
-        for row in left.rows() {
-            prop_assert_eq!(matrix::apply(&matrix::transpose(&a), row), <[Rational; 4]>::default());
+    fn are_solved_by_their_reduction(a in matrix::<4, 4>()) {
+        let reduced: Reduction<Rational, 4, 4> = reduce(a.clone());
+        prop_assert_eq!(reduced.rank == 4, !determinant::determinant(&a).is_zero());
+        if reduced.rank == 4 {
+            let product = multiply(&reduced.transform, &a);
+            for (i, row) in product.iter().enumerate() {
+                for (j, x) in row.iter().enumerate() {
+                    prop_assert_eq!(x, &Rational::from(u32::from(j == reduced.columns[i])));
+                }
+            }
+            let float = reduce::<f64, 4, 4>(image(&a, f64::from_rational));
+            prop_assert_eq!(float.rank, 4);
+            prop_assert!(float.independence > 0.0 && float.independence <= 1.0);
         }
-        let right = matrix::right_null_space(&a);
-        prop_assert_eq!(right.rows().len(), 4 - left.rank);
-        for row in right.rows() {
-            prop_assert_eq!(matrix::apply(&a, row), <[Rational; 6]>::default());
-        }
-        let stacked: [[Rational; 6]; 6] =
-            std::array::from_fn(|i| left.rows().get(i).cloned().unwrap_or_default());
-        prop_assert_eq!(matrix::lu(&stacked).rank(), 6 - left.rank);
     }
 
     #[test]
-    fn have_orthonormal_null_spaces_in_floats(b in matrix::<6, 2>(), c in matrix::<2, 4>()) {
-        let a = matrix::multiply(&b, &c);
-        let float = matrix::map(&a, f64::from_rational).unwrap();
-        let (exact, null) = (matrix::left_null_space(&a), matrix::left_null_space(&float));
-        prop_assert!(null.rank >= exact.rank);
-        let scale = float.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-        for (i, row) in null.rows().iter().enumerate() {
-            for (j, other) in null.rows().iter().enumerate() {
+    fn have_orthonormal_null_rows_in_floats(b in matrix::<6, 2>(), c in matrix::<2, 4>()) {
+        let a = image(&multiply(&b, &c), f64::from_rational);
+        let scale = a.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let reduced: Reduction<f64, 6, 4> = reduce(a);
+        let mut rows = reduced.transform[reduced.rank..].to_vec();
+        f64::orthonormalise(&mut rows);
+        for (i, row) in rows.iter().enumerate() {
+            for (j, other) in rows.iter().enumerate() {
                 let dot: f64 = row.iter().zip(other).map(|(x, y)| x * y).sum();
                 prop_assert!((dot - f64::from(u8::from(i == j))).abs() < 1e-14);
             }
-            for x in matrix::apply(&matrix::transpose(&float), row) {
-                prop_assert!(x.abs() <= 1e-12 * scale);
+            for column in 0..4 {
+                let sum: f64 = (0..6).map(|k| row[k] * a[k][column]).sum();
+                prop_assert!(sum.abs() <= 1e-12 * scale);
             }
-        }
-        if null.rank < 4 {
-            prop_assert!(null.pivots[null.rank] <= f64::PIVOT_ZERO * null.pivots[0]);
         }
     }
 
@@ -83,11 +99,11 @@ proptest! {
         prop_assert_eq!(&determinant::by_interpolation(&pencil), &expected);
         prop_assert_eq!(&determinant::modular(&pencil), &expected);
 
-        let at_q = matrix::map(&rows, |p| Some(p.eval(&q))).unwrap();
+        let at_q = rows.each_ref().map(|row| row.each_ref().map(|p| p.eval(&q)));
         prop_assert_eq!(determinant::determinant(&at_q), expected.eval(&q));
 
-        let image = |m| matrix::map(m, ModP::<PRIME_61>::from_rational).unwrap();
-        let modulo = determinant::by_interpolation(&pencil.each_ref().map(image));
+        let modular = |m| image(m, ModP::<PRIME_61>::from_rational);
+        let modulo = determinant::by_interpolation(&pencil.each_ref().map(modular));
         prop_assert_eq!(Some(modulo), expected.map(ModP::from_rational));
     }
 }

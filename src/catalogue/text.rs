@@ -1,0 +1,73 @@
+//! From the text of a mechanism to its entry: which reader it goes to.
+
+use super::entry::Entry;
+use super::options::Options;
+use super::scope::Scope;
+use super::{dh_table, job, node, urdf};
+use crate::algebra::number::{MOST_DIGITS, Reading};
+use crate::error::{Error, Result};
+use std::path::Path;
+
+/// Largest text read, bytes.
+pub(super) const LARGEST: u64 = 64 << 20;
+
+/// The formats of mechanism files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// equations/README.md.
+    Toml,
+    /// The same keys as TOML.
+    Json,
+    /// A DH table with the header `type,a,alpha,d,theta0`.
+    Csv,
+    /// A robot description, of which a chain between two links is taken.
+    Urdf,
+}
+
+/// Reads a mechanism from text; `path` is the name that errors give.
+///
+/// # Errors
+/// [`Error::File`] with file and line for what the text says, [`Error::Unsupported`] for kinds not solved yet.
+pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Entry> {
+    if !(1..=MOST_DIGITS).contains(&options.digits) {
+        return Err(Error::Invalid(format!("found {} digits, expected 1 to {MOST_DIGITS}", options.digits)));
+    }
+    if text.len() as u64 > LARGEST {
+        return Err(too_large(path));
+    }
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if text.trim().is_empty() {
+        return Err(Error::Invalid("found an empty file, expected a mechanism".to_owned()).at(path, 1));
+    }
+    if let Some(at) = text.find('\0') {
+        let line = node::Lines::new(text).at(at);
+        return Err(Error::Invalid("found a zero byte, expected text".to_owned()).at(path, line));
+    }
+    let name = Path::new(path).file_stem().map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let reading = Reading { digits: options.digits, ..Reading::default() };
+    let mut scope = Scope::new(path, reading);
+    match format {
+        Format::Toml => job::entry(&mut scope, &node::from_toml(text, path)?, &name),
+        Format::Json => job::entry(&mut scope, &node::from_json(text, path)?, &name),
+        Format::Csv => dh_table::entry(&scope, text, &name),
+        Format::Urdf => urdf::entry(&scope, text, &name, options),
+    }
+}
+
+/// The format that the beginning of a text shows.
+pub(super) fn sniffed(text: &str) -> Format {
+    let start = text.trim_start_matches('\u{feff}').trim_start();
+    if start.starts_with('{') {
+        Format::Json
+    } else if start.starts_with('<') {
+        Format::Urdf
+    } else if start.lines().next().is_some_and(|line| line.starts_with("type") && line.contains(',')) {
+        Format::Csv
+    } else {
+        Format::Toml
+    }
+}
+
+pub(super) fn too_large(name: &str) -> Error {
+    Error::Io { path: name.to_owned(), message: "found more than 64 MiB, expected a mechanism file".to_owned() }
+}
