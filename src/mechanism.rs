@@ -162,6 +162,7 @@ impl Mechanism {
                 let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
                 Some(bound_from(degree(&closed, None)?, "at this pose"))
             },
+            prepared.solver.too_far(&filling_here),
         );
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {

@@ -68,15 +68,16 @@ impl Bound {
 }
 
 /// Judges a list of modes. `geometry` bounds the number of solutions at every pose, `pose` at this one; each is asked
-/// only when needed.
+/// only when needed. `too_far` holds the width of a gap and the length of all links if that is shorter.
 pub fn verdict(
     assembly: &Assembly,
     roots: Roots,
     structural_rank: usize,
     geometry: impl FnOnce() -> Bound,
     pose: impl FnOnce() -> Option<Bound>,
+    too_far: Option<(f64, f64)>,
 ) -> Verdict {
-    let judged = if assembly.self_motion > 0 {
+    let mut judged = if assembly.self_motion > 0 {
         Judged { status: Status::SelfMotion, ..Judged::unproved(self_motion(assembly, structural_rank)) }
     } else if structural_rank < 6 {
         let found = if assembly.modes.is_empty() { "no solution was found" } else { "the list is not proved complete" };
@@ -86,6 +87,10 @@ pub fn verdict(
     } else {
         count(assembly, roots, geometry, pose)
     };
+    if let (Some((gap, links)), Status::Incomplete) = (too_far, judged.status) {
+        judged.status = Status::Unreachable;
+        judged.reason = format!("out of reach: {gap:.4e} has to be bridged by links of {links:.4e} together");
+    }
     Verdict {
         status: judged.status,
         complex: assembly.total(),

@@ -14,8 +14,8 @@ use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{double_angle, kernel};
-use crate::solve::newton::{Closure, Polished, Six, closure, polish};
-use crate::solve::scalar::{Number, Scalar};
+use crate::solve::newton::{Polished, Six, closure, polish};
+use crate::solve::scalar::Scalar;
 use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
 use num_complex::Complex;
 
@@ -217,7 +217,7 @@ impl<'a> Search<'a> {
     /// Polishes a candidate and takes it into the list if it closes. Whether it was a solution from the start.
     fn admit<S: Scalar>(&mut self, start: &Six<S>) -> bool {
         let polished = polish(self.closed, start);
-        let growth = 6.0 * growth(&polished.closure, false);
+        let growth = 6.0 * polished.closure.growth(false);
         if !(polished.closure.defect <= limits::CLOSED.max((1e-14 * growth).min(1e-4))) {
             return false;
         }
@@ -255,7 +255,7 @@ impl<'a> Search<'a> {
             unknowns,
             real: S::REAL,
             multiplicity: 1,
-            residual: polished.closure.defect / growth(&polished.closure, S::REAL),
+            residual: polished.closure.defect / polished.closure.growth(S::REAL),
             condition: dense::norm(&polished.closure.jacobian) * inverse_norm,
             certificate: None,
             hits: 1,
@@ -383,7 +383,7 @@ impl<'a> Search<'a> {
             unknowns,
             real,
             multiplicity: 1,
-            residual: here.defect / growth(&here, real),
+            residual: here.defect / here.growth(real),
             condition: dense::norm(&here.jacobian) * inverse_norm,
             certificate: Some(certificate),
             hits: 1,
@@ -426,6 +426,10 @@ impl<'a> Search<'a> {
                 }
             }
         }
+        if dimension > 0 {
+            // Singular complex solutions that could not be resolved are points of the same family.
+            self.assembly.modes.retain(|mode| mode.real || mode.multiplicity > 0);
+        }
         self.assembly.self_motion = dimension;
     }
 }
@@ -440,10 +444,4 @@ struct RootOutcome {
     shared: bool,
     /// How far from that it is.
     separation: f64,
-}
-
-/// How much rounding errors may grow round the loop: 1 for real unknowns, the largest product of norms for complex
-/// ones, which large imaginary parts make large.
-fn growth<S: Number>(at: &Closure<S>, real: bool) -> f64 {
-    if real { 1.0 } else { at.norms.iter().map(|n| n.before * n.step * n.behind).fold(1.0, f64::max) }
 }

@@ -105,6 +105,20 @@ impl Solver {
         self.prepared.first().map_or(0.0, |c| c.form.score)
     }
 
+    /// Whether the gap is wider than the links are long together, so that no real solution can close it; then both
+    /// lengths, in the unit of the mechanism.
+    #[must_use]
+    pub fn too_far(&self, filling: &Motion<f64>) -> Option<(f64, f64)> {
+        if self.open.variables.contains(&Variable::Translation) {
+            return None;
+        }
+        let length = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let gap = length(&self.close(filling).constants[5]);
+        let links: f64 = self.open.constants.iter().map(length).sum();
+        // Every link turns freely at best; the margin is that of rounding.
+        (gap > links * (1.0 + 1e-12)).then_some((gap * self.scale, links * self.scale))
+    }
+
     /// The loop at a filling of its gap, scaled.
     fn close(&self, filling: &Motion<f64>) -> ClosedLoop<f64> {
         let filling = Motion { translation: filling.translation.map(|x| x / self.scale), ..filling.clone() };

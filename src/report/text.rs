@@ -55,7 +55,13 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
                 Kind::Arm => "this pose cannot be reached",
                 _ => "the loop cannot be assembled at this input",
             };
-            format!("0 real of {found} roots, {}: {what}, {}", certified(solution), measured(solution))
+            // A pose out of reach is known to be one without any root.
+            let found = if found == 0 {
+                "at most 16 roots".to_owned()
+            } else {
+                format!("{found} roots, {}", certified(solution))
+            };
+            format!("0 real of {found}: {what}, {}", measured(solution))
         }
         Status::SelfMotion => {
             let beside = match found {

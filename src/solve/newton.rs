@@ -34,6 +34,15 @@ pub struct StepNorms {
     pub twist: f64,
 }
 
+impl<S> Closure<S> {
+    /// How much rounding errors may grow round the loop: 1 for real unknowns, the largest product of norms for complex
+    /// ones, which large imaginary parts make large.
+    #[must_use]
+    pub fn growth(&self, real: bool) -> f64 {
+        if real { 1.0 } else { self.norms.iter().map(|n| n.before * n.step * n.behind).fold(1.0, f64::max) }
+    }
+}
+
 fn frame_norm<S: Number>(frame: &Motion<S>) -> f64 {
     let mut largest = 1.0_f64;
     for i in 0..3 {

@@ -77,10 +77,12 @@ fn bordered<S: Scalar>(jacobian: &[Six<S>; 6]) -> [[S; 7]; 7] {
 #[must_use]
 pub fn nature<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Nature {
     let Some(direction) = free_direction(closed, unknowns) else { return Nature::Unresolved };
+    // Rounding errors of complex solutions grow with their imaginary parts.
+    let growth = closure(closed, unknowns).growth(S::REAL);
     // A neighbouring solution spoils the order at a large displacement, rounding at a small one.
     for h in [1e-2, 3e-3, 1e-3, 3e-4] {
         let Some([left, right]) = orders(closed, unknowns, &direction, h) else { continue };
-        if h > 5e-3 && left.1 < CURVE && right.1 < CURVE {
+        if h > 5e-3 && left.1 < CURVE * growth && right.1 < CURVE * growth {
             return Nature::SelfMotion(1);
         }
         let near = |order: usize| [left.0, right.0].iter().all(|x| (x - order as f64).abs() < 0.2);
