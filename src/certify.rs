@@ -42,12 +42,34 @@ const ROUNDINGS: f64 = 60.0;
 /// Margin on bounds that are themselves computed in f64.
 const MARGIN: f64 = 1.01;
 
+/// Bounds the rounding error of every entry of the closure: computed against exact, of the mechanism as given. Holds
+/// near E = I.
+#[must_use]
+pub fn product_error<S: Number>(at: &Closure<S>) -> f64 {
+    ROUNDINGS * S::UNIT_ROUNDOFF * at.norms.iter().map(|n| n.before * n.step * n.behind).sum::<f64>()
+}
+
+/// Bounds |E - I|, as a sum over a row.
+fn off_identity<S: Number>(at: &Closure<S>) -> f64 {
+    8.0 * at.defect + product_error(at)
+}
+
+/// Bounds the sum of the |Z_j|.
+fn twists<S: Number>(at: &Closure<S>) -> f64 {
+    MARGIN * at.norms.iter().map(|n| n.twist).sum::<f64>()
+}
+
+/// Bounds the error of the Jacobian, summed over a row: the derivative is L(Z_j E), from which `at.jacobian` differs by
+/// |Z_j| |E - I|, and Z_j is computed from a product of steps.
+#[must_use]
+pub fn derivative_error<S: Number>(at: &Closure<S>) -> f64 {
+    twists(at) * (2.0 * off_identity(at) + 4.0 * product_error(at))
+}
+
 /// Proves that exactly one solution lies near these unknowns; `None` where that cannot be shown.
 #[must_use]
 pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]) -> Option<Certificate> {
-    let product_error =
-        ROUNDINGS * S::UNIT_ROUNDOFF * at.norms.iter().map(|n| n.before * n.step * n.behind).sum::<f64>();
-    let off_identity = 8.0 * at.defect + product_error;
+    let (product_error, off_identity, twists) = (product_error(at), off_identity(at), twists(at));
     if !(off_identity < 1e-3) {
         return None;
     }
@@ -72,10 +94,8 @@ pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]
         }
         sums = sums.max(sum);
     }
-    let twists: f64 = MARGIN * at.norms.iter().map(|n| n.twist).sum::<f64>();
-    // The derivative is L(Z_j E): J differs from it by |Z_j| |E - I|, and Z_j is computed from a product of steps.
-    let derivative_error = twists * (2.0 * off_identity + 4.0 * product_error);
-    let z0 = MARGIN * (norm(&deviation) + 40.0 * S::UNIT_ROUNDOFF * sums + inverse_norm * derivative_error);
+    let derivative_error = inverse_norm * derivative_error(at);
+    let z0 = MARGIN * (norm(&deviation) + 40.0 * S::UNIT_ROUNDOFF * sums + derivative_error);
     if !(z0 < 0.5) {
         return None;
     }

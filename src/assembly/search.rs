@@ -4,7 +4,7 @@ use super::limits;
 use super::mode::{Assembly, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
 use super::shifted::Shifted;
-use crate::certify::{certificate, certificate_in_any_frame, refined_certificate};
+use crate::certify::{Certificate, certificate, certificate_in_any_frame, refined_certificate};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
@@ -282,8 +282,10 @@ impl<'a> Search<'a> {
         }
         if mode.certificate.is_none()
             && let Some((unknowns, proof)) = refined_certificate(self.closed, &mode.unknowns)
+            && (!S::REAL || is_real(&unknowns, &proof))
         {
-            (mode.unknowns, mode.certificate) = (unknowns, Some(proof));
+            mode.unknowns = if S::REAL { unknowns.map(|z| z.re.into()) } else { unknowns };
+            mode.certificate = Some(proof);
         }
     }
 
@@ -365,10 +367,7 @@ impl<'a> Search<'a> {
     /// A solution proved in double-double arithmetic from a start nearby, real if its imaginary parts vanish.
     fn proved_mode(&self, start: &Six<Complex<f64>>) -> Option<Mode> {
         let (mut unknowns, certificate) = refined_certificate(self.closed, start)?;
-        let imaginary = unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
-        // Conjugation maps the ball of the proof into one three times as large: a single solution there is its own
-        // conjugate.
-        let real = imaginary <= certificate.radius && 3.0 * certificate.radius <= certificate.isolation;
+        let real = is_real(&unknowns, &certificate);
         if real {
             unknowns = unknowns.map(|z| z.re.into());
         }
@@ -444,4 +443,11 @@ struct RootOutcome {
     shared: bool,
     /// How far from that it is.
     separation: f64,
+}
+
+/// Whether the solution proved to be near these unknowns is real. Conjugation maps the ball of the proof into one three
+/// times as large: a single solution there is its own conjugate.
+fn is_real(unknowns: &Six<Complex<f64>>, proof: &Certificate) -> bool {
+    let imaginary = unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
+    imaginary <= proof.radius && 3.0 * proof.radius <= proof.isolation
 }
