@@ -1,6 +1,7 @@
 //! The verdict on a list of modes: is it complete, and why.
 
-use crate::assembly::{Assembly, Mode, Roots};
+use crate::assembly::{Assembly, Mode, Roots, distance};
+use crate::kinematics::closed_loop::Variable;
 
 /// The outcome in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,6 +142,9 @@ fn doubt(modes: &[Mode]) -> Option<String> {
     if unproved > 0 {
         return Some(format!("{unproved} of {} roots have no certificate", modes.len()));
     }
+    if (1..modes.len()).any(|k| modes[..k].iter().any(|other| !are_distinct(other, &modes[k]))) {
+        return Some("two roots are not proved to be distinct".to_owned());
+    }
     let undecided = modes.iter().any(|mode| !mode.real && !is_proved_complex(mode));
     undecided.then(|| "a root is neither proved real nor proved complex".to_owned())
 }
@@ -183,6 +187,13 @@ fn accounted(modes: &[Mode], bound: &Bound) -> String {
         several => format!(" and {several} multiple ones (counted {})", multiple.iter().sum::<usize>()),
     };
     format!("{} distinct certified roots{also} of {}", certified(modes), bound.because)
+}
+
+/// Whether the solutions proved of two modes cannot be one. A check of the list as a whole: the solver has merged what
+/// is one already. Every unknown counts as an angle here, which can only bring modes nearer.
+fn are_distinct(one: &Mode, two: &Mode) -> bool {
+    let radius = |mode: &Mode| mode.certificate.map_or(0.0, |c| c.radius);
+    distance(&[Variable::Rotation; 6], &one.unknowns, &two.unknowns) > radius(one) + radius(two)
 }
 
 /// Whether a complex mode is farther from the real numbers than its error.
