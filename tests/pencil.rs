@@ -180,6 +180,23 @@ fn the_eigenvalues_in_f64_are_the_roots_of_the_exact_polynomial() {
 }
 
 #[test]
+fn at_an_exactly_singular_pose_the_planted_root_is_double() {
+    for seed in 0..3 {
+        let (chain, values) = arms::singular(&mut random(seed));
+        let closed: ClosedLoop<Rational> = closed_at(&chain, &values);
+        for (cut, hidden) in ways() {
+            let p = modular(&derive(&closed, cut, hidden).unwrap().coefficients);
+            let root = planted_root(&values, cut, hidden);
+            let linear = Poly::new(vec![-root, ratio(1, 1)]).normalise();
+            let factors = p.square_free_decomposition();
+            assert_eq!(factors.len(), 2, "arm {seed}, {cut:?}, {hidden:?}");
+            assert_eq!((factors[0].0.degree(), factors[0].1), (Some(14), 1), "arm {seed}, {cut:?}, {hidden:?}");
+            assert_eq!(factors[1], (linear, 2), "arm {seed}, {cut:?}, {hidden:?}");
+        }
+    }
+}
+
+#[test]
 fn special_arms_have_the_known_degrees() {
     for (name, chain, solutions) in [
         ("Puma-like", arms::puma_like(), 8),

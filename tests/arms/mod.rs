@@ -2,11 +2,15 @@
 #![allow(dead_code, reason = "shared by several test files")]
 #![allow(clippy::unwrap_used)]
 
+use looproot::algebra::determinant::determinant;
 use looproot::algebra::number::{Angle, HalfTangent, Number};
 use looproot::algebra::ring::Ring;
+use looproot::assembly::{Assembly, Roots, Workspace};
+use looproot::catalogue::entry::{Case, Entry, Expected, Input, InputValue, Kind};
 use looproot::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use looproot::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
-use looproot::kinematics::motion::Motion;
+use looproot::kinematics::motion::{Motion, cross};
+use looproot::mechanism::{Mechanism, Solution};
 use rand::Rng;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -157,4 +161,84 @@ pub fn closed_at<R: Ring>(chain: &Chain, values: &[Rational]) -> ClosedLoop<R> {
 #[must_use]
 pub fn rounded(motion: &Motion<Rational>) -> Motion<f64> {
     motion.map(f64::from_rational).unwrap()
+}
+
+/// A mechanism file without words.
+#[must_use]
+pub fn entry(kind: Kind, chain: Chain, cases: Vec<Case>) -> Entry {
+    Entry {
+        name: String::new(),
+        title: String::new(),
+        source: None,
+        notes: None,
+        kind,
+        chain,
+        limits: Vec::new(),
+        cases,
+        rounded: false,
+    }
+}
+
+/// A job of one.
+#[must_use]
+pub fn case(pose: Option<Motion<Rational>>, input: Vec<Input>) -> Case {
+    Case {
+        pose: pose.map(Placement::from_motion_exact),
+        input,
+        expected: Expected::default(),
+        warnings: Vec::new(),
+        line: 0,
+    }
+}
+
+/// All solutions of the first case.
+#[must_use]
+pub fn solve(entry: &Entry) -> Solution {
+    let mechanism = Mechanism::prepare(entry).unwrap();
+    let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+    mechanism.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap()
+}
+
+/// All solutions of an arm at a pose.
+#[must_use]
+pub fn at_pose(chain: &Chain, pose: Motion<Rational>) -> Solution {
+    solve(&entry(Kind::Arm, chain.clone(), vec![case(Some(pose), Vec::new())]))
+}
+
+/// All solutions of a loop with this joint (from 1) at this half tangent.
+#[must_use]
+pub fn at_input(chain: &Chain, joint: usize, half_tangent: &Rational) -> Solution {
+    let input = Input { joint, value: InputValue::Angle(angle(half_tangent)) };
+    solve(&entry(Kind::Loop, chain.clone(), vec![case(None, vec![input])]))
+}
+
+/// The Jacobian of a loop of rotations at these joint motions: column j is the twist of joint j.
+#[must_use]
+pub fn jacobian(closed: &ClosedLoop<Rational>, turns: &[Motion<Rational>]) -> [[Rational; 6]; 6] {
+    let mut frame: Motion<Rational> = Motion::identity();
+    let columns: [[Rational; 6]; 6] = std::array::from_fn(|j| {
+        let z: [Rational; 3] = std::array::from_fn(|i| frame.rotation[i][2].clone());
+        let moment = cross(&frame.translation, &z);
+        frame = frame.then_after(&turns[j]).then_after(&closed.constants[j]);
+        std::array::from_fn(|i| if i < 3 { z[i].clone() } else { moment[i - 3].clone() })
+    });
+    std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i].clone()))
+}
+
+/// An arm in general position but for the link length a5, which is such that the pose of the half tangents is exactly
+/// singular.
+pub fn singular(random: &mut ChaCha8Rng) -> (Chain, [Rational; 6]) {
+    let Geometry::Dh(joints) = general(random).geometry else { unreachable!() };
+    let values: [Rational; 6] = std::array::from_fn(|_| small(random));
+    let with = |a5: Rational| {
+        let mut joints = joints.clone();
+        joints[4].a = Number::exact(a5);
+        chain(Geometry::Dh(joints))
+    };
+    let turns = motions(&[Variable::Rotation; 6], &values);
+    let determinant = |a5: i32| determinant(&jacobian(&closed_at(&with(Rational::from(a5)), &values), &turns));
+    // a5 moves axis 6 alone: the determinant is linear in it.
+    let (at_0, at_1) = (determinant(0), determinant(1));
+    let a5 = -at_0.clone() / (at_1 - at_0);
+    (with(a5), values)
 }

@@ -1,56 +1,17 @@
 //! One mechanism written in many ways: the same solutions and the same verdict.
 
 use crate::arms::{
-    angle, chain, general, joint, motion, pose, puma_like, random, ratio, screw, screw_chain, small, three_parallel,
+    angle, at_input, at_pose, chain, general, joint, motion, pose, puma_like, random, ratio, screw, screw_chain, small,
+    three_parallel,
 };
 use looproot::algebra::number::{Angle, HalfTangent, Number};
-use looproot::assembly::{Assembly, Roots, Workspace, wrapped};
-use looproot::catalogue::entry::{Case, Entry, Expected, Input, InputValue, Kind};
+use looproot::assembly::wrapped;
 use looproot::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
 use looproot::kinematics::motion::{Motion, link};
-use looproot::mechanism::{FullMode, Mechanism, Solution};
+use looproot::mechanism::{FullMode, Solution};
 use looproot::verdict::Status;
 use num_complex::Complex;
 use rug::Rational;
-
-fn entry(kind: Kind, chain: Chain, cases: Vec<Case>) -> Entry {
-    Entry {
-        name: String::new(),
-        title: String::new(),
-        source: None,
-        notes: None,
-        kind,
-        chain,
-        limits: Vec::new(),
-        cases,
-        rounded: false,
-    }
-}
-
-fn case(pose: Option<Motion<Rational>>, input: Vec<Input>) -> Case {
-    Case {
-        pose: pose.map(Placement::from_motion_exact),
-        input,
-        expected: Expected::default(),
-        warnings: Vec::new(),
-        line: 0,
-    }
-}
-
-fn solve(entry: &Entry) -> Solution {
-    let mechanism = Mechanism::prepare(entry).unwrap();
-    let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
-    mechanism.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap()
-}
-
-fn at_pose(chain: &Chain, pose: Motion<Rational>) -> Solution {
-    solve(&entry(Kind::Arm, chain.clone(), vec![case(Some(pose), Vec::new())]))
-}
-
-fn at_input(chain: &Chain, joint: usize, half_tangent: &Rational) -> Solution {
-    let input = Input { joint, value: InputValue::Angle(angle(half_tangent)) };
-    solve(&entry(Kind::Loop, chain.clone(), vec![case(None, vec![input])]))
-}
 
 /// The same verdict, and the same solutions after `image` has renamed those of the second.
 fn assert_same(what: &str, one: &Solution, two: &Solution, image: impl Fn(&[Complex<f64>]) -> Vec<Complex<f64>>) {
