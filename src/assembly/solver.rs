@@ -115,8 +115,9 @@ impl Solver {
         let length = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>().sqrt();
         let gap = length(&self.close(filling).constants[5]);
         let links: f64 = self.open.constants.iter().map(length).sum();
-        // Every link turns freely at best; the margin is that of rounding.
-        (gap > links * (1.0 + 1e-12)).then_some((gap * self.scale, links * self.scale))
+        // Every link turns freely at best. The margin is that of rounding: a base or a tool far away costs digits of the gap.
+        let ends = length(&self.open.before_gap) + length(filling) / self.scale + length(&self.open.after_gap);
+        (gap > links * (1.0 + 1e-12) + 64.0 * f64::EPSILON * ends).then_some((gap * self.scale, links * self.scale))
     }
 
     /// The loop at a filling of its gap, scaled.
