@@ -155,8 +155,8 @@ pub fn refined_certificate(
         }
         Variable::Translation => quad(unknowns[j]),
     });
-    let mut moved = [Complex::new(0.0, 0.0); 6];
-    for round in 0..8 {
+    let mut before = f64::INFINITY;
+    for round in 0..12 {
         let mut pairs = [(Quad::zero(), Quad::zero()); 6];
         for j in 0..6 {
             pairs[j] = match variables[j] {
@@ -175,22 +175,30 @@ pub fn refined_certificate(
         let inverse = inverse(&jacobian)?.map(|row| row.map(quad));
         let step = times(&inverse, &here.residual);
         let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max);
-        if !(size < 1e-3) {
+        // Newton's method has to converge from where it starts, not to wander.
+        let stalls = !(size < 0.5 * before);
+        if !(size < 0.3) || (stalls && size > 1e-12) {
             return None;
         }
-        if size < 1e-26 || round == 7 {
+        if size < 1e-26 || stalls || round == 11 {
             let proof = certificate(&here, &inverse)?;
-            let refined: Six<Complex<f64>> = std::array::from_fn(|j| unknowns[j] + moved[j]);
+            let refined: Six<Complex<f64>> = std::array::from_fn(|j| {
+                let z = Complex::new(state[j].re.to_f64(), state[j].im.to_f64());
+                match variables[j] {
+                    Variable::Rotation => Complex::new(z.arg(), -z.norm().ln()),
+                    Variable::Translation => z,
+                }
+            });
             // The reported unknowns are those of the proof, rounded.
             let largest = refined.iter().map(|x| x.bound()).fold(1.0, f64::max);
             let rounding = 4.0 * f64::EPSILON * largest;
             return Some((refined, Certificate { radius: proof.radius + rounding, ..proof }));
         }
+        before = size;
         for j in 0..6 {
             let d = step[j].neg();
-            moved[j] += Complex::new(d.re.to_f64(), d.im.to_f64());
             match variables[j] {
-                // e^(id) to order 5: steps are below 1e-3 once and then tiny.
+                // e^(id) to order 5: good enough for a step, after which w is as exact an angle as before.
                 Variable::Rotation => {
                     let turn = d.mul(&Complex { re: DoubleDouble::zero(), im: DoubleDouble::one() });
                     let mut factor = Quad::one();

@@ -10,6 +10,8 @@ pub const GOOD_LEADING: f64 = 1e-2;
 pub const NEAR_REAL: f64 = 1e-4;
 /// Closure before polishing above which a candidate is none: Newton might wander to another solution.
 pub const RAW: f64 = 1e-3;
+/// Growth of rounding errors round the loop above which complex candidates are polished in double-double arithmetic.
+pub const FAR: f64 = 1e9;
 /// Closure after polishing above which a candidate is no solution.
 pub const CLOSED: f64 = 1e-12;
 /// |1 + x^2| / (1 + |x|^2) below which a root belongs to no finite angle.

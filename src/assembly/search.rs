@@ -218,6 +218,12 @@ impl<'a> Search<'a> {
     fn admit<S: Scalar>(&mut self, start: &Six<S>) -> bool {
         let polished = polish(self.closed, start);
         let growth = 6.0 * polished.closure.growth(false);
+        if !S::REAL && !(growth < limits::FAR) {
+            // Far from the real numbers f64 has no digits left to polish with.
+            let Some(mode) = self.proved_mode(&start.map(Scalar::to_complex)) else { return false };
+            self.merge_with_conjugate(mode);
+            return true;
+        }
         if !(polished.closure.defect <= limits::CLOSED.max((1e-14 * growth).min(1e-4))) {
             return false;
         }
@@ -261,7 +267,11 @@ impl<'a> Search<'a> {
             hits: 1,
         };
         self.prove(polished, &mut mode);
-        if !S::REAL {
+        self.merge_with_conjugate(mode);
+    }
+
+    fn merge_with_conjugate(&mut self, mode: Mode) {
+        if !mode.real {
             let mut conjugate = mode.clone();
             conjugate.unknowns = mode.unknowns.map(|z| z.conj());
             self.merge(conjugate);
@@ -391,45 +401,39 @@ impl<'a> Search<'a> {
 
     /// Decides what the modes without certificate are: multiple, points of a self-motion, or unknown.
     fn resolve_singular(&mut self) {
+        let closed = self.closed;
         let mut dimension = 0;
-        let mut k = 0;
-        while k < self.assembly.modes.len() {
-            let mode = &mut self.assembly.modes[k];
-            if mode.certificate.is_some() {
-                k += 1;
-                continue;
+        // Real solutions decide whether there is a self-motion.
+        self.assembly.modes.retain_mut(|mode| {
+            if mode.certificate.is_some() || !mode.real {
+                return true;
             }
-            let kind = if mode.real {
-                let q = mode.unknowns.map(|z| z.re);
-                match nature(self.closed, &q) {
-                    Nature::Unresolved => self_motion(self.closed, &q).map_or(Nature::Unresolved, Nature::SelfMotion),
-                    // A curve may lie in a surface.
-                    Nature::SelfMotion(_) => Nature::SelfMotion(self_motion(self.closed, &q).unwrap_or(1)),
-                    isolated @ Nature::Isolated(_) => isolated,
-                }
-            } else {
-                nature(self.closed, &mode.unknowns)
-            };
-            match kind {
-                Nature::SelfMotion(found) => {
-                    dimension = dimension.max(found);
-                    self.assembly.modes.swap_remove(k);
-                }
+            let q = mode.unknowns.map(|z| z.re);
+            let moves = match nature(closed, &q) {
                 Nature::Isolated(multiplicity) => {
                     mode.multiplicity = multiplicity;
-                    k += 1;
+                    return true;
                 }
-                Nature::Unresolved => {
-                    mode.multiplicity = 0;
-                    k += 1;
-                }
-            }
-        }
-        if dimension > 0 {
-            // Singular complex solutions that could not be resolved are points of the same family.
-            self.assembly.modes.retain(|mode| mode.real || mode.multiplicity > 0);
-        }
+                // A curve may lie in a surface.
+                Nature::SelfMotion(least) => Some(self_motion(closed, &q).unwrap_or(least)),
+                Nature::Unresolved => self_motion(closed, &q),
+            };
+            dimension = dimension.max(moves.unwrap_or(0));
+            mode.multiplicity = 0;
+            moves.is_none()
+        });
         self.assembly.self_motion = dimension;
+        self.assembly.modes.retain_mut(|mode| {
+            if mode.certificate.is_some() || mode.real {
+                return true;
+            }
+            mode.multiplicity = match nature(closed, &mode.unknowns) {
+                Nature::Isolated(multiplicity) => multiplicity,
+                Nature::SelfMotion(_) | Nature::Unresolved => 0,
+            };
+            // Beside a self-motion, complex solutions that are not isolated are points of its complex continuation.
+            mode.multiplicity > 0 || dimension == 0
+        });
     }
 }
 
