@@ -80,7 +80,7 @@ fn a_root_without_certificate_is_not_counted() {
         let mode = &mut assembly.modes[k];
         mode.certificate = None;
         // A double solution has none; its multiplicity stands for it.
-        mode.multiplicity = if mode.multiplicity > 1 { 0 } else { 1 };
+        mode.multiplicity = usize::from(mode.multiplicity <= 1);
     });
 }
 

@@ -1,0 +1,93 @@
+//! One row per entry of the library and stage, beside the eigenvalues of one 16 x 16 matrix.
+//!
+//! `cargo bench --bench speed`, or `cargo bench --bench speed -- puma560` for one entry; the first case of each.
+#![allow(clippy::unwrap_used)]
+
+use divan::{Bencher, black_box};
+use looproot::assembly::{Assembly, Roots, Solver, Workspace};
+use looproot::benchmark::sample::{Set, sample};
+use looproot::catalogue::entry::{Entry, InputValue, Kind};
+use looproot::catalogue::{Options, builtin, builtin_names};
+use looproot::kinematics::closed_loop::{Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use looproot::kinematics::motion::Motion;
+use looproot::solve::eigen::EigenWorkspace;
+use looproot::solve::francis;
+
+fn main() {
+    divan::main();
+}
+
+/// The loop of an entry, and what fills its gap in the first case.
+fn first_case(entry: &Entry) -> (OpenLoop<f64>, Motion<f64>) {
+    let case = &entry.cases[0];
+    let (locked, filling) = if let Some(pose) = &case.pose {
+        (None, pose.float.inverse())
+    } else {
+        let input = &case.input[0];
+        let (wanted, filling) = match &input.value {
+            InputValue::Angle(angle) => (Variable::Rotation, angle_motion(angle)),
+            InputValue::Distance(distance) => (Variable::Translation, distance_motion(distance)),
+        };
+        (Layout::variable_of(&entry.chain, input.joint, wanted), filling.unwrap())
+    };
+    (entry.chain.open_loop(&Layout::of(&entry.chain, locked).unwrap()).unwrap(), filling)
+}
+
+fn builtin_case(name: &str) -> (OpenLoop<f64>, Motion<f64>) {
+    first_case(&builtin(name, &Options::default()).unwrap())
+}
+
+/// All entries that are solved.
+fn names() -> Vec<String> {
+    let is_solved = |name: &String| builtin(name, &Options::default()).unwrap().kind != Kind::Platform;
+    builtin_names().into_iter().filter(is_solved).collect()
+}
+
+/// The matrix of a general arm at a pose.
+fn matrix() -> [[f64; 16]; 16] {
+    let (open, filling) = first_case(&sample(Set::General, 1, 0).unwrap().entry);
+    Solver::prepare(&open).companion(&filling).unwrap()
+}
+
+/// The measure of all times: eigenvalues of one matrix by faer.
+#[divan::bench]
+fn eigenvalues_faer(bencher: Bencher) {
+    let (matrix, mut workspace) = (matrix(), EigenWorkspace::default());
+    bencher.bench_local(|| workspace.of_matrix(black_box(&matrix)));
+}
+
+/// The same by our own routine.
+#[divan::bench]
+fn eigenvalues_own(bencher: Bencher) {
+    let matrix = matrix();
+    bencher.bench_local(|| francis::eigenvalues(&mut black_box(matrix)));
+}
+
+/// All that depends on the geometry alone.
+#[divan::bench(args = names())]
+fn prepare(bencher: Bencher, name: &str) {
+    let (open, _) = builtin_case(name);
+    bencher.bench_local(|| Solver::prepare(black_box(&open)));
+}
+
+/// One pose or input, real solutions only.
+#[divan::bench(args = names())]
+fn solve_real(bencher: Bencher, name: &str) {
+    solve(bencher, name, Roots::Real);
+}
+
+/// One pose or input, all solutions.
+#[divan::bench(args = names())]
+fn solve_all(bencher: Bencher, name: &str) {
+    solve(bencher, name, Roots::All);
+}
+
+fn solve(bencher: Bencher, name: &str, roots: Roots) {
+    let (open, filling) = builtin_case(name);
+    let solver = Solver::prepare(&open);
+    let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+    bencher.bench_local(|| {
+        solver.solve(black_box(&filling), roots, &mut workspace, &mut assembly);
+        assembly.modes.len()
+    });
+}
