@@ -14,7 +14,7 @@ use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{double_angle, kernel};
-use crate::solve::newton::{Polished, Six, closure, polish};
+use crate::solve::newton::{Polished, Six, approach, closure, polish};
 use crate::solve::scalar::Scalar;
 use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
 use num_complex::Complex;
@@ -23,6 +23,8 @@ use num_complex::Complex;
 pub(super) struct Search<'a> {
     prepared: &'a [PreparedCut],
     closed: &'a ClosedLoop<f64>,
+    /// The closure up to which a point is a solution: beside one that the rounding of the gap has moved out of reach.
+    closes: f64,
     roots: Roots,
     eigen: &'a mut EigenWorkspace,
     assembly: &'a mut Assembly,
@@ -32,11 +34,12 @@ impl<'a> Search<'a> {
     pub fn new(
         prepared: &'a [PreparedCut],
         closed: &'a ClosedLoop<f64>,
+        gap_rounding: f64,
         roots: Roots,
         eigen: &'a mut EigenWorkspace,
         assembly: &'a mut Assembly,
     ) -> Self {
-        Self { prepared, closed, roots, eigen, assembly }
+        Self { prepared, closed, closes: limits::CLOSED + gap_rounding, roots, eigen, assembly }
     }
 
     /// Finds all there is to find.
@@ -224,14 +227,14 @@ impl<'a> Search<'a> {
             self.merge_with_conjugate(mode);
             return true;
         }
-        if !(polished.closure.defect <= limits::CLOSED.max((1e-14 * growth).min(1e-4))) {
+        if !(polished.closure.defect <= self.closes.max((1e-14 * growth).min(1e-4))) {
             return false;
         }
         let near = polished.raw < limits::RAW.max((1e-10 * growth).min(0.1)) && polished.moved < 0.1;
         let imaginary = polished.unknowns.iter().map(|x| x.to_complex().im.abs()).fold(0.0, f64::max);
         if !S::REAL && imaginary < limits::REAL_PART {
             let real = polish::<f64>(self.closed, &polished.unknowns.map(|x| x.to_complex().re));
-            if real.closure.defect <= limits::CLOSED {
+            if real.closure.defect <= self.closes {
                 self.record(&real);
                 return near;
             }
@@ -239,7 +242,7 @@ impl<'a> Search<'a> {
         if !S::REAL && imaginary < 1e-6 && polished.inverse.as_ref().is_none_or(|a| dense::norm(a) > 1e6) {
             // Beside a real double root, a complex point within rounding of closing is no solution of its own.
             let real = polish::<f64>(self.closed, &polished.unknowns.map(|x| x.to_complex().re));
-            if real.closure.defect <= limits::CLOSED {
+            if real.closure.defect <= self.closes {
                 self.record(&real);
                 return near;
             }
@@ -326,7 +329,8 @@ impl<'a> Search<'a> {
     /// Where no pencil was clean solutions form families, as a rule: looks for points of them from everywhere.
     fn cast_about(&mut self) {
         for trial in 1..=limits::CASTS {
-            self.admit::<f64>(&spread(&self.closed.variables, trial));
+            let start = approach(self.closed, &spread(&self.closed.variables, trial));
+            self.admit::<f64>(&start);
         }
     }
 

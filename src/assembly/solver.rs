@@ -57,9 +57,10 @@ impl Solver {
     #[must_use]
     pub fn prepare(open: &OpenLoop<f64>) -> Self {
         let length = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>();
-        let square: f64 = open.constants.iter().map(length).sum::<f64>() / 5.0
-            + 0.5 * (length(&open.before_gap) + length(&open.after_gap)) / 5.0;
-        // A power of two: scaling then costs no digit.
+        // The mean link length, not the distance of a base or a tool; of an arm without lengths its ends, else 1. A power
+        // of two: scaling then costs no digit.
+        let links = open.constants.iter().map(length).sum::<f64>() / 5.0;
+        let square = if links > 0.0 { links } else { length(&open.before_gap) + length(&open.after_gap) };
         let scale = if square > 0.0 { square.sqrt().log2().round().exp2() } else { 1.0 };
         let scaled = |m: &Motion<f64>| Motion { translation: m.translation.map(|x| x / scale), ..m.clone() };
         let open = OpenLoop {
@@ -115,9 +116,15 @@ impl Solver {
         let length = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>().sqrt();
         let gap = length(&self.close(filling).constants[5]);
         let links: f64 = self.open.constants.iter().map(length).sum();
-        // Every link turns freely at best. The margin is that of rounding: a base or a tool far away costs digits of the gap.
+        // Every link turns freely at best; the margin is that of rounding.
+        (gap > links * (1.0 + 1e-12) + self.gap_rounding(filling)).then_some((gap * self.scale, links * self.scale))
+    }
+
+    /// The rounding of the gap, scaled: a base or a tool far away costs digits of it.
+    fn gap_rounding(&self, filling: &Motion<f64>) -> f64 {
+        let length = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>().sqrt();
         let ends = length(&self.open.before_gap) + length(filling) / self.scale + length(&self.open.after_gap);
-        (gap > links * (1.0 + 1e-12) + 64.0 * f64::EPSILON * ends).then_some((gap * self.scale, links * self.scale))
+        64.0 * f64::EPSILON * ends
     }
 
     /// The loop at a filling of its gap, scaled.
@@ -156,7 +163,8 @@ impl Solver {
         assembly.modes.clear();
         (assembly.self_motion, assembly.clean, assembly.tries) = (0, false, 0);
         let closed = self.close(filling);
-        Search::new(&self.prepared, &closed, roots, &mut workspace.eigen, assembly).run(most);
+        Search::new(&self.prepared, &closed, self.gap_rounding(filling), roots, &mut workspace.eigen, assembly)
+            .run(most);
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
                 let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));

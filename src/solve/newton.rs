@@ -17,6 +17,8 @@ pub struct Closure<S> {
     pub jacobian: [Six<S>; 6],
     /// The largest entry of |E - I|.
     pub defect: f64,
+    /// The trace of the rotation of E.
+    pub trace: S,
     /// Norms for error bounds, one triple per unknown.
     pub norms: [StepNorms; 6],
 }
@@ -178,6 +180,7 @@ where
         residual: [half(r[2][1], r[1][2]), half(r[0][2], r[2][0]), half(r[1][0], r[0][1]), t[0], t[1], t[2]],
         jacobian,
         defect,
+        trace: r[0][0].add(&r[1][1]).add(&r[2][2]),
         norms,
     }
 }
@@ -205,7 +208,9 @@ pub struct Polished<S> {
 /// Closure defects below this are rounding: no further step can improve them.
 const ROUNDING: f64 = 2e-15;
 /// Enough for linear convergence to a double root to come down to rounding.
-const MOST_STEPS: usize = 40;
+const MOST_STEPS: usize = 100;
+/// The largest change of an unknown in a damped step.
+const LONGEST_STEP: f64 = 0.5;
 
 /// Newton's method on all six unknowns: a step is taken only if the defect falls; where a full step does not help,
 /// a damped one is tried; ends when nothing improves.
@@ -224,14 +229,14 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
             let step = times(matrix, &here.residual);
             let next: Six<S> = std::array::from_fn(|k| unknowns[k].sub(&step[k]));
             let there = closure(closed, &next);
-            if there.defect < here.defect {
-                let slow = there.defect > 0.5 * here.defect && there.defect < 1e-13;
+            if there.defect < 0.5 * here.defect {
                 (unknowns, here, known_inverse) = (next, there, inverted);
-                // At a regular root one step from here lands on rounding; creeping below 1e-13 is noise.
-                if slow {
-                    break;
-                }
                 continue;
+            }
+            // At a regular root one step from here lands on rounding; creeping below 1e-13 is noise.
+            if there.defect < here.defect && there.defect < 1e-13 {
+                (unknowns, here, known_inverse) = (next, there, inverted);
+                break;
             }
             known_inverse = inverted;
         }
@@ -249,26 +254,61 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
     Polished { unknowns, closure: here, inverse: known_inverse, raw, moved }
 }
 
-/// A Levenberg-Marquardt step, `(J* J + l^2) d = -J* F`, with growing damping l until one goes downhill.
-fn damped<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>, here: &Closure<S>) -> Option<(Six<S>, Closure<S>)> {
+/// Comes near a real solution from anywhere, if there is one downhill: damped steps on the whole rotation angle of the
+/// closure, of which the skew part used near a solution sees only the sine.
+#[must_use]
+pub fn approach(closed: &ClosedLoop<f64>, start: &Six<f64>) -> Six<f64> {
+    const STEPS: usize = 60;
+    let mut unknowns = *start;
+    for _ in 0..STEPS {
+        let mut here = closure(closed, &unknowns);
+        if here.defect < 1e-6 {
+            break;
+        }
+        let [x, y, z, ..] = here.residual;
+        let sine = (x * x + y * y + z * z).sqrt();
+        let angle = sine.atan2(0.5 * (here.trace - 1.0));
+        if sine > 0.0 {
+            for value in &mut here.residual[..3] {
+                *value *= angle / sine;
+            }
+        }
+        let Some(step) = damped_step(&here, 1e-3 * here.defect.min(1.0)) else { break };
+        for (x, d) in unknowns.iter_mut().zip(step) {
+            *x -= d;
+        }
+    }
+    unknowns
+}
+
+/// The step d of `(J* J + l^2) d = J* F`, no longer than [`LONGEST_STEP`] in any unknown.
+fn damped_step<S: Scalar>(here: &Closure<S>, damping: f64) -> Option<Six<S>> {
     let j = &here.jacobian;
     let product = |a: usize, b: usize| (0..6).fold(S::zero(), |sum, i| sum.add(&j[i][a].conjugate().mul(&j[i][b])));
-    let normal: [Six<S>; 6] = std::array::from_fn(|a| std::array::from_fn(|b| product(a, b)));
+    let mut normal: [Six<S>; 6] = std::array::from_fn(|a| std::array::from_fn(|b| product(a, b)));
     let gradient: Six<S> =
         std::array::from_fn(|a| (0..6).fold(S::zero(), |sum, i| sum.add(&j[i][a].conjugate().mul(&here.residual[i]))));
     let scale = (0..6).map(|a| normal[a][a].size()).fold(0.0, f64::max);
-    for damping in [1e-12, 1e-9, 1e-6, 1e-4, 1e-2] {
-        let mut matrix = normal;
-        for (a, row) in matrix.iter_mut().enumerate() {
-            row[a] = row[a].add(&S::from_f64(damping * scale));
-        }
-        let Some(inverted) = inverse(&matrix) else { continue };
-        let step = times(&inverted, &gradient);
+    for (a, row) in normal.iter_mut().enumerate() {
+        row[a] = row[a].add(&S::from_f64(damping * scale));
+    }
+    let step = times(&inverse(&normal)?, &gradient);
+    // Far from a solution the linear model holds for a fraction of a turn at best.
+    let longest = step.iter().map(|x| x.size()).fold(0.0, larger);
+    let shortened = if longest > LONGEST_STEP { LONGEST_STEP / longest } else { 1.0 };
+    Some(step.map(|x| x.times(shortened)))
+}
+
+/// The best of some Levenberg-Marquardt steps, from none to strong damping, that go downhill.
+fn damped<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>, here: &Closure<S>) -> Option<(Six<S>, Closure<S>)> {
+    let mut best: Option<(Six<S>, Closure<S>)> = None;
+    for damping in [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2] {
+        let Some(step) = damped_step(here, damping) else { continue };
         let next: Six<S> = std::array::from_fn(|k| unknowns[k].sub(&step[k]));
         let there = closure(closed, &next);
-        if there.defect < here.defect {
-            return Some((next, there));
+        if there.defect < best.as_ref().map_or(here, |(_, closure)| closure).defect {
+            best = Some((next, there));
         }
     }
-    None
+    best
 }

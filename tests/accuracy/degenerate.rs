@@ -79,7 +79,6 @@ fn deficient_arms_are_said_to_be_so() {
 }
 
 #[test]
-#[ignore = "40 starts of the search find a point of the curve at every second pose only"]
 fn deficient_arms_move_by_themselves_at_every_pose_in_reach() {
     for solution in deficient_answers() {
         is_self_motion(&solution);
