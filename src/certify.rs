@@ -21,9 +21,9 @@ use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::Ring;
 use crate::elimination::cut::Cut;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
-use crate::kinematics::motion::Motion;
+use crate::kinematics::motion::{Motion, cross};
 use crate::solve::dense::{inverse, norm, times};
-use crate::solve::newton::{Closure, Six, closure, closure_at};
+use crate::solve::newton::{Closure, Six, closure, closure_at, coordinates, product};
 use crate::solve::scalar::{Number, Scalar};
 use num_complex::Complex;
 
@@ -39,6 +39,10 @@ pub struct Certificate {
 /// Roundings per step of the product: cosine and sine (2), their use (4), the stored constant (8), the product (6), with
 /// room for complex products (a factor of sqrt 8 on each operation).
 const ROUNDINGS: f64 = 60.0;
+/// Roundings in a stored constant.
+const CONSTANT_ROUNDINGS: f64 = 8.0;
+/// A solution that the rounding of the constants may have moved farther than this is not proved at all.
+const MOST_DRIFT: f64 = 1e-6;
 /// Margin on bounds that are themselves computed in f64.
 const MARGIN: f64 = 1.01;
 
@@ -142,16 +146,26 @@ fn quad(z: Complex<f64>) -> Quad {
     Complex { re: DoubleDouble::from(z.re), im: DoubleDouble::from(z.im) }
 }
 
+/// A solution refined and proved in double-double arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refined {
+    /// The unknowns, rounded from that precision.
+    pub unknowns: Six<Complex<f64>>,
+    /// Whether the solution is proved to be real: conjugation maps the ball of the proof into one three times as large,
+    /// and a single solution there is its own conjugate.
+    pub real: bool,
+    /// The proof.
+    pub certificate: Certificate,
+}
+
 /// A proof in double-double arithmetic, for solutions that f64 cannot prove: badly conditioned ones, and those with
-/// large imaginary parts. Also returns the unknowns, rounded from that precision.
+/// large imaginary parts.
 ///
-/// The proof is of the loop whose constants are the rigid motions nearest to the stored ones. Real unknowns that pass
-/// are real: the solution in the ball is the only one, and its conjugate lies there, too.
+/// The proof is of the loop whose constants are the rigid motions nearest to the stored ones. How far the rounding of
+/// those constants can have moved the solution is added to the radius, to first order; where that is no small amount
+/// the solution is not proved.
 #[must_use]
-pub fn refined_certificate(
-    closed: &ClosedLoop<f64>,
-    unknowns: &Six<Complex<f64>>,
-) -> Option<(Six<Complex<f64>>, Certificate)> {
+pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>) -> Option<Refined> {
     let variables = closed.variables;
     let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
     // Angles live as w = e^(iq): any w but 0 is an exact angle, and no cosine is needed in this precision.
@@ -200,7 +214,12 @@ pub fn refined_certificate(
             // The reported unknowns are those of the proof, rounded.
             let largest = refined.iter().map(|x| x.bound()).fold(1.0, f64::max);
             let rounding = 4.0 * f64::EPSILON * largest;
-            return Some((refined, Certificate { radius: proof.radius + rounding, ..proof }));
+            let drift = drift(closed, &refined);
+            let certificate = Certificate { radius: proof.radius + rounding + drift, ..proof };
+            let imaginary = refined.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
+            let real = imaginary <= proof.radius + rounding && 3.0 * (proof.radius + rounding) <= proof.isolation;
+            let unknowns = if real { refined.map(|z| z.re.into()) } else { refined };
+            return (drift < MOST_DRIFT).then_some(Refined { unknowns, real, certificate });
         }
         before = size;
         for j in 0..6 {
@@ -221,6 +240,33 @@ pub fn refined_certificate(
         }
     }
     None
+}
+
+/// How far the rounding of the constants can have moved a solution, to first order. A constant off by a twist x, a few
+/// roundings in size, moves the unknowns by `J^-1 Ad_j x` with the frame of its step.
+fn drift(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>) -> f64 {
+    let pairs: Six<(Complex<f64>, Complex<f64>)> =
+        std::array::from_fn(|j| coordinates(closed.variables[j], unknowns[j]));
+    let Some(inverse) = inverse(&closure_at(closed, &pairs).jacobian) else { return f64::INFINITY };
+    let mut sum = 0.0;
+    for count in 1..=6 {
+        let frame: Motion<Complex<f64>> = product(closed, &pairs, count);
+        let mut moved = [[Complex::new(0.0, 0.0); 6]; 6];
+        for axis in 0..3 {
+            // A turn about this axis of the frame, and a shift along it.
+            let direction: [Complex<f64>; 3] = std::array::from_fn(|i| frame.rotation[i][axis]);
+            let moment = cross(&frame.translation, &direction);
+            for (row, from) in moved.iter_mut().zip(&inverse) {
+                for i in 0..3 {
+                    row[axis] += from[i] * direction[i] + from[3 + i] * moment[i];
+                    row[3 + axis] += from[3 + i] * direction[i];
+                }
+            }
+        }
+        let length = closed.constants[count - 1].translation.iter().map(|x| x.abs()).fold(1.0, f64::max);
+        sum += norm(&moved) * length;
+    }
+    CONSTANT_ROUNDINGS * f64::UNIT_ROUNDOFF * sum
 }
 
 /// The rigid motion nearest to a stored one: two steps of Newton's iteration for the polar factor.

@@ -22,6 +22,8 @@ pub const SAME: f64 = 1e-5;
 pub const REAL_PART: f64 = 1e-8;
 /// Solutions farther apart than this are polished to different points and have a place in the list each.
 pub const MERGED: f64 = 1e-4;
+/// A solution without a known partner that is proved no better than this may be one of a cluster.
+pub const LONE_RADIUS: f64 = 1e-7;
 /// Closure errors that make two solutions one and are no larger than this are rounding of the input: the solution
 /// counts as double.
 pub const TOLD_APART: f64 = 1e-13;

@@ -7,5 +7,5 @@ mod search;
 mod shifted;
 mod solver;
 
-pub use mode::{Assembly, Mode, Roots, distance, wrapped};
+pub use mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
 pub use solver::{Solver, Workspace};

@@ -31,8 +31,32 @@ pub struct Mode {
     pub condition: f64,
     /// The proof, if there is one. Radii are in radians, lengths over the scale.
     pub certificate: Option<Certificate>,
-    /// In how many cuts it was found.
-    pub hits: usize,
+    /// How often it was found.
+    pub hits: Hits,
+}
+
+/// How often a mode was found by the roots of one pencil.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Hits {
+    pencil: usize,
+    here: usize,
+    /// The most of all pencils.
+    pub most: usize,
+}
+
+impl Hits {
+    /// Found for the first time, in this pencil.
+    #[must_use]
+    pub fn first(pencil: usize) -> Self {
+        Self { pencil, here: 1, most: 1 }
+    }
+
+    /// Found again.
+    #[must_use]
+    pub fn again(self, other: Self) -> Self {
+        let here = if self.pencil == other.pencil { self.here + other.here } else { other.here };
+        Self { pencil: other.pencil, here, most: self.most.max(here) }
+    }
 }
 
 /// What was found at one pose or input.

@@ -1,10 +1,10 @@
 //! One pose being solved: cut after cut, root after root, until nothing is missing.
 
 use super::limits;
-use super::mode::{Assembly, Mode, Roots, distance, wrapped};
+use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
 use super::shifted::Shifted;
-use crate::certify::{Certificate, certificate, certificate_in_any_frame, refined_certificate};
+use crate::certify::{Refined, certificate, certificate_in_any_frame, refined_certificate};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
@@ -264,7 +264,7 @@ impl<'a> Search<'a> {
             residual: polished.closure.defect / polished.closure.growth(S::REAL),
             condition: dense::norm(&polished.closure.jacobian) * inverse_norm,
             certificate: None,
-            hits: 1,
+            hits: Hits::first(self.assembly.tries),
         };
         self.prove(polished, &mut mode);
         self.merge_with_conjugate(mode);
@@ -291,11 +291,10 @@ impl<'a> Search<'a> {
             mode.certificate = certificate_in_any_frame(self.closed, &polished.unknowns);
         }
         if mode.certificate.is_none()
-            && let Some((unknowns, proof)) = refined_certificate(self.closed, &mode.unknowns)
-            && (!S::REAL || is_real(&unknowns, &proof))
+            && let Some(refined) = refined_certificate(self.closed, &mode.unknowns)
+            && refined.real == S::REAL
         {
-            mode.unknowns = if S::REAL { unknowns.map(|z| z.re.into()) } else { unknowns };
-            mode.certificate = Some(proof);
+            (mode.unknowns, mode.certificate) = (refined.unknowns, Some(refined.certificate));
         }
     }
 
@@ -313,7 +312,7 @@ impl<'a> Search<'a> {
                     (Some(_), None) => false,
                     _ => mode.real && !other.real || (mode.real == other.real && mode.residual < other.residual),
                 };
-                let hits = other.hits + 1;
+                let hits = other.hits.again(mode.hits);
                 if better {
                     *other = mode;
                 }
@@ -351,15 +350,19 @@ impl<'a> Search<'a> {
                 continue;
             }
             let both = starts.map(|(starts, _)| (apart(&starts), starts.map(|start| self.proved_mode(&start))));
+            let radius = |mode: &Mode| mode.certificate.map_or(f64::INFINITY, |proof| proof.radius);
+            let alone = |mode: &Mode| {
+                distance(&variables, &mode.unknowns, &own) < limits::SAME && radius(mode) < limits::LONE_RADIUS
+            };
             let proved = match both {
-                Some((apart, [Some(one), Some(two)]))
-                    if distance(&variables, &one.unknowns, &two.unknowns) > 0.5 * apart =>
+                Some((_, [Some(one), Some(two)]))
+                    if distance(&variables, &one.unknowns, &two.unknowns) > radius(&one) + radius(&two) =>
                 {
                     [Some(one), Some(two)]
                 }
                 // A pair that close is proved together or not at all.
                 Some((near, _)) if near < limits::MERGED => continue,
-                _ => [self.proved_mode(&own).filter(|m| distance(&variables, &m.unknowns, &own) < limits::SAME), None],
+                _ => [self.proved_mode(&own).filter(alone), None],
             };
             if proved[0].is_none() {
                 continue;
@@ -376,11 +379,7 @@ impl<'a> Search<'a> {
 
     /// A solution proved in double-double arithmetic from a start nearby, real if its imaginary parts vanish.
     fn proved_mode(&self, start: &Six<Complex<f64>>) -> Option<Mode> {
-        let (mut unknowns, certificate) = refined_certificate(self.closed, start)?;
-        let real = is_real(&unknowns, &certificate);
-        if real {
-            unknowns = unknowns.map(|z| z.re.into());
-        }
+        let Refined { mut unknowns, real, certificate } = refined_certificate(self.closed, start)?;
         for (z, variable) in unknowns.iter_mut().zip(self.closed.variables) {
             if variable == Variable::Rotation {
                 z.re = wrapped(z.re);
@@ -395,7 +394,7 @@ impl<'a> Search<'a> {
             residual: here.defect / here.growth(real),
             condition: dense::norm(&here.jacobian) * inverse_norm,
             certificate: Some(certificate),
-            hits: 1,
+            hits: Hits::first(self.assembly.tries),
         })
     }
 
@@ -419,7 +418,8 @@ impl<'a> Search<'a> {
                 Nature::Unresolved => self_motion(closed, &q),
             };
             dimension = dimension.max(moves.unwrap_or(0));
-            mode.multiplicity = 0;
+            // Several singular directions: the roots of a pencil that led here tell how many solutions coincide.
+            mode.multiplicity = if mode.hits.most > 1 { mode.hits.most } else { 0 };
             moves.is_none()
         });
         self.assembly.self_motion = dimension;
@@ -447,11 +447,4 @@ struct RootOutcome {
     shared: bool,
     /// How far from that it is.
     separation: f64,
-}
-
-/// Whether the solution proved to be near these unknowns is real. Conjugation maps the ball of the proof into one three
-/// times as large: a single solution there is its own conjugate.
-fn is_real(unknowns: &Six<Complex<f64>>, proof: &Certificate) -> bool {
-    let imaginary = unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
-    imaginary <= proof.radius && 3.0 * proof.radius <= proof.isolation
 }

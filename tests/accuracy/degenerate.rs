@@ -177,7 +177,6 @@ fn a_fully_stretched_arm_is_within_reach() {
 }
 
 #[test]
-#[ignore = "the proof in double-double is of the loop as stored: its 4 roots lie 1e-8 around the quadruple one as given"]
 fn a_proved_ball_holds_a_solution_of_the_arm_as_given() {
     let mut random = crate::arms::random(62);
     for _ in 0..5 {

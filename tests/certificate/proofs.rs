@@ -8,7 +8,7 @@ use looproot::algebra::double_double::DoubleDouble;
 use looproot::algebra::ring::Ring;
 use looproot::assembly::{Assembly, Mode, Roots, Solver, Workspace};
 use looproot::benchmark::sample::{Set, sample};
-use looproot::certify::{certificate, curvature, derivative_error, product_error, refined_certificate};
+use looproot::certify::{Refined, certificate, curvature, derivative_error, product_error, refined_certificate};
 use looproot::kinematics::chain::Chain;
 use looproot::kinematics::closed_loop::{ClosedLoop, Variable};
 use looproot::kinematics::motion::Motion;
@@ -253,7 +253,8 @@ fn what_is_no_solution_is_not_proved_to_be_one() {
             let anywhere: Six<f64> = std::array::from_fn(|_| random.random_range(-3.0..3.0));
             judge::<f64>(&job, &anywhere, &solutions);
             let away = anywhere.map(|x| Complex::new(x, random.random_range(-1.0..1.0)));
-            if let Some((refined, claim)) = refined_certificate(&job.stored, &away) {
+            if let Some(Refined { unknowns: refined, certificate: claim, .. }) = refined_certificate(&job.stored, &away)
+            {
                 let within = |r: f64| solutions.iter().filter(|s| distance(&ROTATIONS, s, &refined) <= r).count();
                 assert_eq!(within(claim.isolation), 1, "{}", job.name);
             }
@@ -270,7 +271,8 @@ fn the_refined_proof_holds_the_solution_of_the_rigid_loop() {
     for job in jobs() {
         let truth = rigid(&job.stored);
         for mode in &job.modes {
-            let Some((refined, claim)) = refined_certificate(&job.stored, &mode.unknowns) else { continue };
+            let proof = refined_certificate(&job.stored, &mode.unknowns);
+            let Some(Refined { unknowns: refined, certificate: claim, .. }) = proof else { continue };
             let exact = solution(&truth, &refined).unwrap();
             let away = distance(&ROTATIONS, &exact, &refined);
             assert!(away <= claim.radius, "{}: {away:e} of {:e}", job.name, claim.radius);
