@@ -1,7 +1,7 @@
 //! Bounds on rounding errors, and what the certificates claim.
 
 use crate::arms::{
-    closed_at, general, open, pose, puma_like, random, rounded, small as small_rational, spherical_wrist,
+    closed_at, general, motion, open, pose, puma_like, random, rounded, small as small_rational, spherical_wrist,
 };
 use crate::big::{Big, big, closure as exact_closure, distance, rigid, small, solution};
 use looproot::algebra::double_double::DoubleDouble;
@@ -9,7 +9,7 @@ use looproot::algebra::ring::Ring;
 use looproot::assembly::{Assembly, Mode, Roots, Solver, Workspace};
 use looproot::benchmark::sample::{Set, sample};
 use looproot::certify::{Refined, certificate, curvature, derivative_error, product_error, refined_certificate};
-use looproot::kinematics::chain::Chain;
+use looproot::kinematics::chain::{Chain, Placement};
 use looproot::kinematics::closed_loop::{ClosedLoop, Variable};
 use looproot::kinematics::motion::Motion;
 use looproot::solve::dense::inverse;
@@ -179,6 +179,9 @@ fn every_proved_ball_holds_a_solution_and_no_two_balls_meet() {
             let exact = solution(&truth, &mode.unknowns).unwrap();
             let away = distance(&ROTATIONS, &exact, &mode.unknowns);
             assert!(away <= radius, "{}: {away:e} from the middle of a ball of {radius:e}", job.name);
+            // And so lies that of the mechanism as given, before its constants were rounded.
+            let given = distance(&ROTATIONS, &solution(&job.given, &mode.unknowns).unwrap(), &mode.unknowns);
+            assert!(given <= radius, "{}: {given:e} from the middle of a ball of {radius:e}, as given", job.name);
             if mode.real {
                 assert!(exact.iter().all(|x| small(x).im.abs() < 1e-45), "{}: a complex solution", job.name);
             }
@@ -192,6 +195,24 @@ fn every_proved_ball_holds_a_solution_and_no_two_balls_meet() {
     }
     println!("{proved} balls, a solution at most {worst:.1e} of the radius from the middle");
     assert!(proved > 300, "{proved}");
+}
+
+#[test]
+fn a_base_far_away_is_covered_by_the_radius() {
+    let mut random = random(54);
+    for base in [10, 1000, 100_000, 1_000_000] {
+        let mut chain = general(&mut random);
+        let mut away = motion(&mut random);
+        away.translation = away.translation.map(|x| x * base);
+        chain.base = Placement::from_motion_exact(away);
+        let values: [Rational; 6] = std::array::from_fn(|_| small_rational(&mut random));
+        let job = job(format!("base {base} away"), &chain, &pose(&chain, &values));
+        for mode in &job.modes {
+            let Some(claim) = mode.certificate else { continue };
+            let error = distance(&ROTATIONS, &solution(&job.given, &mode.unknowns).unwrap(), &mode.unknowns);
+            assert!(error <= claim.radius, "{}: {error:e}, radius {:e}", job.name, claim.radius);
+        }
+    }
 }
 
 #[test]
