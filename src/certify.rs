@@ -70,11 +70,19 @@ pub fn derivative_error<S: Number>(at: &Closure<S>) -> f64 {
     twists(at) * (2.0 * off_identity(at) + 4.0 * product_error(at))
 }
 
+/// Bounds how much faster than a distance the derivative changes, as the largest sum over a row, within `r` (largest
+/// coordinate) of the unknowns.
+#[must_use]
+pub fn curvature<S: Number>(at: &Closure<S>, r: f64) -> f64 {
+    let twists = twists(at);
+    twists * twists * (r * twists).exp() * (1.0 + off_identity(at))
+}
+
 /// Proves that exactly one solution lies near these unknowns; `None` where that cannot be shown.
 #[must_use]
 pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]) -> Option<Certificate> {
-    let (product_error, off_identity, twists) = (product_error(at), off_identity(at), twists(at));
-    if !(off_identity < 1e-3) {
+    let product_error = product_error(at);
+    if !(off_identity(at) < 1e-3) {
         return None;
     }
     let inverse_norm = norm(approximate_inverse) * MARGIN;
@@ -104,7 +112,7 @@ pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]
         return None;
     }
     // Smallest radius that works, then the largest one (with half the contraction to spare).
-    let bend = |r: f64| MARGIN * inverse_norm * twists * twists * (r * twists).exp() * (1.0 + off_identity);
+    let bend = |r: f64| MARGIN * inverse_norm * curvature(at, r);
     let radius = (1.05 * y / (1.0 - z0)).max(f64::MIN_POSITIVE);
     let works = |r: f64| {
         let z2 = bend(r);

@@ -1,15 +1,15 @@
 //! Bounds on rounding errors, and what the certificates claim.
 
 use crate::arms::{
-    closed_at, general, open, pose, puma_like, random, rounded, small as small_rational, spherical_wrist,
+    closed_at, general, motion, open, pose, puma_like, random, rounded, small as small_rational, spherical_wrist,
 };
 use crate::big::{Big, big, closure as exact_closure, distance, rigid, small, solution};
 use looproot::algebra::double_double::DoubleDouble;
 use looproot::algebra::ring::Ring;
 use looproot::assembly::{Assembly, Mode, Roots, Solver, Workspace};
 use looproot::benchmark::sample::{Set, sample};
-use looproot::certify::{Refined, certificate, derivative_error, product_error, refined_certificate};
-use looproot::kinematics::chain::Chain;
+use looproot::certify::{Refined, certificate, curvature, derivative_error, product_error, refined_certificate};
+use looproot::kinematics::chain::{Chain, Placement};
 use looproot::kinematics::closed_loop::{ClosedLoop, Variable};
 use looproot::kinematics::motion::Motion;
 use looproot::solve::dense::inverse;
@@ -144,6 +144,30 @@ fn the_bounds_on_rounding_errors_are_bounds() {
 }
 
 #[test]
+fn the_bound_on_the_curvature_is_a_bound() {
+    let mut random = random(53);
+    let mut largest = 0.0_f64;
+    for job in jobs() {
+        for mode in &job.modes {
+            let here = closure(&job.stored, &mode.unknowns);
+            let (_, jacobian) = exact_closure(&job.given, &mode.unknowns.map(big));
+            for size in [1e-6, 1e-3, 0.1] {
+                let there: Six<Complex<f64>> = moved(&mode.unknowns, size, &mut random);
+                let shift = (0..6).map(|k| (there[k] - mode.unknowns[k]).norm()).fold(0.0, f64::max);
+                let (_, changed) = exact_closure(&job.given, &there.map(big));
+                let row = |i: usize| (0..6).map(|j| small(&changed[i][j].sub(&jacobian[i][j])).norm()).sum::<f64>();
+                let change = (0..6).map(row).fold(0.0, f64::max);
+                let part = change / (shift * curvature(&here, shift));
+                assert!(part <= 1.0, "{}: {part} of the bound at {shift:e}", job.name);
+                largest = largest.max(part);
+            }
+        }
+    }
+    println!("the derivative changes by at most {largest:.2} of the bound");
+    assert!(largest > 0.01, "a bound far too large, {largest:e}");
+}
+
+#[test]
 fn every_proved_ball_holds_a_solution_and_no_two_balls_meet() {
     let (mut proved, mut worst) = (0, 0.0_f64);
     for job in jobs() {
@@ -155,6 +179,9 @@ fn every_proved_ball_holds_a_solution_and_no_two_balls_meet() {
             let exact = solution(&truth, &mode.unknowns).unwrap();
             let away = distance(&ROTATIONS, &exact, &mode.unknowns);
             assert!(away <= radius, "{}: {away:e} from the middle of a ball of {radius:e}", job.name);
+            // And so lies that of the mechanism as given, before its constants were rounded.
+            let given = distance(&ROTATIONS, &solution(&job.given, &mode.unknowns).unwrap(), &mode.unknowns);
+            assert!(given <= radius, "{}: {given:e} from the middle of a ball of {radius:e}, as given", job.name);
             if mode.real {
                 assert!(exact.iter().all(|x| small(x).im.abs() < 1e-45), "{}: a complex solution", job.name);
             }
@@ -168,6 +195,24 @@ fn every_proved_ball_holds_a_solution_and_no_two_balls_meet() {
     }
     println!("{proved} balls, a solution at most {worst:.1e} of the radius from the middle");
     assert!(proved > 300, "{proved}");
+}
+
+#[test]
+fn a_base_far_away_is_covered_by_the_radius() {
+    let mut random = random(54);
+    for base in [10, 1000, 100_000, 1_000_000] {
+        let mut chain = general(&mut random);
+        let mut away = motion(&mut random);
+        away.translation = away.translation.map(|x| x * base);
+        chain.base = Placement::from_motion_exact(away);
+        let values: [Rational; 6] = std::array::from_fn(|_| small_rational(&mut random));
+        let job = job(format!("base {base} away"), &chain, &pose(&chain, &values));
+        for mode in &job.modes {
+            let Some(claim) = mode.certificate else { continue };
+            let error = distance(&ROTATIONS, &solution(&job.given, &mode.unknowns).unwrap(), &mode.unknowns);
+            assert!(error <= claim.radius, "{}: {error:e}, radius {:e}", job.name, claim.radius);
+        }
+    }
 }
 
 #[test]
@@ -193,7 +238,7 @@ fn judge<S: Scalar>(job: &Job, at: &Six<S>, solutions: &[Six<Complex<Big>>]) -> 
 #[test]
 fn what_is_no_solution_is_not_proved_to_be_one() {
     let mut random = random(52);
-    let (mut accepted, mut refused) = (0, 0);
+    let (mut accepted, mut refused, mut between) = (0, 0, 0);
     for job in jobs() {
         // Solutions of the loop as given: the proof in f64 covers its rounding.
         let solutions: Vec<_> = job.modes.iter().filter_map(|m| solution(&job.given, &m.unknowns)).collect();
@@ -211,6 +256,19 @@ fn what_is_no_solution_is_not_proved_to_be_one() {
                 *if took { &mut accepted } else { &mut refused } += 1;
             }
         }
+        // Between two neighbours the closure is nearly met and its derivative nearly singular.
+        for (k, one) in job.modes.iter().enumerate() {
+            for two in &job.modes[..k] {
+                if looproot::assembly::distance(&ROTATIONS, &one.unknowns, &two.unknowns) < 0.3 {
+                    for step in 1..60 {
+                        let part = f64::from(step) / 60.0;
+                        let at = std::array::from_fn(|k| one.unknowns[k] * (1.0 - part) + two.unknowns[k] * part);
+                        *if judge::<Complex<f64>>(&job, &at, &solutions) { &mut accepted } else { &mut refused } += 1;
+                        between += 1;
+                    }
+                }
+            }
+        }
         // Anywhere at all.
         for _ in 0..20 {
             let anywhere: Six<f64> = std::array::from_fn(|_| random.random_range(-3.0..3.0));
@@ -223,8 +281,8 @@ fn what_is_no_solution_is_not_proved_to_be_one() {
             }
         }
     }
-    println!("{accepted} perturbed solutions proved, {refused} not");
-    assert!(accepted > 500 && refused > 500, "{accepted} {refused}");
+    println!("{accepted} points near solutions proved to be so, {refused} not; {between} lay between two");
+    assert!(accepted > 500 && refused > 500 && between > 100, "{accepted} {refused} {between}");
 }
 
 #[test]
