@@ -36,9 +36,9 @@ pub struct Certificate {
     pub isolation: f64,
 }
 
-/// Roundings per step of the product: cosine and sine (2), their use (4), the stored constant (8), the product (6), with
-/// room for complex products (a factor of sqrt 8 on each operation).
-const ROUNDINGS: f64 = 60.0;
+/// Roundings per step of the product: cosine and sine (2), their use (4), the product (6), all with room for complex
+/// products (a factor of sqrt 8 on each operation), and the stored constant (32).
+const ROUNDINGS: f64 = 70.0;
 /// Roundings in a stored constant.
 const CONSTANT_ROUNDINGS: f64 = 8.0;
 /// A solution that the rounding of the constants may have moved farther than this is not proved at all.

@@ -1,6 +1,7 @@
 //! A mechanism ready to solve: what a file says, prepared once, answered case by case.
 
 use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
@@ -11,6 +12,7 @@ use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, ang
 use crate::kinematics::motion::Motion;
 use crate::verdict::{Bound, Verdict, verdict};
 use num_complex::Complex;
+use rug::Rational;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -148,10 +150,16 @@ impl Mechanism {
             .iter()
             .find(|p| p.layout.locked == locked)
             .ok_or_else(|| Error::Invalid("the case locks a joint that was not prepared".to_owned()))?;
-        let filling_here: Motion<f64> = filling(case)?;
+        let mut gap = prepared.solver.gap(&filling(case)?);
+        if gap.is_rough() {
+            let open: OpenLoop<Rational> = self.chain.open_loop(&prepared.layout)?;
+            let [.., last] = open.close(&filling(case)?).constants;
+            let rounded = last.map(|x| Some(nearest_f64(x)));
+            gap = rounded.map_or(gap, |last| prepared.solver.exact_gap(&last));
+        }
         let most = || prepared.bound(&self.chain).count;
         let start = Instant::now();
-        prepared.solver.solve_up_to(&filling_here, roots, &most, workspace, assembly);
+        prepared.solver.solve_up_to(&gap, roots, &most, workspace, assembly);
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
         let verdict = verdict(
             assembly,
@@ -162,7 +170,7 @@ impl Mechanism {
                 let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
                 Some(bound_from(degree(&closed, None)?, "at this pose"))
             },
-            prepared.solver.too_far(&filling_here),
+            prepared.solver.too_far(&gap),
         );
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {

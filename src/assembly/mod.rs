@@ -8,4 +8,4 @@ mod shifted;
 mod solver;
 
 pub use mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
-pub use solver::{Solver, Workspace};
+pub use solver::{Gap, Solver, Workspace};

@@ -4,7 +4,7 @@ use super::limits;
 use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
 use super::shifted::Shifted;
-use crate::certify::{Refined, certificate, certificate_in_any_frame, refined_certificate};
+use crate::certify::{Certificate, Refined, certificate, certificate_in_any_frame, refined_certificate};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
@@ -14,7 +14,7 @@ use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{double_angle, kernel};
-use crate::solve::newton::{Polished, Six, approach, closure, polish};
+use crate::solve::newton::{Closure, Polished, Six, approach, closure, polish};
 use crate::solve::scalar::Scalar;
 use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
 use num_complex::Complex;
@@ -23,8 +23,8 @@ use num_complex::Complex;
 pub(super) struct Search<'a> {
     prepared: &'a [PreparedCut],
     closed: &'a ClosedLoop<f64>,
-    /// The closure up to which a point is a solution: beside one that the rounding of the gap has moved out of reach.
-    closes: f64,
+    /// How far rounding may have moved the gap.
+    gap_rounding: f64,
     roots: Roots,
     eigen: &'a mut EigenWorkspace,
     assembly: &'a mut Assembly,
@@ -39,7 +39,7 @@ impl<'a> Search<'a> {
         eigen: &'a mut EigenWorkspace,
         assembly: &'a mut Assembly,
     ) -> Self {
-        Self { prepared, closed, closes: limits::CLOSED + gap_rounding, roots, eigen, assembly }
+        Self { prepared, closed, gap_rounding, roots, eigen, assembly }
     }
 
     /// Finds all there is to find.
@@ -227,14 +227,14 @@ impl<'a> Search<'a> {
             self.merge_with_conjugate(mode);
             return true;
         }
-        if !(polished.closure.defect <= self.closes.max((1e-14 * growth).min(1e-4))) {
+        if !(polished.closure.defect <= (limits::CLOSED + self.gap_rounding).max((1e-14 * growth).min(1e-4))) {
             return false;
         }
         let near = polished.raw < limits::RAW.max((1e-10 * growth).min(0.1)) && polished.moved < 0.1;
         let imaginary = polished.unknowns.iter().map(|x| x.to_complex().im.abs()).fold(0.0, f64::max);
         if !S::REAL && imaginary < limits::REAL_PART {
             let real = polish::<f64>(self.closed, &polished.unknowns.map(|x| x.to_complex().re));
-            if real.closure.defect <= self.closes {
+            if real.closure.defect <= limits::CLOSED + self.gap_rounding {
                 self.record(&real);
                 return near;
             }
@@ -242,7 +242,7 @@ impl<'a> Search<'a> {
         if !S::REAL && imaginary < 1e-6 && polished.inverse.as_ref().is_none_or(|a| dense::norm(a) > 1e6) {
             // Beside a real double root, a complex point within rounding of closing is no solution of its own.
             let real = polish::<f64>(self.closed, &polished.unknowns.map(|x| x.to_complex().re));
-            if real.closure.defect <= self.closes {
+            if real.closure.defect <= limits::CLOSED + self.gap_rounding {
                 self.record(&real);
                 return near;
             }
@@ -287,10 +287,10 @@ impl<'a> Search<'a> {
         let Some(inverse) = polished.inverse.as_ref() else { return };
         mode.certificate = certificate(&polished.closure, inverse);
         // Beside a double root a proof would single out one of two solutions that cannot be told apart.
-        if mode.certificate.is_some() || dense::norm(inverse) > limits::SINGULAR {
+        if mode.certificate.is_none() && dense::norm(inverse) > limits::SINGULAR {
             return;
         }
-        if !S::REAL {
+        if mode.certificate.is_none() && !S::REAL {
             mode.certificate = certificate_in_any_frame(self.closed, &polished.unknowns);
         }
         if mode.certificate.is_none()
@@ -299,6 +299,14 @@ impl<'a> Search<'a> {
         {
             (mode.unknowns, mode.certificate) = (refined.unknowns, Some(refined.certificate));
         }
+        mode.certificate = mode.certificate.and_then(|proof| self.widened(proof, &polished.closure, inverse));
+    }
+
+    /// A proof with the rounding of the gap in its radius, to first order; none where that is no small amount.
+    fn widened<S: Scalar>(&self, proof: Certificate, at: &Closure<S>, inverse: &[Six<S>; 6]) -> Option<Certificate> {
+        let frames = at.norms.iter().map(|n| n.before * n.step).fold(1.0, f64::max);
+        let drift = self.gap_rounding * frames * dense::norm(inverse);
+        (drift < limits::LONE_RADIUS).then_some(Certificate { radius: proof.radius + drift, ..proof })
     }
 
     fn merge(&mut self, mode: Mode) {
@@ -390,13 +398,14 @@ impl<'a> Search<'a> {
             }
         }
         let here = closure(self.closed, &unknowns);
-        let inverse_norm = dense::inverse(&here.jacobian).map_or(f64::INFINITY, |a| dense::norm(&a));
+        let inverse = dense::inverse(&here.jacobian)?;
+        let certificate = self.widened(certificate, &here, &inverse)?;
         Some(Mode {
             unknowns,
             real,
             multiplicity: 1,
             residual: here.defect / here.growth(real),
-            condition: dense::norm(&here.jacobian) * inverse_norm,
+            condition: dense::norm(&here.jacobian) * dense::norm(&inverse),
             certificate: Some(certificate),
             hits: Hits::first(self.assembly.tries),
         })

@@ -46,6 +46,31 @@ pub struct Solver {
     structural_rank: usize,
 }
 
+/// What a pose or input leaves open: the constant behind the last unknown, in the scale of its solver.
+#[derive(Clone, Debug)]
+pub struct Gap {
+    last: Motion<f64>,
+    /// How far rounding may have moved it beyond what every constant suffers.
+    rounding: f64,
+}
+
+impl Gap {
+    /// Whether digits were lost that exact arithmetic would keep: a base or a tool far away costs them.
+    #[must_use]
+    pub fn is_rough(&self) -> bool {
+        self.rounding > 0.0
+    }
+}
+
+fn length(motion: &Motion<f64>) -> f64 {
+    motion.translation.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The motion with lengths over a power of two.
+fn scaled(motion: &Motion<f64>, scale: f64) -> Motion<f64> {
+    Motion { translation: motion.translation.map(|x| x / scale), ..motion.clone() }
+}
+
 /// Memory reused from pose to pose: one per thread.
 #[derive(Default)]
 pub struct Workspace {
@@ -56,18 +81,17 @@ impl Solver {
     /// Prepares a geometry: all that does not depend on the pose, and the order of the cuts.
     #[must_use]
     pub fn prepare(open: &OpenLoop<f64>) -> Self {
-        let length = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>();
+        let square = |m: &Motion<f64>| length(m).powi(2);
         // The mean link length, not the distance of a base or a tool; of an arm without lengths its ends, else 1. A power
         // of two: scaling then costs no digit.
-        let links = open.constants.iter().map(length).sum::<f64>() / 5.0;
-        let square = if links > 0.0 { links } else { length(&open.before_gap) + length(&open.after_gap) };
-        let scale = if square > 0.0 { square.sqrt().log2().round().exp2() } else { 1.0 };
-        let scaled = |m: &Motion<f64>| Motion { translation: m.translation.map(|x| x / scale), ..m.clone() };
+        let links = open.constants.iter().map(square).sum::<f64>() / 5.0;
+        let mean = if links > 0.0 { links } else { square(&open.before_gap) + square(&open.after_gap) };
+        let scale = if mean > 0.0 { mean.sqrt().log2().round().exp2() } else { 1.0 };
         let open = OpenLoop {
             variables: open.variables,
-            constants: open.constants.each_ref().map(scaled),
-            before_gap: scaled(&open.before_gap),
-            after_gap: scaled(&open.after_gap),
+            constants: open.constants.each_ref().map(|m| scaled(m, scale)),
+            before_gap: scaled(&open.before_gap, scale),
+            after_gap: scaled(&open.after_gap, scale),
         };
         let closed = open.close(&Motion::identity());
         let mut prepared: Vec<PreparedCut> = Cut::ALL[..Cut::PREPARED]
@@ -109,35 +133,44 @@ impl Solver {
     /// Whether the gap is wider than the links are long together, so that no real solution can close it; then both
     /// lengths, in the unit of the mechanism.
     #[must_use]
-    pub fn too_far(&self, filling: &Motion<f64>) -> Option<(f64, f64)> {
+    pub fn too_far(&self, gap: &Gap) -> Option<(f64, f64)> {
         if self.open.variables.contains(&Variable::Translation) {
             return None;
         }
-        let length = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let gap = length(&self.close(filling).constants[5]);
+        let width = length(&gap.last);
         let links: f64 = self.open.constants.iter().map(length).sum();
         // Every link turns freely at best; the margin is that of rounding.
-        (gap > links * (1.0 + 1e-12) + self.gap_rounding(filling)).then_some((gap * self.scale, links * self.scale))
+        (width > links * (1.0 + 1e-12) + gap.rounding).then_some((width * self.scale, links * self.scale))
     }
 
-    /// The rounding of the gap, scaled: a base or a tool far away costs digits of it.
-    fn gap_rounding(&self, filling: &Motion<f64>) -> f64 {
-        let length = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let ends = length(&self.open.before_gap) + length(filling) / self.scale + length(&self.open.after_gap);
-        64.0 * f64::EPSILON * ends
+    /// The gap that this motion fills.
+    #[must_use]
+    pub fn gap(&self, filling: &Motion<f64>) -> Gap {
+        let filling = scaled(filling, self.scale);
+        let ends = length(&self.open.before_gap) + length(&filling) + length(&self.open.after_gap);
+        let last = self.open.before_gap.then_after(&filling).then_after(&self.open.after_gap);
+        // Ends not much longer than what remains of them lose no more digits than any constant.
+        let rounding = if ends > 8.0 * (1.0 + length(&last)) { 4.0 * f64::EPSILON * ends } else { 0.0 };
+        Gap { last, rounding }
     }
 
-    /// The loop at a filling of its gap, scaled.
-    fn close(&self, filling: &Motion<f64>) -> ClosedLoop<f64> {
-        let filling = Motion { translation: filling.translation.map(|x| x / self.scale), ..filling.clone() };
-        self.open.close(&filling)
+    /// The gap whose closing constant (behind the last unknown) was computed exactly and rounded once.
+    #[must_use]
+    pub fn exact_gap(&self, last: &Motion<f64>) -> Gap {
+        Gap { last: scaled(last, self.scale), rounding: 0.0 }
+    }
+
+    /// The loop at a gap, scaled.
+    fn close(&self, gap: &Gap) -> ClosedLoop<f64> {
+        let constants = std::array::from_fn(|j| if j < 5 { self.open.constants[j].clone() } else { gap.last.clone() });
+        ClosedLoop { variables: self.open.variables, constants }
     }
 
     /// The 16 x 16 matrix whose eigenvalues the first pencil of this pose asks for; `None` where that is singular.
     #[must_use]
     pub fn companion(&self, filling: &Motion<f64>) -> Option<[[f64; 16]; 16]> {
         let prepared = self.prepared.first()?;
-        let cut = prepared.cut.of(&self.close(filling));
+        let cut = prepared.cut.of(&self.close(&self.gap(filling)));
         let rows = prepared.rows.unwrap_or_else(|| before_second_link(&prepared.form, &cut.constants[1]));
         let shifted = Shifted::best(&bilinear(&rows, &cut), Hidden::First);
         let (constant, linear) = shifted.monic()?;
@@ -147,14 +180,14 @@ impl Solver {
     /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing
     /// once `assembly` has grown to its size, but for degenerate poses.
     pub fn solve(&self, filling: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
-        self.solve_up_to(filling, roots, &|| 16, workspace, assembly);
+        self.solve_up_to(&self.gap(filling), roots, &|| 16, workspace, assembly);
     }
 
     /// As [`Solver::solve`], for a geometry known to have no more than `most()` solutions: stops looking for more.
     /// `most` is asked only where fewer than 16 are found.
     pub fn solve_up_to(
         &self,
-        filling: &Motion<f64>,
+        gap: &Gap,
         roots: Roots,
         most: &dyn Fn() -> usize,
         workspace: &mut Workspace,
@@ -162,9 +195,8 @@ impl Solver {
     ) {
         assembly.modes.clear();
         (assembly.self_motion, assembly.clean, assembly.tries) = (0, false, 0);
-        let closed = self.close(filling);
-        Search::new(&self.prepared, &closed, self.gap_rounding(filling), roots, &mut workspace.eigen, assembly)
-            .run(most);
+        let closed = self.close(gap);
+        Search::new(&self.prepared, &closed, gap.rounding, roots, &mut workspace.eigen, assembly).run(most);
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
                 let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));
