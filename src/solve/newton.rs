@@ -221,7 +221,8 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
     let raw = here.defect;
     let mut known_inverse = None;
     for count in 0..MOST_STEPS {
-        if !here.defect.is_finite() || (here.defect <= ROUNDING && known_inverse.is_some()) {
+        let floor = ROUNDING.max(1e-16 * here.growth(S::REAL));
+        if !here.defect.is_finite() || (here.defect <= floor && known_inverse.is_some()) {
             break;
         }
         let inverted = inverse(&here.jacobian);
@@ -233,14 +234,14 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
                 (unknowns, here, known_inverse) = (next, there, inverted);
                 continue;
             }
-            // At a regular root one step from here lands on rounding; creeping below 1e-13 is noise.
-            if there.defect < here.defect && there.defect < 1e-13 {
+            // At a regular root one step from here lands on rounding; creeping just above it is noise.
+            if there.defect < here.defect && there.defect < 50.0 * floor {
                 (unknowns, here, known_inverse) = (next, there, inverted);
                 break;
             }
             known_inverse = inverted;
         }
-        if here.defect <= 1e-14 && count > 0 {
+        if here.defect <= 5.0 * floor && count > 0 {
             break;
         }
         let Some((next, there)) = damped(closed, &unknowns, &here) else { break };
