@@ -165,7 +165,11 @@ impl Mechanism {
             assembly,
             roots,
             prepared.solver.structural_rank(),
-            || prepared.bound(&self.chain).clone(),
+            || {
+                // The exact count costs more than a search for real roots, and rarely helps one.
+                let skip = roots == Roots::Real && !prepared.solver.is_special();
+                if skip { Bound::general() } else { prepared.bound(&self.chain).clone() }
+            },
             || {
                 let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
                 Some(bound_from(degree(&closed, None)?, "at this pose"))

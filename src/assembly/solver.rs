@@ -118,6 +118,13 @@ impl Solver {
         self.structural_rank
     }
 
+    /// Whether some cut loses equations: the geometry is special, and may have fewer than 16 solutions.
+    #[must_use]
+    pub fn is_special(&self) -> bool {
+        let fitting = Cut::ALL[..Cut::PREPARED].iter().filter(|cut| cut.fits(self.open.variables)).count();
+        self.prepared.len() < fitting
+    }
+
     /// Whether no cut fits: translations stand where the elimination cannot take them.
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
