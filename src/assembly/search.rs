@@ -110,7 +110,6 @@ impl<'a> Search<'a> {
                 None => continue,
             };
             let clean = self.one_pencil(cut, view, form, &shifted);
-            self.assembly.tries += 1;
             self.assembly.clean |= clean;
             if self.done(most, clean) {
                 return true;
@@ -138,6 +137,7 @@ impl<'a> Search<'a> {
         let Some((constant, linear)) = shifted.monic() else { return false };
         // The fast routine first; where it leaves a root unaccounted for, the reference decides.
         [Method::Francis, Method::Faer].into_iter().any(|method| {
+            self.assembly.tries += 1;
             let roots = self.eigen.companion(method, &constant, &linear);
             roots.is_some_and(|roots| self.all_roots(cut, view, form, shifted, roots))
         })

@@ -62,7 +62,10 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
         )?,
         _ => scope.table(node, "the [mechanism] of a loop", &["kind", "convention", "joints", "home", "limits"])?,
     };
-    let convention = scope.need(&table, "convention")?;
+    let convention = table.get("convention").ok_or_else(|| {
+        let expected = "expected one of dh, modified-dh, screws (there is no default)";
+        scope.fail(table.line(), format!("found no `convention` in the [mechanism], {expected}"))
+    })?;
     let convention = scope.word(convention, "convention", &["dh", "modified-dh", "screws"])?;
     let joints = scope.need(&table, "joints")?;
     let nodes = scope.list(joints, "joints")?;
