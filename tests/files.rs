@@ -191,7 +191,11 @@ fn mistakes_are_named_with_their_line() {
             "kind = \"hand\"",
             "test.toml:5: found \"hand\" as `kind`, expected one of arm, loop, platform",
         ),
-        ("convention = \"dh\"\n", "", "test.toml:4: found no `convention` in the [mechanism] of an arm"),
+        (
+            "convention = \"dh\"\n",
+            "",
+            "test.toml:4: found no `convention` in the [mechanism], expected one of dh, modified-dh, screws",
+        ),
         ("convention = \"dh\"", "convention = \"DH\"", "test.toml:6: found \"DH\" as `convention`"),
         (
             "convention",
