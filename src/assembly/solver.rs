@@ -131,12 +131,6 @@ impl Solver {
         !Cut::ALL.iter().any(|cut| cut.fits(self.open.variables))
     }
 
-    /// The best score of a cut that needs no pose; 0 if there is none.
-    #[must_use]
-    pub fn score(&self) -> f64 {
-        self.prepared.first().map_or(0.0, |c| c.form.score)
-    }
-
     /// Whether the gap is wider than the links are long together, so that no real solution can close it; then both
     /// lengths, in the unit of the mechanism.
     #[must_use]

@@ -35,8 +35,6 @@ pub struct Degree {
     pub solutions: usize,
     /// How many roots of the polynomial of degree 16 were left out.
     pub left_out: usize,
-    /// Distinct values of the hidden unknown among them: degree of the square-free part.
-    pub distinct: usize,
 }
 
 /// Cosine and sine of the angle with half-angle tangent `t`; `None` where `1 + t^2` has no inverse.
@@ -82,9 +80,8 @@ pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLo
             let standing = other
                 .and_then(|other| closure_polynomial(other, cut, hidden))
                 .map_or(0, |other| found.cofactor.gcd(&other.cofactor).degree().unwrap_or(0));
-            let distinct = found.cofactor.square_free_part().degree().unwrap_or(0);
             let left_out = 2 * found.spurious + standing;
-            let bound = Degree { solutions: 16 - left_out, left_out, distinct };
+            let bound = Degree { solutions: 16 - left_out, left_out };
             if best.is_none_or(|b| bound.solutions < b.solutions) {
                 best = Some(bound);
             }

@@ -101,12 +101,3 @@ pub fn pencil<R: Ring>(equations: &Bilinear<R>, hidden: Hidden) -> Pencil<R> {
     }
     Pencil { coefficients }
 }
-
-impl<R: Ring> Pencil<R> {
-    /// `A0 + A1 x + A2 x^2` at a value of x.
-    #[must_use]
-    pub fn at(&self, x: &R) -> Square<R, 8> {
-        let [a0, a1, a2] = &self.coefficients;
-        std::array::from_fn(|i| std::array::from_fn(|j| a2[i][j].mul(x).add(&a1[i][j]).mul(x).add(&a0[i][j])))
-    }
-}
