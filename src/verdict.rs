@@ -88,7 +88,7 @@ pub fn verdict(
     } else {
         count(assembly, roots, geometry, pose)
     };
-    if let (Some((gap, links)), Status::Incomplete) = (too_far, judged.status) {
+    if let (Some((gap, links)), Status::Incomplete, 0) = (too_far, judged.status, assembly.real()) {
         judged.status = Status::Unreachable;
         judged.reason = format!("out of reach: {gap:.4e} has to be bridged by links of {links:.4e} together");
     }

@@ -31,5 +31,7 @@ pub const TOLD_APART: f64 = 1e-13;
 pub const CASTS: usize = 40;
 /// Norm of the inverse Jacobian above which a solution may be one of a pair, to be proved together.
 pub const SINGULAR: f64 = 1e5;
+/// And below this they are rounding of a real double solution.
+pub const NEAR_DOUBLE: f64 = 1e-6;
 /// Separation of the kernel below which a root that does not close may belong to a family.
 pub const SHARED: f64 = 1e-7;

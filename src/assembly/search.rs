@@ -21,27 +21,21 @@ use num_complex::Complex;
 
 /// One pose being solved.
 pub(super) struct Search<'a> {
-    prepared: &'a [PreparedCut],
-    closed: &'a ClosedLoop<f64>,
+    /// The cuts that are ready, best first.
+    pub prepared: &'a [PreparedCut],
+    /// The loop, scaled.
+    pub closed: &'a ClosedLoop<f64>,
     /// How far rounding may have moved the gap.
-    gap_rounding: f64,
-    roots: Roots,
-    eigen: &'a mut EigenWorkspace,
-    assembly: &'a mut Assembly,
+    pub gap_rounding: f64,
+    /// What is looked for.
+    pub roots: Roots,
+    /// Memory of the eigenvalue routines.
+    pub eigen: &'a mut EigenWorkspace,
+    /// What was found.
+    pub assembly: &'a mut Assembly,
 }
 
-impl<'a> Search<'a> {
-    pub fn new(
-        prepared: &'a [PreparedCut],
-        closed: &'a ClosedLoop<f64>,
-        gap_rounding: f64,
-        roots: Roots,
-        eigen: &'a mut EigenWorkspace,
-        assembly: &'a mut Assembly,
-    ) -> Self {
-        Self { prepared, closed, gap_rounding, roots, eigen, assembly }
-    }
-
+impl Search<'_> {
     /// Finds all there is to find.
     pub fn run(&mut self, most: &dyn Fn() -> usize) {
         self.all_cuts(most);
@@ -232,15 +226,10 @@ impl<'a> Search<'a> {
         }
         let near = polished.raw < limits::RAW.max((1e-10 * growth).min(0.1)) && polished.moved < 0.1;
         let imaginary = polished.unknowns.iter().map(|x| x.to_complex().im.abs()).fold(0.0, f64::max);
-        if !S::REAL && imaginary < limits::REAL_PART {
-            let real = polish::<f64>(self.closed, &polished.unknowns.map(|x| x.to_complex().re));
-            if real.closure.defect <= limits::CLOSED + self.gap_rounding {
-                self.record(&real);
-                return near;
-            }
-        }
-        if !S::REAL && imaginary < 1e-6 && polished.inverse.as_ref().is_none_or(|a| dense::norm(a) > 1e6) {
-            // Beside a real double root, a complex point within rounding of closing is no solution of its own.
+        // Beside a real double root, a complex point within rounding of closing is no solution of its own.
+        let singular = polished.inverse.as_ref().is_none_or(|a| dense::norm(a) > 1e6);
+        let nearly_real = if singular { limits::NEAR_DOUBLE } else { limits::REAL_PART };
+        if !S::REAL && imaginary < nearly_real {
             let real = polish::<f64>(self.closed, &polished.unknowns.map(|x| x.to_complex().re));
             if real.closure.defect <= limits::CLOSED + self.gap_rounding {
                 self.record(&real);

@@ -197,7 +197,9 @@ impl Solver {
         assembly.modes.clear();
         (assembly.self_motion, assembly.clean, assembly.tries) = (0, false, 0);
         let closed = self.close(gap);
-        Search::new(&self.prepared, &closed, gap.rounding, roots, &mut workspace.eigen, assembly).run(most);
+        let eigen = &mut workspace.eigen;
+        Search { prepared: &self.prepared, closed: &closed, gap_rounding: gap.rounding, roots, eigen, assembly }
+            .run(most);
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
                 let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));
