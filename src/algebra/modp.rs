@@ -222,9 +222,8 @@ impl<const P: u64> Ring for ModP<P> {
 }
 
 impl<const P: u64> Domain for ModP<P> {
-    fn div_exact(&self, other: &Self) -> Self {
-        assert!(!other.is_zero(), "division by zero");
-        self.mul(&Self(Self::MODULUS.inverse(other.0)))
+    fn checked_div_exact(&self, other: &Self) -> Option<Self> {
+        Some(self.mul(&other.inverse()?))
     }
 }
 

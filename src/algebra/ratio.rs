@@ -46,8 +46,8 @@ impl Ring for Ratio<BigInt> {
 }
 
 impl Domain for Ratio<BigInt> {
-    fn div_exact(&self, other: &Self) -> Self {
-        self / other
+    fn checked_div_exact(&self, other: &Self) -> Option<Self> {
+        (!Zero::is_zero(other)).then(|| self / other)
     }
 }
 

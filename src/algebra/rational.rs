@@ -37,8 +37,8 @@ impl Ring for Rational {
 }
 
 impl Domain for Rational {
-    fn div_exact(&self, other: &Self) -> Self {
-        Rational::from(self / other)
+    fn checked_div_exact(&self, other: &Self) -> Option<Self> {
+        (!other.is_zero()).then(|| Rational::from(self / other))
     }
 }
 
@@ -105,6 +105,9 @@ impl Ring for Integer {
 }
 
 impl Domain for Integer {
+    fn checked_div_exact(&self, other: &Self) -> Option<Self> {
+        (!other.is_zero() && self.is_divisible(other)).then(|| self.div_exact(other))
+    }
     fn div_exact(&self, other: &Self) -> Self {
         Integer::from(self.div_exact_ref(other))
     }

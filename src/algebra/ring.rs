@@ -80,12 +80,18 @@ pub fn exact_cos_sin(angle: &Angle) -> (Rational, Rational) {
 /// exact_algorithm(1.0_f64);
 /// ```
 pub trait Domain: Ring {
-    /// `self / other` where the division leaves no remainder.
+    /// `self / other`; `None` where `other` is zero or the division leaves a remainder.
+    #[must_use]
+    fn checked_div_exact(&self, other: &Self) -> Option<Self>;
+
+    /// `self / other` where the division is known to leave no remainder; types may save themselves the test.
     ///
     /// # Panics
-    /// When `other` is zero.
+    /// When `other` is zero, and unless the type saves the test, when there is a remainder.
     #[must_use]
-    fn div_exact(&self, other: &Self) -> Self;
+    fn div_exact(&self, other: &Self) -> Self {
+        self.checked_div_exact(other).expect("the division leaves no remainder")
+    }
 }
 
 /// A ring in which every element but zero has an inverse.
@@ -234,9 +240,8 @@ impl<T: Ring> Ring for Complex<T> {
 }
 
 impl<T: Field + Domain> Domain for Complex<T> {
-    fn div_exact(&self, other: &Self) -> Self {
-        let inverse = other.inverse().expect("the divisor is not zero");
-        self.mul(&inverse)
+    fn checked_div_exact(&self, other: &Self) -> Option<Self> {
+        Some(self.mul(&other.inverse()?))
     }
 }
 

@@ -271,9 +271,11 @@ impl<R: Ring> Ring for Univariate<R> {
 }
 
 impl<F: Field + Domain> Domain for Univariate<F> {
-    fn div_exact(&self, other: &Self) -> Self {
+    fn checked_div_exact(&self, other: &Self) -> Option<Self> {
+        if other.is_zero() {
+            return None;
+        }
         let (quotient, remainder) = self.div_rem(other);
-        debug_assert!(remainder.is_zero(), "the division leaves no remainder");
-        quotient
+        remainder.is_zero().then_some(quotient)
     }
 }

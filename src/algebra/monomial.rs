@@ -1,0 +1,102 @@
+//! Monomials packed into machine words: products are sums of words, and their order is the order of the words.
+
+/// The largest exponent of a variable.
+pub const LARGEST_EXPONENT: u32 = (1 << 30) - 1;
+
+/// How exponents are packed: one field of equal width for each variable, the first variable in the highest field of the
+/// first word, so that comparing words compares lexicographically. The highest bit of each field stays 0: sums of
+/// monomials do not run over, and differences show there whether they are monomials.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Packing {
+    variables: usize,
+    /// Width of a field, at most 32.
+    bits: u32,
+}
+
+impl Packing {
+    /// Room for exponents up to `largest` in each of the variables.
+    ///
+    /// # Panics
+    /// When `largest` is above [`LARGEST_EXPONENT`].
+    #[must_use]
+    pub fn new(variables: usize, largest: u32) -> Self {
+        assert!(largest <= LARGEST_EXPONENT, "an exponent of {largest}, above {LARGEST_EXPONENT}");
+        // One bit for the guard. With few variables the fields fill a word, which spares repacking later.
+        let needed = u32::BITS - largest.leading_zeros() + 1;
+        let roomy = 64 / u32::try_from(variables.max(2)).unwrap_or(u32::MAX);
+        Self { variables, bits: needed.max(2).max(roomy.min(16)).min(32) }
+    }
+
+    /// The number of variables.
+    #[must_use]
+    pub const fn variables(&self) -> usize {
+        self.variables
+    }
+
+    /// The largest exponent that fits.
+    #[must_use]
+    pub const fn largest(&self) -> u32 {
+        (1 << (self.bits - 1)) - 1
+    }
+
+    /// Fields in a word.
+    const fn per_word(&self) -> usize {
+        (64 / self.bits) as usize
+    }
+
+    /// Words of a monomial, at least one.
+    #[must_use]
+    pub const fn words(&self) -> usize {
+        if self.variables == 0 { 1 } else { self.variables.div_ceil(self.per_word()) }
+    }
+
+    /// The word of a variable's field, and the place of its lowest bit there.
+    #[must_use]
+    pub const fn place(&self, variable: usize) -> (usize, u32) {
+        let per_word = self.per_word();
+        (variable / per_word, 64 - self.bits * ((variable % per_word) as u32 + 1))
+    }
+
+    /// A word with the guard bits of all fields.
+    #[must_use]
+    pub const fn guards(&self) -> u64 {
+        let (mut mask, mut field) = (0, 0);
+        while field < self.per_word() {
+            mask |= 1 << (63 - self.bits as usize * field);
+            field += 1;
+        }
+        mask
+    }
+
+    /// The exponent of a variable; 0 for variables beyond the packed ones.
+    #[must_use]
+    #[inline(always)]
+    pub const fn exponent(&self, monomial: &[u64], variable: usize) -> u32 {
+        if variable >= self.variables {
+            return 0;
+        }
+        let (word, shift) = self.place(variable);
+        ((monomial[word] >> shift) & ((1 << self.bits) - 1)) as u32
+    }
+
+    /// Appends the packed monomial.
+    ///
+    /// # Panics
+    /// When there are more exponents than variables, or one does not fit.
+    pub fn push(&self, exponents: &[u32], packed: &mut Vec<u64>) {
+        assert!(exponents.len() <= self.variables, "more exponents than variables");
+        let start = packed.len();
+        packed.resize(start + self.words(), 0);
+        for (variable, &exponent) in exponents.iter().enumerate() {
+            assert!(exponent <= self.largest(), "the exponent fits its field");
+            let (word, shift) = self.place(variable);
+            packed[start + word] |= u64::from(exponent) << shift;
+        }
+    }
+
+    /// The exponents of a monomial, one for each variable.
+    #[must_use]
+    pub fn unpack(&self, monomial: &[u64]) -> Vec<u32> {
+        (0..self.variables).map(|variable| self.exponent(monomial, variable)).collect()
+    }
+}
