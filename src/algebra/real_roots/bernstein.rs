@@ -1,0 +1,226 @@
+//! Bernstein coefficients of a polynomial on dyadic intervals, in fixed point with a proved error.
+//!
+//! On `[0, 1]` a polynomial of degree n is `sum b_j C(n,j) x^j (1-x)^(n-j)`. By Descartes' rule the sign changes of
+//! the `b_j` exceed the number of roots inside by an even number; halving the interval takes averages only, so errors
+//! do not grow. All coefficients here carry a common positive factor that nobody needs.
+
+use super::cell::Cell;
+use super::fixed::{Fixed, Wide};
+use rug::Integer;
+
+/// The bits that the coefficients of the 256-bit expansion have before the binomial sums lose some.
+const WIDE_BITS: i64 = 252;
+/// The error of an expansion that no halving has touched.
+const FRESH_ERROR: u64 = 3;
+
+/// A polynomial made ready for expansion.
+pub(super) struct Source {
+    /// Constant term first, the last one not zero.
+    pub(super) coefficients: Vec<Integer>,
+    /// Their lengths in bits; `None` for 0.
+    pub(super) lengths: Vec<Option<i64>>,
+    /// `l / C(n,i)`, l the least common multiple of the binomials of n.
+    weights: Vec<Integer>,
+    /// The leading bits of coefficient times weight, and the power of two left out.
+    leading: Vec<(Wide, i64)>,
+    /// The length in bits of l, and of n + 1.
+    weight_bits: i64,
+    count_bits: i64,
+}
+
+/// Bernstein coefficients on a cell, each with an error of at most `error` units.
+#[derive(Clone)]
+pub(super) struct Expansion<T> {
+    pub(super) coefficients: Vec<T>,
+    pub(super) error: u64,
+}
+
+/// The length in bits, as a signed number.
+pub(super) fn length(n: &Integer) -> i64 {
+    i64::from(n.significant_bits())
+}
+
+/// `floor(2^shift n)`, `n` small enough for shifts to the left to be harmless.
+fn shifted(n: &Integer, shift: i64) -> Integer {
+    let size = u32::try_from(shift.unsigned_abs()).unwrap_or(u32::MAX);
+    if shift < 0 { Integer::from(n >> size) } else { Integer::from(n << size) }
+}
+
+impl Source {
+    pub(super) fn new(coefficients: Vec<Integer>) -> Self {
+        let n = coefficients.len() - 1;
+        let mut binomials = vec![Integer::from(1)];
+        for i in 0..n {
+            let next = Integer::from(&binomials[i] * (n - i));
+            binomials.push(next.div_exact(&Integer::from(i + 1)));
+        }
+        let common = binomials.iter().fold(Integer::from(1), |l, b| l.lcm(b));
+        let weights: Vec<Integer> = binomials.iter().map(|b| Integer::from(common.div_exact_ref(b))).collect();
+        let leading = coefficients.iter().zip(&weights).map(|(c, w)| {
+            let product = Integer::from(c * w);
+            let dropped = (length(&product) - WIDE_BITS).max(0);
+            (Wide::new(&shifted(&product, -dropped)), dropped)
+        });
+        Self {
+            leading: leading.collect(),
+            lengths: coefficients.iter().map(|c| (*c != 0).then(|| length(c))).collect(),
+            weight_bits: length(&common),
+            count_bits: length(&Integer::from(n + 1)),
+            weights,
+            coefficients,
+        }
+    }
+
+    /// The polynomial at `-x`.
+    pub(super) fn mirrored(&self) -> Self {
+        let odd = |i: usize| i % 2 == 1;
+        let negated = |(i, c): (usize, &Integer)| if odd(i) { Integer::from(-c) } else { c.clone() };
+        let turned = |(i, &(w, x)): (usize, &(Wide, i64))| if odd(i) { (w.negate(), x) } else { (w, x) };
+        Self {
+            coefficients: self.coefficients.iter().enumerate().map(negated).collect(),
+            lengths: self.lengths.clone(),
+            weights: self.weights.clone(),
+            leading: self.leading.iter().enumerate().map(turned).collect(),
+            ..*self
+        }
+    }
+
+    pub(super) fn degree(&self) -> usize {
+        self.coefficients.len() - 1
+    }
+
+    /// The degree as an exponent of two.
+    fn degree_bits(&self) -> i64 {
+        i64::try_from(self.degree()).expect("degrees are small")
+    }
+
+    /// Whether an expansion in 256 bits leaves enough of them.
+    pub(super) fn fits_wide(&self) -> bool {
+        self.degree_bits() + self.weight_bits <= 3 * WIDE_BITS / 4
+    }
+
+    /// The length of the largest of the numbers `c_i 2^(k i)`.
+    fn reach(&self, k: i64) -> i64 {
+        let terms = (0_i64..).zip(&self.lengths).filter_map(|(i, length)| length.map(|length| length + k * i));
+        terms.max().unwrap_or(0)
+    }
+
+    /// The expansion on `(0, 2^k)` in 256 bits.
+    pub(super) fn expand_wide(&self, k: i64) -> Expansion<Wide> {
+        // |sum_i C(j,i) l/C(n,i) c_i 2^(k i)| <= l (n + 1) 2^reach, for every partial sum too.
+        let shift = WIDE_BITS - self.reach(k) - self.weight_bits - self.count_bits;
+        let terms = (0_i64..).zip(&self.leading).map(|(i, &(w, x))| w.shift(x + k * i + shift));
+        let mut b: Vec<Wide> = terms.collect();
+        for i in 1..b.len() {
+            for j in (i..b.len()).rev() {
+                b[j] = b[j].add(b[j - 1]);
+            }
+        }
+        for b in &mut b {
+            *b = b.shift(-self.degree_bits());
+        }
+        // Each term is wrong by less than 2, their sum by less than 2^(n+1), and that divided by 2^n and rounded by less than 3.
+        Expansion { coefficients: b, error: FRESH_ERROR }
+    }
+
+    /// The expansion on a cell right of 0, of `precision` bits relative to the largest `c_i x^i` on the cell.
+    pub(super) fn expand(&self, cell: &Cell, precision: i64) -> Expansion<Integer> {
+        let depth = length(&cell.numerator);
+        let k = cell.exponent + depth;
+        // What rounding and binomial sums may spoil, see below.
+        let spoilt = self.weight_bits + self.degree_bits() + 3 * self.count_bits + 2;
+        let shift = precision + spoilt - self.reach(k);
+        let terms = (0_i64..).zip(&self.coefficients).map(|(i, c)| shifted(c, k * i + shift));
+        let mut b: Vec<Integer> = terms.collect();
+        let n = self.degree();
+        if depth > 0 {
+            let bits = u32::try_from(depth).expect("cells have millions of bits at most");
+            for i in 0..n {
+                for j in (i..n).rev() {
+                    let mut product = Integer::from(&b[j + 1] * &cell.numerator);
+                    product >>= bits;
+                    b[j] += product;
+                }
+            }
+        }
+        for (i, (b, weight)) in (0_i64..).zip(b.iter_mut().zip(&self.weights)) {
+            *b = shifted(b, -depth * i) * weight;
+        }
+        for i in 1..=n {
+            for j in (i..=n).rev() {
+                let (left, right) = b.split_at_mut(j);
+                right[0] += &left[j - 1];
+            }
+        }
+        // A unit of error anywhere in the shift by t < 1 becomes at most 2^(n+1), and there are less than (n+1)^2 of
+        // them; weights and binomials multiply by at most l together, in each of n + 1 terms.
+        let spoilt = u32::try_from(spoilt).expect("degrees are small");
+        for b in &mut b {
+            *b >>= spoilt;
+        }
+        Expansion { coefficients: b, error: FRESH_ERROR }
+    }
+}
+
+impl<T: Fixed> Expansion<T> {
+    /// Becomes the expansion on the right half; returns the one on the left half.
+    pub(super) fn halve(&mut self) -> Self {
+        let b = &mut self.coefficients;
+        let mut left = Vec::with_capacity(b.len());
+        left.push(b[0].clone());
+        for end in (1..b.len()).rev() {
+            for j in 0..end {
+                let (head, tail) = b.split_at_mut(j + 1);
+                head[j].average(&tail[0]);
+            }
+            left.push(b[0].clone());
+        }
+        // Each of n averages in a row rounds down by at most a half.
+        self.error += b.len() as u64 / 2 + 1;
+        Self { coefficients: left, error: self.error }
+    }
+
+    /// The least and the largest number of sign changes, the first and last sign being known better.
+    pub(super) fn sign_changes(&self, first: i8, last: i8) -> (i32, i32) {
+        let n = self.coefficients.len() - 1;
+        let (mut least, mut before) = (0, 0);
+        // The most changes up to here that end in plus, and in minus.
+        let (mut plus, mut minus) = (-1, -1);
+        for (j, b) in self.coefficients.iter().enumerate() {
+            let at_end = j == 0 || j == n;
+            let sign = if j == 0 {
+                first
+            } else if j == n {
+                last
+            } else {
+                b.sign_beyond(self.error)
+            };
+            if sign == 0 && at_end {
+                continue;
+            }
+            (plus, minus) = (plus.max(minus + 1), minus.max(plus + 1));
+            if sign != 0 {
+                if sign > 0 { minus = -2 } else { plus = -2 }
+                least += i32::from(before == -sign);
+                before = sign;
+            }
+        }
+        (least, plus.max(minus).max(0))
+    }
+
+    /// Whether the largest coefficient stands well above the error.
+    pub(super) fn is_precise(&self) -> bool {
+        const GUARD: u32 = 12;
+        self.coefficients.iter().any(|b| b.exceeds(self.error, GUARD))
+    }
+
+    /// Whether no halving has gone before.
+    pub(super) fn is_fresh(&self) -> bool {
+        self.error <= FRESH_ERROR
+    }
+
+    /// The first sign that is certain.
+    pub(super) fn first_sign(&self) -> i8 {
+        self.coefficients.iter().map(|b| b.sign_beyond(self.error)).find(|&sign| sign != 0).unwrap_or(0)
+    }
+}
