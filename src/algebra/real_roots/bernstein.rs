@@ -5,11 +5,13 @@
 //! do not grow. All coefficients here carry a common positive factor that nobody needs.
 
 use super::cell::Cell;
-use super::fixed::{Fixed, Wide};
+use super::fixed::Wide;
 use rug::Integer;
 
 /// The bits that the coefficients of the 256-bit expansion have before the binomial sums lose some.
 const WIDE_BITS: i64 = 252;
+/// The bits at least of the largest coefficient of an expansion in big integers.
+const FRESH_BITS: i64 = 160;
 /// The error of an expansion that no halving has touched.
 const FRESH_ERROR: u64 = 3;
 
@@ -30,8 +32,8 @@ pub(super) struct Source {
 
 /// Bernstein coefficients on a cell, each with an error of at most `error` units.
 #[derive(Clone)]
-pub(super) struct Expansion<T> {
-    pub(super) coefficients: Vec<T>,
+pub(super) struct Expansion {
+    pub(super) coefficients: Vec<Wide>,
     pub(super) error: u64,
 }
 
@@ -94,11 +96,6 @@ impl Source {
         i64::try_from(self.degree()).expect("degrees are small")
     }
 
-    /// Whether an expansion in 256 bits leaves enough of them.
-    pub(super) fn fits_wide(&self) -> bool {
-        self.degree_bits() + self.weight_bits <= 3 * WIDE_BITS / 4
-    }
-
     /// The length of the largest of the numbers `c_i 2^(k i)`.
     fn reach(&self, k: i64) -> i64 {
         let terms = (0_i64..).zip(&self.lengths).filter_map(|(i, length)| length.map(|length| length + k * i));
@@ -106,7 +103,7 @@ impl Source {
     }
 
     /// The expansion on `(0, 2^k)` in 256 bits.
-    pub(super) fn expand_wide(&self, k: i64) -> Expansion<Wide> {
+    fn expand_wide(&self, k: i64) -> Expansion {
         // |sum_i C(j,i) l/C(n,i) c_i 2^(k i)| <= l (n + 1) 2^reach, for every partial sum too.
         let shift = WIDE_BITS - self.reach(k) - self.weight_bits - self.count_bits;
         let terms = (0_i64..).zip(&self.leading).map(|(i, &(w, x))| w.shift(x + k * i + shift));
@@ -123,22 +120,24 @@ impl Source {
         Expansion { coefficients: b, error: FRESH_ERROR }
     }
 
-    /// The expansion on a cell right of 0, of `precision` bits relative to the largest `c_i x^i` on the cell.
-    pub(super) fn expand(&self, cell: &Cell, precision: i64) -> Expansion<Integer> {
+    /// The Bernstein coefficients on a cell right of 0, wrong by less than `FRESH_ERROR`, such that the largest `c_i x^i`
+    /// on the cell has `bits` bits.
+    fn expand_to(&self, cell: &Cell, bits: i64) -> Vec<Integer> {
         let depth = length(&cell.numerator);
         let k = cell.exponent + depth;
         // What rounding and binomial sums may spoil, see below.
         let spoilt = self.weight_bits + self.degree_bits() + 3 * self.count_bits + 2;
-        let shift = precision + spoilt - self.reach(k);
+        let shift = bits + spoilt - self.reach(k);
         let terms = (0_i64..).zip(&self.coefficients).map(|(i, c)| shifted(c, k * i + shift));
         let mut b: Vec<Integer> = terms.collect();
         let n = self.degree();
         if depth > 0 {
-            let bits = u32::try_from(depth).expect("cells have millions of bits at most");
+            // Shift by t = numerator/2^depth < 1, then scale by 1/2^depth.
+            let places = u32::try_from(depth).expect("cells have millions of bits at most");
             for i in 0..n {
                 for j in (i..n).rev() {
                     let mut product = Integer::from(&b[j + 1] * &cell.numerator);
-                    product >>= bits;
+                    product >>= places;
                     b[j] += product;
                 }
             }
@@ -152,17 +151,46 @@ impl Source {
                 right[0] += &left[j - 1];
             }
         }
-        // A unit of error anywhere in the shift by t < 1 becomes at most 2^(n+1), and there are less than (n+1)^2 of
-        // them; weights and binomials multiply by at most l together, in each of n + 1 terms.
+        // A unit of error anywhere in the shift becomes at most 2^(n+1), and there are less than (n+1)^2 of them;
+        // weights and binomials multiply by at most l together, in each of n + 1 terms.
         let spoilt = u32::try_from(spoilt).expect("degrees are small");
         for b in &mut b {
             *b >>= spoilt;
         }
-        Expansion { coefficients: b, error: FRESH_ERROR }
+        b
+    }
+
+    /// The Bernstein coefficients on a cell right of 0, the largest of at least `wanted` bits. Starts with the
+    /// precision `bits` and leaves there what would have done.
+    pub(super) fn expand_long(&self, cell: &Cell, wanted: i64, bits: &mut i64) -> Vec<Integer> {
+        loop {
+            let b = self.expand_to(cell, *bits);
+            let largest = b.iter().map(length).max().unwrap_or(0);
+            // What is all error says nothing of how much is missing.
+            *bits = if largest > 2 { *bits + wanted - largest } else { 2 * *bits };
+            if largest >= wanted {
+                return b;
+            }
+            *bits += i64::from(u8::MAX);
+        }
+    }
+
+    /// The expansion on a cell right of 0, precise whatever it takes.
+    pub(super) fn expand(&self, cell: &Cell, bits: &mut i64) -> Expansion {
+        if cell.numerator == 0 && self.degree_bits() <= WIDE_BITS / 2 {
+            let expansion = self.expand_wide(cell.exponent);
+            if expansion.stands_out(64) {
+                return expansion;
+            }
+        }
+        let b = self.expand_long(cell, FRESH_BITS, bits);
+        let excess = b.iter().map(length).max().unwrap_or(0) - WIDE_BITS;
+        let coefficients = b.iter().map(|b| Wide::new(&shifted(b, -excess.max(0)))).collect();
+        Expansion { coefficients, error: FRESH_ERROR }
     }
 }
 
-impl<T: Fixed> Expansion<T> {
+impl Expansion {
     /// Becomes the expansion on the right half; returns the one on the left half.
     pub(super) fn halve(&mut self) -> Self {
         let b = &mut self.coefficients;
@@ -208,15 +236,14 @@ impl<T: Fixed> Expansion<T> {
         (least, plus.max(minus).max(0))
     }
 
-    /// Whether the largest coefficient stands well above the error.
-    pub(super) fn is_precise(&self) -> bool {
-        const GUARD: u32 = 12;
-        self.coefficients.iter().any(|b| b.exceeds(self.error, GUARD))
+    /// Whether the largest coefficient has that many bits more than the error.
+    fn stands_out(&self, bits: u32) -> bool {
+        self.coefficients.iter().any(|b| b.exceeds(self.error, bits))
     }
 
-    /// Whether no halving has gone before.
-    pub(super) fn is_fresh(&self) -> bool {
-        self.error <= FRESH_ERROR
+    /// Whether enough bits are left for another halving to be of use.
+    pub(super) fn is_precise(&self) -> bool {
+        self.stands_out(12)
     }
 
     /// The first sign that is certain.

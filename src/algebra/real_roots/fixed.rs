@@ -1,16 +1,6 @@
-//! Fixed-point numbers for Bernstein coefficients: 256 bits for the common case, big integers for the rest.
+//! Fixed-point numbers of 256 bits for Bernstein coefficients.
 
 use rug::{Integer, integer::Order};
-
-/// A number known up to an error of some units in its last place.
-pub(super) trait Fixed: Clone {
-    /// Becomes `floor((self + other)/2)`.
-    fn average(&mut self, other: &Self);
-    /// The sign of every number within `error` of this one; 0 when they differ.
-    fn sign_beyond(&self, error: u64) -> i8;
-    /// Whether the absolute value exceeds `2^bits error`.
-    fn exceeds(&self, error: u64, bits: u32) -> bool;
-}
 
 /// A signed integer of 256 bits, `2^128 hi + lo`. Overflow is the caller's to exclude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,17 +49,17 @@ impl Wide {
             _ => Self { hi: hi << near | (lo >> (128 - near)).cast_signed(), lo: lo << near },
         }
     }
-}
 
-impl Fixed for Wide {
+    /// Becomes `floor((self + other)/2)`.
     #[inline(always)]
-    fn average(&mut self, other: &Self) {
+    pub(super) fn average(&mut self, other: &Self) {
         let Self { hi, lo } = self.add(*other);
         *self = Self { hi: hi >> 1, lo: lo >> 1 | hi.cast_unsigned() << 127 };
     }
 
+    /// The sign of every number within `error` of this one; 0 when they differ.
     #[inline(always)]
-    fn sign_beyond(&self, error: u64) -> i8 {
+    pub(super) fn sign_beyond(self, error: u64) -> i8 {
         let error = u128::from(error);
         let above = self.hi > 0 || self.hi == 0 && self.lo > error;
         // The number is lo - 2^128 when hi is -1.
@@ -77,29 +67,10 @@ impl Fixed for Wide {
         i8::from(above) - i8::from(below)
     }
 
-    fn exceeds(&self, error: u64, bits: u32) -> bool {
-        let limit = u128::from(error) << bits;
-        let size = if self.hi < 0 { self.negate() } else { *self };
-        size.hi > 0 || size.lo > limit
-    }
-}
-
-impl Fixed for Integer {
-    fn average(&mut self, other: &Self) {
-        *self += other;
-        *self >>= 1_u32;
-    }
-
-    fn sign_beyond(&self, error: u64) -> i8 {
-        if self.cmp_abs(&Integer::from(error)).is_gt() {
-            if self.is_negative() { -1 } else { 1 }
-        } else {
-            0
-        }
-    }
-
-    fn exceeds(&self, error: u64, bits: u32) -> bool {
-        self.cmp_abs(&(Integer::from(error) << bits)).is_gt()
+    /// Whether the absolute value exceeds `2^bits error`, `bits` at most 64.
+    pub(super) fn exceeds(self, error: u64, bits: u32) -> bool {
+        let size = if self.hi < 0 { self.negate() } else { self };
+        size.hi > 0 || size.lo > u128::from(error) << bits
     }
 }
 
@@ -138,13 +109,15 @@ mod tests {
                 half.average(&Wide::new(&base));
                 whole.average(&base);
                 assert_eq!(big(half), whole);
+                let sign = i8::try_from(sign).unwrap();
                 for error in [0, 1, 7, u64::MAX] {
-                    assert_eq!(w.sign_beyond(error), n.sign_beyond(error), "{n} {error}");
-                    assert_eq!(w.exceeds(error, 12), n.exceeds(error, 12));
+                    let beyond = |limit: Integer| n.cmp_abs(&limit).is_gt();
+                    assert_eq!(w.sign_beyond(error), if beyond(error.into()) { sign } else { 0 }, "{n} {error}");
+                    assert_eq!(w.exceeds(error, 12), beyond(Integer::from(error) << 12_u32));
                 }
-                for d in [-1_i32, 0, 1] {
-                    let n = Integer::from(5 * sign + d);
-                    assert_eq!(Wide::new(&n).sign_beyond(5), n.sign_beyond(5), "{n}");
+                for size in [4_i8, 5, 6] {
+                    let n = Integer::from(size * sign);
+                    assert_eq!(Wide::new(&n).sign_beyond(5), if size > 5 { sign } else { 0 }, "{n}");
                 }
             }
         }

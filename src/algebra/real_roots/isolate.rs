@@ -1,18 +1,22 @@
 //! Isolation of the real roots of a square-free integer polynomial by Descartes' rule on dyadic cells.
 //!
-//! Cells are halved until the sign changes of the Bernstein coefficients say none or one. Bits are taken as they are
-//! needed: 256 for all, more for a cell where they do not suffice. A cluster of m roots keeps m sign changes while its
-//! cell shrinks; a Newton step for an m-fold root then guesses a far smaller cell, which is taken if it has all m.
+//! Cells are halved until the sign changes of the Bernstein coefficients say none or one. When averages have eaten
+//! their bits, they are computed afresh from the polynomial, in as many bits as it takes. A cluster of m roots keeps
+//! m sign changes while its cell shrinks; a Newton step for an m-fold root then guesses a far smaller cell, which is
+//! taken if it has all m (Sagraloff and Mehlhorn 2016, "Computing real roots of real polynomials").
 
 use super::bernstein::{Expansion, Source, length};
 use super::cell::{Cell, sign, sign_at};
-use super::fixed::{Fixed, Wide};
+use super::fixed::Wide;
 use rug::Integer;
-use std::mem;
 
-/// The precision at which the search beyond 256 bits starts, and the longest leap, in bits.
+/// The precision in which big integers are tried first.
 const FIRST_PRECISION: i64 = 256;
+/// The bits of the first leap towards a cluster, which is also how many halvings go before, and those of the longest.
+const FIRST_LEAP: u32 = 8;
 const LONGEST_LEAP: u32 = 1 << 20;
+/// The bits that a Newton step is computed with beyond those of the leap.
+const LEAP_GUARD: i64 = 64;
 
 /// Where one root is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,13 +48,9 @@ pub(super) fn isolate(coefficients: Vec<Integer>) -> Vec<Place> {
 
 /// The places of the positive roots.
 fn positive_roots(source: &Source) -> Vec<Place> {
-    let mut search = Search { source, places: Vec::new() };
+    let mut search = Search { source, places: Vec::new(), bits: FIRST_PRECISION };
     if let Some(k) = bound(source).and_then(|k| skip_empty(source, k)) {
-        if source.fits_wide() {
-            search.run_wide(k);
-        } else {
-            search.run_long(Cell::new(Integer::new(), k));
-        }
+        search.run(k);
     }
     search.places
 }
@@ -110,19 +110,27 @@ fn skip_empty(source: &Source, k: i64) -> Option<i64> {
 }
 
 /// A cell right of 0 to be searched, and the polynomial there.
-struct Node<T> {
+struct Node {
     cell: Cell,
-    expansion: Expansion<T>,
+    expansion: Expansion,
     /// The signs at both ends, certain.
     signs: (i8, i8),
-    /// The bits of the next leap towards a cluster, and the sign changes of the cell that this one was cut from.
+    cluster: Cluster,
+}
+
+/// How long a number of sign changes has stayed the same.
+#[derive(Clone, Copy)]
+struct Cluster {
+    changes: i32,
+    /// The halvings since.
+    halvings: u32,
+    /// The bits of the next leap.
     leap: u32,
-    inherited: i32,
 }
 
 /// What is still to be done, from left to right.
-enum Task<T> {
-    Search(Node<T>),
+enum Task {
+    Search(Node),
     Report(Place),
 }
 
@@ -135,14 +143,7 @@ enum Verdict {
     Several(Option<i32>),
 }
 
-impl<T: Fixed> Node<T> {
-    fn new(source: &Source, cell: Cell, expansion: Expansion<T>) -> Self {
-        let b = &expansion.coefficients;
-        let first = certain_sign(source, &b[0], expansion.error, &cell.numerator, cell.exponent);
-        let last = certain_sign(source, &b[b.len() - 1], expansion.error, &cell.end(), cell.exponent);
-        Self { cell, expansion, signs: (first, last), leap: 2, inherited: 0 }
-    }
-
+impl Node {
     fn verdict(&self) -> Verdict {
         let (first, last) = self.signs;
         match self.expansion.sign_changes(first, last) {
@@ -153,44 +154,41 @@ impl<T: Fixed> Node<T> {
             (least, most) => Verdict::Several((least == most).then_some(least)),
         }
     }
-
-    /// The two halves, and the root exactly between them if there is one, as tasks, the last to be done first.
-    fn halves(mut self, source: &Source, changes: Option<i32>) -> impl Iterator<Item = Task<T>> {
-        let left = self.expansion.halve();
-        let right = self.cell.part(&Integer::from(1), 1);
-        let cell = mem::replace(&mut self.cell, right);
-        let (numerator, exponent) = (&self.cell.numerator, self.cell.exponent);
-        let middle = certain_sign(source, &self.expansion.coefficients[0], self.expansion.error, numerator, exponent);
-        let root = (middle == 0).then(|| Task::Report(Place::At(numerator.clone(), exponent)));
-        let inherited = changes.unwrap_or(0);
-        let signs = (mem::replace(&mut self.signs.0, middle), middle);
-        let left = Self { cell: cell.part(&Integer::new(), 1), expansion: left, signs, leap: self.leap, inherited };
-        let right = Self { inherited, ..self };
-        [Some(Task::Search(right)), root, Some(Task::Search(left))].into_iter().flatten()
-    }
 }
 
-/// The certain sign at `numerator 2^exponent`, from an approximate value where that is enough.
-fn certain_sign<T: Fixed>(source: &Source, value: &T, error: u64, numerator: &Integer, exponent: i64) -> i8 {
-    match value.sign_beyond(error) {
-        0 => sign_at(&source.coefficients, numerator, exponent),
-        sign => sign,
-    }
-}
-
+/// The search for the positive roots of one polynomial.
 struct Search<'a> {
     source: &'a Source,
     places: Vec<Place>,
+    /// The precision in which big integers are tried first.
+    bits: i64,
 }
 
 impl Search<'_> {
-    fn wide(&self, k: i64) -> Task<Wide> {
-        Task::Search(Node::new(self.source, Cell::new(Integer::new(), k), self.source.expand_wide(k)))
+    /// The certain sign at `numerator 2^exponent`, from an approximate value where that is enough.
+    fn sign(&self, value: Wide, error: u64, numerator: &Integer, exponent: i64) -> i8 {
+        match value.sign_beyond(error) {
+            0 => sign_at(&self.source.coefficients, numerator, exponent),
+            sign => sign,
+        }
     }
 
-    /// Searches `(0, 2^k)` in 256 bits.
-    fn run_wide(&mut self, k: i64) {
-        let mut stack = vec![self.wide(k)];
+    fn node(&mut self, cell: Cell, cluster: Cluster) -> Node {
+        let expansion = self.source.expand(&cell, &mut self.bits);
+        let b = &expansion.coefficients;
+        let first = self.sign(b[0], expansion.error, &cell.numerator, cell.exponent);
+        let last = self.sign(b[b.len() - 1], expansion.error, &cell.end(), cell.exponent);
+        Node { cell, expansion, signs: (first, last), cluster }
+    }
+
+    /// The node `(0, 2^k)`.
+    fn start(&mut self, k: i64) -> Node {
+        self.node(Cell::new(Integer::new(), k), Cluster { changes: 0, halvings: 0, leap: FIRST_LEAP })
+    }
+
+    /// Searches `(0, 2^k)`.
+    fn run(&mut self, k: i64) {
+        let mut stack = vec![Task::Search(self.start(k))];
         while let Some(task) = stack.pop() {
             let node = match task {
                 Task::Search(node) => node,
@@ -199,116 +197,75 @@ impl Search<'_> {
                     continue;
                 }
             };
-            let changes = match node.verdict() {
-                Verdict::Empty => continue,
-                Verdict::One(sign) => {
-                    self.places.push(Place::Within(node.cell, sign));
-                    continue;
-                }
-                Verdict::Several(changes) => changes,
-            };
-            let k = node.cell.exponent;
-            let precise = node.expansion.is_precise();
-            if node.cell.numerator == 0 {
-                match skip_empty(self.source, k) {
-                    None => {}
-                    Some(lower) if lower < k => stack.push(self.wide(lower)),
-                    Some(_) if precise => stack.extend(node.halves(self.source, changes)),
-                    // Averages have lost bits that a fresh expansion has.
-                    Some(_) if !node.expansion.is_fresh() => stack.push(self.wide(k)),
-                    Some(_) => self.run_long(node.cell),
-                }
-            } else if precise {
-                stack.extend(node.halves(self.source, changes));
-            } else {
-                self.run_long(node.cell);
+            match node.verdict() {
+                Verdict::Empty => {}
+                Verdict::One(sign) => self.places.push(Place::Within(node.cell, sign)),
+                Verdict::Several(changes) => self.split(node, changes, &mut stack),
             }
         }
     }
 
-    /// The node of a cell, in as many bits as it needs, but at least some.
-    fn long(&self, cell: Cell, bits: &mut i64) -> Node<Integer> {
-        let mut expansion = self.source.expand(&cell, *bits);
-        while !expansion.is_precise() {
-            *bits *= 2;
-            expansion = self.source.expand(&cell, *bits);
+    /// Puts off the parts of a node that may hold roots, the leftmost to be done first.
+    fn split(&mut self, mut node: Node, changes: Option<i32>, stack: &mut Vec<Task>) {
+        let k = node.cell.exponent;
+        if node.cell.numerator == 0 {
+            match skip_empty(self.source, k) {
+                None => return,
+                Some(lower) if lower < k => return stack.push(Task::Search(self.start(lower))),
+                Some(_) => {}
+            }
         }
-        Node::new(self.source, cell, expansion)
+        if !node.expansion.is_precise() {
+            let fresh = self.node(node.cell, node.cluster);
+            return stack.push(Task::Search(fresh));
+        }
+        let changes = changes.unwrap_or(0);
+        let cluster = &mut node.cluster;
+        if changes == cluster.changes && changes > 0 {
+            cluster.halvings += 1;
+        } else {
+            *cluster = Cluster { changes, halvings: 0, leap: FIRST_LEAP };
+        }
+        if node.cluster.halvings >= FIRST_LEAP {
+            if let Some(next) = self.leap(&node) {
+                return stack.push(Task::Search(next));
+            }
+            node.cluster = Cluster { changes, halvings: 0, leap: (node.cluster.leap / 2).max(FIRST_LEAP) };
+        }
+        let left = node.expansion.halve();
+        let (left_cell, right_cell) = (node.cell.part(&Integer::new(), 1), node.cell.part(&Integer::from(1), 1));
+        let (numerator, exponent) = (&right_cell.numerator, right_cell.exponent);
+        let middle = self.sign(node.expansion.coefficients[0], left.error, numerator, exponent);
+        let root = (middle == 0).then(|| Task::Report(Place::At(numerator.clone(), exponent)));
+        let (first, last) = node.signs;
+        stack.push(Task::Search(Node { cell: right_cell, signs: (middle, last), ..node }));
+        stack.extend(root);
+        let signs = (first, middle);
+        stack.push(Task::Search(Node { cell: left_cell, expansion: left, signs, cluster: node.cluster }));
     }
 
-    /// Searches a cell in big integers.
-    fn run_long(&mut self, cell: Cell) {
-        let mut bits = FIRST_PRECISION;
-        let mut stack = vec![Task::Search(self.long(cell, &mut bits))];
-        while let Some(task) = stack.pop() {
-            let mut node = match task {
-                Task::Search(node) => node,
-                Task::Report(place) => {
-                    self.places.push(place);
-                    continue;
-                }
-            };
-            let changes = match node.verdict() {
-                Verdict::Empty => continue,
-                Verdict::One(sign) => {
-                    self.places.push(Place::Within(node.cell, sign));
-                    continue;
-                }
-                Verdict::Several(changes) => changes,
-            };
-            let k = node.cell.exponent;
-            if node.cell.numerator == 0 {
-                match skip_empty(self.source, k) {
-                    None => continue,
-                    Some(lower) if lower < k => {
-                        stack.push(Task::Search(self.long(Cell::new(Integer::new(), lower), &mut bits)));
-                        continue;
-                    }
-                    Some(_) => {}
-                }
-            }
-            if !node.expansion.is_precise() {
-                let fresh = self.long(node.cell, &mut bits);
-                stack.push(Task::Search(Node { leap: node.leap, inherited: node.inherited, ..fresh }));
-                continue;
-            }
-            if let Some(m) = changes.filter(|&m| m == node.inherited) {
-                if let Some(next) = self.leap(&node, m, &mut bits) {
-                    stack.push(Task::Search(next));
-                    continue;
-                }
-                node.leap = (node.leap / 2).max(2);
-            }
-            stack.extend(node.halves(self.source, changes));
-        }
-    }
-
-    /// The far smaller cell to which Newton's steps for an m-fold root lead from either end, if it has all m changes.
-    ///
-    /// # Source
-    /// Sagraloff and Mehlhorn 2016, "Computing real roots of real polynomials": quadratic steps towards clusters.
-    fn leap(&self, node: &Node<Integer>, m: i32, bits: &mut i64) -> Option<Node<Integer>> {
-        let b = &node.expansion.coefficients;
+    /// The far smaller cell to which Newton's step for an m-fold root leads from either end, if it has all m changes.
+    fn leap(&mut self, node: &Node) -> Option<Node> {
+        let Cluster { changes, leap, .. } = node.cluster;
+        let b = self.source.expand_long(&node.cell, i64::from(leap) + LEAP_GUARD, &mut self.bits);
         let n = b.len() - 1;
-        let last = (Integer::from(1) << node.leap) - 1_u32;
+        let last = (Integer::from(1) << leap) - 1_u32;
         // m p/p' at an end, in units of the small cells; p' is n times the difference of neighbours.
         let step = |end: &Integer, inner: &Integer| {
             let slope = Integer::from(end - inner) * n;
-            (slope != 0).then(|| (Integer::from(end * m) << node.leap) / slope)
+            (slope != 0).then(|| (Integer::from(end * changes) << leap) / slope)
         };
-        let from_left = step(&b[0], &b[1]);
         let from_right = step(&b[n], &b[n - 1]).map(|step| Integer::from(&last - step));
         let mut tried = None;
-        for guess in [from_left, from_right].into_iter().flatten() {
+        for guess in [step(&b[0], &b[1]), from_right].into_iter().flatten() {
             let index = guess.clamp(&Integer::new(), &last);
             if tried.as_ref() == Some(&index) {
                 continue;
             }
-            let cell = node.cell.part(&index, node.leap);
-            let next = self.long(cell, bits);
-            if matches!(next.verdict(), Verdict::Several(Some(changes)) if changes == m) {
-                let leap = (2 * node.leap).min(LONGEST_LEAP);
-                return Some(Node { leap, inherited: m, ..next });
+            let cluster = Cluster { changes, halvings: FIRST_LEAP, leap: (2 * leap).min(LONGEST_LEAP) };
+            let next = self.node(node.cell.part(&index, leap), cluster);
+            if matches!(next.verdict(), Verdict::Several(Some(m)) if m == changes) {
+                return Some(next);
             }
             tried = Some(index);
         }

@@ -60,21 +60,23 @@ impl RealRoot {
     }
 }
 
-/// Refines neighbours until no two closed intervals touch. Sorts by the way.
+/// Sorts the roots and shrinks their intervals until no two of them touch.
 fn separate(roots: &mut [RealRoot]) {
-    // Intervals of different square-free factors may lie in any way, but roots are distinct: halving ends.
     loop {
-        roots.sort_by(|a, b| a.bounds().0.cmp(&b.bounds().0));
+        roots.sort_by_cached_key(|root| root.bounds().0);
         let mut touched = false;
         for i in 1..roots.len() {
             let (left, right) = roots.split_at_mut(i);
             let (a, b) = (&mut left[i - 1], &mut right[0]);
+            let mut bits = 1;
             while a.touches(b) {
                 touched = true;
-                a.bisect();
-                b.bisect();
+                a.shrink(bits);
+                b.shrink(bits);
+                bits *= 2;
             }
         }
+        // Intervals of different square-free factors overlap in any way: what they shrink to may change the order.
         if !touched {
             return;
         }

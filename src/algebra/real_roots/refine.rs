@@ -87,10 +87,10 @@ impl RealRoot {
         self.bounds().1 >= right.bounds().0
     }
 
-    /// Halves the interval.
-    pub(super) fn bisect(&mut self) {
+    /// Divides the width of the interval by `2^bits`.
+    pub(super) fn shrink(&mut self, bits: i64) {
         if let Place::Within(cell, _) = &self.place {
-            self.refine_to(cell.exponent - 1);
+            self.refine_to(cell.exponent - bits);
         }
     }
 
