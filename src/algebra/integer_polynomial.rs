@@ -1,6 +1,6 @@
 //! Common divisors and square-free factors of integer polynomials, by images modulo primes and a proof over the integers.
 
-use super::modp::{Modulus, primes};
+use super::modp::{Modulus, PRIME_61, PRIME_62, primes};
 use super::ring::Ring;
 use super::univariate::Univariate;
 use rug::Integer;
@@ -196,7 +196,7 @@ impl Univariate<Integer> {
             same_degree && common_divisor(f, derivative, &modulus).len() == 1
         };
         // A second prime, because the first may be unlucky.
-        primes().take(2).any(image)
+        [PRIME_62, PRIME_61].into_iter().any(|p| image(Modulus::new(p)))
     }
 
     /// The product of the distinct irreducible factors, primitive with positive leading coefficient.

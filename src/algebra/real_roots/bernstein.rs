@@ -5,6 +5,7 @@
 //! do not grow. All coefficients here carry a common positive factor that nobody needs.
 
 use super::cell::Cell;
+use super::evaluate::{length, shifted};
 use super::fixed::Wide;
 use rug::Integer;
 
@@ -35,17 +36,6 @@ pub(super) struct Source {
 pub(super) struct Expansion {
     pub(super) coefficients: Vec<Wide>,
     pub(super) error: u64,
-}
-
-/// The length in bits, as a signed number.
-pub(super) fn length(n: &Integer) -> i64 {
-    i64::from(n.significant_bits())
-}
-
-/// `floor(2^shift n)`, `n` small enough for shifts to the left to be harmless.
-fn shifted(n: &Integer, shift: i64) -> Integer {
-    let size = u32::try_from(shift.unsigned_abs()).unwrap_or(u32::MAX);
-    if shift < 0 { Integer::from(n >> size) } else { Integer::from(n << size) }
 }
 
 impl Source {
@@ -126,38 +116,58 @@ impl Source {
         let depth = length(&cell.numerator);
         let k = cell.exponent + depth;
         // What rounding and binomial sums may spoil, see below.
-        let spoilt = self.weight_bits + self.degree_bits() + 3 * self.count_bits + 2;
+        let spoilt = self.weight_bits + self.degree_bits() + self.count_bits + 4;
         let shift = bits + spoilt - self.reach(k);
         let terms = (0_i64..).zip(&self.coefficients).map(|(i, c)| shifted(c, k * i + shift));
         let mut b: Vec<Integer> = terms.collect();
-        let n = self.degree();
         if depth > 0 {
-            // Shift by t = numerator/2^depth < 1, then scale by 1/2^depth.
-            let places = u32::try_from(depth).expect("cells have millions of bits at most");
-            for i in 0..n {
-                for j in (i..n).rev() {
-                    let mut product = Integer::from(&b[j + 1] * &cell.numerator);
-                    product >>= places;
-                    b[j] += product;
+            // On the cell x = 2^k t (1 + y/a), with a the numerator, t = a/2^depth in [1/2, 1), and y from 0 to 1.
+            let powers = self.powers(cell, bits + spoilt + 2 * self.degree_bits() + self.count_bits);
+            for (b, (power, places)) in b.iter_mut().zip(&powers) {
+                *b *= power;
+                *b >>= places;
+            }
+            for start in 0..self.degree() {
+                for j in (start..self.degree()).rev() {
+                    let (head, tail) = b.split_at_mut(j + 1);
+                    head[j] += &tail[0];
                 }
             }
+            for (i, (b, (power, places))) in (0_i64..).zip(b.iter_mut().zip(&powers)) {
+                *b = shifted(b, i64::from(*places) - depth * i) / power;
+            }
         }
-        for (i, (b, weight)) in (0_i64..).zip(b.iter_mut().zip(&self.weights)) {
-            *b = shifted(b, -depth * i) * weight;
+        for (b, weight) in b.iter_mut().zip(&self.weights) {
+            *b *= weight;
         }
-        for i in 1..=n {
-            for j in (i..=n).rev() {
+        for i in 1..b.len() {
+            for j in (i..b.len()).rev() {
                 let (left, right) = b.split_at_mut(j);
                 right[0] += &left[j - 1];
             }
         }
-        // A unit of error anywhere in the shift becomes at most 2^(n+1), and there are less than (n+1)^2 of them;
-        // weights and binomials multiply by at most l together, in each of n + 1 terms.
+        // The powers are long enough to spoil less than 2 units. So a term is wrong by less than 3 units before the
+        // shift by 1, by less than 3 2^(n+1) after it and by less than 4 more after the division. Weights and binomials
+        // multiply by at most l together, in each of n + 1 terms.
         let spoilt = u32::try_from(spoilt).expect("degrees are small");
         for b in &mut b {
             *b >>= spoilt;
         }
         b
+    }
+
+    /// The powers of `t = numerator/2^length`, each with the number of its binary places.
+    fn powers(&self, cell: &Cell, places: i64) -> Vec<(Integer, u32)> {
+        let depth = u32::try_from(length(&cell.numerator)).expect("cells have millions of bits at most");
+        let places = u32::try_from(places).expect("precisions are of millions of bits at most");
+        let mut powers = vec![(Integer::from(1), 0)];
+        for i in 0..self.degree() {
+            let (before, used) = &powers[i];
+            let exact = Integer::from(before * &cell.numerator);
+            let excess = (used + depth).saturating_sub(places);
+            powers.push((exact >> excess, used + depth - excess));
+        }
+        powers
     }
 
     /// The Bernstein coefficients on a cell right of 0, the largest of at least `wanted` bits. Starts with the

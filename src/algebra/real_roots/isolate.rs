@@ -5,8 +5,9 @@
 //! m sign changes while its cell shrinks; a Newton step for an m-fold root then guesses a far smaller cell, which is
 //! taken if it has all m (Sagraloff and Mehlhorn 2016, "Computing real roots of real polynomials").
 
-use super::bernstein::{Expansion, Source, length};
-use super::cell::{Cell, sign, sign_at};
+use super::bernstein::{Expansion, Source};
+use super::cell::Cell;
+use super::evaluate::{length, sign, value_at};
 use super::fixed::Wide;
 use rug::Integer;
 
@@ -48,7 +49,7 @@ pub(super) fn isolate(coefficients: Vec<Integer>) -> Vec<Place> {
 
 /// The places of the positive roots.
 fn positive_roots(source: &Source) -> Vec<Place> {
-    let mut search = Search { source, places: Vec::new(), bits: FIRST_PRECISION };
+    let mut search = Search { source, places: Vec::new(), bits: FIRST_PRECISION, value_bits: FIRST_PRECISION };
     if let Some(k) = bound(source).and_then(|k| skip_empty(source, k)) {
         search.run(k);
     }
@@ -160,15 +161,19 @@ impl Node {
 struct Search<'a> {
     source: &'a Source,
     places: Vec<Place>,
-    /// The precision in which big integers are tried first.
+    /// The precisions in which expansions, and values, are tried first.
     bits: i64,
+    value_bits: i64,
 }
 
 impl Search<'_> {
     /// The certain sign at `numerator 2^exponent`, from an approximate value where that is enough.
-    fn sign(&self, value: Wide, error: u64, numerator: &Integer, exponent: i64) -> i8 {
+    fn sign(&mut self, value: Wide, error: u64, numerator: &Integer, exponent: i64) -> i8 {
         match value.sign_beyond(error) {
-            0 => sign_at(&self.source.coefficients, numerator, exponent),
+            0 => {
+                let value = value_at(&self.source.coefficients, numerator, exponent, 1, &mut self.value_bits);
+                sign(&value.mantissa)
+            }
             sign => sign,
         }
     }

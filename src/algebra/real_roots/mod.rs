@@ -2,6 +2,7 @@
 
 mod bernstein;
 mod cell;
+mod evaluate;
 mod fixed;
 mod isolate;
 mod refine;

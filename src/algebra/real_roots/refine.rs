@@ -1,8 +1,8 @@
 //! Shrinking the interval of a root, and its f64 values.
 
 use super::RealRoot;
-use super::bernstein::length;
-use super::cell::{Cell, dyadic, scaled_value, sign};
+use super::cell::{Cell, dyadic};
+use super::evaluate::{Value, length, shifted, sign, sign_at, value_at};
 use super::isolate::Place;
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
@@ -10,6 +10,10 @@ use std::cmp::Ordering;
 /// The bits of the significand of an f64, and the power of two of its finest place.
 const SIGNIFICAND: i64 = 53;
 const FINEST: i64 = -1074;
+
+/// The precision in which values are tried first, and the bits that are wanted beyond those of two secant steps.
+const VALUE_PRECISION: i64 = 64;
+const VALUE_GUARD: i64 = 8;
 
 /// The f64 nearest to `numerator 2^exponent`, ties to even; infinite beyond the range.
 fn nearest(numerator: &Integer, exponent: i64) -> f64 {
@@ -53,18 +57,6 @@ fn exactly(x: f64) -> Rational {
     })
 }
 
-/// The sign of the value at a rational number.
-fn sign_at_rational(coefficients: &[Integer], x: &Rational) -> i8 {
-    let mut power = Integer::from(1);
-    let mut value = Integer::new();
-    for c in coefficients.iter().rev() {
-        value *= x.numer();
-        value += Integer::from(c * &power);
-        power *= x.denom();
-    }
-    sign(&value)
-}
-
 impl RealRoot {
     /// How the root compares with a number: `Less` when it is less.
     #[must_use]
@@ -74,7 +66,7 @@ impl RealRoot {
             // The root is inside, never at an end.
             Place::Within(cell, _) if cell.hi() <= *x => Ordering::Less,
             Place::Within(cell, _) if cell.lo() >= *x => Ordering::Greater,
-            Place::Within(_, left) => match sign_at_rational(&self.polynomial, x) {
+            Place::Within(_, left) => match sign_at(&self.polynomial, x) {
                 0 => Ordering::Equal,
                 sign if sign == *left => Ordering::Greater,
                 _ => Ordering::Less,
@@ -90,7 +82,8 @@ impl RealRoot {
     /// Divides the width of the interval by `2^bits`.
     pub(super) fn shrink(&mut self, bits: i64) {
         if let Place::Within(cell, _) = &self.place {
-            self.refine_to(cell.exponent - bits);
+            let target = cell.exponent - bits;
+            self.refine_to(target, u32::try_from(bits).unwrap_or(1));
         }
     }
 
@@ -100,58 +93,67 @@ impl RealRoot {
     /// When the width is not positive.
     pub fn refine(&mut self, width: &Rational) {
         assert!(width.cmp0() == Ordering::Greater, "the width is positive, got {width}");
-        self.refine_to(length(width.numer()) - length(width.denom()) - 1);
+        self.refine_to(length(width.numer()) - length(width.denom()) - 1, 1);
     }
 
-    /// Shrinks the cell to one of at most the given exponent.
+    /// Shrinks the cell to one of at most the given exponent, the first step trying that many bits.
     ///
     /// # Source
     /// Abbott 2014, "Quadratic interval refinement for real roots", ACM Communications in Computer Algebra 48: of
-    /// `2^k` parts, k growing as 1, 2, 4, ..., the secant names two; exact signs decide whether the root is in one.
-    fn refine_to(&mut self, target: i64) {
-        let Place::Within(cell, left) = self.place.clone() else { return };
-        let value = |numerator: &Integer, exponent: i64| scaled_value(&self.polynomial, numerator, exponent);
-        let (mut cell, mut bits) = (cell, 1_u32);
-        let mut ends = (Integer::new(), Integer::new());
-        if cell.exponent - target > 1 {
-            ends = (value(&cell.numerator, cell.exponent), value(&cell.end(), cell.exponent));
-        }
+    /// `2^k` parts, k doubling with every success, the secant names two; signs decide whether the root is in one.
+    fn refine_to(&mut self, target: i64, mut bits: u32) {
+        let Place::Within(cell, left) = &self.place else { return };
+        let (mut cell, left, mut precision) = (cell.clone(), *left, VALUE_PRECISION);
+        let mut value = |numerator: &Integer, exponent: i64, bits: u32| {
+            let wanted = 2 * i64::from(bits) + VALUE_GUARD;
+            value_at(&self.polynomial, numerator, exponent, wanted, &mut precision)
+        };
+        let mut ends = None;
         while cell.exponent > target {
             bits = bits.min(u32::try_from(cell.exponent - target).unwrap_or(u32::MAX));
             let parts = Integer::from(1) << bits;
-            let guess = if bits == 1 { Integer::from(1) } else { secant(&ends, bits) };
+            let guess = if bits == 1 {
+                Integer::from(1)
+            } else {
+                let (from, to) = ends.get_or_insert_with(|| {
+                    (value(&cell.numerator, cell.exponent, bits), value(&cell.end(), cell.exponent, bits))
+                });
+                secant(from, to, bits)
+            };
             let exponent = cell.exponent - i64::from(bits);
             let start = Integer::from(&cell.numerator << bits);
-            let inspect = |index: &Integer| {
-                let value = value(&Integer::from(&start + index), exponent);
-                // The ends of the cell may be other roots; the signs inside are what counts.
+            let mut inspect = |index: &Integer| {
+                // The ends of the cell may be other roots; the signs inside are what counts, and values are known.
+                let known = ends.as_ref().filter(|_| *index == 0 || *index == parts);
+                let value = match known {
+                    Some((from, to)) => if *index == 0 { from.clone() } else { to.clone() },
+                    None => value(&Integer::from(&start + index), exponent, bits),
+                };
                 let sign = match (*index == 0, *index == parts) {
                     (true, _) => left,
                     (_, true) => -left,
-                    _ => sign(&value),
+                    _ => sign(&value.mantissa),
                 };
                 (value, sign)
             };
             let (middle, middle_sign) = inspect(&guess);
-            if middle_sign == 0 {
-                self.place = Place::At(start + guess, exponent);
-                return;
-            }
             let right = middle_sign == left;
             let neighbour = if right { Integer::from(&guess + 1) } else { Integer::from(&guess - 1) };
             let (other, other_sign) = inspect(&neighbour);
-            if other_sign == 0 {
-                self.place = Place::At(start + neighbour, exponent);
-                return;
+            for (index, sign) in [(&guess, middle_sign), (&neighbour, other_sign)] {
+                if sign == 0 {
+                    self.place = Place::At(start + index, exponent);
+                    return;
+                }
             }
             if other_sign == middle_sign {
                 bits = (bits / 2).max(1);
                 continue;
             }
             (cell, ends) = if right {
-                (Cell::new(start + guess, exponent), (middle, other))
+                (Cell::new(start + guess, exponent), Some((middle, other)))
             } else {
-                (Cell::new(start + neighbour, exponent), (other, middle))
+                (Cell::new(start + neighbour, exponent), Some((other, middle)))
             };
             bits = bits.saturating_mul(2);
         }
@@ -179,7 +181,7 @@ impl RealRoot {
                 };
             }
             let target = cell.exponent + length(&cell.numerator) - SIGNIFICAND - 2;
-            self.refine_to(target);
+            self.refine_to(target, 1);
         }
     }
 
@@ -199,13 +201,17 @@ impl RealRoot {
 }
 
 /// Which of `2^bits` parts the secant through the values at the ends meets, rounded to the nearest corner.
-fn secant((from, to): &(Integer, Integer), bits: u32) -> Integer {
-    let slope = Integer::from(from - to);
+fn secant(from: &Value, to: &Value, bits: u32) -> Integer {
+    let unit = from.unit.min(to.unit);
+    let (from, to) = (shifted(&from.mantissa, from.unit - unit), shifted(&to.mantissa, to.unit - unit));
+    let slope = Integer::from(&from - to);
+    let parts = Integer::from(1) << bits;
     if slope == 0 {
-        return Integer::from(1) << (bits - 1);
+        return parts >> 1_u32;
     }
-    let doubled: Integer = Integer::from(from << (bits + 1)) / slope;
-    (doubled + 1_u32) >> 1_u32
+    let doubled: Integer = (from << (bits + 1)) / slope;
+    let corner: Integer = (doubled + 1_u32) >> 1_u32;
+    corner.max(Integer::new()).min(parts)
 }
 
 #[cfg(test)]
