@@ -10,6 +10,9 @@ pub(super) struct Value {
     pub(super) unit: i64,
 }
 
+/// The length from which on exact values are avoided.
+const WORTH_ROUNDING: i64 = 512;
+
 /// The length in bits, as a signed number.
 pub(super) fn length(n: &Integer) -> i64 {
     i64::from(n.significant_bits())
@@ -50,12 +53,14 @@ pub(super) fn value_at(
     // Every step rounds twice, and |x| < 2^k carries errors on without growth.
     let error = length(&Integer::from(2 * degree));
     let exact = depth * degree + reach - k.min(0) * degree;
-    while *bits < exact {
+    let places = u32::try_from(depth).expect("lengths fit a u32");
+    // Values of a few words are not worth rounding.
+    while exact > (*bits).max(WORTH_ROUNDING) {
         let shift = *bits - reach;
         let mut value = Integer::new();
         for (i, c) in (0..degree).rev().zip(coefficients.iter().rev()) {
             value *= &numerator;
-            value = shifted(&value, -depth);
+            value >>= places;
             value += shifted(c, k * i + shift);
         }
         let missing = wanted.max(1) + 1 + error - length(&value);

@@ -74,9 +74,10 @@ impl RealRoot {
         }
     }
 
-    /// Whether the closed intervals of two roots, this one on the left, have a point in common.
-    pub(super) fn touches(&self, right: &Self) -> bool {
-        self.bounds().1 >= right.bounds().0
+    /// Whether the closed intervals of two roots have a point in common.
+    pub(super) fn touches(&self, other: &Self) -> bool {
+        let ((lo, hi), (other_lo, other_hi)) = (self.bounds(), other.bounds());
+        lo <= other_hi && other_lo <= hi
     }
 
     /// Divides the width of the interval by `2^bits`.
