@@ -3,7 +3,8 @@
 use super::modp::{Modulus, PRIME_61, PRIME_62, primes};
 use super::ring::Ring;
 use super::univariate::Univariate;
-use rug::Integer;
+use rug::{Integer, Rational};
+use std::cmp::Ordering;
 
 /// The residues of an integer polynomial, constant term first; empty when all vanish.
 fn residues(coefficients: &[Integer], modulus: &Modulus) -> Vec<u64> {
@@ -26,24 +27,27 @@ fn slope(residues: &[u64], modulus: &Modulus) -> Vec<u64> {
     trimmed(residues.iter().skip(1).map(term).collect())
 }
 
+/// Reduces `a` to a multiple of its remainder by `b`. Cross-multiplication needs no inverse.
+fn reduce(a: &mut Vec<u64>, b: &[u64], modulus: &Modulus) {
+    let Some(&leading) = b.last() else { return };
+    while a.len() >= b.len() {
+        let top = a[a.len() - 1];
+        let shift = a.len() - b.len();
+        for c in &mut a[..shift] {
+            *c = modulus.mul(*c, leading);
+        }
+        for (x, &y) in a[shift..].iter_mut().zip(b) {
+            *x = modulus.sub(modulus.mul(*x, leading), modulus.mul(y, top));
+        }
+        let length = a.iter().rposition(|&r| r != 0).map_or(0, |last| last + 1);
+        a.truncate(length);
+    }
+}
+
 /// A greatest common divisor of residues, not normalised.
 fn common_divisor(mut a: Vec<u64>, mut b: Vec<u64>, modulus: &Modulus) -> Vec<u64> {
-    if a.len() < b.len() {
-        (a, b) = (b, a);
-    }
-    while let Some(&leading) = b.last() {
-        // Cross-multiplication needs no inverse.
-        while a.len() >= b.len() {
-            let top = a[a.len() - 1];
-            let shift = a.len() - b.len();
-            for c in &mut a[..shift] {
-                *c = modulus.mul(*c, leading);
-            }
-            for (x, &y) in a[shift..].iter_mut().zip(&b) {
-                *x = modulus.sub(modulus.mul(*x, leading), modulus.mul(y, top));
-            }
-            a = trimmed(a);
-        }
+    while !b.is_empty() {
+        reduce(&mut a, &b, modulus);
         (a, b) = (b, a);
     }
     a
@@ -197,6 +201,36 @@ impl Univariate<Integer> {
         };
         // A second prime, because the first may be unlucky.
         [PRIME_62, PRIME_61].into_iter().any(|p| image(Modulus::new(p)))
+    }
+
+    /// Whether the image modulo one prime proves that the remainders of Euclid's algorithm for the polynomial and its
+    /// derivative fall in degree by one each, down to a constant; `false` proves nothing.
+    pub(super) fn has_clearly_full_chain(&self) -> bool {
+        let modulus = Modulus::new(PRIME_62);
+        let mut a = residues(self.coefficients(), &modulus);
+        let mut b = slope(&a, &modulus);
+        let mut length = self.coefficients().len();
+        while length > 1 {
+            if a.len() != length || b.len() != length - 1 {
+                return false;
+            }
+            reduce(&mut a, &b, &modulus);
+            (a, b, length) = (b, a, length - 1);
+        }
+        a.len() == 1
+    }
+
+    /// The sign of the value at a rational number.
+    #[must_use]
+    pub fn sign_at(&self, x: &Rational) -> Ordering {
+        let mut power = Integer::from(1);
+        let mut value = Integer::new();
+        for c in self.coefficients().iter().rev() {
+            value *= x.numer();
+            value += Integer::from(c * &power);
+            power *= x.denom();
+        }
+        value.cmp0()
     }
 
     /// The product of the distinct irreducible factors, primitive with positive leading coefficient.

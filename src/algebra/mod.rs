@@ -15,6 +15,7 @@ pub mod rational;
 pub mod real_roots;
 pub mod reduction;
 pub mod ring;
+mod rounded_chain;
 pub mod sturm;
 pub mod univariate;
 mod value;

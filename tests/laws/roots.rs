@@ -255,12 +255,11 @@ fn on_the_corners_of_cells_are_met_exactly() {
     let mut roots = checked(&p.mul(&power(&Poly::x(), 4)));
     assert_eq!(roots.len(), 12);
     assert_eq!(roots[3].multiplicity(), 5);
-    for (i, expected) in corners.iter().enumerate() {
-        let at = i + 1 + usize::from(i > 7) - usize::from(i == 0) + usize::from(i == 9) * 0;
-        let _ = at;
+    for expected in &corners {
         assert!(roots.iter().any(|root| root.compare(expected).is_eq()), "{expected}");
     }
-    assert!(roots.iter_mut().all(|root| root.to_f64().is_finite()));
+    let enclosures = roots.iter_mut().map(RealRoot::enclosure);
+    assert_eq!(enclosures.filter(|(lo, hi)| lo < hi).count(), 2, "the irrational ones");
 }
 
 #[test]

@@ -238,7 +238,11 @@ impl Expansion {
             }
             (plus, minus) = (plus.max(minus + 1), minus.max(plus + 1));
             if sign != 0 {
-                if sign > 0 { minus = -2 } else { plus = -2 }
+                if sign > 0 {
+                    minus = -2
+                } else {
+                    plus = -2
+                }
                 least += i32::from(before == -sign);
                 before = sign;
             }

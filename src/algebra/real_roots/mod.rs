@@ -29,8 +29,8 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Debug)]
 pub struct RealRoot {
-    /// Square-free, constant term first; the root is a root of it.
-    polynomial: Arc<[Integer]>,
+    /// Square-free; the root is a root of it.
+    polynomial: Arc<Univariate<Integer>>,
     multiplicity: usize,
     place: Place,
 }
@@ -100,13 +100,13 @@ impl Univariate<Integer> {
         let zeros = self.coefficients().iter().take_while(|c| **c == 0).count();
         let mut roots = Vec::new();
         if zeros > 0 {
-            let polynomial = Arc::from([Integer::new(), Integer::from(1)]);
+            let polynomial = Arc::new(Univariate::x());
             roots.push(RealRoot { polynomial, multiplicity: zeros, place: Place::At(Integer::new(), 0) });
         }
         let rest = Univariate::new(self.coefficients()[zeros..].to_vec());
         for (factor, multiplicity) in rest.square_free_decomposition() {
-            let polynomial: Arc<[Integer]> = Arc::from(factor.coefficients());
             let places = isolate(factor.coefficients().to_vec()).into_iter();
+            let polynomial = Arc::new(factor);
             roots.extend(places.map(|place| RealRoot { polynomial: polynomial.clone(), multiplicity, place }));
         }
         separate(&mut roots);

@@ -2,7 +2,7 @@
 
 use super::RealRoot;
 use super::cell::{Cell, dyadic};
-use super::evaluate::{Value, length, shifted, sign, sign_at, value_at};
+use super::evaluate::{Value, length, shifted, sign, value_at};
 use super::isolate::Place;
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
@@ -66,7 +66,7 @@ impl RealRoot {
             // The root is inside, never at an end.
             Place::Within(cell, _) if cell.hi() <= *x => Ordering::Less,
             Place::Within(cell, _) if cell.lo() >= *x => Ordering::Greater,
-            Place::Within(_, left) => match sign_at(&self.polynomial, x) {
+            Place::Within(_, left) => match self.polynomial.sign_at(x) as i8 {
                 0 => Ordering::Equal,
                 sign if sign == *left => Ordering::Greater,
                 _ => Ordering::Less,
@@ -107,7 +107,7 @@ impl RealRoot {
         let (mut cell, left, mut precision) = (cell.clone(), *left, VALUE_PRECISION);
         let mut value = |numerator: &Integer, exponent: i64, bits: u32| {
             let wanted = 2 * i64::from(bits) + VALUE_GUARD;
-            value_at(&self.polynomial, numerator, exponent, wanted, &mut precision)
+            value_at(self.polynomial.coefficients(), numerator, exponent, wanted, &mut precision)
         };
         let mut ends = None;
         while cell.exponent > target {
@@ -127,7 +127,13 @@ impl RealRoot {
                 // The ends of the cell may be other roots; the signs inside are what counts, and values are known.
                 let known = ends.as_ref().filter(|_| *index == 0 || *index == parts);
                 let value = match known {
-                    Some((from, to)) => if *index == 0 { from.clone() } else { to.clone() },
+                    Some((from, to)) => {
+                        if *index == 0 {
+                            from.clone()
+                        } else {
+                            to.clone()
+                        }
+                    }
                     None => value(&Integer::from(&start + index), exponent, bits),
                 };
                 let sign = match (*index == 0, *index == parts) {
