@@ -8,6 +8,7 @@ mod expression;
 mod half_tangent;
 pub mod interval;
 pub mod modp;
+pub mod modular;
 pub mod number;
 pub mod ratio;
 pub mod rational;

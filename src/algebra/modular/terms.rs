@@ -1,0 +1,23 @@
+//! Polynomials as plain lists of terms.
+
+use rug::Integer;
+
+/// A polynomial in several variables with integer coefficients, term by term.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Terms {
+    /// The exponents of all variables, term after term.
+    pub exponents: Vec<u32>,
+    /// One coefficient per term.
+    pub coefficients: Vec<Integer>,
+}
+
+impl Terms {
+    /// The terms with their exponents.
+    ///
+    /// # Panics
+    /// When the numbers of exponents and coefficients do not fit the number of variables.
+    pub fn iter(&self, variables: usize) -> impl Iterator<Item = (&[u32], &Integer)> + Clone {
+        assert_eq!(self.exponents.len(), self.coefficients.len() * variables, "one exponent per variable and term");
+        self.coefficients.iter().enumerate().map(move |(k, c)| (&self.exponents[k * variables..][..variables], c))
+    }
+}
