@@ -81,24 +81,28 @@ impl Lattice {
     /// Turns the values at the points into the coefficients, in place.
     ///
     /// # Source
-    /// Newton's forward differences along each axis in turn, then Horner's rule from falling factorials to powers.
+    /// Newton's forward differences along all axes, then Horner's rule from falling factorials to powers along all axes.
     #[inline(always)]
     pub(super) fn interpolate<L: Lanes>(&self, lanes: L, values: &mut [L::Element]) {
         let inverses = inverse_factorials(lanes, self.longest);
         let mut on_line = vec![lanes.zero(); self.longest];
         for line in self.lines.iter().flatten() {
             let on_line = &mut on_line[..line.len()];
-            for (x, &index) in on_line.iter_mut().zip(line) {
-                *x = values[index];
-            }
+            gather(values, line, on_line);
             for order in 1..on_line.len() {
                 for i in (order..on_line.len()).rev() {
                     on_line[i] = lanes.sub(on_line[i], on_line[i - 1]);
                 }
             }
-            for (x, &inverse) in on_line.iter_mut().zip(&inverses) {
-                *x = lanes.mul(*x, inverse);
+            for i in 0..line.len() {
+                values[line[i]] = lanes.mul(on_line[i], inverses[i]);
             }
+        }
+        // Only now: with a term of the lattice go all lower ones, in powers as in falling factorials, but not the values
+        // at its points.
+        for line in self.lines.iter().flatten() {
+            let on_line = &mut on_line[..line.len()];
+            gather(values, line, on_line);
             let mut node = lanes.zero();
             for _ in 2..on_line.len() {
                 node = lanes.sub(node, lanes.one());
@@ -109,10 +113,18 @@ impl Lattice {
                 }
                 node = lanes.add(node, lanes.one());
             }
-            for (&x, &index) in on_line.iter().zip(line) {
-                values[index] = x;
+            for i in 0..line.len() {
+                values[line[i]] = on_line[i];
             }
         }
+    }
+}
+
+/// Copies the values on a line.
+#[inline(always)]
+fn gather<E: Copy>(values: &[E], line: &[usize], on_line: &mut [E]) {
+    for i in 0..line.len() {
+        on_line[i] = values[line[i]];
     }
 }
 
