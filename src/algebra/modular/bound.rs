@@ -39,3 +39,23 @@ impl Norms {
         square.log2() / 2.0 + f64::from(self.exponent) + 1e-6
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn norms_are_bounded_closely_from_above_whatever_their_size() {
+        for shift in [0, 100, 5000] {
+            let numbers = [3, -4, 12].map(|n: i32| Integer::from(n) << shift);
+            let norms = Norms::new(2, [(0, &numbers[0]), (0, &numbers[1]), (1, &numbers[2])].into_iter());
+            let bits = norms.bits(0..2) - f64::from(shift);
+            // The norm of (3 + 4, 12)
+            let exact = 193_f64.log2() / 2.0;
+            assert!(exact < bits && bits < exact + 1e-5);
+        }
+        let (large, small) = (Integer::from(1) << 5000, Integer::from(1));
+        assert!(Norms::new(2, [(0, &large), (1, &small)].into_iter()).bits(1..2) > 0.0);
+        assert_eq!(Norms::new(1, [(0, &Integer::new())].into_iter()).bits(0..1), f64::NEG_INFINITY);
+    }
+}

@@ -37,3 +37,29 @@ impl Chinese {
         sum
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::primes::primes_beyond;
+    use super::*;
+
+    #[test]
+    fn integers_up_to_a_quarter_of_the_product_come_back() {
+        for count in [1, 2, 7] {
+            let primes = primes_beyond(f64::from(count) * 49.0 - 1.0);
+            let chinese = Chinese::new(&primes);
+            let quarter = Integer::from(&chinese.product / 4);
+            for n in [Integer::new(), Integer::from(-1), quarter.clone(), -quarter] {
+                let share = |(&p, cofactor): (&u64, &Integer)| {
+                    let p = Integer::from(p);
+                    let inverse = cofactor.clone().invert(&p).unwrap();
+                    let share = Integer::from(&n * inverse).modulo(&p).to_i64().unwrap();
+                    // Either representative will do.
+                    if share % 3 == 0 { share - p.to_i64().unwrap() } else { share }
+                };
+                let shares: Vec<i64> = primes.iter().zip(&chinese.cofactors).map(share).collect();
+                assert_eq!(chinese.combine(&shares), n);
+            }
+        }
+    }
+}

@@ -5,7 +5,8 @@ use super::lattice::Lattice;
 use super::problem::{Form, Problem};
 use super::substitution::Plan;
 use super::terms::Terms;
-use super::{MOST_POINTS, descending};
+use super::primes::count_beyond;
+use super::{MOST_VALUES, descending};
 use pulp::Arch;
 use rug::Integer;
 
@@ -26,7 +27,7 @@ pub fn determinant(matrix: &[Vec<Terms>], variables: usize) -> Option<Terms> {
 }
 
 /// As `determinant`, on a chosen instruction set.
-fn determinant_on(arch: Arch, matrix: &[Vec<Terms>], variables: usize) -> Option<Terms> {
+pub(super) fn determinant_on(arch: Arch, matrix: &[Vec<Terms>], variables: usize) -> Option<Terms> {
     let size = matrix.len();
     assert!(matrix.iter().all(|row| row.len() == size), "a determinant is of a square matrix");
     let entries = || matrix.iter().flatten().enumerate();
@@ -42,7 +43,7 @@ fn determinant_on(arch: Arch, matrix: &[Vec<Terms>], variables: usize) -> Option
     };
     let (parameters, degrees): (Vec<usize>, Vec<usize>) =
         (0..variables).map(|k| (k, bound(&|e| e[k]))).filter(|&(_, degree)| degree > 0).unzip();
-    let lattice = Lattice::new(&degrees, bound(&|e| e.iter().sum()), MOST_POINTS)?;
+    let lattice = Lattice::new(&degrees, bound(&|e| e.iter().sum()), MOST_VALUES / count_beyond(bits))?;
 
     let terms = descending(terms, &parameters);
     let problem = Problem {
@@ -65,7 +66,7 @@ pub(in crate::algebra) fn univariate_determinant(size: usize, entries: &[Vec<Int
     univariate_determinant_on(Arch::new(), size, entries)
 }
 
-fn univariate_determinant_on(arch: Arch, size: usize, entries: &[Vec<Integer>]) -> Vec<Integer> {
+pub(super) fn univariate_determinant_on(arch: Arch, size: usize, entries: &[Vec<Integer>]) -> Vec<Integer> {
     let coefficients = || entries.iter().enumerate().flat_map(|(slot, entry)| entry.iter().map(move |c| (slot, c)));
     let Some(bits) = bits(size, coefficients()) else { return Vec::new() };
     let degrees: Vec<usize> =

@@ -44,10 +44,10 @@ pub(super) trait Lanes: Copy {
 /// Residues are integers of absolute value at most `0.56 p`. A product is `h + l`, h rounded and l its exact rounding
 /// error by FMA. With q the rounded `h / p`, `h - q p` is an integer below p in absolute value, hence exact.
 ///
-/// A sum of products is kept in two parts: the high one next to a constant so large that its unit in the last place is
-/// `2^49`, the low one taking up the rounding errors, each at most `2^48` and found exactly. With 12 products of at most
-/// `0.31 p^2` the high part stays within a quarter of the constant `2^101`, the low one below `2^52`, and the quotient by
-/// p below `2^51`, where adding and subtracting `1.5 * 2^52` rounds to integers.
+/// A sum of products is kept in two parts: the high one next to the constant `1.5 * 2^101`, where numbers are multiples
+/// of `2^49`, the low one taking up the rounding errors, each at most `2^48` and found exactly. With 12 products of at
+/// most `0.314 p^2` the high part stays within `2^100` of the constant, the low one below `2^52`, and the quotient by p
+/// below `2^51`, where adding and subtracting `1.5 * 2^52` rounds to integers.
 #[derive(Clone, Copy)]
 pub(super) struct Floats<'a, S: Simd> {
     simd: S,
@@ -252,5 +252,97 @@ impl Lanes for Modulus {
     }
     fn reduce(self, sum: u64) -> u64 {
         sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::primes::primes_beyond;
+    use super::*;
+    use pulp::{Arch, WithSimd};
+    use rug::Integer;
+
+    /// Residues as far from 0 as they may be, and others, by turns in the lanes.
+    fn residues(p: i64, lane: usize) -> Vec<i64> {
+        let most = p / 100 * 56;
+        let sizes = [most, p / 2, p / 2 + 1, p / 3, most - 12_345, 1 << 48, 77, 1, 0];
+        let all = sizes.into_iter().chain(sizes.map(|r| -r));
+        let mut all: Vec<i64> = all.filter(|r| r.abs() <= most).collect();
+        all.rotate_left(lane % 3);
+        all
+    }
+
+    /// All operations on the lanes, compared with integers.
+    struct Compare;
+
+    impl WithSimd for Compare {
+        type Output = ();
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) {
+            // The distances of the later primes have more bits.
+            for skip in [0, 60] {
+                let primes: Vec<u64> = primes_beyond(49.0 * 100.0).into_iter().skip(skip).take(S::F64_LANES).collect();
+                let mut bits = Vec::new();
+                let lanes = Floats::new(simd, &primes, &mut bits);
+                let columns: Vec<Vec<i64>> =
+                    primes.iter().enumerate().map(|(lane, &p)| residues(p.cast_signed(), lane)).collect();
+                let count = columns.iter().map(Vec::len).min().unwrap();
+                let row = |k: usize| -> Vec<i64> { columns.iter().map(|column| column[k]).collect() };
+                let check = |result: S::f64s, expected: &dyn Fn(usize) -> i128| {
+                    let mut found = vec![0; primes.len()];
+                    lanes.store(result, &mut found);
+                    for (lane, &p) in primes.iter().enumerate() {
+                        let p = i128::from(p);
+                        assert_eq!((i128::from(found[lane]) - expected(lane)).rem_euclid(p), 0);
+                        assert!(i128::from(found[lane].abs()) * 100 <= p * 56, "reduced");
+                    }
+                };
+                for i in 0..count {
+                    let (r, a) = (row(i), lanes.load(&row(i)));
+                    let product = lanes.mul(a, lanes.inverse(a));
+                    check(product, &|lane| i128::from(r[lane] != 0));
+                    for j in 0..count {
+                        let (s, b) = (row(j), lanes.load(&row(j)));
+                        let wide = |lane: usize| (i128::from(r[lane]), i128::from(s[lane]));
+                        check(lanes.add(a, b), &|lane| wide(lane).0 + wide(lane).1);
+                        check(lanes.sub(a, b), &|lane| wide(lane).0 - wide(lane).1);
+                        check(lanes.mul(a, b), &|lane| wide(lane).0 * wide(lane).1);
+                        for k in 0..count {
+                            let (t, c) = (row(k), lanes.load(&row(k)));
+                            check(lanes.mul_add(a, b, c), &|lane| wide(lane).0 * wide(lane).1 + i128::from(t[lane]));
+                            let mut sum = lanes.sum(c);
+                            for _ in 0..Floats::<S>::CHUNK {
+                                sum = lanes.subtract_product(sum, a, b);
+                            }
+                            check(lanes.reduce(sum), &|lane| i128::from(t[lane]) - 12 * wide(lane).0 * wide(lane).1);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_compute_as_integers_do() {
+        Arch::new().dispatch(Compare);
+        Arch::Scalar.dispatch(Compare);
+    }
+
+    #[test]
+    fn the_single_lane_computes_as_integers_do() {
+        let p = primes_beyond(0.0)[0];
+        let modulus = Modulus::new(p);
+        for r in residues(p.cast_signed(), 0) {
+            for s in residues(p.cast_signed(), 1) {
+                let (a, b) = (modulus.load(&[r]), modulus.load(&[s]));
+                let mut found = [0];
+                Lanes::store(modulus, Lanes::mul_add(modulus, a, b, a), &mut found);
+                let expected = Integer::from(r) * s + r - found[0];
+                assert!(expected.is_divisible(&Integer::from(p)));
+                Lanes::store(modulus, modulus.reduce(modulus.subtract_product(Lanes::sum(modulus, b), a, a)), &mut found);
+                assert!((Integer::from(s) - Integer::from(r) * r - found[0]).is_divisible(&Integer::from(p)));
+            }
+        }
     }
 }

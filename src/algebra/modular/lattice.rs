@@ -145,3 +145,37 @@ fn inverse_factorials<L: Lanes>(lanes: L, count: usize) -> Vec<L::Element> {
     }
     inverses
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::modp::{Modulus, PRIME_61};
+
+    #[test]
+    fn a_lattice_holds_the_exponents_within_the_degrees_and_no_more_points_than_allowed() {
+        let lattice = Lattice::new(&[2, 3], 3, 9).unwrap();
+        let points: Vec<&[u32]> = (0..lattice.count()).map(|k| lattice.point(k)).collect();
+        assert_eq!(points, [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1], [0, 2], [1, 2], [0, 3]]);
+        assert!(Lattice::new(&[2, 3], 3, 8).is_none());
+        assert_eq!(Lattice::new(&[], 0, 1).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn values_at_the_points_give_back_the_coefficients() {
+        let modulus = Modulus::new(PRIME_61);
+        for (degrees, total) in [(vec![], 5), (vec![6], 6), (vec![4, 7], 8), (vec![3, 1, 4], 5), (vec![2, 2, 2], 6)] {
+            let lattice = Lattice::new(&degrees, total, 1000).unwrap();
+            let coefficients: Vec<u64> = (0..lattice.count()).map(|k| modulus.enter(1 + 37 * k as u64)).collect();
+            let value = |point: &[u32]| {
+                let term = |(k, &c): (usize, &u64)| {
+                    let power = |(&x, &e): (&u32, &u32)| modulus.pow(modulus.enter(x.into()), e.into());
+                    point.iter().zip(lattice.point(k)).map(power).fold(c, |a, b| Modulus::mul(&modulus, a, b))
+                };
+                coefficients.iter().enumerate().map(term).fold(0, |a, b| Modulus::add(&modulus, a, b))
+            };
+            let mut values: Vec<u64> = (0..lattice.count()).map(|k| value(lattice.point(k))).collect();
+            lattice.interpolate(modulus, &mut values);
+            assert_eq!(values, coefficients);
+        }
+    }
+}

@@ -24,8 +24,9 @@ pub use terms::Terms;
 use lattice::Lattice;
 use rug::Integer;
 
-/// The number of values beyond which a determinant is not to be found from its values.
-const MOST_POINTS: usize = 1 << 22;
+/// The number of values, each modulo one prime, beyond which a determinant is not to be found from its values: half a
+/// gigabyte.
+const MOST_VALUES: usize = 1 << 26;
 
 /// Terms of several polynomials in the order in which they are evaluated.
 struct Sorted<'a> {

@@ -15,18 +15,22 @@ const DISTANCES: [u16; 64] = [
 
 /// So many primes that their product exceeds `2^bits`.
 pub(super) fn primes_beyond(bits: f64) -> Vec<u64> {
-    let mut left = bits;
-    let enough = |p: u64| {
-        let needed = left >= 0.0;
+    let (mut primes, mut left) = (Vec::new(), bits);
+    for p in largest_primes() {
+        if left < 0.0 {
+            break;
+        }
+        primes.push(p);
         // A little less than the logarithm, so that rounding cannot leave the product too small.
         left -= (p as f64).log2() - 1e-9;
-        needed
-    };
-    largest_primes().take_while({
-        let mut enough = enough;
-        move |&p| enough(p)
-    })
-    .collect()
+    }
+    primes
+}
+
+/// No less than the number of primes whose product exceeds `2^bits`, as long as they are near `2^PRIME_BITS`.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few more than none")]
+pub(super) fn count_beyond(bits: f64) -> usize {
+    (bits / f64::from(PRIME_BITS)) as usize + 2
 }
 
 /// The primes below `2^PRIME_BITS`, largest first.

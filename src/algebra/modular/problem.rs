@@ -250,3 +250,126 @@ fn determinant_modulo(prime: u64, rows: &[Vec<i64>]) -> i64 {
     Lanes::store(modulus, determinant, &mut residue);
     residue[0]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::determinant::{determinant_on, univariate_determinant_on};
+    use super::super::primes::primes_beyond;
+    use super::super::resultant::resultant_on;
+    use super::super::terms::Terms;
+    use super::*;
+    use crate::algebra::determinant::bareiss;
+    use crate::algebra::univariate::Univariate;
+    use rug::Rational;
+
+    /// Integers that only look random.
+    fn numbers(seed: u64) -> impl FnMut(i64) -> Integer {
+        let mut state = seed;
+        move |size| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            Integer::from((state >> 33).cast_signed() % (2 * size + 1) - size)
+        }
+    }
+
+    /// The determinant by lanes, by the single lane and by Bareiss.
+    fn agree(size: usize, entries: &[Vec<Integer>]) {
+        let polynomial = |c: &[Integer]| Univariate::new(c.iter().map(|c| Rational::from(c.clone())).collect());
+        let rows: Vec<Vec<_>> =
+            entries.chunks(size).map(|row| row.iter().map(|entry| polynomial(entry)).collect()).collect();
+        let expected = bareiss(&rows);
+        for arch in [Arch::new(), Arch::Scalar] {
+            assert_eq!(polynomial(&univariate_determinant_on(arch, size, entries)), expected, "{arch:?}");
+        }
+    }
+
+    #[test]
+    fn pivots_that_vanish_modulo_one_prime_do_no_harm() {
+        let [p, q] = [0, 1].map(|k| Integer::from(primes_beyond(100.0)[k]));
+        let one = Integer::from(1);
+        let entries = |numbers: [&Integer; 9]| numbers.map(|n| vec![n.clone(), Integer::from(3)]).to_vec();
+        // A row without zeros is at hand, or each row has a zero in one lane, or in the same lane.
+        agree(3, &entries([&p, &one, &q, &one, &p, &q, &p, &one, &p]));
+        agree(3, &entries([&p, &one, &q, &q, &p, &p, &q, &q, &one]));
+        agree(3, &entries([&p, &one, &q, &p, &p, &one, &p, &q, &one]));
+        let constants = [&p, &one, &q, &q, &p, &p, &q, &q, &one].map(|n| vec![n.clone()]);
+        agree(3, &constants);
+    }
+
+    #[test]
+    fn pivots_that_vanish_at_some_points_do_no_harm() {
+        // x - k in the first column, so that each row has the only zero at one point.
+        let mut number = numbers(1);
+        for size in [2, 3, 5] {
+            let entry = |k: usize| if k % size == 0 { vec![number(9) - k, Integer::from(1)] } else { vec![number(99)] };
+            agree(size, &(0..size * size).map(entry).collect::<Vec<_>>());
+            let entry = |k: usize| vec![-Integer::from(k / size), Integer::from(1), number(1)];
+            agree(size, &(0..size * size).map(entry).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn the_size_of_the_matrix_and_of_its_entries_does_not_matter() {
+        let mut number = numbers(2);
+        for size in [1, 2, 4, 13, 16] {
+            agree(size, &(0..size * size).map(|_| vec![number(1 << 30), number(5)]).collect::<Vec<_>>());
+        }
+        let huge = |k: u32| (number(1 << 30) << 2000) + number(1 << 30) - (Integer::from(1) << (2000 - k));
+        let entries: Vec<Integer> = (0..18).map(huge).collect();
+        agree(3, &entries.chunks(2).map(<[Integer]>::to_vec).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn matrices_of_rank_less_than_their_size_have_determinant_zero() {
+        let mut number = numbers(3);
+        let half: Vec<Vec<Integer>> = (0..12).map(|_| vec![number(99), number(99)]).collect();
+        // The second half of the rows repeats the first.
+        agree(4, &[&half[..8], &half[..8]].concat());
+        agree(4, &[&half[..4], &half[..12]].concat());
+        let zero = vec![vec![]; 4];
+        agree(4, &[&half[..12], &zero[..]].concat());
+        agree(1, &[vec![]]);
+        agree(2, &[vec![], vec![number(9)], vec![], vec![number(9)]]);
+        // A zero block, which leaves no pivot in any lane before the last column.
+        let block = |k: usize| if k / 4 < 3 && k % 4 < 2 { vec![] } else { vec![number(9), number(9)] };
+        agree(4, &(0..16).map(block).collect::<Vec<_>>());
+    }
+
+    /// Hadamard's matrix of size 4 times c has determinant `16 c^4`, which is the bound itself.
+    #[test]
+    fn coefficients_as_large_as_their_bound_come_out() {
+        let signs = [1, 1, 1, 1, 1, -1, 1, -1, 1, 1, -1, -1, 1, -1, -1, 1];
+        for shift in 0..50_u32 {
+            let c = (Integer::from(1) << shift) + shift;
+            for first in [1, -1] {
+                let entry = |(k, sign): (usize, i32)| Terms {
+                    exponents: vec![],
+                    coefficients: vec![Integer::from(&c * if k < 4 { first * sign } else { sign })],
+                };
+                let entries: Vec<Terms> = signs.into_iter().enumerate().map(entry).collect();
+                let rows: Vec<Vec<Terms>> = entries.chunks(4).map(<[Terms]>::to_vec).collect();
+                let determinant = determinant_on(Arch::new(), &rows, 0).unwrap();
+                assert_eq!(determinant.coefficients, [Integer::from(&c * 2).square().square() * first]);
+            }
+        }
+    }
+
+    #[test]
+    fn resultants_agree_in_all_lanes_and_in_one() {
+        let mut number = numbers(4);
+        let polynomial = |number: &mut dyn FnMut(i64) -> Integer, degree: u32| {
+            let mut terms = Terms::default();
+            for (i, j, k) in (0..=degree).flat_map(|i| (0..=degree - i).map(move |j| (i, j, (degree - i - j) / 2))) {
+                terms.exponents.extend([i, j, k]);
+                terms.coefficients.push(number(1 << 20));
+            }
+            terms
+        };
+        for (m, n) in [(3, 3), (2, 4), (4, 1), (0, 2)] {
+            let (f, g) = (polynomial(&mut number, m), polynomial(&mut number, n));
+            for variable in 0..3 {
+                let [by_lanes, by_one] = [Arch::new(), Arch::Scalar].map(|arch| resultant_on(arch, &f, &g, 3, variable));
+                assert_eq!(by_lanes, by_one);
+            }
+        }
+    }
+}

@@ -5,7 +5,8 @@ use super::lattice::Lattice;
 use super::problem::{Form, Problem};
 use super::substitution::Plan;
 use super::terms::Terms;
-use super::{MOST_POINTS, descending};
+use super::primes::count_beyond;
+use super::{MOST_VALUES, descending};
 use pulp::Arch;
 
 /// The resultant of two polynomials with respect to one of their variables: the determinant of the Sylvester matrix.
@@ -31,7 +32,7 @@ pub fn resultant(f: &Terms, g: &Terms, variables: usize, variable: usize) -> Opt
 }
 
 /// As `resultant`, on a chosen instruction set.
-fn resultant_on(arch: Arch, f: &Terms, g: &Terms, variables: usize, variable: usize) -> Option<Terms> {
+pub(super) fn resultant_on(arch: Arch, f: &Terms, g: &Terms, variables: usize, variable: usize) -> Option<Terms> {
     assert!(variable < variables, "the variable is one of them");
     let degree = |p: &Terms| p.iter(variables).map(|(e, _)| e[variable] as usize).max();
     let (Some(mut m), Some(mut n)) = (degree(f), degree(g)) else { return Some(Terms::default()) };
@@ -60,7 +61,7 @@ fn resultant_on(arch: Arch, f: &Terms, g: &Terms, variables: usize, variable: us
     let (parameters, degrees): (Vec<usize>, Vec<usize>) =
         others.map(|k| (k, bound(&|e| i64::from(e[k])))).filter(|&(_, degree)| degree > 0).unzip();
     let total = bound(&|e| e.iter().enumerate().filter(|&(k, _)| k != variable).map(|(_, &x)| i64::from(x)).sum());
-    let lattice = Lattice::new(&degrees, total, MOST_POINTS)?;
+    let lattice = Lattice::new(&degrees, total, MOST_VALUES / count_beyond(bits))?;
 
     let terms = descending(terms, &parameters);
     let problem = Problem {

@@ -12,12 +12,13 @@ pub struct Terms {
 }
 
 impl Terms {
-    /// The terms with their exponents.
+    /// The terms that are not zero, with their exponents.
     ///
     /// # Panics
     /// When the numbers of exponents and coefficients do not fit the number of variables.
     pub fn iter(&self, variables: usize) -> impl Iterator<Item = (&[u32], &Integer)> + Clone {
         assert_eq!(self.exponents.len(), self.coefficients.len() * variables, "one exponent per variable and term");
-        self.coefficients.iter().enumerate().map(move |(k, c)| (&self.exponents[k * variables..][..variables], c))
+        let exponents = move |k| &self.exponents[k * variables..][..variables];
+        self.coefficients.iter().enumerate().filter(|(_, c)| !c.is_zero()).map(move |(k, c)| (exponents(k), c))
     }
 }
