@@ -58,8 +58,7 @@ impl<E: Copy> Batch<E> {
         let mut done = 0;
         while done < count {
             let end = usize::min(count, done.saturating_add(L::CHUNK));
-            let mut sums =
-                [lanes.sum(value[0]), lanes.sum(value[1]), lanes.sum(value[2]), lanes.sum(value[3])];
+            let mut sums = [lanes.sum(value[0]), lanes.sum(value[1]), lanes.sum(value[2]), lanes.sum(value[3])];
             for t in done..end {
                 let (a, b) = (&row[t], &above[t * self.stride]);
                 for m in 0..SIDE {

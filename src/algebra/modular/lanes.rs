@@ -340,7 +340,11 @@ mod tests {
                 Lanes::store(modulus, Lanes::mul_add(modulus, a, b, a), &mut found);
                 let expected = Integer::from(r) * s + r - found[0];
                 assert!(expected.is_divisible(&Integer::from(p)));
-                Lanes::store(modulus, modulus.reduce(modulus.subtract_product(Lanes::sum(modulus, b), a, a)), &mut found);
+                Lanes::store(
+                    modulus,
+                    modulus.reduce(modulus.subtract_product(Lanes::sum(modulus, b), a, a)),
+                    &mut found,
+                );
                 assert!((Integer::from(s) - Integer::from(r) * r - found[0]).is_divisible(&Integer::from(p)));
             }
         }

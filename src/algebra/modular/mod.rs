@@ -16,8 +16,8 @@ mod resultant;
 mod substitution;
 mod terms;
 
-pub(super) use determinant::{degree_bound, univariate_determinant};
 pub use determinant::determinant;
+pub(super) use determinant::{degree_bound, univariate_determinant};
 pub use resultant::resultant;
 pub use terms::Terms;
 
@@ -36,10 +36,7 @@ struct Sorted<'a> {
 }
 
 /// Sorts terms, each with the index of its polynomial and all its exponents, by the exponents of the parameters.
-fn descending<'a>(
-    terms: impl Iterator<Item = (usize, &'a [u32], &'a Integer)>,
-    parameters: &[usize],
-) -> Sorted<'a> {
+fn descending<'a>(terms: impl Iterator<Item = (usize, &'a [u32], &'a Integer)>, parameters: &[usize]) -> Sorted<'a> {
     let mut terms: Vec<_> = terms.collect();
     let key = |e: &'a [u32]| parameters.iter().map(move |&k| e[k]);
     terms.sort_by(|(a, e, _), (b, f, _)| (b.cmp(a)).then_with(|| key(f).cmp(key(e))));

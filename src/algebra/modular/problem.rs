@@ -297,13 +297,14 @@ mod tests {
 
     #[test]
     fn pivots_that_vanish_at_some_points_do_no_harm() {
-        // x - k in the first column, so that each row has the only zero at one point.
+        // x - k in the first column, so that each row has a zero there at another point.
         let mut number = numbers(1);
         for size in [2, 3, 5] {
-            let entry = |k: usize| if k % size == 0 { vec![number(9) - k, Integer::from(1)] } else { vec![number(99)] };
-            agree(size, &(0..size * size).map(entry).collect::<Vec<_>>());
-            let entry = |k: usize| vec![-Integer::from(k / size), Integer::from(1), number(1)];
-            agree(size, &(0..size * size).map(entry).collect::<Vec<_>>());
+            let mut entry = |k: usize| match k % size {
+                0 => vec![-Integer::from(k / size), Integer::from(1)],
+                _ => vec![number(99), number(99), number(99)],
+            };
+            agree(size, &(0..size * size).map(&mut entry).collect::<Vec<_>>());
         }
     }
 
@@ -367,7 +368,8 @@ mod tests {
         for (m, n) in [(3, 3), (2, 4), (4, 1), (0, 2)] {
             let (f, g) = (polynomial(&mut number, m), polynomial(&mut number, n));
             for variable in 0..3 {
-                let [by_lanes, by_one] = [Arch::new(), Arch::Scalar].map(|arch| resultant_on(arch, &f, &g, 3, variable));
+                let [by_lanes, by_one] =
+                    [Arch::new(), Arch::Scalar].map(|arch| resultant_on(arch, &f, &g, 3, variable));
                 assert_eq!(by_lanes, by_one);
             }
         }

@@ -2,10 +2,10 @@
 
 use super::bound::Norms;
 use super::lattice::Lattice;
+use super::primes::count_beyond;
 use super::problem::{Form, Problem};
 use super::substitution::Plan;
 use super::terms::Terms;
-use super::primes::count_beyond;
 use super::{MOST_VALUES, descending};
 use pulp::Arch;
 
