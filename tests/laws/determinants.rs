@@ -90,6 +90,14 @@ fn specialised(f: &Terms, variables: usize, at: &[i64]) -> Vec<Integer> {
     all
 }
 
+/// A polynomial in two variables with few terms.
+fn sparse() -> impl Strategy<Value = Terms> {
+    prop::collection::btree_map([0_u32..5, 0_u32..5], -9_i64..10, 0..4).prop_map(|terms| Terms {
+        exponents: terms.keys().flatten().copied().collect(),
+        coefficients: terms.into_values().map(Integer::from).collect(),
+    })
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
@@ -142,6 +150,12 @@ proptest! {
                                              g in (0_u32..6).prop_flat_map(|d| polynomial(2, d))) {
         let found = resultant(&f, &g, 2, 0).unwrap();
         prop_assert!(found.iter(2).all(|(e, _)| e[0] == 0));
+        prop_assert_eq!(in_second(&found), sylvester(&coefficients(&f), &coefficients(&g)));
+    }
+
+    #[test]
+    fn resultants_of_few_terms_are_sylvester_determinants(f in sparse(), g in sparse()) {
+        let found = resultant(&f, &g, 2, 0).unwrap();
         prop_assert_eq!(in_second(&found), sylvester(&coefficients(&f), &coefficients(&g)));
     }
 
@@ -260,11 +274,15 @@ fn what_would_need_too_many_values_is_left_to_others() {
         f.coefficients.push(Integer::from(k));
     }
     assert_eq!(resultant(&f, &f, 9, 0), None);
+    let (high, one) = (terms(&[(&[1025], 1)]), terms(&[(&[0], 1)]));
+    assert_eq!(resultant(&high, &one, 1, 0), None);
+    let far = terms(&[(&[1, 4_000_000_000], 1), (&[0, 0], 1)]);
+    assert_eq!(resultant(&far, &terms(&[(&[1, 0], 1), (&[0, 0], 1)]), 2, 0), None);
 }
 
 #[test]
 #[should_panic(expected = "no two terms")]
 fn terms_given_twice_are_misuse() {
     let twice = terms(&[(&[1, 1], 1), (&[1, 1], 2)]);
-    let _ = resultant(&twice, &terms(&[(&[1, 0], 1)]), 2, 0);
+    let _ = resultant(&twice, &terms(&[(&[1, 0], 1), (&[0, 0], 1)]), 2, 0);
 }

@@ -53,7 +53,7 @@ mod tests {
                 let share = |(&p, cofactor): (&u64, &Integer)| {
                     let p = Integer::from(p);
                     let inverse = cofactor.clone().invert(&p).unwrap();
-                    let share = Integer::from(&n * inverse).modulo(&p).to_i64().unwrap();
+                    let share = (&n * inverse).modulo(&p).to_i64().unwrap();
                     // Either representative will do.
                     if share % 3 == 0 { share - p.to_i64().unwrap() } else { share }
                 };

@@ -2,18 +2,17 @@
 
 use super::bound::Norms;
 use super::lattice::Lattice;
-use super::primes::count_beyond;
 use super::problem::{Form, Problem};
 use super::substitution::Plan;
 use super::terms::Terms;
-use super::{MOST_VALUES, descending};
+use super::{descending, most_points};
 use pulp::Arch;
 use rug::Integer;
 
 /// The determinant of a matrix of polynomials in several variables.
 ///
 /// Exact and proved, from as many values modulo as many primes as bounds on its degree and coefficients ask for. `None`
-/// where more points would be needed than memory should be spent on.
+/// where that takes too much memory, for more than a few million values.
 ///
 /// # Shape
 /// The matrix is square; entries and determinant have the given number of variables. No two terms of an entry have the
@@ -34,16 +33,17 @@ pub(super) fn determinant_on(arch: Arch, matrix: &[Vec<Terms>], variables: usize
     let terms = entries().flat_map(|(slot, entry)| entry.iter(variables).map(move |(e, c)| (slot, e, c)));
 
     let Some(bits) = bits(size, terms.clone().map(|(slot, _, c)| (slot, c))) else { return Some(Terms::default()) };
-    let bound = |size_of: &dyn Fn(&[u32]) -> u32| {
+    let bound = |size_of: &dyn Fn(&[u32]) -> usize| {
         let mut degrees = vec![0; size * size];
         for (slot, e, _) in terms.clone() {
-            degrees[slot] = degrees[slot].max(size_of(e) as usize);
+            degrees[slot] = degrees[slot].max(size_of(e));
         }
         degree_bound(size, &degrees)
     };
     let (parameters, degrees): (Vec<usize>, Vec<usize>) =
-        (0..variables).map(|k| (k, bound(&|e| e[k]))).filter(|&(_, degree)| degree > 0).unzip();
-    let lattice = Lattice::new(&degrees, bound(&|e| e.iter().sum()), MOST_VALUES / count_beyond(bits))?;
+        (0..variables).map(|k| (k, bound(&|e| e[k] as usize))).filter(|&(_, degree)| degree > 0).unzip();
+    let lattice =
+        Lattice::new(&degrees, bound(&|e| e.iter().map(|&x| x as usize).sum()), most_points(bits, parameters.len()))?;
 
     let terms = descending(terms, &parameters);
     let problem = Problem {

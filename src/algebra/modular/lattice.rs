@@ -20,6 +20,7 @@ impl Lattice {
     /// The lattice within these degrees, one per parameter, and a total degree; `None` if it has more than `most` points.
     pub(super) fn new(degrees: &[usize], total: usize, most: usize) -> Option<Self> {
         let parameters = degrees.len();
+        count_points(degrees, total, most)?;
         let (mut points, mut count, mut lines) = (Vec::new(), 0, vec![Vec::new(); parameters]);
         let (mut point, mut sum) = (vec![0_u32; parameters], 0);
         // By parameter a: where the points with the current coordinates from a on begin, the index of the point one step
@@ -28,9 +29,6 @@ impl Lattice {
         let mut line_of: Vec<Vec<usize>> = vec![Vec::new(); parameters];
         let mut changed = parameters;
         loop {
-            if count == most {
-                return None;
-            }
             for a in 0..parameters {
                 if a < changed || a + 1 == changed {
                     back[a] = std::mem::replace(&mut start[a], count);
@@ -118,6 +116,33 @@ impl Lattice {
             }
         }
     }
+}
+
+/// The number of points, if it is not beyond `most`.
+fn count_points(degrees: &[usize], total: usize, most: usize) -> Option<usize> {
+    let highest = degrees.iter().fold(0, |sum: usize, &degree| sum.saturating_add(degree)).min(total);
+    // There are as many points on the way to one with the highest sum.
+    if highest >= most {
+        return None;
+    }
+    // The number of points of each sum.
+    let mut counts = vec![0_usize; highest + 1];
+    counts[0] = 1;
+    for &degree in degrees {
+        let (before, mut window) = (counts.clone(), 0_usize);
+        for sum in 0..=highest {
+            window = window.saturating_add(before[sum]);
+            if window == usize::MAX {
+                return None;
+            }
+            if sum > degree {
+                window -= before[sum - degree - 1];
+            }
+            counts[sum] = window;
+        }
+    }
+    let count = counts.iter().fold(0, |sum: usize, &count| sum.saturating_add(count));
+    (count <= most).then_some(count)
 }
 
 /// Copies the values on a line.

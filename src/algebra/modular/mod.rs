@@ -22,11 +22,16 @@ pub use resultant::resultant;
 pub use terms::Terms;
 
 use lattice::Lattice;
+use primes::count_beyond;
 use rug::Integer;
 
-/// The number of values, each modulo one prime, beyond which a determinant is not to be found from its values: half a
-/// gigabyte.
-const MOST_VALUES: usize = 1 << 26;
+/// The number of values, each modulo one prime, beyond which a determinant is not to be found from its values.
+const MOST_VALUES: usize = 1 << 24;
+
+/// The number of points at which determinants with coefficients up to `2^bits` may be evaluated.
+fn most_points(bits: f64, parameters: usize) -> usize {
+    MOST_VALUES / usize::max(count_beyond(bits), 4 * parameters)
+}
 
 /// Terms of several polynomials in the order in which they are evaluated.
 struct Sorted<'a> {

@@ -196,6 +196,7 @@ impl Images<'_> {
 
 /// The residues of an integer.
 #[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the halves of a limb")]
 fn residue<L: Lanes>(lanes: L, base: L::Element, integer: &Integer) -> L::Element {
     let mut value = lanes.zero();
     let limbs = integer.as_limbs();
