@@ -3,6 +3,8 @@
 
 mod strategies;
 
+#[path = "laws/determinants.rs"]
+mod determinants;
 #[path = "laws/intervals.rs"]
 mod intervals;
 #[path = "laws/matrices.rs"]

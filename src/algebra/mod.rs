@@ -11,6 +11,7 @@ mod integer_polynomial;
 pub mod interval;
 pub mod modp;
 pub mod monomial;
+pub mod modular;
 pub mod number;
 pub mod polynomial;
 pub mod ratio;
