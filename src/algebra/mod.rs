@@ -15,6 +15,7 @@ pub mod polynomial;
 pub mod ratio;
 pub mod rational;
 pub mod reduction;
+pub mod resultant;
 pub mod ring;
 pub mod sturm;
 pub mod univariate;
