@@ -11,6 +11,10 @@ mod matrices;
 mod motions;
 #[path = "laws/polynomials.rs"]
 mod polynomials;
+#[path = "laws/resultants.rs"]
+mod resultants;
+#[path = "laws/trigonometry.rs"]
+mod trigonometry;
 
 use looproot::algebra::{
     dual::Dual,

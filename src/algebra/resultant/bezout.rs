@@ -31,9 +31,8 @@ pub fn matrix<R: Ring>(f: &[R], g: &[R]) -> Vec<Vec<R>> {
     let low = m - n;
     // f_i g_j - f_j g_i, where g has been multiplied by x^(m-n); `None` for zero.
     let bracket = |i: usize, j: usize| -> Option<R> {
-        let product = |i: usize, j: usize| {
-            (j >= low && !f[i].is_zero() && !g[j - low].is_zero()).then(|| f[i].mul(&g[j - low]))
-        };
+        let product =
+            |i: usize, j: usize| (j >= low && !f[i].is_zero() && !g[j - low].is_zero()).then(|| f[i].mul(&g[j - low]));
         match (product(i, j), product(j, i)) {
             (Some(x), Some(y)) => Some(x.sub(&y)),
             (Some(x), None) => Some(x),

@@ -1,7 +1,7 @@
 //! A variable out of two polynomials in several: the choice of the route, and the way back.
 
 use super::bezout::{self, Expansion};
-use super::linear::reduce;
+use super::linear::{reduce, reduce_up_to};
 use super::subresultant;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
@@ -254,16 +254,10 @@ pub fn common_divisor<F: Field>(f: &[F], g: &[F], tolerance: f64) -> Vec<F> {
         // The two are multiples of one another: for m = 0 both are numbers, and else of the same degree.
         return if m == 0 { vec![F::one()] } else { f };
     }
-    // The null vectors are orthogonal to the divisor at any place along the powers of x: take the best determined one.
-    let mut best: Option<(f64, Vec<F>)> = None;
-    for start in 0..m - k {
-        let window: Vec<Vec<F>> = null_space.iter().map(|v| v[start..=start + k].to_vec()).collect();
-        let reduced = reduce(&window, k + 1, 0.0);
-        if reduced.rank() == k && best.as_ref().is_none_or(|(size, _)| reduced.smallest > *size) {
-            best = reduced.null_space().pop().map(|divisor| (reduced.smallest, divisor));
-        }
-    }
-    let mut divisor = best.map_or_else(|| vec![F::one()], |(_, divisor)| divisor);
+    // The divisor times any power of x is orthogonal to the null vectors, and only its multiples are so for all powers.
+    let window = |v: &Vec<F>| -> Vec<Vec<F>> { v.windows(k + 1).map(<[F]>::to_vec).collect() };
+    let windows: Vec<Vec<F>> = null_space.iter().flat_map(window).collect();
+    let mut divisor = reduce_up_to(&windows, k + 1, k, 0.0).null_space().pop().unwrap_or_else(|| vec![F::one()]);
     divisor.reverse();
     F::normalise(&mut divisor);
     divisor

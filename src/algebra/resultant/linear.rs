@@ -1,4 +1,4 @@
-//! Gauss-Jordan elimination with complete pivoting for matrices of any size: rank, pivots, null vectors.
+//! Gauss-Jordan elimination with complete pivoting for matrices of any size: pivots and null vectors.
 
 use crate::algebra::ring::Field;
 
@@ -9,8 +9,6 @@ pub(super) struct Reduced<F> {
     /// Row and column of each pivot in the matrix as it was given.
     pub(super) pivots: Vec<(usize, usize)>,
     columns: usize,
-    /// The size of the last pivot taken; infinite without pivots.
-    pub(super) smallest: f64,
 }
 
 /// Reduces a matrix; pivots not above `tolerance` times the largest one count as zero.
@@ -18,12 +16,17 @@ pub(super) struct Reduced<F> {
 /// # Panics
 /// When a row does not have the given number of columns.
 pub(super) fn reduce<F: Field>(matrix: &[Vec<F>], columns: usize, tolerance: f64) -> Reduced<F> {
+    reduce_up_to(matrix, columns, columns, tolerance)
+}
+
+/// The same, for a matrix whose rank is known not to be above `rank`: what is left then is rounding.
+pub(super) fn reduce_up_to<F: Field>(matrix: &[Vec<F>], columns: usize, rank: usize, tolerance: f64) -> Reduced<F> {
     assert!(matrix.iter().all(|row| row.len() == columns), "the rows of a matrix are of one length");
     let mut rows = matrix.to_vec();
     let mut names: Vec<usize> = (0..rows.len()).collect();
     let mut pivots: Vec<(usize, usize)> = Vec::new();
-    let (mut largest, mut smallest) = (0.0, f64::INFINITY);
-    for step in 0..rows.len().min(columns) {
+    let mut largest = 0.0;
+    for step in 0..rows.len().min(rank) {
         let (mut best, mut at) = (0.0, (step, 0));
         for (i, row) in rows.iter().enumerate().skip(step) {
             for (j, x) in row.iter().enumerate() {
@@ -37,7 +40,6 @@ pub(super) fn reduce<F: Field>(matrix: &[Vec<F>], columns: usize, tolerance: f64
             largest = best;
         }
         let Some(inverse) = rows[at.0][at.1].inverse().filter(|_| best > tolerance * largest) else { break };
-        smallest = best;
         rows.swap(step, at.0);
         names.swap(step, at.0);
         pivots.push((names[step], at.1));
@@ -54,14 +56,10 @@ pub(super) fn reduce<F: Field>(matrix: &[Vec<F>], columns: usize, tolerance: f64
         rows[step] = pivot_row;
     }
     rows.truncate(pivots.len());
-    Reduced { rows, pivots, columns, smallest }
+    Reduced { rows, pivots, columns }
 }
 
 impl<F: Field> Reduced<F> {
-    pub(super) fn rank(&self) -> usize {
-        self.pivots.len()
-    }
-
     /// A basis of the vectors that the matrix sends to zero.
     pub(super) fn null_space(&self) -> Vec<Vec<F>> {
         let is_free = |column: &usize| self.pivots.iter().all(|(_, used)| used != column);

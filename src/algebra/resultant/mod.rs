@@ -1,6 +1,7 @@
 //! Resultants: one variable out of two polynomials, two out of three, and the way back to what was eliminated.
 
 pub mod bezout;
+pub mod dixon;
 mod eliminant;
 mod linear;
 mod minors;
