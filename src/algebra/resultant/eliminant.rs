@@ -241,25 +241,29 @@ impl<R: Ring> Eliminant<R> {
 #[must_use]
 pub fn common_divisor<F: Field>(f: &[F], g: &[F], tolerance: f64) -> Vec<F> {
     let (f, g) = if f.len() < g.len() { (g, f) } else { (f, g) };
-    let (f, g) = match (to_unit_size(f), to_unit_size(g)) {
-        (None, None) => return Vec::new(),
-        (None, Some(g)) => return g,
-        (Some(f), None) => return f,
-        (Some(f), Some(g)) => (f, g),
+    let mut divisor = match (to_unit_size(f), to_unit_size(g)) {
+        (None, None) => Vec::new(),
+        (Some(only), None) | (None, Some(only)) => only,
+        (Some(f), Some(g)) => from_null_space(f, &g, tolerance),
     };
+    F::normalise(&mut divisor);
+    divisor
+}
+
+/// The common divisor of two polynomials other than zero, the one of higher degree first.
+fn from_null_space<F: Field>(f: Vec<F>, g: &[F], tolerance: f64) -> Vec<F> {
     let m = f.len() - 1;
-    let null_space = reduce(&bezout::matrix(&f, &g), m, tolerance).null_space();
+    let null_space = reduce(&bezout::matrix(&f, g), m, tolerance).null_space();
     let k = null_space.len();
     if k == m {
         // The two are multiples of one another: for m = 0 both are numbers, and else of the same degree.
         return if m == 0 { vec![F::one()] } else { f };
     }
     // The divisor times any power of x is orthogonal to the null vectors, and only its multiples are so for all powers.
-    let window = |v: &Vec<F>| -> Vec<Vec<F>> { v.windows(k + 1).map(<[F]>::to_vec).collect() };
-    let windows: Vec<Vec<F>> = null_space.iter().flat_map(window).collect();
+    let windows = |v: &Vec<F>| -> Vec<Vec<F>> { v.windows(k + 1).map(<[F]>::to_vec).collect() };
+    let windows: Vec<Vec<F>> = null_space.iter().flat_map(windows).collect();
     let mut divisor = reduce_up_to(&windows, k + 1, k, 0.0).null_space().pop().unwrap_or_else(|| vec![F::one()]);
     divisor.reverse();
-    F::normalise(&mut divisor);
     divisor
 }
 
