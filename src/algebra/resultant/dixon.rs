@@ -1,7 +1,7 @@
 //! Two variables out of three polynomials at once, by Dixon's form of Cayley's construction.
 
 use super::linear::reduce;
-use crate::algebra::determinant::bareiss;
+use super::minors::determinant;
 use crate::algebra::int::Int;
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::polynomial::Polynomial;
@@ -42,8 +42,9 @@ pub struct MaximalMinor<R> {
     /// The square matrix.
     pub entries: Vec<Vec<R>>,
     /// A monomial whose column depends on no others, or whose row does: then the determinant vanishes at all values of
-    /// the parameters with a common root at which this monomial does not vanish; for `[0, 0]`, with any common root. The
-    /// resultant divides the determinant, then, and what else does is extraneous. Without it nothing is known.
+    /// the parameters with a common root at which this monomial does not vanish; for `[0, 0]`, with any common root. Every
+    /// irreducible factor of the resultant divides the determinant, then; other factors are extraneous: often leading
+    /// coefficients, or what the determinants of other minors do not have. Without a witness nothing is known.
     pub witness: Option<Monomial>,
 }
 
@@ -81,7 +82,7 @@ pub fn eliminate(f: [&Polynomial<Int>; 3], variables: [usize; 2]) -> DixonElimin
         c.map(image).map(|c| c.evaluate(&values))
     };
     let minor = matrix.maximal_minor(at_values).filter(|minor| !minor.entries.is_empty());
-    let determinant = minor.as_ref().map_or_else(Polynomial::zero, |minor| bareiss(&minor.entries));
+    let determinant = minor.as_ref().map_or_else(Polynomial::zero, |minor| determinant(&minor.entries));
     DixonEliminant { matrix, determinant, witness: minor.and_then(|minor| minor.witness) }
 }
 

@@ -2,6 +2,7 @@
 
 use super::bezout::{self, Expansion};
 use super::linear::{reduce, reduce_up_to};
+use super::minors::parameters;
 use super::subresultant;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
@@ -63,15 +64,18 @@ pub struct Eliminant<R> {
 ///
 /// # Example
 /// ```
-/// use looproot::algebra::{polynomial::Polynomial, resultant::eliminate, ring::Ring};
+/// use looproot::algebra::{polynomial::Polynomial, resultant::eliminate, ring::{Field, Ring}};
 /// use rug::Rational;
 ///
+/// // x^2 = y and x y = 8 meet at x = 2, y = 4.
 /// let (x, y) = (Polynomial::<Rational>::variable(0), Polynomial::variable(1));
-/// let number = |n| Polynomial::constant(Rational::from(n));
-/// let eliminant = eliminate(&x.pow(2).sub(&y), &x.pow(2).mul(&y).sub(&x.mul(&y)).sub(&number(2)), 0);
-/// // (y^2 - 2)^2 = y^3 has the root 4 with (0 x + 1) x ... and there x = 2 is common to x^2 - 4 and 4 x^2 - 4 x - 8:
-/// let divisor = eliminant.common_divisor_at(|c| Some(c.clone()), &[Rational::new(), Rational::from(4)], 0.0);
-/// assert!(divisor.is_some());
+/// let eliminant = eliminate(&x.pow(2).sub(&y), &x.mul(&y).sub(&Ring::from_integer(8)), 0);
+/// assert_eq!(eliminant.resultant, Polynomial::<Rational>::from_integer(64).sub(&y.pow(3)));
+/// assert_eq!(eliminant.lift.coefficients(), [Ring::from_integer(-8), y]);
+/// let exact = eliminant.common_divisor_at(|c| Some(c.clone()), &[Rational::new(), Rational::from(4)], 0.0);
+/// assert_eq!(exact, Some(vec![Rational::from(-2), Rational::from(1)]));
+/// let close = eliminant.common_divisor_at(f64::from_rational, &[0.0, 4.000_000_000_1], 1e-9).unwrap();
+/// assert!((close[0] / close[1] + 2.0).abs() < 1e-9);
 /// ```
 #[must_use]
 pub fn eliminate<D: Domain>(f: &Polynomial<D>, g: &Polynomial<D>, variable: usize) -> Eliminant<D> {
@@ -163,20 +167,29 @@ enum Route {
     Chain,
 }
 
-/// The one place where the route is chosen, by degrees and numbers of terms.
+/// The one place where the route is chosen, by degrees, numbers of parameters and numbers of terms.
+///
+/// Minors never divide, and with many symbols their terms hardly cancel: there they are faster by orders of magnitude.
+/// With one or two parameters all polynomials are dense, and pseudo-division wins where it is cheap: for degrees far
+/// apart, and for high ones.
 fn route<D: Domain>(f: &Univariate<Polynomial<D>>, g: &Univariate<Polynomial<D>>) -> Route {
     let (Some(m), Some(n)) = (f.degree(), g.degree()) else { return Route::Minors };
     if (m, n) == (2, 2) {
-        let terms = |a: &Polynomial<D>, b: &Polynomial<D>| a.len() + b.len();
         let saves = |f: &Univariate<Polynomial<D>>| {
             let (a0, a2) = (&f.coefficients()[0], &f.coefficients()[2]);
-            (terms(&a0.add(a2), &a0.sub(a2)), terms(a0, a2))
+            (a0.add(a2).len() + a0.sub(a2).len(), a0.len() + a2.len())
         };
         let ((few_f, many_f), (few_g, many_g)) = (saves(f), saves(g));
         let four_is_invertible = !D::from_integer(4).is_zero();
         return if few_f + few_g < many_f + many_g && four_is_invertible { Route::HalfAngles } else { Route::Minors };
     }
-    if m.max(n) <= 4 || m.min(n) <= 1 { Route::Minors } else { Route::Chain }
+    let (high, low) = (m.max(n), m.min(n));
+    if low <= 1 || high <= 3 {
+        return Route::Minors;
+    }
+    let parameters = parameters(f.coefficients().iter().chain(g.coefficients()));
+    let by_minors = if parameters <= 2 { high <= 6 && high - low <= 1 } else { high <= 8 };
+    if by_minors { Route::Minors } else { Route::Chain }
 }
 
 fn by_route<D: Domain>(f: &Univariate<Polynomial<D>>, g: &Univariate<Polynomial<D>>) -> Expansion<Polynomial<D>> {

@@ -1,6 +1,30 @@
 //! Determinants of small matrices by their minors: no division, so that symbols stay in as few terms as they can.
 
-use crate::algebra::ring::Ring;
+use crate::algebra::determinant::bareiss;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::{Domain, Ring};
+
+/// The determinant of a matrix of polynomials: by minors if it is small, or not large and with symbols in it, else
+/// without fractions.
+pub(super) fn determinant<D: Domain>(rows: &[Vec<Polynomial<D>>]) -> Polynomial<D> {
+    let most = if parameters(rows.iter().flatten()) <= 2 { 4 } else { 8 };
+    match rows.split_first() {
+        Some((top, rest)) if rest.len() < most => expand(top, &maximal_minors(rest, top.len())),
+        _ => bareiss(rows),
+    }
+}
+
+/// The number of variables that occur.
+pub(super) fn parameters<'a, R: Ring + 'a>(polynomials: impl Iterator<Item = &'a Polynomial<R>>) -> usize {
+    let mut occurs: Vec<bool> = Vec::new();
+    for polynomial in polynomials {
+        occurs.resize(occurs.len().max(polynomial.variables()), false);
+        for (occurs, degree) in occurs.iter_mut().zip(polynomial.degrees()) {
+            *occurs |= degree > 0;
+        }
+    }
+    occurs.into_iter().filter(|&occurs| occurs).count()
+}
 
 /// The maximal minors of a matrix with one row less than columns: entry c is the minor without column c.
 ///
