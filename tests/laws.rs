@@ -15,6 +15,10 @@ mod motions;
 mod polynomials;
 #[path = "laws/roots.rs"]
 mod roots;
+#[path = "laws/resultants.rs"]
+mod resultants;
+#[path = "laws/trigonometry.rs"]
+mod trigonometry;
 
 use looproot::algebra::{
     dual::Dual,
