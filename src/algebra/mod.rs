@@ -17,5 +17,6 @@ pub mod rational;
 pub mod reduction;
 pub mod ring;
 pub mod sturm;
+pub mod text;
 pub mod univariate;
 mod value;
