@@ -55,6 +55,15 @@ impl Expression {
         Ok(parser::all(text, names)?.into_iter().map(Self).collect())
     }
 
+    /// Reads the rows of a matrix: `[[a, b], [c, d]]`, `[a, b; c, d]`, or the latter without brackets.
+    ///
+    /// # Errors
+    /// What was found, what was expected, and where.
+    pub fn parse_matrix(text: &str, names: &mut Names) -> Result<Vec<Vec<Self>>, Fault> {
+        let rows = parser::matrix(text, names)?;
+        Ok(rows.into_iter().map(|row| row.into_iter().map(Self).collect()).collect())
+    }
+
     /// The polynomial, multiplied out, in lowest terms.
     ///
     /// # Errors

@@ -24,3 +24,4 @@ pub use fault::{Fault, Place};
 pub use format::Format;
 pub use fraction::Fraction;
 pub use names::{MOST_NAMES, Names};
+pub use scanner::read_number;

@@ -47,6 +47,40 @@ pub(super) fn all(text: &str, names: &mut Names) -> Result<Vec<Node>, Fault> {
     }
 }
 
+/// Reads a matrix: `[[a, b], [c, d]]`, `[a, b; c, d]`, or the latter without brackets.
+pub(super) fn matrix(text: &str, names: &mut Names) -> Result<Vec<Vec<Node>>, Fault> {
+    let mut parser = Parser::new(text, names);
+    let bracket = parser.scanner.eat(b'[');
+    let nested = bracket && parser.scanner.peek() == b'[';
+    let mut rows = Vec::new();
+    loop {
+        if nested && !parser.scanner.eat(b'[') {
+            return Err(parser.unexpected("`[`, the beginning of a row"));
+        }
+        let mut row = vec![parser.sum()?];
+        while parser.scanner.eat(b',') {
+            row.push(parser.sum()?);
+        }
+        if nested && !parser.scanner.eat(b']') {
+            return Err(parser.unexpected("an operator, `,` or the `]` of the row"));
+        }
+        rows.push(row);
+        let more = parser.scanner.eat(if nested { b',' } else { b';' });
+        let at_end = parser.scanner.peek() == if bracket { b']' } else { 0 };
+        match (more, at_end) {
+            (_, true) => break,
+            (true, false) => {}
+            (false, false) if nested => return Err(parser.unexpected("`,` or the `]` of the matrix")),
+            (false, false) => return Err(parser.unexpected("an operator, `,`, `;` or the end of the matrix")),
+        }
+    }
+    parser.scanner.eat(b']');
+    match parser.scanner.peek() {
+        0 => Ok(rows),
+        _ => Err(parser.unexpected("the end behind the matrix")),
+    }
+}
+
 struct Parser<'t, 'n> {
     scanner: Scanner<'t>,
     names: &'n mut Names,

@@ -46,6 +46,10 @@ fn spelt(format: Format, name: &str) -> String {
         Format::Mathematica | Format::Macaulay2 => name.replace('_', ""),
         _ => name.trim_start_matches('_').to_owned(),
     };
+    // phc reads names that begin like its imaginary units and powers of ten as such.
+    if format == Format::Phcpack && name.starts_with(['i', 'I', 'e', 'E']) {
+        return format!("v{name}");
+    }
     if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("v{name}") }
 }
 
@@ -57,17 +61,21 @@ fn is_free(format: Format, name: &str) -> bool {
         Format::Text | Format::Json | Format::Latex => true,
         Format::Sympy => spelling && !is(&SYMPY) && !is(&PYTHON),
         Format::Maple => spelling && !is(&MAPLE),
-        // Its own words are capitalised and without digits.
+        // Its own words are capitalised.
         Format::Mathematica => {
-            let word = name.len() > 1 && name.bytes().all(|c| c.is_ascii_alphabetic());
-            spelling && !(word && name.starts_with(|c: char| c.is_ascii_uppercase())) && !is(&MATHEMATICA)
+            spelling && !(is_word(name) && name.starts_with(|c: char| c.is_ascii_uppercase())) && !is(&MATHEMATICA)
         }
-        Format::Singular => spelling && !is(&SINGULAR) && !is_numbered(name, "f"),
-        Format::Macaulay2 => spelling && (name.len() == 1 || name.bytes().any(|c| c.is_ascii_digit()) || !is(&MACAULAY2)),
-        Format::Msolve => spelling,
-        Format::Phcpack => spelling && !is(&["i", "I", "e", "E"]),
+        // These have words of their own by the thousand, all without digits; single letters are free.
+        Format::Singular => spelling && !is_word(name) && !is_numbered(name, "f"),
+        Format::Macaulay2 => spelling && !is_word(name),
+        Format::Msolve | Format::Phcpack => spelling,
         Format::Julia => spelling && !is(&JULIA),
     }
+}
+
+/// Whether the name has several letters and nothing else.
+fn is_word(name: &str) -> bool {
+    name.len() > 1 && name.bytes().all(|c| c.is_ascii_alphabetic())
 }
 
 /// Whether the name is a letter with a number, as the files call their polynomials.
@@ -92,21 +100,6 @@ const MAPLE: [&str; 66] = [
     "proc", "quit", "return", "save", "sin", "solve", "then", "true", "undefined", "variables", "while",
 ];
 const MATHEMATICA: [&str; 9] = ["C", "D", "E", "I", "K", "N", "O", "equations", "variables"];
-const SINGULAR: [&str; 68] = [
-    "LIB", "TRUE", "attrib", "basering", "bigint", "bigintmat", "break", "char", "coef", "coeffs", "cone", "continue",
-    "def", "deg", "degree", "det", "diff", "dim", "dp", "ds", "else", "equations", "eval", "export", "facstd", "factorize",
-    "fan", "for", "gcd", "groebner", "help", "hilb", "homog", "ideal", "if", "int", "intmat", "intvec", "jacob", "jet",
-    "kill", "lead", "link", "list", "looproot", "lp", "map", "matrix", "module", "mult", "number", "option", "ord", "poly",
-    "print", "proc", "qring", "quit", "reduce", "resultant", "return", "ring", "rp", "std", "string", "var", "vdim",
-    "vector",
-];
-const MACAULAY2: [&str; 64] = [
-    "CC", "Degrees", "GF", "HH", "Hom", "Lex", "List", "Matrix", "Module", "NN", "Nothing", "OO", "Proj", "QQ", "QR", "RR",
-    "Ring", "Set", "Spec", "Tor", "Weights", "ZZ", "abs", "and", "apply", "coker", "cos", "deg", "degree", "det", "diff",
-    "dim", "do", "else", "equations", "exp", "false", "for", "from", "gb", "gcd", "gens", "id", "ideal", "if", "ii", "in",
-    "info", "ker", "list", "log", "looproot", "map", "max", "min", "mod", "new", "not", "null", "of", "or", "pi", "rank",
-    "ring",
-];
 const JULIA: [&str; 45] = [
     "F", "HomotopyContinuation", "Inf", "NaN", "System", "abstract", "baremodule", "begin", "break", "catch", "const",
     "continue", "cos", "do", "else", "elseif", "end", "exp", "export", "false", "finally", "for", "function", "global", "if",

@@ -3,6 +3,7 @@
 use super::fault::{Fault, Place, shortened};
 use crate::algebra::int::Int;
 use crate::algebra::ring::Ring;
+use crate::error::Error;
 use rug::{Integer, Rational, ops::Pow};
 
 /// Largest decimal exponent read, as in `1e-400`.
@@ -155,4 +156,40 @@ fn integer(digits: &str) -> Int {
         return Int::from(digits.bytes().fold(0, |value, digit| value * 10 + i64::from(digit - b'0')));
     }
     Int::from(Integer::parse(digits).map(Integer::from).unwrap_or_default())
+}
+
+/// A number written as digits, perhaps with a sign, a point, a power of ten, and a divisor: `-22/7`, `0.1`, `1e-3`.
+///
+/// # Errors
+/// [`Error::Invalid`] with what was found.
+pub fn read_number(text: &str) -> Result<Rational, Error> {
+    let fault = |fault: Fault| fault.in_text(text);
+    let mut scanner = Scanner::new(text);
+    let negative = scanner.peek() == b'-';
+    if matches!(scanner.peek(), b'+' | b'-') {
+        scanner.advance(1);
+    }
+    let unsigned = |scanner: &mut Scanner| match scanner.peek() {
+        b'0'..=b'9' | b'.' => scanner.number().map_err(fault),
+        _ => {
+            let found = scanner.found();
+            Err(fault(scanner.fault(format!("found {found}, expected digits"))))
+        }
+    };
+    let (mut numerator, mut denominator) = unsigned(&mut scanner)?;
+    if scanner.eat(b'/') {
+        let (n, d) = unsigned(&mut scanner)?;
+        (numerator, denominator) = (numerator.mul(&d), denominator.mul(&n));
+    }
+    if scanner.peek() != 0 || denominator.is_zero() {
+        let found = if denominator.is_zero() { "a division by zero".to_owned() } else { scanner.found() };
+        return Err(fault(scanner.fault(format!("found {found}, expected a number"))));
+    }
+    if negative {
+        numerator = numerator.neg();
+    }
+    Ok(match (numerator.to_i64(), denominator.to_i64()) {
+        (Some(n), Some(d)) => Rational::from((n, d)),
+        _ => Rational::from((numerator.to_integer(), denominator.to_integer())),
+    })
 }
