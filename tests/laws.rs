@@ -19,6 +19,8 @@ mod roots;
 mod resultants;
 #[path = "laws/trigonometry.rs"]
 mod trigonometry;
+#[path = "laws/texts.rs"]
+mod texts;
 
 use looproot::algebra::{
     dual::Dual,

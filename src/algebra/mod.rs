@@ -24,5 +24,6 @@ pub mod ring;
 mod rounded_chain;
 pub mod sturm;
 pub mod trigonometric;
+pub mod text;
 pub mod univariate;
 mod value;

@@ -1,5 +1,6 @@
 //! The words of the command line.
 
+use super::poly::arguments::PolyOptions;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use looproot::catalogue::Options;
@@ -29,6 +30,8 @@ pub enum Verb {
     Show(ShowOptions),
     /// Test every claim of mechanism files
     Check(CheckOptions),
+    /// Polynomials: multiply out, eliminate, determinants, real roots
+    Poly(PolyOptions),
     /// Measure accuracy and speed on random arms
     Bench(BenchOptions),
     /// Print the completions of a shell

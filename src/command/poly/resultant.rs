@@ -1,0 +1,25 @@
+//! `looproot poly resultant`
+
+use crate::command::exit::{Exit, Fault};
+use super::algorithm;
+use super::arguments::ResultantOptions;
+use super::{input, tell};
+use looproot::algebra::text::Fraction;
+
+/// Eliminates a variable from two polynomials.
+pub fn run(options: &ResultantOptions) -> Result<Exit, Fault> {
+    let arguments: Vec<&str> = std::iter::once(&options.f).chain(&options.g).map(String::as_str).collect();
+    let ([f, g], names) = input::exactly(&arguments, &options.read)?;
+    let variable = names.known(&options.eliminate)?;
+    let result = of_fractions(&f, &g, variable);
+    tell::results(&[result], &names, &options.write, &input::files(&arguments))?;
+    Ok(Exit::Complete)
+}
+
+/// `res(f/a, g/b) = res(f, g) / (a^deg g b^deg f)`
+pub fn of_fractions(f: &Fraction, g: &Fraction, variable: usize) -> Fraction {
+    let numerator = algorithm::resultant(&f.numerator, &g.numerator, variable);
+    let power = |denominator: &Fraction, exponent: u32| algorithm::power(&denominator.denominator, exponent);
+    let scale = [power(f, g.numerator.degree(variable)), power(g, f.numerator.degree(variable))];
+    algorithm::over(numerator, &scale)
+}
