@@ -111,10 +111,12 @@ impl Packing {
         packed
     }
 
-    /// Whether the products of monomials whose bitwise or these are stay below the guard bits.
+    /// Whether products of these monomials and those surely stay below the guard bits.
     pub(super) fn holds_products(&self, a: &[u64], b: &[u64]) -> bool {
-        let guards = self.guards();
-        a.iter().zip(b).all(|(a, b)| (a + b) & guards == 0)
+        let (words, guards) = (self.words(), self.guards());
+        // The bitwise or of monomials is an upper bound in each field.
+        let outline = |monomials: &[u64], word: usize| monomials[word..].iter().step_by(words).fold(0, |or, m| or | m);
+        (0..words).all(|word| (outline(a, word) + outline(b, word)) & guards == 0)
     }
 
     /// The mask of one word that keeps the fields of the first `count` variables.

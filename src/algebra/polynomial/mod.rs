@@ -292,17 +292,6 @@ impl<R: Ring> Polynomial<R> {
         (0..self.variables()).map(|variable| self.degree(variable)).max().unwrap_or(0)
     }
 
-    /// The bitwise or of the monomials, above which no exponent lies.
-    fn outline(&self) -> Vec<u64> {
-        let mut outline = vec![0; self.packing.words()];
-        for monomial in self.monomials.chunks_exact(self.packing.words()) {
-            for (a, b) in outline.iter_mut().zip(monomial) {
-                *a |= b;
-            }
-        }
-        outline
-    }
-
     /// A packing that holds both.
     fn joint_packing(&self, other: &Self) -> Packing {
         if self.packing == other.packing {

@@ -4,6 +4,7 @@ use super::{Polynomial, Size};
 use crate::algebra::monomial::Packing;
 use crate::algebra::ring::Ring;
 use rug::{Complete, Integer, Rational};
+use std::cell::OnceCell;
 
 /// The multinomial theorem is for sums of few terms.
 const FEW: usize = 32;
@@ -40,6 +41,7 @@ impl<R: Ring> Polynomial<R> {
         match (exponent, self.len()) {
             (0, _) => Self::one(),
             (1, _) | (_, 0) => self.clone(),
+            (2, _) => self.product(self),
             (_, len) => {
                 let combinations = choices(u64::from(exponent) + len as u64 - 1, len as u64 - 1);
                 // Where there is no room for all combinations, many of them meet.
@@ -68,13 +70,10 @@ impl<R: Ring> Polynomial<R> {
         let words = packing.words();
         let own = self.packed_as(packing);
         let terms = own.chunks_exact(words).zip(&self.coefficients).map(|(m, c)| (m, powers(c, exponent))).collect();
-        let rows = (0..=exponent).map(|_| None).collect();
-        let mut expansion = Expansion { terms, binomials: rows, monomials: Vec::new(), coefficients: Vec::new() };
-        if let [(monomial, powers)] = expansion.terms.as_mut_slice() {
-            let monomials = monomial.iter().map(|word| word * u64::from(exponent)).collect();
-            return Self::from_sorted(packing, monomials, powers.pop().into_iter().collect());
-        }
-        expansion.expand(0, exponent, &vec![0; words], &R::one());
+        let rows = (0..=exponent).map(|_| OnceCell::new()).collect();
+        let (base, mut expansion) =
+            (Base { terms, rows }, Expansion { monomials: Vec::new(), coefficients: Vec::new() });
+        base.expand(0, exponent, &vec![0; words], &R::one(), &mut expansion);
         Self::from_unsorted(packing, expansion.monomials, expansion.coefficients)
     }
 }
@@ -87,39 +86,43 @@ fn powers<R: Ring>(x: &R, exponent: u32) -> Vec<R> {
     powers
 }
 
-/// The multinomial expansion as it grows.
-struct Expansion<'a, R> {
-    /// The monomials of the base, and the powers of their coefficients.
+/// A sum of terms that is to be expanded.
+struct Base<'a, R> {
+    /// The monomials, and the powers of their coefficients.
     terms: Vec<(&'a [u64], Vec<R>)>,
-    /// Rows of Pascal's triangle, once they are used.
-    binomials: Vec<Option<Vec<R>>>,
+    /// Rows of Pascal's triangle, as they are used.
+    rows: Vec<OnceCell<Vec<R>>>,
+}
+
+/// The multinomial expansion as it grows.
+struct Expansion<R> {
     monomials: Vec<u64>,
     coefficients: Vec<R>,
 }
 
-impl<R: Ring> Expansion<'_, R> {
+impl<R: Ring> Base<'_, R> {
     /// Appends `c m (t_first + t_(first + 1) + ...)^exponent`.
-    fn expand(&mut self, first: usize, exponent: u32, m: &[u64], c: &R) {
-        let row = &mut self.binomials[exponent as usize];
-        let binomials = row.take().unwrap_or_else(|| binomials(exponent));
-        let last_two = first + 2 == self.terms.len();
+    fn expand(&self, first: usize, exponent: u32, m: &[u64], c: &R, expansion: &mut Expansion<R>) {
+        if exponent == 0 {
+            expansion.monomials.extend_from_slice(m);
+            expansion.coefficients.push(c.clone());
+            return;
+        }
+        let (term, powers) = &self.terms[first];
+        if first + 1 == self.terms.len() {
+            expansion.monomials.extend(m.iter().zip(*term).map(|(start, step)| start + step * u64::from(exponent)));
+            expansion.coefficients.push(c.mul(&powers[exponent as usize]));
+            return;
+        }
+        let row = self.rows[exponent as usize].get_or_init(|| binomials(exponent));
         let mut monomial = m.to_vec();
         for k in (0..=exponent).rev() {
-            let (term, powers) = &self.terms[first];
             for ((word, start), step) in monomial.iter_mut().zip(m).zip(*term) {
                 *word = start + step * u64::from(k);
             }
-            let factor = c.mul(&binomials[k as usize]).mul(&powers[k as usize]);
-            if last_two {
-                let (term, powers) = &self.terms[first + 1];
-                let rest = u64::from(exponent - k);
-                self.monomials.extend(monomial.iter().zip(*term).map(|(word, step)| word + step * rest));
-                self.coefficients.push(factor.mul(&powers[(exponent - k) as usize]));
-            } else {
-                self.expand(first + 1, exponent - k, &monomial, &factor);
-            }
+            let factor = c.mul(&row[k as usize]).mul(&powers[k as usize]);
+            self.expand(first + 1, exponent - k, &monomial, &factor, expansion);
         }
-        self.binomials[exponent as usize] = Some(binomials);
     }
 }
 

@@ -7,7 +7,7 @@ use crate::algebra::monomial::Packing;
 use crate::algebra::ring::Ring;
 
 /// Up to so many products of terms are sorted.
-const FEW: usize = 256;
+const FEW: usize = 1024;
 /// Cells of a box: their sums stay in the second-level cache.
 const CELLS: usize = 1 << 14;
 
@@ -65,7 +65,7 @@ impl<R: Ring> Polynomial<R> {
     /// A packing with room for the product.
     fn product_packing(&self, other: &Self) -> Packing {
         let joint = self.joint_packing(other);
-        if self.packing == other.packing && joint.holds_products(&self.outline(), &other.outline()) {
+        if self.packing == other.packing && joint.holds_products(&self.monomials, &other.monomials) {
             return joint;
         }
         let largest = self.product_size(other).largest_exponent;
@@ -87,19 +87,21 @@ impl<R: Ring> Polynomial<R> {
 
     /// Schoolbook: all products of terms, sorted.
     fn sorted_product(&self, other: &Self, packing: Packing, left: &[u64], right: &[u64]) -> Self {
-        let mut pairs = Vec::with_capacity(left.len() * right.len());
+        // Monomial and place in one integer sort faster than a pair.
+        let mut pairs: Vec<u128> = Vec::with_capacity(left.len() * right.len());
         for (i, a) in left.iter().enumerate() {
             for (j, b) in right.iter().enumerate() {
-                pairs.push((a + b, i, j));
+                pairs.push(u128::from(a + b) << 64 | (i << 32 | j) as u128);
             }
         }
-        pairs.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+        pairs.sort_unstable();
         let (mut monomials, mut coefficients) = (Vec::with_capacity(pairs.len()), Vec::with_capacity(pairs.len()));
-        for group in pairs.chunk_by(|a, b| a.0 == b.0) {
-            let (monomial, i, j) = group[0];
-            let mut sum = self.coefficients[i].mul(&other.coefficients[j]);
-            for &(_, i, j) in &group[1..] {
-                sum.add_product(&self.coefficients[i], &other.coefficients[j]);
+        let mut pairs =
+            pairs.into_iter().rev().map(|pair| ((pair >> 64) as u64, (pair >> 32) as u32, pair as u32)).peekable();
+        while let Some((monomial, i, j)) = pairs.next() {
+            let mut sum = self.coefficients[i as usize].mul(&other.coefficients[j as usize]);
+            while let Some((_, i, j)) = pairs.next_if(|pair| pair.0 == monomial) {
+                sum.add_product(&self.coefficients[i as usize], &other.coefficients[j as usize]);
             }
             if !sum.is_zero() {
                 monomials.push(monomial);
