@@ -102,6 +102,11 @@ impl Grid {
         self.monomials.len() / self.packing.words()
     }
 
+    /// The words of a monomial.
+    pub(super) const fn words(&self) -> usize {
+        self.packing.words()
+    }
+
     /// How many variables come before those of the box.
     pub(super) const fn leading(&self) -> usize {
         self.leading
@@ -176,17 +181,18 @@ impl<A> Collector<A> {
     }
 }
 
-/// The terms of the product, decreasing. With `MARKED`, cells are found again by marks, which pays where most stay empty.
-pub(super) fn product<K: Key, C, A: Accumulator<C>, R, const MARKED: bool>(
+/// The monomials of the product, decreasing; its coefficients go one by one to `take`, which is not generic so that the
+/// code for machine words exists once for all rings. With `MARKED`, cells are found again by marks, which pays where most stay empty.
+pub(super) fn product<K: Key, C, A: Accumulator<C>, const MARKED: bool>(
     grid: &Grid,
     left: &Blocks<K, C>,
     right: &Blocks<K, C>,
-    finish: impl Fn(A) -> R,
-) -> (Vec<u64>, Vec<R>) {
+    take: &mut dyn FnMut(A),
+) -> Vec<u64> {
     let cells = grid.cells();
     let marks = vec![0; if MARKED { cells.div_ceil(64) } else { 0 }];
     let mut collector = Collector { sums: vec![A::empty(); cells], marks };
-    let (mut monomials, mut coefficients) = (Vec::new(), Vec::new());
+    let mut monomials = Vec::new();
     let mut heap = Heap::new(left.len());
     let mut columns = vec![0; left.len()];
     heap.insert(left.keys[0].times(&right.keys[0]), 0);
@@ -215,7 +221,7 @@ pub(super) fn product<K: Key, C, A: Accumulator<C>, R, const MARKED: bool>(
                 let words = key.words().len();
                 let inner = &grid.monomials[cell * words..(cell + 1) * words];
                 monomials.extend(key.words().iter().zip(inner).map(|(outer, inner)| outer | inner));
-                coefficients.push(finish(sum));
+                take(sum);
             }
         };
         if MARKED {
@@ -234,6 +240,5 @@ pub(super) fn product<K: Key, C, A: Accumulator<C>, R, const MARKED: bool>(
         }
     }
     monomials.shrink_to_fit();
-    coefficients.shrink_to_fit();
-    (monomials, coefficients)
+    monomials
 }

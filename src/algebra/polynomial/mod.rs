@@ -1,10 +1,14 @@
 //! Sparse polynomials in any number of variables over any ring, themselves a ring.
 
 mod blocks;
+mod content;
+mod gcd;
 mod heap;
+mod image;
 mod power;
 mod product;
 mod quotient;
+mod square_free;
 mod substitution;
 mod sum;
 

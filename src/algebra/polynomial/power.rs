@@ -1,7 +1,7 @@
 //! Powers, by the multinomial theorem where its terms hardly meet, else by repeated squaring.
 
 use super::{Polynomial, Size};
-use crate::algebra::monomial::Packing;
+use crate::algebra::monomial::{LARGEST_EXPONENT, Packing};
 use crate::algebra::ring::Ring;
 use rug::{Complete, Integer, Rational};
 use std::cell::OnceCell;
@@ -35,17 +35,24 @@ impl<R: Ring> Polynomial<R> {
     /// The power; `x^0` is 1, for x = 0 too.
     ///
     /// # Panics
-    /// When an exponent grows above [`crate::algebra::monomial::LARGEST_EXPONENT`]; see [`Self::power_size`].
+    /// When an exponent grows above [`LARGEST_EXPONENT`]; see [`Self::power_size`].
     #[must_use]
     pub fn pow(&self, exponent: u32) -> Self {
         match (exponent, self.len()) {
             (0, _) => Self::one(),
             (1, _) | (_, 0) => self.clone(),
             (2, _) => self.product(self),
+            (_, 1) => self.squared_power(exponent),
             (_, len) => {
                 let combinations = choices(u64::from(exponent) + len as u64 - 1, len as u64 - 1);
+                let size = self.power_size(exponent);
+                assert!(
+                    size.largest_exponent <= u64::from(LARGEST_EXPONENT),
+                    "an exponent of {}, above {LARGEST_EXPONENT}",
+                    size.largest_exponent
+                );
                 // Where there is no room for all combinations, many of them meet.
-                if len <= FEW && combinations <= self.power_size(exponent).terms {
+                if len <= FEW && combinations <= size.terms {
                     self.multinomial_power(exponent)
                 } else {
                     self.squared_power(exponent)

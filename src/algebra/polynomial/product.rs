@@ -12,7 +12,7 @@ const FEW: usize = 1024;
 const CELLS: usize = 1 << 14;
 
 /// The coefficients as machine words, if all are such.
-pub(super) fn words<R: Ring>(coefficients: &[R]) -> Option<Vec<i64>> {
+pub(super) fn to_words<R: Ring>(coefficients: &[R]) -> Option<Vec<i64>> {
     coefficients.iter().map(R::to_word).collect()
 }
 
@@ -54,12 +54,7 @@ impl<R: Ring> Polynomial<R> {
         if packing.words() == 1 && left.len() * right.len() <= FEW {
             return left.sorted_product(right, packing, &a, &b);
         }
-        let (monomials, coefficients) = match packing.words() {
-            1 => left.collected_product::<u64>(right, packing, &a, &b),
-            2 => left.collected_product::<[u64; 2]>(right, packing, &a, &b),
-            _ => left.collected_product::<Box<[u64]>>(right, packing, &a, &b),
-        };
-        Self { packing, monomials, coefficients }
+        left.collected_product(right, packing, &a, &b)
     }
 
     /// A packing with room for the product.
@@ -112,48 +107,61 @@ impl<R: Ring> Polynomial<R> {
     }
 
     /// By heap and box, with sums in the shortest integers that hold them.
-    fn collected_product<K: Key>(
-        &self,
-        other: &Self,
-        packing: Packing,
-        left: &[u64],
-        right: &[u64],
-    ) -> (Vec<u64>, Vec<R>) {
+    fn collected_product(&self, other: &Self, packing: Packing, left: &[u64], right: &[u64]) -> Self {
         let sum = |variable| self.degree(variable) + other.degree(variable);
         let degrees: Vec<u32> = (0..packing.variables()).map(sum).collect();
         let grid = Grid::new(packing, &degrees, CELLS.min(self.len().saturating_mul(other.len())));
-        let exact = |sum: R| sum;
-        if let Some((a, b)) = words(&self.coefficients).zip(words(&other.coefficients)) {
-            let bound = bound(&a, &b);
+        let mut coefficients = Vec::new();
+        let integers = to_words(&self.coefficients).zip(to_words(&other.coefficients));
+        let integers = integers.map(|(a, b)| (bound(&a, &b), a, b)).filter(|(bound, _, _)| *bound < 1 << 127);
+        let monomials = if let Some((bound, a, b)) = integers {
             if bound < 1 << 63 {
-                return collect::<K, i64, i64, R>(&grid, (left, &a), (right, &b), &degrees, |n| {
-                    R::from_wide(i128::from(n))
-                });
+                collect(&grid, &degrees, (left, &a), (right, &b), &mut |n: i64| {
+                    coefficients.push(R::from_wide(n.into()))
+                })
+            } else {
+                collect(&grid, &degrees, (left, &a), (right, &b), &mut |n: i128| coefficients.push(R::from_wide(n)))
             }
-            if bound < 1 << 127 {
-                return collect::<K, i64, i128, R>(&grid, (left, &a), (right, &b), &degrees, R::from_wide);
-            }
-        }
-        collect::<K, R, R, R>(&grid, (left, &self.coefficients), (right, &other.coefficients), &degrees, exact)
+        } else {
+            let (a, b) = (&self.coefficients[..], &other.coefficients[..]);
+            collect(&grid, &degrees, (left, a), (right, b), &mut |sum: R| coefficients.push(sum))
+        };
+        coefficients.shrink_to_fit();
+        Self { packing, monomials, coefficients }
     }
 }
 
-fn collect<K: Key, C, A: Accumulator<C>, R>(
+/// The product of terms by heap and box: the monomials, and by `take` the coefficients.
+fn collect<C, A: Accumulator<C>>(
     grid: &Grid,
+    degrees: &[u32],
+    left: (&[u64], &[C]),
+    right: (&[u64], &[C]),
+    take: &mut dyn FnMut(A),
+) -> Vec<u64> {
+    match grid.words() {
+        1 => collect_by::<u64, C, A>(grid, degrees, left, right, take),
+        2 => collect_by::<[u64; 2], C, A>(grid, degrees, left, right, take),
+        _ => collect_by::<Box<[u64]>, C, A>(grid, degrees, left, right, take),
+    }
+}
+
+fn collect_by<K: Key, C, A: Accumulator<C>>(
+    grid: &Grid,
+    degrees: &[u32],
     (left, a): (&[u64], &[C]),
     (right, b): (&[u64], &[C]),
-    degrees: &[u32],
-    finish: impl Fn(A) -> R,
-) -> (Vec<u64>, Vec<R>) {
+    take: &mut dyn FnMut(A),
+) -> Vec<u64> {
     let left = Blocks::<K, C>::new(grid, left, a);
     let right = Blocks::<K, C>::new(grid, right, b);
     // How many boxes there will be at most, and how full they are then.
-    let boxes = degrees[..grid.leading()].iter().fold(1.0, |cells, &degree| cells * (f64::from(degree) + 1.0));
-    let boxes = boxes.min(left.len() as f64 * right.len() as f64);
-    let cells = degrees[grid.leading()..].iter().fold(1.0, |cells, &degree| cells * (f64::from(degree) + 1.0));
-    if a.len() as f64 * b.len() as f64 >= boxes * cells {
-        blocks::product::<K, C, A, R, false>(grid, &left, &right, finish)
+    let volume = |degrees: &[u32]| degrees.iter().fold(1.0, |cells, &degree| cells * (f64::from(degree) + 1.0));
+    let (outer, inner) = degrees.split_at(grid.leading());
+    let boxes = volume(outer).min(left.len() as f64 * right.len() as f64);
+    if a.len() as f64 * b.len() as f64 >= boxes * volume(inner) {
+        blocks::product::<K, C, A, false>(grid, &left, &right, take)
     } else {
-        blocks::product::<K, C, A, R, true>(grid, &left, &right, finish)
+        blocks::product::<K, C, A, true>(grid, &left, &right, take)
     }
 }

@@ -5,12 +5,15 @@
 
 use super::Polynomial;
 use super::heap::{Heap, Key};
-use super::product::words;
+use super::product::to_words;
 use crate::algebra::monomial::Packing;
 use crate::algebra::ring::{Domain, Ring};
 
 /// A coefficient or a sum left the machine words.
 struct Overflow;
+
+/// The terms of a quotient, if there is one.
+type Terms<C> = Option<(Vec<u64>, Vec<C>)>;
 
 /// What division does with coefficients.
 trait Coefficient: Clone {
@@ -116,15 +119,12 @@ impl<D: Domain> Polynomial<D> {
         let mut last = vec![0; words];
         divide_monomials(packing, &own[own.len() - words..], &other[other.len() - words..], &mut last)?;
         self.coefficients.last()?.checked_div_exact(divisor.coefficients.last()?)?;
-        let (monomials, coefficients) = match words {
-            1 => self.divide::<u64>(divisor, packing, &own, &other, &highest),
-            2 => self.divide::<[u64; 2]>(divisor, packing, &own, &other, &highest),
-            _ => self.divide::<Box<[u64]>>(divisor, packing, &own, &other, &highest),
-        }?;
+        let (monomials, coefficients) = self.divide(divisor, packing, &own, &other, &highest)?;
         Some(Self { packing, monomials, coefficients })
     }
 
-    fn divide<K: Key>(
+    /// In machine words as long as they suffice.
+    fn divide(
         &self,
         divisor: &Self,
         packing: Packing,
@@ -132,15 +132,14 @@ impl<D: Domain> Polynomial<D> {
         other: &[u64],
         highest: &[u64],
     ) -> Option<(Vec<u64>, Vec<D>)> {
-        if let Some((a, b)) = words(&self.coefficients).zip(words(&divisor.coefficients)) {
+        if let Some((a, b)) = to_words(&self.coefficients).zip(to_words(&divisor.coefficients)) {
             let division = Division { packing, dividend: (own, &a), divisor: (other, &b), highest };
-            if let Ok(result) = division.run::<K>() {
-                return result.map(|(m, c)| (m, c.into_iter().map(|n| D::from_wide(i128::from(n))).collect()));
+            if let Ok(result) = division.run() {
+                return result.map(|(m, c)| (m, c.into_iter().map(|n| D::from_wide(n.into())).collect()));
             }
         }
-        let division =
-            Division { packing, dividend: (own, &self.coefficients), divisor: (other, &divisor.coefficients), highest };
-        division.run::<K>().ok().flatten()
+        let (a, b) = (&self.coefficients[..], &divisor.coefficients[..]);
+        Division { packing, dividend: (own, a), divisor: (other, b), highest }.run().ok().flatten()
     }
 }
 
@@ -155,7 +154,15 @@ struct Division<'a, C> {
 
 impl<C: Coefficient> Division<'_, C> {
     /// The terms of the quotient, `None` if there is a remainder.
-    fn run<K: Key>(&self) -> Result<Option<(Vec<u64>, Vec<C>)>, Overflow> {
+    fn run(&self) -> Result<Terms<C>, Overflow> {
+        match self.packing.words() {
+            1 => self.run_by::<u64>(),
+            2 => self.run_by::<[u64; 2]>(),
+            _ => self.run_by::<Box<[u64]>>(),
+        }
+    }
+
+    fn run_by<K: Key>(&self) -> Result<Terms<C>, Overflow> {
         let words = self.packing.words();
         let (monomials, coefficients) = self.dividend;
         let mut dividend = monomials.chunks_exact(words).zip(coefficients).peekable();
