@@ -11,6 +11,8 @@ mod intervals;
 mod matrices;
 #[path = "laws/motions.rs"]
 mod motions;
+#[path = "laws/multivariate.rs"]
+mod multivariate;
 #[path = "laws/polynomials.rs"]
 mod polynomials;
 #[path = "laws/roots.rs"]

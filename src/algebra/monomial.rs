@@ -94,6 +94,38 @@ impl Packing {
         }
     }
 
+    /// Monomials of another packing in this one, which has at least its variables and room for their exponents.
+    pub(super) fn repack(&self, source: &Self, monomials: &[u64]) -> Vec<u64> {
+        let (from, to) = (source.words(), self.words());
+        if self.bits == source.bits && from == to {
+            return monomials.to_vec();
+        }
+        let mut packed = vec![0; monomials.len() / from * to];
+        for variable in 0..source.variables {
+            let ((word, shift), (source_word, source_shift)) = (self.place(variable), source.place(variable));
+            let mask = (1 << source.bits) - 1;
+            for (target, monomial) in packed.chunks_exact_mut(to).zip(monomials.chunks_exact(from)) {
+                target[word] |= ((monomial[source_word] >> source_shift) & mask) << shift;
+            }
+        }
+        packed
+    }
+
+    /// Whether products of these monomials and those surely stay below the guard bits.
+    pub(super) fn holds_products(&self, a: &[u64], b: &[u64]) -> bool {
+        let (words, guards) = (self.words(), self.guards());
+        // The bitwise or of monomials is an upper bound in each field.
+        let outline = |monomials: &[u64], word: usize| monomials[word..].iter().step_by(words).fold(0, |or, m| or | m);
+        (0..words).all(|word| (outline(a, word) + outline(b, word)) & guards == 0)
+    }
+
+    /// The mask of one word that keeps the fields of the first `count` variables.
+    pub(super) fn leading(&self, word: usize, count: usize) -> u64 {
+        let fields = count.saturating_sub(word * self.per_word()).min(self.per_word());
+        let kept = fields as u32 * self.bits;
+        if kept == 0 { 0 } else { u64::MAX << (64 - kept) }
+    }
+
     /// The exponents of a monomial, one for each variable.
     #[must_use]
     pub fn unpack(&self, monomial: &[u64]) -> Vec<u32> {
