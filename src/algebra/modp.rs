@@ -150,6 +150,11 @@ pub const fn is_prime(n: u64) -> bool {
     true
 }
 
+/// The primes below `2^62`, largest first: as many distinct moduli as a proof asks for.
+pub fn primes() -> impl Iterator<Item = Modulus> {
+    (0..=PRIME_62).rev().step_by(2).filter(|&p| is_prime(p)).map(Modulus::new)
+}
+
 /// The integers modulo a prime. A composite or even `P`, or one beyond `2^63`, does not compile:
 ///
 /// ```compile_fail
@@ -244,6 +249,7 @@ mod tests {
             // -1 is no square, so x^2 + y^2 = 0 only at 0.
             assert_eq!(p % 4, 3);
         }
+        assert_eq!(primes().next().map(|m| m.prime()), Some(PRIME_62));
     }
 
     #[test]
