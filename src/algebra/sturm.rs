@@ -53,7 +53,7 @@ impl SturmChain {
             let missing = Integer::from((&leading).pow(exponent + 1 - steps));
             let mut divisor = Integer::from((&h).pow(exponent)) * &g;
             // The chain goes on with minus the remainder of the member, times something positive.
-            let flipped = divisor.is_negative() != (leading.is_negative() && drop % 2 == 0);
+            let flipped = divisor.is_negative() != (leading.is_negative() && drop.is_multiple_of(2));
             if !flipped {
                 divisor = -divisor;
             }
