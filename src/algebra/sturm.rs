@@ -110,7 +110,10 @@ impl Univariate<Integer> {
     #[must_use]
     pub fn distinct_real_roots(&self) -> usize {
         assert!(!self.is_zero(), "every number is a root of zero");
-        count_by_leading_signs(self).unwrap_or_else(|| SturmChain::of_square_free(self.square_free_part()).count())
+        count_by_leading_signs(self).unwrap_or_else(|| {
+            let part = self.square_free_part();
+            count_by_leading_signs(&part).unwrap_or_else(|| SturmChain::of_square_free(part).count())
+        })
     }
 }
 

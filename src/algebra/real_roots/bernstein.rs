@@ -283,7 +283,7 @@ impl Expansion {
             }
             *(if value * sign > 0.0 { &mut lo } else { &mut hi }) = r;
             let newton = r - value / slope;
-            let next = if lo < newton && newton < hi { newton } else { (lo + hi) / 2.0 };
+            let next = if lo < newton && newton < hi { newton } else { f64::midpoint(lo, hi) };
             let done = (next - r).abs() <= 4.0 * f64::EPSILON * r;
             r = next;
             if done {
