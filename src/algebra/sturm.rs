@@ -53,7 +53,7 @@ impl SturmChain {
             let missing = Integer::from((&leading).pow(exponent + 1 - steps));
             let mut divisor = Integer::from((&h).pow(exponent)) * &g;
             // The chain goes on with minus the remainder of the member, times something positive.
-            let flipped = divisor.is_negative() != (leading.is_negative() && drop % 2 == 0);
+            let flipped = divisor.is_negative() != (leading.is_negative() && drop.is_multiple_of(2));
             if !flipped {
                 divisor = -divisor;
             }
@@ -110,7 +110,10 @@ impl Univariate<Integer> {
     #[must_use]
     pub fn distinct_real_roots(&self) -> usize {
         assert!(!self.is_zero(), "every number is a root of zero");
-        count_by_leading_signs(self).unwrap_or_else(|| SturmChain::of_square_free(self.square_free_part()).count())
+        count_by_leading_signs(self).unwrap_or_else(|| {
+            let part = self.square_free_part();
+            count_by_leading_signs(&part).unwrap_or_else(|| SturmChain::of_square_free(part).count())
+        })
     }
 }
 

@@ -62,7 +62,9 @@ fn checked(p: &Poly) -> Vec<RealRoot> {
     let chain = SturmChain::new(p);
     assert_eq!(roots.len(), chain.count());
     assert!(roots.windows(2).all(|pair| pair[0].bounds().1 < pair[1].bounds().0), "disjoint and sorted");
-    roots.iter().for_each(|root| assert_alone(&chain, root));
+    for root in &roots {
+        assert_alone(&chain, root);
+    }
     for (factor, multiplicity) in p.square_free_decomposition() {
         let here = roots.iter().filter(|root| root.multiplicity() == multiplicity).count();
         assert_eq!(here, factor.distinct_real_roots());
@@ -311,7 +313,7 @@ fn halfway_between_floats_round_to_even() {
         let off = two(-150) / 3_u32;
         let shifts = [(Rational::new(), k + k % 2), (off.clone(), k + 1), (-off, k)];
         for (shift, expected) in shifts {
-            let root = Rational::from(&tie + shift);
+            let root = &tie + shift;
             let f = linear(&root).mul(&integers(&[-7, 0, 0, 1])).mul(&linear(&Rational::from((4, 3))));
             let mut roots = f.real_roots();
             assert_eq!(roots[0].to_f64(), 1.0 + f64::from(expected) * f64::EPSILON);

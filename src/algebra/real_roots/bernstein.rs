@@ -46,7 +46,7 @@ impl Source {
             let next = Integer::from(&binomials[i] * (n - i));
             binomials.push(next.div_exact(&Integer::from(i + 1)));
         }
-        let common = binomials.iter().fold(Integer::from(1), |l, b| l.lcm(b));
+        let common = binomials.iter().fold(Integer::from(1), Integer::lcm);
         let weights: Vec<Integer> = binomials.iter().map(|b| Integer::from(common.div_exact_ref(b))).collect();
         let leading = coefficients.iter().zip(&weights).map(|(c, w)| {
             let product = Integer::from(c * w);
@@ -205,13 +205,13 @@ impl Expansion {
     pub(super) fn halve(&mut self) -> Self {
         let b = &mut self.coefficients;
         let mut left = Vec::with_capacity(b.len());
-        left.push(b[0].clone());
+        left.push(b[0]);
         for end in (1..b.len()).rev() {
             for j in 0..end {
                 let (head, tail) = b.split_at_mut(j + 1);
                 head[j].average(&tail[0]);
             }
-            left.push(b[0].clone());
+            left.push(b[0]);
         }
         // Each of n averages in a row rounds down by at most a half.
         self.error += b.len() as u64 / 2 + 1;
@@ -238,11 +238,7 @@ impl Expansion {
             }
             (plus, minus) = (plus.max(minus + 1), minus.max(plus + 1));
             if sign != 0 {
-                if sign > 0 {
-                    minus = -2
-                } else {
-                    plus = -2
-                }
+                *(if sign > 0 { &mut minus } else { &mut plus }) = -2;
                 least += i32::from(before == -sign);
                 before = sign;
             }
@@ -258,6 +254,44 @@ impl Expansion {
     /// Whether enough bits are left for another halving to be of use.
     pub(super) fn is_precise(&self) -> bool {
         self.stands_out(12)
+    }
+
+    /// Where about in the cell its only root is, from 0 to 1, the polynomial having the given sign left of it; `None`
+    /// when floats cannot say.
+    pub(super) fn guess_root(&self, left: i8) -> Option<f64> {
+        let n = self.coefficients.len() - 1;
+        let scale = self.coefficients.iter().map(|b| b.to_f64().abs()).fold(0.0, f64::max);
+        let mut binomial = 1.0;
+        let mut terms: Vec<f64> = Vec::with_capacity(n + 1);
+        for (j, b) in self.coefficients.iter().enumerate() {
+            terms.push(b.to_f64() / scale * binomial);
+            binomial *= (n - j) as f64 / (j + 1) as f64;
+        }
+        // On the left half y/(1-y) runs from 0 to 1, on the right half (1-y)/y does, with the terms reversed.
+        let sign = f64::from(left);
+        let on_right = terms.iter().sum::<f64>() * sign > 0.0;
+        if on_right {
+            terms.reverse();
+        }
+        let sign = if on_right { -sign } else { sign };
+        let (mut lo, mut hi, mut r) = (0.0, 1.0, 0.5);
+        for _ in 0..60 {
+            let (mut value, mut slope) = (0.0, 0.0);
+            for term in terms.iter().rev() {
+                slope = slope * r + value;
+                value = value * r + term;
+            }
+            *(if value * sign > 0.0 { &mut lo } else { &mut hi }) = r;
+            let newton = r - value / slope;
+            let next = if lo < newton && newton < hi { newton } else { f64::midpoint(lo, hi) };
+            let done = (next - r).abs() <= 4.0 * f64::EPSILON * r;
+            r = next;
+            if done {
+                break;
+            }
+        }
+        let y = if on_right { 1.0 / (1.0 + r) } else { r / (1.0 + r) };
+        y.is_finite().then_some(y)
     }
 
     /// The first sign that is certain.

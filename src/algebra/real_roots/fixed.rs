@@ -67,6 +67,12 @@ impl Wide {
         i8::from(above) - i8::from(below)
     }
 
+    /// A float near the number.
+    pub(super) fn to_f64(self) -> f64 {
+        const HALF: f64 = 1_u128.rotate_right(1) as f64;
+        self.hi as f64 * (2.0 * HALF) + self.lo as f64
+    }
+
     /// Whether the absolute value exceeds `2^bits error`, `bits` at most 64.
     pub(super) fn exceeds(self, error: u64, bits: u32) -> bool {
         let size = if self.hi < 0 { self.negate() } else { self };

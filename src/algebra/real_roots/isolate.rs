@@ -16,16 +16,27 @@ const FIRST_PRECISION: i64 = 256;
 /// The bits of the first leap towards a cluster, which is also how many halvings go before, and those of the longest.
 const FIRST_LEAP: u32 = 8;
 const LONGEST_LEAP: u32 = 1 << 20;
+/// The bits of a guess that f64 arithmetic nearly always gets right.
+const GUESS_BITS: u32 = 48;
 /// The bits that a Newton step is computed with beyond those of the leap.
 const LEAP_GUARD: i64 = 64;
 
+/// Where about in its cell a root probably is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guess {
+    /// From 0 at the left end to 1 at the right.
+    pub(super) y: f64,
+    /// How many bits of that are to be relied upon.
+    pub(super) bits: u32,
+}
+
 /// Where one root is.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub(super) enum Place {
     /// Exactly at `numerator 2^exponent`.
     At(Integer, i64),
     /// Alone inside a cell, the polynomial having this sign in the cell left of the root.
-    Within(Cell, i8),
+    Within(Cell, i8, Option<Guess>),
 }
 
 impl Place {
@@ -33,7 +44,9 @@ impl Place {
     fn mirrored(self) -> Self {
         match self {
             Self::At(numerator, exponent) => Self::At(-numerator, exponent),
-            Self::Within(cell, sign) => Self::Within(cell.mirrored(), -sign),
+            Self::Within(cell, sign, guess) => {
+                Self::Within(cell.mirrored(), -sign, guess.map(|Guess { y, bits }| Guess { y: 1.0 - y, bits }))
+            }
         }
     }
 }
@@ -204,7 +217,10 @@ impl Search<'_> {
             };
             match node.verdict() {
                 Verdict::Empty => {}
-                Verdict::One(sign) => self.places.push(Place::Within(node.cell, sign)),
+                Verdict::One(sign) => {
+                    let guess = node.expansion.guess_root(sign).map(|y| Guess { y, bits: GUESS_BITS });
+                    self.places.push(Place::Within(node.cell, sign, guess));
+                }
                 Verdict::Several(changes) => self.split(node, changes, &mut stack),
             }
         }
@@ -260,7 +276,7 @@ impl Search<'_> {
             let slope = Integer::from(end - inner) * n;
             (slope != 0).then(|| (Integer::from(end * changes) << leap) / slope)
         };
-        let from_right = step(&b[n], &b[n - 1]).map(|step| Integer::from(&last - step));
+        let from_right = step(&b[n], &b[n - 1]).map(|step| &last - step);
         let mut tried = None;
         for guess in [step(&b[0], &b[1]), from_right].into_iter().flatten() {
             let index = guess.clamp(&Integer::new(), &last);

@@ -56,7 +56,7 @@ impl RealRoot {
     pub fn bounds(&self) -> (Rational, Rational) {
         match &self.place {
             Place::At(numerator, exponent) => (dyadic(numerator, *exponent), dyadic(numerator, *exponent)),
-            Place::Within(cell, _) => (cell.lo(), cell.hi()),
+            Place::Within(cell, ..) => (cell.lo(), cell.hi()),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::RealRoot;
 use super::cell::{Cell, dyadic};
 use super::evaluate::{Value, length, shifted, sign, value_at};
-use super::isolate::Place;
+use super::isolate::{Guess, Place};
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
 
@@ -64,11 +64,11 @@ impl RealRoot {
         match &self.place {
             Place::At(numerator, exponent) => dyadic(numerator, *exponent).cmp(x),
             // The root is inside, never at an end.
-            Place::Within(cell, _) if cell.hi() <= *x => Ordering::Less,
-            Place::Within(cell, _) if cell.lo() >= *x => Ordering::Greater,
-            Place::Within(_, left) => match self.polynomial.sign_at(x) as i8 {
-                0 => Ordering::Equal,
-                sign if sign == *left => Ordering::Greater,
+            Place::Within(cell, ..) if cell.hi() <= *x => Ordering::Less,
+            Place::Within(cell, ..) if cell.lo() >= *x => Ordering::Greater,
+            Place::Within(_, left, _) => match self.polynomial.sign_at(x) {
+                Ordering::Equal => Ordering::Equal,
+                sign if sign == 0.cmp(&-*left) => Ordering::Greater,
                 _ => Ordering::Less,
             },
         }
@@ -82,7 +82,7 @@ impl RealRoot {
 
     /// Divides the width of the interval by `2^bits`.
     pub(super) fn shrink(&mut self, bits: i64) {
-        if let Place::Within(cell, _) = &self.place {
+        if let Place::Within(cell, ..) = &self.place {
             let target = cell.exponent - bits;
             self.refine_to(target, u32::try_from(bits).unwrap_or(1));
         }
@@ -103,8 +103,11 @@ impl RealRoot {
     /// Abbott 2014, "Quadratic interval refinement for real roots", ACM Communications in Computer Algebra 48: of
     /// `2^k` parts, k doubling with every success, the secant names two; signs decide whether the root is in one.
     fn refine_to(&mut self, target: i64, mut bits: u32) {
-        let Place::Within(cell, left) = &self.place else { return };
-        let (mut cell, left, mut precision) = (cell.clone(), *left, VALUE_PRECISION);
+        let Place::Within(cell, left, known) = &self.place else { return };
+        let (mut cell, left, mut known, mut precision) = (cell.clone(), *left, *known, VALUE_PRECISION);
+        if let Some(guess) = known {
+            bits = guess.bits;
+        }
         let mut value = |numerator: &Integer, exponent: i64, bits: u32| {
             let wanted = 2 * i64::from(bits) + VALUE_GUARD;
             value_at(self.polynomial.coefficients(), numerator, exponent, wanted, &mut precision)
@@ -113,7 +116,9 @@ impl RealRoot {
         while cell.exponent > target {
             bits = bits.min(u32::try_from(cell.exponent - target).unwrap_or(u32::MAX));
             let parts = Integer::from(1) << bits;
-            let guess = if bits == 1 {
+            let guess = if let Some(guess) = known {
+                guess.corner(bits)
+            } else if bits == 1 {
                 Integer::from(1)
             } else {
                 let (from, to) = ends.get_or_insert_with(|| {
@@ -154,17 +159,17 @@ impl RealRoot {
                 }
             }
             if other_sign == middle_sign {
+                known = None;
                 bits = (bits / 2).max(1);
                 continue;
             }
-            (cell, ends) = if right {
-                (Cell::new(start + guess, exponent), Some((middle, other)))
-            } else {
-                (Cell::new(start + neighbour, exponent), Some((other, middle)))
-            };
-            bits = bits.saturating_mul(2);
+            let index = if right { guess } else { neighbour };
+            ends = Some(if right { (middle, other) } else { (other, middle) });
+            known = known.and_then(|guess| guess.within(&index, bits));
+            bits = known.map_or(bits.saturating_mul(2), |guess| guess.bits);
+            cell = Cell::new(start + index, exponent);
         }
-        self.place = Place::Within(cell, left);
+        self.place = Place::Within(cell, left, known);
     }
 
     /// The root rounded to the nearest f64, ties to even; infinite beyond the range. Shrinks the interval for that.
@@ -172,7 +177,7 @@ impl RealRoot {
         loop {
             let cell = match &self.place {
                 Place::At(numerator, exponent) => return nearest(numerator, *exponent),
-                Place::Within(cell, _) => cell,
+                Place::Within(cell, ..) => cell,
             };
             let lo = nearest(&cell.numerator, cell.exponent);
             let hi = nearest(&cell.end(), cell.exponent);
@@ -207,11 +212,26 @@ impl RealRoot {
     }
 }
 
+impl Guess {
+    /// The nearest corner among those of `2^bits` parts, at most as many bits as are relied upon.
+    fn corner(self, bits: u32) -> Integer {
+        let parts = Integer::from(1) << bits;
+        let nearest = Integer::from_f64((self.y * parts.to_f64()).round()).unwrap_or_default();
+        nearest.max(Integer::new()).min(parts)
+    }
+
+    /// The guess within the part at `index` of `2^bits`, if any bits are left.
+    fn within(self, index: &Integer, bits: u32) -> Option<Self> {
+        let y = self.y * (Integer::from(1) << bits).to_f64() - index.to_f64();
+        (bits < self.bits).then(|| Self { y: y.clamp(0.0, 1.0), bits: self.bits - bits })
+    }
+}
+
 /// Which of `2^bits` parts the secant through the values at the ends meets, rounded to the nearest corner.
 fn secant(from: &Value, to: &Value, bits: u32) -> Integer {
     let unit = from.unit.min(to.unit);
     let (from, to) = (shifted(&from.mantissa, from.unit - unit), shifted(&to.mantissa, to.unit - unit));
-    let slope = Integer::from(&from - to);
+    let slope = &from - to;
     let parts = Integer::from(1) << bits;
     if slope == 0 {
         return parts >> 1_u32;
