@@ -10,7 +10,8 @@ pub(super) struct Batch<E> {
     size: usize,
     /// Elements between rows: odd, so that columns do not share a few sets of the cache.
     stride: usize,
-    groups: usize,
+    /// The groups in use.
+    pub(super) groups: usize,
     /// Entry (i, j) of the matrices of group g at `(g size + i) stride + j`.
     entries: Vec<[E; SIDE]>,
     /// The products of the pivots of this step in the groups before.
@@ -33,14 +34,13 @@ impl<E: Copy> Batch<E> {
     }
 
     #[inline(always)]
-    pub(super) fn set(&mut self, matrix: usize, row: usize, column: usize, value: E) {
-        let at = (matrix / SIDE * self.size + row) * self.stride + column;
-        self.entries[at][matrix % SIDE] = value;
+    pub(super) fn set(&mut self, group: usize, row: usize, column: usize, values: [E; SIDE]) {
+        self.entries[(group * self.size + row) * self.stride + column] = values;
     }
 
     #[inline(always)]
-    pub(super) fn get(&self, matrix: usize, row: usize, column: usize) -> E {
-        self.entries[(matrix / SIDE * self.size + row) * self.stride + column][matrix % SIDE]
+    pub(super) fn get(&self, group: usize, row: usize, column: usize) -> [E; SIDE] {
+        self.entries[(group * self.size + row) * self.stride + column]
     }
 
     #[inline(always)]
@@ -169,7 +169,7 @@ impl<E: Copy> Batch<E> {
         for i in k..self.size {
             let mut count = 0;
             for matrix in 0..self.groups * SIDE {
-                lanes.store(self.get(matrix, i, k), residues);
+                lanes.store(self.get(matrix / SIDE, i, k)[matrix % SIDE], residues);
                 count += residues.iter().filter(|&&r| r == 0).count();
             }
             if count < fewest {
@@ -188,13 +188,14 @@ impl<E: Copy> Batch<E> {
             }
         }
         for matrix in 0..self.groups * SIDE {
-            lanes.store(self.get(matrix, k, k), residues);
+            let mut pivots = self.get(matrix / SIDE, k, k);
+            lanes.store(pivots[matrix % SIDE], residues);
             for lane in 0..width {
                 if residues[lane] == 0 {
                     let mut other = [0; MOST_LANES];
                     let mut lost = false;
                     for i in k + 1..self.size {
-                        lanes.store(self.get(matrix, i, k), &mut other[..width]);
+                        lanes.store(self.get(matrix / SIDE, i, k)[matrix % SIDE], &mut other[..width]);
                         lost |= other[lane] != 0;
                     }
                     if lost {
@@ -206,7 +207,8 @@ impl<E: Copy> Batch<E> {
                     self.determinants[matrix / SIDE][matrix % SIDE] = lanes.load(&other[..width]);
                 }
             }
-            self.set(matrix, k, k, lanes.load(residues));
+            pivots[matrix % SIDE] = lanes.load(residues);
+            self.set(matrix / SIDE, k, k, pivots);
         }
     }
 }
