@@ -5,10 +5,19 @@ use super::lanes::{Lanes, MOST_LANES};
 /// Four matrices are eliminated side by side, which hides the latency of the arithmetic.
 pub(super) const SIDE: usize = 4;
 
+/// Elements between rows: odd, so that columns do not share a few sets of the cache.
+const fn stride(size: usize) -> usize {
+    size | 1
+}
+
+/// The place of an entry, given its index row by row, among those of its group.
+pub(super) const fn place(size: usize, index: usize) -> usize {
+    index / size * stride(size) + index % size
+}
+
 /// Square matrices of one size, in groups of four.
 pub(super) struct Batch<E> {
     size: usize,
-    /// Elements between rows: odd, so that columns do not share a few sets of the cache.
     stride: usize,
     /// The groups in use.
     pub(super) groups: usize,
@@ -28,9 +37,16 @@ pub(super) struct ZeroPivot {
 impl<E: Copy> Batch<E> {
     #[inline(always)]
     pub(super) fn new<L: Lanes<Element = E>>(lanes: L, size: usize, groups: usize) -> Self {
-        let (stride, none) = (size | 1, [lanes.zero(); SIDE]);
+        let (stride, none) = (stride(size), [lanes.zero(); SIDE]);
         let entries = vec![none; groups * size * stride];
         Self { size, stride, groups, entries, products: vec![none; groups], determinants: vec![none; groups] }
+    }
+
+    /// The entries of the matrices of a group, each at the place of its index.
+    #[inline(always)]
+    pub(super) fn group_mut(&mut self, group: usize) -> &mut [[E; SIDE]] {
+        let length = self.size * self.stride;
+        &mut self.entries[group * length..][..length]
     }
 
     #[inline(always)]

@@ -13,7 +13,7 @@ use rug::Integer;
 /// Which matrix has the determinant in question.
 #[derive(Clone, Copy)]
 pub(super) enum Form {
-    /// The matrix of this size whose entries the polynomials are, row by row.
+    /// The matrix of this size whose entries the polynomials are, each with the index of its place.
     Matrix(usize),
     /// The hybrid Bezout matrix of two polynomials of these degrees, the first no less than the second, whose
     /// coefficients the polynomials are, constant terms first.
@@ -39,28 +39,27 @@ impl Form {
         }
     }
 
-    /// How many polynomials the matrix is made of.
-    fn polynomials(self) -> usize {
-        match self {
-            Form::Matrix(size) => size * size,
-            Form::Resultant(m, n) => m + n + 2,
-        }
-    }
-
-    /// Writes four matrices down.
+    /// Writes the matrices at four points down.
     #[inline(always)]
-    fn fill<L: Lanes>(self, lanes: L, values: &[[L::Element; SIDE]], batch: &mut Batch<L::Element>, group: usize) {
+    fn fill<L: Lanes>(
+        self,
+        lanes: L,
+        values: &mut Values<L::Element>,
+        points: [&[u32]; SIDE],
+        batch: &mut Batch<L::Element>,
+        group: usize,
+    ) {
         let zero = [lanes.zero(); SIDE];
         match self {
-            Form::Matrix(size) => {
-                for i in 0..size {
-                    for j in 0..size {
-                        batch.set(group, i, j, values[i * size + j]);
-                    }
-                }
+            Form::Matrix(_) => {
+                let entries = batch.group_mut(group);
+                entries.fill(zero);
+                values.at(lanes, points, entries);
             }
             Form::Resultant(m, n) => {
-                let (f, g) = values.split_at(m + 1);
+                let mut coefficients = vec![zero; m + n + 2];
+                values.at(lanes, points, &mut coefficients);
+                let (f, g) = coefficients.split_at(m + 1);
                 // Row n - i holds F g x^(m - n) - G f, where F and G are made of the i highest terms of f and g, divided
                 // by x^(m + 1 - i); so the row of i + 1 follows from that of i by Horner's rule.
                 for i in 0..n {
@@ -147,7 +146,7 @@ impl Images<'_> {
         for c in &self.problem.coefficients {
             coefficients.push(residue(lanes, base, c));
         }
-        let mut values = Values::new(lanes, &self.problem.plan, form.polynomials(), coefficients);
+        let mut values = Values::new(lanes, &self.problem.plan, coefficients);
 
         let matrix_bytes = usize::max(form.size() * (form.size() | 1) * size_of::<L::Element>(), 1);
         let most = usize::max(BATCH_BYTES / matrix_bytes / SIDE, 1);
@@ -164,8 +163,7 @@ impl Images<'_> {
                 for m in 1..usize::min(SIDE, left - group * SIDE) {
                     points[m] = lattice.point(done + group * SIDE + m);
                 }
-                values.at(lanes, points);
-                form.fill(lanes, &values.of, &mut batch, group);
+                form.fill(lanes, &mut values, points, &mut batch, group);
             }
             let zeros = batch.eliminate_all(lanes, primes.len());
             for matrix in 0..usize::min(batch.groups * SIDE, left) {
@@ -173,8 +171,7 @@ impl Images<'_> {
             }
             for ZeroPivot { matrix, lane } in zeros {
                 if matrix < left {
-                    values.at(lanes, [lattice.point(done + matrix); SIDE]);
-                    form.fill(lanes, &values.of, &mut batch, 0);
+                    form.fill(lanes, &mut values, [lattice.point(done + matrix); SIDE], &mut batch, 0);
                     let mut residues = [0; MOST_LANES];
                     let residues = &mut residues[..primes.len()];
                     let mut rows = vec![vec![0; form.size()]; form.size()];

@@ -61,14 +61,12 @@ pub(super) struct Values<'a, E> {
     left: Vec<Vec<E>>,
     /// The coordinates, from the second on, for which they are left.
     point: Vec<u32>,
-    /// The values of the polynomials at four points.
-    pub(super) of: Vec<[E; SIDE]>,
 }
 
 impl<'a, E: Copy> Values<'a, E> {
     /// Nothing is evaluated yet.
     #[inline(always)]
-    pub(super) fn new<L: Lanes<Element = E>>(lanes: L, plan: &'a Plan, count: usize, coefficients: Vec<E>) -> Self {
+    pub(super) fn new<L: Lanes<Element = E>>(lanes: L, plan: &'a Plan, coefficients: Vec<E>) -> Self {
         let mut left = Vec::with_capacity(plan.steps.len() + 1);
         for step in &plan.steps {
             left.push(vec![lanes.zero(); step.ends.len()]);
@@ -76,15 +74,16 @@ impl<'a, E: Copy> Values<'a, E> {
         left.push(coefficients);
         // No point has this coordinate, so that the first one differs from it everywhere.
         let point = vec![u32::MAX; plan.steps.len().saturating_sub(1)];
-        Self { plan, left, point, of: vec![[lanes.zero(); SIDE]; count] }
+        Self { plan, left, point }
     }
 
-    /// Evaluates at four points, fast where only their first coordinates differ from each other and from those before.
+    /// The values at four points, found fast where only first coordinates differ, among these points and from those
+    /// before; zero polynomials are left as they are.
     #[inline(always)]
-    pub(super) fn at<L: Lanes<Element = E>>(&mut self, lanes: L, points: [&[u32]; SIDE]) {
+    pub(super) fn at<L: Lanes<Element = E>>(&mut self, lanes: L, points: [&[u32]; SIDE], values: &mut [[E; SIDE]]) {
         let Some(last) = self.plan.steps.first() else {
             for (&slot, &value) in self.plan.slots.iter().zip(&self.left[0]) {
-                self.of[slot] = [value; SIDE];
+                values[slot] = [value; SIDE];
             }
             return;
         };
@@ -120,9 +119,9 @@ impl<'a, E: Copy> Values<'a, E> {
                 }
                 t += 1;
                 if end - first == SIDE {
-                    self.of[slot] = value;
+                    values[slot] = value;
                 } else {
-                    self.of[slot][first..end].copy_from_slice(&value[first..end]);
+                    values[slot][first..end].copy_from_slice(&value[first..end]);
                 }
             }
             first = end;
