@@ -102,7 +102,7 @@ where
 ///
 /// Exact and proved: with denominators and common factors of rows and columns taken out, the coefficients of the
 /// determinant are integers of absolute value at most `prod_i sqrt(sum_j (sum_k |a_ijk|)^2)`, by Hadamard's inequality
-/// on the unit circle, and the product of the primes used exceeds twice that.
+/// on the unit circle, and the product of the primes used exceeds four times that.
 ///
 /// # Shape
 /// `coefficients` holds A0 to Ad, square and of one size.

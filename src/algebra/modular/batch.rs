@@ -5,12 +5,22 @@ use super::lanes::{Lanes, MOST_LANES};
 /// Four matrices are eliminated side by side, which hides the latency of the arithmetic.
 pub(super) const SIDE: usize = 4;
 
+/// Elements between rows: odd, so that columns do not share a few sets of the cache.
+const fn stride(size: usize) -> usize {
+    size | 1
+}
+
+/// The place of an entry, given its index row by row, among those of its group.
+pub(super) const fn place(size: usize, index: usize) -> usize {
+    index / size * stride(size) + index % size
+}
+
 /// Square matrices of one size, in groups of four.
 pub(super) struct Batch<E> {
     size: usize,
-    /// Elements between rows: odd, so that columns do not share a few sets of the cache.
     stride: usize,
-    groups: usize,
+    /// The groups in use.
+    pub(super) groups: usize,
     /// Entry (i, j) of the matrices of group g at `(g size + i) stride + j`.
     entries: Vec<[E; SIDE]>,
     /// The products of the pivots of this step in the groups before.
@@ -27,20 +37,26 @@ pub(super) struct ZeroPivot {
 impl<E: Copy> Batch<E> {
     #[inline(always)]
     pub(super) fn new<L: Lanes<Element = E>>(lanes: L, size: usize, groups: usize) -> Self {
-        let (stride, none) = (size | 1, [lanes.zero(); SIDE]);
+        let (stride, none) = (stride(size), [lanes.zero(); SIDE]);
         let entries = vec![none; groups * size * stride];
         Self { size, stride, groups, entries, products: vec![none; groups], determinants: vec![none; groups] }
     }
 
+    /// The entries of the matrices of a group, each at the place of its index.
     #[inline(always)]
-    pub(super) fn set(&mut self, matrix: usize, row: usize, column: usize, value: E) {
-        let at = (matrix / SIDE * self.size + row) * self.stride + column;
-        self.entries[at][matrix % SIDE] = value;
+    pub(super) fn group_mut(&mut self, group: usize) -> &mut [[E; SIDE]] {
+        let length = self.size * self.stride;
+        &mut self.entries[group * length..][..length]
     }
 
     #[inline(always)]
-    pub(super) fn get(&self, matrix: usize, row: usize, column: usize) -> E {
-        self.entries[(matrix / SIDE * self.size + row) * self.stride + column][matrix % SIDE]
+    pub(super) fn set(&mut self, group: usize, row: usize, column: usize, values: [E; SIDE]) {
+        self.entries[(group * self.size + row) * self.stride + column] = values;
+    }
+
+    #[inline(always)]
+    pub(super) fn get(&self, group: usize, row: usize, column: usize) -> [E; SIDE] {
+        self.entries[(group * self.size + row) * self.stride + column]
     }
 
     #[inline(always)]
@@ -169,7 +185,7 @@ impl<E: Copy> Batch<E> {
         for i in k..self.size {
             let mut count = 0;
             for matrix in 0..self.groups * SIDE {
-                lanes.store(self.get(matrix, i, k), residues);
+                lanes.store(self.get(matrix / SIDE, i, k)[matrix % SIDE], residues);
                 count += residues.iter().filter(|&&r| r == 0).count();
             }
             if count < fewest {
@@ -188,13 +204,14 @@ impl<E: Copy> Batch<E> {
             }
         }
         for matrix in 0..self.groups * SIDE {
-            lanes.store(self.get(matrix, k, k), residues);
+            let mut pivots = self.get(matrix / SIDE, k, k);
+            lanes.store(pivots[matrix % SIDE], residues);
             for lane in 0..width {
                 if residues[lane] == 0 {
                     let mut other = [0; MOST_LANES];
                     let mut lost = false;
                     for i in k + 1..self.size {
-                        lanes.store(self.get(matrix, i, k), &mut other[..width]);
+                        lanes.store(self.get(matrix / SIDE, i, k)[matrix % SIDE], &mut other[..width]);
                         lost |= other[lane] != 0;
                     }
                     if lost {
@@ -206,7 +223,8 @@ impl<E: Copy> Batch<E> {
                     self.determinants[matrix / SIDE][matrix % SIDE] = lanes.load(&other[..width]);
                 }
             }
-            self.set(matrix, k, k, lanes.load(residues));
+            pivots[matrix % SIDE] = lanes.load(residues);
+            self.set(matrix / SIDE, k, k, pivots);
         }
     }
 }

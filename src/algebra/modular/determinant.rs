@@ -1,5 +1,6 @@
 //! Determinants of matrices of polynomials with numeric coefficients.
 
+use super::batch::place;
 use super::bound::Norms;
 use super::lattice::Lattice;
 use super::problem::{Form, Problem};
@@ -45,7 +46,10 @@ pub(super) fn determinant_on(arch: Arch, matrix: &[Vec<Terms>], variables: usize
     let lattice =
         Lattice::new(&degrees, bound(&|e| e.iter().map(|&x| x as usize).sum()), most_points(bits, parameters.len()))?;
 
-    let terms = descending(terms, &parameters);
+    let mut terms = descending(terms, &parameters);
+    for slot in &mut terms.slots {
+        *slot = place(size, *slot);
+    }
     let problem = Problem {
         form: Form::Matrix(size),
         plan: Plan::new(&terms.slots, &terms.exponents, parameters.len()),
@@ -76,7 +80,7 @@ pub(super) fn univariate_determinant_on(arch: Arch, size: usize, entries: &[Vec<
     let (mut slots, mut exponents, mut coefficients) = (Vec::new(), Vec::new(), Vec::new());
     for (slot, entry) in entries.iter().enumerate() {
         for (k, c) in entry.iter().enumerate().rev().filter(|(_, c)| !c.is_zero()) {
-            slots.push(slot);
+            slots.push(place(size, slot));
             exponents.push(u32::try_from(k).expect("the degree fits a u32"));
             coefficients.push(c);
         }

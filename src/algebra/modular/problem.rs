@@ -13,7 +13,7 @@ use rug::Integer;
 /// Which matrix has the determinant in question.
 #[derive(Clone, Copy)]
 pub(super) enum Form {
-    /// The matrix of this size whose entries the polynomials are, row by row.
+    /// The matrix of this size whose entries the polynomials are, each with the index of its place.
     Matrix(usize),
     /// The hybrid Bezout matrix of two polynomials of these degrees, the first no less than the second, whose
     /// coefficients the polynomials are, constant terms first.
@@ -39,43 +39,49 @@ impl Form {
         }
     }
 
-    /// How many polynomials the matrix is made of.
-    fn polynomials(self) -> usize {
-        match self {
-            Form::Matrix(size) => size * size,
-            Form::Resultant(m, n) => m + n + 2,
-        }
-    }
-
-    /// Writes the matrix down.
+    /// Writes the matrices at four points down.
     #[inline(always)]
-    fn fill<L: Lanes>(self, lanes: L, values: &[L::Element], batch: &mut Batch<L::Element>, matrix: usize) {
+    fn fill<L: Lanes>(
+        self,
+        lanes: L,
+        values: &mut Values<L::Element>,
+        points: [&[u32]; SIDE],
+        batch: &mut Batch<L::Element>,
+        group: usize,
+    ) {
+        let zero = [lanes.zero(); SIDE];
         match self {
-            Form::Matrix(size) => {
-                for i in 0..size {
-                    for j in 0..size {
-                        batch.set(matrix, i, j, values[i * size + j]);
-                    }
-                }
+            Form::Matrix(_) => {
+                let entries = batch.group_mut(group);
+                entries.fill(zero);
+                values.at(lanes, points, entries);
             }
             Form::Resultant(m, n) => {
-                let (f, g) = values.split_at(m + 1);
-                let shifted = |k: usize| if k < m - n { lanes.zero() } else { g[k - (m - n)] };
+                let mut coefficients = vec![zero; m + n + 2];
+                values.at(lanes, points, &mut coefficients);
+                let (f, g) = coefficients.split_at(m + 1);
                 // Row n - i holds F g x^(m - n) - G f, where F and G are made of the i highest terms of f and g, divided
                 // by x^(m + 1 - i); so the row of i + 1 follows from that of i by Horner's rule.
                 for i in 0..n {
+                    let mut negative = zero;
+                    for s in 0..SIDE {
+                        negative[s] = lanes.sub(lanes.zero(), f[m - i][s]);
+                    }
                     for k in 0..m {
-                        let before = if i == 0 || k == 0 { lanes.zero() } else { batch.get(matrix, n - i, m - k) };
-                        let sum = lanes.subtract_product(lanes.sum(before), g[n - i], f[k]);
-                        let sum = lanes.subtract_product(sum, lanes.sub(lanes.zero(), f[m - i]), shifted(k));
-                        batch.set(matrix, n - 1 - i, m - 1 - k, lanes.reduce(sum));
+                        let mut entry = if i == 0 || k == 0 { zero } else { batch.get(group, n - i, m - k) };
+                        let shifted = if k < m - n { &zero } else { &g[k - (m - n)] };
+                        for s in 0..SIDE {
+                            let sum = lanes.subtract_product(lanes.sum(entry[s]), g[n - i][s], f[k][s]);
+                            entry[s] = lanes.reduce(lanes.subtract_product(sum, negative[s], shifted[s]));
+                        }
+                        batch.set(group, n - 1 - i, m - 1 - k, entry);
                     }
                 }
                 for i in n..m {
                     for k in 0..m {
                         // Row i holds x^(m - 1 - i) g.
-                        let value = k.checked_sub(m - 1 - i).and_then(|e| g.get(e)).copied();
-                        batch.set(matrix, i, m - 1 - k, value.unwrap_or(lanes.zero()));
+                        let entry = k.checked_sub(m - 1 - i).and_then(|e| g.get(e));
+                        batch.set(group, i, m - 1 - k, *entry.unwrap_or(&zero));
                     }
                 }
             }
@@ -140,7 +146,7 @@ impl Images<'_> {
         for c in &self.problem.coefficients {
             coefficients.push(residue(lanes, base, c));
         }
-        let mut values = Values::new(lanes, &self.problem.plan, form.polynomials(), coefficients);
+        let mut values = Values::new(lanes, &self.problem.plan, coefficients);
 
         let matrix_bytes = usize::max(form.size() * (form.size() | 1) * size_of::<L::Element>(), 1);
         let most = usize::max(BATCH_BYTES / matrix_bytes / SIDE, 1);
@@ -151,27 +157,27 @@ impl Images<'_> {
         let mut images = Vec::with_capacity(lattice.count());
         while images.len() < lattice.count() {
             let (done, left) = (images.len(), lattice.count() - images.len());
-            for matrix in 0..groups * SIDE {
-                // What is left over repeats the last point.
-                if matrix < left {
-                    values.at(lanes, lattice.point(done + matrix));
+            batch.groups = usize::min(groups, left.div_ceil(SIDE));
+            for group in 0..batch.groups {
+                let mut points = [lattice.point(done + group * SIDE); SIDE];
+                for m in 1..usize::min(SIDE, left - group * SIDE) {
+                    points[m] = lattice.point(done + group * SIDE + m);
                 }
-                form.fill(lanes, &values.of, &mut batch, matrix);
+                form.fill(lanes, &mut values, points, &mut batch, group);
             }
             let zeros = batch.eliminate_all(lanes, primes.len());
-            for matrix in 0..usize::min(groups * SIDE, left) {
+            for matrix in 0..usize::min(batch.groups * SIDE, left) {
                 images.push(batch.determinant(matrix));
             }
             for ZeroPivot { matrix, lane } in zeros {
                 if matrix < left {
-                    values.at(lanes, lattice.point(done + matrix));
-                    form.fill(lanes, &values.of, &mut batch, 0);
+                    form.fill(lanes, &mut values, [lattice.point(done + matrix); SIDE], &mut batch, 0);
                     let mut residues = [0; MOST_LANES];
                     let residues = &mut residues[..primes.len()];
                     let mut rows = vec![vec![0; form.size()]; form.size()];
                     for i in 0..form.size() {
                         for j in 0..form.size() {
-                            lanes.store(batch.get(0, i, j), residues);
+                            lanes.store(batch.get(0, i, j)[0], residues);
                             rows[i][j] = residues[lane];
                         }
                     }

@@ -28,6 +28,18 @@ const HIGHEST_DEGREE: u32 = 1 << 10;
 /// # Source
 /// Diaz-Toca, Gonzalez-Vega 2004, Various new expressions for subresultants and their applications (the hybrid Bezout
 /// matrix, whose determinant is the resultant also where leading coefficients vanish).
+///
+/// # Example
+/// ```
+/// use looproot::algebra::modular::{Terms, resultant};
+///
+/// // x^2 + y^2 - 25 and x y - 12, without x: y^4 - 25 y^2 + 144
+/// let circle = Terms { exponents: vec![2, 0, 0, 2, 0, 0], coefficients: [1, 1, -25].map(Into::into).to_vec() };
+/// let hyperbola = Terms { exponents: vec![1, 1, 0, 0], coefficients: [1, -12].map(Into::into).to_vec() };
+/// let quartic = resultant(&circle, &hyperbola, 2, 0).expect("that needs few values");
+/// assert_eq!(quartic.exponents, [0, 0, 0, 2, 0, 4]);
+/// assert_eq!(quartic.coefficients, [144, -25, 1]);
+/// ```
 #[must_use]
 pub fn resultant(f: &Terms, g: &Terms, variables: usize, variable: usize) -> Option<Terms> {
     resultant_on(Arch::new(), f, g, variables, variable)

@@ -1,5 +1,6 @@
 //! Values of many polynomials at one point after another, parameter by parameter.
 
+use super::batch::SIDE;
 use super::lanes::Lanes;
 
 /// How terms collapse when one parameter gets a value: runs of terms that agree in all other exponents, highest
@@ -53,35 +54,86 @@ impl Plan {
     }
 }
 
-/// The values of the polynomials at the current point, and all that is needed to go on to the next.
+/// The values of the polynomials at the current points, and all that is needed to go on to the next.
 pub(super) struct Values<'a, E> {
     plan: &'a Plan,
-    /// At k, the terms left when the parameters from k on have their values; the last are the coefficients.
+    /// At k, the terms left when the parameters from k on have their values, unused for 0; the last are the coefficients.
     left: Vec<Vec<E>>,
+    /// The coordinates, from the second on, for which they are left.
     point: Vec<u32>,
-    /// The values of the polynomials.
-    pub(super) of: Vec<E>,
 }
 
 impl<'a, E: Copy> Values<'a, E> {
     /// Nothing is evaluated yet.
     #[inline(always)]
-    pub(super) fn new<L: Lanes<Element = E>>(lanes: L, plan: &'a Plan, count: usize, coefficients: Vec<E>) -> Self {
+    pub(super) fn new<L: Lanes<Element = E>>(lanes: L, plan: &'a Plan, coefficients: Vec<E>) -> Self {
         let mut left = Vec::with_capacity(plan.steps.len() + 1);
         for step in &plan.steps {
             left.push(vec![lanes.zero(); step.ends.len()]);
         }
         left.push(coefficients);
         // No point has this coordinate, so that the first one differs from it everywhere.
-        Self { plan, left, point: vec![u32::MAX; plan.steps.len()], of: vec![lanes.zero(); count] }
+        let point = vec![u32::MAX; plan.steps.len().saturating_sub(1)];
+        Self { plan, left, point }
     }
 
-    /// Evaluates at a point, fast if only its first coordinates have changed.
+    /// The values at four points, found fast where only first coordinates differ, among these points and from those
+    /// before; zero polynomials are left as they are.
     #[inline(always)]
-    pub(super) fn at<L: Lanes<Element = E>>(&mut self, lanes: L, point: &[u32]) {
+    pub(super) fn at<L: Lanes<Element = E>>(&mut self, lanes: L, points: [&[u32]; SIDE], values: &mut [[E; SIDE]]) {
+        let Some(last) = self.plan.steps.first() else {
+            for (&slot, &value) in self.plan.slots.iter().zip(&self.left[0]) {
+                values[slot] = [value; SIDE];
+            }
+            return;
+        };
+        let mut first = 0;
+        while first < SIDE {
+            let mut end = first + 1;
+            while end < SIDE && points[end][1..] == points[first][1..] {
+                end += 1;
+            }
+            self.descend(lanes, &points[first][1..]);
+            let mut x = [lanes.zero(); SIDE];
+            for m in first..end {
+                x[m] = lanes.digit(points[m][0]);
+            }
+            let (terms, mut t) = (&self.left[1], 0);
+            for (&slot, &run) in self.plan.slots.iter().zip(&last.ends) {
+                let mut value = [terms[t]; SIDE];
+                while t + 1 < run {
+                    for _ in 1..last.gaps[t] {
+                        for m in 0..SIDE {
+                            value[m] = lanes.mul(value[m], x[m]);
+                        }
+                    }
+                    for m in 0..SIDE {
+                        value[m] = lanes.mul_add(value[m], x[m], terms[t + 1]);
+                    }
+                    t += 1;
+                }
+                for _ in 0..last.gaps[t] {
+                    for m in 0..SIDE {
+                        value[m] = lanes.mul(value[m], x[m]);
+                    }
+                }
+                t += 1;
+                if end - first == SIDE {
+                    values[slot] = value;
+                } else {
+                    values[slot][first..end].copy_from_slice(&value[first..end]);
+                }
+            }
+            first = end;
+        }
+    }
+
+    /// Gives the parameters from the second on their values.
+    #[inline(always)]
+    fn descend<L: Lanes<Element = E>>(&mut self, lanes: L, point: &[u32]) {
         let changed = (0..point.len()).rev().find(|&k| point[k] != self.point[k]).map_or(0, |k| k + 1);
-        for k in (0..changed).rev() {
-            let x = lanes.digit(point[k]);
+        for k in (1..=changed).rev() {
+            let x = lanes.digit(point[k - 1]);
             let step = &self.plan.steps[k];
             let (results, terms) = self.left.split_at_mut(k + 1);
             let (results, terms) = (&mut results[k], &terms[0]);
@@ -103,8 +155,5 @@ impl<'a, E: Copy> Values<'a, E> {
             }
         }
         self.point.copy_from_slice(point);
-        for (&slot, &value) in self.plan.slots.iter().zip(&self.left[0]) {
-            self.of[slot] = value;
-        }
     }
 }

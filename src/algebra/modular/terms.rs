@@ -2,7 +2,7 @@
 
 use rug::Integer;
 
-/// A polynomial in several variables with integer coefficients, term by term.
+/// A polynomial in several variables with integer coefficients, term by term, in any order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Terms {
     /// The exponents of all variables, term after term.
