@@ -187,8 +187,11 @@ fn route<D: Domain>(f: &Univariate<Polynomial<D>>, g: &Univariate<Polynomial<D>>
     if low <= 1 || high <= 3 {
         return Route::Minors;
     }
-    let parameters = parameters(f.coefficients().iter().chain(g.coefficients()));
-    let by_minors = if parameters <= 2 { high <= 6 && high - low <= 1 } else { high <= 8 };
+    let by_minors = match parameters(f.coefficients().iter().chain(g.coefficients())) {
+        0 | 1 => high <= 5 && high - low <= 1,
+        2 => high <= 6 && high - low <= 1,
+        _ => high <= 8,
+    };
     if by_minors { Route::Minors } else { Route::Chain }
 }
 
