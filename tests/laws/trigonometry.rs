@@ -25,7 +25,7 @@ fn polynomial(degree: u32) -> impl Strategy<Value = Poly> {
 fn on_the_circle(t: &Rational) -> [Rational; 2] {
     let square = Rational::from(t * t);
     let denominator = Rational::from(1 + &square);
-    [Rational::from(1 - square) / &denominator, Rational::from(t * 2) / denominator]
+    [(1 - square) / &denominator, Rational::from(t * 2) / denominator]
 }
 
 fn values(t: &Rational, u: &Rational, parameter: &Rational) -> Vec<Rational> {

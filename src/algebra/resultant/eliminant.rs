@@ -121,8 +121,11 @@ fn without_monomials<D: Domain>(
         let powers = exponents.into_iter().map(|e| e * power).collect();
         Polynomial::from_terms([(powers, D::one())])
     };
+    // Where one of these vanishes so does a whole polynomial, and the lift must not say more than it knows.
+    let once = |exponents: &[u32]| monomial(exponents.iter().map(|&e| e.min(1)).collect(), 1);
+    let linear = expansion.linear.scale(&once(&exponents_f).mul(&once(&exponents_g)));
     let factor = monomial(exponents_f, degree(g)).mul(&monomial(exponents_g, degree(f)));
-    Expansion { resultant: expansion.resultant.mul(&factor), linear: expansion.linear }
+    Expansion { resultant: expansion.resultant.mul(&factor), linear }
 }
 
 /// The exponents of the monomial that divides all coefficients.
@@ -187,8 +190,11 @@ fn route<D: Domain>(f: &Univariate<Polynomial<D>>, g: &Univariate<Polynomial<D>>
     if low <= 1 || high <= 3 {
         return Route::Minors;
     }
-    let parameters = parameters(f.coefficients().iter().chain(g.coefficients()));
-    let by_minors = if parameters <= 2 { high <= 6 && high - low <= 1 } else { high <= 8 };
+    let by_minors = match parameters(f.coefficients().iter().chain(g.coefficients())) {
+        0 | 1 => high <= 5 && high - low <= 1,
+        2 => high <= 6 && high - low <= 1,
+        _ => high <= 8,
+    };
     if by_minors { Route::Minors } else { Route::Chain }
 }
 
