@@ -23,6 +23,9 @@ pub(super) fn bits(n: &Int) -> u64 {
     }
 }
 
+/// Variables and exponents, no variable twice.
+type Powers = [(u32, u32)];
+
 /// A sum of products of a number and powers of variables, like terms not yet collected.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Terms {
@@ -98,13 +101,13 @@ impl Terms {
         Rational::from((numerator.to_integer(), denominator.map_or_else(|| Integer::from(1), Int::to_integer)))
     }
 
-    fn powers(&self, term: usize) -> &[(u32, u32)] {
+    fn powers(&self, term: usize) -> &Powers {
         let start = if term == 0 { 0 } else { self.ends[term - 1] };
         &self.powers[start..self.ends[term]]
     }
 
     /// The only term, or none for zero: numerator, denominator and powers.
-    pub(super) fn single(&self) -> Option<(Int, Int, &[(u32, u32)])> {
+    pub(super) fn single(&self) -> Option<(Int, Int, &Powers)> {
         match self.len() {
             0 => Some((Int::zero(), Int::one(), &[])),
             1 => {
@@ -161,11 +164,8 @@ impl Terms {
             }
             start = end;
             let own = fractions.next_if(|(term, _)| *term == index).map_or(&one, |(_, own)| own);
-            let numerator = if *own == denominator {
-                numerator.clone()
-            } else {
-                numerator.mul(&denominator.div_exact(own))
-            };
+            let numerator =
+                if *own == denominator { numerator.clone() } else { numerator.mul(&denominator.div_exact(own)) };
             (exponents, numerator)
         };
         let terms = self.numerators.iter().zip(&self.ends).enumerate().map(term);
@@ -195,7 +195,8 @@ impl Terms {
             let degree: &mut u32 = &mut degrees[variable as usize];
             *degree = exponent.max(*degree);
         }
-        let number = self.numerators.iter().map(bits).max().unwrap_or(1) + u64::from(usize::BITS - self.len().leading_zeros());
+        let number =
+            self.numerators.iter().map(bits).max().unwrap_or(1) + u64::from(usize::BITS - self.len().leading_zeros());
         let numbers = self.denominators.iter().map(|(_, d)| bits(d)).fold(number, u64::saturating_add);
         let powers = degrees.iter().zip(sizes).map(|(&degree, size)| size.saturating_mul(u64::from(degree)));
         powers.fold(numbers, u64::saturating_add)

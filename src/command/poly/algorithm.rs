@@ -174,7 +174,8 @@ pub fn real_roots(f: &Univariate<Rational>) -> Vec<RealRoot> {
         let chain = SturmChain::new(&factor);
         let leading = factor.coefficients().last().cloned().unwrap_or_default();
         // Cauchy's bound.
-        let largest = factor.coefficients().iter().map(|c| Rational::from(c / &leading).abs()).max().unwrap_or_default();
+        let largest =
+            factor.coefficients().iter().map(|c| Rational::from(c / &leading).abs()).max().unwrap_or_default();
         let bound = Rational::from(largest.ceil_ref()) + 1;
         let mut open = vec![(Rational::from(-&bound), bound)];
         while let Some((lower, upper)) = open.pop() {
