@@ -5,7 +5,7 @@ use crate::error::Error;
 use std::collections::HashMap;
 
 /// The largest number of names.
-pub const MOST_NAMES: usize = 10_000;
+const MOST_NAMES: usize = 1000;
 /// Up to this many names a look through all of them is faster than a table.
 const FEW: usize = 12;
 /// Names that resemble an unknown one at least this much are suggested.

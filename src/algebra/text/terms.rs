@@ -142,17 +142,13 @@ impl Terms {
     /// # Errors
     /// What would not fit the memory, in words.
     pub(super) fn expand(&self) -> Result<Fraction, String> {
-        let denominator = self.denominators.iter().fold(Int::one(), |all, (_, one)| common_multiple(&all, one));
         let variables = self.variables();
-        let scale_bytes = if self.denominators.is_empty() { 0 } else { bits(&denominator) / 8 };
-        let size = (self.len() as u64).saturating_mul(4 * variables as u64 + 16 + scale_bytes);
-        if size > LARGEST_SIZE {
-            let digits = bits(&denominator) * 3 / 10;
-            let terms = self.len();
-            return Err(format!(
-                "found {terms} terms in {variables} variables with a common denominator of {digits} digits, more than \
-                 {LARGEST_SIZE} bytes"
-            ));
+        let mut denominator = Int::one();
+        self.check_size(variables, &denominator)?;
+        for (_, one) in &self.denominators {
+            // Watched while it grows: multiples of very many denominators would take for ever.
+            denominator = common_multiple(&denominator, one);
+            self.check_size(variables, &denominator)?;
         }
         let one = Int::one();
         let mut fractions = self.denominators.iter().peekable();
@@ -170,6 +166,19 @@ impl Terms {
         };
         let terms = self.numerators.iter().zip(&self.ends).enumerate().map(term);
         Ok(Fraction { numerator: Polynomial::from_terms(terms), denominator })
+    }
+
+    /// Refuses what would not fit the memory.
+    fn check_size(&self, variables: usize, denominator: &Int) -> Result<(), String> {
+        let size = (self.len() as u64).saturating_mul(4 * variables as u64 + 16 + bits(denominator) / 8);
+        if size <= LARGEST_SIZE {
+            return Ok(());
+        }
+        let (terms, digits) = (self.len(), bits(denominator) * 3 / 10);
+        Err(format!(
+            "found {terms} terms in {variables} variables with a common denominator of more than {digits} digits, \
+             expected at most {LARGEST_SIZE} bytes"
+        ))
     }
 
     /// The value of the sum where each variable has the given one; `None` where a number has no image in the ring.

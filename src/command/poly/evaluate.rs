@@ -18,7 +18,10 @@ pub fn run(options: &EvaluateOptions) -> Result<Exit, Fault> {
     let inputs = input::files(argument);
     // An expression with numbers for all variables need not be multiplied out.
     if !source.is_json() {
-        let expression = Expression::parse(&source.text, &mut names).map_err(|fault| source.fault(fault))?;
+        let expressions = Expression::parse_all(&source.text, &mut names).map_err(|fault| source.fault(fault))?;
+        let [expression] = expressions.as_slice() else {
+            return Err(Error::Invalid(format!("found {} polynomials, expected 1", expressions.len())).into());
+        };
         let values = values(&options.at, &names)?;
         if let Some(values) = values.iter().cloned().collect::<Option<Vec<_>>>() {
             let value = expression.value(&values)?;
