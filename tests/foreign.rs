@@ -126,7 +126,10 @@ fn pari_finds_the_same_resultant() {
     // Our own text is what PARI reads; its variables have the order of their first use.
     let [f, g] = [0, 1].map(|k| Format::Text.polynomial(&polynomials[k], &names));
     let answer = talk(
-        { gp.arg("-q").arg("-f"); gp },
+        {
+            gp.arg("-q").arg("-f");
+            gp
+        },
         &format!("x_1;E;print(polresultant({f}, {g}, x_1))\n"),
     );
     agrees_with_resultant(&answer);

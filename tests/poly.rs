@@ -171,7 +171,7 @@ fn jobs_print_their_three_lines() {
         ("roots", "3", "3"),
         ("roots_poly", "4", "4"),
     ] {
-        let out = answer(&["job", &format!("tests/jobs/{name}.json")]);
+        let out = answer(&["job", &format!("tests/jobs/{name}.json"), "--seconds", "0"]);
         let lines: Vec<(&str, &str)> = out.lines().map(|line| line.split_once(' ').unwrap()).collect();
         assert_eq!((lines[0].0, lines[1].0), ("T", "READ"), "{name}");
         assert!(lines[0].1.parse::<f64>().unwrap() > 0.0 && lines[1].1.parse::<f64>().unwrap() > 0.0, "{name}");
@@ -184,7 +184,11 @@ fn jobs_print_their_three_lines() {
         ("{\"kind\": \"polydet\", \"M\": [[[\"1\"], [\"2\"]]]}", 1, "expected a square"),
         ("{\"kind\": \"polydet\", \"M\": [[[\"1/0\"]]]}", 1, "division by zero"),
         ("{\"kind\": \"roots\", \"coefficients\": [\"0\"]}", 1, "found zero"),
-        ("{\"kind\": \"expand\", \"vars\": [\"x\"], \"expr\": \"x^2\", \"div\": \"x+1\", \"times\": 1}", 1, "remainder"),
+        (
+            "{\"kind\": \"expand\", \"vars\": [\"x\"], \"expr\": \"x^2\", \"div\": \"x+1\", \"times\": 1}",
+            1,
+            "remainder",
+        ),
     ] {
         let run = run(&["job", &file("job.json", content)]);
         assert!(run.code == code && run.err.contains(words), "{content}: {}", run.err);

@@ -19,17 +19,16 @@ use std::fmt::Write;
 pub fn write_json(polynomials: &[Polynomial<Rational>], names: &Names) -> String {
     let count = names.list().len();
     let mut text = format!("{{\"vars\": {}, ", json!(names.list()));
-    match polynomials {
-        [one] => write_terms(&mut text, one, count),
-        _ => {
-            text.push_str("\"polynomials\": [");
-            for (index, polynomial) in polynomials.iter().enumerate() {
-                text.push_str(if index == 0 { "\n{" } else { ",\n{" });
-                write_terms(&mut text, polynomial, count);
-                text.push('}');
-            }
-            text.push(']');
+    if let [one] = polynomials {
+        write_terms(&mut text, one, count);
+    } else {
+        text.push_str("\"polynomials\": [");
+        for (index, polynomial) in polynomials.iter().enumerate() {
+            text.push_str(if index == 0 { "\n{" } else { ",\n{" });
+            write_terms(&mut text, polynomial, count);
+            text.push('}');
         }
+        text.push(']');
     }
     text.push('}');
     text
@@ -83,7 +82,8 @@ pub fn read_json(text: &str, path: &str, names: &mut Names) -> Result<Vec<Polyno
     };
     let read = |polynomial: &&Value| {
         let terms = polynomial["terms"].as_array().ok_or_else(|| missing("terms", "a list of terms"))?;
-        let terms: Result<Vec<_>, Error> = terms.iter().map(|term| read_term(term, &variables).map_err(wrong)).collect();
+        let terms: Result<Vec<_>, Error> =
+            terms.iter().map(|term| read_term(term, &variables).map_err(wrong)).collect();
         Ok(Polynomial::from_terms(terms?))
     };
     polynomials.iter().map(read).collect()
@@ -100,9 +100,10 @@ fn read_term(term: &Value, variables: &[usize]) -> Result<(Vec<u32>, Rational), 
     if denominator.cmp0() == Ordering::Equal {
         return Err(format!("found a denominator of zero in {}", shortened(&term.to_string())));
     }
-    let exponents = exponents.as_array().filter(|list| list.len() == variables.len()).ok_or_else(|| {
-        format!("found {}, expected {} exponents", shortened(&term.to_string()), variables.len())
-    })?;
+    let exponents = exponents
+        .as_array()
+        .filter(|list| list.len() == variables.len())
+        .ok_or_else(|| format!("found {}, expected {} exponents", shortened(&term.to_string()), variables.len()))?;
     let mut unpacked = vec![0; variables.iter().map(|v| v + 1).max().unwrap_or(0)];
     for (exponent, &variable) in exponents.iter().zip(variables) {
         let exponent = exponent.as_u64().and_then(|e| u32::try_from(e).ok()).filter(|e| *e <= LARGEST_EXPONENT);

@@ -40,9 +40,8 @@ impl Node {
 
     fn expanded(&self) -> Result<Expanded, Fault> {
         match self {
-            Self::Terms(terms) => {
-                let place = Place { line: 1, column: 1 };
-                let fraction = terms.expand().map_err(|message| Fault::new(place, message))?;
+            Self::Terms(place, terms) => {
+                let fraction = terms.expand().map_err(|message| Fault::new(*place, message))?;
                 Ok(Expanded { fraction, largest_exponent: terms.largest_exponent() })
             }
             Self::Sum(place, terms, nodes) => {
@@ -82,24 +81,24 @@ impl Sums {
     fn add(&mut self, summand: Fraction) {
         let mut last = summand;
         while let Some(before) = self.0.pop_if(|before| before.numerator.len() <= 2 * last.numerator.len()) {
-            last = add(before, last);
+            last = add(&before, &last);
         }
         self.0.push(last);
     }
 
     fn total(self) -> Fraction {
-        let zero = Fraction { numerator: Polynomial::zero(), denominator: Int::one() };
-        self.0.into_iter().rev().fold(zero, add)
+        let zero = || Fraction { numerator: Polynomial::zero(), denominator: Int::one() };
+        self.0.into_iter().rev().reduce(|sum, part| add(&sum, &part)).unwrap_or_else(zero)
     }
 }
 
-fn add(a: Fraction, b: Fraction) -> Fraction {
+fn add(a: &Fraction, b: &Fraction) -> Fraction {
     if a.denominator == b.denominator {
-        return Fraction { numerator: a.numerator.add(&b.numerator), denominator: a.denominator };
+        return Fraction { numerator: a.numerator.add(&b.numerator), denominator: a.denominator.clone() };
     }
     let denominator = common_multiple(&a.denominator, &b.denominator);
     let scaled = |f: &Fraction| f.numerator.scale(&denominator.div_exact(&f.denominator));
-    Fraction { numerator: scaled(&a).add(&scaled(&b)), denominator }
+    Fraction { numerator: scaled(a).add(&scaled(b)), denominator }
 }
 
 fn multiply(a: &Expanded, b: &Expanded, place: Place) -> Result<Expanded, Fault> {
@@ -124,7 +123,9 @@ fn multiply(a: &Expanded, b: &Expanded, place: Place) -> Result<Expanded, Fault>
 
 fn raise(base: &Expanded, exponent: u32, place: Place) -> Result<Expanded, Fault> {
     let largest_exponent = base.largest_exponent.saturating_mul(u64::from(exponent));
-    if largest_exponent > u64::from(LARGEST_EXPONENT) || multisets(base.polynomial().len(), exponent) > SMALL {
+    if largest_exponent > u64::from(LARGEST_EXPONENT)
+        || multisets(base.polynomial().len() as f64, f64::from(exponent)) > SMALL
+    {
         let size = Size::of(base.polynomial());
         let half = size.raised(exponent.div_ceil(2));
         size.raised(exponent).check((half.terms * half.words()).powi(2), place)?;
@@ -136,11 +137,11 @@ fn raise(base: &Expanded, exponent: u32, place: Place) -> Result<Expanded, Fault
 
 /// In how many ways `k` things can be chosen of `n`, with repetition, `binomial(n + k - 1, k)`: terms of a power, and
 /// monomials of degree `k`.
-fn multisets(n: usize, k: u32) -> f64 {
-    if n == 0 {
+fn multisets(n: f64, k: f64) -> f64 {
+    if n < 1.0 {
         return 0.0;
     }
-    let (n, k) = (n as f64 - 1.0, f64::from(k));
+    let n = n - 1.0;
     let (few, many) = if n < k { (n, k) } else { (k, n) };
     let mut count = 1.0;
     let mut i = 0.0;
@@ -181,7 +182,7 @@ impl Size {
     fn bounded(mut self) -> Self {
         let cells: f64 = self.degrees.iter().map(|&d| d as f64 + 1.0).product();
         let variables = self.degrees.iter().filter(|&&d| d > 0).count();
-        let simplex = multisets(variables + 1, u32::try_from(self.total_degree).unwrap_or(u32::MAX));
+        let simplex = multisets(variables as f64 + 1.0, self.total_degree as f64);
         self.terms = self.terms.min(cells).min(simplex);
         self
     }
@@ -200,7 +201,7 @@ impl Size {
     fn raised(&self, exponent: u32) -> Self {
         let k = u64::from(exponent);
         Self {
-            terms: multisets(self.terms as usize, exponent),
+            terms: multisets(self.terms, f64::from(exponent)),
             degrees: self.degrees.iter().map(|d| d.saturating_mul(k)).collect(),
             total_degree: self.total_degree.saturating_mul(k),
             bits: self.bits * f64::from(exponent),
@@ -217,7 +218,9 @@ impl Size {
         let bytes = self.terms * (8.0 * self.words() + 16.0);
         let (terms, digits) = (self.terms, self.bits * std::f64::consts::LOG10_2);
         if terms > MOST_TERMS {
-            return refuse(format!("found a product of up to {terms:.1e} terms, more than the {MOST_TERMS:.0e} possible"));
+            return refuse(format!(
+                "found a product of up to {terms:.1e} terms, more than the {MOST_TERMS:.0e} possible"
+            ));
         }
         if bytes > LARGEST_SIZE as f64 || work > MOST_WORK {
             return refuse(format!(

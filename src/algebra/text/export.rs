@@ -18,24 +18,22 @@ pub(super) fn file(format: Format, polynomials: &[Polynomial<Rational>], names: 
     let list = variables.join(", ");
     let body = match format {
         Format::Sympy => {
-            let poly = |line: &String| format!("    Poly({line}, {list}, domain=\"QQ\"),\n");
+            let polys: Vec<String> =
+                lines.iter().map(|line| format!("    Poly({line}, {list}, domain=\"QQ\"),\n")).collect();
             format!(
                 "from sympy import Poly, Rational, symbols\n\nvariables = {list}, = symbols(\"{}\", seq=True)\nequations = \
                  [\n{}]\n",
                 variables.join(" "),
-                lines.iter().map(poly).collect::<String>()
+                polys.concat()
             )
         }
         Format::Maple => format!("variables := [{list}]:\nequations := [\n  {}\n]:\n", lines.join(",\n  ")),
         Format::Mathematica => format!("variables = {{{list}}};\nequations = {{\n  {}\n}};\n", lines.join(",\n  ")),
         Format::Singular => {
-            let poly = |(index, line): (usize, &String)| format!("poly f{} = {line};\n", index + 1);
+            let polys: Vec<String> =
+                lines.iter().zip(1..).map(|(line, index)| format!("poly f{index} = {line};\n")).collect();
             let ideal: Vec<String> = (1..=lines.len()).map(|index| format!("f{index}")).collect();
-            format!(
-                "ring looproot = 0, ({list}), dp;\n{}ideal equations = {};\n",
-                lines.iter().enumerate().map(poly).collect::<String>(),
-                ideal.join(", ")
-            )
+            format!("ring looproot = 0, ({list}), dp;\n{}ideal equations = {};\n", polys.concat(), ideal.join(", "))
         }
         // The promotion makes numbers polynomials where all of them are numbers.
         Format::Macaulay2 => format!(
@@ -49,7 +47,7 @@ pub(super) fn file(format: Format, polynomials: &[Polynomial<Rational>], names: 
             } else {
                 format!("{} {}", lines.len(), variables.len())
             };
-            format!("{count}\n{}", lines.iter().map(|line| format!(" {line};\n")).collect::<String>())
+            format!("{count}\n {};\n", lines.join(";\n "))
         }
         Format::Julia => format!(
             "using HomotopyContinuation\n\n@var {}\nF = System([\n    {},\n]; variables = [{list}])\n",

@@ -31,7 +31,7 @@ pub struct Expression(pub(super) Node);
 
 #[derive(Clone, Debug)]
 pub(super) enum Node {
-    Terms(Terms),
+    Terms(Place, Terms),
     /// Plain terms and others.
     Sum(Place, Terms, Vec<Node>),
     Product(Place, Vec<Node>),
@@ -90,7 +90,8 @@ impl Expression {
     /// # Panics
     /// When a variable has no value.
     pub fn value(&self, values: &[Rational]) -> Result<Rational, Error> {
-        let bits = |q: &Rational| u64::from(q.numer().significant_bits().max(1)) + u64::from(q.denom().significant_bits());
+        let bits =
+            |q: &Rational| u64::from(q.numer().significant_bits().max(1)) + u64::from(q.denom().significant_bits());
         let growth = self.0.growth(&values.iter().map(bits).collect::<Vec<_>>());
         if growth > LARGEST_VALUE {
             let digits = growth as f64 * std::f64::consts::LOG10_2;
@@ -103,7 +104,7 @@ impl Expression {
 impl Node {
     fn evaluate<R: Ring>(&self, values: &[R]) -> Option<R> {
         match self {
-            Self::Terms(terms) => terms.evaluate(values),
+            Self::Terms(_, terms) => terms.evaluate(values),
             Self::Sum(_, terms, nodes) => {
                 nodes.iter().try_fold(terms.evaluate(values)?, |sum, node| Some(sum.add(&node.evaluate(values)?)))
             }
@@ -117,7 +118,7 @@ impl Node {
     /// A bound of the size of the value, see [`Terms::growth`].
     fn growth(&self, sizes: &[u64]) -> u64 {
         match self {
-            Self::Terms(terms) => terms.growth(sizes),
+            Self::Terms(_, terms) => terms.growth(sizes),
             Self::Sum(_, terms, nodes) => {
                 nodes.iter().map(|node| node.growth(sizes)).fold(terms.growth(sizes), u64::saturating_add)
             }

@@ -36,7 +36,8 @@ impl Fault {
     #[must_use]
     pub fn in_text(self, text: &str) -> Error {
         let Place { line, column } = self.place;
-        let place = if text.contains('\n') { format!("line {line}, column {column}") } else { format!("column {column}") };
+        let place =
+            if text.contains('\n') { format!("line {line}, column {column}") } else { format!("column {column}") };
         Error::Invalid(format!("`{}`, {place}: {}", shortened(text.trim()), self.message))
     }
 }

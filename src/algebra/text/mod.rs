@@ -23,5 +23,5 @@ pub use expression::Expression;
 pub use fault::{Fault, Place};
 pub use format::Format;
 pub use fraction::Fraction;
-pub use names::{MOST_NAMES, Names};
+pub use names::Names;
 pub use scanner::read_number;

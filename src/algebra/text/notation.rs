@@ -77,7 +77,13 @@ fn write_number(text: &mut String, number: &impl std::fmt::Display) {
 
 /// The terms in LaTeX, each with its sign.
 pub(super) fn latex(polynomial: &Polynomial<Rational>, names: &[String]) -> Vec<String> {
-    let names: Vec<String> = names.iter().map(|name| latex_name(name)).collect();
+    let mut typeset: Vec<String> = names.iter().map(|name| latex_name(name)).collect();
+    for variable in 0..names.len() {
+        // `x1` and `x_1` look the same with an index.
+        if typeset[..variable].contains(&typeset[variable]) {
+            typeset[variable] = format!("\\mathrm{{{}}}", names[variable].replace('_', "\\_"));
+        }
+    }
     let mut terms = Vec::new();
     for (exponents, c) in polynomial.terms() {
         let mut term = match (terms.is_empty(), c.is_negative()) {
@@ -89,7 +95,7 @@ pub(super) fn latex(polynomial: &Polynomial<Rational>, names: &[String]) -> Vec<
         let size: Integer = c.numer().clone().abs();
         let factors: Vec<String> = exponents
             .iter()
-            .zip(&names)
+            .zip(&typeset)
             .filter(|(e, _)| **e > 0)
             .map(|(&e, name)| match e {
                 1 => name.clone(),
@@ -109,8 +115,8 @@ pub(super) fn latex(polynomial: &Polynomial<Rational>, names: &[String]) -> Vec<
 }
 
 const GREEK: [&str; 25] = [
-    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi", "pi",
-    "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega", "Gamma", "Delta",
+    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi",
+    "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega", "Gamma", "Delta",
 ];
 
 /// `x_{12}` for x12 and x_12, Greek letters by their names, other words upright.

@@ -126,7 +126,7 @@ impl<'t, 'n> Parser<'t, 'n> {
             self.scanner.advance(1);
         }
         Ok(match (terms.len(), others.len()) {
-            (_, 0) => Node::Terms(terms.folded()),
+            (_, 0) => Node::Terms(place, terms.folded()),
             (0, 1) => others.remove(0),
             _ => Node::Sum(place, terms, others),
         })
@@ -148,7 +148,7 @@ impl<'t, 'n> Parser<'t, 'n> {
             }
             let place = self.scanner.place();
             let factor = self.factor()?;
-            let factor = if divide { inverse(factor, place)? } else { factor };
+            let factor = if divide { inverse(&factor, place)? } else { factor };
             match factor {
                 Factor::Number(n, d) => {
                     numerator = numerator.mul(&n);
@@ -189,7 +189,7 @@ impl<'t, 'n> Parser<'t, 'n> {
             return Ok(());
         }
         if !is_one {
-            factors.push(Node::Terms(plain));
+            factors.push(Node::Terms(start, plain));
         }
         others.push(Node::Product(start, factors));
         Ok(())
@@ -197,7 +197,8 @@ impl<'t, 'n> Parser<'t, 'n> {
 
     fn juxtaposed(&mut self) -> Fault {
         let found = self.scanner.found();
-        self.scanner.fault(format!("found {found} where an operator should stand; write products with `*`: 2*x, not 2x"))
+        self.scanner
+            .fault(format!("found {found} where an operator should stand; write products with `*`: 2*x, not 2x"))
     }
 
     fn factor(&mut self) -> Result<Factor, Fault> {
@@ -213,7 +214,7 @@ impl<'t, 'n> Parser<'t, 'n> {
                 Factor::Variable(u32::try_from(variable).map_err(|_| too_large(place))?, 1)
             }
             b'(' => match self.parenthesis()? {
-                Node::Terms(terms) if terms.len() < 2 => Factor::Term(terms),
+                Node::Terms(_, terms) if terms.len() < 2 => Factor::Term(terms),
                 node => Factor::Other(node),
             },
             _ => return Err(self.unexpected("a number, a variable or `(`")),
@@ -268,7 +269,8 @@ impl<'t, 'n> Parser<'t, 'n> {
     }
 
     fn raise(&mut self, base: Factor, exponent: u32, place: Place) -> Result<Factor, Fault> {
-        let raised = |e: u32| e.checked_mul(exponent).filter(|e| *e <= LARGEST_EXPONENT).ok_or_else(|| too_large(place));
+        let raised =
+            |e: u32| e.checked_mul(exponent).filter(|e| *e <= LARGEST_EXPONENT).ok_or_else(|| too_large(place));
         Ok(match base {
             _ if exponent == 0 => Factor::Number(Int::one(), Int::one()),
             Factor::Number(n, d) => {
@@ -307,8 +309,8 @@ fn too_large(place: Place) -> Fault {
 }
 
 /// What a division by this factor multiplies with.
-fn inverse(factor: Factor, place: Place) -> Result<Factor, Fault> {
-    let (n, d) = match &factor {
+fn inverse(factor: &Factor, place: Place) -> Result<Factor, Fault> {
+    let (n, d) = match factor {
         Factor::Number(n, d) => (n.clone(), d.clone()),
         Factor::Term(term) => match term.single() {
             Some((n, d, [])) => (n, d),

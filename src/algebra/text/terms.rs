@@ -23,6 +23,9 @@ pub(super) fn bits(n: &Int) -> u64 {
     }
 }
 
+/// Variables and exponents, no variable twice.
+type Powers = [(u32, u32)];
+
 /// A sum of products of a number and powers of variables, like terms not yet collected.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Terms {
@@ -98,13 +101,13 @@ impl Terms {
         Rational::from((numerator.to_integer(), denominator.map_or_else(|| Integer::from(1), Int::to_integer)))
     }
 
-    fn powers(&self, term: usize) -> &[(u32, u32)] {
+    fn powers(&self, term: usize) -> &Powers {
         let start = if term == 0 { 0 } else { self.ends[term - 1] };
         &self.powers[start..self.ends[term]]
     }
 
     /// The only term, or none for zero: numerator, denominator and powers.
-    pub(super) fn single(&self) -> Option<(Int, Int, &[(u32, u32)])> {
+    pub(super) fn single(&self) -> Option<(Int, Int, &Powers)> {
         match self.len() {
             0 => Some((Int::zero(), Int::one(), &[])),
             1 => {
@@ -139,17 +142,13 @@ impl Terms {
     /// # Errors
     /// What would not fit the memory, in words.
     pub(super) fn expand(&self) -> Result<Fraction, String> {
-        let denominator = self.denominators.iter().fold(Int::one(), |all, (_, one)| common_multiple(&all, one));
         let variables = self.variables();
-        let scale_bytes = if self.denominators.is_empty() { 0 } else { bits(&denominator) / 8 };
-        let size = (self.len() as u64).saturating_mul(4 * variables as u64 + 16 + scale_bytes);
-        if size > LARGEST_SIZE {
-            let digits = bits(&denominator) * 3 / 10;
-            let terms = self.len();
-            return Err(format!(
-                "found {terms} terms in {variables} variables with a common denominator of {digits} digits, more than \
-                 {LARGEST_SIZE} bytes"
-            ));
+        let mut denominator = Int::one();
+        self.check_size(variables, &denominator)?;
+        for (_, one) in &self.denominators {
+            // Watched while it grows: multiples of very many denominators would take for ever.
+            denominator = common_multiple(&denominator, one);
+            self.check_size(variables, &denominator)?;
         }
         let one = Int::one();
         let mut fractions = self.denominators.iter().peekable();
@@ -161,15 +160,25 @@ impl Terms {
             }
             start = end;
             let own = fractions.next_if(|(term, _)| *term == index).map_or(&one, |(_, own)| own);
-            let numerator = if *own == denominator {
-                numerator.clone()
-            } else {
-                numerator.mul(&denominator.div_exact(own))
-            };
+            let numerator =
+                if *own == denominator { numerator.clone() } else { numerator.mul(&denominator.div_exact(own)) };
             (exponents, numerator)
         };
         let terms = self.numerators.iter().zip(&self.ends).enumerate().map(term);
         Ok(Fraction { numerator: Polynomial::from_terms(terms), denominator })
+    }
+
+    /// Refuses what would not fit the memory.
+    fn check_size(&self, variables: usize, denominator: &Int) -> Result<(), String> {
+        let size = (self.len() as u64).saturating_mul(4 * variables as u64 + 16 + bits(denominator) / 8);
+        if size <= LARGEST_SIZE {
+            return Ok(());
+        }
+        let (terms, digits) = (self.len(), bits(denominator) * 3 / 10);
+        Err(format!(
+            "found {terms} terms in {variables} variables with a common denominator of more than {digits} digits, \
+             expected at most {LARGEST_SIZE} bytes"
+        ))
     }
 
     /// The value of the sum where each variable has the given one; `None` where a number has no image in the ring.
@@ -195,7 +204,8 @@ impl Terms {
             let degree: &mut u32 = &mut degrees[variable as usize];
             *degree = exponent.max(*degree);
         }
-        let number = self.numerators.iter().map(bits).max().unwrap_or(1) + u64::from(usize::BITS - self.len().leading_zeros());
+        let number =
+            self.numerators.iter().map(bits).max().unwrap_or(1) + u64::from(usize::BITS - self.len().leading_zeros());
         let numbers = self.denominators.iter().map(|(_, d)| bits(d)).fold(number, u64::saturating_add);
         let powers = degrees.iter().zip(sizes).map(|(&degree, size)| size.saturating_mul(u64::from(degree)));
         powers.fold(numbers, u64::saturating_add)

@@ -1,6 +1,6 @@
 //! The algorithms behind the verbs, each called from one place.
 
-use looproot::algebra::determinant::bareiss;
+use looproot::algebra::determinant::{bareiss, modular};
 use looproot::algebra::int::Int;
 use looproot::algebra::number::nearest_f64;
 use looproot::algebra::polynomial::Polynomial;
@@ -42,9 +42,23 @@ pub fn resultant(f: &Poly, g: &Poly, variable: usize) -> Poly {
     bareiss(&rows)
 }
 
-/// The determinant of a square matrix.
+/// The determinant of a square matrix: by its images modulo primes where there is one variable, else without fractions.
 pub fn determinant(rows: &[Vec<Poly>]) -> Poly {
-    bareiss(rows)
+    let entries = || rows.iter().flatten();
+    let variables = entries().map(Poly::variables).max().unwrap_or(0);
+    let mut used = (0..variables).filter(|&variable| entries().any(|entry| entry.degree(variable) > 0));
+    let (variable, None) = (used.next().unwrap_or(0), used.next()) else { return bareiss(rows) };
+    let degree = entries().map(|entry| entry.degree(variable)).max().unwrap_or(0) as usize;
+    let mut matrices = vec![vec![vec![Rational::new(); rows.len()]; rows.len()]; degree + 1];
+    for (i, row) in rows.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate() {
+            for (term, c) in entry.coefficients().iter().enumerate() {
+                matrices[entry.exponent(term, variable) as usize][i][j] = Rational::from(c.to_integer());
+            }
+        }
+    }
+    let determinant = modular(&matrices).map(|c| Some(Int::from(c.numer().clone())));
+    determinant.map_or_else(Poly::zero, |determinant| Poly::from_univariate(variable, &determinant))
 }
 
 /// The polynomial without the common factor of its coefficients, the first of them positive.
@@ -174,7 +188,8 @@ pub fn real_roots(f: &Univariate<Rational>) -> Vec<RealRoot> {
         let chain = SturmChain::new(&factor);
         let leading = factor.coefficients().last().cloned().unwrap_or_default();
         // Cauchy's bound.
-        let largest = factor.coefficients().iter().map(|c| Rational::from(c / &leading).abs()).max().unwrap_or_default();
+        let largest =
+            factor.coefficients().iter().map(|c| Rational::from(c / &leading).abs()).max().unwrap_or_default();
         let bound = Rational::from(largest.ceil_ref()) + 1;
         let mut open = vec![(Rational::from(-&bound), bound)];
         while let Some((lower, upper)) = open.pop() {

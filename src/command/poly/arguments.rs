@@ -186,4 +186,7 @@ pub struct EvaluateOptions {
 pub struct JobOptions {
     /// A JSON file of kind polydet, mpolydet, res, expand, mul or roots
     pub file: String,
+    /// Repeat for at most this long
+    #[arg(long, value_name = "S", default_value_t = 1.5)]
+    pub seconds: f64,
 }

@@ -1,10 +1,10 @@
 //! `looproot poly det`
 
-use crate::command::exit::{Exit, Fault};
 use super::algorithm;
 use super::arguments::DetOptions;
 use super::input::{self, Source};
 use super::tell;
+use crate::command::exit::{Exit, Fault};
 use looproot::algebra::int::Int;
 use looproot::algebra::polynomial::Polynomial;
 use looproot::algebra::ring::{Domain, Ring};

@@ -1,8 +1,8 @@
 //! `looproot poly evaluate`
 
-use crate::command::exit::{Exit, Fault};
 use super::arguments::EvaluateOptions;
 use super::{input, tell};
+use crate::command::exit::{Exit, Fault};
 use looproot::algebra::number::nearest_f64;
 use looproot::algebra::polynomial::Polynomial;
 use looproot::algebra::text::{Expression, Format, Fraction, Names};
@@ -18,7 +18,10 @@ pub fn run(options: &EvaluateOptions) -> Result<Exit, Fault> {
     let inputs = input::files(argument);
     // An expression with numbers for all variables need not be multiplied out.
     if !source.is_json() {
-        let expression = Expression::parse(&source.text, &mut names).map_err(|fault| source.fault(fault))?;
+        let expressions = Expression::parse_all(&source.text, &mut names).map_err(|fault| source.fault(fault))?;
+        let [expression] = expressions.as_slice() else {
+            return Err(Error::Invalid(format!("found {} polynomials, expected 1", expressions.len())).into());
+        };
         let values = values(&options.at, &names)?;
         if let Some(values) = values.iter().cloned().collect::<Option<Vec<_>>>() {
             let value = expression.value(&values)?;
@@ -37,9 +40,9 @@ pub fn run(options: &EvaluateOptions) -> Result<Exit, Fault> {
 fn values(at: &[String], names: &Names) -> Result<Vec<Option<Rational>>, Error> {
     let mut values = vec![None; names.list().len()];
     for text in at {
-        let (name, number) = text
-            .split_once('=')
-            .ok_or_else(|| Error::Invalid(format!("found `{text}` behind --at, expected a variable and its value: x=1/2")))?;
+        let (name, number) = text.split_once('=').ok_or_else(|| {
+            Error::Invalid(format!("found `{text}` behind --at, expected a variable and its value: x=1/2"))
+        })?;
         let variable = names.known(name.trim())?;
         if values[variable].replace(input::number(number)?).is_some() {
             return Err(Error::Invalid(format!("found two values of `{}`, expected one", name.trim())));
@@ -48,7 +51,12 @@ fn values(at: &[String], names: &Names) -> Result<Vec<Option<Rational>>, Error> 
     Ok(values)
 }
 
-fn rest(fraction: &Fraction, values: &[Option<Rational>], names: &Names, options: &EvaluateOptions) -> Result<Exit, Fault> {
+fn rest(
+    fraction: &Fraction,
+    values: &[Option<Rational>],
+    names: &Names,
+    options: &EvaluateOptions,
+) -> Result<Exit, Fault> {
     let mut polynomial = fraction.to_rational();
     for (variable, value) in values.iter().enumerate() {
         if let Some(value) = value {

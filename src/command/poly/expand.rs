@@ -1,8 +1,8 @@
 //! `looproot poly expand`
 
-use crate::command::exit::{Exit, Fault};
 use super::arguments::ExpandOptions;
 use super::{input, tell};
+use crate::command::exit::{Exit, Fault};
 
 /// Multiplies polynomials out.
 pub fn run(options: &ExpandOptions) -> Result<Exit, Fault> {

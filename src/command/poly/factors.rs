@@ -1,8 +1,8 @@
 //! `looproot poly gcd` and `looproot poly factor-free`
 
-use crate::command::exit::{Exit, Fault};
 use super::arguments::{FactorFreeOptions, GcdOptions};
 use super::{algorithm, input, tell};
+use crate::command::exit::{Exit, Fault};
 use looproot::algebra::int::Int;
 use looproot::algebra::polynomial::Polynomial;
 use looproot::algebra::ring::Ring;
@@ -42,8 +42,9 @@ pub fn square_free(options: &FactorFreeOptions) -> Result<Exit, Fault> {
             let mut document: Value = serde_json::from_str(&write_json(&[rational(p)], &names)).unwrap_or(Value::Null);
             json!({ "multiplicity": k, "terms": document["terms"].take() })
         };
-        let factors: Vec<Value> = factors.iter().map(factor).collect();
-        format!("{:#}\n", json!({ "vars": names.list(), "number": number.to_string(), "factors": factors }))
+        let factors: Vec<String> = factors.iter().map(|f| format!("\n{}", factor(f))).collect();
+        let (vars, number) = (json!(names.list()), number.to_string());
+        format!("{{ \"vars\": {vars}, \"number\": \"{number}\", \"factors\": [{}\n] }}\n", factors.join(","))
     } else {
         let mut text = format!("{}, number {number}\n", counted(factors.len(), "square-free factor"));
         let mut table = Columns::new(&["multiplicity", "degree", "terms", "factor"], &["factor"]);

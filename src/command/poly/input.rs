@@ -1,7 +1,7 @@
 //! What stands on the command line for a polynomial: an expression, a file, standard input.
 
-use crate::command::exit::Fault;
 use super::arguments::ReadOptions;
+use crate::command::exit::Fault;
 use looproot::algebra::text::{self, Expression, Fraction, Names};
 use looproot::error::Error;
 use rug::Rational;
@@ -100,10 +100,7 @@ pub fn polynomials(arguments: &[&str], options: &ReadOptions) -> Result<(Vec<Fra
 }
 
 /// Like [`polynomials`], where only this number of them makes sense.
-pub fn exactly<const N: usize>(
-    arguments: &[&str],
-    options: &ReadOptions,
-) -> Result<([Fraction; N], Names), Fault> {
+pub fn exactly<const N: usize>(arguments: &[&str], options: &ReadOptions) -> Result<([Fraction; N], Names), Fault> {
     let (polynomials, names) = polynomials(arguments, options)?;
     let found = polynomials.len();
     let noun = if N == 1 { "polynomial" } else { "polynomials" };

@@ -3,14 +3,14 @@
 //! What is timed begins with the texts of the job as JSON gives them, so that reading numbers and expressions and
 //! clearing denominators counts.
 
-use crate::command::exit::{Exit, Fault};
-use crate::command::output::print;
 use super::algorithm;
 use super::arguments::JobOptions;
 use super::determinant;
 use super::input::Source;
 use super::resultant;
 use super::timing::{measure, peak_memory};
+use crate::command::exit::{Exit, Fault};
+use crate::command::output::print;
 use looproot::algebra::determinant::modular;
 use looproot::algebra::int::Int;
 use looproot::algebra::ring::{Domain, Ring};
@@ -36,9 +36,9 @@ pub fn run(options: &JobOptions) -> Result<Exit, Fault> {
         Error::Invalid(message) => Error::Io { path: path.clone(), message },
         other => other,
     })?;
-    let (reading, _) = measure(|| job.read())?;
-    let (seconds, answer) = measure(|| job.read().and_then(|input| job.solve(input)))?;
-    let (terms, value) = (answer.terms(), answer.value(job.variables())?);
+    let (reading, _) = measure(options.seconds, || job.read())?;
+    let (seconds, answer) = measure(options.seconds, || job.read().and_then(|input| job.solve(input)))?;
+    let (terms, value) = (answer.terms(), answer.value(job.variables()));
     let mut text = format!("T {seconds:.9}\nREAD {reading:.9}\nTERMS {terms}\nVAL {value}\n");
     if let Some(kilobytes) = peak_memory() {
         text.push_str(&format!("RSS {kilobytes}\n"));
@@ -96,7 +96,8 @@ impl<'j> Job<'j> {
             "res" => Ok(Self::Resultant(variables()?, [text("f")?, text("g")?], text("elim")?)),
             "expand" => {
                 let divisor = document["div"].as_str().filter(|text| !text.is_empty());
-                Ok(Self::Expand(variables()?, text("expr")?, divisor, document["times"].as_u64().unwrap_or(0)))
+                let times = divisor.map_or(0, |_| document["times"].as_u64().unwrap_or(1));
+                Ok(Self::Expand(variables()?, text("expr")?, divisor, times))
             }
             "mul" => Ok(Self::Product(variables()?, [text("f")?, text("g")?])),
             "roots" if document["poly"].is_string() => Ok(Self::Roots(variables()?, text("poly")?)),
@@ -110,8 +111,11 @@ impl<'j> Job<'j> {
     fn variables(&self) -> usize {
         match self {
             Self::PolyDet(_) | Self::RootsOfList(_) => 1,
-            Self::Det(vars, ..) | Self::Resultant(vars, ..) | Self::Expand(vars, ..) => vars.len(),
-            Self::Product(vars, ..) | Self::Roots(vars, ..) => vars.len(),
+            Self::Det(vars, _)
+            | Self::Resultant(vars, ..)
+            | Self::Expand(vars, ..)
+            | Self::Product(vars, _)
+            | Self::Roots(vars, _) => vars.len(),
         }
     }
 
@@ -171,7 +175,7 @@ impl<'j> Job<'j> {
             (Self::Expand(.., times), Input::Polynomials(polynomials)) => {
                 let mut rest = polynomials[0].clone();
                 for _ in 0..*times {
-                    rest = divide(&rest, polynomials.get(1))?;
+                    rest = divide(&rest, &polynomials[1])?;
                 }
                 Answer::Polynomial(rest)
             }
@@ -194,24 +198,23 @@ impl Answer {
     }
 
     /// The value where the variables are the first primes.
-    fn value(&self, variables: usize) -> Outcome<Rational> {
+    fn value(&self, variables: usize) -> Rational {
         let primes = (2_i64..).filter(|n| (2..*n).all(|d| n % d != 0));
         match self {
             Self::Polynomial(result) => {
                 let primes: Vec<Int> = primes.take(variables).map(Int::from).collect();
                 let value = result.numerator.evaluate(&primes).to_integer();
-                Ok(Rational::from((value, result.denominator.to_integer())))
+                Rational::from((value, result.denominator.to_integer()))
             }
-            Self::Univariate(result) => Ok(result.eval(&Rational::from(2))),
-            Self::Count(count) => Ok(Rational::from(*count)),
+            Self::Univariate(result) => result.eval(&Rational::from(2)),
+            Self::Count(count) => Rational::from(*count),
         }
     }
 }
 
 /// The exact quotient; the denominator of the divisor becomes a factor.
-fn divide(dividend: &Fraction, divisor: Option<&Fraction>) -> Outcome<Fraction> {
+fn divide(dividend: &Fraction, divisor: &Fraction) -> Outcome<Fraction> {
     let fault = || Error::Invalid("found a division with a remainder, expected an exact one".to_owned());
-    let divisor = divisor.ok_or_else(|| Error::Invalid("found `times` without `div`, expected a divisor".to_owned()))?;
     let numerator = dividend.numerator.checked_div_exact(&divisor.numerator).ok_or_else(fault)?;
     Ok(algorithm::over(numerator.scale(&divisor.denominator), std::slice::from_ref(&dividend.denominator)))
 }

@@ -1,9 +1,9 @@
 //! `looproot poly resultant`
 
-use crate::command::exit::{Exit, Fault};
 use super::algorithm;
 use super::arguments::ResultantOptions;
 use super::{input, tell};
+use crate::command::exit::{Exit, Fault};
 use looproot::algebra::text::Fraction;
 
 /// Eliminates a variable from two polynomials.

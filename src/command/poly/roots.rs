@@ -1,12 +1,12 @@
 //! `looproot poly roots`
 
-use crate::command::exit::{Exit, Fault};
 use super::algorithm::{RealRoot, real_roots};
 use super::arguments::{ReadOptions, RootsOptions};
 use super::{input, tell};
-use looproot::algebra::univariate::Univariate;
+use crate::command::exit::{Exit, Fault};
 use looproot::algebra::int::Int;
 use looproot::algebra::text::{Fraction, Names};
+use looproot::algebra::univariate::Univariate;
 use looproot::error::Error;
 use looproot::report::number::counted;
 use looproot::report::table::Columns;
@@ -66,7 +66,10 @@ fn table(roots: &[RealRoot], polynomial: &Univariate<Rational>, name: &str) -> S
         let number = |x: f64| format!("{x:?}");
         table.row([
             (index + 1).to_string(),
-            exact.as_ref().filter(|q| q.to_string().len() <= 24).map_or_else(|| number(root.to_f64()), Rational::to_string),
+            exact
+                .as_ref()
+                .filter(|q| q.to_string().len() <= 24)
+                .map_or_else(|| number(root.to_f64()), Rational::to_string),
             root.multiplicity().to_string(),
             if exact.is_some() { "exact".to_owned() } else { number(lower) },
             if exact.is_some() { String::new() } else { number(upper) },
@@ -85,6 +88,7 @@ fn document(roots: &[RealRoot], polynomial: &Univariate<Rational>, name: &str) -
             "interval": [lower.to_string(), upper.to_string()],
         })
     };
-    let roots: Vec<Value> = roots.iter().map(root).collect();
-    format!("{:#}\n", json!({ "variable": name, "degree": polynomial.degree(), "roots": roots }))
+    let roots: Vec<String> = roots.iter().map(|r| format!("\n{}", root(r))).collect();
+    let degree = polynomial.degree().unwrap_or(0);
+    format!("{{ \"variable\": {}, \"degree\": {degree}, \"roots\": [{}\n] }}\n", json!(name), roots.join(","))
 }

@@ -1,9 +1,9 @@
 //! Polynomials as results: a verdict in one line, then the polynomial.
 
+use super::arguments::WriteOptions;
 use crate::command::arguments::{Colour, OutputOptions};
 use crate::command::exit::Fault;
 use crate::command::output::Output;
-use super::arguments::WriteOptions;
 use looproot::algebra::int::Int;
 use looproot::algebra::polynomial::Polynomial;
 use looproot::algebra::ring::Ring;

@@ -1,16 +1,15 @@
 //! How long something takes, measured as the scripts for the other systems do.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Operations shorter than this, in seconds, are measured by their shortest wall time, longer ones by the median of CPU
 /// times: the first is robust against other work on the machine, the second what a long run costs.
 const SHORT: f64 = 0.02;
-const BUDGET: Duration = Duration::from_millis(1500);
 const SHORT_SAMPLES: usize = 300;
 const LONG_SAMPLES: usize = 25;
 
-/// The seconds that an operation takes, and its last result.
-pub fn measure<R, E>(mut operation: impl FnMut() -> Result<R, E>) -> Result<(f64, R), E> {
+/// The seconds that an operation takes, repeated for the time given but at least done once, and its last result.
+pub fn measure<R, E>(budget: f64, mut operation: impl FnMut() -> Result<R, E>) -> Result<(f64, R), E> {
     let begin = Instant::now();
     let (mut shortest, mut cpu) = (f64::INFINITY, Vec::new());
     loop {
@@ -21,7 +20,7 @@ pub fn measure<R, E>(mut operation: impl FnMut() -> Result<R, E>) -> Result<(f64
         cpu.push(start.zip(cpu_seconds()).map_or(wall, |(start, end)| end - start));
         shortest = wall.min(shortest);
         let limit = if shortest < SHORT { SHORT_SAMPLES } else { LONG_SAMPLES };
-        if begin.elapsed() > BUDGET || cpu.len() >= limit {
+        if begin.elapsed().as_secs_f64() > budget || cpu.len() >= limit {
             cpu.sort_by(f64::total_cmp);
             return Ok((if shortest < SHORT { shortest } else { cpu[cpu.len() / 2] }, result));
         }
