@@ -213,8 +213,11 @@ impl Ring for Int {
         }
     }
     #[inline(always)]
-    fn to_word(&self) -> Option<i64> {
-        self.to_i64()
+    fn to_wide(&self) -> Option<i128> {
+        match &self.0 {
+            Repr::Small(n) => Some(i128::from(*n)),
+            Repr::Large(n) => n.to_i128(),
+        }
     }
     #[inline]
     fn from_wide(n: i128) -> Self {

@@ -57,6 +57,11 @@ impl Packing {
         (variable / per_word, 64 - self.bits * ((variable % per_word) as u32 + 1))
     }
 
+    /// A mask for a field in its lowest place.
+    pub(super) const fn field(&self) -> u64 {
+        (1 << self.bits) - 1
+    }
+
     /// A word with the guard bits of all fields.
     #[must_use]
     pub const fn guards(&self) -> u64 {

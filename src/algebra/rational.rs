@@ -98,8 +98,8 @@ impl Ring for Integer {
     fn add_product(&mut self, a: &Self, b: &Self) {
         *self += a * b;
     }
-    fn to_word(&self) -> Option<i64> {
-        self.to_i64()
+    fn to_wide(&self) -> Option<i128> {
+        self.to_i128()
     }
     fn from_wide(n: i128) -> Self {
         Integer::from(n)

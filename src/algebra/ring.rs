@@ -49,9 +49,9 @@ pub trait Ring: Clone + PartialEq + Debug {
         *self = self.add(&a.mul(b));
     }
 
-    /// The integer that an element of a ring of integers is, if it fits a machine word: sums of many products then run in
-    /// machine words. `None` in all other rings.
-    fn to_word(&self) -> Option<i64> {
+    /// The integer that an element of a ring of integers is, if it fits an i128: sums of many products then run in machine
+    /// words. `None` in all other rings.
+    fn to_wide(&self) -> Option<i128> {
         None
     }
 

@@ -5,6 +5,7 @@
 use super::heap::{Heap, Key};
 use crate::algebra::monomial::Packing;
 use crate::algebra::ring::Ring;
+use std::ops::Range;
 
 /// The sum of products of coefficients.
 pub(super) trait Accumulator<C>: Clone {
@@ -98,8 +99,16 @@ impl Grid {
         Self { packing, leading, strides, monomials }
     }
 
-    fn cells(&self) -> usize {
+    /// The number of cells.
+    pub(super) fn cells(&self) -> usize {
         self.monomials.len() / self.packing.words()
+    }
+
+    /// The monomial of a cell.
+    #[inline(always)]
+    pub(super) fn monomial(&self, cell: usize) -> &[u64] {
+        let words = self.packing.words();
+        &self.monomials[cell * words..(cell + 1) * words]
     }
 
     /// The words of a monomial.
@@ -116,12 +125,13 @@ impl Grid {
 /// Terms in blocks that agree in the leading variables.
 pub(super) struct Blocks<'a, K, C> {
     /// The monomial of each block in the leading variables.
-    keys: Vec<K>,
+    pub(super) keys: Vec<K>,
     /// Where each block starts, and the number of terms.
     starts: Vec<usize>,
     /// The cell of each term.
-    cells: Vec<usize>,
-    coefficients: &'a [C],
+    pub(super) cells: Vec<usize>,
+    /// The coefficients of the terms.
+    pub(super) coefficients: &'a [C],
 }
 
 impl<'a, K: Key, C> Blocks<'a, K, C> {
@@ -129,26 +139,36 @@ impl<'a, K: Key, C> Blocks<'a, K, C> {
     pub(super) fn new(grid: &Grid, monomials: &[u64], coefficients: &'a [C]) -> Self {
         let packing = grid.packing;
         let masks: Vec<u64> = (0..packing.words()).map(|word| packing.leading(word, grid.leading)).collect();
+        let strides: Vec<((usize, u32), usize)> =
+            grid.strides.iter().enumerate().map(|(k, &stride)| (packing.place(grid.leading + k), stride)).collect();
+        let field = packing.field();
         let (mut keys, mut starts, mut cells) = (Vec::new(), Vec::new(), Vec::with_capacity(coefficients.len()));
         let mut previous: Option<&[u64]> = None;
         for (i, monomial) in monomials.chunks_exact(packing.words()).enumerate() {
             let same = previous.is_some_and(|p| p.iter().zip(monomial).zip(&masks).all(|((a, b), m)| (a ^ b) & m == 0));
             if !same {
-                let masked: Vec<u64> = monomial.iter().zip(&masks).map(|(word, mask)| word & mask).collect();
-                keys.push(K::read(&masked));
+                keys.push(K::read(monomial, &masks));
                 starts.push(i);
             }
             previous = Some(monomial);
-            let cell = |(k, stride): (usize, &usize)| packing.exponent(monomial, grid.leading + k) as usize * stride;
-            cells.push(grid.strides.iter().enumerate().map(cell).sum());
+            let cell =
+                |((word, shift), stride): &((usize, u32), usize)| (monomial[*word] >> shift & field) as usize * stride;
+            cells.push(strides.iter().map(cell).sum());
         }
         starts.push(coefficients.len());
         Self { keys, starts, cells, coefficients }
     }
+}
 
+impl<K, C> Blocks<'_, K, C> {
     /// The number of blocks.
     pub(super) fn len(&self) -> usize {
         self.keys.len()
+    }
+
+    /// The terms of a block.
+    pub(super) fn block(&self, number: usize) -> Range<usize> {
+        self.starts[number]..self.starts[number + 1]
     }
 }
 
@@ -166,9 +186,9 @@ impl<A> Collector<A> {
     where
         A: Accumulator<C>,
     {
-        let range = right.starts[j]..right.starts[j + 1];
+        let range = right.block(j);
         let (cells, coefficients) = (&right.cells[range.clone()], &right.coefficients[range]);
-        for k in left.starts[i]..left.starts[i + 1] {
+        for k in left.block(i) {
             let (start, a) = (left.cells[k], &left.coefficients[k]);
             for (cell, b) in cells.iter().zip(coefficients) {
                 let cell = start + cell;
@@ -218,9 +238,7 @@ pub(super) fn product<K: Key, C, A: Accumulator<C>, const MARKED: bool>(
         let mut emit = |cell: usize, sums: &mut [A]| {
             if !sums[cell].vanishes() {
                 let sum = std::mem::replace(&mut sums[cell], A::empty());
-                let words = key.words().len();
-                let inner = &grid.monomials[cell * words..(cell + 1) * words];
-                monomials.extend(key.words().iter().zip(inner).map(|(outer, inner)| outer | inner));
+                monomials.extend(key.words().iter().zip(grid.monomial(cell)).map(|(outer, inner)| outer | inner));
                 take(sum);
             }
         };

@@ -5,22 +5,28 @@
 
 /// Packed monomials as heap keys.
 pub(super) trait Key: Clone + Ord {
-    /// The monomial in these words.
-    fn read(words: &[u64]) -> Self;
+    /// The fields of a monomial that the masks keep.
+    fn read(words: &[u64], masks: &[u64]) -> Self;
     /// The product of two monomials.
     fn times(&self, other: &Self) -> Self;
+    /// The quotient by a monomial that divides this one.
+    fn over(&self, other: &Self) -> Self;
     /// The words of the monomial.
     fn words(&self) -> &[u64];
 }
 
 impl Key for u64 {
     #[inline(always)]
-    fn read(words: &[u64]) -> Self {
-        words[0]
+    fn read(words: &[u64], masks: &[u64]) -> Self {
+        words[0] & masks[0]
     }
     #[inline(always)]
     fn times(&self, other: &Self) -> Self {
         self + other
+    }
+    #[inline(always)]
+    fn over(&self, other: &Self) -> Self {
+        self - other
     }
     #[inline(always)]
     fn words(&self) -> &[u64] {
@@ -30,12 +36,16 @@ impl Key for u64 {
 
 impl Key for [u64; 2] {
     #[inline(always)]
-    fn read(words: &[u64]) -> Self {
-        [words[0], words[1]]
+    fn read(words: &[u64], masks: &[u64]) -> Self {
+        [words[0] & masks[0], words[1] & masks[1]]
     }
     #[inline(always)]
     fn times(&self, other: &Self) -> Self {
         [self[0] + other[0], self[1] + other[1]]
+    }
+    #[inline(always)]
+    fn over(&self, other: &Self) -> Self {
+        [self[0] - other[0], self[1] - other[1]]
     }
     #[inline(always)]
     fn words(&self) -> &[u64] {
@@ -44,11 +54,14 @@ impl Key for [u64; 2] {
 }
 
 impl Key for Box<[u64]> {
-    fn read(words: &[u64]) -> Self {
-        words.into()
+    fn read(words: &[u64], masks: &[u64]) -> Self {
+        words.iter().zip(masks).map(|(word, mask)| word & mask).collect()
     }
     fn times(&self, other: &Self) -> Self {
         self.iter().zip(other).map(|(a, b)| a + b).collect()
+    }
+    fn over(&self, other: &Self) -> Self {
+        self.iter().zip(other).map(|(a, b)| a - b).collect()
     }
     fn words(&self) -> &[u64] {
         self

@@ -195,9 +195,16 @@ impl<R: Ring> Polynomial<R> {
     /// The degree in one variable; 0 for the zero polynomial.
     #[must_use]
     pub fn degree(&self, variable: usize) -> u32 {
-        // The first variable decreases along the terms.
-        let terms = if variable == 0 { self.len().min(1) } else { self.len() };
-        (0..terms).map(|i| self.exponent(i, variable)).max().unwrap_or(0)
+        if variable >= self.variables() {
+            return 0;
+        }
+        if variable == 0 {
+            // The first variable decreases along the terms.
+            return if self.is_zero() { 0 } else { self.exponent(0, 0) };
+        }
+        let ((word, shift), field) = (self.packing.place(variable), self.packing.field());
+        let words = self.monomials.iter().skip(word).step_by(self.packing.words());
+        words.fold(0, |degree, word| degree.max((word >> shift) & field)) as u32
     }
 
     /// The degrees in all [`Self::variables`].
@@ -239,10 +246,10 @@ impl<R: Ring> Polynomial<R> {
         if variable >= self.variables() {
             return Self::zero();
         }
-        let (word, shift) = self.packing.place(variable);
+        let ((word, shift), field) = (self.packing.place(variable), self.packing.field());
         let (mut monomials, mut coefficients) = (Vec::new(), Vec::new());
         for (i, c) in self.coefficients.iter().enumerate() {
-            let exponent = self.exponent(i, variable);
+            let exponent = (self.monomial(i)[word] >> shift & field) as u32;
             if exponent > 0 {
                 // Lowering one exponent everywhere by one keeps the order.
                 let start = monomials.len();

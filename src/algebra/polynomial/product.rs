@@ -9,11 +9,11 @@ use crate::algebra::ring::Ring;
 /// Up to so many products of terms are sorted.
 const FEW: usize = 1024;
 /// Cells of a box: their sums stay in the second-level cache.
-const CELLS: usize = 1 << 14;
+pub(super) const CELLS: usize = 1 << 14;
 
 /// The coefficients as machine words, if all are such.
 pub(super) fn to_words<R: Ring>(coefficients: &[R]) -> Option<Vec<i64>> {
-    coefficients.iter().map(R::to_word).collect()
+    coefficients.iter().map(|c| i64::try_from(c.to_wide()?).ok()).collect()
 }
 
 /// A bound of the absolute values of the coefficients of the product, and of all sums on the way there.
