@@ -40,8 +40,8 @@ impl Chinese {
 
 #[cfg(test)]
 mod tests {
-    use super::super::primes::primes_beyond;
     use super::*;
+    use crate::algebra::modular::primes::primes_beyond;
 
     #[test]
     fn integers_up_to_a_quarter_of_the_product_come_back() {

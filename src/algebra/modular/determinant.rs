@@ -3,10 +3,9 @@
 use super::batch::place;
 use super::bound::Norms;
 use super::lattice::Lattice;
-use super::problem::{Form, Problem};
+use super::problem::{Form, Problem, most_points};
 use super::substitution::Plan;
-use super::terms::Terms;
-use super::{descending, most_points};
+use super::terms::{Terms, descending};
 use pulp::Arch;
 use rug::Integer;
 

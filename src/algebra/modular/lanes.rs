@@ -257,8 +257,8 @@ impl Lanes for Modulus {
 
 #[cfg(test)]
 mod tests {
-    use super::super::primes::primes_beyond;
     use super::*;
+    use crate::algebra::modular::primes::primes_beyond;
     use pulp::{Arch, WithSimd};
     use rug::Integer;
 

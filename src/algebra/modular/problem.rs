@@ -4,11 +4,19 @@ use super::batch::{Batch, SIDE, ZeroPivot};
 use super::chinese::Chinese;
 use super::lanes::{Floats, Lanes, MOST_LANES};
 use super::lattice::Lattice;
-use super::primes::primes_beyond;
+use super::primes::{count_beyond, primes_beyond};
 use super::substitution::{Plan, Values};
 use crate::algebra::modp::Modulus;
 use pulp::{Arch, Simd, WithSimd};
 use rug::Integer;
+
+/// The number of values, each modulo one prime, beyond which a determinant is not to be found from its values.
+const MOST_VALUES: usize = 1 << 24;
+
+/// The number of points at which determinants with coefficients up to `2^bits` may be evaluated.
+pub(super) fn most_points(bits: f64, parameters: usize) -> usize {
+    MOST_VALUES / usize::max(count_beyond(bits), 4 * parameters)
+}
 
 /// Which matrix has the determinant in question.
 #[derive(Clone, Copy)]
@@ -260,12 +268,12 @@ fn determinant_modulo(prime: u64, rows: &[Vec<i64>]) -> i64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::determinant::{determinant_on, univariate_determinant_on};
-    use super::super::primes::primes_beyond;
-    use super::super::resultant::resultant_on;
-    use super::super::terms::Terms;
     use super::*;
     use crate::algebra::determinant::bareiss;
+    use crate::algebra::modular::determinant::{determinant_on, univariate_determinant_on};
+    use crate::algebra::modular::primes::primes_beyond;
+    use crate::algebra::modular::resultant::resultant_on;
+    use crate::algebra::modular::terms::Terms;
     use crate::algebra::univariate::Univariate;
     use rug::Rational;
 

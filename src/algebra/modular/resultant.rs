@@ -2,10 +2,9 @@
 
 use super::bound::Norms;
 use super::lattice::Lattice;
-use super::problem::{Form, Problem};
+use super::problem::{Form, Problem, most_points};
 use super::substitution::Plan;
-use super::terms::Terms;
-use super::{descending, most_points};
+use super::terms::{Terms, descending};
 use pulp::Arch;
 
 /// The degree beyond which a matrix of that size is not to be written down.
