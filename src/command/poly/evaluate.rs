@@ -81,6 +81,6 @@ fn told(value: &Rational, format: Format) -> String {
             format!("{}\n", json!({ "num": num, "den": den, "f64": float.is_finite().then_some(float) }))
         }
         _ if value.is_integer() => format!("{value}\n"),
-        _ => format!("{value}\nabout {float:?}\n"),
+        _ => format!("{value}\n# about {float:?}\n"),
     }
 }
