@@ -15,6 +15,8 @@ const MOST_TERMS: f64 = 2e7;
 const MOST_WORK: f64 = 1e12;
 /// Products of fewer terms than this need no estimate.
 const SMALL: f64 = 1e5;
+/// So do powers of few terms with exponents up to this.
+const SMALL_EXPONENT: u32 = 1000;
 
 /// A polynomial, and a bound of its exponents which need not be sharp.
 struct Expanded {
@@ -124,6 +126,7 @@ fn multiply(a: &Expanded, b: &Expanded, place: Place) -> Result<Expanded, Fault>
 fn raise(base: &Expanded, exponent: u32, place: Place) -> Result<Expanded, Fault> {
     let largest_exponent = base.largest_exponent.saturating_mul(u64::from(exponent));
     if largest_exponent > u64::from(LARGEST_EXPONENT)
+        || exponent > SMALL_EXPONENT
         || multisets(base.polynomial().len() as f64, f64::from(exponent)) > SMALL
     {
         let size = Size::of(base.polynomial());

@@ -57,6 +57,7 @@ fn rest(
     names: &Names,
     options: &EvaluateOptions,
 ) -> Result<Exit, Fault> {
+    input::check_degrees(std::slice::from_ref(fraction))?;
     let mut polynomial = fraction.to_rational();
     for (variable, value) in values.iter().enumerate() {
         if let Some(value) = value {
