@@ -19,6 +19,8 @@ use std::cmp::Ordering;
 
 /// Parentheses nested deeper than this are refused.
 const DEEPEST: usize = 500;
+/// Room is made for this many terms before they are read.
+const MOST_EXPECTED: usize = 4096;
 /// Powers of numbers may have this many bits in one text, all taken together.
 const LARGEST_POWERS: u64 = 100_000_000;
 
@@ -112,7 +114,9 @@ impl<'t, 'n> Parser<'t, 'n> {
     }
 
     fn sum(&mut self) -> Result<Node, Fault> {
-        let (mut terms, mut others) = (Terms::default(), Vec::new());
+        // Most texts are one long sum, of terms of some ten bytes; parentheses are short.
+        let expected = if self.depth == 0 { self.scanner.remaining() / 8 } else { 0 };
+        let (mut terms, mut others) = (Terms::with_capacity(expected.min(MOST_EXPECTED)), Vec::new());
         self.scanner.peek();
         let place = self.scanner.place();
         let mut negative = false;

@@ -39,6 +39,15 @@ pub(super) struct Terms {
 }
 
 impl Terms {
+    pub(super) fn with_capacity(terms: usize) -> Self {
+        Self {
+            numerators: Vec::with_capacity(terms),
+            ends: Vec::with_capacity(terms),
+            powers: Vec::with_capacity(2 * terms),
+            denominators: Vec::new(),
+        }
+    }
+
     pub(super) fn constant(numerator: Int, denominator: Int) -> Self {
         let mut terms = Self::default();
         terms.finish_term(numerator, denominator);
