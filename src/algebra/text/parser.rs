@@ -11,7 +11,7 @@ use super::expression::Node;
 use super::fault::{Fault, Place};
 use super::names::Names;
 use super::scanner::Scanner;
-use super::terms::{Terms, bits, power};
+use super::terms::{MOST_TERMS, Terms, bits, power};
 use crate::algebra::int::Int;
 use crate::algebra::monomial::LARGEST_EXPONENT;
 use crate::algebra::ring::Ring;
@@ -87,6 +87,8 @@ struct Parser<'t, 'n> {
     scanner: Scanner<'t>,
     names: &'n mut Names,
     depth: usize,
+    /// Terms so far.
+    terms: usize,
     /// Bits of powers of numbers so far.
     power_bits: u64,
 }
@@ -105,7 +107,7 @@ enum Factor {
 
 impl<'t, 'n> Parser<'t, 'n> {
     fn new(text: &'t str, names: &'n mut Names) -> Self {
-        Self { scanner: Scanner::new(text), names, depth: 0, power_bits: 0 }
+        Self { scanner: Scanner::new(text), names, depth: 0, terms: 0, power_bits: 0 }
     }
 
     fn unexpected(&mut self, expected: &str) -> Fault {
@@ -143,6 +145,10 @@ impl<'t, 'n> Parser<'t, 'n> {
         let mut divide = false;
         self.scanner.peek();
         let start = self.scanner.place();
+        self.terms += 1;
+        if self.terms > MOST_TERMS {
+            return Err(Fault::new(start, format!("found more than the {MOST_TERMS} terms possible")));
+        }
         loop {
             while let sign @ (b'+' | b'-') = self.scanner.peek() {
                 self.scanner.advance(1);

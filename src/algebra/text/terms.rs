@@ -10,6 +10,9 @@ use rug::{Integer, Rational};
 /// Sums that would take more memory than this, in bytes, are refused.
 pub(super) const LARGEST_SIZE: u64 = 2 << 30;
 
+/// So are texts and results with more terms than this.
+pub(super) const MOST_TERMS: usize = 20_000_000;
+
 /// The least common multiple of two positive numbers.
 pub(super) fn common_multiple(a: &Int, b: &Int) -> Int {
     if a == b { a.clone() } else { a.mul(&b.div_exact(&a.gcd(b))) }
