@@ -103,6 +103,10 @@ fn complaints_name_what_was_found_and_exit_with_1() {
         (&["det", "[[1, 2], [3]]"], "one of 1 entries"),
         (&["roots", "x*y - 1"], "found the variables x, y"),
         (&["roots", "7"], "found a number"),
+        (&["roots", "x^1000000000 - 1"], "degree 1000000000"),
+        (&["det", "[[x^1000000000]]"], "degree 1000000000"),
+        (&["resultant", "x^1000000000", "x - 1", "--eliminate", "x"], "degree 1000000000"),
+        (&["expand", "((x - x + 2)^1000000000)^1000000000"], "digits"),
         (&["roots", "x - x"], "found a number"),
         (&["factor-free", "0"], "found zero"),
         (&["evaluate", "x", "--at", "x"], "found `x` behind --at"),
@@ -133,6 +137,9 @@ fn files_and_standard_input_hold_polynomials() {
     assert_eq!(answer(&["resultant", &format!("@{document}"), "--eliminate", "x"]), direct);
     let piped = run_with_input(&["resultant", "-", "--eliminate", "x"], &fs::read(&document).unwrap());
     assert_eq!((piped.code, piped.out), (0, direct));
+    // What is printed for people is read again.
+    let again = run_with_input(&["resultant", "-", "--eliminate", "x"], answer(&["expand", &text]).as_bytes());
+    assert_eq!((again.code, again.out), (0, answer(&["resultant", &text, "--eliminate", "x"])));
     let refused = run(&["expand", &text, "-o", &text]);
     assert!(refused.code == 1 && refused.err.contains("never changed"), "{}", refused.err);
     assert!(fs::read_to_string(&text).unwrap().starts_with("# a circle"));
@@ -157,7 +164,7 @@ fn a_million_terms_are_read() {
     let result = fs::read_to_string(&out).unwrap();
     fs::remove_file(&path).unwrap();
     fs::remove_file(&out).unwrap();
-    assert!(result.starts_with("degree 1998 (999 in x, 999 in y), 1000000 terms, content 1\n"), "{}", &result[..80]);
+    assert!(result.starts_with("# degree 1998 (999 in x, 999 in y), 1000000 terms, content 1\n"), "{}", &result[..80]);
 }
 
 #[test]

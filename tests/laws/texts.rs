@@ -198,6 +198,8 @@ fn faults_are_placed_and_told() {
         ("9^99999999999", 1, 3, "exponent above"),
         ("9^999999999", 1, 1, "too many digits"),
         ("(9^9999999)^99", 1, 1, "too many digits"),
+        ("x + (x - x + 2)^1000000000", 1, 5, "digits"),
+        ("((x - x + 2)^1000000000)^1000000000", 1, 1, "digits"),
         ("1e401", 1, 1, "power of ten"),
         (".", 1, 1, "point without digits"),
         ("x = y", 1, 3, "found `=`"),

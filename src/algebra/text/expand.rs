@@ -3,18 +3,18 @@
 use super::expression::Node;
 use super::fault::{Fault, Place};
 use super::fraction::Fraction;
-use super::terms::{LARGEST_SIZE, bits, common_multiple};
+use super::terms::{LARGEST_SIZE, MOST_TERMS, bits, common_multiple};
 use crate::algebra::int::Int;
 use crate::algebra::monomial::LARGEST_EXPONENT;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
 
-/// Results with more terms than this are refused.
-const MOST_TERMS: f64 = 2e7;
-/// So are products of more products of machine words than this.
+/// Products of more products of machine words than this are refused.
 const MOST_WORK: f64 = 1e12;
 /// Products of fewer terms than this need no estimate.
 const SMALL: f64 = 1e5;
+/// So do powers of few terms with exponents up to this.
+const SMALL_EXPONENT: u32 = 1000;
 
 /// A polynomial, and a bound of its exponents which need not be sharp.
 struct Expanded {
@@ -53,6 +53,10 @@ impl Node {
                     let summand = node.expanded()?;
                     largest_exponent = largest_exponent.max(summand.largest_exponent);
                     sums.add(summand.fraction);
+                    if sums.terms() > MOST_TERMS {
+                        let message = format!("found a sum of more than the {MOST_TERMS} terms possible");
+                        return Err(Fault::new(*place, message));
+                    }
                 }
                 Ok(Expanded { fraction: sums.total(), largest_exponent })
             }
@@ -84,6 +88,10 @@ impl Sums {
             last = add(&before, &last);
         }
         self.0.push(last);
+    }
+
+    fn terms(&self) -> usize {
+        self.0.iter().map(|part| part.numerator.len()).sum()
     }
 
     fn total(self) -> Fraction {
@@ -124,6 +132,7 @@ fn multiply(a: &Expanded, b: &Expanded, place: Place) -> Result<Expanded, Fault>
 fn raise(base: &Expanded, exponent: u32, place: Place) -> Result<Expanded, Fault> {
     let largest_exponent = base.largest_exponent.saturating_mul(u64::from(exponent));
     if largest_exponent > u64::from(LARGEST_EXPONENT)
+        || exponent > SMALL_EXPONENT
         || multisets(base.polynomial().len() as f64, f64::from(exponent)) > SMALL
     {
         let size = Size::of(base.polynomial());
@@ -217,10 +226,8 @@ impl Size {
         }
         let bytes = self.terms * (8.0 * self.words() + 16.0);
         let (terms, digits) = (self.terms, self.bits * std::f64::consts::LOG10_2);
-        if terms > MOST_TERMS {
-            return refuse(format!(
-                "found a product of up to {terms:.1e} terms, more than the {MOST_TERMS:.0e} possible"
-            ));
+        if terms > MOST_TERMS as f64 {
+            return refuse(format!("found a product of up to {terms:.1e} terms, more than the {MOST_TERMS} possible"));
         }
         if bytes > LARGEST_SIZE as f64 || work > MOST_WORK {
             return refuse(format!(

@@ -11,6 +11,8 @@ use rug::Rational;
 
 /// Values whose exact rationals would have more bits than this are refused.
 const LARGEST_VALUE: u64 = 1 << 30;
+/// Polynomials in which one number might have more bits than this are refused; the bound is far from sharp for sums.
+const LARGEST_NUMBER: u64 = 1 << 32;
 
 /// A polynomial as it is written: sums, products and powers, not multiplied out.
 ///
@@ -69,6 +71,13 @@ impl Expression {
     /// # Errors
     /// Where an exponent becomes too large, or the result would (by an estimate made before multiplying).
     pub fn expand(&self) -> Result<Fraction, Fault> {
+        let growth = self.0.growth(&[]);
+        if growth > LARGEST_NUMBER {
+            let digits = growth as f64 * std::f64::consts::LOG10_2;
+            let message =
+                format!("found a polynomial with numbers of up to {digits:.0e} digits, expected shorter ones");
+            return Err(Fault::new(self.0.place(), message));
+        }
         self.0.expand().map(Fraction::reduced)
     }
 
@@ -102,6 +111,13 @@ impl Expression {
 }
 
 impl Node {
+    /// Where it begins.
+    const fn place(&self) -> Place {
+        match self {
+            Self::Terms(place, _) | Self::Sum(place, ..) | Self::Product(place, _) | Self::Power(place, ..) => *place,
+        }
+    }
+
     fn evaluate<R: Ring>(&self, values: &[R]) -> Option<R> {
         match self {
             Self::Terms(_, terms) => terms.evaluate(values),

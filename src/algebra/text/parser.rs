@@ -11,7 +11,7 @@ use super::expression::Node;
 use super::fault::{Fault, Place};
 use super::names::Names;
 use super::scanner::Scanner;
-use super::terms::{Terms, bits, power};
+use super::terms::{MOST_TERMS, Terms, bits, power};
 use crate::algebra::int::Int;
 use crate::algebra::monomial::LARGEST_EXPONENT;
 use crate::algebra::ring::Ring;
@@ -19,6 +19,8 @@ use std::cmp::Ordering;
 
 /// Parentheses nested deeper than this are refused.
 const DEEPEST: usize = 500;
+/// Room is made for this many terms before they are read.
+const MOST_EXPECTED: usize = 4096;
 /// Powers of numbers may have this many bits in one text, all taken together.
 const LARGEST_POWERS: u64 = 100_000_000;
 
@@ -85,6 +87,8 @@ struct Parser<'t, 'n> {
     scanner: Scanner<'t>,
     names: &'n mut Names,
     depth: usize,
+    /// Terms so far.
+    terms: usize,
     /// Bits of powers of numbers so far.
     power_bits: u64,
 }
@@ -103,7 +107,7 @@ enum Factor {
 
 impl<'t, 'n> Parser<'t, 'n> {
     fn new(text: &'t str, names: &'n mut Names) -> Self {
-        Self { scanner: Scanner::new(text), names, depth: 0, power_bits: 0 }
+        Self { scanner: Scanner::new(text), names, depth: 0, terms: 0, power_bits: 0 }
     }
 
     fn unexpected(&mut self, expected: &str) -> Fault {
@@ -112,7 +116,9 @@ impl<'t, 'n> Parser<'t, 'n> {
     }
 
     fn sum(&mut self) -> Result<Node, Fault> {
-        let (mut terms, mut others) = (Terms::default(), Vec::new());
+        // Most texts are one long sum, of terms of some ten bytes; parentheses are short.
+        let expected = if self.depth == 0 { self.scanner.remaining() / 8 } else { 0 };
+        let (mut terms, mut others) = (Terms::with_capacity(expected.min(MOST_EXPECTED)), Vec::new());
         self.scanner.peek();
         let place = self.scanner.place();
         let mut negative = false;
@@ -139,6 +145,10 @@ impl<'t, 'n> Parser<'t, 'n> {
         let mut divide = false;
         self.scanner.peek();
         let start = self.scanner.place();
+        self.terms += 1;
+        if self.terms > MOST_TERMS {
+            return Err(Fault::new(start, format!("found more than the {MOST_TERMS} terms possible")));
+        }
         loop {
             while let sign @ (b'+' | b'-') = self.scanner.peek() {
                 self.scanner.advance(1);

@@ -22,6 +22,11 @@ impl<'t> Scanner<'t> {
         Self { text, at: 0, line: 1, line_start: 0 }
     }
 
+    /// Bytes not read yet.
+    pub(super) const fn remaining(&self) -> usize {
+        self.text.len() - self.at
+    }
+
     pub(super) const fn place(&self) -> Place {
         Place { line: self.line, column: self.at - self.line_start + 1 }
     }

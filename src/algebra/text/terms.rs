@@ -10,6 +10,9 @@ use rug::{Integer, Rational};
 /// Sums that would take more memory than this, in bytes, are refused.
 pub(super) const LARGEST_SIZE: u64 = 2 << 30;
 
+/// So are texts and results with more terms than this.
+pub(super) const MOST_TERMS: usize = 20_000_000;
+
 /// The least common multiple of two positive numbers.
 pub(super) fn common_multiple(a: &Int, b: &Int) -> Int {
     if a == b { a.clone() } else { a.mul(&b.div_exact(&a.gcd(b))) }
@@ -39,6 +42,15 @@ pub(super) struct Terms {
 }
 
 impl Terms {
+    pub(super) fn with_capacity(terms: usize) -> Self {
+        Self {
+            numerators: Vec::with_capacity(terms),
+            ends: Vec::with_capacity(terms),
+            powers: Vec::with_capacity(2 * terms),
+            denominators: Vec::new(),
+        }
+    }
+
     pub(super) fn constant(numerator: Int, denominator: Int) -> Self {
         let mut terms = Self::default();
         terms.finish_term(numerator, denominator);

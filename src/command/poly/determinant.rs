@@ -22,7 +22,11 @@ pub fn run(options: &DetOptions) -> Result<Exit, Fault> {
     }
     let expand = |entry: &Expression| entry.expand().map_err(|fault| source.fault(fault));
     let rows: Result<Vec<Vec<Fraction>>, Error> = rows.iter().map(|row| row.iter().map(expand).collect()).collect();
-    let result = of_fractions(&rows?);
+    let rows = rows?;
+    for row in &rows {
+        input::check_degrees(row)?;
+    }
+    let result = of_fractions(&rows);
     tell::results(&[result], &names, &options.write, &input::files(&[&options.matrix]))?;
     Ok(Exit::Complete)
 }

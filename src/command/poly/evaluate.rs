@@ -57,6 +57,7 @@ fn rest(
     names: &Names,
     options: &EvaluateOptions,
 ) -> Result<Exit, Fault> {
+    input::check_degrees(std::slice::from_ref(fraction))?;
     let mut polynomial = fraction.to_rational();
     for (variable, value) in values.iter().enumerate() {
         if let Some(value) = value {
@@ -81,6 +82,6 @@ fn told(value: &Rational, format: Format) -> String {
             format!("{}\n", json!({ "num": num, "den": den, "f64": float.is_finite().then_some(float) }))
         }
         _ if value.is_integer() => format!("{value}\n"),
-        _ => format!("{value}\nabout {float:?}\n"),
+        _ => format!("{value}\n# about {float:?}\n"),
     }
 }

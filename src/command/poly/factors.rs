@@ -17,6 +17,7 @@ use serde_json::{Value, json};
 pub fn common(options: &GcdOptions) -> Result<Exit, Fault> {
     let arguments: Vec<&str> = std::iter::once(&options.f).chain(&options.g).map(String::as_str).collect();
     let (polynomials, names) = input::polynomials(&arguments, &options.read)?;
+    input::check_degrees(&polynomials)?;
     let gcd = polynomials.iter().fold(Polynomial::<Int>::zero(), |gcd, f| algorithm::gcd(&gcd, &f.numerator));
     let result = Fraction { numerator: algorithm::primitive(&gcd), denominator: Int::one() };
     tell::results(&[result], &names, &options.write, &input::files(&arguments))?;
@@ -27,6 +28,7 @@ pub fn common(options: &GcdOptions) -> Result<Exit, Fault> {
 pub fn square_free(options: &FactorFreeOptions) -> Result<Exit, Fault> {
     let argument = &[options.polynomial.as_str()];
     let ([f], names) = input::exactly(argument, &options.read)?;
+    input::check_degrees(std::slice::from_ref(&f))?;
     if f.numerator.is_zero() {
         return Err(Error::Invalid("found zero, of which every polynomial is a factor".to_owned()).into());
     }

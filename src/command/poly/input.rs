@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 
 /// Files beyond this many bytes are refused.
 const LARGEST: u64 = 1 << 30;
+/// Degrees beyond this are refused where coefficients are listed.
+const LARGEST_DEGREE: u32 = 100_000;
 
 /// A text and where it came from.
 pub struct Source {
@@ -106,6 +108,15 @@ pub fn exactly<const N: usize>(arguments: &[&str], options: &ReadOptions) -> Res
     let noun = if N == 1 { "polynomial" } else { "polynomials" };
     let fault = |_| Error::Invalid(format!("found {found} polynomials, expected {N} {noun}"));
     Ok((polynomials.try_into().map_err(fault)?, names))
+}
+
+/// The algorithms behind most verbs work with lists of coefficients, which these degrees keep short.
+pub fn check_degrees(polynomials: &[Fraction]) -> Result<(), Error> {
+    let largest = polynomials.iter().flat_map(|p| p.numerator.degrees()).max().unwrap_or(0);
+    if largest > LARGEST_DEGREE {
+        return Err(Error::Invalid(format!("found the degree {largest}, expected at most {LARGEST_DEGREE}")));
+    }
+    Ok(())
 }
 
 /// The files among the arguments, which no output may replace.

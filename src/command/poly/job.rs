@@ -6,7 +6,7 @@
 use super::algorithm;
 use super::arguments::JobOptions;
 use super::determinant;
-use super::input::Source;
+use super::input::{Source, check_degrees};
 use super::resultant;
 use super::timing::{measure, peak_memory};
 use crate::command::exit::{Exit, Fault};
@@ -151,7 +151,9 @@ impl<'j> Job<'j> {
                 Ok(Input::Univariate(Univariate::new(numbers?)))
             }
             Self::Roots(variables, text) => {
-                let polynomial = expand(text, &mut Names::given(variables)?)?.to_rational().to_univariate(0);
+                let polynomial = expand(text, &mut Names::given(variables)?)?;
+                check_degrees(std::slice::from_ref(&polynomial))?;
+                let polynomial = polynomial.to_rational().to_univariate(0);
                 let several = || Error::Invalid("found several variables, expected roots in the first one".to_owned());
                 Ok(Input::Univariate(polynomial.ok_or_else(several)?))
             }
@@ -161,7 +163,10 @@ impl<'j> Job<'j> {
     fn solve(&self, input: Input) -> Outcome<Answer> {
         Ok(match (self, input) {
             (_, Input::Coefficients(matrices)) => Answer::Univariate(modular(&matrices)),
-            (_, Input::Matrix(rows)) => Answer::Polynomial(determinant::of_fractions(&rows)),
+            (_, Input::Matrix(rows)) => {
+                rows.iter().try_for_each(|row| check_degrees(row))?;
+                Answer::Polynomial(determinant::of_fractions(&rows))
+            }
             (_, Input::Univariate(polynomial)) => {
                 if polynomial.is_zero() {
                     return Err(Error::Invalid("found zero, of which every number is a root".to_owned()));
@@ -169,6 +174,7 @@ impl<'j> Job<'j> {
                 Answer::Count(algorithm::real_roots(&polynomial).len())
             }
             (Self::Resultant(variables, _, eliminated), Input::Polynomials(polynomials)) => {
+                check_degrees(&polynomials)?;
                 let variable = Names::given(variables)?.known(eliminated)?;
                 Answer::Polynomial(resultant::of_fractions(&polynomials[0], &polynomials[1], variable))
             }

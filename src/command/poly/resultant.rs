@@ -9,9 +9,11 @@ use looproot::algebra::text::Fraction;
 /// Eliminates a variable from two polynomials.
 pub fn run(options: &ResultantOptions) -> Result<Exit, Fault> {
     let arguments: Vec<&str> = std::iter::once(&options.f).chain(&options.g).map(String::as_str).collect();
-    let ([f, g], names) = input::exactly(&arguments, &options.read)?;
+    let (polynomials, names) = input::exactly::<2>(&arguments, &options.read)?;
+    input::check_degrees(&polynomials)?;
     let variable = names.known(&options.eliminate)?;
-    let result = of_fractions(&f, &g, variable);
+    let [f, g] = &polynomials;
+    let result = of_fractions(f, g, variable);
     tell::results(&[result], &names, &options.write, &input::files(&arguments))?;
     Ok(Exit::Complete)
 }

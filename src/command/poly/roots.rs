@@ -17,6 +17,7 @@ use serde_json::{Value, json};
 pub fn run(options: &RootsOptions) -> Result<Exit, Fault> {
     let argument = &[options.polynomial.as_str()];
     let ([f], names) = input::exactly(argument, &ReadOptions { vars: None })?;
+    input::check_degrees(std::slice::from_ref(&f))?;
     let (polynomial, name) = univariate(&f, &names)?;
     let roots = real_roots(&polynomial);
     let text = if options.write.json { document(&roots, &polynomial, name) } else { table(&roots, &polynomial, name) };

@@ -35,18 +35,17 @@ pub fn polynomials(results: &[Fraction], names: &Names, format: Format) -> Resul
         }
         return Ok(text);
     }
+    // Verdicts are comments, so that the output is input again.
     let mut text = String::new();
     if results.len() > 1 {
         let variables = names.list().join(", ");
-        text.push_str(&format!("{} in {variables}\n", counted(results.len(), "polynomial")));
+        text.push_str(&format!("# {} in {variables}\n\n", counted(results.len(), "polynomial")));
     }
-    for (result, polynomial) in results.iter().zip(&polynomials) {
-        if results.len() > 1 {
-            text.push('\n');
-        }
-        text.push_str(&format!("{}\n{}\n", verdict(result, names), format.polynomial(polynomial, names)));
-    }
-    Ok(text)
+    let one = |(result, polynomial): (&Fraction, &Polynomial<Rational>)| {
+        format!("# {}\n{}", verdict(result, names), format.polynomial(polynomial, names))
+    };
+    let blocks: Vec<String> = results.iter().zip(&polynomials).map(one).collect();
+    Ok(text + &blocks.join(";\n\n") + "\n")
 }
 
 /// Writes polynomials in the language asked for.
