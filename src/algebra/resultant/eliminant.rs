@@ -255,8 +255,8 @@ impl<R: Ring> Eliminant<R> {
 /// for a common root at infinity of multiplicity k. `[d0, d1]` is the common root `-d0/d1`; `[1]` says that there is
 /// none. Empty where both polynomials are zero.
 ///
-/// It is found from the null space of the Bezout matrix: of pivots, those not above `tolerance` times the largest one
-/// count as zero. In exact fields that is 0; in inexact ones about the relative error of the coefficients.
+/// It is found from the null space of the Bezout matrix of the two scaled to a largest coefficient of 1: pivots not above
+/// `tolerance` count as zero. In exact fields that is 0; in inexact ones about the relative error of the coefficients.
 #[must_use]
 pub fn common_divisor<F: Field>(f: &[F], g: &[F], tolerance: f64) -> Vec<F> {
     let (f, g) = if f.len() < g.len() { (g, f) } else { (f, g) };
