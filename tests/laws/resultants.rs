@@ -199,7 +199,8 @@ proptest! {
         let linear = |root: &i32| image::<Rational>(&[-root, 1]);
         let divisor = common.iter().fold(Univariate::<Rational>::one(), |d, root| d.mul(&linear(root)));
         let (f, g) = (image::<Rational>(&f), image::<Rational>(&g));
-        prop_assume!(f.gcd(&g).degree() == Some(0));
+        prop_assume!(!f.is_zero() || !g.is_zero());
+        let (f, g) = (f.div_exact(&f.gcd(&g)), g.div_exact(&f.gcd(&g)));
         // Zeros in front of both are common roots at infinity.
         let given = |f: &Univariate<Rational>| [f.mul(&divisor).coefficients(), &vec![Rational::new(); infinite]].concat();
         let (f, g) = (given(&f), given(&g));
@@ -335,13 +336,13 @@ mod of_three_polynomials {
         planted_root_comes_back([2, 2], 8, 24);
     }
 
-    /// Of three bilinear equations with constant coefficients the 2x2 determinant is the resultant: of degree 2 in each.
+    /// Three products of lines have a common point for four values of the parameter, each of them simple.
     #[test]
     fn of_three_products_of_linear_forms() {
         let [x, y, z] = [0, 1, 2].map(variable);
         let f = [x.sub(&z).mul(&y.sub(&number(1))), x.mul(&y.sub(&number(2))), x.sub(&number(3)).mul(&y.sub(&z))];
         let determinant = dixon::eliminate(f.each_ref(), [0, 1]).determinant;
-        // Common roots: x = z with y = 2 = z or z = 3 (then y = 2); y = 1 with x = 0 and z = 1; x = 0 = z and y = z or ...
+        // At (z, 2) if z = 2 or z = 3, at (0, 1) if z = 1, and at (0, z) if z = 0.
         let removal =
             remove_factors(&determinant, &[z.clone(), z.sub(&number(1)), z.sub(&number(2)), z.sub(&number(3))]);
         let multiplicities: Vec<u32> = removal.factors.iter().map(|(_, k)| *k).collect();
@@ -371,22 +372,23 @@ mod of_three_polynomials {
         assert_eq!(ratio.to_constant(), Some(int(81)));
     }
 
-    /// Without terms in y alone the matrix is singular; a maximal minor still vanishes at the root.
+    /// Few terms can make the matrix singular; a maximal minor still vanishes at the root.
     #[test]
     fn of_special_form_have_a_singular_matrix_and_a_minor() {
         let [x, y, z] = [0, 1, 2].map(variable);
-        let xy = x.mul(&y);
         let f = [
-            xy.add(&x.mul(&z)).sub(&number(8)),
-            xy.mul(&z).add(&x.pow(2)).sub(&number(22)),
-            xy.pow(2).sub(&x.mul(&number(18))),
+            x.pow(2).add(&x.mul(&y)).add(&x.mul(&z)),
+            y.pow(2).add(&x.mul(&y)).sub(&z),
+            x.pow(2).sub(&y.pow(2)).add(&y.mul(&z)).sub(&x),
         ];
-        // The root x = 2, y = 3, z = 1 does not solve these; x = 2, y = 3, z: xy + 2z = 8, 6z + 4 = 22 - ...
         let values = [2, 3, 1].map(int);
         let f = f.map(|f| f.sub(&Polynomial::constant(f.evaluate(&values))));
         let eliminant = dixon::eliminate(f.each_ref(), [0, 1]);
+        let at = |c: &Poly| ModP::<PRIME_61>::from_rational(&c.evaluate(&[0, 0, 1234].map(int)).to_integer().into());
+        let minor = eliminant.matrix.maximal_minor(at).unwrap();
+        assert_eq!((eliminant.matrix.rows.len(), eliminant.matrix.columns.len(), minor.entries.len()), (5, 5, 4));
+        assert_eq!(eliminant.witness, Some([0, 0]));
         assert!(!eliminant.determinant.is_zero());
-        assert!(eliminant.witness.is_some());
         assert!(eliminant.determinant.evaluate(&values).is_zero());
     }
 

@@ -191,9 +191,10 @@ impl<R: Ring> Dixon<R> {
     ///
     /// A zero q or s is a root at infinity. `None` if the rank of the matrix is not by one less than its size there
     /// (several common roots, none, or a matrix whose determinant vanishes identically), or a coefficient has no image.
-    /// Of pivots, those not above `tolerance` times the largest one count as zero: 0 in exact fields.
+    /// Pivots not above `tolerance` times the largest entry count as zero: 0 in exact fields.
     pub fn common_root_at<F: Field>(&self, image: impl Fn(&R) -> Option<F>, tolerance: f64) -> Option<[[F; 2]; 2]> {
         let matrix = self.at(image)?;
+        let tolerance = tolerance * matrix.iter().flatten().map(F::pivot_size).fold(0.0, f64::max);
         let single = |matrix: &[Vec<F>], columns: usize| {
             let mut null_space = reduce(matrix, columns, tolerance).null_space();
             null_space.pop().filter(|_| null_space.is_empty())

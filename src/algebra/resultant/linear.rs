@@ -11,7 +11,7 @@ pub(super) struct Reduced<F> {
     columns: usize,
 }
 
-/// Reduces a matrix; pivots not above `tolerance` times the largest one count as zero.
+/// Reduces a matrix; pivots whose size is not above `tolerance` count as zero.
 ///
 /// # Panics
 /// When a row does not have the given number of columns.
@@ -25,7 +25,6 @@ pub(super) fn reduce_up_to<F: Field>(matrix: &[Vec<F>], columns: usize, rank: us
     let mut rows = matrix.to_vec();
     let mut names: Vec<usize> = (0..rows.len()).collect();
     let mut pivots: Vec<(usize, usize)> = Vec::new();
-    let mut largest = 0.0;
     for step in 0..rows.len().min(rank) {
         let (mut best, mut at) = (0.0, (step, 0));
         for (i, row) in rows.iter().enumerate().skip(step) {
@@ -36,10 +35,7 @@ pub(super) fn reduce_up_to<F: Field>(matrix: &[Vec<F>], columns: usize, rank: us
                 }
             }
         }
-        if step == 0 {
-            largest = best;
-        }
-        let Some(inverse) = rows[at.0][at.1].inverse().filter(|_| best > tolerance * largest) else { break };
+        let Some(inverse) = rows[at.0][at.1].inverse().filter(|_| best > tolerance) else { break };
         rows.swap(step, at.0);
         names.swap(step, at.0);
         pivots.push((names[step], at.1));

@@ -30,7 +30,7 @@ pub struct HalfAngles<R> {
 /// // cos^2 - sin^2 = cos 2 phi
 /// let (c, s, t) = (Polynomial::<Int>::variable(0), Polynomial::variable(1), Polynomial::variable(2));
 /// let form = half_tangents(&c.pow(2).sub(&s.pow(2)), &[(Pair { cos: 0, sin: 1 }, 2)]);
-/// assert_eq!(form.polynomial, t.pow(4).sub(&t.pow(2).scale(&Int::from(6))).add(&Ring::one()));
+/// assert_eq!(form.polynomial, t.pow(4).sub(&t.pow(2).scale(&Int::from_integer(6))).add(&Ring::one()));
 /// assert_eq!(form.powers, [2]);
 /// ```
 #[must_use]
