@@ -15,14 +15,14 @@ mod motions;
 mod multivariate;
 #[path = "laws/polynomials.rs"]
 mod polynomials;
-#[path = "laws/roots.rs"]
-mod roots;
 #[path = "laws/resultants.rs"]
 mod resultants;
-#[path = "laws/trigonometry.rs"]
-mod trigonometry;
+#[path = "laws/roots.rs"]
+mod roots;
 #[path = "laws/texts.rs"]
 mod texts;
+#[path = "laws/trigonometry.rs"]
+mod trigonometry;
 
 use looproot::algebra::{
     dual::Dual,

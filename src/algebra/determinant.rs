@@ -119,10 +119,26 @@ where
     Row: AsRef<[Rational]>,
 {
     let (size, entries) = entries(coefficients);
-    let (entries, denominator, content) = primitive(size, &entries);
-    let determinant = univariate_determinant(size, &entries);
-    let scale = Rational::from((content, denominator));
-    Univariate::new(determinant.into_iter().map(|c| Rational::from(c * &scale)).collect())
+    let (entries, denominator) = without_denominators(size, &entries);
+    let determinant = of_entries(size, entries);
+    Univariate::new(determinant.into_iter().map(|c| Rational::from((c, denominator.clone()))).collect())
+}
+
+/// The coefficients of the determinant of a matrix of polynomials in one variable, constant terms first, the entries row
+/// by row; zeros may stand at the end.
+pub(super) fn of_entries(size: usize, mut entries: Vec<Vec<Integer>>) -> Vec<Integer> {
+    let mut content = Integer::from(1);
+    for i in 0..size {
+        content *= remove_content(&mut entries, i * size..(i + 1) * size, 1);
+    }
+    for j in 0..size {
+        content *= remove_content(&mut entries, j..size * size, size);
+    }
+    let mut determinant = univariate_determinant(size, &entries);
+    for c in &mut determinant {
+        *c *= &content;
+    }
+    determinant
 }
 
 /// The size of the matrices, and row by row the entries of the matrix polynomial, each by its coefficients.
@@ -141,10 +157,9 @@ fn entries<'a, M: AsRef<[Row]>, Row: AsRef<[R]> + 'a, R>(coefficients: &'a [M]) 
     (size, entries)
 }
 
-/// The entries with integers for coefficients, without common factors in a row or column, and the denominator and the
-/// content by which the determinant was thereby multiplied and divided.
-fn primitive(size: usize, entries: &[Vec<&Rational>]) -> (Vec<Vec<Integer>>, Integer, Integer) {
-    let (mut denominator, mut content) = (Integer::from(1), Integer::from(1));
+/// The entries with integers for coefficients, and the denominator by which the determinant was thereby multiplied.
+fn without_denominators(size: usize, entries: &[Vec<&Rational>]) -> (Vec<Vec<Integer>>, Integer) {
+    let mut denominator = Integer::from(1);
     let mut integers: Vec<Vec<Integer>> = Vec::with_capacity(entries.len());
     for row in entries.chunks_exact(size.max(1)) {
         let mut common = Integer::from(1);
@@ -157,13 +172,7 @@ fn primitive(size: usize, entries: &[Vec<&Rational>]) -> (Vec<Vec<Integer>>, Int
         integers.extend(row.iter().map(|entry| entry.iter().map(scaled).collect()));
         denominator *= common;
     }
-    for i in 0..size {
-        content *= remove_content(&mut integers, i * size..(i + 1) * size, 1);
-    }
-    for j in 0..size {
-        content *= remove_content(&mut integers, j..size * size, size);
-    }
-    (integers, denominator, content)
+    (integers, denominator)
 }
 
 /// Divides entries by the greatest common divisor of their coefficients, and returns it, or 1 if all are zero.

@@ -1,6 +1,8 @@
 //! Polynomials as plain lists of terms.
 
 use super::lattice::Lattice;
+use crate::algebra::int::Int;
+use crate::algebra::polynomial::Polynomial;
 use rug::Integer;
 
 /// A polynomial in several variables with integer coefficients, term by term, in any order.
@@ -13,6 +15,21 @@ pub struct Terms {
 }
 
 impl Terms {
+    /// The terms of a polynomial that has no more than the given number of variables.
+    pub(in crate::algebra) fn of(polynomial: &Polynomial<Int>, variables: usize) -> Self {
+        let exponents = |term| (0..variables).map(move |variable| polynomial.exponent(term, variable));
+        Self {
+            exponents: (0..polynomial.len()).flat_map(exponents).collect(),
+            coefficients: polynomial.coefficients().iter().map(Int::to_integer).collect(),
+        }
+    }
+
+    /// The polynomial with these terms.
+    pub(in crate::algebra) fn polynomial(self, variables: usize) -> Polynomial<Int> {
+        let coefficients = self.coefficients.into_iter().map(Int::from).collect();
+        Polynomial::from_lists(variables, &self.exponents, coefficients)
+    }
+
     /// The terms that are not zero, with their exponents.
     ///
     /// # Panics

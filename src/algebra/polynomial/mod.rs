@@ -2,6 +2,7 @@
 
 mod blocks;
 mod content;
+mod determinant;
 mod gcd;
 mod heap;
 mod image;
@@ -83,6 +84,20 @@ impl<R: Ring> Polynomial<R> {
         for (exponents, c) in terms {
             packing.push(&exponents[..exponents.len().min(variables)], &mut monomials);
             coefficients.push(c);
+        }
+        Self::from_unsorted(packing, monomials, coefficients)
+    }
+
+    /// As [`Self::from_terms`], from the exponents of all variables, term after term.
+    pub(in crate::algebra) fn from_lists(variables: usize, exponents: &[u32], coefficients: Vec<R>) -> Self {
+        let largest = exponents.iter().copied().max().unwrap_or(0);
+        let packing = Packing::new(variables, largest);
+        let mut monomials = Vec::with_capacity(packing.words() * coefficients.len());
+        if variables == 0 {
+            monomials.resize(coefficients.len(), 0);
+        }
+        for exponents in exponents.chunks_exact(variables.max(1)) {
+            packing.push(exponents, &mut monomials);
         }
         Self::from_unsorted(packing, monomials, coefficients)
     }

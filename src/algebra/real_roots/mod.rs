@@ -5,6 +5,7 @@ mod cell;
 mod evaluate;
 mod fixed;
 mod isolate;
+mod rational;
 mod refine;
 
 use super::univariate::Univariate;

@@ -1,8 +1,8 @@
 //! The Bezout matrix, in the hybrid form that has the resultant itself as its determinant.
 
-use super::minors::{expand, maximal_minors};
 use super::odd;
 use super::subresultant::power;
+use crate::algebra::minors::{expand, maximal_minors};
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 

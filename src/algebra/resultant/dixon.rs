@@ -1,8 +1,8 @@
 //! Two variables out of three polynomials at once, by Dixon's form of Cayley's construction.
 
 use super::linear::reduce;
-use super::minors::determinant;
 use crate::algebra::int::Int;
+use crate::algebra::minors::determinant;
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Field, Ring};

@@ -5,9 +5,11 @@ use super::common_divisor::common_divisor;
 use super::route;
 use super::subresultant;
 use crate::algebra::int::Int;
+use crate::algebra::modular::{self, Terms};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
+use std::borrow::Cow;
 
 /// The resultant of two polynomials with respect to a variable, with the sign of the Sylvester determinant.
 ///
@@ -32,21 +34,26 @@ pub fn resultant(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> P
     let (m, n) = (f.degree(variable) as usize, g.degree(variable) as usize);
     let ((content_f, f), (content_g, g)) = (without_content(f), without_content(g));
     let factor = subresultant::power(&content_f, n).mul(&subresultant::power(&content_g, m));
-    let resultant = eliminate(&f, &g, variable).resultant;
+    let resultant = if route::is_numeric(&f, &g, variable) { by_values(&f, &g, variable) } else { None };
+    let resultant = resultant.unwrap_or_else(|| eliminate(&f, &g, variable).resultant);
     if factor == Int::one() { resultant } else { resultant.scale(&factor) }
 }
 
+/// The resultant from its values modulo primes; `None` where that takes too much memory.
+fn by_values(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> Option<Polynomial<Int>> {
+    let variables = f.variables().max(g.variables()).max(variable + 1);
+    let resultant = modular::resultant(&Terms::of(f, variables), &Terms::of(g, variables), variables, variable);
+    resultant.map(|terms| terms.polynomial(variables))
+}
+
 /// The greatest common divisor of the coefficients, and the polynomial without it.
-fn without_content(f: &Polynomial<Int>) -> (Int, Polynomial<Int>) {
-    let mut content = Int::zero();
-    for c in f.coefficients() {
-        content = content.gcd(c);
-        if content == Int::one() {
-            return (content, f.clone());
-        }
+fn without_content(f: &Polynomial<Int>) -> (Int, Cow<'_, Polynomial<Int>>) {
+    let content = f.content();
+    if content == Int::one() || content.is_zero() {
+        return (Int::one(), Cow::Borrowed(f));
     }
-    let divided = f.map(|c| c.checked_div_exact(&content));
-    divided.map_or_else(|| (Int::one(), f.clone()), |divided| (content, divided))
+    let divided = f.map(|c| c.checked_div_exact(&content)).expect("the content divides all coefficients");
+    (content, Cow::Owned(divided))
 }
 
 /// The result of eliminating a variable from two polynomials.

@@ -5,7 +5,6 @@ mod common_divisor;
 pub mod dixon;
 mod eliminant;
 mod linear;
-mod minors;
 mod route;
 pub mod subresultant;
 pub mod sylvester;

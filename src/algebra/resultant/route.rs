@@ -1,8 +1,9 @@
 //! The choice of the route to a resultant of polynomials in several variables, and what can be taken out before.
 
 use super::bezout::{self, Expansion};
-use super::minors::parameters;
 use super::subresultant;
+use crate::algebra::int::Int;
+use crate::algebra::minors::parameters;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
 use crate::algebra::univariate::Univariate;
@@ -85,6 +86,34 @@ fn divided<D: Domain>(f: &Univariate<Polynomial<D>>, common: &[u32]) -> Univaria
 
 const fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
+}
+
+/// Whether the resultant is sooner had from its values modulo primes than from the polynomials as they are: with
+/// numbers for coefficients, no parameter or a few, and polynomials that are nearly dense or of low degree.
+pub(super) fn is_numeric(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> bool {
+    let (m, n) = (f.degree(variable), g.degree(variable));
+    if m.min(n) < 2 || m.max(n) < 3 {
+        return false;
+    }
+    let variables = f.variables().max(g.variables());
+    let occurs = |&v: &usize| v != variable && (f.degree(v) > 0 || g.degree(v) > 0);
+    let parameters: Vec<usize> = (0..variables).filter(occurs).collect();
+    match parameters.as_slice() {
+        [] => true,
+        &[y] => {
+            let points = u64::from(n) * u64::from(f.degree(y)) + u64::from(m) * u64::from(g.degree(y));
+            let work = points.saturating_mul(u64::from(m.max(n)).pow(3));
+            work < 1 << 24 || (is_dense(f, 2) && is_dense(g, 2))
+        }
+        several => several.len() <= 3 && is_dense(f, several.len() + 1) && is_dense(g, several.len() + 1),
+    }
+}
+
+/// Whether a polynomial has a quarter of the terms that its total degree allows in that many variables.
+fn is_dense(f: &Polynomial<Int>, variables: usize) -> bool {
+    let degree = f.total_degree().unwrap_or(0);
+    let all = (1..=variables as u64).fold(1_u64, |all, k| all.saturating_mul(degree + k) / k);
+    4 * f.len() as u64 >= all
 }
 
 /// How a resultant is found.

@@ -162,22 +162,25 @@ impl Terms {
             denominator = common_multiple(&denominator, one);
             self.check_size(variables, &denominator)?;
         }
-        let one = Int::one();
-        let mut fractions = self.denominators.iter().peekable();
+        let mut exponents = vec![0; variables * self.len()];
         let mut start = 0;
-        let term = |(index, (numerator, &end)): (usize, (&Int, &usize))| {
-            let mut exponents = vec![0; variables];
+        for (term, &end) in self.ends.iter().enumerate() {
             for &(variable, exponent) in &self.powers[start..end] {
-                exponents[variable as usize] = exponent;
+                exponents[variables * term + variable as usize] = exponent;
             }
             start = end;
-            let own = fractions.next_if(|(term, _)| *term == index).map_or(&one, |(_, own)| own);
-            let numerator =
-                if *own == denominator { numerator.clone() } else { numerator.mul(&denominator.div_exact(own)) };
-            (exponents, numerator)
-        };
-        let terms = self.numerators.iter().zip(&self.ends).enumerate().map(term);
-        Ok(Fraction { numerator: Polynomial::from_terms(terms), denominator })
+        }
+        let mut numerators = self.numerators.clone();
+        if denominator != Int::one() {
+            let mut fractions = self.denominators.iter().peekable();
+            for (index, numerator) in numerators.iter_mut().enumerate() {
+                *numerator = match fractions.next_if(|(term, _)| *term == index) {
+                    Some((_, own)) => numerator.mul(&denominator.div_exact(own)),
+                    None => numerator.mul(&denominator),
+                };
+            }
+        }
+        Ok(Fraction { numerator: Polynomial::from_lists(variables, &exponents, numerators), denominator })
     }
 
     /// Refuses what would not fit the memory.

@@ -1,6 +1,5 @@
 //! `looproot poly det`
 
-use super::algorithm;
 use super::arguments::DetOptions;
 use super::input::{self, Source};
 use super::tell;
@@ -47,5 +46,6 @@ pub fn of_fractions(rows: &[Vec<Fraction>]) -> Fraction {
             cleared
         })
         .collect();
-    algorithm::over(algorithm::determinant(&cleared), &denominators)
+    let denominator = denominators.iter().fold(Int::one(), |product, d| product.mul(d));
+    Fraction { numerator: Polynomial::determinant(&cleared), denominator }.reduced()
 }

@@ -1,7 +1,7 @@
 //! `looproot poly gcd` and `looproot poly factor-free`
 
 use super::arguments::{FactorFreeOptions, GcdOptions};
-use super::{algorithm, input, tell};
+use super::{input, tell};
 use crate::command::exit::{Exit, Fault};
 use looproot::algebra::int::Int;
 use looproot::algebra::polynomial::Polynomial;
@@ -18,8 +18,8 @@ pub fn common(options: &GcdOptions) -> Result<Exit, Fault> {
     let arguments: Vec<&str> = std::iter::once(&options.f).chain(&options.g).map(String::as_str).collect();
     let (polynomials, names) = input::polynomials(&arguments, &options.read)?;
     input::check_degrees(&polynomials)?;
-    let gcd = polynomials.iter().fold(Polynomial::<Int>::zero(), |gcd, f| algorithm::gcd(&gcd, &f.numerator));
-    let result = Fraction { numerator: algorithm::primitive(&gcd), denominator: Int::one() };
+    let gcd = polynomials.iter().fold(Polynomial::<Int>::zero(), |gcd, f| gcd.gcd(&f.numerator));
+    let result = Fraction { numerator: gcd.primitive_part(), denominator: Int::one() };
     tell::results(&[result], &names, &options.write, &input::files(&arguments))?;
     Ok(Exit::Complete)
 }
@@ -32,15 +32,15 @@ pub fn square_free(options: &FactorFreeOptions) -> Result<Exit, Fault> {
     if f.numerator.is_zero() {
         return Err(Error::Invalid("found zero, of which every polynomial is a factor".to_owned()).into());
     }
-    let factors = algorithm::square_free(&f.numerator);
+    let factors = f.numerator.square_free_decomposition();
     let rational = |p: &Polynomial<Int>| Fraction { numerator: p.clone(), denominator: Int::one() }.to_rational();
     // The factors are primitive, so that the leading coefficients show the number in front of them.
     let leading = |p: &Polynomial<Int>| p.coefficients().first().map_or_else(Int::zero, Clone::clone).to_integer();
-    let powers = factors.iter().map(|(p, k)| Rational::from(rug::ops::Pow::pow(leading(p), *k)));
+    let powers = factors.iter().map(|(p, k)| (0..*k).map(|_| Rational::from(leading(p))).product::<Rational>());
     let product = powers.fold(Rational::from(f.denominator.to_integer()), |product, power| product * power);
     let number = Rational::from(leading(&f.numerator)) / product;
     let text = if options.write.json {
-        let factor = |(p, k): &(Polynomial<Int>, u32)| -> Value {
+        let factor = |(p, k): &(Polynomial<Int>, usize)| -> Value {
             let mut document: Value = serde_json::from_str(&write_json(&[rational(p)], &names)).unwrap_or(Value::Null);
             json!({ "multiplicity": k, "terms": document["terms"].take() })
         };

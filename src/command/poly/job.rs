@@ -3,7 +3,6 @@
 //! What is timed begins with the texts of the job as JSON gives them, so that reading numbers and expressions and
 //! clearing denominators counts.
 
-use super::algorithm;
 use super::arguments::JobOptions;
 use super::determinant;
 use super::input::{Source, check_degrees};
@@ -171,7 +170,7 @@ impl<'j> Job<'j> {
                 if polynomial.is_zero() {
                     return Err(Error::Invalid("found zero, of which every number is a root".to_owned()));
                 }
-                Answer::Count(algorithm::real_roots(&polynomial).len())
+                Answer::Count(polynomial.real_roots().len())
             }
             (Self::Resultant(variables, _, eliminated), Input::Polynomials(polynomials)) => {
                 check_degrees(&polynomials)?;
@@ -186,9 +185,9 @@ impl<'j> Job<'j> {
                 Answer::Polynomial(rest)
             }
             (_, Input::Polynomials(polynomials)) => {
-                let denominators = [polynomials[0].denominator.clone(), polynomials[1].denominator.clone()];
-                let numerator = polynomials[0].numerator.mul(&polynomials[1].numerator);
-                Answer::Polynomial(algorithm::over(numerator, &denominators))
+                let (f, g) = (&polynomials[0], &polynomials[1]);
+                let (numerator, denominator) = (f.numerator.mul(&g.numerator), f.denominator.mul(&g.denominator));
+                Answer::Polynomial(Fraction { numerator, denominator }.reduced())
             }
         })
     }
@@ -222,7 +221,8 @@ impl Answer {
 fn divide(dividend: &Fraction, divisor: &Fraction) -> Outcome<Fraction> {
     let fault = || Error::Invalid("found a division with a remainder, expected an exact one".to_owned());
     let numerator = dividend.numerator.checked_div_exact(&divisor.numerator).ok_or_else(fault)?;
-    Ok(algorithm::over(numerator.scale(&divisor.denominator), std::slice::from_ref(&dividend.denominator)))
+    let numerator = if divisor.denominator == Int::one() { numerator } else { numerator.scale(&divisor.denominator) };
+    Ok(Fraction { numerator, denominator: dividend.denominator.clone() }.reduced())
 }
 
 fn expand(text: &str, names: &mut Names) -> Outcome<Fraction> {

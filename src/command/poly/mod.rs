@@ -1,6 +1,5 @@
 //! `looproot poly`: the algebra itself.
 
-mod algorithm;
 pub mod arguments;
 mod determinant;
 mod evaluate;

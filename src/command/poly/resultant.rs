@@ -1,10 +1,13 @@
 //! `looproot poly resultant`
 
-use super::algorithm;
 use super::arguments::ResultantOptions;
 use super::{input, tell};
 use crate::command::exit::{Exit, Fault};
+use looproot::algebra::int::Int;
+use looproot::algebra::resultant::resultant;
+use looproot::algebra::ring::Ring;
 use looproot::algebra::text::Fraction;
+use rug::ops::Pow;
 
 /// Eliminates a variable from two polynomials.
 pub fn run(options: &ResultantOptions) -> Result<Exit, Fault> {
@@ -20,8 +23,8 @@ pub fn run(options: &ResultantOptions) -> Result<Exit, Fault> {
 
 /// `res(f/a, g/b) = res(f, g) / (a^deg g b^deg f)`
 pub fn of_fractions(f: &Fraction, g: &Fraction, variable: usize) -> Fraction {
-    let numerator = algorithm::resultant(&f.numerator, &g.numerator, variable);
-    let power = |denominator: &Fraction, exponent: u32| algorithm::power(&denominator.denominator, exponent);
-    let scale = [power(f, g.numerator.degree(variable)), power(g, f.numerator.degree(variable))];
-    algorithm::over(numerator, &scale)
+    let numerator = resultant(&f.numerator, &g.numerator, variable);
+    let power = |f: &Fraction, exponent: u32| Int::from(f.denominator.to_integer().pow(exponent));
+    let denominator = power(f, g.numerator.degree(variable)).mul(&power(g, f.numerator.degree(variable)));
+    Fraction { numerator, denominator }.reduced()
 }

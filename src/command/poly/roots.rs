@@ -1,10 +1,10 @@
 //! `looproot poly roots`
 
-use super::algorithm::{RealRoot, real_roots};
 use super::arguments::{ReadOptions, RootsOptions};
 use super::{input, tell};
 use crate::command::exit::{Exit, Fault};
 use looproot::algebra::int::Int;
+use looproot::algebra::real_roots::RealRoot;
 use looproot::algebra::text::{Fraction, Names};
 use looproot::algebra::univariate::Univariate;
 use looproot::error::Error;
@@ -19,8 +19,9 @@ pub fn run(options: &RootsOptions) -> Result<Exit, Fault> {
     let ([f], names) = input::exactly(argument, &ReadOptions { vars: None })?;
     input::check_degrees(std::slice::from_ref(&f))?;
     let (polynomial, name) = univariate(&f, &names)?;
-    let roots = real_roots(&polynomial);
-    let text = if options.write.json { document(&roots, &polynomial, name) } else { table(&roots, &polynomial, name) };
+    let mut roots = polynomial.real_roots();
+    let text =
+        if options.write.json { document(&mut roots, &polynomial, name) } else { table(&mut roots, &polynomial, name) };
     tell::write(&text, options.write.output.as_ref(), &input::files(argument))?;
     Ok(if roots.is_empty() { Exit::Unreachable } else { Exit::Complete })
 }
@@ -55,14 +56,14 @@ fn verdict(roots: &[RealRoot], polynomial: &Univariate<Rational>, name: &str) ->
     format!("{count} of degree {degree} in {name}{tail}")
 }
 
-fn table(roots: &[RealRoot], polynomial: &Univariate<Rational>, name: &str) -> String {
+fn table(roots: &mut [RealRoot], polynomial: &Univariate<Rational>, name: &str) -> String {
     let mut text = verdict(roots, polynomial, name) + "\n";
     if roots.is_empty() {
         return text;
     }
     let mut table = Columns::new(&["", name, "multiplicity", "between", "and"], &[name, "between", "and"]);
-    for (index, root) in roots.iter().enumerate() {
-        let exact = root.exact();
+    for (index, root) in roots.iter_mut().enumerate() {
+        let exact = root.rational();
         let (lower, upper) = root.enclosure();
         let number = |x: f64| format!("{x:?}");
         table.row([
@@ -81,15 +82,17 @@ fn table(roots: &[RealRoot], polynomial: &Univariate<Rational>, name: &str) -> S
     text
 }
 
-fn document(roots: &[RealRoot], polynomial: &Univariate<Rational>, name: &str) -> String {
-    let root = |root: &RealRoot| -> Value {
+fn document(roots: &mut [RealRoot], polynomial: &Univariate<Rational>, name: &str) -> String {
+    let root = |root: &mut RealRoot| -> Value {
+        // Narrows the interval, too.
+        let (value, exact) = (root.to_f64(), root.rational());
         let (lower, upper) = root.bounds();
         json!({
-            "value": root.to_f64(), "multiplicity": root.multiplicity(), "exact": root.exact().map(|q| q.to_string()),
+            "value": value, "multiplicity": root.multiplicity(), "exact": exact.map(|q| q.to_string()),
             "interval": [lower.to_string(), upper.to_string()],
         })
     };
-    let roots: Vec<String> = roots.iter().map(|r| format!("\n{}", root(r))).collect();
+    let roots: Vec<String> = roots.iter_mut().map(|r| format!("\n{}", root(r))).collect();
     let degree = polynomial.degree().unwrap_or(0);
     format!("{{ \"variable\": {}, \"degree\": {degree}, \"roots\": [{}\n] }}\n", json!(name), roots.join(","))
 }
