@@ -141,7 +141,6 @@ impl<'a, K: Key, C> Blocks<'a, K, C> {
         let masks: Vec<u64> = (0..packing.words()).map(|word| packing.leading(word, grid.leading)).collect();
         let strides: Vec<((usize, u32), usize)> =
             grid.strides.iter().enumerate().map(|(k, &stride)| (packing.place(grid.leading + k), stride)).collect();
-        let field = packing.field();
         let (mut keys, mut starts, mut cells) = (Vec::new(), Vec::new(), Vec::with_capacity(coefficients.len()));
         let mut previous: Option<&[u64]> = None;
         for (i, monomial) in monomials.chunks_exact(packing.words()).enumerate() {
@@ -151,8 +150,9 @@ impl<'a, K: Key, C> Blocks<'a, K, C> {
                 starts.push(i);
             }
             previous = Some(monomial);
-            let cell =
-                |((word, shift), stride): &((usize, u32), usize)| (monomial[*word] >> shift & field) as usize * stride;
+            let cell = |((word, shift), stride): &((usize, u32), usize)| {
+                packing.field(monomial[*word], *shift) as usize * stride
+            };
             cells.push(strides.iter().map(cell).sum());
         }
         starts.push(coefficients.len());

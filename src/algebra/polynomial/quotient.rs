@@ -168,10 +168,10 @@ impl<C: Coefficient> Division<'_, C> {
     fn run_by<K: Key>(&self) -> Result<Terms<C>, Overflow> {
         let (dividend, divisor) = (self.dividend, self.divisor);
         let most = if divisor.1.len() < FEW { 1 } else { CELLS.min(dividend.1.len()) };
-        let mut grid = Grid::new(self.packing, &self.degrees, most);
+        let mut grid = Grid::new(self.packing, self.degrees, most);
         let mut blocks = Blocks::<K, C::Sum>::new(&grid, dividend.0, dividend.1);
         if blocks.len() * FEW > dividend.1.len() {
-            grid = Grid::new(self.packing, &self.degrees, 1);
+            grid = Grid::new(self.packing, self.degrees, 1);
             blocks = Blocks::new(&grid, dividend.0, dividend.1);
         }
         let divisor = Blocks::<K, C>::new(&grid, divisor.0, divisor.1);
