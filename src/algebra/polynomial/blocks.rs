@@ -190,10 +190,11 @@ impl<A> Collector<A> {
         let (cells, coefficients) = (&right.cells[range.clone()], &right.coefficients[range]);
         for k in left.block(i) {
             let (start, a) = (left.cells[k], &left.coefficients[k]);
-            for (cell, b) in cells.iter().zip(coefficients) {
-                let cell = start + cell;
-                self.sums[cell].add(a, b);
+            let sums = &mut self.sums[start..];
+            for (&cell, b) in cells.iter().zip(coefficients) {
+                sums[cell].add(a, b);
                 if MARKED {
+                    let cell = start + cell;
                     self.marks[cell / 64] |= 1 << (cell % 64);
                 }
             }

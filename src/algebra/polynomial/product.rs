@@ -8,8 +8,8 @@ use crate::algebra::ring::Ring;
 
 /// Up to so many products of terms are sorted.
 const FEW: usize = 1024;
-/// Cells of a box: their sums stay in the second-level cache.
-pub(super) const CELLS: usize = 1 << 14;
+/// Cells of a box: their sums stay in the first-level cache, or nearly so.
+pub(super) const CELLS: usize = 1 << 12;
 
 /// The coefficients as machine words, if all are such.
 pub(super) fn to_words<R: Ring>(coefficients: &[R]) -> Option<Vec<i64>> {
