@@ -205,8 +205,11 @@ impl<R: Ring> Polynomial<R> {
             return if self.is_zero() { 0 } else { self.exponent(0, 0) };
         }
         let (word, shift) = self.packing.place(variable);
-        let words = self.monomials.iter().skip(word).step_by(self.packing.words());
-        words.fold(0, |degree, &word| degree.max(self.packing.field(word, shift)))
+        let highest = |degree: u32, word: &u64| degree.max(self.packing.field(*word, shift));
+        match self.packing.words() {
+            1 => self.monomials.iter().fold(0, highest),
+            words => self.monomials.iter().skip(word).step_by(words).fold(0, highest),
+        }
     }
 
     /// The degrees in all [`Self::variables`].
