@@ -102,12 +102,14 @@ impl Packing {
         }
     }
 
+    /// Whether a monomial has the same words in both packings, one of them perhaps with more variables.
+    pub(super) const fn agrees(&self, other: &Self) -> bool {
+        self.bits == other.bits && self.words() == other.words()
+    }
+
     /// Monomials of another packing in this one, which has at least its variables and room for their exponents.
     pub(super) fn repack(&self, source: &Self, monomials: &[u64]) -> Vec<u64> {
         let (from, to) = (source.words(), self.words());
-        if self.bits == source.bits && from == to {
-            return monomials.to_vec();
-        }
         let mut packed = vec![0; monomials.len() / from * to];
         for variable in 0..source.variables {
             let ((word, shift), (source_word, source_shift)) = (self.place(variable), source.place(variable));

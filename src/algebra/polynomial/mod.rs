@@ -326,7 +326,7 @@ impl<R: Ring> Polynomial<R> {
 
     /// The monomials in another packing, which holds them.
     fn packed_as(&self, packing: Packing) -> Cow<'_, [u64]> {
-        if self.packing == packing {
+        if self.packing.agrees(&packing) {
             Cow::Borrowed(&self.monomials)
         } else {
             Cow::Owned(packing.repack(&self.packing, &self.monomials))
