@@ -52,14 +52,17 @@ impl Packing {
 
     /// The word of a variable's field, and the place of its lowest bit there.
     #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "a word has at most 32 fields")]
     pub const fn place(&self, variable: usize) -> (usize, u32) {
         let per_word = self.per_word();
         (variable / per_word, 64 - self.bits * ((variable % per_word) as u32 + 1))
     }
 
-    /// A mask for a field in its lowest place.
-    pub(super) const fn field(&self) -> u64 {
-        (1 << self.bits) - 1
+    /// The exponent in a field of a word.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "a field has at most 32 bits")]
+    pub(super) const fn field(&self, word: u64, shift: u32) -> u32 {
+        ((word >> shift) & ((1 << self.bits) - 1)) as u32
     }
 
     /// A word with the guard bits of all fields.
@@ -81,7 +84,7 @@ impl Packing {
             return 0;
         }
         let (word, shift) = self.place(variable);
-        ((monomial[word] >> shift) & ((1 << self.bits) - 1)) as u32
+        self.field(monomial[word], shift)
     }
 
     /// Appends the packed monomial.
@@ -99,12 +102,14 @@ impl Packing {
         }
     }
 
+    /// Whether a monomial has the same words in both packings, one of them perhaps with more variables.
+    pub(super) const fn agrees(&self, other: &Self) -> bool {
+        self.bits == other.bits && self.words() == other.words()
+    }
+
     /// Monomials of another packing in this one, which has at least its variables and room for their exponents.
     pub(super) fn repack(&self, source: &Self, monomials: &[u64]) -> Vec<u64> {
         let (from, to) = (source.words(), self.words());
-        if self.bits == source.bits && from == to {
-            return monomials.to_vec();
-        }
         let mut packed = vec![0; monomials.len() / from * to];
         for variable in 0..source.variables {
             let ((word, shift), (source_word, source_shift)) = (self.place(variable), source.place(variable));
@@ -125,6 +130,7 @@ impl Packing {
     }
 
     /// The mask of one word that keeps the fields of the first `count` variables.
+    #[expect(clippy::cast_possible_truncation, reason = "a word has at most 32 fields")]
     pub(super) fn leading(&self, word: usize, count: usize) -> u64 {
         let fields = count.saturating_sub(word * self.per_word()).min(self.per_word());
         let kept = fields as u32 * self.bits;

@@ -141,7 +141,6 @@ impl<'a, K: Key, C> Blocks<'a, K, C> {
         let masks: Vec<u64> = (0..packing.words()).map(|word| packing.leading(word, grid.leading)).collect();
         let strides: Vec<((usize, u32), usize)> =
             grid.strides.iter().enumerate().map(|(k, &stride)| (packing.place(grid.leading + k), stride)).collect();
-        let field = packing.field();
         let (mut keys, mut starts, mut cells) = (Vec::new(), Vec::new(), Vec::with_capacity(coefficients.len()));
         let mut previous: Option<&[u64]> = None;
         for (i, monomial) in monomials.chunks_exact(packing.words()).enumerate() {
@@ -151,8 +150,9 @@ impl<'a, K: Key, C> Blocks<'a, K, C> {
                 starts.push(i);
             }
             previous = Some(monomial);
-            let cell =
-                |((word, shift), stride): &((usize, u32), usize)| (monomial[*word] >> shift & field) as usize * stride;
+            let cell = |((word, shift), stride): &((usize, u32), usize)| {
+                packing.field(monomial[*word], *shift) as usize * stride
+            };
             cells.push(strides.iter().map(cell).sum());
         }
         starts.push(coefficients.len());
@@ -190,10 +190,11 @@ impl<A> Collector<A> {
         let (cells, coefficients) = (&right.cells[range.clone()], &right.coefficients[range]);
         for k in left.block(i) {
             let (start, a) = (left.cells[k], &left.coefficients[k]);
-            for (cell, b) in cells.iter().zip(coefficients) {
-                let cell = start + cell;
-                self.sums[cell].add(a, b);
+            let sums = &mut self.sums[start..];
+            for (&cell, b) in cells.iter().zip(coefficients) {
+                sums[cell].add(a, b);
                 if MARKED {
+                    let cell = start + cell;
                     self.marks[cell / 64] |= 1 << (cell % 64);
                 }
             }

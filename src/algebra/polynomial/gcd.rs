@@ -82,27 +82,21 @@ impl Polynomial<Int> {
                 return Self::one();
             }
             let image = image.scaled(modulus.reduce(&leading));
-            let stable = match &mut lifted {
-                // An image with a larger leading monomial than another one comes from an unlucky prime.
-                Some(lifted) => match image.leading_monomial().cmp(&lifted.terms[0].0) {
-                    Ordering::Greater => continue,
-                    Ordering::Equal => lifted.extend(&image),
-                    Ordering::Less => {
-                        *lifted = Lifted::new(&image);
-                        false
-                    }
-                },
-                None => {
+            let known = lifted.as_ref().map_or(u128::MAX, Lifted::leading_monomial);
+            let stable = match (image.leading_monomial().cmp(&known), &mut lifted) {
+                // A larger leading monomial than that of another image comes from an unlucky prime.
+                (Ordering::Greater, _) => continue,
+                (Ordering::Equal, Some(lifted)) => lifted.extend(&image),
+                _ => {
                     lifted = Some(Lifted::new(&image));
                     // One prime suffices for most divisors.
                     true
                 }
             };
-            let candidate = lifted.as_ref().filter(|_| stable).map(|lifted| lifted.polynomial(layout).primitive_part());
-            if let Some(candidate) = candidate {
-                if self.checked_div_exact(&candidate).is_some() && other.checked_div_exact(&candidate).is_some() {
-                    return candidate;
-                }
+            let Some(lifted) = lifted.as_ref().filter(|_| stable) else { continue };
+            let candidate = lifted.polynomial(layout).primitive_part();
+            if [self, other].iter().all(|polynomial| polynomial.checked_div_exact(&candidate).is_some()) {
+                return candidate;
             }
         }
         unreachable!("only finitely many primes are unlucky")
@@ -192,7 +186,59 @@ impl Lifted {
         stable
     }
 
+    fn leading_monomial(&self) -> u128 {
+        self.terms[0].0
+    }
+
     fn polynomial(&self, layout: &Layout) -> Polynomial<Int> {
         layout.polynomial(self.terms.iter().map(|(monomial, c)| (*monomial, Int::from(c.clone()))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two algorithms that share nothing but the ring.
+    #[test]
+    fn modular_and_euclidean_divisors_agree() {
+        let [x, y, z] = [0, 1, 2].map(Polynomial::<Int>::variable);
+        let number = |n: i32| Polynomial::from_integer(n);
+        let h = x.mul(&y).add(&z.pow(2)).sub(&number(3));
+        let f = x.pow(2).add(&y.mul(&z)).add(&number(1));
+        let g = x.sub(&z.pow(3)).mul(&number(7)).add(&y);
+        for (a, b) in
+            [(f.mul(&h), g.mul(&h)), (f.mul(&h).mul(&h), h.mul(&g)), (f.clone(), g.clone()), (h.pow(3), h.pow(2))]
+        {
+            let modular = a.gcd(&b);
+            for variable in 0..3 {
+                assert_eq!(a.euclidean_gcd(&b, variable), modular);
+            }
+        }
+        assert_eq!(f.mul(&h).gcd(&g.mul(&h)), h);
+    }
+
+    /// Modulo the first prime p, the coprime polynomials x + p y and x have a common divisor, and p x + 1 loses its degree.
+    #[test]
+    fn unlucky_primes_are_found_out() {
+        let p = primes().next().map(|modulus| Int::from(modulus.prime())).unwrap();
+        let [x, y] = [0, 1].map(Polynomial::<Int>::variable);
+        let one = Polynomial::one();
+        let (f, g) = (x.add(&y.scale(&p)).add(&one), x.add(&one));
+        assert_eq!(f.gcd(&g), one);
+        let h = x.mul(&y).sub(&one);
+        assert_eq!(f.mul(&h).gcd(&g.mul(&h)), h);
+        let (f, g) = (x.scale(&p).add(&y), x.scale(&p).sub(&y));
+        assert_eq!(f.mul(&h).gcd(&g.mul(&h)), h);
+        assert_eq!(h.mul(&f).gcd(&h.pow(2).mul(&f)), h.mul(&f));
+    }
+
+    #[test]
+    fn too_many_variables_for_the_layout() {
+        let x = |variable| Polynomial::<Int>::variable(variable);
+        let h = (0..50).fold(Polynomial::one(), |sum, variable| sum.add(&x(variable).pow(4)));
+        let (f, g) = (h.mul(&x(0).add(&x(49))), h.mul(&x(1).sub(&x(48))));
+        assert!(Layout::new(&f, &g).is_none());
+        assert_eq!(f.gcd(&g), h);
     }
 }

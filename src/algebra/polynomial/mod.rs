@@ -18,6 +18,7 @@ use super::ring::{Domain, Ring};
 use super::univariate::Univariate;
 use rug::Rational;
 use std::borrow::Cow;
+use std::cmp::Reverse;
 
 /// A polynomial in the variables 0, 1, 2, ..., whose names are kept elsewhere.
 ///
@@ -117,13 +118,13 @@ impl<R: Ring> Polynomial<R> {
         sorted.coefficients.reserve(coefficients.len());
         if words == 1 {
             let mut keyed: Vec<(u64, R)> = monomials.into_iter().zip(coefficients).collect();
-            keyed.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+            keyed.sort_unstable_by_key(|term| Reverse(term.0));
             for (monomial, c) in keyed {
                 sorted.push(&[monomial], c);
             }
         } else {
             let mut keyed: Vec<(&[u64], R)> = monomials.chunks_exact(words).zip(coefficients).collect();
-            keyed.sort_unstable_by(|a, b| b.0.cmp(a.0));
+            keyed.sort_unstable_by_key(|term| Reverse(term.0));
             for (monomial, c) in keyed {
                 sorted.push(monomial, c);
             }
@@ -170,6 +171,7 @@ impl<R: Ring> Polynomial<R> {
     }
 
     /// The terms, the lexicographically highest first: the exponents of all [`Self::variables`], and the coefficient.
+    #[must_use]
     pub fn terms(&self) -> impl ExactSizeIterator<Item = (Vec<u32>, &R)> + DoubleEndedIterator {
         (0..self.len()).map(|i| (self.packing.unpack(self.monomial(i)), &self.coefficients[i]))
     }
@@ -217,9 +219,12 @@ impl<R: Ring> Polynomial<R> {
             // The first variable decreases along the terms.
             return if self.is_zero() { 0 } else { self.exponent(0, 0) };
         }
-        let ((word, shift), field) = (self.packing.place(variable), self.packing.field());
-        let words = self.monomials.iter().skip(word).step_by(self.packing.words());
-        words.fold(0, |degree, word| degree.max((word >> shift) & field)) as u32
+        let (word, shift) = self.packing.place(variable);
+        let highest = |degree: u32, word: &u64| degree.max(self.packing.field(*word, shift));
+        match self.packing.words() {
+            1 => self.monomials.iter().fold(0, highest),
+            words => self.monomials.iter().skip(word).step_by(words).fold(0, highest),
+        }
     }
 
     /// The degrees in all [`Self::variables`].
@@ -261,10 +266,10 @@ impl<R: Ring> Polynomial<R> {
         if variable >= self.variables() {
             return Self::zero();
         }
-        let ((word, shift), field) = (self.packing.place(variable), self.packing.field());
+        let (word, shift) = self.packing.place(variable);
         let (mut monomials, mut coefficients) = (Vec::new(), Vec::new());
         for (i, c) in self.coefficients.iter().enumerate() {
-            let exponent = (self.monomial(i)[word] >> shift & field) as u32;
+            let exponent = self.packing.field(self.monomial(i)[word], shift);
             if exponent > 0 {
                 // Lowering one exponent everywhere by one keeps the order.
                 let start = monomials.len();
@@ -336,7 +341,7 @@ impl<R: Ring> Polynomial<R> {
 
     /// The monomials in another packing, which holds them.
     fn packed_as(&self, packing: Packing) -> Cow<'_, [u64]> {
-        if self.packing == packing {
+        if self.packing.agrees(&packing) {
             Cow::Borrowed(&self.monomials)
         } else {
             Cow::Owned(packing.repack(&self.packing, &self.monomials))

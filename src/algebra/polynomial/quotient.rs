@@ -12,7 +12,7 @@ use crate::algebra::monomial::Packing;
 use crate::algebra::ring::{Domain, Ring};
 use std::ops::Range;
 
-/// Boxes pay from so many terms in a divisor or in an average block.
+/// Boxes pay from so many terms in an average block.
 const FEW: usize = 4;
 
 /// A coefficient or a sum left the machine words.
@@ -90,8 +90,7 @@ impl<D: Domain> Coefficient for D {
 
 /// Divides a monomial; false, and the monomial spoilt, if it is not divisible.
 #[inline(always)]
-fn divide_monomial(packing: Packing, monomial: &mut [u64], divisor: &[u64]) -> bool {
-    let guards = packing.guards();
+fn divide_monomial(guards: u64, monomial: &mut [u64], divisor: &[u64]) -> bool {
     monomial.iter_mut().zip(divisor).all(|(word, divisor)| {
         // A field of the divisor that is larger borrows the guard bit.
         let difference = (*word | guards) - divisor;
@@ -121,7 +120,7 @@ impl<D: Domain> Polynomial<D> {
             highest[word] |= u64::from(degree) << shift;
         }
         let mut last = own[own.len() - words..].to_vec();
-        if !divide_monomial(packing, &mut last, &other[other.len() - words..]) {
+        if !divide_monomial(packing.guards(), &mut last, &other[other.len() - words..]) {
             return None;
         }
         self.coefficients.last()?.checked_div_exact(divisor.coefficients.last()?)?;
@@ -167,11 +166,10 @@ impl<C: Coefficient> Division<'_, C> {
 
     fn run_by<K: Key>(&self) -> Result<Terms<C>, Overflow> {
         let (dividend, divisor) = (self.dividend, self.divisor);
-        let most = if divisor.1.len() < FEW { 1 } else { CELLS.min(dividend.1.len()) };
-        let mut grid = Grid::new(self.packing, &self.degrees, most);
+        let mut grid = Grid::new(self.packing, self.degrees, CELLS.min(dividend.1.len()));
         let mut blocks = Blocks::<K, C::Sum>::new(&grid, dividend.0, dividend.1);
         if blocks.len() * FEW > dividend.1.len() {
-            grid = Grid::new(self.packing, &self.degrees, 1);
+            grid = Grid::new(self.packing, self.degrees, 1);
             blocks = Blocks::new(&grid, dividend.0, dividend.1);
         }
         let divisor = Blocks::<K, C>::new(&grid, divisor.0, divisor.1);
@@ -264,7 +262,7 @@ impl<C: Coefficient> Division<'_, C> {
             quotient.monomials.extend(key.words().iter().zip(grid.monomial(cell)).map(|(outer, inner)| outer | inner));
             let monomial = &mut quotient.monomials[end..];
             // No term of the quotient has a higher degree than the quotient.
-            let divides = divide_monomial(self.packing, monomial, leading)
+            let divides = divide_monomial(guards, monomial, leading)
                 && self.highest.iter().zip(monomial).all(|(high, word)| ((high | guards) - *word) & guards == guards);
             let Some(c) = C::divide(&sum, &divisor.coefficients[0])?.filter(|_| divides) else { return Ok(None) };
             let start = cell - divisor.cells[0];

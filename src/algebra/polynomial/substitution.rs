@@ -69,13 +69,13 @@ impl<R: Ring> Polynomial<R> {
             return self.clone();
         }
         let powers = powers(value, self.degree(variable));
-        let ((word, shift), field) = (self.packing.place(variable), self.packing.field());
+        let (word, shift) = self.packing.place(variable);
         let words = self.packing.words();
         let mut monomials = self.monomials.clone();
         let mut coefficients = Vec::with_capacity(self.len());
         for (i, c) in self.coefficients.iter().enumerate() {
-            let exponent = monomials[i * words + word] >> shift & field;
-            monomials[i * words + word] -= exponent << shift;
+            let exponent = self.packing.field(monomials[i * words + word], shift);
+            monomials[i * words + word] -= u64::from(exponent) << shift;
             coefficients.push(if exponent == 0 { c.clone() } else { c.mul(&powers[exponent as usize]) });
         }
         Self::from_unsorted(self.packing, monomials, coefficients)
@@ -90,16 +90,16 @@ impl<R: Ring> Polynomial<R> {
         if variable >= self.variables() {
             return vec![self.clone()];
         }
-        let ((word, shift), field) = (self.packing.place(variable), self.packing.field());
+        let (word, shift) = self.packing.place(variable);
         let empty = Self { packing: self.packing, monomials: Vec::new(), coefficients: Vec::new() };
         let mut parts = vec![empty; self.degree(variable) as usize + 1];
         for (i, c) in self.coefficients.iter().enumerate() {
             // Monomials that agree in the exponent of the variable keep their order without it.
-            let exponent = self.monomial(i)[word] >> shift & field;
+            let exponent = self.packing.field(self.monomial(i)[word], shift);
             let part = &mut parts[exponent as usize];
             let start = part.monomials.len();
             part.monomials.extend_from_slice(self.monomial(i));
-            part.monomials[start + word] -= exponent << shift;
+            part.monomials[start + word] -= u64::from(exponent) << shift;
             part.coefficients.push(c.clone());
         }
         parts
