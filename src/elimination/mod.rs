@@ -3,3 +3,4 @@
 pub mod cut;
 pub mod degree;
 pub mod pencil;
+pub mod platform_degree;
