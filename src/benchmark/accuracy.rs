@@ -115,7 +115,7 @@ fn one(job: Job, index: u64, workspace: &mut Workspace, assembly: &mut Assembly)
 /// How far the tool is from the pose at a mode, by forward kinematics alone: largest entry of the difference.
 fn miss(drawn: &Sample, mode: &FullMode) -> f64 {
     let turns: Vec<Motion<f64>> = mode.q.iter().map(|q| Motion::rotation_z(q.re.cos(), q.re.sin())).collect();
-    let (Some(reached), Some(wanted)) = (drawn.entry.chain.forward(&turns), &drawn.entry.cases[0].pose) else {
+    let (Some(reached), Some(wanted)) = (drawn.chain.forward(&turns), &drawn.entry.cases[0].pose) else {
         return f64::INFINITY;
     };
     let mut largest = 0.0_f64;

@@ -28,7 +28,7 @@ pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
     let mut arms: Vec<(OpenLoop<f64>, Motion<f64>)> = Vec::new();
     for index in 0..count {
         let drawn = sample(Set::General, seed, index)?;
-        let open = drawn.entry.chain.open_loop(&Layout::of(&drawn.entry.chain, None)?)?;
+        let open = drawn.chain.open_loop(&Layout::of(&drawn.chain, None)?)?;
         let pose = drawn.entry.cases[0].pose.as_ref().map(|p| p.float.inverse());
         arms.extend(pose.map(|pose| (open, pose)));
     }

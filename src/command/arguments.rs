@@ -104,7 +104,7 @@ pub struct SolveOptions {
     /// JSON Lines: one result a line, as soon as it is there
     #[arg(long, conflicts_with = "json")]
     pub jsonl: bool,
-    /// Solve this pose of the file only, counted from 1
+    /// Solve this pose (of a platform: set of legs) of the file only, counted from 1
     #[arg(long, value_name = "K")]
     pub pose: Option<usize>,
     /// Solve this input of the file only, counted from 1, or another one: 7="90 deg", 3="20 mm"
@@ -113,6 +113,12 @@ pub struct SolveOptions {
     /// Solve the pose that these joint values reach: "10 deg, 0.3, pi/2, ..."
     #[arg(long, value_name = "Q", conflicts_with_all = ["pose", "input"], allow_hyphen_values = true)]
     pub joints: Option<String>,
+    /// Platform: solve for legs of these lengths: "1, 1.2, 900 mm, ..."
+    #[arg(long, value_name = "L", conflicts_with = "pose", allow_hyphen_values = true)]
+    pub legs: Option<String>,
+    /// Platform: solve for the legs that this pose asks for: "x, y, z; w, x, y, z", position and quaternion
+    #[arg(long, value_name = "POSE", conflicts_with_all = ["pose", "legs"], allow_hyphen_values = true)]
+    pub at: Option<String>,
     /// Solutions outside the joint limits
     #[arg(long, value_name = "HOW", default_value = "mark")]
     pub limits: Limits,

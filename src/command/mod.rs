@@ -9,3 +9,4 @@ pub mod list;
 pub mod output;
 pub mod show;
 pub mod solve;
+pub mod wanted;

@@ -6,3 +6,4 @@ pub mod dual_quaternion;
 pub mod motion;
 pub mod placement;
 pub mod platform;
+pub mod velocity;
