@@ -52,13 +52,6 @@ pub fn leg_matrix<R: Ring>(base: &Vector<R>, plate: &Vector<R>) -> Form<R> {
     std::array::from_fn(|i| std::array::from_fn(|j| right[i][j].sub(&left[i][j])))
 }
 
-/// `w = y + M x`, the vector of a leg times x.
-#[must_use]
-#[inline(always)]
-pub fn leg_vector<R: Ring>(matrix: &Form<R>, x: &Four<R>, y: &Four<R>) -> Four<R> {
-    std::array::from_fn(|i| y[i].add(&scalar(&matrix[i], x)))
-}
-
 /// `x0 y0 + x1 y1 + x2 y2 + x3 y3`; of x with itself the norm N, of x with y the left side of the Study condition.
 #[must_use]
 #[inline(always)]
@@ -66,19 +59,49 @@ pub fn scalar<R: Ring>(x: &Four<R>, y: &Four<R>) -> R {
     x[0].mul(&y[0]).add(&x[1].mul(&y[1])).add(&x[2].mul(&y[2])).add(&x[3].mul(&y[3]))
 }
 
-/// The leg quadric `w.w - L^2 N`, from the vector w of the leg.
-#[must_use]
-#[inline(always)]
-pub fn leg_quadric<R: Ring>(w: &Four<R>, x: &Four<R>, square: &R) -> R {
-    scalar(w, w).sub(&square.mul(&scalar(x, x)))
+/// One leg in Study's parameters: its points as a matrix, and its squared length. The constants may be of a smaller ring
+/// than the unknowns; `times` multiplies an unknown by a constant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Leg<C> {
+    /// The skew matrix M.
+    pub matrix: Form<C>,
+    /// L^2.
+    pub square: C,
 }
 
-/// Half the derivatives of the leg quadric by x and by y: `-M w - L^2 x` (M is skew) and `w`.
-#[must_use]
-#[inline(always)]
-pub fn leg_gradient<R: Ring>(matrix: &Form<R>, w: &Four<R>, x: &Four<R>, square: &R) -> (Four<R>, Four<R>) {
-    let by_x = std::array::from_fn(|i| scalar(&matrix[i], w).add(&square.mul(&x[i])).neg());
-    (by_x, w.clone())
+impl<C: Ring> Leg<C> {
+    /// The leg between two points.
+    #[must_use]
+    pub fn new(base: &Vector<C>, plate: &Vector<C>, square: C) -> Self {
+        Self { matrix: leg_matrix(base, plate), square }
+    }
+
+    /// `w = y + M x`, the vector of the leg times x.
+    #[inline(always)]
+    pub fn vector<R: Ring>(&self, x: &Four<R>, y: &Four<R>, times: impl Fn(&R, &C) -> R + Copy) -> Four<R> {
+        std::array::from_fn(|i| y[i].add(&self.row(i, x, times)))
+    }
+
+    /// The leg quadric `w.w - L^2 N`.
+    #[inline(always)]
+    pub fn quadric<R: Ring>(&self, x: &Four<R>, y: &Four<R>, times: impl Fn(&R, &C) -> R + Copy) -> R {
+        let w = self.vector(x, y, times);
+        scalar(&w, &w).sub(&times(&scalar(x, x), &self.square))
+    }
+
+    /// Half the derivative of the leg quadric by x, `-M w - L^2 x` (M is skew); half the one by y is w.
+    #[inline(always)]
+    pub fn half_slope<R: Ring>(&self, w: &Four<R>, x: &Four<R>, times: impl Fn(&R, &C) -> R + Copy) -> Four<R> {
+        std::array::from_fn(|i| self.row(i, w, times).add(&times(&x[i], &self.square)).neg())
+    }
+
+    /// Row i of the matrix times a vector; the diagonal of a skew matrix is zero.
+    #[inline(always)]
+    fn row<R: Ring>(&self, i: usize, x: &Four<R>, times: impl Fn(&R, &C) -> R + Copy) -> R {
+        let [j, k, l] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]][i];
+        let row = &self.matrix[i];
+        times(&x[j], &row[j]).add(&times(&x[k], &row[k])).add(&times(&x[l], &row[l]))
+    }
 }
 
 /// The legs as linear equations, `K u = c(x)`, for any lengths.

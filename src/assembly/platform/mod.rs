@@ -1,6 +1,9 @@
 //! All poses of a Stewart platform with legs of given lengths.
 
+mod candidate;
 mod mode;
+mod prepared;
+mod search;
 mod solver;
 
 pub use mode::{PlatformAssembly, PlatformMode, Route};

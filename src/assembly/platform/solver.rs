@@ -1,24 +1,47 @@
 //! A platform prepared once and solved for one set of leg lengths after the other.
 
-use super::mode::PlatformAssembly;
+use super::mode::{PlatformAssembly, Route};
+use super::prepared::{Chart, Frame};
+use super::search::{Found, Search};
 use crate::assembly::Roots;
+use crate::certify::pose::Curvature;
+use crate::elimination::border::{BorderBasis, DIMENSION, Reals};
 use crate::kinematics::platform::Platform;
+use crate::solve::eigen::Method;
+use crate::solve::spectrum::Spectrum;
 
 /// The geometry of a platform, prepared for every set of leg lengths. Shared between threads.
 #[derive(Clone, Debug)]
 pub struct PlatformSolver {
     platform: Platform<f64>,
+    frame: Frame,
+    charts: [Chart; 2],
 }
 
 /// Scratch memory, reused from call to call: one for every thread.
-#[derive(Clone, Debug, Default)]
-pub struct PlatformWorkspace {}
+pub struct PlatformWorkspace {
+    basis: BorderBasis<f64>,
+    spectrum: Spectrum<DIMENSION>,
+    found: Vec<Found>,
+}
+
+impl Default for PlatformWorkspace {
+    fn default() -> Self {
+        Self {
+            basis: BorderBasis::new(&Reals),
+            spectrum: Spectrum::default(),
+            found: Vec::with_capacity(2 * DIMENSION),
+        }
+    }
+}
 
 impl PlatformSolver {
     /// Prepares a geometry. Any finite coordinates will do; degenerate ones show in the answers.
     #[must_use]
     pub fn prepare(platform: &Platform<f64>) -> Self {
-        Self { platform: platform.clone() }
+        let frame = Frame::new(platform);
+        let charts = std::array::from_fn(|choice| Chart::new(&frame.platform, choice));
+        Self { platform: platform.clone(), frame, charts }
     }
 
     /// The geometry as given.
@@ -31,11 +54,44 @@ impl PlatformSolver {
     /// [`Roots::Real`] only real ones.
     pub fn solve(
         &self,
-        _legs_squared: &[f64; 6],
-        _roots: Roots,
-        _workspace: &mut PlatformWorkspace,
+        legs_squared: &[f64; 6],
+        roots: Roots,
+        workspace: &mut PlatformWorkspace,
         assembly: &mut PlatformAssembly,
     ) {
         assembly.modes.clear();
+        assembly.lost_rank = None;
+        assembly.rank = self.charts[0].directions.rank;
+        assembly.self_motion = 0;
+        let unit = self.frame.scale * self.frame.scale;
+        let squares = legs_squared.map(|s| s / unit);
+        let mut legs = self.frame.legs.clone();
+        for (leg, square) in legs.iter_mut().zip(squares) {
+            leg.square = square;
+        }
+        let curvature = Curvature::new(&legs);
+        workspace.found.clear();
+        let mut search =
+            Search { legs: &legs, curvature: &curvature, roots, found: &mut workspace.found, null: 0, lost: 0 };
+        'charts: for chart in &self.charts {
+            let setting = chart.with_legs(&squares);
+            if let Err(lost) = workspace.basis.build(&Reals, &setting) {
+                assembly.lost_rank = Some(lost.degree);
+                continue;
+            }
+            assembly.route = Route::BorderBasis { directions: setting.count };
+            for method in [Method::Francis, Method::Faer] {
+                if !workspace.spectrum.decompose(method, &workspace.basis.products[0]) {
+                    continue;
+                }
+                search.all_eigenvalues(chart, &setting, &workspace.basis, &mut workspace.spectrum);
+                if search.lost == 0 && (roots == Roots::Real || search.poses() + search.null >= DIMENSION) {
+                    break 'charts;
+                }
+            }
+        }
+        assembly.null = search.null;
+        assembly.unresolved = search.lost;
+        search.tell(&self.frame, assembly);
     }
 }

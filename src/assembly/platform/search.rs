@@ -1,0 +1,298 @@
+//! One set of leg lengths being solved: eigenvalue after eigenvalue, until all are accounted for.
+
+use super::candidate::candidates;
+use super::mode::{PlatformAssembly, PlatformMode};
+use super::prepared::{Chart, Frame, norm};
+use crate::assembly::Roots;
+use crate::certify::Certificate;
+use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certificate};
+use crate::closure::study::{Four, Leg};
+use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
+use crate::solve::pose::{Eight, PolishedPose, complex, normalised, polish, refine, wide};
+use crate::solve::scalar::Scalar;
+use crate::solve::spectrum::Spectrum;
+use num_complex::Complex;
+
+/// |Im| / (1 + |lambda|) below which an eigenvalue may belong to a real pose: double ones split by 1e-8 and more.
+const NEAR_REAL: f64 = 1e-4;
+/// Imaginary parts below this are rounding of a real pose.
+const REAL_PART: f64 = 1e-7;
+/// |N| (with x of hermitian norm 1) below which a polished solution is no pose.
+pub const NULL: f64 = 1e-9;
+/// |N| below which an eigenvalue that leads to no regular pose is taken to be one of those without.
+const NEARLY_NULL: f64 = 1e-2;
+/// Rotations whose quaternions have `|x.conj(x')|^2` below `1 - SAME` are different without further tests.
+const SAME: f64 = 1e-6;
+
+/// A solution found.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    /// Study's parameters in the frame of polishing; of a complex solution one of the two conjugate ones.
+    pub study: Eight<Complex<f64>>,
+    /// Whether it is real.
+    pub real: bool,
+    /// The proof, if there is one.
+    pub certificate: Option<Certificate>,
+    residual: f64,
+    condition: f64,
+    /// How often it was found.
+    hits: usize,
+}
+
+/// One set of leg lengths.
+pub struct Search<'a> {
+    /// The legs, polished on.
+    pub legs: &'a [Leg<f64>; 6],
+    /// Bounds on the second derivatives of their equations.
+    pub curvature: &'a Curvature,
+    /// What is looked for.
+    pub roots: Roots,
+    /// What was found, without conjugates.
+    pub found: &'a mut Vec<Found>,
+    /// Eigenvalues that belong to no pose.
+    pub null: usize,
+    /// Eigenvalues that led to nothing.
+    pub lost: usize,
+}
+
+/// What became of one eigenvalue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    Pose,
+    Null,
+    Nothing,
+}
+
+impl Search<'_> {
+    /// How many solutions are accounted for: poses, conjugate ones included.
+    pub fn poses(&self) -> usize {
+        self.found.iter().map(|f| if f.real { 1 } else { 2 }).sum()
+    }
+
+    /// Follows all eigenvalues of a border basis.
+    pub fn all_eigenvalues(
+        &mut self,
+        chart: &Chart,
+        setting: &Setting<f64>,
+        basis: &BorderBasis<f64>,
+        spectrum: &mut Spectrum<DIMENSION>,
+    ) {
+        (self.null, self.lost) = (0, 0);
+        for k in 0..DIMENSION {
+            let value = spectrum.values[k];
+            let near_real = value.im.abs() <= NEAR_REAL * (1.0 + value.norm());
+            if value.im < 0.0 || (self.roots == Roots::Real && !near_real) {
+                continue;
+            }
+            let mut outcome = Outcome::Nothing;
+            if value.im == 0.0 {
+                outcome = self.real_eigenvalue(k, chart, setting, basis, spectrum);
+            }
+            if outcome == Outcome::Nothing && (value.im != 0.0 || self.roots == Roots::All) {
+                outcome = self.complex_eigenvalue(k, near_real, chart, setting, basis, spectrum);
+            }
+            let weight = if value.im > 0.0 { 2 } else { 1 };
+            match outcome {
+                Outcome::Pose => {}
+                Outcome::Null => self.null += weight,
+                Outcome::Nothing => self.lost += weight,
+            }
+        }
+    }
+
+    fn real_eigenvalue(
+        &mut self,
+        k: usize,
+        chart: &Chart,
+        setting: &Setting<f64>,
+        basis: &BorderBasis<f64>,
+        spectrum: &mut Spectrum<DIMENSION>,
+    ) -> Outcome {
+        let value = spectrum.values[k].re;
+        let Some(z) = rotation::<f64>(value, k, basis, spectrum) else { return Outcome::Nothing };
+        let mut outcome = Outcome::Nothing;
+        let candidates = candidates(setting, &z);
+        for (x, y) in &candidates.study[..candidates.count] {
+            if let Some(polished) = polish(self.legs, &chart.outward(x, y)) {
+                self.admit(&polished);
+                outcome = Outcome::Pose;
+            }
+        }
+        outcome
+    }
+
+    fn complex_eigenvalue(
+        &mut self,
+        k: usize,
+        near_real: bool,
+        chart: &Chart,
+        setting: &Setting<f64>,
+        basis: &BorderBasis<f64>,
+        spectrum: &mut Spectrum<DIMENSION>,
+    ) -> Outcome {
+        let value = spectrum.values[k];
+        let Some(z) = rotation::<Complex<f64>>(value, k, basis, spectrum) else { return Outcome::Nothing };
+        let candidates = candidates(setting, &z);
+        let size: f64 = z.iter().map(Complex::norm_sqr).sum();
+        let raw = z.iter().map(|z| z * z).sum::<Complex<f64>>().norm() / size;
+        let mut outcome = if raw < NEARLY_NULL { Outcome::Null } else { Outcome::Nothing };
+        for (x, y) in &candidates.study[..candidates.count] {
+            let start = chart.outward(x, y);
+            if near_real {
+                // Both ends of a pair that meets on the real axis.
+                for real in real_parts(&start) {
+                    if let Some(polished) = polish(self.legs, &real) {
+                        self.admit(&polished);
+                        outcome = Outcome::Pose;
+                    }
+                }
+                if self.roots == Roots::Real {
+                    continue;
+                }
+            }
+            let Some(polished) = polish(self.legs, &start) else { continue };
+            if norm(&polished.study).norm() < NULL {
+                outcome = Outcome::Null;
+                continue;
+            }
+            outcome = Outcome::Pose;
+            let snapped = real_parts(&polished.study)[2];
+            let imaginary = polished.study.iter().zip(&snapped).map(|(z, r)| z.norm() - r.abs()).fold(0.0, f64::max);
+            if imaginary < REAL_PART
+                && let Some(real) = polish(self.legs, &snapped)
+                && !are_apart(&complex(&real.study), REAL_PART, &polished.study, REAL_PART)
+            {
+                self.admit(&real);
+                continue;
+            }
+            self.admit(&polished);
+        }
+        outcome
+    }
+
+    /// Adds a polished solution to the list unless it is there.
+    fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>) {
+        let study = complex(&polished.study);
+        if norm(&study).norm() < NULL {
+            return;
+        }
+        let same_rotation = |w: &Eight<Complex<f64>>, conjugate: bool| {
+            let product: Complex<f64> =
+                (0..4).map(|k| study[k] * if conjugate { w[k] } else { w[k].conj() }).sum();
+            product.norm_sqr() > 1.0 - SAME
+        };
+        let near = |found: &Found| {
+            // Polished to rounding: what is farther apart than this is not one.
+            let same = |w: &Eight<Complex<f64>>| !are_apart(&study, REAL_PART, w, REAL_PART);
+            (same_rotation(&found.study, false) && same(&found.study))
+                || (!S::REAL && same_rotation(&found.study, true) && same(&found.study.map(|z| z.conj())))
+        };
+        if let Some(found) = self.found.iter_mut().find(|found| near(found)) {
+            found.hits += 1;
+            return;
+        }
+        let mut found = Found {
+            study,
+            real: S::REAL,
+            certificate: pose_certificate(
+                self.legs,
+                self.curvature,
+                &polished.study,
+                &polished.equations,
+                &polished.inverse,
+            ),
+            residual: polished.equations.residual(),
+            condition: polished.equations.condition(&polished.inverse),
+            hits: 1,
+        };
+        let holds = |certificate: &Certificate, study: &Eight<Complex<f64>>| {
+            is_pose(study, certificate.radius) && (S::REAL || is_complex(study, certificate.radius))
+        };
+        if !found.certificate.is_some_and(|c| holds(&c, &found.study)) {
+            // Once more with twice the digits.
+            let inverse = polished.inverse.map(|row| row.map(Scalar::to_complex));
+            let (point, equations) = refine(self.legs, &found.study, &inverse);
+            let proof = pose_certificate(self.legs, self.curvature, &point, &equations, &inverse.map(|row| row.map(wide)));
+            let rounded = point.map(|z| Complex::new(z.re.to_f64(), z.im.to_f64()));
+            let moved = proof.map(|c| Certificate { radius: c.radius + ROUNDED, ..c });
+            found.certificate = moved.filter(|c| holds(c, &rounded));
+            if found.certificate.is_some() {
+                found.study = rounded;
+            }
+        }
+        self.found.push(found);
+    }
+
+    /// Writes the list, real poses first.
+    pub fn tell(&self, frame: &Frame, assembly: &mut PlatformAssembly) {
+        for real in [true, false] {
+            for found in self.found.iter().filter(|f| f.real == real) {
+                assembly.modes.push(mode(found, frame, false));
+                if !real {
+                    assembly.modes.push(mode(found, frame, true));
+                }
+            }
+        }
+    }
+}
+
+/// Rounding of coordinates of a point of hermitian norm 1 to f64, generously.
+const ROUNDED: f64 = 1e-15;
+
+/// The rotation z of eigenvalue k, of any length: quotients where the eigenvector is largest.
+fn rotation<S: Scalar>(
+    value: S,
+    k: usize,
+    basis: &BorderBasis<f64>,
+    spectrum: &mut Spectrum<DIMENSION>,
+) -> Option<Four<S>> {
+    let mut vector: [S; DIMENSION] = spectrum.vector(k);
+    let best = (1..DIMENSION).fold(0, |best, b| if vector[b].size() > vector[best].size() { b } else { best });
+    for (x, scale) in vector.iter_mut().zip(&spectrum.balance) {
+        *x = x.times(*scale);
+    }
+    let at = vector[best];
+    let times = |i: usize| {
+        let row = &basis.products[i][best];
+        row.iter().zip(&vector).fold(S::zero(), |sum, (c, x)| sum.add(&x.times(*c))).over(at)
+    };
+    let z = [S::one(), value, times(1), times(2)];
+    let size = z.iter().map(|x| x.size()).fold(0.0, f64::max);
+    size.is_finite().then(|| z.map(|x| x.times(1.0 / size)))
+}
+
+/// Three real points near a nearly real one: to both sides of it, and its real part.
+fn real_parts(v: &Eight<Complex<f64>>) -> [Eight<f64>; 3] {
+    let best = (1..4).fold(0, |best, k| if v[k].norm_sqr() > v[best].norm_sqr() { k } else { best });
+    let phase = v[best].conj() / v[best].norm();
+    let turned = v.map(|z| z * phase);
+    [turned.map(|z| z.re + z.im), turned.map(|z| z.re - z.im), turned.map(|z| z.re)]
+}
+
+fn mode(found: &Found, frame: &Frame, conjugate: bool) -> PlatformMode {
+    let mut study = found.study;
+    if conjugate {
+        study = study.map(|z| z.conj());
+    }
+    let study = normalised(&study).unwrap_or(study);
+    let best = (1..4).fold(0, |best, k| if study[k].norm_sqr() > 1.01 * study[best].norm_sqr() { k } else { best });
+    let mut phase = study[best].conj() / study[best].norm();
+    if found.real {
+        let first = (0..4).find(|&k| (study[k] * phase).re.abs() > 1e-15).unwrap_or(0);
+        phase = Complex::from((study[first] * phase).re.signum()) * phase;
+    }
+    let turned = study.map(|z| z * phase);
+    let clean = |z: Complex<f64>| if found.real { Complex::from(z.re) } else { z };
+    let quaternion = std::array::from_fn(|k| clean(turned[k]));
+    PlatformMode {
+        quaternion,
+        position: frame.position(&turned).map(clean),
+        real: found.real,
+        multiplicity: if found.certificate.is_some() { 1 } else { 0 },
+        residual: found.residual,
+        condition: found.condition,
+        certificate: found.certificate,
+        norm: norm(&turned).norm(),
+        mirror: None,
+    }
+}
