@@ -211,14 +211,13 @@ impl Search<'_> {
         if !found.certificate.is_some_and(|c| holds(&c, &found.study)) {
             // Once more with twice the digits.
             let inverse = polished.inverse.map(|row| row.map(Scalar::to_complex));
-            let (point, equations) = refine(self.legs, &found.study, &inverse);
-            let proof = pose_certificate(self.legs, self.curvature, &point, &equations, &inverse.map(|row| row.map(wide)));
-            let rounded = point.map(|z| Complex::new(z.re.to_f64(), z.im.to_f64()));
-            let moved = proof.map(|c| Certificate { radius: c.radius + ROUNDED, ..c });
-            found.certificate = moved.filter(|c| holds(c, &rounded));
-            if found.certificate.is_some() {
-                found.study = rounded;
-            }
+            found.certificate = refine(self.legs, &found.study, &inverse).and_then(|(point, equations)| {
+                let wide_inverse = inverse.map(|row| row.map(wide));
+                let proof = pose_certificate(self.legs, self.curvature, &point, &equations, &wide_inverse)?;
+                found.study = point.map(|z| Complex::new(z.re.to_f64(), z.im.to_f64()));
+                let radius = proof.radius + ROUNDED * found.study.iter().map(|z| z.norm()).fold(1.0, f64::max);
+                Some(Certificate { radius, ..proof }).filter(|c| holds(c, &found.study))
+            });
         }
         self.found.push(found);
     }
