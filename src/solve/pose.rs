@@ -194,6 +194,40 @@ pub fn refine(
     None
 }
 
+/// Newton's method in numbers of twice the precision all along, for poses very far away, where `N = x.x` is tiny: the
+/// point, its equations, and the inverse of their Jacobian; `None` where it does not settle.
+#[must_use]
+#[expect(clippy::type_complexity, reason = "what a polished pose consists of")]
+pub fn polish_wide(
+    legs: &[Leg<f64>; 6],
+    start: &Eight<Complex<f64>>,
+) -> Option<(Eight<Complex<DoubleDouble>>, Equations<Complex<DoubleDouble>>, [Eight<Complex<DoubleDouble>>; 8])> {
+    let start = normalised(start)?;
+    let mut point = start.map(wide);
+    let patch: Four<Complex<DoubleDouble>> = std::array::from_fn(|k| wide(start[k].conj()));
+    let mut before = f64::INFINITY;
+    let mut growing = 0;
+    for _ in 0..2 * MOST_STEPS {
+        let here = equations(legs, &point, &patch);
+        let step = solve_one(&here.jacobian, &here.values)?;
+        let reach = point.iter().map(|x| x.size()).fold(1.0, f64::max);
+        let size = step.iter().map(|x| x.size()).fold(0.0, f64::max);
+        if size < REFINED * reach {
+            let inverse = dense::inverse(&here.jacobian)?;
+            return Some((point, here, inverse));
+        }
+        growing += usize::from(!(size < 0.5 * before));
+        if growing > 3 || !size.is_finite() {
+            return None;
+        }
+        for (x, s) in point.iter_mut().zip(&step) {
+            *x = x.sub(s);
+        }
+        before = size;
+    }
+    None
+}
+
 /// A complex number with twice the digits.
 #[must_use]
 pub fn wide(z: Complex<f64>) -> Complex<DoubleDouble> {
