@@ -1,6 +1,6 @@
 //! Poses of a platform in Study's parameters, polished on the six leg quadrics and the Study condition.
 
-use super::dense::{inverse, solve_one, times};
+use super::dense::{self, solve_one, times};
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::Ring;
 use super::scalar::{Number, Scalar};
@@ -14,8 +14,13 @@ pub type Eight<S> = [S; 8];
 const MOST_STEPS: usize = 12;
 /// A step of this size (relative to x of norm 1) is the last.
 const SETTLED: f64 = 1e-14;
-/// A step of this size that no longer shrinks is rounding.
-const ROUNDING: f64 = 1e-11;
+/// A step of this size that no longer shrinks is rounding, magnified by a nearly singular Jacobian, where the equations
+/// hold as below.
+const ROUNDING: f64 = 1e-5;
+/// A refined step of this size is the last.
+const REFINED: f64 = 1e-18;
+/// Relative residual of a solution.
+const CLOSED: f64 = 1e-14;
 
 /// The equations at a point: values and derivatives of the six leg quadrics, halved, of the Study condition, and of the
 /// patch that fixes the common factor.
@@ -112,7 +117,7 @@ pub fn normalised<S: Scalar>(v: &Eight<S>) -> Option<Eight<S>> {
     })
 }
 
-/// Newton's method; `None` where it does not settle at a regular solution.
+/// Newton's method; `None` where it does not settle.
 #[must_use]
 pub fn polish<S: Scalar>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<PolishedPose<S>> {
     let mut v = normalised(start)?;
@@ -124,7 +129,7 @@ pub fn polish<S: Scalar>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Polis
         // Convergence is quadratic: what a step of 1e-8 leaves is rounding, as the inverse will tell.
         let near = before < 1e-8 * reach;
         let (inverse, step) = if near {
-            let inverse = inverse(&here.jacobian)?;
+            let inverse = dense::inverse(&here.jacobian)?;
             (Some(inverse), times(&inverse, &here.values))
         } else {
             (None, solve_one(&here.jacobian, &here.values)?)
@@ -134,9 +139,10 @@ pub fn polish<S: Scalar>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Polis
             return None;
         }
         let stalls = !(size < 0.5 * before);
-        if let Some(inverse) = inverse
-            && (size < SETTLED * reach || (stalls && size < ROUNDING * reach))
-        {
+        let settled = near && size < SETTLED * reach;
+        let at_rounding = settled || (stalls && size < ROUNDING * reach && here.residual() < CLOSED);
+        if at_rounding {
+            let inverse = inverse.or_else(|| dense::inverse(&here.jacobian))?;
             return Some(PolishedPose { study: v, equations: here, inverse, step: size });
         }
         growing += usize::from(stalls);
@@ -158,25 +164,68 @@ pub fn complex<S: Scalar>(v: &Eight<S>) -> Eight<Complex<f64>> {
     v.map(Scalar::to_complex)
 }
 
-/// One Newton step in numbers of twice the precision from a polished point: the point there, and its equations.
+/// Newton steps in numbers of twice the precision from a polished point, with the inverse known there: the point they
+/// settle at, and its equations; `None` where they do not.
 #[must_use]
 pub fn refine(
     legs: &[Leg<f64>; 6],
     v: &Eight<Complex<f64>>,
     inverse: &[Eight<Complex<f64>>; 8],
-) -> (Eight<Complex<DoubleDouble>>, Equations<Complex<DoubleDouble>>) {
+) -> Option<(Eight<Complex<DoubleDouble>>, Equations<Complex<DoubleDouble>>)> {
     let mut point = v.map(wide);
     let patch: Four<Complex<DoubleDouble>> = std::array::from_fn(|k| wide(v[k].conj()));
     let narrow = |z: &Complex<DoubleDouble>| Complex::new(z.re.to_f64(), z.im.to_f64());
-    for _ in 0..2 {
+    let mut before = f64::INFINITY;
+    for _ in 0..MOST_STEPS {
         let here = equations(legs, &point, &patch);
         let step = times(inverse, &here.values.each_ref().map(narrow));
+        let size = step.iter().map(|x| x.size()).fold(0.0, f64::max);
+        if size < REFINED {
+            return Some((point, here));
+        }
+        if !(size < 0.5 * before) {
+            return None;
+        }
         for (x, s) in point.iter_mut().zip(&step) {
             *x = x.sub(&wide(*s));
         }
+        before = size;
     }
-    let here = equations(legs, &point, &patch);
-    (point, here)
+    None
+}
+
+/// Newton's method in numbers of twice the precision all along, for poses very far away, where `N = x.x` is tiny: the
+/// point, its equations, and the inverse of their Jacobian; `None` where it does not settle.
+#[must_use]
+#[expect(clippy::type_complexity, reason = "what a polished pose consists of")]
+pub fn polish_wide(
+    legs: &[Leg<f64>; 6],
+    start: &Eight<Complex<f64>>,
+) -> Option<(Eight<Complex<DoubleDouble>>, Equations<Complex<DoubleDouble>>, [Eight<Complex<DoubleDouble>>; 8])> {
+    let start = normalised(start)?;
+    let mut point = start.map(wide);
+    let patch: Four<Complex<DoubleDouble>> = std::array::from_fn(|k| wide(start[k].conj()));
+    let mut before = f64::INFINITY;
+    let mut growing = 0;
+    for _ in 0..2 * MOST_STEPS {
+        let here = equations(legs, &point, &patch);
+        let step = solve_one(&here.jacobian, &here.values)?;
+        let reach = point.iter().map(|x| x.size()).fold(1.0, f64::max);
+        let size = step.iter().map(|x| x.size()).fold(0.0, f64::max);
+        if size < REFINED * reach {
+            let inverse = dense::inverse(&here.jacobian)?;
+            return Some((point, here, inverse));
+        }
+        growing += usize::from(!(size < 0.5 * before));
+        if growing > 3 || !size.is_finite() {
+            return None;
+        }
+        for (x, s) in point.iter_mut().zip(&step) {
+            *x = x.sub(s);
+        }
+        before = size;
+    }
+    None
 }
 
 /// A complex number with twice the digits.

@@ -3,12 +3,15 @@
 use super::candidate::candidates;
 use super::mode::{PlatformAssembly, PlatformMode};
 use super::prepared::{Chart, Frame, norm};
+use crate::algebra::double_double::DoubleDouble;
 use crate::assembly::Roots;
 use crate::certify::Certificate;
 use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certificate};
 use crate::closure::study::{Four, Leg};
 use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
-use crate::solve::pose::{Eight, PolishedPose, complex, normalised, polish, refine, wide};
+use crate::solve::pose::{
+    Eight, PolishedPose, complex, equations, normalised, patch, polish, polish_wide, refine, wide,
+};
 use crate::solve::scalar::Scalar;
 use crate::solve::spectrum::Spectrum;
 use num_complex::Complex;
@@ -17,10 +20,17 @@ use num_complex::Complex;
 const NEAR_REAL: f64 = 1e-4;
 /// Imaginary parts below this are rounding of a real pose.
 const REAL_PART: f64 = 1e-7;
-/// |N| (with x of hermitian norm 1) below which a polished solution is no pose.
-pub const NULL: f64 = 1e-9;
-/// |N| below which an eigenvalue that leads to no regular pose is taken to be one of those without.
+/// |N| (with x of hermitian norm 1) below which an eigenvalue that leads to no regular pose is taken to be one without
+/// a pose.
+const NULL: f64 = 1e-6;
+/// The same for multiple eigenvalues, which are less accurate.
 const NEARLY_NULL: f64 = 1e-2;
+/// |N| below which a pose counts only if it is proved: points of families with `N = 0` look like it.
+const DOUBTFUL: f64 = 1e-4;
+/// Eigenvalues this near to each other may be one multiple eigenvalue.
+const CLUSTER: f64 = 1e-3;
+/// Imprecision of solutions that are not proved.
+const SINGULAR: f64 = 1e-4;
 /// Rotations whose quaternions have `|x.conj(x')|^2` below `1 - SAME` are different without further tests.
 const SAME: f64 = 1e-6;
 
@@ -135,7 +145,11 @@ impl Search<'_> {
         let candidates = candidates(setting, &z);
         let size: f64 = z.iter().map(Complex::norm_sqr).sum();
         let raw = z.iter().map(|z| z * z).sum::<Complex<f64>>().norm() / size;
-        let mut outcome = if raw < NEARLY_NULL { Outcome::Null } else { Outcome::Nothing };
+        let multiple = (0..DIMENSION).any(|j| {
+            j != k && (spectrum.values[j] - value).norm() < CLUSTER * (1.0 + value.norm())
+        });
+        let null = raw < if multiple { NEARLY_NULL } else { NULL };
+        let mut outcome = if null { Outcome::Null } else { Outcome::Nothing };
         for (x, y) in &candidates.study[..candidates.count] {
             let start = chart.outward(x, y);
             if near_real {
@@ -150,11 +164,13 @@ impl Search<'_> {
                     continue;
                 }
             }
-            let Some(polished) = polish(self.legs, &start) else { continue };
-            if norm(&polished.study).norm() < NULL {
-                outcome = Outcome::Null;
+            let polished = polish(self.legs, &start).filter(|p| !near_null(p));
+            let Some(polished) = polished else {
+                if raw < NEARLY_NULL && !multiple && self.far_away(&start) {
+                    outcome = Outcome::Pose;
+                }
                 continue;
-            }
+            };
             outcome = Outcome::Pose;
             let snapped = real_parts(&polished.study)[2];
             let imaginary = polished.study.iter().zip(&snapped).map(|(z, r)| z.norm() - r.abs()).fold(0.0, f64::max);
@@ -170,57 +186,75 @@ impl Search<'_> {
         outcome
     }
 
-    /// Adds a polished solution to the list unless it is there.
-    fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>) {
-        let study = complex(&polished.study);
-        if norm(&study).norm() < NULL {
-            return;
+    /// A pose so far away that it needs twice the digits; whether there is one, proved.
+    fn far_away(&mut self, start: &Eight<Complex<f64>>) -> bool {
+        let Some((point, there, inverse)) = polish_wide(self.legs, start) else { return false };
+        let proof = pose_certificate(self.legs, self.curvature, &point, &there, &inverse);
+        let study = point.map(narrow);
+        let Some(certificate) = proof.map(|c| rounded(c, &study)).filter(|c| holds(c, &study, false)) else {
+            return false;
+        };
+        if self.known(&study, false).is_none() {
+            let inverse = inverse.map(|row| row.map(narrow));
+            let here = equations(self.legs, &study, &patch(&study));
+            self.found.push(Found {
+                study,
+                real: false,
+                certificate: Some(certificate),
+                residual: here.residual(),
+                condition: here.condition(&inverse),
+                hits: 1,
+            });
         }
+        true
+    }
+
+    /// The place of a solution, or of its conjugate, in the list.
+    fn known(&self, study: &Eight<Complex<f64>>, real: bool) -> Option<usize> {
         let same_rotation = |w: &Eight<Complex<f64>>, conjugate: bool| {
-            let product: Complex<f64> =
-                (0..4).map(|k| study[k] * if conjugate { w[k] } else { w[k].conj() }).sum();
+            let product: Complex<f64> = (0..4).map(|k| study[k] * if conjugate { w[k] } else { w[k].conj() }).sum();
             product.norm_sqr() > 1.0 - SAME
         };
-        let near = |found: &Found| {
-            // Polished to rounding: what is farther apart than this is not one.
-            let same = |w: &Eight<Complex<f64>>| !are_apart(&study, REAL_PART, w, REAL_PART);
+        // Polished to rounding: what is farther apart than this is not one. Singular ones are less accurate.
+        self.found.iter().position(|found| {
+            let room = if found.certificate.is_some() { REAL_PART } else { SINGULAR };
+            let same = |w: &Eight<Complex<f64>>| !are_apart(study, room, w, room);
             (same_rotation(&found.study, false) && same(&found.study))
-                || (!S::REAL && same_rotation(&found.study, true) && same(&found.study.map(|z| z.conj())))
-        };
-        if let Some(found) = self.found.iter_mut().find(|found| near(found)) {
-            found.hits += 1;
+                || (!real && same_rotation(&found.study, true) && same(&found.study.map(|z| z.conj())))
+        })
+    }
+
+    /// Adds a polished solution to the list unless it is there.
+    fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>) {
+        let mut study = complex(&polished.study);
+        if let Some(at) = self.known(&study, S::REAL) {
+            self.found[at].hits += 1;
             return;
         }
-        let mut found = Found {
+        let (legs, curvature) = (self.legs, self.curvature);
+        let proof = pose_certificate(legs, curvature, &polished.study, &polished.equations, &polished.inverse);
+        let mut certificate = proof.filter(|c| holds(c, &study, S::REAL));
+        if certificate.is_none() {
+            // Once more with twice the digits.
+            let inverse = polished.inverse.map(|row| row.map(Scalar::to_complex));
+            certificate = refine(legs, &study, &inverse).and_then(|(point, equations)| {
+                let inverse = inverse.map(|row| row.map(wide));
+                let proof = pose_certificate(legs, curvature, &point, &equations, &inverse)?;
+                study = point.map(narrow);
+                Some(rounded(proof, &study)).filter(|c| holds(c, &study, S::REAL))
+            });
+        }
+        if certificate.is_none() && norm(&study).norm() < DOUBTFUL {
+            return;
+        }
+        self.found.push(Found {
             study,
             real: S::REAL,
-            certificate: pose_certificate(
-                self.legs,
-                self.curvature,
-                &polished.study,
-                &polished.equations,
-                &polished.inverse,
-            ),
+            certificate,
             residual: polished.equations.residual(),
             condition: polished.equations.condition(&polished.inverse),
             hits: 1,
-        };
-        let holds = |certificate: &Certificate, study: &Eight<Complex<f64>>| {
-            is_pose(study, certificate.radius) && (S::REAL || is_complex(study, certificate.radius))
-        };
-        if !found.certificate.is_some_and(|c| holds(&c, &found.study)) {
-            // Once more with twice the digits.
-            let inverse = polished.inverse.map(|row| row.map(Scalar::to_complex));
-            let (point, equations) = refine(self.legs, &found.study, &inverse);
-            let proof = pose_certificate(self.legs, self.curvature, &point, &equations, &inverse.map(|row| row.map(wide)));
-            let rounded = point.map(|z| Complex::new(z.re.to_f64(), z.im.to_f64()));
-            let moved = proof.map(|c| Certificate { radius: c.radius + ROUNDED, ..c });
-            found.certificate = moved.filter(|c| holds(c, &rounded));
-            if found.certificate.is_some() {
-                found.study = rounded;
-            }
-        }
-        self.found.push(found);
+        });
     }
 
     /// Writes the list, real poses first.
@@ -238,6 +272,26 @@ impl Search<'_> {
 
 /// Rounding of coordinates of a point of hermitian norm 1 to f64, generously.
 const ROUNDED: f64 = 1e-15;
+
+/// Whether a polished solution may belong to a family with `N = 0`.
+fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
+    norm(&polished.study).norm() < DOUBTFUL && polished.step > NULL * DOUBTFUL
+}
+
+fn narrow(z: Complex<DoubleDouble>) -> Complex<f64> {
+    Complex::new(z.re.to_f64(), z.im.to_f64())
+}
+
+/// A proof for a point that was rounded to f64 afterwards.
+fn rounded(proof: Certificate, study: &Eight<Complex<f64>>) -> Certificate {
+    let reach = study.iter().map(|z| z.norm()).fold(1.0, f64::max);
+    Certificate { radius: proof.radius + ROUNDED * reach, ..proof }
+}
+
+/// Whether what is proved is a pose, and real or not as it seems.
+fn holds(certificate: &Certificate, study: &Eight<Complex<f64>>, real: bool) -> bool {
+    is_pose(study, certificate.radius) && (real || is_complex(study, certificate.radius))
+}
 
 /// The rotation z of eigenvalue k, of any length: quotients where the eigenvector is largest.
 fn rotation<S: Scalar>(

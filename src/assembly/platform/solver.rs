@@ -85,13 +85,20 @@ impl PlatformSolver {
                     continue;
                 }
                 search.all_eigenvalues(chart, &setting, &workspace.basis, &mut workspace.spectrum);
-                if search.lost == 0 && (roots == Roots::Real || search.poses() + search.null >= DIMENSION) {
+                let done = match roots {
+                    Roots::Real => search.lost == 0,
+                    Roots::All => search.poses() + search.null >= DIMENSION,
+                };
+                if done {
                     break 'charts;
                 }
             }
         }
         assembly.null = search.null;
-        assembly.unresolved = search.lost;
+        assembly.unresolved = match roots {
+            Roots::Real => search.lost,
+            Roots::All => DIMENSION.saturating_sub(search.poses() + search.null),
+        };
         search.tell(&self.frame, assembly);
     }
 }
