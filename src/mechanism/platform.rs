@@ -6,12 +6,14 @@ use crate::algebra::ring::Ring;
 use crate::assembly::platform::{self, PlatformSolver};
 use crate::assembly::{Roots, Workspace};
 use crate::catalogue::entry::Case;
+use crate::elimination::platform_degree::platform_degree;
 use crate::error::{Error, Result};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::platform::Platform;
 use crate::kinematics::velocity::velocity;
 use crate::verdict::platform_verdict;
+use rug::Rational;
 use std::time::Instant;
 
 /// A platform, prepared.
@@ -43,14 +45,18 @@ impl PreparedPlatform {
 
     /// Finds all poses with the legs of one case.
     pub(super) fn solve(&self, case: &Case, roots: Roots, workspace: &mut Workspace) -> Result<Solution> {
-        let squares = case.legs_squared.as_ref();
-        let squares = squares.ok_or_else(|| Error::Invalid("a case of a platform without legs".to_owned()))?;
-        let squares = squares.each_ref().map(Number::to_f64);
+        let case_squares = case.legs_squared.as_ref();
+        let case_squares =
+            case_squares.ok_or_else(|| Error::Invalid("a case of a platform without legs".to_owned()))?;
+        let squares = case_squares.each_ref().map(Number::to_f64);
         let (memory, assembly) = (&mut workspace.platform, &mut workspace.platform_assembly);
         let start = Instant::now();
         self.solver.solve(&squares, roots, memory, assembly);
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let verdict = platform_verdict(assembly, roots, || None);
+        let study: Vec<_> = assembly.modes.iter().map(|mode| self.solver.study(mode)).collect();
+        let rationals = case_squares.each_ref().map(|square| square.rational().clone());
+        let exact = || platform_degree(&over::<Rational>(&self.geometry)?, &rationals);
+        let verdict = platform_verdict(assembly, &study, roots, exact);
         let modes = assembly.modes.iter().map(|mode| self.full(mode));
         Ok(Solution {
             verdict,

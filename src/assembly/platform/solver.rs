@@ -1,6 +1,6 @@
 //! A platform prepared once and solved for one set of leg lengths after the other.
 
-use super::mode::{PlatformAssembly, Route};
+use super::mode::{PlatformAssembly, PlatformMode, Route};
 use super::prepared::{Chart, Frame};
 use super::search::{Found, Search};
 use crate::assembly::Roots;
@@ -9,6 +9,7 @@ use crate::elimination::border::{BorderBasis, DIMENSION, Reals};
 use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
 use crate::solve::spectrum::Spectrum;
+use num_complex::Complex;
 
 /// The geometry of a platform, prepared for every set of leg lengths. Shared between threads.
 #[derive(Clone, Debug)]
@@ -48,6 +49,13 @@ impl PlatformSolver {
     #[must_use]
     pub fn platform(&self) -> &Platform<f64> {
         &self.platform
+    }
+
+    /// Study's parameters of a mode as its certificate bounds them, where it has one: about the centre of the platform,
+    /// lengths over the scale.
+    #[must_use]
+    pub fn study(&self, mode: &PlatformMode) -> [Complex<f64>; 8] {
+        self.frame.study(&mode.quaternion, &mode.position)
     }
 
     /// All poses with legs of these squared lengths (negative ones are meant as written: no pose is real then). With
