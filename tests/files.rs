@@ -114,8 +114,8 @@ fn changed(from: &str, to: &str) -> String {
 #[test]
 fn an_arm_is_read() {
     let entry = read(ARM).unwrap();
-    assert_eq!((entry.name.as_str(), entry.title.as_str(), entry.kind), ("test", "Test arm", Kind::Arm));
-    let Geometry::Dh(joints) = &entry.chain.geometry else { panic!("dh") };
+    assert_eq!((entry.name.as_str(), entry.title.as_str(), entry.kind()), ("test", "Test arm", Kind::Arm));
+    let Geometry::Dh(joints) = &entry.chain().unwrap().geometry else { panic!("dh") };
     assert_eq!(joints[1].theta0.cos_sin_f64(), (0.0, 1.0));
     assert_eq!(*joints[2].a.rational(), rug::Rational::from((1, 50)));
     assert_eq!(joints[2].alpha.radians(), -std::f64::consts::FRAC_PI_2);
@@ -135,7 +135,7 @@ fn an_arm_is_read() {
 #[test]
 fn a_loop_is_read_from_json_with_its_units() {
     let entry = load_text(LOOP, "test.json", Format::Json, &Options::default()).unwrap();
-    let Geometry::ModifiedDh(joints) = &entry.chain.geometry else { panic!("modified-dh") };
+    let Geometry::ModifiedDh(joints) = &entry.chain().unwrap().geometry else { panic!("modified-dh") };
     assert_eq!(*joints[0].a.rational(), rug::Rational::from((1, 10)));
     assert_eq!(*joints[0].alpha.half_tangent(), HalfTangent::Finite(1.into()));
     assert_eq!(joints[1].kind, JointKind::Prismatic);
@@ -150,9 +150,9 @@ fn a_loop_is_read_from_json_with_its_units() {
 fn a_table_and_a_robot_description_are_read() {
     let options = Options::default();
     let table = load_text(TABLE, "arm.csv", Format::Csv, &options).unwrap();
-    assert!(table.cases.is_empty() && matches!(table.chain.geometry, Geometry::Dh(_)));
+    assert!(table.cases.is_empty() && matches!(table.chain().unwrap().geometry, Geometry::Dh(_)));
     let robot = load_text(URDF, "six.urdf", Format::Urdf, &options).unwrap();
-    let Geometry::Screws { joints, home } = &robot.chain.geometry else { panic!("screws") };
+    let Geometry::Screws { joints, home } = &robot.chain().unwrap().geometry else { panic!("screws") };
     assert_eq!((robot.title.as_str(), joints.len(), robot.limits[0]), ("six", 6, [-3.0, 3.0]));
     assert!((home.float.translation[0] - 2.1).abs() < 1e-12 && (home.float.translation[2] - 1.4).abs() < 1e-12);
     assert_eq!(joints[2].axis.each_ref().map(Number::to_f64), [0.0, 1.0, 0.0]);
@@ -339,10 +339,10 @@ fn forward(entry: &Entry, q: &[f64]) -> Motion<f64> {
         JointKind::Cylindrical => (*values.next().unwrap(), *values.next().unwrap()),
         _ => panic!("no such joint in the library"),
     };
-    let mut motion = entry.chain.base.float.clone();
-    match &entry.chain.geometry {
+    let mut motion = entry.chain().unwrap().base.float.clone();
+    match &entry.chain().unwrap().geometry {
         Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
-            let craig = matches!(entry.chain.geometry, Geometry::ModifiedDh(_));
+            let craig = matches!(entry.chain().unwrap().geometry, Geometry::ModifiedDh(_));
             for joint in joints {
                 let (angle, distance) = variables(joint.kind);
                 let angle = angle + joint.theta0.radians();
@@ -362,7 +362,7 @@ fn forward(entry: &Entry, q: &[f64]) -> Motion<f64> {
             motion = motion.then_after(&home.float);
         }
     }
-    motion.then_after(&entry.chain.tool.float)
+    motion.then_after(&entry.chain().unwrap().tool.float)
 }
 
 /// Rotation about and translation along an axis (Rodrigues).

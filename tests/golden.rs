@@ -57,6 +57,7 @@ fn mode(real: bool, multiplicity: usize, certified: bool) -> FullMode {
         certified,
         radius: if certified { 2e-15 } else { f64::INFINITY },
         within_limits: real.then_some(multiplicity == 1),
+        platform: None,
     }
 }
 
@@ -72,7 +73,7 @@ fn answer(status: Status, modes: Vec<FullMode>, reason: &str) -> Solution {
         reason: reason.to_owned(),
     };
     let warnings = vec!["the rotation matrix is off by 3e-7; the nearest rotation was taken".to_owned()];
-    Solution { verdict, modes, warnings, prepare_us: 71.25, solve_us: 46.0 }
+    Solution { verdict, modes, warnings, prepare_us: 71.25, solve_us: 46.0, platform: None }
 }
 
 fn answers() -> Vec<(&'static str, Solution)> {

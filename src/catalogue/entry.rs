@@ -23,7 +23,7 @@ pub enum Design {
     /// The joints round a loop.
     Loop(Chain),
     /// The points of a platform.
-    Platform(Platform<Number>),
+    Platform(Box<Platform<Number>>),
 }
 
 /// Where a mechanism comes from.

@@ -52,7 +52,7 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
         "loop" => Kind::Loop,
         _ => {
             let (platform, case) = platform(scope, node)?;
-            return Ok(Mechanism { design: Design::Platform(platform), limits: Vec::new(), case });
+            return Ok(Mechanism { design: Design::Platform(Box::new(platform)), limits: Vec::new(), case });
         }
     };
     let table = match kind {

@@ -29,7 +29,7 @@ pub enum Verb {
     Show(ShowOptions),
     /// Test every claim of mechanism files
     Check(CheckOptions),
-    /// Measure accuracy and speed on random arms
+    /// Measure accuracy and speed on random arms and platforms
     Bench(BenchOptions),
     /// Print the completions of a shell
     Completions(CompletionsOptions),
@@ -186,17 +186,18 @@ pub struct BenchOptions {
 pub enum Measure {
     /// Solutions found, lost, spurious, duplicated against planted configurations
     Accuracy(AccuracyOptions),
-    /// Times on one core beside the eigenvalues of one 16 x 16 matrix
+    /// Times on one core beside faer's eigenvalues of one 16 x 16 or 40 x 40 matrix
     Speed(SpeedOptions),
 }
 
 /// `looproot bench accuracy`
 #[derive(Args)]
 pub struct AccuracyOptions {
-    /// general, structured, near-singular, badly-scaled or calibrated
+    /// general, structured, near-singular, badly-scaled or calibrated arms; platform, platform-planar-base,
+    /// platform-near-planar, platform-6-3 ... (all names: --set help)
     #[arg(long, default_value = "general")]
     pub set: String,
-    /// Number of arms
+    /// Number of arms or platforms
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub count: u64,
     /// Seed of the draw
@@ -216,10 +217,13 @@ pub struct AccuracyOptions {
 /// `looproot bench speed`
 #[derive(Args)]
 pub struct SpeedOptions {
-    /// Number of arms
+    /// general (arms), platform or another set of platforms
+    #[arg(long, default_value = "general")]
+    pub set: String,
+    /// Number of arms or platforms
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=100_000))]
     pub count: u64,
-    /// How often each stage is timed over all arms
+    /// How often each stage is timed over all of them
     #[arg(long, value_name = "N", default_value_t = 101)]
     pub repeats: usize,
     /// Seed of the draw

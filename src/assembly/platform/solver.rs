@@ -6,6 +6,7 @@ use super::search::{Found, Search};
 use crate::assembly::Roots;
 use crate::certify::pose::Curvature;
 use crate::elimination::border::{BorderBasis, DIMENSION, Reals};
+use crate::elimination::pencil::Square;
 use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
 use crate::solve::spectrum::Spectrum;
@@ -49,6 +50,15 @@ impl PlatformSolver {
     #[must_use]
     pub fn platform(&self) -> &Platform<f64> {
         &self.platform
+    }
+
+    /// The 40 x 40 matrix whose eigenvalues are asked for with these legs; `None` where the geometry is special.
+    #[must_use]
+    pub fn matrix(&self, legs_squared: &[f64; 6], workspace: &mut PlatformWorkspace) -> Option<Square<f64, DIMENSION>> {
+        let unit = self.frame.scale * self.frame.scale;
+        let setting = self.charts[0].with_legs(&legs_squared.map(|square| square / unit));
+        workspace.basis.build(&Reals, &setting).ok()?;
+        workspace.basis.products[0].as_slice().try_into().ok()
     }
 
     /// Study's parameters of a mode as its certificate bounds them, where it has one: about the centre of the platform,
