@@ -1,9 +1,9 @@
 //! Poses of a platform in Study's parameters, polished on the six leg quadrics and the Study condition.
 
 use super::dense::{self, solve_one, times};
+use super::scalar::{Number, Scalar};
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::Ring;
-use super::scalar::{Number, Scalar};
 use crate::closure::study::{Four, Leg, scalar};
 use num_complex::Complex;
 

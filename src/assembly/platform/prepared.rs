@@ -1,7 +1,7 @@
 //! What of a platform is computed once for all leg lengths.
 
 use crate::algebra::ring::Ring;
-use crate::closure::study::{Form, Four, Leg, leg_matrix, left, linear_legs, right, scalar};
+use crate::closure::study::{Form, Four, Leg, left, leg_matrix, linear_legs, right, scalar};
 use crate::elimination::border::{Directions, Reals, Setting, weak_directions};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::motion::Vector;
@@ -13,6 +13,9 @@ const TURNS: [[[f64; 4]; 2]; 2] = [
     [[0.533, -0.271, 0.618, 0.509], [0.457, 0.662, -0.324, 0.498]],
     [[-0.391, 0.587, 0.283, 0.651], [0.702, -0.219, 0.485, -0.474]],
 ];
+
+/// How far points are moved, in units of the size of the platform.
+const PERTURBATION: f64 = 1e-5;
 
 /// A platform in lengths of its own size, its points turned, ready for border bases.
 #[derive(Clone, Debug)]
@@ -31,6 +34,20 @@ pub struct Chart {
 impl Chart {
     /// The chart with one of the built-in turns, of a platform shifted and scaled already.
     pub fn new(platform: &Platform<f64>, choice: usize) -> Self {
+        Self::moved(platform, choice, |_, _| 0.0)
+    }
+
+    /// The chart of a platform like this one, its points moved a little: `run` numbers the ways to move them.
+    pub fn perturbed(platform: &Platform<f64>, run: usize) -> Self {
+        Self::moved(platform, run % 2, |point, k| {
+            // Multiples of square roots of primes, modulo 1: an even spread, the same every time.
+            let root = [2.0_f64, 3.0, 5.0][k].sqrt();
+            PERTURBATION * (2.0 * ((point + 6 * run + 1) as f64 * root).fract() - 1.0)
+        })
+    }
+
+    /// The chart with one of the built-in turns, coordinate k of every point of the plate moved.
+    fn moved(platform: &Platform<f64>, choice: usize, offset: impl Fn(usize, usize) -> f64) -> Self {
         let [before, behind] = TURNS[choice].map(|q| {
             let size = q.iter().map(|x| x * x).sum::<f64>().sqrt();
             let [w, x, y, z] = q.map(|x| x / size);
@@ -42,10 +59,15 @@ impl Chart {
             let local = std::array::from_fn(|k| (p[k] - centre[k]) / size);
             q.mul(&Quaternion { scalar: 0.0, vector: local }).mul(&q.conjugate()).vector
         };
-        let local = Platform {
+        let mut local = Platform {
             base: platform.base.map(|a| turned(&a, &centre_base, &before.conjugate())),
             plate: platform.plate.map(|b| turned(&b, &centre_plate, &behind)),
         };
+        for (i, point) in local.plate.iter_mut().enumerate() {
+            for (k, x) in point.iter_mut().enumerate() {
+                *x += offset(i, k);
+            }
+        }
         let shift = leg_matrix(&centre_base, &centre_plate).map(|row| row.map(|x| -x));
         Self::of_local(&local, &before, &behind, size, shift)
     }
@@ -98,7 +120,7 @@ pub fn centroid(points: &[Vector<f64>; 6]) -> Vector<f64> {
 pub fn size(platform: &Platform<f64>) -> f64 {
     let spread = |points: &[Vector<f64>; 6]| -> f64 {
         let centre = centroid(points);
-        points.iter().flat_map(|p| (0..3).map(|k| (p[k] - centre[k]).powi(2)).collect::<Vec<_>>()).sum()
+        points.iter().map(|p| (0..3).map(|k| (p[k] - centre[k]).powi(2)).sum::<f64>()).sum()
     };
     let size = ((spread(&platform.base) + spread(&platform.plate)) / 12.0).sqrt();
     if size > 0.0 && size.is_finite() { size } else { 1.0 }
@@ -139,7 +161,12 @@ impl Frame {
         let y = quaternion([study[4], study[5], study[6], study[7]]);
         let norm = x.norm();
         let vector = y.mul(&x.conjugate()).vector;
-        let centre = quaternion([S::zero(), S::from_f64(self.origins[1][0]), S::from_f64(self.origins[1][1]), S::from_f64(self.origins[1][2])]);
+        let centre = quaternion([
+            S::zero(),
+            S::from_f64(self.origins[1][0]),
+            S::from_f64(self.origins[1][1]),
+            S::from_f64(self.origins[1][2]),
+        ]);
         let turned = x.mul(&centre).mul(&x.conjugate()).vector;
         std::array::from_fn(|k| {
             let moved = vector[k].times(self.scale).sub(&turned[k]).over(norm);

@@ -63,6 +63,8 @@ pub struct Search<'a> {
     pub null: usize,
     /// Eigenvalues that led to nothing.
     pub lost: usize,
+    /// Whether any border basis was followed.
+    pub followed: bool,
 }
 
 /// What became of one eigenvalue.
@@ -79,6 +81,19 @@ impl Search<'_> {
         self.found.iter().map(|f| if f.real { 1 } else { 2 }).sum()
     }
 
+    /// Eigenvalues of the border basis followed last that are not accounted for.
+    pub fn unresolved(&self) -> usize {
+        match self.roots {
+            Roots::Real => self.lost,
+            Roots::All => DIMENSION.saturating_sub(self.poses() + self.null),
+        }
+    }
+
+    /// Whether a border basis was followed, and nothing of it is left to be found.
+    pub fn is_done(&self) -> bool {
+        self.followed && self.unresolved() == 0
+    }
+
     /// Follows all eigenvalues of a border basis.
     pub fn all_eigenvalues(
         &mut self,
@@ -87,7 +102,7 @@ impl Search<'_> {
         basis: &BorderBasis<f64>,
         spectrum: &mut Spectrum<DIMENSION>,
     ) {
-        (self.null, self.lost) = (0, 0);
+        (self.null, self.lost, self.followed) = (0, 0, true);
         for k in 0..DIMENSION {
             let value = spectrum.values[k];
             let near_real = value.im.abs() <= NEAR_REAL * (1.0 + value.norm());
@@ -145,9 +160,8 @@ impl Search<'_> {
         let candidates = candidates(setting, &z);
         let size: f64 = z.iter().map(Complex::norm_sqr).sum();
         let raw = z.iter().map(|z| z * z).sum::<Complex<f64>>().norm() / size;
-        let multiple = (0..DIMENSION).any(|j| {
-            j != k && (spectrum.values[j] - value).norm() < CLUSTER * (1.0 + value.norm())
-        });
+        let multiple =
+            (0..DIMENSION).any(|j| j != k && (spectrum.values[j] - value).norm() < CLUSTER * (1.0 + value.norm()));
         let null = raw < if multiple { NEARLY_NULL } else { NULL };
         let mut outcome = if null { Outcome::Null } else { Outcome::Nothing };
         for (x, y) in &candidates.study[..candidates.count] {

@@ -10,6 +10,9 @@ use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
 use crate::solve::spectrum::Spectrum;
 
+/// Platforms moved a little that are solved for one whose border basis loses rank, at most.
+const MOST_RUNS: usize = 8;
+
 /// The geometry of a platform, prepared for every set of leg lengths. Shared between threads.
 #[derive(Clone, Debug)]
 pub struct PlatformSolver {
@@ -60,6 +63,7 @@ impl PlatformSolver {
         assembly: &mut PlatformAssembly,
     ) {
         assembly.modes.clear();
+        assembly.route = Route::None;
         assembly.lost_rank = None;
         assembly.rank = self.charts[0].directions.rank;
         assembly.self_motion = 0;
@@ -71,34 +75,54 @@ impl PlatformSolver {
         }
         let curvature = Curvature::new(&legs);
         workspace.found.clear();
-        let mut search =
-            Search { legs: &legs, curvature: &curvature, roots, found: &mut workspace.found, null: 0, lost: 0 };
-        'charts: for chart in &self.charts {
+        let mut search = Search {
+            legs: &legs,
+            curvature: &curvature,
+            roots,
+            found: &mut workspace.found,
+            null: 0,
+            lost: 0,
+            followed: false,
+        };
+        let mut solve = |chart: &Chart, search: &mut Search, all_methods: bool| {
             let setting = chart.with_legs(&squares);
             if let Err(lost) = workspace.basis.build(&Reals, &setting) {
-                assembly.lost_rank = Some(lost.degree);
-                continue;
+                return Err(lost.degree);
             }
-            assembly.route = Route::BorderBasis { directions: setting.count };
             for method in [Method::Francis, Method::Faer] {
                 if !workspace.spectrum.decompose(method, &workspace.basis.products[0]) {
                     continue;
                 }
                 search.all_eigenvalues(chart, &setting, &workspace.basis, &mut workspace.spectrum);
-                let done = match roots {
-                    Roots::Real => search.lost == 0,
-                    Roots::All => search.poses() + search.null >= DIMENSION,
-                };
-                if done {
-                    break 'charts;
+                if search.is_done() || !all_methods {
+                    break;
                 }
             }
+            Ok(setting.count)
+        };
+        for chart in &self.charts {
+            match solve(chart, &mut search, true) {
+                Ok(directions) => assembly.route = Route::BorderBasis { directions },
+                Err(degree) => assembly.lost_rank = Some(degree),
+            }
+            if search.is_done() {
+                break;
+            }
+        }
+        if assembly.route == Route::None {
+            // One border basis after the other, until two in a row bring nothing new.
+            let mut unchanged = 0;
+            let mut runs = 0;
+            while runs < MOST_RUNS && unchanged < 2 {
+                let before = search.found.len();
+                let solved = solve(&Chart::perturbed(&self.frame.platform, runs), &mut search, false);
+                unchanged = if solved.is_ok() && search.found.len() == before { unchanged + 1 } else { 0 };
+                runs += 1;
+            }
+            assembly.route = Route::Perturbed { runs };
         }
         assembly.null = search.null;
-        assembly.unresolved = match roots {
-            Roots::Real => search.lost,
-            Roots::All => DIMENSION.saturating_sub(search.poses() + search.null),
-        };
+        assembly.unresolved = search.unresolved();
         search.tell(&self.frame, assembly);
     }
 }
