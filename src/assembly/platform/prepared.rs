@@ -14,8 +14,12 @@ const TURNS: [[[f64; 4]; 2]; 2] = [
     [[-0.391, 0.587, 0.283, 0.651], [0.702, -0.219, 0.485, -0.474]],
 ];
 
-/// How far points are moved, in units of the size of the platform.
-const PERTURBATION: f64 = 1e-5;
+/// How far points are moved at first, in units of the size of the platform.
+const PERTURBATION: f64 = 1e-3;
+/// From platform to platform the points come nearer by this factor.
+const NEARER: f64 = 0.2;
+/// So many platforms lead to the one wanted.
+pub const STAGES: usize = 4;
 
 /// A platform in lengths of its own size, its points turned, ready for border bases.
 #[derive(Clone, Debug)]
@@ -34,20 +38,6 @@ pub struct Chart {
 impl Chart {
     /// The chart with one of the built-in turns, of a platform shifted and scaled already.
     pub fn new(platform: &Platform<f64>, choice: usize) -> Self {
-        Self::moved(platform, choice, |_, _| 0.0)
-    }
-
-    /// The chart of a platform like this one, its points moved a little: `run` numbers the ways to move them.
-    pub fn perturbed(platform: &Platform<f64>, run: usize) -> Self {
-        Self::moved(platform, run % 2, |point, k| {
-            // Multiples of square roots of primes, modulo 1: an even spread, the same every time.
-            let root = [2.0_f64, 3.0, 5.0][k].sqrt();
-            PERTURBATION * (2.0 * ((point + 6 * run + 1) as f64 * root).fract() - 1.0)
-        })
-    }
-
-    /// The chart with one of the built-in turns, coordinate k of every point of the plate moved.
-    fn moved(platform: &Platform<f64>, choice: usize, offset: impl Fn(usize, usize) -> f64) -> Self {
         let [before, behind] = TURNS[choice].map(|q| {
             let size = q.iter().map(|x| x * x).sum::<f64>().sqrt();
             let [w, x, y, z] = q.map(|x| x / size);
@@ -59,15 +49,10 @@ impl Chart {
             let local = std::array::from_fn(|k| (p[k] - centre[k]) / size);
             q.mul(&Quaternion { scalar: 0.0, vector: local }).mul(&q.conjugate()).vector
         };
-        let mut local = Platform {
+        let local = Platform {
             base: platform.base.map(|a| turned(&a, &centre_base, &before.conjugate())),
             plate: platform.plate.map(|b| turned(&b, &centre_plate, &behind)),
         };
-        for (i, point) in local.plate.iter_mut().enumerate() {
-            for (k, x) in point.iter_mut().enumerate() {
-                *x += offset(i, k);
-            }
-        }
         let shift = leg_matrix(&centre_base, &centre_plate).map(|row| row.map(|x| -x));
         Self::of_local(&local, &before, &behind, size, shift)
     }
@@ -152,6 +137,23 @@ impl Frame {
         };
         let legs = std::array::from_fn(|i| Leg::new(&platform.base[i], &platform.plate[i], 0.0));
         Self { scale, origins, platform, legs }
+    }
+
+    /// Platforms nearer and nearer to this one, the points of the plate moved: `run` numbers the ways to move them.
+    pub fn perturbed(&self, run: usize) -> [Platform<f64>; STAGES] {
+        let size = size(&self.platform);
+        std::array::from_fn(|stage| {
+            let mut platform = self.platform.clone();
+            for (i, point) in platform.plate.iter_mut().enumerate() {
+                for (k, x) in point.iter_mut().enumerate() {
+                    // Multiples of square roots of primes, modulo 1: an even spread, the same every time.
+                    let root = [2.0_f64, 3.0, 5.0][k].sqrt();
+                    let offset = 2.0 * ((i + 6 * run + 1) as f64 * root).fract() - 1.0;
+                    *x += PERTURBATION * NEARER.powi(i32::try_from(stage).unwrap_or(0)) * size * offset;
+                }
+            }
+            platform
+        })
     }
 
     /// The translation of a pose in the unit and about the origin of the platform as given.

@@ -10,7 +10,7 @@ use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certi
 use crate::closure::study::{Four, Leg};
 use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
 use crate::solve::pose::{
-    Eight, PolishedPose, complex, equations, normalised, patch, polish, polish_wide, refine, wide,
+    Eight, PolishedPose, complex, equations, follow, normalised, patch, polish, polish_wide, refine, wide,
 };
 use crate::solve::scalar::Scalar;
 use crate::solve::spectrum::Spectrum;
@@ -47,6 +47,18 @@ pub struct Found {
     condition: f64,
     /// How often it was found.
     hits: usize,
+}
+
+/// What eigenvalues belong to.
+pub struct Source<'a> {
+    /// How the platform is turned and scaled.
+    pub chart: &'a Chart,
+    /// What its border basis was made from.
+    pub setting: &'a Setting<f64>,
+    /// The border basis.
+    pub basis: &'a BorderBasis<f64>,
+    /// Platforms on the way from this one to the one wanted, if they differ.
+    pub path: &'a [[Leg<f64>; 6]],
 }
 
 /// One set of leg lengths.
@@ -95,13 +107,7 @@ impl Search<'_> {
     }
 
     /// Follows all eigenvalues of a border basis.
-    pub fn all_eigenvalues(
-        &mut self,
-        chart: &Chart,
-        setting: &Setting<f64>,
-        basis: &BorderBasis<f64>,
-        spectrum: &mut Spectrum<DIMENSION>,
-    ) {
+    pub fn all_eigenvalues(&mut self, source: &Source, spectrum: &mut Spectrum<DIMENSION>) {
         (self.null, self.lost, self.followed) = (0, 0, true);
         for k in 0..DIMENSION {
             let value = spectrum.values[k];
@@ -111,10 +117,10 @@ impl Search<'_> {
             }
             let mut outcome = Outcome::Nothing;
             if value.im == 0.0 {
-                outcome = self.real_eigenvalue(k, chart, setting, basis, spectrum);
+                outcome = self.real_eigenvalue(k, source, spectrum);
             }
             if outcome == Outcome::Nothing && (value.im != 0.0 || self.roots == Roots::All) {
-                outcome = self.complex_eigenvalue(k, near_real, chart, setting, basis, spectrum);
+                outcome = self.complex_eigenvalue(k, near_real, source, spectrum);
             }
             let weight = if value.im > 0.0 { 2 } else { 1 };
             match outcome {
@@ -125,20 +131,13 @@ impl Search<'_> {
         }
     }
 
-    fn real_eigenvalue(
-        &mut self,
-        k: usize,
-        chart: &Chart,
-        setting: &Setting<f64>,
-        basis: &BorderBasis<f64>,
-        spectrum: &mut Spectrum<DIMENSION>,
-    ) -> Outcome {
+    fn real_eigenvalue(&mut self, k: usize, source: &Source, spectrum: &mut Spectrum<DIMENSION>) -> Outcome {
         let value = spectrum.values[k].re;
-        let Some(z) = rotation::<f64>(value, k, basis, spectrum) else { return Outcome::Nothing };
+        let Some(z) = rotation::<f64>(value, k, source.basis, spectrum) else { return Outcome::Nothing };
         let mut outcome = Outcome::Nothing;
-        let candidates = candidates(setting, &z);
+        let candidates = candidates(source.setting, &z);
         for (x, y) in &candidates.study[..candidates.count] {
-            if let Some(polished) = polish(self.legs, &chart.outward(x, y)) {
+            if let Some(polished) = self.polish(source.path, &source.chart.outward(x, y)) {
                 self.admit(&polished);
                 outcome = Outcome::Pose;
             }
@@ -150,14 +149,12 @@ impl Search<'_> {
         &mut self,
         k: usize,
         near_real: bool,
-        chart: &Chart,
-        setting: &Setting<f64>,
-        basis: &BorderBasis<f64>,
+        source: &Source,
         spectrum: &mut Spectrum<DIMENSION>,
     ) -> Outcome {
         let value = spectrum.values[k];
-        let Some(z) = rotation::<Complex<f64>>(value, k, basis, spectrum) else { return Outcome::Nothing };
-        let candidates = candidates(setting, &z);
+        let Some(z) = rotation::<Complex<f64>>(value, k, source.basis, spectrum) else { return Outcome::Nothing };
+        let candidates = candidates(source.setting, &z);
         let size: f64 = z.iter().map(Complex::norm_sqr).sum();
         let raw = z.iter().map(|z| z * z).sum::<Complex<f64>>().norm() / size;
         let multiple =
@@ -165,11 +162,11 @@ impl Search<'_> {
         let null = raw < if multiple { NEARLY_NULL } else { NULL };
         let mut outcome = if null { Outcome::Null } else { Outcome::Nothing };
         for (x, y) in &candidates.study[..candidates.count] {
-            let start = chart.outward(x, y);
+            let start = source.chart.outward(x, y);
             if near_real {
                 // Both ends of a pair that meets on the real axis.
                 for real in real_parts(&start) {
-                    if let Some(polished) = polish(self.legs, &real) {
+                    if let Some(polished) = self.polish(source.path, &real) {
                         self.admit(&polished);
                         outcome = Outcome::Pose;
                     }
@@ -178,9 +175,9 @@ impl Search<'_> {
                     continue;
                 }
             }
-            let polished = polish(self.legs, &start).filter(|p| !near_null(p));
+            let polished = self.polish(source.path, &start).filter(|p| !near_null(p));
             let Some(polished) = polished else {
-                if raw < NEARLY_NULL && !multiple && self.far_away(&start) {
+                if raw < NEARLY_NULL && !multiple && source.path.is_empty() && self.far_away(&start) {
                     outcome = Outcome::Pose;
                 }
                 continue;
@@ -198,6 +195,11 @@ impl Search<'_> {
             self.admit(&polished);
         }
         outcome
+    }
+
+    /// A solution near a point.
+    fn polish<S: Scalar>(&self, path: &[[Leg<f64>; 6]], start: &Eight<S>) -> Option<PolishedPose<S>> {
+        if path.is_empty() { polish(self.legs, start) } else { polish(self.legs, &follow(path, start)?) }
     }
 
     /// A pose so far away that it needs twice the digits; whether there is one, proved.

@@ -1,10 +1,11 @@
 //! A platform prepared once and solved for one set of leg lengths after the other.
 
 use super::mode::{PlatformAssembly, Route};
-use super::prepared::{Chart, Frame};
-use super::search::{Found, Search};
+use super::prepared::{Chart, Frame, STAGES};
+use super::search::{Found, Search, Source};
 use crate::assembly::Roots;
 use crate::certify::pose::Curvature;
+use crate::closure::study::Leg;
 use crate::elimination::border::{BorderBasis, DIMENSION, Reals};
 use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
@@ -84,24 +85,26 @@ impl PlatformSolver {
             lost: 0,
             followed: false,
         };
-        let mut solve = |chart: &Chart, search: &mut Search, all_methods: bool| {
+        let mut solve = |chart: &Chart, path: &[[Leg<f64>; 6]], search: &mut Search| {
             let setting = chart.with_legs(&squares);
             if let Err(lost) = workspace.basis.build(&Reals, &setting) {
                 return Err(lost.degree);
             }
+            let near = !self.charts.iter().any(|own| std::ptr::eq(own, chart));
             for method in [Method::Francis, Method::Faer] {
                 if !workspace.spectrum.decompose(method, &workspace.basis.products[0]) {
                     continue;
                 }
-                search.all_eigenvalues(chart, &setting, &workspace.basis, &mut workspace.spectrum);
-                if search.is_done() || !all_methods {
+                let source = Source { chart, setting: &setting, basis: &workspace.basis, path };
+                search.all_eigenvalues(&source, &mut workspace.spectrum);
+                if search.is_done() || near {
                     break;
                 }
             }
             Ok(setting.count)
         };
         for chart in &self.charts {
-            match solve(chart, &mut search, true) {
+            match solve(chart, &[], &mut search) {
                 Ok(directions) => assembly.route = Route::BorderBasis { directions },
                 Err(degree) => assembly.lost_rank = Some(degree),
             }
@@ -110,12 +113,19 @@ impl PlatformSolver {
             }
         }
         if assembly.route == Route::None {
-            // One border basis after the other, until two in a row bring nothing new.
+            // One border basis after the other, until three in a row bring nothing new.
             let mut unchanged = 0;
             let mut runs = 0;
-            while runs < MOST_RUNS && unchanged < 2 {
+            while runs < MOST_RUNS && unchanged < 3 {
                 let before = search.found.len();
-                let solved = solve(&Chart::perturbed(&self.frame.platform, runs), &mut search, false);
+                let platforms = self.frame.perturbed(runs / 2);
+                let path = platforms
+                    .each_ref()
+                    .map(|p| std::array::from_fn(|i| Leg::new(&p.base[i], &p.plate[i], squares[i])));
+                // In turn: a platform so near that its solutions lead to those wanted at once, and one farther away.
+                let (start, path) =
+                    if runs % 2 == 0 { (&platforms[STAGES - 1], &[][..]) } else { (&platforms[0], &path[..]) };
+                let solved = solve(&Chart::new(start, runs / 2 % 2), path, &mut search);
                 unchanged = if solved.is_ok() && search.found.len() == before { unchanged + 1 } else { 0 };
                 runs += 1;
             }
