@@ -34,7 +34,8 @@ impl Curvature {
         let mut curvature = Self { bounds: [0.0; 8], reach: [0.0; 6] };
         for (i, leg) in legs.iter().enumerate() {
             let sums = leg.matrix.map(|row| row.iter().map(|m| m.abs()).sum::<f64>());
-            curvature.bounds[i] = MARGIN * (sums.iter().map(|s| (1.0 + s) * (1.0 + s)).sum::<f64>() + 4.0 * leg.square.abs());
+            curvature.bounds[i] =
+                MARGIN * (sums.iter().map(|s| (1.0 + s) * (1.0 + s)).sum::<f64>() + 4.0 * leg.square.abs());
             curvature.reach[i] = sums.iter().fold(0.0, |a: f64, &b| a.max(b));
         }
         curvature.bounds[6] = 8.0;

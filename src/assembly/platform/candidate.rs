@@ -1,6 +1,6 @@
 //! From a rotation to the poses that may belong to it.
 
-use crate::closure::study::{Four, Form, left, right, scalar};
+use crate::closure::study::{Form, Four, left, right, scalar};
 use crate::elimination::border::Setting;
 use crate::solve::scalar::Scalar;
 

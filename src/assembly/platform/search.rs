@@ -10,7 +10,7 @@ use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certi
 use crate::closure::study::{Four, Leg};
 use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
 use crate::solve::pose::{
-    Eight, PolishedPose, complex, equations, normalised, patch, polish, polish_wide, refine, wide,
+    Eight, PolishedPose, complex, equations, follow, normalised, patch, polish, polish_wide, refine, wide,
 };
 use crate::solve::scalar::Scalar;
 use crate::solve::spectrum::Spectrum;
@@ -49,6 +49,18 @@ pub struct Found {
     hits: usize,
 }
 
+/// What eigenvalues belong to.
+pub struct Source<'a> {
+    /// How the platform is turned and scaled.
+    pub chart: &'a Chart,
+    /// What its border basis was made from.
+    pub setting: &'a Setting<f64>,
+    /// The border basis.
+    pub basis: &'a BorderBasis<f64>,
+    /// Platforms on the way from this one to the one wanted, if they differ.
+    pub path: &'a [[Leg<f64>; 6]],
+}
+
 /// One set of leg lengths.
 pub struct Search<'a> {
     /// The legs, polished on.
@@ -63,6 +75,8 @@ pub struct Search<'a> {
     pub null: usize,
     /// Eigenvalues that led to nothing.
     pub lost: usize,
+    /// Whether any border basis was followed.
+    pub followed: bool,
 }
 
 /// What became of one eigenvalue.
@@ -79,15 +93,22 @@ impl Search<'_> {
         self.found.iter().map(|f| if f.real { 1 } else { 2 }).sum()
     }
 
+    /// Eigenvalues of the border basis followed last that are not accounted for.
+    pub fn unresolved(&self) -> usize {
+        match self.roots {
+            Roots::Real => self.lost,
+            Roots::All => DIMENSION.saturating_sub(self.poses() + self.null),
+        }
+    }
+
+    /// Whether a border basis was followed, and nothing of it is left to be found.
+    pub fn is_done(&self) -> bool {
+        self.followed && self.unresolved() == 0
+    }
+
     /// Follows all eigenvalues of a border basis.
-    pub fn all_eigenvalues(
-        &mut self,
-        chart: &Chart,
-        setting: &Setting<f64>,
-        basis: &BorderBasis<f64>,
-        spectrum: &mut Spectrum<DIMENSION>,
-    ) {
-        (self.null, self.lost) = (0, 0);
+    pub fn all_eigenvalues(&mut self, source: &Source, spectrum: &mut Spectrum<DIMENSION>) {
+        (self.null, self.lost, self.followed) = (0, 0, true);
         for k in 0..DIMENSION {
             let value = spectrum.values[k];
             let near_real = value.im.abs() <= NEAR_REAL * (1.0 + value.norm());
@@ -96,10 +117,10 @@ impl Search<'_> {
             }
             let mut outcome = Outcome::Nothing;
             if value.im == 0.0 {
-                outcome = self.real_eigenvalue(k, chart, setting, basis, spectrum);
+                outcome = self.real_eigenvalue(k, source, spectrum);
             }
             if outcome == Outcome::Nothing && (value.im != 0.0 || self.roots == Roots::All) {
-                outcome = self.complex_eigenvalue(k, near_real, chart, setting, basis, spectrum);
+                outcome = self.complex_eigenvalue(k, near_real, source, spectrum);
             }
             let weight = if value.im > 0.0 { 2 } else { 1 };
             match outcome {
@@ -110,20 +131,13 @@ impl Search<'_> {
         }
     }
 
-    fn real_eigenvalue(
-        &mut self,
-        k: usize,
-        chart: &Chart,
-        setting: &Setting<f64>,
-        basis: &BorderBasis<f64>,
-        spectrum: &mut Spectrum<DIMENSION>,
-    ) -> Outcome {
+    fn real_eigenvalue(&mut self, k: usize, source: &Source, spectrum: &mut Spectrum<DIMENSION>) -> Outcome {
         let value = spectrum.values[k].re;
-        let Some(z) = rotation::<f64>(value, k, basis, spectrum) else { return Outcome::Nothing };
+        let Some(z) = rotation::<f64>(value, k, source.basis, spectrum) else { return Outcome::Nothing };
         let mut outcome = Outcome::Nothing;
-        let candidates = candidates(setting, &z);
+        let candidates = candidates(source.setting, &z);
         for (x, y) in &candidates.study[..candidates.count] {
-            if let Some(polished) = polish(self.legs, &chart.outward(x, y)) {
+            if let Some(polished) = self.polish(source.path, &source.chart.outward(x, y)) {
                 self.admit(&polished);
                 outcome = Outcome::Pose;
             }
@@ -135,27 +149,24 @@ impl Search<'_> {
         &mut self,
         k: usize,
         near_real: bool,
-        chart: &Chart,
-        setting: &Setting<f64>,
-        basis: &BorderBasis<f64>,
+        source: &Source,
         spectrum: &mut Spectrum<DIMENSION>,
     ) -> Outcome {
         let value = spectrum.values[k];
-        let Some(z) = rotation::<Complex<f64>>(value, k, basis, spectrum) else { return Outcome::Nothing };
-        let candidates = candidates(setting, &z);
+        let Some(z) = rotation::<Complex<f64>>(value, k, source.basis, spectrum) else { return Outcome::Nothing };
+        let candidates = candidates(source.setting, &z);
         let size: f64 = z.iter().map(Complex::norm_sqr).sum();
         let raw = z.iter().map(|z| z * z).sum::<Complex<f64>>().norm() / size;
-        let multiple = (0..DIMENSION).any(|j| {
-            j != k && (spectrum.values[j] - value).norm() < CLUSTER * (1.0 + value.norm())
-        });
+        let multiple =
+            (0..DIMENSION).any(|j| j != k && (spectrum.values[j] - value).norm() < CLUSTER * (1.0 + value.norm()));
         let null = raw < if multiple { NEARLY_NULL } else { NULL };
         let mut outcome = if null { Outcome::Null } else { Outcome::Nothing };
         for (x, y) in &candidates.study[..candidates.count] {
-            let start = chart.outward(x, y);
+            let start = source.chart.outward(x, y);
             if near_real {
                 // Both ends of a pair that meets on the real axis.
                 for real in real_parts(&start) {
-                    if let Some(polished) = polish(self.legs, &real) {
+                    if let Some(polished) = self.polish(source.path, &real) {
                         self.admit(&polished);
                         outcome = Outcome::Pose;
                     }
@@ -164,9 +175,9 @@ impl Search<'_> {
                     continue;
                 }
             }
-            let polished = polish(self.legs, &start).filter(|p| !near_null(p));
+            let polished = self.polish(source.path, &start).filter(|p| !near_null(p));
             let Some(polished) = polished else {
-                if raw < NEARLY_NULL && !multiple && self.far_away(&start) {
+                if raw < NEARLY_NULL && !multiple && source.path.is_empty() && self.far_away(&start) {
                     outcome = Outcome::Pose;
                 }
                 continue;
@@ -184,6 +195,11 @@ impl Search<'_> {
             self.admit(&polished);
         }
         outcome
+    }
+
+    /// A solution near a point.
+    fn polish<S: Scalar>(&self, path: &[[Leg<f64>; 6]], start: &Eight<S>) -> Option<PolishedPose<S>> {
+        if path.is_empty() { polish(self.legs, start) } else { polish(self.legs, &follow(path, start)?) }
     }
 
     /// A pose so far away that it needs twice the digits; whether there is one, proved.

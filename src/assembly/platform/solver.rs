@@ -1,16 +1,20 @@
 //! A platform prepared once and solved for one set of leg lengths after the other.
 
 use super::mode::{PlatformAssembly, PlatformMode, Route};
-use super::prepared::{Chart, Frame};
-use super::search::{Found, Search};
+use super::prepared::{Chart, Frame, STAGES};
+use super::search::{Found, Search, Source};
 use crate::assembly::Roots;
 use crate::certify::pose::Curvature;
+use crate::closure::study::Leg;
 use crate::elimination::border::{BorderBasis, DIMENSION, Reals};
 use crate::elimination::pencil::Square;
 use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
 use crate::solve::spectrum::Spectrum;
 use num_complex::Complex;
+
+/// Platforms moved a little that are solved for one whose border basis loses rank, at most.
+const MOST_RUNS: usize = 8;
 
 /// The geometry of a platform, prepared for every set of leg lengths. Shared between threads.
 #[derive(Clone, Debug)]
@@ -78,6 +82,7 @@ impl PlatformSolver {
         assembly: &mut PlatformAssembly,
     ) {
         assembly.modes.clear();
+        assembly.route = Route::None;
         assembly.lost_rank = None;
         assembly.rank = self.charts[0].directions.rank;
         assembly.self_motion = 0;
@@ -89,34 +94,63 @@ impl PlatformSolver {
         }
         let curvature = Curvature::new(&legs);
         workspace.found.clear();
-        let mut search =
-            Search { legs: &legs, curvature: &curvature, roots, found: &mut workspace.found, null: 0, lost: 0 };
-        'charts: for chart in &self.charts {
+        let mut search = Search {
+            legs: &legs,
+            curvature: &curvature,
+            roots,
+            found: &mut workspace.found,
+            null: 0,
+            lost: 0,
+            followed: false,
+        };
+        let mut solve = |chart: &Chart, path: &[[Leg<f64>; 6]], search: &mut Search| {
             let setting = chart.with_legs(&squares);
             if let Err(lost) = workspace.basis.build(&Reals, &setting) {
-                assembly.lost_rank = Some(lost.degree);
-                continue;
+                return Err(lost.degree);
             }
-            assembly.route = Route::BorderBasis { directions: setting.count };
+            let near = !self.charts.iter().any(|own| std::ptr::eq(own, chart));
             for method in [Method::Francis, Method::Faer] {
                 if !workspace.spectrum.decompose(method, &workspace.basis.products[0]) {
                     continue;
                 }
-                search.all_eigenvalues(chart, &setting, &workspace.basis, &mut workspace.spectrum);
-                let done = match roots {
-                    Roots::Real => search.lost == 0,
-                    Roots::All => search.poses() + search.null >= DIMENSION,
-                };
-                if done {
-                    break 'charts;
+                let source = Source { chart, setting: &setting, basis: &workspace.basis, path };
+                search.all_eigenvalues(&source, &mut workspace.spectrum);
+                if search.is_done() || near {
+                    break;
                 }
             }
+            Ok(setting.count)
+        };
+        for chart in &self.charts {
+            match solve(chart, &[], &mut search) {
+                Ok(directions) => assembly.route = Route::BorderBasis { directions },
+                Err(degree) => assembly.lost_rank = Some(degree),
+            }
+            if search.is_done() {
+                break;
+            }
+        }
+        if assembly.route == Route::None {
+            // One border basis after the other, until three in a row bring nothing new.
+            let mut unchanged = 0;
+            let mut runs = 0;
+            while runs < MOST_RUNS && unchanged < 3 {
+                let before = search.found.len();
+                let platforms = self.frame.perturbed(runs / 2);
+                let path = platforms
+                    .each_ref()
+                    .map(|p| std::array::from_fn(|i| Leg::new(&p.base[i], &p.plate[i], squares[i])));
+                // In turn: a platform so near that its solutions lead to those wanted at once, and one farther away.
+                let (start, path) =
+                    if runs % 2 == 0 { (&platforms[STAGES - 1], &[][..]) } else { (&platforms[0], &path[..]) };
+                let solved = solve(&Chart::new(start, runs / 2 % 2), path, &mut search);
+                unchanged = if solved.is_ok() && search.found.len() == before { unchanged + 1 } else { 0 };
+                runs += 1;
+            }
+            assembly.route = Route::Perturbed { runs };
         }
         assembly.null = search.null;
-        assembly.unresolved = match roots {
-            Roots::Real => search.lost,
-            Roots::All => DIMENSION.saturating_sub(search.poses() + search.null),
-        };
+        assembly.unresolved = search.unresolved();
         search.tell(&self.frame, assembly);
     }
 }

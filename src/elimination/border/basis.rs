@@ -226,7 +226,11 @@ impl<A: Arithmetic> Building<'_, A> {
         }
         for i in 1..4 {
             for j in 1..4 {
-                self.arithmetic.add_multiple(&mut v[..START[3]], form[i][j], &self.memory.products[i - 1][j][..START[3]]);
+                self.arithmetic.add_multiple(
+                    &mut v[..START[3]],
+                    form[i][j],
+                    &self.memory.products[i - 1][j][..START[3]],
+                );
             }
         }
         v
