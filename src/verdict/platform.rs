@@ -78,7 +78,7 @@ fn count(assembly: &PlatformAssembly, roots: Roots, exact: impl FnOnce() -> Opti
         Judged { status, at_infinity: 0, reason: accounted_for(certified(&assembly.modes), &multiple, &bound) }
     };
     if found == MOST {
-        return settled("at most 40 isolated ones of six legs".to_owned());
+        return settled("at most 40 that six legs can have".to_owned());
     }
     if roots == Roots::Real {
         return Judged::unproved("not proved: only real roots were looked for".to_owned());
