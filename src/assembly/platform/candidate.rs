@@ -61,15 +61,15 @@ pub fn candidates<S: Scalar>(setting: &Setting<f64>, x: &Four<S>) -> Candidates<
         all
     };
     let u: [S; 7] = std::array::from_fn(|k| quadratic(&setting.forms[k], &products));
-    let null: [[S; 7]; 3] = setting.null.map(|n| n.map(S::from_f64));
+    let null: [[S; 7]; 4] = setting.null.map(|n| n.map(S::from_f64));
     let count = setting.count;
     // Gram-Schmidt with the largest column first.
-    let mut columns: [Four<S>; 3] = std::array::from_fn(|a| mismatch(&null[a], x));
-    let mut order = [0, 1, 2];
+    let mut columns: [Four<S>; 4] = std::array::from_fn(|a| mismatch(&null[a], x));
+    let mut order = [0, 1, 2, 3];
     let mut rest = mismatch(&u, x).map(|z| z.neg());
-    let mut triangle = [[S::zero(); 3]; 3];
-    let mut right_side = [S::zero(); 3];
-    let mut pivots = [0.0; 3];
+    let mut triangle = [[S::zero(); 4]; 4];
+    let mut right_side = [S::zero(); 4];
+    let mut pivots = [0.0; 4];
     for k in 0..count {
         let size = |a: usize| columns[a].iter().map(|z| z.size() * z.size()).sum::<f64>();
         let best = (k..count).fold(k, |best, a| if size(a) > size(best) { a } else { best });
@@ -97,15 +97,15 @@ pub fn candidates<S: Scalar>(setting: &Setting<f64>, x: &Four<S>) -> Candidates<
     }
     let reach = x.iter().map(|z| z.size()).fold(0.0, f64::max).max(pivots[0]);
     let loose = !(pivots[count - 1] > LOOSE * reach);
-    let solve = |used: usize, right_side: &[S; 3]| {
-        let mut tau = [S::zero(); 3];
+    let solve = |used: usize, right_side: &[S; 4]| {
+        let mut tau = [S::zero(); 4];
         for k in (0..used).rev() {
             let sum = (k + 1..used).fold(right_side[k], |sum, a| sum.sub(&triangle[k][a].mul(&tau[a])));
             tau[k] = if pivots[k] > 0.0 { sum.times(1.0 / pivots[k]) } else { S::zero() };
         }
         tau
     };
-    let translated = |tau: &[S; 3]| {
+    let translated = |tau: &[S; 4]| {
         let mut moved = u;
         for k in 0..count {
             for (m, n) in moved.iter_mut().zip(&null[order[k]]) {

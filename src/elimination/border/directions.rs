@@ -2,8 +2,10 @@
 
 use super::arithmetic::Arithmetic;
 
-/// Most unknowns beside the rotation.
-pub const MOST: usize = 3;
+/// Most unknowns beside the rotation; border bases have room for one less.
+pub const MOST: usize = 4;
+/// Directions of K that are always divided by.
+const LEAST_KEPT: usize = 4;
 /// Singular values of K below this part of the largest one are not divided by.
 const WEAK: f64 = 0.1;
 /// Singular values below this part of the largest one are rounding of zero.
@@ -59,7 +61,7 @@ pub fn weak_directions(matrix: &[[f64; 7]; 6]) -> Directions<f64> {
     order.sort_by(|&i, &j| square(&rows[j]).total_cmp(&square(&rows[i])));
     let sizes = order.map(|i| square(&rows[i]).sqrt());
     let rank = sizes.iter().filter(|&&s| s > ZERO * sizes[0]).count();
-    let kept = sizes.iter().filter(|&&s| s >= WEAK * sizes[0]).count().clamp(7 - MOST, 6);
+    let kept = sizes.iter().filter(|&&s| s >= WEAK * sizes[0]).count().clamp(LEAST_KEPT, 6);
     let mut particular = [[0.0; 6]; 7];
     for (&i, size) in order[..kept].iter().zip(sizes) {
         for k in 0..7 {
@@ -131,7 +133,7 @@ fn complement(given: &[[f64; 7]], found: &mut [[f64; 7]]) {
     }
 }
 
-/// Solves K exactly; `None` where its rank is below 4.
+/// Solves K exactly; `None` where its rank is below 3.
 #[must_use]
 pub fn exact_directions<A: Arithmetic>(
     arithmetic: &A,
