@@ -84,10 +84,13 @@ fn count(assembly: &PlatformAssembly, roots: Roots, exact: impl FnOnce() -> Opti
         return Judged::unproved("not proved: only real roots were looked for".to_owned());
     }
     match exact() {
-        Some(PlatformDegree::Finite { poses, null }) => {
-            let because = format!(
-                "{poses} poses by an exact count (modulo a prime), beside {null} null solutions (N = 0), which are none"
-            );
+        Some(PlatformDegree::Finite { poses, null, curves }) => {
+            let beside = match (null, curves) {
+                (_, true) => ", beside curves of solutions with N = 0, which are no poses".to_owned(),
+                (0, false) => String::new(),
+                (null, false) => format!(", beside {null} solutions with N = 0, which are no poses"),
+            };
+            let because = format!("{poses} poses by an exact count (modulo a prime){beside}");
             match found.cmp(&poses) {
                 std::cmp::Ordering::Equal => settled(because),
                 std::cmp::Ordering::Less => Judged::unproved(format!("not proved: found {found} of {because}")),
