@@ -5,6 +5,8 @@ mod arms;
 
 #[path = "accuracy/degenerate.rs"]
 mod degenerate;
+#[path = "accuracy/platforms.rs"]
+mod platforms;
 #[path = "accuracy/verdicts.rs"]
 mod verdicts;
 

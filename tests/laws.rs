@@ -11,6 +11,8 @@ mod matrices;
 mod motions;
 #[path = "laws/polynomials.rs"]
 mod polynomials;
+#[path = "laws/velocities.rs"]
+mod velocities;
 
 use looproot::algebra::{
     dual::Dual,

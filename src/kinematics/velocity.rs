@@ -41,6 +41,8 @@ pub fn velocity(platform: &Platform<f64>, pose: &Motion<f64>) -> Velocity {
     let arm = |point: &Vector<f64>| -> Vector<f64> { std::array::from_fn(|k| point[k] - centroid[k]) };
     let square = |v: &Vector<f64>| v.iter().map(|x| x * x).sum::<f64>();
     let size = (platform.plate.iter().map(|point| square(&arm(point))).sum::<f64>() / 6.0).sqrt();
+    // A plate without extent: its rotation moves nothing.
+    let size = if size > 0.0 { size } else { 1.0 };
     // About the centroid: leg ends and pose of a plate whose origin lies there.
     let here = Motion { rotation: pose.rotation, translation: pose.apply(&centroid) };
     let centred = Platform { base: platform.base, plate: platform.plate.each_ref().map(arm) };

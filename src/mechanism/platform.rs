@@ -3,10 +3,11 @@
 use super::{FullMode, PlatformAnswer, PlatformMode, Solution};
 use crate::algebra::number::Number;
 use crate::algebra::ring::Ring;
-use crate::assembly::platform::{self, PlatformSolver};
+use crate::assembly::platform::{self, PlatformAssembly, PlatformSolver};
 use crate::assembly::{Roots, Workspace};
 use crate::catalogue::entry::Case;
-use crate::elimination::platform_degree::platform_degree;
+use crate::elimination::border::DIMENSION;
+use crate::elimination::platform_degree::{PlatformDegree, platform_degree};
 use crate::error::{Error, Result};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::motion::Motion;
@@ -33,6 +34,33 @@ fn over<R: Ring>(geometry: &Platform<Number>) -> Option<Platform<R>> {
     Some(Platform { base: points(&geometry.base)?, plate: points(&geometry.plate)? })
 }
 
+/// Whether a list needs no exact count: as many simple poses as there can be, all of them certified.
+fn is_settled(assembly: &PlatformAssembly) -> bool {
+    assembly.modes.len() == DIMENSION && assembly.modes.iter().all(|mode| mode.certificate.is_some())
+}
+
+/// What an exact count tells of singular poses: points of a curve of poses are no isolated ones, and a single singular pose
+/// beside simple ones counts as many times as these leave over.
+fn account_for_singular(assembly: &mut PlatformAssembly, exact: Option<PlatformDegree>) {
+    match exact {
+        Some(PlatformDegree::Infinite) => {
+            assembly.modes.retain(|mode| mode.certificate.is_some());
+            // Their numbers have changed.
+            assembly.modes.iter_mut().for_each(|mode| mode.mirror = None);
+        }
+        Some(PlatformDegree::Finite { poses, .. }) => {
+            let known: usize = assembly.modes.iter().map(|mode| mode.multiplicity).sum();
+            let mut unknown = assembly.modes.iter_mut().filter(|mode| mode.multiplicity == 0);
+            if let (Some(mode), None) = (unknown.next(), unknown.next())
+                && poses >= known + 2
+            {
+                mode.multiplicity = poses - known;
+            }
+        }
+        None => {}
+    }
+}
+
 impl PreparedPlatform {
     /// Prepares the geometry.
     pub(super) fn prepare(geometry: &Platform<Number>) -> Result<Self> {
@@ -53,9 +81,13 @@ impl PreparedPlatform {
         let start = Instant::now();
         self.solver.solve(&squares, roots, memory, assembly);
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let study: Vec<_> = assembly.modes.iter().map(|mode| self.solver.study(mode)).collect();
         let rationals = case_squares.each_ref().map(|square| square.rational().clone());
-        let exact = || platform_degree(&over::<Rational>(&self.geometry)?, &rationals);
+        let exact = match roots {
+            Roots::All if !is_settled(assembly) => self.degree(&rationals),
+            _ => None,
+        };
+        account_for_singular(assembly, exact);
+        let study: Vec<_> = assembly.modes.iter().map(|mode| self.solver.study(mode)).collect();
         let verdict = platform_verdict(assembly, &study, roots, exact);
         let modes = assembly.modes.iter().map(|mode| self.full(mode));
         Ok(Solution {
@@ -66,6 +98,11 @@ impl PreparedPlatform {
             solve_us,
             platform: Some(PlatformAnswer { legs: squares.map(f64::sqrt), route: assembly.route.to_string() }),
         })
+    }
+
+    /// The exact number of poses.
+    fn degree(&self, squares: &[Rational; 6]) -> Option<PlatformDegree> {
+        platform_degree(&over(&self.geometry)?, squares)
     }
 
     fn full(&self, mode: &platform::PlatformMode) -> FullMode {

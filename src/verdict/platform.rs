@@ -13,18 +13,22 @@ const MOST: usize = 40;
 /// Study's parameters of a mode, as its certificate bounds them.
 type Study = [Complex<f64>; 8];
 
-/// Judges the poses of a platform. `study` holds Study's parameters of every mode; `exact` counts the poses exactly and is
-/// asked only when needed.
+/// Judges the poses of a platform. `study` holds Study's parameters of every mode, `exact` the exact number of poses where
+/// that was asked for.
 pub fn platform_verdict(
     assembly: &PlatformAssembly,
     study: &[Study],
     roots: Roots,
-    exact: impl FnOnce() -> Option<PlatformDegree>,
+    exact: Option<PlatformDegree>,
 ) -> Verdict {
-    let judged = if assembly.self_motion > 0 {
+    let dimension = match exact {
+        Some(PlatformDegree::Infinite) => assembly.self_motion.max(1),
+        _ => assembly.self_motion,
+    };
+    let judged = if dimension > 0 {
+        let how = if assembly.self_motion > 0 { "" } else { ", real or complex, by an exact count (modulo a prime)" };
         let reason = format!(
-            "poses form a self-motion of dimension {}; the isolated ones are listed, not proved complete",
-            assembly.self_motion
+            "poses form a self-motion of dimension {dimension}{how}; the isolated ones are listed, not proved complete"
         );
         Judged { status: Status::SelfMotion, ..Judged::unproved(reason) }
     } else if let Some(doubt) = doubt(assembly, study) {
@@ -37,7 +41,7 @@ pub fn platform_verdict(
         complex: assembly.total(),
         real: assembly.real(),
         at_infinity: judged.at_infinity,
-        self_motion: assembly.self_motion,
+        self_motion: dimension,
         certified: certified(&assembly.modes),
         reason: judged.reason,
     }
@@ -69,7 +73,7 @@ fn doubt(assembly: &PlatformAssembly, study: &[Study]) -> Option<String> {
 }
 
 /// Compares the number of modes with what is known of the number of poses.
-fn count(assembly: &PlatformAssembly, roots: Roots, exact: impl FnOnce() -> Option<PlatformDegree>) -> Judged {
+fn count(assembly: &PlatformAssembly, roots: Roots, exact: Option<PlatformDegree>) -> Judged {
     let found = assembly.total();
     let status = if assembly.real() == 0 { Status::Unreachable } else { Status::Complete };
     let settled = |because: String| {
@@ -77,13 +81,13 @@ fn count(assembly: &PlatformAssembly, roots: Roots, exact: impl FnOnce() -> Opti
         let bound = Bound { count: found, because };
         Judged { status, at_infinity: 0, reason: accounted_for(certified(&assembly.modes), &multiple, &bound) }
     };
-    if found == MOST {
+    if found == MOST && exact.is_none() {
         return settled("at most 40 that six legs can have".to_owned());
     }
     if roots == Roots::Real {
         return Judged::unproved("not proved: only real roots were looked for".to_owned());
     }
-    match exact() {
+    match exact {
         Some(PlatformDegree::Finite { poses, null, curves }) => {
             let beside = match (null, curves) {
                 (_, true) => ", beside curves of solutions with N = 0, which are no poses".to_owned(),
@@ -99,10 +103,8 @@ fn count(assembly: &PlatformAssembly, roots: Roots, exact: impl FnOnce() -> Opti
                 }
             }
         }
-        Some(PlatformDegree::Infinite) => Judged::unproved(
-            "not proved: these legs have a curve of poses, real or complex, by an exact count (modulo a prime)"
-                .to_owned(),
-        ),
-        None => Judged::unproved(format!("not proved: found {found} of up to 40 roots")),
+        Some(PlatformDegree::Infinite) | None => {
+            Judged::unproved(format!("not proved: found {found} of up to 40 roots"))
+        }
     }
 }
