@@ -3,9 +3,9 @@
 //! In the quotient algebra of the equations modulo a prime, multiplication by a quotient of two coordinates of the rotation
 //! is a matrix; its characteristic polynomial is the image of the one over the rationals. Enough primes give that.
 
-use super::border::{Arithmetic, BorderBasis, DIMENSION};
+use super::border::{Arithmetic, BorderBasis};
 use super::characteristic::characteristic_polynomial;
-use super::platform_degree::modular_setting;
+use super::platform_degree::{general_products, modular_setting, regular_part, row_times, special_products};
 use crate::algebra::modp::{Modulus, primes};
 use crate::closure::study::{LinearLegs, linear_legs};
 use crate::kinematics::dual_quaternion::Quaternion;
@@ -70,107 +70,44 @@ impl Coordinate {
     }
 }
 
-/// Memory for one prime after the other.
-struct Modular {
-    basis: BorderBasis<u64>,
+/// One platform and one coordinate, for one prime after the other.
+struct Modular<'a> {
+    legs: &'a LinearLegs<Rational>,
+    squares: &'a [Rational; 6],
+    weights: [i32; 3],
+    /// Whether the general border basis does not exist.
+    special: bool,
 }
 
-impl Modular {
+impl Modular<'_> {
     /// The monic polynomial modulo a prime, its degree the number of poses; `None` for an unlucky prime or coordinate.
-    fn polynomial(
-        &mut self,
-        modulus: &Modulus,
-        legs: &LinearLegs<Rational>,
-        squares: &[Rational; 6],
-        weights: [i32; 3],
-    ) -> Option<Vec<u64>> {
-        let (directions, setting) = modular_setting(modulus, legs, squares)?;
-        if directions.count > 3 {
-            return None;
-        }
-        self.basis.build(modulus, &setting).ok()?;
-        let weights = weights.map(|w| modulus.reduce(&Integer::from(w)));
-        let combined = |i: usize| -> Vec<u64> {
-            let mut row = vec![0; DIMENSION];
-            for (products, &w) in self.basis.products.iter().zip(&weights) {
-                modulus.add_multiple(&mut row, w, &products[i]);
-            }
-            row
+    fn polynomial(&self, modulus: &Modulus, memory: &mut BorderBasis<u64>) -> Option<Vec<u64>> {
+        let setting = modular_setting(modulus, self.legs, self.squares)?;
+        let products = if self.special {
+            special_products(modulus, &setting)?
+        } else {
+            general_products(modulus, &setting, memory)?
         };
-        let matrix: Vec<Vec<u64>> = (0..DIMENSION).map(combined).collect();
-        let mut restricted = self.restricted(modulus, &matrix);
-        Some(characteristic_polynomial(modulus, &mut restricted))
-    }
-
-    /// A multiplication matrix restricted to what powers of N leave.
-    fn restricted(&self, modulus: &Modulus, matrix: &[Vec<u64>]) -> Vec<Vec<u64>> {
-        let norm: Vec<Vec<u64>> = (0..DIMENSION)
-            .map(|i| {
-                let mut row = vec![0; DIMENSION];
-                row[i] = modulus.one();
-                for products in &self.basis.products {
-                    let image = row_times(modulus, &products[i], products);
-                    for (r, x) in row.iter_mut().zip(&image) {
-                        *r = Modulus::add(modulus, *r, *x);
-                    }
-                }
-                row
-            })
-            .collect();
-        // The rows N b, then N times a basis of their span, until that loses nothing more.
-        let mut space = norm.clone();
-        let mut pivots = echelon(modulus, &mut space);
-        if pivots.len() == DIMENSION {
-            return matrix.to_vec();
-        }
-        loop {
-            let mut next: Vec<Vec<u64>> = space.iter().map(|v| row_times(modulus, v, &norm)).collect();
-            let found = echelon(modulus, &mut next);
-            let settled = found.len() == pivots.len();
-            (space, pivots) = (next, found);
-            if settled {
-                break;
+        let regular = regular_part(modulus, &products);
+        let weights = self.weights.map(|w| modulus.reduce(&Integer::from(w)));
+        let [mut matrix, rest @ ..] = products;
+        for (k, row) in matrix.iter_mut().enumerate() {
+            for x in row.iter_mut() {
+                *x = Modulus::mul(modulus, *x, weights[0]);
+            }
+            for (other, &w) in rest.iter().zip(&weights[1..]) {
+                modulus.add_multiple(row, w, &other[k]);
             }
         }
-        let image = |v: &Vec<u64>| {
-            let product = row_times(modulus, v, matrix);
-            pivots.iter().map(|&p| product[p]).collect()
-        };
-        space.iter().map(image).collect()
-    }
-}
-
-/// `v matrix`
-fn row_times(modulus: &Modulus, v: &[u64], matrix: &[impl AsRef<[u64]>]) -> Vec<u64> {
-    let mut product = vec![0; DIMENSION];
-    for (&c, row) in v.iter().zip(matrix) {
-        modulus.add_multiple(&mut product, c, row.as_ref());
-    }
-    product
-}
-
-/// Reduced echelon form, rows of zeros dropped; the columns of the pivots.
-fn echelon(modulus: &Modulus, rows: &mut Vec<Vec<u64>>) -> Vec<usize> {
-    let mut pivots = Vec::new();
-    for column in 0..rows.first().map_or(0, Vec::len) {
-        let rank = pivots.len();
-        let Some(best) = (rank..rows.len()).find(|&i| rows[i][column] != 0) else { continue };
-        rows.swap(best, rank);
-        let inverse = modulus.inverse(rows[rank][column]);
-        for x in &mut rows[rank][column..] {
-            *x = Modulus::mul(modulus, *x, inverse);
+        if regular.pivots.len() < matrix.len() {
+            let image = |v: &Vec<u64>| {
+                let product = row_times(modulus, v, &matrix);
+                regular.pivots.iter().map(|&p| product[p]).collect()
+            };
+            matrix = regular.basis.iter().map(image).collect();
         }
-        let pivot_row = rows[rank].clone();
-        for (i, row) in rows.iter_mut().enumerate() {
-            if i != rank {
-                let factor = modulus.neg(row[column]);
-                modulus.add_multiple(&mut row[column..], factor, &pivot_row[column..]);
-            }
-        }
-        pivots.push(column);
+        Some(characteristic_polynomial(modulus, &mut matrix))
     }
-    rows.truncate(pivots.len());
-    pivots
 }
 
 /// Whether a monic polynomial modulo a prime has only simple roots.
@@ -201,55 +138,47 @@ const GROUP: usize = 8;
 /// More primes than any file of 15 digits asks for.
 const MOST_PRIMES: usize = 4000;
 
-/// The polynomial of a platform with legs of these squared lengths; its degree is the number of poses. `None` where the
-/// general border basis does not exist (special geometry, see [`super::platform_degree`]) or the poses are not distinct.
+/// The polynomial of a platform with legs of these squared lengths; its degree is the number of poses. `None` where there
+/// is no pose, infinitely many of them, or several coincide.
 #[must_use]
 pub fn platform_polynomial(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<PlatformPolynomial> {
     let modulus = primes().next()?;
-    COORDINATES.iter().find_map(|coordinate| {
-        let legs = linear_legs(&coordinate.turned(platform));
-        let mut modular = Modular { basis: BorderBasis::new(&modulus) };
-        let first = modular.polynomial(&modulus, &legs, legs_squared, coordinate.weights)?;
-        is_square_free(&modulus, &first).then_some(())?;
-        lifted(&legs, legs_squared, *coordinate, first.len())
+    [false, true].into_iter().find_map(|special| {
+        COORDINATES.iter().find_map(|coordinate| {
+            let legs = &linear_legs(&coordinate.turned(platform));
+            let modular = Modular { legs, squares: legs_squared, weights: coordinate.weights, special };
+            let first = modular.polynomial(&modulus, &mut BorderBasis::new(&modulus))?;
+            (first.len() > 1 && is_square_free(&modulus, &first)).then_some(())?;
+            lifted(&modular, *coordinate, first.len())
+        })
     })
 }
 
 /// Residues of the monic polynomial for one prime after the other, put together.
-fn lifted(
-    legs: &LinearLegs<Rational>,
-    squares: &[Rational; 6],
-    coordinate: Coordinate,
-    length: usize,
-) -> Option<PlatformPolynomial> {
+fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<PlatformPolynomial> {
     let mut combined = Combined { residues: vec![Integer::new(); length], product: Integer::from(1) };
     let mut used = 0;
     let mut guess: Option<Vec<Integer>> = None;
     let mut all = primes();
     while used < MOST_PRIMES {
         let group: Vec<Modulus> = all.by_ref().take(GROUP).collect();
-        let images: Vec<(Modulus, Option<Vec<u64>>)> = group
-            .into_par_iter()
-            .map_init(
-                || Modular { basis: BorderBasis::new(&Modulus::new(3)) },
-                |modular, modulus| {
-                    let image = modular.polynomial(&modulus, legs, squares, coordinate.weights);
-                    (modulus, image.filter(|p| p.len() == length))
-                },
-            )
-            .collect();
-        for (modulus, image) in images {
+        let memory = || BorderBasis::new(&group[0]);
+        let image = |memory: &mut BorderBasis<u64>, modulus: &Modulus| {
+            modular.polynomial(modulus, memory).filter(|p| p.len() == length)
+        };
+        let images: Vec<Option<Vec<u64>>> = group.par_iter().map_init(memory, image).collect();
+        for (modulus, image) in group.iter().zip(images) {
             let Some(image) = image else { continue };
             if let Some(polynomial) = &guess
-                && agrees(&modulus, polynomial, &image)
+                && agrees(modulus, polynomial, &image)
             {
                 let coefficients = guess.take()?;
                 return Some(PlatformPolynomial { coefficients, coordinate, primes: used });
             }
             guess = None;
-            combined.add(&modulus, &image);
+            combined.add(modulus, &image);
             used += 1;
-            if used % 2 == 0 {
+            if used.is_multiple_of(2) {
                 guess = combined.primitive();
             }
         }
