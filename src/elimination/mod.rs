@@ -7,3 +7,4 @@ pub mod degree;
 pub mod graded_quotient;
 pub mod pencil;
 pub mod platform_degree;
+pub mod platform_polynomial;

@@ -3,7 +3,9 @@
 mod candidate;
 mod mode;
 mod prepared;
+mod reflection;
 mod search;
+mod self_motion;
 mod solver;
 
 pub use mode::{PlatformAssembly, PlatformMode, Route};

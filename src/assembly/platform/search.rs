@@ -3,6 +3,7 @@
 use super::candidate::candidates;
 use super::mode::{PlatformAssembly, PlatformMode};
 use super::prepared::{Chart, Frame, norm};
+use super::self_motion::self_motion;
 use crate::algebra::double_double::DoubleDouble;
 use crate::assembly::Roots;
 use crate::certify::Certificate;
@@ -29,6 +30,8 @@ const NEARLY_NULL: f64 = 1e-2;
 const DOUBTFUL: f64 = 1e-4;
 /// Eigenvalues this near to each other may be one multiple eigenvalue.
 const CLUSTER: f64 = 1e-3;
+/// So many real rotations without a pose are kept.
+const STRAYS: usize = 8;
 /// Imprecision of solutions that are not proved.
 const SINGULAR: f64 = 1e-4;
 /// Rotations whose quaternions have `|x.conj(x')|^2` below `1 - SAME` are different without further tests.
@@ -45,8 +48,17 @@ pub struct Found {
     pub certificate: Option<Certificate>,
     residual: f64,
     condition: f64,
-    /// How often it was found.
-    hits: usize,
+    /// How many eigenvalues of the border basis followed last lead to it.
+    eigenvalues: usize,
+    /// The last one of them.
+    last: usize,
+}
+
+impl Found {
+    /// How many solutions coincide here: 1 where that is proved.
+    fn multiplicity(&self) -> usize {
+        if self.certificate.is_some() { 1 } else { self.eigenvalues }
+    }
 }
 
 /// What eigenvalues belong to.
@@ -77,6 +89,10 @@ pub struct Search<'a> {
     pub lost: usize,
     /// Whether any border basis was followed.
     pub followed: bool,
+    /// Whether the eigenvalue followed now is one of two conjugate ones.
+    pub followed_pair: bool,
+    /// Real rotations that led to no regular pose: perhaps they belong to a self-motion.
+    pub stray: [Option<Eight<f64>>; STRAYS],
 }
 
 /// What became of one eigenvalue.
@@ -87,10 +103,23 @@ enum Outcome {
     Nothing,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    /// The search with nothing found yet.
+    pub fn new(legs: &'a [Leg<f64>; 6], curvature: &'a Curvature, roots: Roots, found: &'a mut Vec<Found>) -> Self {
+        found.clear();
+        let stray = [None; STRAYS];
+        Self { legs, curvature, roots, found, null: 0, lost: 0, followed: false, followed_pair: false, stray }
+    }
+
+    /// The dimension of the self-motion on which poses lie that are no isolated solutions.
+    pub fn self_motion(&self) -> usize {
+        let singular = self.found.iter().filter(|f| f.real && f.certificate.is_none());
+        let singular = singular.map(|f| f.study.map(|z| z.re));
+        singular.chain(self.stray.iter().copied().flatten()).map(|v| self_motion(self.legs, &v)).max().unwrap_or(0)
+    }
     /// How many solutions are accounted for: poses, conjugate ones included.
     pub fn poses(&self) -> usize {
-        self.found.iter().map(|f| if f.real { 1 } else { 2 }).sum()
+        self.found.iter().map(|f| f.multiplicity() * if f.real { 1 } else { 2 }).sum()
     }
 
     /// Eigenvalues of the border basis followed last that are not accounted for.
@@ -109,12 +138,16 @@ impl Search<'_> {
     /// Follows all eigenvalues of a border basis.
     pub fn all_eigenvalues(&mut self, source: &Source, spectrum: &mut Spectrum<DIMENSION>) {
         (self.null, self.lost, self.followed) = (0, 0, true);
+        for found in self.found.iter_mut() {
+            found.eigenvalues = 0;
+        }
         for k in 0..DIMENSION {
             let value = spectrum.values[k];
             let near_real = value.im.abs() <= NEAR_REAL * (1.0 + value.norm());
             if value.im < 0.0 || (self.roots == Roots::Real && !near_real) {
                 continue;
             }
+            self.followed_pair = value.im > 0.0;
             let mut outcome = Outcome::Nothing;
             if value.im == 0.0 {
                 outcome = self.real_eigenvalue(k, source, spectrum);
@@ -137,9 +170,12 @@ impl Search<'_> {
         let mut outcome = Outcome::Nothing;
         let candidates = candidates(source.setting, &z);
         for (x, y) in &candidates.study[..candidates.count] {
-            if let Some(polished) = self.polish(source.path, &source.chart.outward(x, y)) {
-                self.admit(&polished);
+            let start = source.chart.outward(x, y);
+            if let Some(polished) = self.polish(source.path, &start) {
+                self.admit(&polished, k);
                 outcome = Outcome::Pose;
+            } else if let Some(free) = self.stray.iter_mut().find(|s| s.is_none()) {
+                *free = Some(start);
             }
         }
         outcome
@@ -167,7 +203,7 @@ impl Search<'_> {
                 // Both ends of a pair that meets on the real axis.
                 for real in real_parts(&start) {
                     if let Some(polished) = self.polish(source.path, &real) {
-                        self.admit(&polished);
+                        self.admit(&polished, k);
                         outcome = Outcome::Pose;
                     }
                 }
@@ -189,10 +225,10 @@ impl Search<'_> {
                 && let Some(real) = polish(self.legs, &snapped)
                 && !are_apart(&complex(&real.study), REAL_PART, &polished.study, REAL_PART)
             {
-                self.admit(&real);
+                self.admit(&real, k);
                 continue;
             }
-            self.admit(&polished);
+            self.admit(&polished, k);
         }
         outcome
     }
@@ -219,7 +255,8 @@ impl Search<'_> {
                 certificate: Some(certificate),
                 residual: here.residual(),
                 condition: here.condition(&inverse),
-                hits: 1,
+                eigenvalues: 1,
+                last: usize::MAX,
             });
         }
         true
@@ -241,10 +278,10 @@ impl Search<'_> {
     }
 
     /// Adds a polished solution to the list unless it is there.
-    fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>) {
+    fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>, eigenvalue: usize) {
         let mut study = complex(&polished.study);
         if let Some(at) = self.known(&study, S::REAL) {
-            self.found[at].hits += 1;
+            self.count(at, eigenvalue);
             return;
         }
         let (legs, curvature) = (self.legs, self.curvature);
@@ -269,8 +306,19 @@ impl Search<'_> {
             certificate,
             residual: polished.equations.residual(),
             condition: polished.equations.condition(&polished.inverse),
-            hits: 1,
+            eigenvalues: 0,
+            last: usize::MAX,
         });
+        self.count(self.found.len() - 1, eigenvalue);
+    }
+
+    /// Counts an eigenvalue for a solution, once; of two conjugate ones only one is followed.
+    fn count(&mut self, at: usize, eigenvalue: usize) {
+        let found = &mut self.found[at];
+        if found.eigenvalues == 0 || found.last != eigenvalue {
+            found.eigenvalues += if found.real && self.followed_pair { 2 } else { 1 };
+            found.last = eigenvalue;
+        }
     }
 
     /// Writes the list, real poses first.
@@ -358,7 +406,7 @@ fn mode(found: &Found, frame: &Frame, conjugate: bool) -> PlatformMode {
         quaternion,
         position: frame.position(&turned).map(clean),
         real: found.real,
-        multiplicity: if found.certificate.is_some() { 1 } else { 0 },
+        multiplicity: found.multiplicity(),
         residual: found.residual,
         condition: found.condition,
         certificate: found.certificate,

@@ -2,6 +2,7 @@
 
 use super::mode::{PlatformAssembly, PlatformMode, Route};
 use super::prepared::{Chart, Frame, STAGES};
+use super::reflection::Reflection;
 use super::search::{Found, Search, Source};
 use crate::assembly::Roots;
 use crate::certify::pose::Curvature;
@@ -22,6 +23,7 @@ pub struct PlatformSolver {
     platform: Platform<f64>,
     frame: Frame,
     charts: [Chart; 2],
+    reflection: Option<Reflection>,
 }
 
 /// Scratch memory, reused from call to call: one for every thread.
@@ -47,7 +49,7 @@ impl PlatformSolver {
     pub fn prepare(platform: &Platform<f64>) -> Self {
         let frame = Frame::new(platform);
         let charts = std::array::from_fn(|choice| Chart::new(&frame.platform, choice));
-        Self { platform: platform.clone(), frame, charts }
+        Self { platform: platform.clone(), frame, charts, reflection: Reflection::of(platform) }
     }
 
     /// The geometry as given.
@@ -93,16 +95,7 @@ impl PlatformSolver {
             leg.square = square;
         }
         let curvature = Curvature::new(&legs);
-        workspace.found.clear();
-        let mut search = Search {
-            legs: &legs,
-            curvature: &curvature,
-            roots,
-            found: &mut workspace.found,
-            null: 0,
-            lost: 0,
-            followed: false,
-        };
+        let mut search = Search::new(&legs, &curvature, roots, &mut workspace.found);
         let mut solve = |chart: &Chart, path: &[[Leg<f64>; 6]], search: &mut Search| {
             let setting = chart.with_legs(&squares);
             if let Err(lost) = workspace.basis.build(&Reals, &setting) {
@@ -148,9 +141,13 @@ impl PlatformSolver {
                 runs += 1;
             }
             assembly.route = Route::Perturbed { runs };
+            assembly.self_motion = search.self_motion();
         }
         assembly.null = search.null;
         assembly.unresolved = search.unresolved();
         search.tell(&self.frame, assembly);
+        if let Some(reflection) = &self.reflection {
+            reflection.mark(&mut assembly.modes);
+        }
     }
 }

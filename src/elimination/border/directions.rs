@@ -2,8 +2,10 @@
 
 use super::arithmetic::Arithmetic;
 
-/// Most unknowns beside the rotation; border bases have room for one less.
+/// Most unknowns beside the rotation.
 pub const MOST: usize = 4;
+/// As many of them as border bases have room for.
+pub const MOST_DIRECTIONS: usize = 3;
 /// Directions of K that are always divided by.
 const LEAST_KEPT: usize = 4;
 /// Singular values of K below this part of the largest one are not divided by.

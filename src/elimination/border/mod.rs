@@ -16,5 +16,5 @@ mod setting;
 
 pub use arithmetic::{Arithmetic, Reals, Relations, Split};
 pub use basis::{BorderBasis, DIMENSION, LEVELS, LostRank};
-pub use directions::{Directions, exact_directions, weak_directions};
+pub use directions::{Directions, MOST_DIRECTIONS, exact_directions, weak_directions};
 pub use setting::Setting;
