@@ -17,6 +17,8 @@
 //! steps behind it magnify by at most their norm. Constants of the loop count as known to a few roundings, so that the
 //! proof covers the mechanism as given and not only as stored.
 
+pub mod pose;
+
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::Ring;
 use crate::elimination::cut::Cut;

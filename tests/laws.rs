@@ -23,6 +23,8 @@ mod roots;
 mod texts;
 #[path = "laws/trigonometry.rs"]
 mod trigonometry;
+#[path = "laws/velocities.rs"]
+mod velocities;
 
 use looproot::algebra::{
     dual::Dual,

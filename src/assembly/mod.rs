@@ -2,6 +2,7 @@
 
 mod limits;
 mod mode;
+pub mod platform;
 mod prepared;
 mod search;
 mod shifted;

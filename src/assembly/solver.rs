@@ -2,6 +2,7 @@
 
 use super::limits;
 use super::mode::{Assembly, Mode, Roots};
+use super::platform::{PlatformAssembly, PlatformWorkspace};
 use super::prepared::PreparedCut;
 use super::search::Search;
 use super::shifted::Shifted;
@@ -75,6 +76,10 @@ fn scaled(motion: &Motion<f64>, scale: f64) -> Motion<f64> {
 #[derive(Default)]
 pub struct Workspace {
     eigen: EigenWorkspace,
+    /// That of platforms.
+    pub platform: PlatformWorkspace,
+    /// What was found last of a platform.
+    pub platform_assembly: PlatformAssembly,
 }
 
 impl Solver {

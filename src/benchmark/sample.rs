@@ -1,7 +1,7 @@
 //! Random arms with a planted configuration, the same ones for the same seed.
 
 use crate::algebra::number::{Angle, HalfTangent, Number};
-use crate::catalogue::entry::{Case, Entry, Expected, Kind};
+use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
 use crate::kinematics::closed_loop::{Layout, OpenLoop};
@@ -51,6 +51,8 @@ impl Set {
 pub struct Sample {
     /// The arm with one pose.
     pub entry: Entry,
+    /// Its joints.
+    pub chain: Chain,
     /// The planted joint angles.
     pub planted: [f64; 6],
     /// Smallest over largest singular value of the Jacobian there, lengths as given.
@@ -84,25 +86,18 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
         let turns = planted.map(|q| Motion::rotation_z(q.cos(), q.sin()));
         let Some(pose) = chain.forward::<f64>(&turns) else { continue };
         let (placement, _) = Placement::from_matrix(&matrix(&pose))?;
-        let case = Case {
-            pose: Some(placement),
-            input: Vec::new(),
-            expected: Expected::default(),
-            warnings: Vec::new(),
-            line: 0,
-        };
+        let case = Case::at(placement, 0);
         let entry = Entry {
             name: format!("sample {index}"),
             title: format!("random arm {index} of seed {seed}"),
             source: None,
             notes: None,
-            kind: Kind::Arm,
-            chain,
+            design: Design::Arm(chain.clone()),
             limits: Vec::new(),
             cases: vec![case],
             rounded: true,
         };
-        return Ok(Sample { entry, planted, regularity });
+        return Ok(Sample { entry, chain, planted, regularity });
     }
 }
 

@@ -1,17 +1,19 @@
 //! The `[mechanism]` table: joints, base, tool and limits.
 
-use super::entry::Kind;
+use super::entry::{Case, Design, Kind};
 use super::node::Node;
+use super::platform::platform;
 use super::scope::{Scope, Table};
 use crate::algebra::number::{Angle, Number, Quantity};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 
 /// The mechanism of a file.
 pub(super) struct Mechanism {
-    pub(super) kind: Kind,
-    pub(super) chain: Chain,
+    pub(super) design: Design,
     pub(super) limits: Vec<[f64; 2]>,
+    /// The legs of a platform, where they stand beside its points.
+    pub(super) case: Option<Case>,
 }
 
 /// What one joint variable measures.
@@ -45,13 +47,12 @@ pub(super) fn kinds(chain: &Chain) -> Vec<JointKind> {
 pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     let anything = ["kind", "convention", "joints", "base", "tool", "home", "limits", "plate", "legs", "legs_squared"];
     let table = scope.table(node, "[mechanism]", &anything)?;
-    let kind_node = scope.need(&table, "kind")?;
-    let kind = match scope.word(kind_node, "kind", &["arm", "loop", "platform"])? {
+    let kind = match scope.word(scope.need(&table, "kind")?, "kind", &["arm", "loop", "platform"])? {
         "arm" => Kind::Arm,
         "loop" => Kind::Loop,
         _ => {
-            let message = "mechanisms of kind \"platform\" are read but not solved yet".to_owned();
-            return Err(Error::Unsupported(message).at(scope.path, kind_node.line));
+            let (platform, case) = platform(scope, node)?;
+            return Ok(Mechanism { design: Design::Platform(Box::new(platform)), limits: Vec::new(), case });
         }
     };
     let table = match kind {
@@ -91,7 +92,8 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     };
     check_count(scope, &chain, joints.line, expected)?;
     let limits = table.get("limits").map_or(Ok(Vec::new()), |node| limits(scope, node, &chain))?;
-    Ok(Mechanism { kind, chain, limits })
+    let design = if kind == Kind::Arm { Design::Arm(chain) } else { Design::Loop(chain) };
+    Ok(Mechanism { design, limits, case: None })
 }
 
 /// Refuses a chain whose number of joint variables does not fit its kind.

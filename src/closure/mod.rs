@@ -1,4 +1,5 @@
 //! Mechanism to closure equations, over any ring.
 
 pub mod half_angle;
+pub mod study;
 pub mod woernle_lee;

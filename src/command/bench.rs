@@ -7,6 +7,9 @@ use super::solve::stop_on_interrupt;
 use indicatif::{ProgressBar, ProgressStyle};
 use looproot::assembly::Roots;
 use looproot::benchmark::accuracy::{self, Counts, Job, quantiles};
+use looproot::benchmark::platform;
+use looproot::benchmark::platform::accuracy::PlatformJob;
+use looproot::benchmark::platform::sample::PlatformSet;
 use looproot::benchmark::sample::Set;
 use looproot::benchmark::speed;
 use looproot::error::Error;
@@ -21,33 +24,49 @@ pub fn run(options: &BenchOptions) -> Result<Exit, Fault> {
     }
 }
 
+/// A set by its name.
+#[derive(Clone, Copy)]
+enum Family {
+    Arms(Set),
+    Platforms(PlatformSet),
+}
+
+fn family(name: &str) -> Result<Family, Error> {
+    let arms = Set::NAMED.into_iter().map(|(name, set)| (name, Family::Arms(set)));
+    let platforms = PlatformSet::NAMED.into_iter().map(|(name, set)| (name, Family::Platforms(set)));
+    let mut all = arms.chain(platforms);
+    let names = all.clone().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
+    let found = all.find(|(known, _)| *known == name).map(|(_, family)| family);
+    found.ok_or_else(|| Error::Invalid(format!("found the set `{name}`, expected one of {names}")))
+}
+
 fn measure_accuracy(options: &AccuracyOptions) -> Result<Exit, Fault> {
-    let names = || Set::NAMED.map(|(name, _)| name).join(", ");
-    let (name, set) = Set::NAMED
-        .into_iter()
-        .find(|(name, _)| *name == options.set)
-        .ok_or_else(|| Error::Invalid(format!("found the set `{}`, expected one of {}", options.set, names())))?;
+    let family = family(&options.set)?;
     let roots = if options.real { Roots::Real } else { Roots::All };
-    let job = Job { set, count: options.count, seed: options.seed, roots };
+    let (count, seed) = (options.count, options.seed);
     let stop = stop_on_interrupt();
-    let bar = ProgressBar::new(options.count);
+    let bar = ProgressBar::new(count);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta}") {
         bar.set_style(style);
     }
     let running = || !stop.load(Ordering::Relaxed);
-    let counts = pool(options.threads)?.install(|| accuracy::run(job, running, || bar.inc(1)))?;
+    let tick = || bar.inc(1);
+    let counts = pool(options.threads)?.install(|| match family {
+        Family::Arms(set) => accuracy::run(Job { set, count, seed, roots }, running, tick),
+        Family::Platforms(set) => platform::accuracy::run(PlatformJob { set, count, seed, roots }, running, tick),
+    })?;
     bar.finish_and_clear();
     if options.json {
-        print(&format!("{}\n", document(&counts, name, options)))?;
+        print(&format!("{}\n", document(&counts, options)))?;
     } else {
         let roots = if options.real { "real solutions only" } else { "all solutions" };
-        print(&format!("{counts}\n  set {name}, seed {}, {roots}\n", options.seed))?;
+        print(&format!("{counts}\n  set {}, seed {seed}, {roots}\n", options.set))?;
     }
     let exit = if counts.is_faultless() { Exit::Complete } else { Exit::NotProved };
     Ok(if running() { exit } else { Exit::Interrupted })
 }
 
-fn document(counts: &Counts, set: &str, options: &AccuracyOptions) -> serde_json::Value {
+fn document(counts: &Counts, options: &AccuracyOptions) -> serde_json::Value {
     let spread = |values: &[f64]| {
         let [median, p99, p999, largest] = quantiles(values);
         json!({ "median": median, "p99": p99, "p999": p999, "max": largest })
@@ -56,9 +75,10 @@ fn document(counts: &Counts, set: &str, options: &AccuracyOptions) -> serde_json
         map.iter().map(|(key, count)| (key.to_string(), json!(count))).collect::<serde_json::Map<_, _>>().into()
     };
     json!({
-        "set": set, "seed": options.seed, "real_only": options.real,
-        "arms": counts.arms, "found": counts.found, "lost": counts.lost.len(), "lost_samples": counts.lost,
+        "set": options.set, "seed": options.seed, "real_only": options.real,
+        counts.noun: counts.solved, "found": counts.found, "lost": counts.lost.len(), "lost_samples": counts.lost,
         "on_self_motion": counts.on_self_motion, "spurious": counts.spurious, "duplicates": counts.duplicates,
+        "exactly_counted": counts.counted, "miscounted": counts.miscounted,
         "modes": counts.modes.0, "certified": counts.modes.1,
         "verdicts": counts.verdicts, "reasons": counts.reasons,
         "residual": spread(&counts.residuals), "distance": spread(&counts.errors),
@@ -67,6 +87,15 @@ fn document(counts: &Counts, set: &str, options: &AccuracyOptions) -> serde_json
 }
 
 fn measure_speed(options: &SpeedOptions) -> Result<Exit, Fault> {
-    print(&format!("{}\n", speed::run(options.count, options.repeats.max(1), options.seed)?))?;
+    let (count, repeats, seed) = (options.count, options.repeats.max(1), options.seed);
+    let timings = match family(&options.set)? {
+        Family::Arms(Set::General) => speed::run(count, repeats, seed)?,
+        Family::Arms(_) => {
+            let message = format!("found the set `{}`, expected general or a set of platforms", options.set);
+            return Err(Error::Invalid(message).into());
+        }
+        Family::Platforms(set) => platform::speed::run(set, count, repeats, seed)?,
+    };
+    print(&format!("{timings}\n"))?;
     Ok(Exit::Complete)
 }

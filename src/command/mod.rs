@@ -10,3 +10,4 @@ pub mod output;
 pub mod poly;
 pub mod show;
 pub mod solve;
+pub mod wanted;

@@ -1,5 +1,10 @@
 //! Closure equations to one matrix pencil in the hidden unknown, over any field.
 
+pub mod border;
+pub mod characteristic;
 pub mod cut;
 pub mod degree;
+pub mod graded_quotient;
 pub mod pencil;
+pub mod platform_degree;
+pub mod platform_polynomial;

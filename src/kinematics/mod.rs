@@ -5,3 +5,5 @@ pub mod closed_loop;
 pub mod dual_quaternion;
 pub mod motion;
 pub mod placement;
+pub mod platform;
+pub mod velocity;

@@ -45,6 +45,43 @@ pub fn inverse<S: Number, const N: usize>(matrix: &[[S; N]; N]) -> Option<[[S; N
     Some(a)
 }
 
+/// The solution of `matrix x = right` by Gaussian elimination with partial pivoting; `None` for a singular matrix.
+#[must_use]
+pub fn solve_one<S: Number, const N: usize>(matrix: &[[S; N]; N], right: &[S; N]) -> Option<[S; N]> {
+    let (mut a, mut x) = (*matrix, *right);
+    for k in 0..N {
+        let mut row = k;
+        for i in k + 1..N {
+            if a[i][k].size() > a[row][k].size() {
+                row = i;
+            }
+        }
+        if !(a[row][k].size() > 0.0) {
+            return None;
+        }
+        a.swap(k, row);
+        x.swap(k, row);
+        let inverse = a[k][k].inverse()?;
+        a[k][k] = inverse;
+        let (pivot_row, value) = (a[k], x[k]);
+        for i in k + 1..N {
+            let factor = a[i][k].mul(&inverse);
+            for j in k + 1..N {
+                a[i][j] = a[i][j].sub(&factor.mul(&pivot_row[j]));
+            }
+            x[i] = x[i].sub(&factor.mul(&value));
+        }
+    }
+    for k in (0..N).rev() {
+        let mut sum = x[k];
+        for j in k + 1..N {
+            sum = sum.sub(&a[k][j].mul(&x[j]));
+        }
+        x[k] = sum.mul(&a[k][k]);
+    }
+    Some(x)
+}
+
 /// `matrix * vector`
 #[inline(always)]
 #[must_use]

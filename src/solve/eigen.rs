@@ -92,6 +92,72 @@ impl EigenWorkspace {
     }
 }
 
+/// Scratch memory for eigenvalues and eigenvectors of N x N matrices by faer, reused from call to call.
+pub struct Eigenvectors<const N: usize> {
+    matrix: Mat<f64>,
+    real: Diag<f64>,
+    imaginary: Diag<f64>,
+    vectors: Mat<f64>,
+    memory: MemBuffer,
+}
+
+impl<const N: usize> Default for Eigenvectors<N> {
+    fn default() -> Self {
+        let (no, yes) = (evd::ComputeEigenvectors::No, evd::ComputeEigenvectors::Yes);
+        Self {
+            matrix: Mat::zeros(N, N),
+            real: Diag::zeros(N),
+            imaginary: Diag::zeros(N),
+            vectors: Mat::zeros(N, N),
+            memory: MemBuffer::new(evd::evd_scratch::<f64>(N, no, yes, Par::Seq, faer::prelude::default())),
+        }
+    }
+}
+
+impl<const N: usize> Eigenvectors<N> {
+    /// Eigenvalues and right eigenvectors of a matrix, kept in here; whether the iteration converged.
+    pub fn decompose(&mut self, matrix: &Square<f64, N>) -> bool {
+        for (i, row) in matrix.iter().enumerate() {
+            for (j, x) in row.iter().enumerate() {
+                self.matrix[(i, j)] = *x;
+            }
+        }
+        evd::evd_real(
+            self.matrix.as_ref(),
+            self.real.as_mut(),
+            self.imaginary.as_mut(),
+            None,
+            Some(self.vectors.as_mut()),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            faer::prelude::default(),
+        )
+        .is_ok()
+    }
+
+    /// Eigenvalue k.
+    #[must_use]
+    pub fn value(&self, k: usize) -> Complex<f64> {
+        Complex::new(self.real.column_vector()[k], self.imaginary.column_vector()[k])
+    }
+
+    /// The eigenvector of eigenvalue k; conjugate eigenvalues stand next to each other, the one with positive imaginary
+    /// part first.
+    #[must_use]
+    pub fn vector(&self, k: usize) -> [Complex<f64>; N] {
+        let imaginary = self.imaginary.column_vector()[k];
+        std::array::from_fn(|i| {
+            if imaginary == 0.0 {
+                Complex::from(self.vectors[(i, k)])
+            } else if imaginary > 0.0 {
+                Complex::new(self.vectors[(i, k)], self.vectors[(i, k + 1)])
+            } else {
+                Complex::new(self.vectors[(i, k - 1)], -self.vectors[(i, k)])
+            }
+        })
+    }
+}
+
 /// The eigenvalues of a small complex matrix of any size, rows given one after the other. Allocates: for rare cases.
 #[must_use]
 pub fn eigenvalues(size: usize, entries: &[Complex<f64>]) -> Vec<Complex<f64>> {

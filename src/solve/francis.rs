@@ -1,7 +1,8 @@
 //! Eigenvalues of small real matrices on the stack: reduction to Hessenberg form by stabilised elimination, then
-//! Francis's implicit double-shift QR steps with deflation. No vectors, no allocation: for 16 x 16 about twice as fast as
-//! the general routine, which stays the reference. \[MartinPetersWilkinson1970\]
+//! Francis's implicit double-shift QR steps with deflation. Vectors one by one by inverse iteration, no allocation: about
+//! twice as fast as the general routine, which stays the reference. \[MartinPetersWilkinson1970\]
 
+use super::scalar::Scalar;
 use crate::elimination::pencil::Square;
 use num_complex::Complex;
 
@@ -13,6 +14,15 @@ const MOST_STEPS: usize = 60;
 #[must_use]
 pub fn eigenvalues<const N: usize>(matrix: &mut Square<f64, N>) -> Option<[Complex<f64>; N]> {
     reduce(matrix);
+    of_hessenberg(matrix)
+}
+
+/// The eigenvalues of the upper Hessenberg part of a matrix, which is used up; what stands below it does not matter.
+#[must_use]
+pub fn of_hessenberg<const N: usize>(matrix: &mut Square<f64, N>) -> Option<[Complex<f64>; N]> {
+    for (i, row) in matrix.iter_mut().enumerate().skip(2) {
+        row[..i - 1].fill(0.0);
+    }
     let norm: f64 = matrix.iter().flatten().map(|x| x.abs()).sum();
     if !norm.is_finite() {
         return None;
@@ -74,8 +84,10 @@ struct Shifts {
     w: f64,
 }
 
-/// Similar upper Hessenberg form, by elimination with the largest pivot of each column.
-fn reduce<const N: usize>(a: &mut Square<f64, N>) {
+/// Similar upper Hessenberg form, by elimination with the largest pivot of each column. The factors stay below the
+/// subdiagonal; the row that each column's pivot came from.
+pub fn reduce<const N: usize>(a: &mut Square<f64, N>) -> [usize; N] {
+    let mut order: [usize; N] = std::array::from_fn(|i| i);
     for column in 0..N.saturating_sub(2) {
         let target = column + 1;
         let mut pivot = target;
@@ -84,11 +96,13 @@ fn reduce<const N: usize>(a: &mut Square<f64, N>) {
                 pivot = i;
             }
         }
+        order[target] = pivot;
         if a[pivot][column] == 0.0 {
             continue;
         }
         if pivot != target {
-            a.swap(pivot, target);
+            let (head, tail) = a.split_at_mut(pivot);
+            head[target][column..].swap_with_slice(&mut tail[0][column..]);
             for row in a.iter_mut() {
                 row.swap(pivot, target);
             }
@@ -99,11 +113,11 @@ fn reduce<const N: usize>(a: &mut Square<f64, N>) {
         for i in target + 1..N {
             let factor = a[i][column] * inverse;
             factors[i] = factor;
+            a[i][column] = factor;
             if factor != 0.0 {
-                for j in column..N {
+                for j in target..N {
                     a[i][j] -= factor * pivot_row[j];
                 }
-                a[i][column] = 0.0;
             }
         }
         // The inverse operations from the right: column `target` gains the others times their factors.
@@ -115,6 +129,63 @@ fn reduce<const N: usize>(a: &mut Square<f64, N>) {
             row[target] = sum;
         }
     }
+    order
+}
+
+/// A vector of the Hessenberg form as a vector of the matrix that [`reduce`] made it of.
+pub fn back<S: Scalar, const N: usize>(reduced: &Square<f64, N>, order: &[usize; N], vector: &mut [S; N]) {
+    for column in (0..N.saturating_sub(2)).rev() {
+        let target = column + 1;
+        let along = vector[target];
+        for i in target + 1..N {
+            vector[i] = vector[i].add(&along.times(reduced[i][column]));
+        }
+        vector.swap(target, order[target]);
+    }
+}
+
+/// An eigenvector of the upper Hessenberg part of a matrix, by one step of inverse iteration at an eigenvalue; `upper`
+/// is scratch. The eigenvalue must be accurate: the step has the triangular factor alone to work with.
+pub fn vector<S: Scalar, const N: usize>(reduced: &Square<f64, N>, value: S, upper: &mut Square<S, N>) -> [S; N] {
+    let mut norm = 0.0_f64;
+    let mut row: [S; N] = reduced[0].map(S::from_f64);
+    row[0] = row[0].sub(&value);
+    for k in 0..N - 1 {
+        let mut next = [S::zero(); N];
+        for j in k..N {
+            next[j] = S::from_f64(reduced[k + 1][j]);
+        }
+        next[k + 1] = next[k + 1].sub(&value);
+        norm = norm.max(next[k].size()).max(next[k + 1].size());
+        if row[k].size() < next[k].size() {
+            std::mem::swap(&mut row, &mut next);
+        }
+        upper[k] = row;
+        let factor = if next[k].is_zero() { S::zero() } else { next[k].over(row[k]) };
+        for j in k + 1..N {
+            next[j] = next[j].sub(&factor.mul(&row[j]));
+        }
+        row = next;
+    }
+    upper[N - 1] = row;
+    let least = f64::EPSILON * norm.max(f64::MIN_POSITIVE);
+    let mut vector = [S::one(); N];
+    for k in (0..N).rev() {
+        let mut sum = vector[k];
+        for j in k + 1..N {
+            sum = sum.sub(&upper[k][j].mul(&vector[j]));
+        }
+        let pivot = upper[k][k];
+        vector[k] = if pivot.size() < least { sum.times(1.0 / least) } else { sum.over(pivot) };
+        // Two tiny pivots in a row would overflow in the end.
+        let size = vector[k].size();
+        if size > 1e100 {
+            for x in &mut vector[..] {
+                *x = x.times(1.0 / size);
+            }
+        }
+    }
+    vector
 }
 
 /// The first row of the unreduced block that ends at `last`: a negligible subdiagonal entry above it is cleared.

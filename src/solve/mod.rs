@@ -6,5 +6,7 @@ pub mod eigen;
 pub mod francis;
 pub mod kernel;
 pub mod newton;
+pub mod pose;
 pub mod scalar;
 pub mod singular;
+pub mod spectrum;

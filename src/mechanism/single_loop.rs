@@ -1,57 +1,22 @@
-//! A mechanism ready to solve: what a file says, prepared once, answered case by case.
+//! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
+use super::{FullMode, Solution};
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
-use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
+use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
 use crate::kinematics::motion::Motion;
-use crate::verdict::{Bound, Verdict, verdict};
+use crate::verdict::{Bound, verdict};
 use num_complex::Complex;
 use rug::Rational;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 use std::time::Instant;
-
-/// One solution as a user reads it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FullMode {
-    /// Joint variables in joint order; a C joint has its angle, then its distance; the given joint of a loop included.
-    pub q: Vec<Complex<f64>>,
-    /// Whether all of them are real.
-    pub real: bool,
-    /// How many solutions coincide here; 0 where that is not known.
-    pub multiplicity: usize,
-    /// Closure residual, dimensionless: see [`crate::assembly::Mode::residual`].
-    pub residual: f64,
-    /// Condition number of the Jacobian.
-    pub condition: f64,
-    /// Whether exactly one solution was proved to lie within `radius`.
-    pub certified: bool,
-    /// Error bound of every joint variable (radians; lengths over the scale of the mechanism); infinite without proof.
-    pub radius: f64,
-    /// Whether a real solution respects the joint limits; `None` for complex ones or without limits.
-    pub within_limits: Option<bool>,
-}
-
-/// The answer to one case of a file.
-#[derive(Clone, Debug)]
-pub struct Solution {
-    /// Is the list complete, and why.
-    pub verdict: Verdict,
-    /// Isolated solutions, real ones first.
-    pub modes: Vec<FullMode>,
-    /// What the reader of the file and the solver want known.
-    pub warnings: Vec<String>,
-    /// Microseconds for the preparation of the geometry, spent once for all cases.
-    pub prepare_us: f64,
-    /// Microseconds for this case.
-    pub solve_us: f64,
-}
 
 /// The solver of one choice of the locked joint (of an arm: the only one).
 struct Prepared {
@@ -95,31 +60,24 @@ impl Prepared {
     }
 }
 
-/// A mechanism file, prepared. Shared between threads; every thread brings its own [`Workspace`].
-pub struct Mechanism {
+/// A chain, prepared for all its cases.
+pub(super) struct SingleLoop {
     chain: Chain,
-    kind: Kind,
     limits: Vec<[f64; 2]>,
     prepared: Vec<Prepared>,
 }
 
-impl Mechanism {
-    /// Prepares an entry for all its cases.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] for platforms and for joints other than R, P and C.
-    pub fn prepare(entry: &Entry) -> Result<Self> {
-        if entry.kind == Kind::Platform {
-            return Err(Error::Unsupported("platforms are read but not solved yet".to_owned()));
-        }
+impl SingleLoop {
+    /// Prepares the chain of an entry for all its cases.
+    pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
         let mut prepared: Vec<Prepared> = Vec::new();
         for case in &entry.cases {
-            let locked = locked_variable(&entry.chain, entry.kind, case)?;
+            let locked = locked_variable(chain, case)?;
             if prepared.iter().any(|p| p.layout.locked == locked) {
                 continue;
             }
-            let layout = Layout::of(&entry.chain, locked)?;
-            let open: OpenLoop<f64> = entry.chain.open_loop(&layout)?;
+            let layout = Layout::of(chain, locked)?;
+            let open: OpenLoop<f64> = chain.open_loop(&layout)?;
             let start = Instant::now();
             let solver = Solver::prepare(&open);
             let prepare_us = start.elapsed().as_secs_f64() * 1e6;
@@ -130,21 +88,18 @@ impl Mechanism {
             }
             prepared.push(Prepared { layout, solver, bound: OnceLock::new(), prepare_us });
         }
-        Ok(Self { chain: entry.chain.clone(), kind: entry.kind, limits: entry.limits.clone(), prepared })
+        Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), prepared })
     }
 
     /// Solves one case.
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] for a case whose locked joint was not prepared.
-    pub fn solve(
+    pub(super) fn solve(
         &self,
         case: &Case,
         roots: Roots,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
-        let locked = locked_variable(&self.chain, self.kind, case)?;
+        let locked = locked_variable(&self.chain, case)?;
         let prepared = self
             .prepared
             .iter()
@@ -189,6 +144,7 @@ impl Mechanism {
                 within_limits: (mode.real && !self.limits.is_empty())
                     .then(|| within_limits(&q, &prepared.layout.variables, &self.limits)),
                 q,
+                platform: None,
             }
         });
         Ok(Solution {
@@ -197,13 +153,14 @@ impl Mechanism {
             warnings: case.warnings.clone(),
             prepare_us: prepared.prepare_us,
             solve_us,
+            platform: None,
         })
     }
 }
 
-/// The variable that the input of a loop locks; `None` for arms.
-fn locked_variable(chain: &Chain, kind: Kind, case: &Case) -> Result<Option<usize>> {
-    if kind == Kind::Arm {
+/// The variable that the input of a loop locks; `None` at the pose of an arm.
+fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
+    if case.pose.is_some() {
         return Ok(None);
     }
     let [input] = case.input.as_slice() else {

@@ -1,14 +1,15 @@
 //! Are the claims of a mechanism file true: counts against what is found, solutions against the closure itself.
 
-use crate::algebra::number::Number;
-use crate::assembly::{Assembly, Roots, Workspace, wrapped};
-use crate::catalogue::entry::{Case, Claim, Entry, InputValue};
-use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, Geometry};
-use crate::kinematics::closed_loop::{Layout, Variable};
-use crate::kinematics::motion::Motion;
+mod joints;
+mod poses;
+
+use crate::assembly::{Assembly, Roots, Workspace};
+use crate::catalogue::entry::{Case, Claim, Design, Entry};
+use crate::error::Result;
 use crate::mechanism::{FullMode, Mechanism, Solution};
 use crate::verdict::Status;
+use joints::Joints;
+use poses::Poses;
 
 /// The sorts of claims, in the order of reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +99,10 @@ impl Judgement {
 /// ```
 pub fn judge(entry: &Entry) -> Result<Judgement> {
     let mechanism = Mechanism::prepare(entry)?;
-    let variables = Layout::of(&entry.chain, None)?.variables;
+    let ruler = match &entry.design {
+        Design::Arm(chain) | Design::Loop(chain) => Ruler::Joints(Joints::of(chain)?),
+        Design::Platform(platform) => Ruler::Poses(Poses::of(platform)),
+    };
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
     let mut judgement = Judgement { cases: entry.cases.len(), ..Judgement::default() };
     for (index, case) in entry.cases.iter().enumerate() {
@@ -108,7 +112,7 @@ pub fn judge(entry: &Entry) -> Result<Judgement> {
             Status::SelfMotion => judgement.self_motions += 1,
             Status::Incomplete | Status::Unsupported => {}
         }
-        let judge = Judge { entry, variables: &variables, case, number: index + 1, solution: &solution };
+        let judge = Judge { ruler: &ruler, case, number: index + 1, solution: &solution };
         judge.counts(&mut judgement.findings);
         for claim in &case.expected.solutions {
             judge.solution(claim, &mut judgement.findings)?;
@@ -117,10 +121,41 @@ pub fn judge(entry: &Entry) -> Result<Judgement> {
     Ok(judgement)
 }
 
+/// What measures a claimed solution.
+enum Ruler<'a> {
+    Joints(Joints<'a>),
+    Poses(Poses),
+}
+
+impl Ruler<'_> {
+    /// The whole of a claimed solution, of which a file may leave out what is given.
+    fn complete(&self, case: &Case, q: &[f64]) -> Result<Vec<f64>> {
+        match self {
+            Self::Joints(joints) => joints.complete(case, q),
+            Self::Poses(_) => Ok(q.to_vec()),
+        }
+    }
+
+    /// How far a claimed solution is from being one.
+    fn closure(&self, case: &Case, q: &[f64]) -> Result<f64> {
+        match self {
+            Self::Joints(joints) => joints.closure(case, q),
+            Self::Poses(poses) => poses.closure(case, q),
+        }
+    }
+
+    /// How far a mode is from a claimed solution.
+    fn distance(&self, mode: &FullMode, q: &[f64]) -> f64 {
+        match self {
+            Self::Joints(joints) => joints.distance(mode, q),
+            Self::Poses(poses) => poses.distance(mode, q),
+        }
+    }
+}
+
 /// One case with its answer.
 struct Judge<'a> {
-    entry: &'a Entry,
-    variables: &'a [Variable],
+    ruler: &'a Ruler<'a>,
     case: &'a Case,
     number: usize,
     solution: &'a Solution,
@@ -152,10 +187,10 @@ impl Judge<'_> {
     }
 
     fn solution(&self, claim: &Claim, findings: &mut Vec<Finding>) -> Result<()> {
-        let q = self.complete(&claim.q)?;
+        let q = self.ruler.complete(self.case, &claim.q)?;
         // Half a unit of the last digit on paper; a whole one forgives a copy that cut digits off.
         let tolerance = 10_f64.powi(-i32::try_from(claim.digits.min(14)).unwrap_or(14));
-        let defect = self.closure(&q)?;
+        let defect = self.ruler.closure(self.case, &q)?;
         let allowed = tolerance * q.len() as f64;
         let message = format!("the solution claims {} digits, its closure is off by {defect:.1e}", claim.digits);
         findings.push(self.finding(claim.line, Sort::Closes, defect <= allowed, message));
@@ -164,7 +199,7 @@ impl Judge<'_> {
             return Ok(());
         }
         // A double root may have become a complex pair in the rounding of the pose: near enough, it is the one meant.
-        let nearest = self.solution.modes.iter().map(|mode| (self.distance(mode, &q), mode));
+        let nearest = self.solution.modes.iter().map(|mode| (self.ruler.distance(mode, &q), mode));
         let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
         let (holds, message) = match nearest {
             None => (false, "the solution is claimed, but none was found".to_owned()),
@@ -176,78 +211,5 @@ impl Judge<'_> {
         };
         findings.push(self.finding(claim.line, Sort::Found, holds, message));
         Ok(())
-    }
-
-    /// The joint variables with the given one put in where the claim leaves it out.
-    fn complete(&self, q: &[f64]) -> Result<Vec<f64>> {
-        let mut q = q.to_vec();
-        if let (Some(input), true) = (self.case.input.first(), q.len() + 1 == self.variables.len()) {
-            let (wanted, value) = match &input.value {
-                InputValue::Angle(angle) => (Variable::Rotation, angle.radians()),
-                InputValue::Distance(distance) => (Variable::Translation, distance.to_f64()),
-            };
-            if let Some(index) = Layout::variable_of(&self.entry.chain, input.joint, wanted) {
-                q.insert(index, value);
-            }
-        }
-        if q.len() == self.variables.len() {
-            return Ok(q);
-        }
-        let (found, expected) = (q.len(), self.variables.len());
-        Err(Error::Invalid(format!("found a solution of {found} values, expected {expected}, one per joint variable")))
-    }
-
-    /// How far these joints are from closing: the largest entry of the difference of two poses, lengths over the reach.
-    fn closure(&self, q: &[f64]) -> Result<f64> {
-        let motions: Vec<Motion<f64>> = q.iter().zip(self.variables).map(|(x, v)| joint_motion(*x, *v)).collect();
-        let reached = self.entry.chain.forward(&motions);
-        let reached = reached.ok_or_else(|| Error::Invalid("the joints of the claim have no pose".to_owned()))?;
-        let wanted = self.case.pose.as_ref().map_or_else(Motion::identity, |pose| pose.float.clone());
-        let lengths: f64 =
-            q.iter().zip(self.variables).filter(|(_, v)| **v == Variable::Translation).map(|(x, _)| x.abs()).sum();
-        let reach = reach(&self.entry.chain) + lengths;
-        let mut defect = 0.0_f64;
-        for i in 0..3 {
-            for j in 0..3 {
-                defect = defect.max((reached.rotation[i][j] - wanted.rotation[i][j]).abs());
-            }
-            let off = (reached.translation[i] - wanted.translation[i]).abs();
-            defect = defect.max(if reach > 0.0 { off / reach } else { off });
-        }
-        Ok(defect)
-    }
-
-    /// The largest difference of a joint variable, imaginary parts too, angles modulo whole turns, lengths over the
-    /// reach.
-    fn distance(&self, mode: &FullMode, q: &[f64]) -> f64 {
-        let reach = reach(&self.entry.chain).max(f64::MIN_POSITIVE);
-        let differences = mode.q.iter().zip(q).zip(self.variables).map(|((found, claimed), variable)| match variable {
-            Variable::Rotation => wrapped(found.re - claimed).abs().max(found.im.abs()),
-            Variable::Translation => (found.re - claimed).abs().max(found.im.abs()) / reach,
-        });
-        differences.fold(0.0, f64::max)
-    }
-}
-
-/// The motion of one joint variable.
-fn joint_motion(value: f64, variable: Variable) -> Motion<f64> {
-    match variable {
-        Variable::Rotation => Motion::rotation_z(value.cos(), value.sin()),
-        Variable::Translation => Motion::translation_z(value),
-    }
-}
-
-/// The sum of all constant lengths of a chain.
-fn reach(chain: &Chain) -> f64 {
-    let length = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let ends = length(&chain.base.float.translation) + length(&chain.tool.float.translation);
-    ends + match &chain.geometry {
-        Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
-            joints.iter().map(|joint| joint.a.to_f64().abs() + joint.d.to_f64().abs()).sum::<f64>()
-        }
-        Geometry::Screws { joints, home } => {
-            let points = joints.iter().map(|joint| length(&joint.point.each_ref().map(Number::to_f64)));
-            length(&home.float.translation) + points.sum::<f64>()
-        }
     }
 }

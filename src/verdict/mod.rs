@@ -1,5 +1,9 @@
 //! The verdict on a list of modes: is it complete, and why.
 
+mod platform;
+
+pub use platform::platform_verdict;
+
 use crate::assembly::{Assembly, Mode, Roots, distance};
 use crate::kinematics::closed_loop::Variable;
 
@@ -182,11 +186,16 @@ fn count(
 /// How the modes add up to the bound.
 fn accounted(modes: &[Mode], bound: &Bound) -> String {
     let multiple: Vec<usize> = modes.iter().map(|m| m.multiplicity).filter(|&m| m > 1).collect();
+    accounted_for(certified(modes), &multiple, bound)
+}
+
+/// How so many certified modes and multiple ones of these multiplicities add up to the bound.
+fn accounted_for(certified: usize, multiple: &[usize], bound: &Bound) -> String {
     let also = match multiple.len() {
         0 => String::new(),
         several => format!(" and {several} multiple ones (counted {})", multiple.iter().sum::<usize>()),
     };
-    format!("{} distinct certified roots{also} of {}", certified(modes), bound.because)
+    format!("{certified} distinct certified roots{also} of {}", bound.because)
 }
 
 /// Whether the solutions proved of two modes cannot be one. A check of the list as a whole: the solver has merged what

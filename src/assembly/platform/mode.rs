@@ -1,0 +1,106 @@
+//! What is found: poses, and the list of them.
+
+use crate::certify::Certificate;
+use num_complex::Complex;
+use std::fmt;
+
+/// One pose of the plate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlatformMode {
+    /// The rotation as a quaternion (w, x, y, z) of hermitian norm 1; of a real pose real with its first nonzero part
+    /// positive, of a complex one with its largest part real and positive.
+    pub quaternion: [Complex<f64>; 4],
+    /// The translation p, in the unit of the mechanism: point b of the plate is at `p + R b`.
+    pub position: [Complex<f64>; 3],
+    /// Whether the pose is real.
+    pub real: bool,
+    /// How many solutions coincide here; 0 where that is not known.
+    pub multiplicity: usize,
+    /// Largest `|l^2 - L^2|` of a leg, relative to `|l|^2 + L^2`: twice the relative error of its length.
+    pub residual: f64,
+    /// Row-sum condition number of the derivative of the leg quadrics and the Study condition, each row scaled to 1 and
+    /// lengths over the scale of the mechanism.
+    pub condition: f64,
+    /// The proof, if there is one. Radii are those of Study's parameters (x, y) with the hermitian norm of x equal to 1
+    /// and lengths over the scale of the mechanism.
+    pub certificate: Option<Certificate>,
+    /// `|x.x|` of the quaternion: 1 for real poses; complex solutions where it is tiny are nearly at infinity.
+    pub norm: f64,
+    /// Index of the pose mirrored in the base plane, where base and plate are both plane; of a pose that is its own
+    /// mirror image (plates in one plane) its own index.
+    pub mirror: Option<usize>,
+}
+
+/// Which way the list was found, and why that one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Route {
+    /// Nothing was solved yet.
+    #[default]
+    None,
+    /// The border basis of the 40-dimensional quotient algebra, with this many unknowns beside the rotation.
+    BorderBasis {
+        /// 1, and one more for every weak direction of the legs' matrix K.
+        directions: usize,
+    },
+    /// The border basis of a platform moved by 1e-5, its solutions carried back: the border basis of the platform itself
+    /// lost rank.
+    Perturbed {
+        /// How many perturbed platforms were solved.
+        runs: usize,
+    },
+}
+
+impl fmt::Display for Route {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::None => write!(f, "nothing was solved"),
+            Self::BorderBasis { directions: 1 } => {
+                write!(f, "border basis of dimension 40 (the legs' matrix K has full rank)")
+            }
+            Self::BorderBasis { directions } => write!(
+                f,
+                "border basis of dimension 40 with {} weak directions of the legs' matrix K as unknowns",
+                directions - 1
+            ),
+            Self::Perturbed { runs } => write!(
+                f,
+                "border bases of {runs} platforms moved by 1e-5, carried back (special geometry: the border basis of the \
+                 platform itself loses rank)"
+            ),
+        }
+    }
+}
+
+/// What was found for six legs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlatformAssembly {
+    /// Isolated poses, real ones first.
+    pub modes: Vec<PlatformMode>,
+    /// How they were found.
+    pub route: Route,
+    /// Degree in which the border basis of the platform itself lost rank, where it did.
+    pub lost_rank: Option<usize>,
+    /// Rank of the legs' matrix K, 6 in general; 5 if base and plate are plane, 4 if they are affinely related, 3 if they
+    /// are also plane.
+    pub rank: usize,
+    /// Solutions of the equations with `N = x.x = 0`, which are no poses, among those looked at; with multiplicity.
+    pub null: usize,
+    /// Solutions that are no pose beyond doubt and none the less not proved regular: points of families, or singular.
+    pub unresolved: usize,
+    /// Dimension of the self-motion found, 0 if none was.
+    pub self_motion: usize,
+}
+
+impl PlatformAssembly {
+    /// Number of isolated poses, with multiplicity.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.modes.iter().map(|m| m.multiplicity.max(1)).sum()
+    }
+
+    /// Number of isolated real poses, with multiplicity.
+    #[must_use]
+    pub fn real(&self) -> usize {
+        self.modes.iter().filter(|m| m.real).map(|m| m.multiplicity.max(1)).sum()
+    }
+}

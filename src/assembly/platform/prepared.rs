@@ -1,0 +1,202 @@
+//! What of a platform is computed once for all leg lengths.
+
+use crate::algebra::ring::Ring;
+use crate::closure::study::{Form, Four, Leg, left, leg_matrix, linear_legs, right, scalar};
+use crate::elimination::border::{Directions, Reals, Setting, weak_directions};
+use crate::kinematics::dual_quaternion::Quaternion;
+use crate::kinematics::motion::Vector;
+use crate::kinematics::platform::Platform;
+use crate::solve::scalar::Scalar;
+use num_complex::Complex;
+
+/// Turns of base and plate, so that no solution of a real mechanism lies where a chart ends: (w, x, y, z).
+const TURNS: [[[f64; 4]; 2]; 2] = [
+    [[0.533, -0.271, 0.618, 0.509], [0.457, 0.662, -0.324, 0.498]],
+    [[-0.391, 0.587, 0.283, 0.651], [0.702, -0.219, 0.485, -0.474]],
+];
+
+/// How far points are moved at first, in units of the size of the platform.
+const PERTURBATION: f64 = 1e-3;
+/// From platform to platform the points come nearer by this factor.
+const NEARER: f64 = 0.2;
+/// So many platforms lead to the one wanted.
+pub const STAGES: usize = 4;
+
+/// A platform in lengths of its own size, its points turned, ready for border bases.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// K solved.
+    pub directions: Directions<f64>,
+    /// The setting with legs of length zero.
+    pub setting: Setting<f64>,
+    /// `x = turn z`.
+    turn: Form<f64>,
+    /// `y = size turn y' + shift x`.
+    size: f64,
+    shift: Form<f64>,
+}
+
+impl Chart {
+    /// The chart with one of the built-in turns, of a platform shifted and scaled already.
+    pub fn new(platform: &Platform<f64>, choice: usize) -> Self {
+        let [before, behind] = TURNS[choice].map(|q| {
+            let size = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let [w, x, y, z] = q.map(|x| x / size);
+            Quaternion { scalar: w, vector: [x, y, z] }
+        });
+        let [centre_base, centre_plate] = [centroid(&platform.base), centroid(&platform.plate)];
+        let size = size(platform);
+        let turned = |p: &Vector<f64>, centre: &Vector<f64>, q: &Quaternion<f64>| -> Vector<f64> {
+            let local = std::array::from_fn(|k| (p[k] - centre[k]) / size);
+            q.mul(&Quaternion { scalar: 0.0, vector: local }).mul(&q.conjugate()).vector
+        };
+        let local = Platform {
+            base: platform.base.map(|a| turned(&a, &centre_base, &before.conjugate())),
+            plate: platform.plate.map(|b| turned(&b, &centre_plate, &behind)),
+        };
+        let shift = leg_matrix(&centre_base, &centre_plate).map(|row| row.map(|x| -x));
+        Self::of_local(&local, &before, &behind, size, shift)
+    }
+
+    fn of_local(
+        local: &Platform<f64>,
+        before: &Quaternion<f64>,
+        behind: &Quaternion<f64>,
+        size: f64,
+        shift: Form<f64>,
+    ) -> Self {
+        let legs = linear_legs(local);
+        let directions = weak_directions(&legs.matrix);
+        let setting = Setting::new(&Reals, &directions, &legs.forms);
+        let matrix = |q: &Quaternion<f64>, side: fn(&Vector<f64>) -> Form<f64>| {
+            let mut matrix = side(&q.vector);
+            for (i, row) in matrix.iter_mut().enumerate() {
+                row[i] += q.scalar;
+            }
+            matrix
+        };
+        let (l, r) = (matrix(before, left), matrix(behind, right));
+        let turn = std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| l[i][k] * r[k][j]).sum()));
+        Self { directions, setting, turn, size, shift }
+    }
+
+    /// The setting with legs of these squared lengths, in the unit of the platform given to `new`.
+    pub fn with_legs(&self, squares: &[f64; 6]) -> Setting<f64> {
+        let local = squares.map(|s| s / (self.size * self.size));
+        self.setting.with_legs(&Reals, &self.directions, &local)
+    }
+
+    /// Study's parameters of the platform given to `new` from those of the turned one.
+    pub fn outward<S: Scalar>(&self, z: &Four<S>, y: &Four<S>) -> [S; 8] {
+        let apply = |matrix: &Form<f64>, v: &Four<S>| -> Four<S> {
+            std::array::from_fn(|i| (0..4).fold(S::zero(), |sum, k| sum.add(&v[k].times(matrix[i][k]))))
+        };
+        let (x, turned) = (apply(&self.turn, z), apply(&self.turn, y));
+        let shifted = apply(&self.shift, &x);
+        std::array::from_fn(|k| if k < 4 { x[k] } else { turned[k - 4].times(self.size).add(&shifted[k - 4]) })
+    }
+}
+
+/// The mean of six points.
+pub fn centroid(points: &[Vector<f64>; 6]) -> Vector<f64> {
+    std::array::from_fn(|k| points.iter().map(|p| p[k]).sum::<f64>() / 6.0)
+}
+
+/// The root mean square distance of all twelve points from their centroids; 1 where that is zero or not finite.
+pub fn size(platform: &Platform<f64>) -> f64 {
+    let spread = |points: &[Vector<f64>; 6]| -> f64 {
+        let centre = centroid(points);
+        points.iter().map(|p| (0..3).map(|k| (p[k] - centre[k]).powi(2)).sum::<f64>()).sum()
+    };
+    let size = ((spread(&platform.base) + spread(&platform.plate)) / 12.0).sqrt();
+    if size > 0.0 && size.is_finite() { size } else { 1.0 }
+}
+
+/// The platform as it is polished: about its centre, and in a unit that is a power of two.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// The unit.
+    pub scale: f64,
+    /// What was subtracted from the points of the base and of the plate.
+    pub origins: [Vector<f64>; 2],
+    /// The points so.
+    pub platform: Platform<f64>,
+    /// The legs so, of length zero.
+    pub legs: [Leg<f64>; 6],
+}
+
+impl Frame {
+    /// The frame of a platform. Points near the origin stay as they are: shifting them would round.
+    pub fn new(platform: &Platform<f64>) -> Self {
+        let scale = size(platform).log2().ceil().exp2();
+        let grid = 8.0 * scale;
+        let origins = [&platform.base, &platform.plate].map(|p| centroid(p).map(|c| (c / grid).round() * grid));
+        let moved = |p: &Vector<f64>, origin: &Vector<f64>| std::array::from_fn(|k| (p[k] - origin[k]) / scale);
+        let platform = Platform {
+            base: platform.base.map(|a| moved(&a, &origins[0])),
+            plate: platform.plate.map(|b| moved(&b, &origins[1])),
+        };
+        let legs = std::array::from_fn(|i| Leg::new(&platform.base[i], &platform.plate[i], 0.0));
+        Self { scale, origins, platform, legs }
+    }
+
+    /// Platforms nearer and nearer to this one, the points of the plate moved: `run` numbers the ways to move them.
+    pub fn perturbed(&self, run: usize) -> [Platform<f64>; STAGES] {
+        let size = size(&self.platform);
+        std::array::from_fn(|stage| {
+            let mut platform = self.platform.clone();
+            for (i, point) in platform.plate.iter_mut().enumerate() {
+                for (k, x) in point.iter_mut().enumerate() {
+                    // Multiples of square roots of primes, modulo 1: an even spread, the same every time.
+                    let root = [2.0_f64, 3.0, 5.0][k].sqrt();
+                    let offset = 2.0 * ((i + 6 * run + 1) as f64 * root).fract() - 1.0;
+                    *x += PERTURBATION * NEARER.powi(i32::try_from(stage).unwrap_or(0)) * size * offset;
+                }
+            }
+            platform
+        })
+    }
+
+    /// The translation of a pose in the unit and about the origin of the platform as given.
+    pub fn position<S: Scalar>(&self, study: &[S; 8]) -> [S; 3] {
+        let quaternion = |[w, x, y, z]: [S; 4]| Quaternion { scalar: w, vector: [x, y, z] };
+        let x = quaternion([study[0], study[1], study[2], study[3]]);
+        let y = quaternion([study[4], study[5], study[6], study[7]]);
+        let norm = x.norm();
+        let vector = y.mul(&x.conjugate()).vector;
+        let centre = quaternion([
+            S::zero(),
+            S::from_f64(self.origins[1][0]),
+            S::from_f64(self.origins[1][1]),
+            S::from_f64(self.origins[1][2]),
+        ]);
+        let turned = x.mul(&centre).mul(&x.conjugate()).vector;
+        std::array::from_fn(|k| {
+            let moved = vector[k].times(self.scale).sub(&turned[k]).over(norm);
+            moved.add(&S::from_f64(self.origins[0][k]))
+        })
+    }
+}
+
+impl Frame {
+    /// Study's parameters, in the unit and about the origin of this frame, of a pose in those of the platform as given.
+    pub fn study(&self, rotation: &[Complex<f64>; 4], position: &[Complex<f64>; 3]) -> [Complex<f64>; 8] {
+        let pure = |vector: [Complex<f64>; 3]| Quaternion { scalar: Complex::from(0.0), vector };
+        let [w, x, y, z] = *rotation;
+        let x = Quaternion { scalar: w, vector: [x, y, z] };
+        // y = p' x with p' = (p - o + R o') / scale, and R o' x = x o'.
+        let moved = std::array::from_fn(|k| position[k] - self.origins[0][k]);
+        let (base, plate) = (pure(moved).mul(&x), x.mul(&pure(self.origins[1].map(Complex::from))));
+        let dual = |a: Complex<f64>, b: Complex<f64>| (a + b) / self.scale;
+        let [v, u] = [base.vector, plate.vector];
+        let y = [dual(base.scalar, plate.scalar), dual(v[0], u[0]), dual(v[1], u[1]), dual(v[2], u[2])];
+        std::array::from_fn(|k| if k < 4 { rotation[k] } else { y[k - 4] })
+    }
+}
+
+/// `x.x`
+pub fn norm<S: Ring>(study: &[S; 8]) -> S {
+    let [a, b, c, d, ..] = study;
+    let x = [a.clone(), b.clone(), c.clone(), d.clone()];
+    scalar(&x, &x)
+}

@@ -1,0 +1,416 @@
+//! One set of leg lengths being solved: eigenvalue after eigenvalue, until all are accounted for.
+
+use super::candidate::candidates;
+use super::mode::{PlatformAssembly, PlatformMode};
+use super::prepared::{Chart, Frame, norm};
+use super::self_motion::self_motion;
+use crate::algebra::double_double::DoubleDouble;
+use crate::assembly::Roots;
+use crate::certify::Certificate;
+use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certificate};
+use crate::closure::study::{Four, Leg};
+use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
+use crate::solve::pose::{
+    Eight, PolishedPose, complex, equations, follow, normalised, patch, polish, polish_wide, refine, wide,
+};
+use crate::solve::scalar::Scalar;
+use crate::solve::spectrum::Spectrum;
+use num_complex::Complex;
+
+/// |Im| / (1 + |lambda|) below which an eigenvalue may belong to a real pose: double ones split by 1e-8 and more.
+const NEAR_REAL: f64 = 1e-4;
+/// Imaginary parts below this are rounding of a real pose.
+const REAL_PART: f64 = 1e-7;
+/// |N| (with x of hermitian norm 1) below which an eigenvalue that leads to no regular pose is taken to be one without
+/// a pose.
+const NULL: f64 = 1e-6;
+/// The same for multiple eigenvalues, which are less accurate.
+const NEARLY_NULL: f64 = 1e-2;
+/// |N| below which a pose counts only if it is proved: points of families with `N = 0` look like it.
+const DOUBTFUL: f64 = 1e-4;
+/// Eigenvalues this near to each other may be one multiple eigenvalue.
+const CLUSTER: f64 = 1e-3;
+/// So many real rotations without a pose are kept.
+const STRAYS: usize = 8;
+/// Imprecision of solutions that are not proved.
+const SINGULAR: f64 = 1e-4;
+/// Rotations whose quaternions have `|x.conj(x')|^2` below `1 - SAME` are different without further tests.
+const SAME: f64 = 1e-6;
+
+/// A solution found.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    /// Study's parameters in the frame of polishing; of a complex solution one of the two conjugate ones.
+    pub study: Eight<Complex<f64>>,
+    /// Whether it is real.
+    pub real: bool,
+    /// The proof, if there is one.
+    pub certificate: Option<Certificate>,
+    residual: f64,
+    condition: f64,
+    /// How many eigenvalues of the border basis followed last lead to it.
+    eigenvalues: usize,
+    /// The last one of them.
+    last: usize,
+}
+
+impl Found {
+    /// How many solutions coincide here: 1 where that is proved.
+    fn multiplicity(&self) -> usize {
+        if self.certificate.is_some() { 1 } else { self.eigenvalues }
+    }
+}
+
+/// What eigenvalues belong to.
+pub struct Source<'a> {
+    /// How the platform is turned and scaled.
+    pub chart: &'a Chart,
+    /// What its border basis was made from.
+    pub setting: &'a Setting<f64>,
+    /// The border basis.
+    pub basis: &'a BorderBasis<f64>,
+    /// Platforms on the way from this one to the one wanted, if they differ.
+    pub path: &'a [[Leg<f64>; 6]],
+}
+
+/// One set of leg lengths.
+pub struct Search<'a> {
+    /// The legs, polished on.
+    pub legs: &'a [Leg<f64>; 6],
+    /// Bounds on the second derivatives of their equations.
+    pub curvature: &'a Curvature,
+    /// What is looked for.
+    pub roots: Roots,
+    /// What was found, without conjugates.
+    pub found: &'a mut Vec<Found>,
+    /// Eigenvalues that belong to no pose.
+    pub null: usize,
+    /// Eigenvalues that led to nothing.
+    pub lost: usize,
+    /// Whether any border basis was followed.
+    pub followed: bool,
+    /// Whether the eigenvalue followed now is one of two conjugate ones.
+    pub followed_pair: bool,
+    /// Real rotations that led to no regular pose: perhaps they belong to a self-motion.
+    pub stray: [Option<Eight<f64>>; STRAYS],
+}
+
+/// What became of one eigenvalue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    Pose,
+    Null,
+    Nothing,
+}
+
+impl<'a> Search<'a> {
+    /// The search with nothing found yet.
+    pub fn new(legs: &'a [Leg<f64>; 6], curvature: &'a Curvature, roots: Roots, found: &'a mut Vec<Found>) -> Self {
+        found.clear();
+        let stray = [None; STRAYS];
+        Self { legs, curvature, roots, found, null: 0, lost: 0, followed: false, followed_pair: false, stray }
+    }
+
+    /// The dimension of the self-motion on which poses lie that are no isolated solutions.
+    pub fn self_motion(&self) -> usize {
+        let singular = self.found.iter().filter(|f| f.real && f.certificate.is_none());
+        let singular = singular.map(|f| f.study.map(|z| z.re));
+        singular.chain(self.stray.iter().copied().flatten()).map(|v| self_motion(self.legs, &v)).max().unwrap_or(0)
+    }
+    /// How many solutions are accounted for: poses, conjugate ones included.
+    pub fn poses(&self) -> usize {
+        self.found.iter().map(|f| f.multiplicity() * if f.real { 1 } else { 2 }).sum()
+    }
+
+    /// Eigenvalues of the border basis followed last that are not accounted for.
+    pub fn unresolved(&self) -> usize {
+        match self.roots {
+            Roots::Real => self.lost,
+            Roots::All => DIMENSION.saturating_sub(self.poses() + self.null),
+        }
+    }
+
+    /// Whether a border basis was followed, and nothing of it is left to be found.
+    pub fn is_done(&self) -> bool {
+        self.followed && self.unresolved() == 0
+    }
+
+    /// Follows all eigenvalues of a border basis.
+    pub fn all_eigenvalues(&mut self, source: &Source, spectrum: &mut Spectrum<DIMENSION>) {
+        (self.null, self.lost, self.followed) = (0, 0, true);
+        for found in self.found.iter_mut() {
+            found.eigenvalues = 0;
+        }
+        for k in 0..DIMENSION {
+            let value = spectrum.values[k];
+            let near_real = value.im.abs() <= NEAR_REAL * (1.0 + value.norm());
+            if value.im < 0.0 || (self.roots == Roots::Real && !near_real) {
+                continue;
+            }
+            self.followed_pair = value.im > 0.0;
+            let mut outcome = Outcome::Nothing;
+            if value.im == 0.0 {
+                outcome = self.real_eigenvalue(k, source, spectrum);
+            }
+            if outcome == Outcome::Nothing && (value.im != 0.0 || self.roots == Roots::All) {
+                outcome = self.complex_eigenvalue(k, near_real, source, spectrum);
+            }
+            let weight = if value.im > 0.0 { 2 } else { 1 };
+            match outcome {
+                Outcome::Pose => {}
+                Outcome::Null => self.null += weight,
+                Outcome::Nothing => self.lost += weight,
+            }
+        }
+    }
+
+    fn real_eigenvalue(&mut self, k: usize, source: &Source, spectrum: &mut Spectrum<DIMENSION>) -> Outcome {
+        let value = spectrum.values[k].re;
+        let Some(z) = rotation::<f64>(value, k, source.basis, spectrum) else { return Outcome::Nothing };
+        let mut outcome = Outcome::Nothing;
+        let candidates = candidates(source.setting, &z);
+        for (x, y) in &candidates.study[..candidates.count] {
+            let start = source.chart.outward(x, y);
+            if let Some(polished) = self.polish(source.path, &start) {
+                self.admit(&polished, k);
+                outcome = Outcome::Pose;
+            } else if let Some(free) = self.stray.iter_mut().find(|s| s.is_none()) {
+                *free = Some(start);
+            }
+        }
+        outcome
+    }
+
+    fn complex_eigenvalue(
+        &mut self,
+        k: usize,
+        near_real: bool,
+        source: &Source,
+        spectrum: &mut Spectrum<DIMENSION>,
+    ) -> Outcome {
+        let value = spectrum.values[k];
+        let Some(z) = rotation::<Complex<f64>>(value, k, source.basis, spectrum) else { return Outcome::Nothing };
+        let candidates = candidates(source.setting, &z);
+        let size: f64 = z.iter().map(Complex::norm_sqr).sum();
+        let raw = z.iter().map(|z| z * z).sum::<Complex<f64>>().norm() / size;
+        let multiple =
+            (0..DIMENSION).any(|j| j != k && (spectrum.values[j] - value).norm() < CLUSTER * (1.0 + value.norm()));
+        let null = raw < if multiple { NEARLY_NULL } else { NULL };
+        let mut outcome = if null { Outcome::Null } else { Outcome::Nothing };
+        for (x, y) in &candidates.study[..candidates.count] {
+            let start = source.chart.outward(x, y);
+            if near_real {
+                // Both ends of a pair that meets on the real axis.
+                for real in real_parts(&start) {
+                    if let Some(polished) = self.polish(source.path, &real) {
+                        self.admit(&polished, k);
+                        outcome = Outcome::Pose;
+                    }
+                }
+                if self.roots == Roots::Real {
+                    continue;
+                }
+            }
+            let polished = self.polish(source.path, &start).filter(|p| !near_null(p));
+            let Some(polished) = polished else {
+                if raw < NEARLY_NULL && !multiple && source.path.is_empty() && self.far_away(&start) {
+                    outcome = Outcome::Pose;
+                }
+                continue;
+            };
+            outcome = Outcome::Pose;
+            let snapped = real_parts(&polished.study)[2];
+            let imaginary = polished.study.iter().zip(&snapped).map(|(z, r)| z.norm() - r.abs()).fold(0.0, f64::max);
+            if imaginary < REAL_PART
+                && let Some(real) = polish(self.legs, &snapped)
+                && !are_apart(&complex(&real.study), REAL_PART, &polished.study, REAL_PART)
+            {
+                self.admit(&real, k);
+                continue;
+            }
+            self.admit(&polished, k);
+        }
+        outcome
+    }
+
+    /// A solution near a point.
+    fn polish<S: Scalar>(&self, path: &[[Leg<f64>; 6]], start: &Eight<S>) -> Option<PolishedPose<S>> {
+        if path.is_empty() { polish(self.legs, start) } else { polish(self.legs, &follow(path, start)?) }
+    }
+
+    /// A pose so far away that it needs twice the digits; whether there is one, proved.
+    fn far_away(&mut self, start: &Eight<Complex<f64>>) -> bool {
+        let Some((point, there, inverse)) = polish_wide(self.legs, start) else { return false };
+        let proof = pose_certificate(self.legs, self.curvature, &point, &there, &inverse);
+        let study = point.map(narrow);
+        let Some(certificate) = proof.map(|c| rounded(c, &study)).filter(|c| holds(c, &study, false)) else {
+            return false;
+        };
+        if self.known(&study, false).is_none() {
+            let inverse = inverse.map(|row| row.map(narrow));
+            let here = equations(self.legs, &study, &patch(&study));
+            self.found.push(Found {
+                study,
+                real: false,
+                certificate: Some(certificate),
+                residual: here.residual(),
+                condition: here.condition(&inverse),
+                eigenvalues: 1,
+                last: usize::MAX,
+            });
+        }
+        true
+    }
+
+    /// The place of a solution, or of its conjugate, in the list.
+    fn known(&self, study: &Eight<Complex<f64>>, real: bool) -> Option<usize> {
+        let same_rotation = |w: &Eight<Complex<f64>>, conjugate: bool| {
+            let product: Complex<f64> = (0..4).map(|k| study[k] * if conjugate { w[k] } else { w[k].conj() }).sum();
+            product.norm_sqr() > 1.0 - SAME
+        };
+        // Polished to rounding: what is farther apart than this is not one. Singular ones are less accurate.
+        self.found.iter().position(|found| {
+            let room = if found.certificate.is_some() { REAL_PART } else { SINGULAR };
+            let same = |w: &Eight<Complex<f64>>| !are_apart(study, room, w, room);
+            (same_rotation(&found.study, false) && same(&found.study))
+                || (!real && same_rotation(&found.study, true) && same(&found.study.map(|z| z.conj())))
+        })
+    }
+
+    /// Adds a polished solution to the list unless it is there.
+    fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>, eigenvalue: usize) {
+        let mut study = complex(&polished.study);
+        if let Some(at) = self.known(&study, S::REAL) {
+            self.count(at, eigenvalue);
+            return;
+        }
+        let (legs, curvature) = (self.legs, self.curvature);
+        let proof = pose_certificate(legs, curvature, &polished.study, &polished.equations, &polished.inverse);
+        let mut certificate = proof.filter(|c| holds(c, &study, S::REAL));
+        if certificate.is_none() {
+            // Once more with twice the digits.
+            let inverse = polished.inverse.map(|row| row.map(Scalar::to_complex));
+            certificate = refine(legs, &study, &inverse).and_then(|(point, equations)| {
+                let inverse = inverse.map(|row| row.map(wide));
+                let proof = pose_certificate(legs, curvature, &point, &equations, &inverse)?;
+                study = point.map(narrow);
+                Some(rounded(proof, &study)).filter(|c| holds(c, &study, S::REAL))
+            });
+        }
+        if certificate.is_none() && norm(&study).norm() < DOUBTFUL {
+            return;
+        }
+        self.found.push(Found {
+            study,
+            real: S::REAL,
+            certificate,
+            residual: polished.equations.residual(),
+            condition: polished.equations.condition(&polished.inverse),
+            eigenvalues: 0,
+            last: usize::MAX,
+        });
+        self.count(self.found.len() - 1, eigenvalue);
+    }
+
+    /// Counts an eigenvalue for a solution, once; of two conjugate ones only one is followed.
+    fn count(&mut self, at: usize, eigenvalue: usize) {
+        let found = &mut self.found[at];
+        if found.eigenvalues == 0 || found.last != eigenvalue {
+            found.eigenvalues += if found.real && self.followed_pair { 2 } else { 1 };
+            found.last = eigenvalue;
+        }
+    }
+
+    /// Writes the list, real poses first.
+    pub fn tell(&self, frame: &Frame, assembly: &mut PlatformAssembly) {
+        for real in [true, false] {
+            for found in self.found.iter().filter(|f| f.real == real) {
+                assembly.modes.push(mode(found, frame, false));
+                if !real {
+                    assembly.modes.push(mode(found, frame, true));
+                }
+            }
+        }
+    }
+}
+
+/// Rounding of coordinates of a point of hermitian norm 1 to f64, generously.
+const ROUNDED: f64 = 1e-15;
+
+/// Whether a polished solution may belong to a family with `N = 0`.
+fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
+    norm(&polished.study).norm() < DOUBTFUL && polished.step > NULL * DOUBTFUL
+}
+
+fn narrow(z: Complex<DoubleDouble>) -> Complex<f64> {
+    Complex::new(z.re.to_f64(), z.im.to_f64())
+}
+
+/// A proof for a point that was rounded to f64 afterwards.
+fn rounded(proof: Certificate, study: &Eight<Complex<f64>>) -> Certificate {
+    let reach = study.iter().map(|z| z.norm()).fold(1.0, f64::max);
+    Certificate { radius: proof.radius + ROUNDED * reach, ..proof }
+}
+
+/// Whether what is proved is a pose, and real or not as it seems.
+fn holds(certificate: &Certificate, study: &Eight<Complex<f64>>, real: bool) -> bool {
+    is_pose(study, certificate.radius) && (real || is_complex(study, certificate.radius))
+}
+
+/// The rotation z of eigenvalue k, of any length: quotients where the eigenvector is largest.
+fn rotation<S: Scalar>(
+    value: S,
+    k: usize,
+    basis: &BorderBasis<f64>,
+    spectrum: &mut Spectrum<DIMENSION>,
+) -> Option<Four<S>> {
+    let mut vector: [S; DIMENSION] = spectrum.vector(k);
+    let best = (1..DIMENSION).fold(0, |best, b| if vector[b].size() > vector[best].size() { b } else { best });
+    for (x, scale) in vector.iter_mut().zip(&spectrum.balance) {
+        *x = x.times(*scale);
+    }
+    let at = vector[best];
+    let times = |i: usize| {
+        let row = &basis.products[i][best];
+        row.iter().zip(&vector).fold(S::zero(), |sum, (c, x)| sum.add(&x.times(*c))).over(at)
+    };
+    let z = [S::one(), value, times(1), times(2)];
+    let size = z.iter().map(|x| x.size()).fold(0.0, f64::max);
+    size.is_finite().then(|| z.map(|x| x.times(1.0 / size)))
+}
+
+/// Three real points near a nearly real one: to both sides of it, and its real part.
+fn real_parts(v: &Eight<Complex<f64>>) -> [Eight<f64>; 3] {
+    let best = (1..4).fold(0, |best, k| if v[k].norm_sqr() > v[best].norm_sqr() { k } else { best });
+    let phase = v[best].conj() / v[best].norm();
+    let turned = v.map(|z| z * phase);
+    [turned.map(|z| z.re + z.im), turned.map(|z| z.re - z.im), turned.map(|z| z.re)]
+}
+
+fn mode(found: &Found, frame: &Frame, conjugate: bool) -> PlatformMode {
+    let mut study = found.study;
+    if conjugate {
+        study = study.map(|z| z.conj());
+    }
+    let study = normalised(&study).unwrap_or(study);
+    let best = (1..4).fold(0, |best, k| if study[k].norm_sqr() > 1.01 * study[best].norm_sqr() { k } else { best });
+    let mut phase = study[best].conj() / study[best].norm();
+    if found.real {
+        let first = (0..4).find(|&k| (study[k] * phase).re.abs() > 1e-15).unwrap_or(0);
+        phase = Complex::from((study[first] * phase).re.signum()) * phase;
+    }
+    let turned = study.map(|z| z * phase);
+    let clean = |z: Complex<f64>| if found.real { Complex::from(z.re) } else { z };
+    let quaternion = std::array::from_fn(|k| clean(turned[k]));
+    PlatformMode {
+        quaternion,
+        position: frame.position(&turned).map(clean),
+        real: found.real,
+        multiplicity: found.multiplicity(),
+        residual: found.residual,
+        condition: found.condition,
+        certificate: found.certificate,
+        norm: norm(&turned).norm(),
+        mirror: None,
+    }
+}

@@ -1,0 +1,146 @@
+//! Proof of one pose of a platform: Newton-Kantorovich on the leg quadrics, every rounding error bounded.
+//!
+//! The equations are quadratic, so their second derivative is constant. In the sup norm it is at most
+//! `2 sum_r (1 + sum_c |M_rc|)^2 + 8 L^2` for a leg (here halved, as the equations are) and 8 for the Study condition. With
+//! an approximate inverse A of the Jacobian, `Y >= |A F|`, `Z0 >= |I - A J|` and `Z2` the largest row of `|A|` times those
+//! bounds, every r with `Y + Z0 r + Z2 r^2 / 2 <= r` has exactly one solution within r of the point. \[Krawczyk1969\]
+
+use super::Certificate;
+use crate::closure::study::Leg;
+use crate::solve::pose::{Eight, Equations, parts};
+use crate::solve::scalar::Number;
+use num_complex::Complex;
+
+/// Roundings of a value of an equation, relative to the sum of the sizes of its terms, with room for complex products.
+const VALUE_ROUNDINGS: f64 = 32.0;
+/// Roundings of an entry of `A J`, relative to the sum of the sizes of its terms; those of J are among them.
+const PRODUCT_ROUNDINGS: f64 = 96.0;
+/// Margin on bounds that are themselves computed in f64.
+const MARGIN: f64 = 1.01;
+
+/// Bounds on the second derivatives of the equations, from the legs alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Curvature {
+    /// Of each halved leg quadric, of the Study condition, and of the patch.
+    bounds: Eight<f64>,
+    /// `sum_c |M_rc|` of each leg, the largest row.
+    reach: [f64; 6],
+}
+
+impl Curvature {
+    /// The bounds of six legs.
+    #[must_use]
+    pub fn new(legs: &[Leg<f64>; 6]) -> Self {
+        let mut curvature = Self { bounds: [0.0; 8], reach: [0.0; 6] };
+        for (i, leg) in legs.iter().enumerate() {
+            let sums = leg.matrix.map(|row| row.iter().map(|m| m.abs()).sum::<f64>());
+            curvature.bounds[i] =
+                MARGIN * (sums.iter().map(|s| (1.0 + s) * (1.0 + s)).sum::<f64>() + 4.0 * leg.square.abs());
+            curvature.reach[i] = sums.iter().fold(0.0, |a: f64, &b| a.max(b));
+        }
+        curvature.bounds[6] = 8.0;
+        curvature
+    }
+}
+
+/// Proves that exactly one solution of the equations, the patch among them, lies near this point; `None` where that
+/// cannot be shown. Whether it is a pose (`N != 0`) is for [`is_pose`] to say.
+#[must_use]
+pub fn pose_certificate<S: Number>(
+    legs: &[Leg<f64>; 6],
+    curvature: &Curvature,
+    v: &Eight<S>,
+    at: &Equations<S>,
+    approximate_inverse: &[Eight<S>; 8],
+) -> Option<Certificate> {
+    let (x, y) = parts(v);
+    let (size_x, size_y) = (x.map(Number::bound), y.map(Number::bound));
+    let (most_x, most_y) = (size_x.iter().sum::<f64>(), size_y.iter().fold(0.0, |a: f64, &b| a.max(b)));
+    // Rounding of the values: w is at most |y| + |M| |x| in every entry.
+    let mut errors = [0.0; 8];
+    for i in 0..6 {
+        let w = most_y + curvature.reach[i] * size_x.iter().fold(0.0, |a: f64, &b| a.max(b));
+        errors[i] = 2.0 * w * w + 0.5 * legs[i].square.abs() * most_x * most_x;
+    }
+    errors[6] = size_x.iter().zip(&size_y).map(|(a, b)| a * b).sum();
+    let errors = errors.map(|e| VALUE_ROUNDINGS * S::UNIT_ROUNDOFF * e);
+    let (mut step, mut deviation, mut bend) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for (i, row) in approximate_inverse.iter().enumerate() {
+        let mut moved = S::zero();
+        let (mut slack, mut bent) = (0.0, 0.0);
+        for k in 0..8 {
+            let size = row[k].bound();
+            moved = moved.add(&row[k].mul(&at.values[k]));
+            slack += size * (errors[k] + VALUE_ROUNDINGS * S::UNIT_ROUNDOFF * at.values[k].bound());
+            bent += size * curvature.bounds[k];
+        }
+        step = step.max(moved.bound() + slack);
+        bend = bend.max(bent);
+        let (mut sum, mut sizes) = (0.0, 0.0);
+        for j in 0..8 {
+            let mut entry = if i == j { S::one() } else { S::zero() };
+            for k in 0..8 {
+                entry = entry.sub(&row[k].mul(&at.jacobian[k][j]));
+            }
+            sum += entry.bound();
+        }
+        for k in 0..8 {
+            // The entries of J are w, -M w - L^2 x, and coordinates of the point.
+            let column = match k {
+                0..6 => {
+                    let w = most_y + curvature.reach[k] * most_x;
+                    4.0 * (w * (1.0 + curvature.reach[k]) + legs[k].square.abs() * most_x)
+                }
+                _ => 4.0 * (most_x + most_y),
+            };
+            sizes += row[k].bound() * column;
+        }
+        deviation = deviation.max(sum + PRODUCT_ROUNDINGS * S::UNIT_ROUNDOFF * sizes);
+    }
+    let (step, deviation, bend) = (MARGIN * step, MARGIN * deviation, MARGIN * bend);
+    let slope = 1.0 - deviation;
+    let discriminant = slope * slope - 2.0 * bend * step;
+    if !(slope > 0.0 && discriminant > 0.0) {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    let radius = (MARGIN * 2.0 * step / (slope + root)).max(f64::MIN_POSITIVE);
+    let isolation = (slope + root) / (MARGIN * bend);
+    (radius < isolation).then_some(Certificate { radius, isolation })
+}
+
+/// Whether `N = x.x` differs from zero on the whole ball around a point.
+#[must_use]
+pub fn is_pose(v: &Eight<Complex<f64>>, radius: f64) -> bool {
+    let sum: f64 = v[..4].iter().map(|x| x.bound()).sum();
+    let norm: Complex<f64> = v[..4].iter().map(|x| x * x).sum();
+    norm.norm() > 2.0 * radius * sum + 4.0 * radius * radius + 16.0 * f64::EPSILON * sum * sum
+}
+
+/// Whether the points of two balls cannot belong to one solution: a minor of the two vectors is not zero.
+#[must_use]
+pub fn are_apart(v: &Eight<Complex<f64>>, radius: f64, w: &Eight<Complex<f64>>, other: f64) -> bool {
+    let b = largest(w);
+    (0..8).any(|i| {
+        let minor = v[i] * w[b] - v[b] * w[i];
+        let (left, right) = (v[i].bound() + v[b].bound(), w[i].bound() + w[b].bound());
+        let rounding = 8.0 * f64::EPSILON * left * right;
+        minor.norm() > radius * right + other * left + 2.0 * radius * other + rounding
+    })
+}
+
+/// Whether no point of the ball is a multiple of a real one.
+#[must_use]
+pub fn is_complex(v: &Eight<Complex<f64>>, radius: f64) -> bool {
+    let b = largest(v);
+    v.iter().any(|z| {
+        let imaginary = (z * v[b].conj()).im.abs();
+        let size = z.bound() + v[b].bound();
+        imaginary > radius * size + radius * radius + 8.0 * f64::EPSILON * size * size
+    })
+}
+
+/// The largest coordinate of the rotation.
+fn largest(v: &Eight<Complex<f64>>) -> usize {
+    (1..4).fold(0, |best, k| if v[k].norm_sqr() > v[best].norm_sqr() { k } else { best })
+}

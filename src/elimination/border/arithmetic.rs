@@ -1,0 +1,150 @@
+//! What a border basis asks of its numbers: f64, or residues modulo a prime that is known at run time only.
+
+use super::echelon;
+use super::orthogonal;
+use crate::algebra::modp::Modulus;
+
+/// Candidates for the basis of a level, at most: 27 products and 6 of two `tau`.
+pub const MOST_CANDIDATES: usize = 33;
+/// Where the second part of a relation begins.
+pub const LOW: usize = 36;
+/// Room for one relation.
+pub const STRIDE: usize = LOW + 40;
+/// Room for the normal form of one candidate.
+pub const WIDTH: usize = 40;
+/// Relations of one degree, at most.
+pub const MOST_RELATIONS: usize = 48;
+
+/// Relations of one degree: rows of coefficients of the candidates (from 0) and of the basis of lower levels (from
+/// `LOW`), which sum to zero.
+#[derive(Clone, Debug)]
+pub struct Relations<E> {
+    /// The rows, `STRIDE` apart.
+    pub rows: Vec<E>,
+    /// How many rows are in use.
+    pub count: usize,
+    /// How many candidates there are.
+    pub candidates: usize,
+    /// How many basis elements lower levels have.
+    pub low: usize,
+}
+
+/// What a level's relations make of its candidates.
+#[derive(Clone, Debug)]
+pub struct Split<E> {
+    /// The normal forms of the candidates, `WIDTH` apart: coefficients of the lower levels, then of the new one.
+    pub normal: Vec<E>,
+    /// The new basis elements as combinations of the candidates: row c, `LEVEL` apart, holds the coefficients of
+    /// candidate c.
+    pub lift: Vec<E>,
+}
+
+/// The most elements of one level.
+pub const LEVEL: usize = 9;
+
+/// Numbers, and how relations between them are solved.
+pub trait Arithmetic {
+    /// The numbers.
+    type Element: Copy + PartialEq + std::fmt::Debug;
+    /// 0
+    fn zero(&self) -> Self::Element;
+    /// 1
+    fn one(&self) -> Self::Element;
+    /// `a + b`
+    fn add(&self, a: Self::Element, b: Self::Element) -> Self::Element;
+    /// `a - b`
+    fn sub(&self, a: Self::Element, b: Self::Element) -> Self::Element;
+    /// `a b`
+    fn mul(&self, a: Self::Element, b: Self::Element) -> Self::Element;
+    /// `target += factor source`
+    fn add_multiple(&self, target: &mut [Self::Element], factor: Self::Element, source: &[Self::Element]);
+    /// Solves relations of the given rank for as many candidates; the others, or combinations of them, are the new basis
+    /// elements. The smallest pivot over the largest, or else the rank found.
+    ///
+    /// # Errors
+    /// The rank found, where it is not the one asked for.
+    fn solve(
+        &self,
+        relations: &mut Relations<Self::Element>,
+        rank: usize,
+        split: &mut Split<Self::Element>,
+    ) -> Result<f64, usize>;
+
+    /// `-a`
+    fn neg(&self, a: Self::Element) -> Self::Element {
+        self.sub(self.zero(), a)
+    }
+}
+
+/// The field of the f64.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reals;
+
+impl Arithmetic for Reals {
+    type Element = f64;
+    #[inline(always)]
+    fn zero(&self) -> f64 {
+        0.0
+    }
+    #[inline(always)]
+    fn one(&self) -> f64 {
+        1.0
+    }
+    #[inline(always)]
+    fn add(&self, a: f64, b: f64) -> f64 {
+        a + b
+    }
+    #[inline(always)]
+    fn sub(&self, a: f64, b: f64) -> f64 {
+        a - b
+    }
+    #[inline(always)]
+    fn mul(&self, a: f64, b: f64) -> f64 {
+        a * b
+    }
+    #[inline(always)]
+    fn add_multiple(&self, target: &mut [f64], factor: f64, source: &[f64]) {
+        for (t, s) in target.iter_mut().zip(source) {
+            *t += factor * s;
+        }
+    }
+    fn solve(&self, relations: &mut Relations<f64>, rank: usize, split: &mut Split<f64>) -> Result<f64, usize> {
+        orthogonal::solve(relations, rank, split)
+    }
+}
+
+impl Arithmetic for Modulus {
+    type Element = u64;
+    #[inline(always)]
+    fn zero(&self) -> u64 {
+        0
+    }
+    #[inline(always)]
+    fn one(&self) -> u64 {
+        self.enter(1)
+    }
+    #[inline(always)]
+    fn add(&self, a: u64, b: u64) -> u64 {
+        Modulus::add(self, a, b)
+    }
+    #[inline(always)]
+    fn sub(&self, a: u64, b: u64) -> u64 {
+        Modulus::sub(self, a, b)
+    }
+    #[inline(always)]
+    fn mul(&self, a: u64, b: u64) -> u64 {
+        Modulus::mul(self, a, b)
+    }
+    #[inline(always)]
+    fn add_multiple(&self, target: &mut [u64], factor: u64, source: &[u64]) {
+        if factor == 0 {
+            return;
+        }
+        for (t, s) in target.iter_mut().zip(source) {
+            *t = Modulus::add(self, *t, Modulus::mul(self, factor, *s));
+        }
+    }
+    fn solve(&self, relations: &mut Relations<u64>, rank: usize, split: &mut Split<u64>) -> Result<f64, usize> {
+        echelon::solve(self, relations, rank, split)
+    }
+}

@@ -1,0 +1,61 @@
+//! The characteristic polynomial of a matrix modulo a prime, by its Hessenberg form.
+
+use super::border::Arithmetic;
+use crate::algebra::modp::Modulus;
+
+/// Coefficients of `det(x - matrix)`, constant term first; the matrix is used up. Residues in Montgomery form.
+#[must_use]
+pub fn characteristic_polynomial(modulus: &Modulus, matrix: &mut [Vec<u64>]) -> Vec<u64> {
+    let n = matrix.len();
+    reduce(modulus, matrix);
+    // Those of the leading blocks: p_k = (x - h_kk) p_{k-1} - sum_i h_ik (h_{i+1,i} ... h_{k,k-1}) p_{i-1}.
+    let mut leading: Vec<Vec<u64>> = vec![vec![modulus.enter(1)]];
+    for k in 0..n {
+        let mut p = vec![0; k + 2];
+        p[1..].copy_from_slice(&leading[k]);
+        modulus.add_multiple(&mut p[..=k], modulus.neg(matrix[k][k]), &leading[k]);
+        let mut product = modulus.enter(1);
+        for i in (0..k).rev() {
+            product = modulus.mul(product, matrix[i + 1][i]);
+            if product == 0 {
+                break;
+            }
+            let factor = modulus.neg(modulus.mul(product, matrix[i][k]));
+            modulus.add_multiple(&mut p[..=i], factor, &leading[i]);
+        }
+        leading.push(p);
+    }
+    leading.pop().unwrap_or_default()
+}
+
+/// Similar upper Hessenberg form, by elimination.
+fn reduce(modulus: &Modulus, matrix: &mut [Vec<u64>]) {
+    let n = matrix.len();
+    for column in 0..n.saturating_sub(2) {
+        let target = column + 1;
+        let Some(pivot) = (target..n).find(|&i| matrix[i][column] != 0) else { continue };
+        if pivot != target {
+            matrix.swap(pivot, target);
+            for row in matrix.iter_mut() {
+                row.swap(pivot, target);
+            }
+        }
+        let inverse = modulus.inverse(matrix[target][column]);
+        let (head, tail) = matrix.split_at_mut(target + 1);
+        let pivot_row = &head[target];
+        let mut factors = vec![0; n];
+        for (i, row) in tail.iter_mut().enumerate() {
+            let factor = modulus.mul(row[column], inverse);
+            factors[target + 1 + i] = factor;
+            modulus.add_multiple(&mut row[column..], modulus.neg(factor), &pivot_row[column..]);
+        }
+        // The inverse operations from the right.
+        for row in matrix.iter_mut() {
+            let mut sum = row[target];
+            for (x, factor) in row.iter().zip(&factors).skip(target + 1) {
+                sum = Modulus::add(modulus, sum, Modulus::mul(modulus, *x, *factor));
+            }
+            row[target] = sum;
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! How many poses a platform has, complex ones included: exactly, modulo a prime.
+//!
+//! The equations of the general platform have 40 solutions with `N = x.x != 0`. In special geometry some of them, or
+//! whole curves, have `N = 0` and are no poses: they are the eigenvalue 0 of multiplication by N.
+
+use super::border::{Arithmetic, BorderBasis, DIMENSION, MOST_DIRECTIONS, Setting, exact_directions};
+use super::graded_quotient::GradedQuotient;
+use crate::algebra::modp::{Modulus, primes};
+use crate::closure::study::{Form, LinearLegs, linear_legs};
+use crate::kinematics::dual_quaternion::Quaternion;
+use crate::kinematics::platform::Platform;
+use rug::Rational;
+
+/// The number of poses of a platform with given legs, with multiplicity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlatformDegree {
+    /// Finitely many.
+    Finite {
+        /// Poses, with multiplicity.
+        poses: usize,
+        /// What of the 40 solutions of the general platform is no pose here (`N = 0`).
+        null: usize,
+        /// Whether solutions with `N = 0` form curves, so that the general border basis does not exist.
+        curves: bool,
+    },
+    /// A curve of poses, or more: a self-motion, real or complex.
+    Infinite,
+}
+
+/// Quaternions that turn base and plate, so that no solution lies where a chart ends.
+const TURNS: [[[i32; 4]; 2]; 2] = [[[5, -3, 7, 4], [4, 6, -3, 5]], [[-3, 8, 2, 9], [7, -2, 5, -6]]];
+
+/// What the border basis of a platform starts from, modulo a prime; `None` where a denominator
+/// vanishes or the rank of K is below 3.
+#[must_use]
+pub fn modular_setting(
+    modulus: &Modulus,
+    legs: &LinearLegs<Rational>,
+    squares: &[Rational; 6],
+) -> Option<Setting<u64>> {
+    let image = |q: &Rational| -> Option<u64> {
+        let denominator = modulus.reduce(q.denom());
+        (denominator != 0).then(|| Modulus::mul(modulus, modulus.reduce(q.numer()), modulus.inverse(denominator)))
+    };
+    let mut matrix = [[0; 7]; 6];
+    let mut forms: [Form<u64>; 6] = [[[0; 4]; 4]; 6];
+    for i in 0..6 {
+        for k in 0..7 {
+            matrix[i][k] = image(&legs.matrix[i][k])?;
+        }
+        let square = image(&squares[i])?;
+        for j in 0..4 {
+            for k in 0..4 {
+                forms[i][j][k] = image(&legs.forms[i][j][k])?;
+            }
+            forms[i][j][j] = Modulus::add(modulus, forms[i][j][j], square);
+        }
+    }
+    let inverse = |x: u64| (x != 0).then(|| modulus.inverse(x));
+    let directions = exact_directions(modulus, inverse, &matrix)?;
+    Some(Setting::new(modulus, &directions, &forms))
+}
+
+/// A platform with its base and plate turned by rotations that are no multiples of a right angle, exactly.
+fn turned(platform: &Platform<Rational>, choice: usize) -> Platform<Rational> {
+    let turn = |points: &[[Rational; 3]; 6], q: [i32; 4]| {
+        let [w, x, y, z] = q.map(Rational::from);
+        let q = Quaternion { scalar: w, vector: [x, y, z] };
+        let norm = q.norm();
+        let rotation = q.scaled_rotation();
+        points.each_ref().map(|p| {
+            std::array::from_fn(|i| {
+                let sum: Rational = (0..3).map(|k| Rational::from(&rotation[i][k] * &p[k])).sum();
+                sum / &norm
+            })
+        })
+    };
+    let [before, behind] = TURNS[choice];
+    Platform { base: turn(&platform.base, before), plate: turn(&platform.plate, behind) }
+}
+
+/// Counts the poses of a platform with legs of these squared lengths, modulo a prime of 62 bits. `None` where the prime
+/// is unlucky or the points are too special (all on two lines, or all in one point).
+#[must_use]
+pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<PlatformDegree> {
+    let modulus = primes().next()?;
+    let mut last = None;
+    for choice in 0..TURNS.len() {
+        let legs = linear_legs(&turned(platform, choice));
+        let setting = modular_setting(&modulus, &legs, legs_squared)?;
+        if let Some(products) = general_products(&modulus, &setting, &mut BorderBasis::new(&modulus)) {
+            let null = DIMENSION - regular_part(&modulus, &products).pivots.len();
+            return Some(PlatformDegree::Finite { poses: DIMENSION - null, null, curves: false });
+        }
+        last = Some(setting);
+    }
+    let Some(products) = special_products(&modulus, &last?) else { return Some(PlatformDegree::Infinite) };
+    let poses = regular_part(&modulus, &products).pivots.len();
+    Some(PlatformDegree::Finite { poses, null: DIMENSION.saturating_sub(poses), curves: true })
+}
+
+/// Multiplication by `z_1/z_0`, `z_2/z_0` and `z_3/z_0`: row k is the product with basis element k.
+pub type Products = [Vec<Vec<u64>>; 3];
+
+/// The multiplication matrices of the general border basis; `None` where that does not exist.
+pub fn general_products(modulus: &Modulus, setting: &Setting<u64>, basis: &mut BorderBasis<u64>) -> Option<Products> {
+    if setting.count > MOST_DIRECTIONS {
+        return None;
+    }
+    basis.build(modulus, setting).ok()?;
+    Some(basis.products.each_ref().map(|matrix| matrix.iter().map(|row| row.to_vec()).collect()))
+}
+
+/// What powers of N leave of a quotient algebra.
+pub struct RegularPart {
+    /// A basis, in reduced echelon form.
+    pub basis: Vec<Vec<u64>>,
+    /// The columns of its pivots.
+    pub pivots: Vec<usize>,
+}
+
+/// The part of an algebra on which `N = 1 + M_1^2 + M_2^2 + M_3^2` is invertible.
+#[must_use]
+pub fn regular_part(modulus: &Modulus, products: &Products) -> RegularPart {
+    let n = products[0].len();
+    let norm: Vec<Vec<u64>> = (0..n)
+        .map(|i| {
+            let mut row = vec![0; n];
+            row[i] = modulus.one();
+            for matrix in products {
+                for (&c, other) in matrix[i].iter().zip(matrix) {
+                    modulus.add_multiple(&mut row, c, other);
+                }
+            }
+            row
+        })
+        .collect();
+    let mut basis = norm.clone();
+    let mut pivots = echelon(modulus, &mut basis);
+    let mut settled = pivots.len() == n;
+    while !settled {
+        let mut next: Vec<Vec<u64>> = basis.iter().map(|v| row_times(modulus, v, &norm)).collect();
+        let found = echelon(modulus, &mut next);
+        settled = found.len() == pivots.len();
+        (basis, pivots) = (next, found);
+    }
+    RegularPart { basis, pivots }
+}
+
+/// `v matrix`
+#[must_use]
+pub fn row_times(modulus: &Modulus, v: &[u64], matrix: &[Vec<u64>]) -> Vec<u64> {
+    let mut product = vec![0; matrix.first().map_or(0, Vec::len)];
+    for (&c, row) in v.iter().zip(matrix) {
+        modulus.add_multiple(&mut product, c, row);
+    }
+    product
+}
+
+/// Reduced echelon form, rows of zeros dropped; the columns of the pivots.
+fn echelon(modulus: &Modulus, rows: &mut Vec<Vec<u64>>) -> Vec<usize> {
+    let mut pivots = Vec::new();
+    for column in 0..rows.first().map_or(0, Vec::len) {
+        let rank = pivots.len();
+        let Some(best) = (rank..rows.len()).find(|&i| rows[i][column] != 0) else { continue };
+        rows.swap(best, rank);
+        let inverse = modulus.inverse(rows[rank][column]);
+        for x in &mut rows[rank][column..] {
+            *x = Modulus::mul(modulus, *x, inverse);
+        }
+        let (head, tail) = rows.split_at_mut(rank);
+        let Some((pivot_row, tail)) = tail.split_first_mut() else { break };
+        for row in head.iter_mut().chain(tail) {
+            let factor = modulus.neg(row[column]);
+            modulus.add_multiple(&mut row[column..], factor, &pivot_row[column..]);
+        }
+        pivots.push(column);
+    }
+    rows.truncate(pivots.len());
+    pivots
+}
+
+/// Powers of N that kill what has `N = 0`, degrees at which the rest has settled, in turn.
+const ATTEMPTS: [(usize, usize); 3] = [(1, 5), (2, 5), (2, 7)];
+
+/// The multiplication matrices where solutions with `N = 0` form curves, on what multiplication by a power of N leaves;
+/// `None` where that grows with the degree: a curve of poses.
+#[must_use]
+pub fn special_products(modulus: &Modulus, setting: &Setting<u64>) -> Option<Products> {
+    let mut ring = GradedQuotient::new(modulus, setting);
+    let mut known = 0;
+    for (power, degree) in ATTEMPTS {
+        while known < degree + 1 + 2 * power {
+            ring.advance();
+            known += 1;
+        }
+        // N^power z_i m for every basis element m of the degree.
+        let images: [Vec<Vec<u64>>; 4] = std::array::from_fn(|index| {
+            (0..ring.dimension(degree))
+                .map(|k| {
+                    let mut v = vec![0; ring.dimension(degree)];
+                    v[k] = modulus.one();
+                    let mut v = ring.times(degree, index, &v);
+                    for step in 0..power {
+                        v = ring.times_norm(degree + 1 + 2 * step, &v);
+                    }
+                    v
+                })
+                .collect()
+        });
+        if let Some(products) = quotients(modulus, &images) {
+            return Some(products);
+        }
+    }
+    None
+}
+
+/// The matrices of `z_i / z_0`, i = 1..3, on the span of the images of z_0; `None` where the others reach farther.
+fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4]) -> Option<Products> {
+    // Rows (z_0 image | z_1 image | z_2 image | z_3 image), reduced by their first parts.
+    let width = images[0].first().map_or(0, Vec::len);
+    let mut table: Vec<Vec<u64>> =
+        (0..images[0].len()).map(|k| images.iter().flat_map(|image| image[k].iter().copied()).collect()).collect();
+    let mut pivots = Vec::new();
+    for column in 0..width {
+        let rank = pivots.len();
+        let Some(best) = (rank..table.len()).find(|&i| table[i][column] != 0) else { continue };
+        table.swap(best, rank);
+        let inverse = modulus.inverse(table[rank][column]);
+        for x in &mut table[rank] {
+            *x = Modulus::mul(modulus, *x, inverse);
+        }
+        let pivot_row = table[rank].clone();
+        for (i, row) in table.iter_mut().enumerate() {
+            if i != rank {
+                let factor = modulus.neg(row[column]);
+                modulus.add_multiple(row, factor, &pivot_row);
+            }
+        }
+        pivots.push(column);
+    }
+    let rank = pivots.len();
+    if table[rank..].iter().any(|row| row.iter().any(|&x| x != 0)) {
+        return None;
+    }
+    let mut factors: Products = std::array::from_fn(|_| vec![vec![0; rank]; rank]);
+    for (i, factor) in factors.iter_mut().enumerate() {
+        for k in 0..rank {
+            let image = table[k][(i + 1) * width..(i + 2) * width].to_vec();
+            let mut rest = image.clone();
+            for (j, &column) in pivots.iter().enumerate() {
+                factor[k][j] = image[column];
+                modulus.add_multiple(&mut rest, modulus.neg(image[column]), &table[j][..width]);
+            }
+            if rest.iter().any(|&x| x != 0) {
+                return None;
+            }
+        }
+    }
+    Some(factors)
+}

@@ -1,0 +1,258 @@
+//! The polynomial whose roots are the poses of a platform: exact, with integer coefficients.
+//!
+//! In the quotient algebra of the equations modulo a prime, multiplication by a quotient of two coordinates of the rotation
+//! is a matrix; its characteristic polynomial is the image of the one over the rationals. Enough primes give that.
+
+use super::border::{Arithmetic, BorderBasis};
+use super::characteristic::characteristic_polynomial;
+use super::platform_degree::{general_products, modular_setting, regular_part, row_times, special_products};
+use crate::algebra::modp::{Modulus, primes};
+use crate::closure::study::{LinearLegs, linear_legs};
+use crate::kinematics::dual_quaternion::Quaternion;
+use crate::kinematics::platform::Platform;
+use num_complex::Complex;
+use rayon::prelude::*;
+use rug::{Integer, Rational};
+
+/// The closure polynomial of a platform with given legs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlatformPolynomial {
+    /// Integers without common factor, constant term first, the last one positive.
+    pub coefficients: Vec<Integer>,
+    /// What its variable is.
+    pub coordinate: Coordinate,
+    /// How many primes it was put together from; one more agrees with it. That it is wrong all the same has a probability
+    /// of about 2^-60.
+    pub primes: usize,
+}
+
+/// A quotient of coordinates of a rotation x, `weights.(z_1, z_2, z_3) / z_0` with `x = turn z`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coordinate {
+    /// A quaternion (w, x, y, z) that turns the base by a multiple of a right angle or a third of a turn.
+    pub turn: [i32; 4],
+    /// The weights.
+    pub weights: [i32; 3],
+}
+
+/// What is tried in turn: the coordinates themselves where no solution has `x_0 = 0` and no two share the quotient.
+const COORDINATES: [Coordinate; 6] = [
+    Coordinate { turn: [1, 0, 0, 0], weights: [1, 0, 0] },
+    Coordinate { turn: [1, 0, 0, 0], weights: [0, 1, 0] },
+    Coordinate { turn: [1, 0, 0, 0], weights: [1, -2, 3] },
+    Coordinate { turn: [1, 1, 0, 0], weights: [0, 1, 0] },
+    Coordinate { turn: [1, 1, 1, 1], weights: [1, -2, 3] },
+    Coordinate { turn: [2, 1, -3, 1], weights: [1, -2, 3] },
+];
+
+impl Coordinate {
+    /// The value of the coordinate at a rotation, a quaternion (w, x, y, z) of any length.
+    #[must_use]
+    pub fn at(&self, x: &[Complex<f64>; 4]) -> Complex<f64> {
+        let [w, i, j, k] = self.turn.map(|c| Complex::from(f64::from(c)));
+        let inverse = Quaternion { scalar: w, vector: [-i, -j, -k] };
+        let z = inverse.mul(&Quaternion { scalar: x[0], vector: [x[1], x[2], x[3]] });
+        z.vector.iter().zip(self.weights).map(|(z, w)| z * f64::from(w)).sum::<Complex<f64>>() / z.scalar
+    }
+
+    /// The platform with its base turned, `a -> turn^-1 a`.
+    fn turned(&self, platform: &Platform<Rational>) -> Platform<Rational> {
+        let [w, x, y, z] = self.turn.map(Rational::from);
+        let q = Quaternion { scalar: w, vector: [x, y, z] }.conjugate();
+        let (norm, rotation) = (q.norm(), q.scaled_rotation());
+        let base = platform.base.each_ref().map(|a| {
+            std::array::from_fn(|i| {
+                let sum: Rational = (0..3).map(|k| Rational::from(&rotation[i][k] * &a[k])).sum();
+                sum / &norm
+            })
+        });
+        Platform { base, plate: platform.plate.clone() }
+    }
+}
+
+/// One platform and one coordinate, for one prime after the other.
+struct Modular<'a> {
+    legs: &'a LinearLegs<Rational>,
+    squares: &'a [Rational; 6],
+    weights: [i32; 3],
+    /// Whether the general border basis does not exist.
+    special: bool,
+}
+
+impl Modular<'_> {
+    /// The monic polynomial modulo a prime, its degree the number of poses; `None` for an unlucky prime or coordinate.
+    fn polynomial(&self, modulus: &Modulus, memory: &mut BorderBasis<u64>) -> Option<Vec<u64>> {
+        let setting = modular_setting(modulus, self.legs, self.squares)?;
+        let products = if self.special {
+            special_products(modulus, &setting)?
+        } else {
+            general_products(modulus, &setting, memory)?
+        };
+        let regular = regular_part(modulus, &products);
+        let weights = self.weights.map(|w| modulus.reduce(&Integer::from(w)));
+        let [mut matrix, rest @ ..] = products;
+        for (k, row) in matrix.iter_mut().enumerate() {
+            for x in row.iter_mut() {
+                *x = Modulus::mul(modulus, *x, weights[0]);
+            }
+            for (other, &w) in rest.iter().zip(&weights[1..]) {
+                modulus.add_multiple(row, w, &other[k]);
+            }
+        }
+        if regular.pivots.len() < matrix.len() {
+            let image = |v: &Vec<u64>| {
+                let product = row_times(modulus, v, &matrix);
+                regular.pivots.iter().map(|&p| product[p]).collect()
+            };
+            matrix = regular.basis.iter().map(image).collect();
+        }
+        Some(characteristic_polynomial(modulus, &mut matrix))
+    }
+}
+
+/// Whether a monic polynomial modulo a prime has only simple roots.
+fn is_square_free(modulus: &Modulus, polynomial: &[u64]) -> bool {
+    let mut a = polynomial.to_vec();
+    let mut b: Vec<u64> = (1..a.len()).map(|k| Modulus::mul(modulus, a[k], modulus.enter(k as u64))).collect();
+    loop {
+        while b.last() == Some(&0) {
+            b.pop();
+        }
+        if b.len() < 2 {
+            return !b.is_empty();
+        }
+        let inverse = modulus.inverse(b[b.len() - 1]);
+        while a.len() >= b.len() {
+            let top = a[a.len() - 1];
+            let factor = modulus.neg(Modulus::mul(modulus, top, inverse));
+            let from = a.len() - b.len();
+            modulus.add_multiple(&mut a[from..], factor, &b);
+            a.pop();
+        }
+        std::mem::swap(&mut a, &mut b);
+    }
+}
+
+/// Primes are taken in groups, so that all cores have one.
+const GROUP: usize = 8;
+/// More primes than any file of 15 digits asks for.
+const MOST_PRIMES: usize = 4000;
+
+/// The polynomial of a platform with legs of these squared lengths; its degree is the number of poses. `None` where there
+/// is no pose, infinitely many of them, or several coincide.
+#[must_use]
+pub fn platform_polynomial(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<PlatformPolynomial> {
+    let modulus = primes().next()?;
+    [false, true].into_iter().find_map(|special| {
+        COORDINATES.iter().find_map(|coordinate| {
+            let legs = &linear_legs(&coordinate.turned(platform));
+            let modular = Modular { legs, squares: legs_squared, weights: coordinate.weights, special };
+            let first = modular.polynomial(&modulus, &mut BorderBasis::new(&modulus))?;
+            (first.len() > 1 && is_square_free(&modulus, &first)).then_some(())?;
+            lifted(&modular, *coordinate, first.len())
+        })
+    })
+}
+
+/// Residues of the monic polynomial for one prime after the other, put together.
+fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<PlatformPolynomial> {
+    let mut combined = Combined { residues: vec![Integer::new(); length], product: Integer::from(1) };
+    let mut used = 0;
+    let mut guess: Option<Vec<Integer>> = None;
+    let mut all = primes();
+    while used < MOST_PRIMES {
+        let group: Vec<Modulus> = all.by_ref().take(GROUP).collect();
+        let memory = || BorderBasis::new(&group[0]);
+        let image = |memory: &mut BorderBasis<u64>, modulus: &Modulus| {
+            modular.polynomial(modulus, memory).filter(|p| p.len() == length)
+        };
+        let images: Vec<Option<Vec<u64>>> = group.par_iter().map_init(memory, image).collect();
+        for (modulus, image) in group.iter().zip(images) {
+            let Some(image) = image else { continue };
+            if let Some(polynomial) = &guess
+                && agrees(modulus, polynomial, &image)
+            {
+                let coefficients = guess.take()?;
+                return Some(PlatformPolynomial { coefficients, coordinate, primes: used });
+            }
+            guess = None;
+            combined.add(modulus, &image);
+            used += 1;
+            if used.is_multiple_of(2) {
+                guess = combined.primitive();
+            }
+        }
+    }
+    None
+}
+
+/// Whether a polynomial with integer coefficients has the given monic image.
+fn agrees(modulus: &Modulus, polynomial: &[Integer], image: &[u64]) -> bool {
+    let Some(leading) = polynomial.last().map(|c| modulus.reduce(c)) else { return false };
+    leading != 0 && polynomial.iter().zip(image).all(|(c, r)| modulus.reduce(c) == Modulus::mul(modulus, leading, *r))
+}
+
+/// Coefficients modulo the product of the primes so far.
+struct Combined {
+    residues: Vec<Integer>,
+    product: Integer,
+}
+
+impl Combined {
+    /// Takes one more prime in.
+    fn add(&mut self, modulus: &Modulus, image: &[u64]) {
+        let inverse = modulus.inverse(modulus.reduce(&self.product));
+        for (residue, &value) in self.residues.iter_mut().zip(image) {
+            let gap = Modulus::sub(modulus, value, modulus.reduce(residue));
+            let digit = modulus.leave(Modulus::mul(modulus, gap, inverse));
+            *residue += Integer::from(&self.product * digit);
+        }
+        self.product *= modulus.prime();
+    }
+
+    /// The coefficients as integers without common factor, if they fit with room for chance to be ruled out.
+    fn primitive(&self) -> Option<Vec<Integer>> {
+        let bits = self.product.significant_bits();
+        let mut denominator = Integer::from(1);
+        // One denominator for all coefficients, which grows as it must: a wrong one leaves numerators of all the bits.
+        for residue in self.residues.iter().rev() {
+            let scaled = Integer::from(residue * &denominator) % &self.product;
+            if symmetric(scaled.clone(), &self.product).significant_bits() + ROOM > bits {
+                denominator *= denominator_of(scaled, &self.product)?;
+            }
+        }
+        let mut coefficients: Vec<Integer> = self
+            .residues
+            .iter()
+            .map(|r| symmetric(Integer::from(r * &denominator) % &self.product, &self.product))
+            .collect();
+        let common = coefficients.iter().fold(Integer::new(), |g, c| g.gcd(c));
+        for c in &mut coefficients {
+            c.div_exact_mut(&common);
+        }
+        Some(coefficients)
+    }
+}
+
+/// Bits of slack that make agreement by chance unlikely.
+const ROOM: u32 = 60;
+
+/// The residue between minus half and half the modulus.
+fn symmetric(residue: Integer, modulus: &Integer) -> Integer {
+    if Integer::from(&residue * 2_u32) > *modulus { residue - modulus } else { residue }
+}
+
+/// The denominator of the fraction with small numerator and denominator that a residue stands for.
+fn denominator_of(residue: Integer, modulus: &Integer) -> Option<Integer> {
+    let half = modulus.significant_bits() / 2;
+    let (mut a, mut b) = (modulus.clone(), residue);
+    let (mut s, mut t) = (Integer::new(), Integer::from(1));
+    while b.significant_bits() > half {
+        let (quotient, remainder) = a.div_rem(b.clone());
+        let next = s - quotient * &t;
+        (a, b) = (b, remainder);
+        (s, t) = (t, next);
+    }
+    let t = t.abs();
+    (t.significant_bits() + b.significant_bits() + ROOM < modulus.significant_bits()).then_some(t)
+}

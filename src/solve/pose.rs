@@ -1,0 +1,266 @@
+//! Poses of a platform in Study's parameters, polished on the six leg quadrics and the Study condition.
+
+use super::dense::{self, solve_one, times};
+use super::scalar::{Number, Scalar};
+use crate::algebra::double_double::DoubleDouble;
+use crate::algebra::ring::Ring;
+use crate::closure::study::{Four, Leg, scalar};
+use num_complex::Complex;
+
+/// Study's parameters (x, y) of a pose, as one vector.
+pub type Eight<S> = [S; 8];
+
+/// Newton steps before giving up.
+const MOST_STEPS: usize = 12;
+/// A step of this size (relative to x of norm 1) is the last.
+const SETTLED: f64 = 1e-14;
+/// A step of this size that no longer shrinks is rounding, magnified by a nearly singular Jacobian, where the equations
+/// hold as below.
+const ROUNDING: f64 = 1e-5;
+/// A step of this size is enough on the way from platform to platform.
+const CARRIED: f64 = 1e-7;
+/// A step of this size there leads to another solution.
+const STRAY: f64 = 0.3;
+/// A refined step of this size is the last.
+const REFINED: f64 = 1e-18;
+/// Relative residual of a solution.
+const CLOSED: f64 = 1e-14;
+
+/// The equations at a point: values and derivatives of the six leg quadrics, halved, of the Study condition, and of the
+/// patch that fixes the common factor.
+#[derive(Clone, Copy, Debug)]
+pub struct Equations<S> {
+    /// The left sides; that of the patch counts as 0.
+    pub values: Eight<S>,
+    /// Their derivatives.
+    pub jacobian: [Eight<S>; 8],
+    /// `|w|^2 + L^2 |x|^2` of each leg, halved: what its value is small against.
+    pub sizes: [f64; 6],
+}
+
+/// x and y of a point.
+#[inline(always)]
+pub fn parts<S: Copy>(v: &Eight<S>) -> (Four<S>, Four<S>) {
+    ([v[0], v[1], v[2], v[3]], [v[4], v[5], v[6], v[7]])
+}
+
+/// `|x|^2 + ...` in the hermitian sense.
+#[inline(always)]
+pub fn hermitian<S: Scalar>(v: &[S]) -> f64 {
+    v.iter().map(|x| if S::REAL { x.size() * x.size() } else { x.to_complex().norm_sqr() }).sum()
+}
+
+/// The equations at a point, with the patch `patch.x = const` through that point.
+#[inline(always)]
+pub fn equations<S: Number<Real: From<f64>>>(legs: &[Leg<f64>; 6], v: &Eight<S>, patch: &Four<S>) -> Equations<S> {
+    let (x, y) = parts(v);
+    let times = |x: &S, c: &f64| x.times((*c).into());
+    let square = |v: &Four<S>| v.iter().map(|x| x.size() * x.size()).sum::<f64>();
+    let norm = scalar(&x, &x);
+    let length = square(&x);
+    let mut equations = Equations { values: [S::zero(); 8], jacobian: [[S::zero(); 8]; 8], sizes: [0.0; 6] };
+    for (i, leg) in legs.iter().enumerate() {
+        let w = leg.vector(&x, &y, times);
+        equations.values[i] = scalar(&w, &w).sub(&times(&norm, &leg.square)).halved();
+        let by_x = leg.half_slope(&w, &x, times);
+        for k in 0..4 {
+            equations.jacobian[i][k] = by_x[k];
+            equations.jacobian[i][4 + k] = w[k];
+        }
+        equations.sizes[i] = 0.5 * (square(&w) + leg.square.abs() * length);
+    }
+    equations.values[6] = scalar(&x, &y);
+    for k in 0..4 {
+        equations.jacobian[6][k] = y[k];
+        equations.jacobian[6][4 + k] = x[k];
+        equations.jacobian[7][k] = patch[k];
+    }
+    equations
+}
+
+/// The patch through a point that keeps the hermitian norm of x to first order.
+#[inline(always)]
+pub fn patch<S: Scalar>(v: &Eight<S>) -> Four<S> {
+    std::array::from_fn(|k| v[k].conjugate())
+}
+
+impl<S: Number> Equations<S> {
+    /// The largest relative residual of a leg, `|l^2 - L^2|` over `|l|^2 + L^2`.
+    pub fn residual(&self) -> f64 {
+        self.values.iter().zip(&self.sizes).map(|(value, size)| value.size() / size).fold(0.0, f64::max)
+    }
+
+    /// The condition number of the Jacobian in the row-sum norm, its rows scaled to 1.
+    pub fn condition(&self, inverse: &[Eight<S>; 8]) -> f64 {
+        let rows = self.jacobian.map(|row| row.iter().map(|x| x.bound()).sum::<f64>());
+        inverse.iter().map(|row| row.iter().zip(rows).map(|(x, r)| x.bound() * r).sum::<f64>()).fold(0.0, f64::max)
+    }
+}
+
+/// A polished pose.
+#[derive(Clone, Copy, Debug)]
+pub struct PolishedPose<S> {
+    /// Study's parameters, x of hermitian norm 1.
+    pub study: Eight<S>,
+    /// The equations there.
+    pub equations: Equations<S>,
+    /// The inverse of the Jacobian, near enough for bounds.
+    pub inverse: [Eight<S>; 8],
+    /// Size of the step that was left.
+    pub step: f64,
+}
+
+/// The point with x of hermitian norm 1; `None` for x = 0 and what is not finite.
+#[inline(always)]
+pub fn normalised<S: Scalar>(v: &Eight<S>) -> Option<Eight<S>> {
+    let length = hermitian(&v[..4]);
+    let whole = hermitian(v);
+    (length > 0.0 && whole.is_finite()).then(|| {
+        let scale = 1.0 / length.sqrt();
+        v.map(|x| x.times(scale))
+    })
+}
+
+/// Newton's method; `None` where it does not settle.
+#[must_use]
+pub fn polish<S: Scalar>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<PolishedPose<S>> {
+    let mut v = normalised(start)?;
+    let mut before = f64::INFINITY;
+    let mut growing = 0;
+    for _ in 0..MOST_STEPS {
+        let here = equations(legs, &v, &patch(&v));
+        let reach = v.iter().map(|x| x.size()).fold(1.0, f64::max);
+        // Convergence is quadratic: what a step of 1e-8 leaves is rounding, as the inverse will tell.
+        let near = before < 1e-8 * reach;
+        let (inverse, step) = if near {
+            let inverse = dense::inverse(&here.jacobian)?;
+            (Some(inverse), times(&inverse, &here.values))
+        } else {
+            (None, solve_one(&here.jacobian, &here.values)?)
+        };
+        let size = step.iter().map(|x| x.size()).fold(0.0, f64::max);
+        if !size.is_finite() {
+            return None;
+        }
+        let stalls = !(size < 0.5 * before);
+        let settled = near && size < SETTLED * reach;
+        let at_rounding = settled || (stalls && size < ROUNDING * reach && here.residual() < CLOSED);
+        if at_rounding {
+            let inverse = inverse.or_else(|| dense::inverse(&here.jacobian))?;
+            return Some(PolishedPose { study: v, equations: here, inverse, step: size });
+        }
+        growing += usize::from(stalls);
+        if growing > 3 {
+            return None;
+        }
+        for (x, s) in v.iter_mut().zip(&step) {
+            *x = x.sub(s);
+        }
+        v = normalised(&v)?;
+        before = size;
+    }
+    None
+}
+
+/// A point as complex numbers.
+#[must_use]
+pub fn complex<S: Scalar>(v: &Eight<S>) -> Eight<Complex<f64>> {
+    v.map(Scalar::to_complex)
+}
+
+/// Carries a solution from platform to platform, each a little nearer to the one wanted; `None` where it gets lost.
+#[must_use]
+pub fn follow<S: Scalar>(path: &[[Leg<f64>; 6]], start: &Eight<S>) -> Option<Eight<S>> {
+    let mut v = normalised(start)?;
+    for (stage, legs) in path.iter().enumerate() {
+        let mut before = f64::INFINITY;
+        for step_number in 0..MOST_STEPS {
+            let here = equations(legs, &v, &patch(&v));
+            let step = solve_one(&here.jacobian, &here.values)?;
+            let reach = v.iter().map(|x| x.size()).fold(1.0, f64::max);
+            let size = step.iter().map(|x| x.size()).fold(0.0, f64::max);
+            if !(size < STRAY * reach) || (step_number > 3 && !(size < before)) || (stage > 0 && !size.is_finite()) {
+                return None;
+            }
+            for (x, s) in v.iter_mut().zip(&step) {
+                *x = x.sub(s);
+            }
+            v = normalised(&v)?;
+            if size < CARRIED * reach {
+                break;
+            }
+            before = size;
+        }
+    }
+    Some(v)
+}
+
+/// Newton steps in numbers of twice the precision from a polished point, with the inverse known there: the point they
+/// settle at, and its equations; `None` where they do not.
+#[must_use]
+pub fn refine(
+    legs: &[Leg<f64>; 6],
+    v: &Eight<Complex<f64>>,
+    inverse: &[Eight<Complex<f64>>; 8],
+) -> Option<(Eight<Complex<DoubleDouble>>, Equations<Complex<DoubleDouble>>)> {
+    let mut point = v.map(wide);
+    let patch: Four<Complex<DoubleDouble>> = std::array::from_fn(|k| wide(v[k].conj()));
+    let narrow = |z: &Complex<DoubleDouble>| Complex::new(z.re.to_f64(), z.im.to_f64());
+    let mut before = f64::INFINITY;
+    for _ in 0..MOST_STEPS {
+        let here = equations(legs, &point, &patch);
+        let step = times(inverse, &here.values.each_ref().map(narrow));
+        let size = step.iter().map(|x| x.size()).fold(0.0, f64::max);
+        if size < REFINED {
+            return Some((point, here));
+        }
+        if !(size < 0.5 * before) {
+            return None;
+        }
+        for (x, s) in point.iter_mut().zip(&step) {
+            *x = x.sub(&wide(*s));
+        }
+        before = size;
+    }
+    None
+}
+
+/// Newton's method in numbers of twice the precision all along, for poses very far away, where `N = x.x` is tiny: the
+/// point, its equations, and the inverse of their Jacobian; `None` where it does not settle.
+#[must_use]
+#[expect(clippy::type_complexity, reason = "what a polished pose consists of")]
+pub fn polish_wide(
+    legs: &[Leg<f64>; 6],
+    start: &Eight<Complex<f64>>,
+) -> Option<(Eight<Complex<DoubleDouble>>, Equations<Complex<DoubleDouble>>, [Eight<Complex<DoubleDouble>>; 8])> {
+    let start = normalised(start)?;
+    let mut point = start.map(wide);
+    let patch: Four<Complex<DoubleDouble>> = std::array::from_fn(|k| wide(start[k].conj()));
+    let mut before = f64::INFINITY;
+    let mut growing = 0;
+    for _ in 0..2 * MOST_STEPS {
+        let here = equations(legs, &point, &patch);
+        let step = solve_one(&here.jacobian, &here.values)?;
+        let reach = point.iter().map(|x| x.size()).fold(1.0, f64::max);
+        let size = step.iter().map(|x| x.size()).fold(0.0, f64::max);
+        if size < REFINED * reach {
+            let inverse = dense::inverse(&here.jacobian)?;
+            return Some((point, here, inverse));
+        }
+        growing += usize::from(!(size < 0.5 * before));
+        if growing > 3 || !size.is_finite() {
+            return None;
+        }
+        for (x, s) in point.iter_mut().zip(&step) {
+            *x = x.sub(s);
+        }
+        before = size;
+    }
+    None
+}
+
+/// A complex number with twice the digits.
+#[must_use]
+pub fn wide(z: Complex<f64>) -> Complex<DoubleDouble> {
+    Complex::new(z.re.into(), z.im.into())
+}

@@ -1,0 +1,11 @@
+//! Stewart platforms: every pose of the published and the special ones, counted exactly and found in f64.
+#![allow(clippy::unwrap_used)]
+
+#[path = "platform/cases.rs"]
+mod cases;
+#[path = "platform/equations.rs"]
+mod equations;
+#[path = "platform/exact.rs"]
+mod exact;
+#[path = "platform/poses.rs"]
+mod poses;

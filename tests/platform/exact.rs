@@ -1,0 +1,132 @@
+//! Numbers of poses and closure polynomials, exactly.
+
+use super::cases::{Draw, case, cases, solved};
+use looproot::algebra::univariate::Univariate;
+use looproot::assembly::Roots;
+use looproot::elimination::platform_degree::{PlatformDegree, platform_degree};
+use looproot::elimination::platform_polynomial::platform_polynomial;
+use looproot::kinematics::platform::Platform;
+use num_complex::Complex;
+use rug::{Float, Rational};
+
+/// The number of poses, `None` where they form a curve.
+fn count(platform: &Platform<Rational>, legs: &[Rational; 6]) -> Option<usize> {
+    match platform_degree(platform, legs).unwrap() {
+        PlatformDegree::Finite { poses, null, .. } => {
+            assert_eq!(poses + null, 40);
+            Some(poses)
+        }
+        PlatformDegree::Infinite => None,
+    }
+}
+
+#[test]
+fn the_exact_count_is_that_of_other_programs() {
+    for case in cases().iter().filter(|case| case.name != "arch_singular_conic") {
+        assert_eq!(count(&case.platform, &case.legs), case.counts.map(|(complex, _)| complex), "{}", case.name);
+    }
+}
+
+/// Makes some points of base or plate coincide.
+fn merged(points: &mut [[Rational; 3]; 6], pairs: &[(usize, usize)]) {
+    for &(from, to) in pairs {
+        points[to] = points[from].clone();
+    }
+}
+
+#[test]
+fn special_geometries_have_fewer_poses_and_all_are_found() {
+    type Make = fn(&mut Platform<Rational>);
+    let classes: [(&str, usize, Make); 6] = [
+        ("5-4, curves with N = 0", 16, |p| {
+            merged(&mut p.base, &[(0, 1)]);
+            merged(&mut p.plate, &[(2, 3), (4, 5)]);
+        }),
+        ("6-3 with three legs at a point", 8, |p| merged(&mut p.plate, &[(0, 1), (0, 2), (3, 4)])),
+        ("3-6", 16, |p| merged(&mut p.base, &[(0, 1), (2, 3), (4, 5)])),
+        ("similar", 24, |p| p.plate = p.base.clone().map(|a| a.map(|x| x * Rational::from((2, 3))))),
+        ("mirrored", 24, |p| p.plate = p.base.clone().map(|[x, y, z]| [x, y, -z])),
+        ("similar and plane", 16, |p| {
+            p.base.iter_mut().for_each(|a| a[2] = Rational::new());
+            p.plate = p.base.clone().map(|a| a.map(|x| x * Rational::from((2, 3))));
+        }),
+    ];
+    for (seed, (name, poses, make)) in (20..).zip(classes) {
+        let mut draw = Draw::new(seed);
+        let mut platform = draw.platform();
+        make(&mut platform);
+        let legs = platform.legs_squared(&draw.pose().1);
+        assert_eq!(count(&platform, &legs), Some(poses), "{name}");
+        let assembly = solved(&platform, &legs, Roots::All);
+        assert_eq!(assembly.total(), poses, "{name}");
+        assert!(assembly.modes.iter().all(|m| m.certificate.is_some()), "{name}");
+    }
+}
+
+/// Points of a circle, and a smaller similar plate.
+fn on_a_circle() -> Platform<Rational> {
+    let base = std::array::from_fn(|i| {
+        let t = Rational::from((3 * i as i32 - 7, 5));
+        let square = Rational::from(&t * &t);
+        let whole = Rational::from(&square + 1);
+        [(1 - square) * 10 / &whole, t * 20 / whole, Rational::new()]
+    });
+    let plate = base.clone().map(|a: [Rational; 3]| a.map(|x| x * Rational::from((3, 5))));
+    Platform { base, plate }
+}
+
+#[test]
+fn architecture_singular_platforms_have_no_pose_or_a_curve_of_them() {
+    let platform = on_a_circle();
+    let mut legs = platform.legs_squared(&Draw::new(5).pose().1);
+    assert_eq!(solved(&platform, &legs, Roots::Real).self_motion, 1);
+    legs[0] += 1;
+    assert_eq!(count(&platform, &legs), Some(0));
+    let assembly = solved(&platform, &legs, Roots::All);
+    assert!(assembly.modes.is_empty() && assembly.self_motion == 0);
+}
+
+/// `|p(t)|` over the size of its terms.
+fn backward_error(coefficients: &[rug::Integer], t: Complex<f64>) -> f64 {
+    const BITS: u32 = 400;
+    let float = |x: f64| Float::with_val(BITS, x);
+    let (mut re, mut im, mut size) = (float(0.0), float(0.0), float(0.0));
+    let norm = float(t.re).hypot(&float(t.im));
+    for c in coefficients.iter().rev() {
+        let real = Float::with_val(BITS, &re * t.re) - Float::with_val(BITS, &im * t.im) + c;
+        im = Float::with_val(BITS, &re * t.im) + Float::with_val(BITS, &im * t.re);
+        re = real;
+        size = size * &norm + Float::with_val(BITS, c).abs();
+    }
+    (re.hypot(&im) / size).to_f64()
+}
+
+#[test]
+fn the_poses_are_the_roots_of_the_exact_polynomial() {
+    for name in ["gen66_1", "planar_both_0", "6-4_0", "3-3_0", "chart_x0zero"] {
+        let case = case(name);
+        let (complex, real) = case.counts.unwrap();
+        let polynomial = platform_polynomial(&case.platform, &case.legs).unwrap();
+        assert_eq!(polynomial.coefficients.len(), complex + 1, "{name}");
+        for mode in &solved(&case.platform, &case.legs, Roots::All).modes {
+            let error = backward_error(&polynomial.coefficients, polynomial.coordinate.at(&mode.quaternion));
+            assert!(error < 1e-12, "{name}: {error:e}");
+        }
+        if complex < 40 {
+            let exact = polynomial.coefficients.iter().map(Rational::from).collect();
+            assert_eq!(Univariate::new(exact).distinct_real_roots(), real, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_planted_pose_is_a_rational_root() {
+    let mut draw = Draw::new(8);
+    let platform = draw.platform();
+    let (q, pose) = draw.pose();
+    let polynomial = platform_polynomial(&platform, &platform.legs_squared(&pose)).unwrap();
+    assert_eq!(polynomial.coordinate.weights, [1, 0, 0]);
+    let root = Rational::from(&q.vector[0] / &q.scalar);
+    let exact = Univariate::new(polynomial.coefficients.iter().map(Rational::from).collect());
+    assert!(exact.eval(&root).is_zero());
+}
