@@ -71,11 +71,12 @@ fn modular_loop(chain: &Chain, layout: &Layout, filling: &Motion<Mod>) -> Option
 }
 
 fn bound_from(degree: Degree, place: &str) -> Bound {
+    let all = degree.solutions + degree.left_out;
     let because = if degree.left_out == 0 {
-        format!("a closure polynomial of degree 16 {place}")
+        format!("a closure polynomial of degree {all} {place}")
     } else {
         format!(
-            "a closure polynomial of degree 16, of whose roots {} belong to no solution {place} (modulo 2^61 - 1)",
+            "a closure polynomial of degree {all}, of whose roots {} belong to no solution {place} (modulo 2^61 - 1)",
             degree.left_out
         )
     };
@@ -90,8 +91,13 @@ impl Prepared {
             let general = |choice| modular_loop(chain, &self.layout, &general_filling(locked, choice)?);
             let other = if locked.is_none() { general(1) } else { None };
             let counted = general(0).and_then(|closed| degree(&closed, other.as_ref()));
-            counted.map_or_else(Bound::general, |d| bound_from(d, "at general poses"))
+            counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"))
         })
+    }
+
+    /// The degree of the closure polynomial of general loops with these unknowns.
+    fn general(&self) -> usize {
+        self.solver.general_degree()
     }
 }
 
@@ -165,10 +171,11 @@ impl Mechanism {
             assembly,
             roots,
             prepared.solver.structural_rank(),
+            prepared.general(),
             || {
                 // The exact count costs more than a search for real roots, and rarely helps one.
                 let skip = roots == Roots::Real && !prepared.solver.is_special();
-                if skip { Bound::general() } else { prepared.bound(&self.chain).clone() }
+                if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
             },
             || {
                 let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;

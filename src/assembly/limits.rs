@@ -35,3 +35,9 @@ pub const SINGULAR: f64 = 1e5;
 pub const NEAR_DOUBLE: f64 = 1e-6;
 /// Separation of the kernel below which a root that does not close may belong to a family.
 pub const SHARED: f64 = 1e-7;
+/// Squared sines of twists, and amplitudes of one angle's equation, below which axes are parallel.
+pub const PARALLEL: f64 = 1e-12;
+/// Translations nearer than this to dependent ones need not close a loop.
+pub const DEPENDENT: f64 = 1e-6;
+/// The two equations of a spherical four-bar nearer than this to dependent ones may have two solutions at one angle.
+pub const SHARED_ANGLE: f64 = 1e-6;

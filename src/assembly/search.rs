@@ -8,6 +8,7 @@ use crate::certify::{Certificate, Refined, certificate, certificate_in_any_frame
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
+use crate::elimination::degree::general_degree;
 use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::back_substitution::CutView;
@@ -38,7 +39,11 @@ pub(super) struct Search<'a> {
 impl Search<'_> {
     /// Finds all there is to find.
     pub fn run(&mut self, most: &dyn Fn() -> usize) {
-        self.all_cuts(most);
+        match general_degree(self.closed.variables) {
+            Some(2) => self.triangle(),
+            Some(8) => self.four_bars(most),
+            _ => self.all_cuts(most),
+        }
         if !self.assembly.clean {
             self.cast_about();
         }
@@ -113,14 +118,15 @@ impl Search<'_> {
     }
 
     /// Whether more pencils are of no use.
-    fn done(&self, most: &dyn Fn() -> usize, clean: bool) -> bool {
+    pub fn done(&self, most: &dyn Fn() -> usize, clean: bool) -> bool {
         match self.roots {
             Roots::Real => clean,
             Roots::All => {
                 let proved = self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
                 // What has no proof yet is double, as a rule: the verdict will see.
                 let likely = 2 * self.assembly.modes.len() - proved;
-                proved >= 16 || (clean && (likely >= 16 || likely >= most()))
+                let general = general_degree(self.closed.variables).unwrap_or(0);
+                proved >= general || (clean && (likely >= general || likely >= most()))
             }
         }
     }
@@ -133,34 +139,26 @@ impl Search<'_> {
         [Method::Francis, Method::Faer].into_iter().any(|method| {
             self.assembly.tries += 1;
             let roots = self.eigen.companion(method, &constant, &linear);
-            roots.is_some_and(|roots| self.all_roots(cut, view, form, shifted, roots))
+            let mut family =
+                OfPencil { cut, view, form, shifted, real: CutView::new(view, form, shifted.hidden), complex: None };
+            roots.is_some_and(|roots| self.all_roots(&mut family, &roots))
         })
     }
 
-    /// Admits what the roots of a pencil lead to. Whether all of them are accounted for.
-    fn all_roots(
-        &mut self,
-        cut: Cut,
-        view: &ClosedLoop<f64>,
-        form: &HalfAngleForm<f64>,
-        shifted: &Shifted,
-        roots: [Complex<f64>; 16],
-    ) -> bool {
-        let real_view = CutView::<f64>::new(view, form, shifted.hidden);
-        let mut complex_view: Option<CutView<Complex<f64>>> = None;
+    /// Admits what the roots of a polynomial lead to. Whether all of them are accounted for.
+    pub fn all_roots(&mut self, family: &mut impl Family, roots: &[Complex<f64>]) -> bool {
         let mut clean = true;
-        for x in roots {
+        for &x in roots {
             let size = 1.0 + x.norm_sqr();
             if (1.0 + x * x).norm() < limits::INFINITE * size && x.im.abs() > limits::NEAR_REAL * size {
                 // tan(q/2) near +-i: in special geometry where no solution is, but look in case one is.
                 if self.roots == Roots::All && x.im > 0.0 {
-                    let complex_view = complex_view.get_or_insert_with(|| CutView::new(view, form, shifted.hidden));
-                    self.one_root(cut, complex_view, shifted, x);
+                    family.complex(self, x);
                 }
                 continue;
             }
             if x.im.abs() < limits::NEAR_REAL * size {
-                let outcome = self.one_root(cut, &real_view, shifted, x.re);
+                let outcome = family.real(self, x.re);
                 let settled = outcome.settled && !(self.roots == Roots::All && outcome.shared);
                 clean &= !outcome.unresolved;
                 if settled {
@@ -177,8 +175,7 @@ impl Search<'_> {
             if x.im < 0.0 {
                 continue;
             }
-            let complex_view = complex_view.get_or_insert_with(|| CutView::new(view, form, shifted.hidden));
-            let outcome = self.one_root(cut, complex_view, shifted, x);
+            let outcome = family.complex(self, x);
             clean &= outcome.settled && !outcome.unresolved;
         }
         clean
@@ -212,7 +209,7 @@ impl Search<'_> {
     }
 
     /// Polishes a candidate and takes it into the list if it closes. Whether it was a solution from the start.
-    fn admit<S: Scalar>(&mut self, start: &Six<S>) -> bool {
+    pub fn admit<S: Scalar>(&mut self, start: &Six<S>) -> bool {
         let polished = polish(self.closed, start);
         let growth = 6.0 * polished.closure.growth(false);
         if !S::REAL && !(growth < limits::FAR) {
@@ -439,14 +436,43 @@ impl Search<'_> {
     }
 }
 
+/// What the roots of one closure polynomial lead to.
+pub(super) trait Family {
+    /// Admits what a real root leads to.
+    fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome;
+    /// Admits what a complex root leads to.
+    fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome;
+}
+
+/// The roots of the pencil of a cut.
+struct OfPencil<'a> {
+    cut: Cut,
+    view: &'a ClosedLoop<f64>,
+    form: &'a HalfAngleForm<f64>,
+    shifted: &'a Shifted,
+    real: CutView<'a, f64>,
+    complex: Option<CutView<'a, Complex<f64>>>,
+}
+
+impl Family for OfPencil<'_> {
+    fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome {
+        search.one_root(self.cut, &self.real, self.shifted, x)
+    }
+
+    fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
+        let view = self.complex.get_or_insert_with(|| CutView::new(self.view, self.form, self.shifted.hidden));
+        search.one_root(self.cut, view, self.shifted, x)
+    }
+}
+
 /// What became of one root.
-struct RootOutcome {
+pub(super) struct RootOutcome {
     /// Every candidate of the root closed.
-    settled: bool,
+    pub settled: bool,
     /// A family of solutions belongs to the root.
-    unresolved: bool,
-    /// The kernel has more than one dimension.
-    shared: bool,
+    pub unresolved: bool,
+    /// Several solutions may belong to the root.
+    pub shared: bool,
     /// How far from that it is.
-    separation: f64,
+    pub separation: f64,
 }

@@ -7,6 +7,7 @@ use super::search::Search;
 use super::shifted::Shifted;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::cut::{Cut, Hidden};
+use crate::elimination::degree::general_degree;
 use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
@@ -122,13 +123,19 @@ impl Solver {
     #[must_use]
     pub fn is_special(&self) -> bool {
         let fitting = Cut::ALL[..Cut::PREPARED].iter().filter(|cut| cut.fits(self.open.variables)).count();
-        self.prepared.len() < fitting
+        self.prepared.len() < fitting || fitting == 0
     }
 
-    /// Whether no cut fits: translations stand where the elimination cannot take them.
+    /// Whether the loop has fewer than three rotations: its links move in parallel planes or without turning.
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
-        !Cut::ALL.iter().any(|cut| cut.fits(self.open.variables))
+        general_degree(self.open.variables).is_none()
+    }
+
+    /// The degree of the closure polynomial of general loops with these unknowns, 0 where [`Self::is_out_of_reach`].
+    #[must_use]
+    pub fn general_degree(&self) -> usize {
+        general_degree(self.open.variables).unwrap_or(0)
     }
 
     /// Whether the gap is wider than the links are long together, so that no real solution can close it; then both
@@ -181,7 +188,7 @@ impl Solver {
     /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing
     /// once `assembly` has grown to its size, but for degenerate poses.
     pub fn solve(&self, filling: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
-        self.solve_up_to(&self.gap(filling), roots, &|| 16, workspace, assembly);
+        self.solve_up_to(&self.gap(filling), roots, &|| usize::MAX, workspace, assembly);
     }
 
     /// As [`Solver::solve`], for a geometry known to have no more than `most()` solutions: stops looking for more.

@@ -2,4 +2,7 @@
 
 pub mod cut;
 pub mod degree;
+pub mod octic;
 pub mod pencil;
+pub mod spherical_four_bar;
+pub mod spherical_triangle;

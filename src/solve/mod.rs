@@ -1,6 +1,7 @@
 //! Pencil to roots, in f64: eigenvalues, null vectors, back-substitution, polish.
 
 pub mod back_substitution;
+pub mod biquadratic;
 pub mod dense;
 pub mod eigen;
 pub mod francis;
