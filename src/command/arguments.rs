@@ -187,10 +187,10 @@ pub enum Measure {
 /// `looproot bench accuracy`
 #[derive(Args)]
 pub struct AccuracyOptions {
-    /// general, structured, near-singular, badly-scaled or calibrated
+    /// general, structured, near-singular, badly-scaled or calibrated; loops or special-loops for all residual chains
     #[arg(long, default_value = "general")]
     pub set: String,
-    /// Number of arms
+    /// Number of arms, or of loops per chain
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub count: u64,
     /// Seed of the draw

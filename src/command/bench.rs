@@ -7,7 +7,7 @@ use super::solve::stop_on_interrupt;
 use indicatif::{ProgressBar, ProgressStyle};
 use looproot::assembly::Roots;
 use looproot::benchmark::accuracy::{self, Counts, Job, quantiles};
-use looproot::benchmark::sample::Set;
+use looproot::benchmark::sample::{CHAINS, Set};
 use looproot::benchmark::speed;
 use looproot::error::Error;
 use serde_json::json;
@@ -22,28 +22,45 @@ pub fn run(options: &BenchOptions) -> Result<Exit, Fault> {
 }
 
 fn measure_accuracy(options: &AccuracyOptions) -> Result<Exit, Fault> {
-    let names = || Set::NAMED.map(|(name, _)| name).join(", ");
-    let (name, set) = Set::NAMED
-        .into_iter()
-        .find(|(name, _)| *name == options.set)
-        .ok_or_else(|| Error::Invalid(format!("found the set `{}`, expected one of {}", options.set, names())))?;
+    let chains = |set: fn(usize) -> Set| (0..CHAINS.len()).map(|k| (CHAINS[k].0, set(k))).collect::<Vec<_>>();
+    let sets = match options.set.as_str() {
+        "loops" => chains(Set::Chain),
+        "special-loops" => chains(Set::SpecialChain),
+        name => Set::NAMED.into_iter().filter(|(known, _)| *known == name).collect(),
+    };
+    if sets.is_empty() {
+        let names = Set::NAMED.map(|(name, _)| name).join(", ");
+        let set = &options.set;
+        let message = format!("found the set `{set}`, expected one of {names}, loops, special-loops");
+        return Err(Error::Invalid(message).into());
+    }
     let roots = if options.real { Roots::Real } else { Roots::All };
-    let job = Job { set, count: options.count, seed: options.seed, roots };
     let stop = stop_on_interrupt();
-    let bar = ProgressBar::new(options.count);
+    let bar = ProgressBar::new(options.count * sets.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta}") {
         bar.set_style(style);
     }
     let running = || !stop.load(Ordering::Relaxed);
-    let counts = pool(options.threads)?.install(|| accuracy::run(job, running, || bar.inc(1)))?;
-    bar.finish_and_clear();
-    if options.json {
-        print(&format!("{}\n", document(&counts, name, options)))?;
-    } else {
-        let roots = if options.real { "real solutions only" } else { "all solutions" };
-        print(&format!("{counts}\n  set {name}, seed {}, {roots}\n", options.seed))?;
+    let pool = pool(options.threads)?;
+    let mut all = Vec::new();
+    for (name, set) in sets {
+        let job = Job { set, count: options.count, seed: options.seed, roots };
+        all.push((name, pool.install(|| accuracy::run(job, running, || bar.inc(1)))?));
     }
-    let exit = if counts.is_faultless() { Exit::Complete } else { Exit::NotProved };
+    bar.finish_and_clear();
+    let what = if options.real { "real solutions only" } else { "all solutions" };
+    let foot = format!("  set {}, seed {}, {what}\n", options.set, options.seed);
+    match all.as_slice() {
+        [(name, counts)] if options.json => print(&format!("{}\n", document(counts, name, options)))?,
+        [(_, counts)] => print(&format!("{counts}\n{foot}"))?,
+        several if options.json => {
+            let documents: Vec<_> = several.iter().map(|(name, counts)| document(counts, name, options)).collect();
+            print(&format!("{}\n", serde_json::Value::from(documents)))?;
+        }
+        several => print(&format!("{}\n{foot}", accuracy::table(several)))?,
+    }
+    let faultless = all.iter().all(|(_, counts)| counts.is_faultless());
+    let exit = if faultless { Exit::Complete } else { Exit::NotProved };
     Ok(if running() { exit } else { Exit::Interrupted })
 }
 
