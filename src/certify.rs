@@ -23,7 +23,7 @@ use crate::elimination::cut::Cut;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::{Motion, cross};
 use crate::solve::dense::{inverse, norm, times};
-use crate::solve::newton::{Closure, Six, closure, closure_at, coordinates, product};
+use crate::solve::newton::{Closure, Six, closure, closure_at, coordinates, product, reach};
 use crate::solve::scalar::{Number, Scalar};
 use num_complex::Complex;
 
@@ -41,7 +41,8 @@ pub struct Certificate {
 const ROUNDINGS: f64 = 70.0;
 /// Roundings in a stored constant.
 const CONSTANT_ROUNDINGS: f64 = 8.0;
-/// A solution that the rounding of the constants may have moved farther than this is not proved at all.
+/// A solution that the rounding of the constants may have moved farther than this, over its longest translation, is not
+/// proved at all.
 const MOST_DRIFT: f64 = 1e-6;
 /// Margin on bounds that are themselves computed in f64.
 const MARGIN: f64 = 1.01;
@@ -177,6 +178,7 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
         }
         Variable::Translation => quad(unknowns[j]),
     });
+    let reach = reach(&variables, unknowns);
     let mut before = f64::INFINITY;
     for round in 0..12 {
         let mut pairs = [(Quad::zero(), Quad::zero()); 6];
@@ -196,7 +198,7 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
         let jacobian = here.jacobian.map(|row| row.map(|x| Complex::new(x.re.to_f64(), x.im.to_f64())));
         let inverse = inverse(&jacobian)?.map(|row| row.map(quad));
         let step = times(&inverse, &here.residual);
-        let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max);
+        let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max) / reach;
         // Newton's method has to converge from where it starts, not to wander.
         let stalls = !(size < 0.5 * before);
         if !(size < 0.3) || (stalls && size > 1e-12) {
@@ -219,7 +221,7 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
             let imaginary = refined.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
             let real = imaginary <= proof.radius + rounding && 3.0 * (proof.radius + rounding) <= proof.isolation;
             let unknowns = if real { refined.map(|z| z.re.into()) } else { refined };
-            return (drift < MOST_DRIFT).then_some(Refined { unknowns, real, certificate });
+            return (drift < MOST_DRIFT * reach).then_some(Refined { unknowns, real, certificate });
         }
         before = size;
         for j in 0..6 {

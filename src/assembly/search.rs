@@ -15,7 +15,7 @@ use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{double_angle, kernel};
-use crate::solve::newton::{Closure, Polished, Six, approach, closure, polish};
+use crate::solve::newton::{Closure, Polished, Six, approach, closure, polish, reach};
 use crate::solve::scalar::Scalar;
 use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
 use num_complex::Complex;
@@ -218,17 +218,20 @@ impl Search<'_> {
             self.merge_with_conjugate(mode);
             return true;
         }
-        if !(polished.closure.defect <= (limits::CLOSED + self.gap_rounding).max((1e-14 * growth).min(1e-4))) {
+        // Rounding errors of a closure grow with its longest translation, too.
+        let reach = reach(&self.closed.variables, &polished.unknowns.map(Scalar::to_complex));
+        let closed = limits::CLOSED * reach + self.gap_rounding;
+        if !(polished.closure.defect <= closed.max((1e-14 * growth).min(1e-4))) {
             return false;
         }
-        let near = polished.raw < limits::RAW.max((1e-10 * growth).min(0.1)) && polished.moved < 0.1;
+        let near = polished.raw < limits::RAW.max((1e-10 * growth).min(0.1)) * reach && polished.moved < 0.1 * reach;
         let imaginary = polished.unknowns.iter().map(|x| x.to_complex().im.abs()).fold(0.0, f64::max);
         // Beside a real double root, a complex point within rounding of closing is no solution of its own.
         let singular = polished.inverse.as_ref().is_none_or(|a| dense::norm(a) > 1e6);
         let nearly_real = if singular { limits::NEAR_DOUBLE } else { limits::REAL_PART };
         if !S::REAL && imaginary < nearly_real {
             let real = polish::<f64>(self.closed, &polished.unknowns.map(|x| x.to_complex().re));
-            if real.closure.defect <= limits::CLOSED + self.gap_rounding {
+            if real.closure.defect <= closed {
                 self.record(&real);
                 return near;
             }
