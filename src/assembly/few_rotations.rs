@@ -2,14 +2,18 @@
 
 use super::limits;
 use super::search::{Family, RootOutcome, Search};
+use crate::algebra::double_double::DoubleDouble;
+use crate::algebra::ring::Ring;
+use crate::certify::{exponential, exponential_pair, small_turn};
 use crate::elimination::cut::Hidden;
-use crate::elimination::spherical_four_bar::{Equations, FourBar};
+use crate::elimination::spherical_four_bar::{Equations, Form, FourBar};
 use crate::elimination::spherical_triangle::{Triangle, triangle};
 use crate::kinematics::link_form::LinkForm;
 use crate::solve::biquadratic;
+use crate::solve::dense;
 use crate::solve::kernel::double_angle;
 use crate::solve::newton::Six;
-use crate::solve::scalar::Scalar;
+use crate::solve::scalar::{Number, Scalar};
 use num_complex::Complex;
 
 impl Search<'_> {
@@ -210,12 +214,68 @@ impl OfFourBar<'_> {
         let mut outcome = RootOutcome { shared, ..nothing() };
         for other in others.into_iter().flatten() {
             let (a, b) = if self.hidden == Hidden::First { (known, other) } else { (other, known) };
-            let bridged = search.admit_rotations(form, &bar.rotations(&a, &b));
+            let mut bridged = search.admit_rotations(form, &bar.rotations(&a, &b));
+            if bridged != Bridged::Closed && !S::REAL {
+                // Far from the real numbers little is left of the translations: from better angles, if there are any.
+                let angles = [a, b].map(|(cos, sin)| S::angle_of(cos, sin).to_complex());
+                let start = refined(self.form, self.base, angles);
+                if start.is_some_and(|start| search.admit(&start)) {
+                    bridged = Bridged::Closed;
+                }
+            }
             outcome.settled |= matches!(bridged, Bridged::Closed | Bridged::Never);
             outcome.unresolved |= bridged == Bridged::Family;
         }
         outcome
     }
+}
+
+type Quad = Complex<DoubleDouble>;
+
+/// All unknowns from two angles of a spherical four-bar, improved by Newton's method on its two equations in
+/// double-double arithmetic.
+fn refined(form: &LinkForm<f64, 4, 2>, base: usize, angles: [Complex<f64>; 2]) -> Option<Six<Complex<f64>>> {
+    let form = form.map(|x| Some(Quad { re: DoubleDouble::from(*x), im: DoubleDouble::zero() }))?;
+    let bar = FourBar::new(&form, base)?;
+    let Equations { f, g } = bar.equations();
+    let mut state = angles.map(exponential);
+    let mut before = f64::INFINITY;
+    for _ in 0..12 {
+        let (a, b) = (exponential_pair(state[0])?, exponential_pair(state[1])?);
+        let (at_a, at_b) = ([Quad::one(), a.0, a.1], [Quad::one(), b.0, b.1]);
+        let slope = |[_, cos, sin]: [Quad; 3]| [Quad::zero(), sin.neg(), cos];
+        let value = |form: &Form<Quad>, a: &[Quad; 3], b: &[Quad; 3]| {
+            (0..3).fold(Quad::zero(), |sum, k| {
+                let row = (0..3).fold(Quad::zero(), |sum, l| sum.add(&form[k][l].mul(&b[l])));
+                sum.add(&a[k].mul(&row))
+            })
+        };
+        let jacobian = [&f, &g].map(|form| [value(form, &slope(at_a), &at_b), value(form, &at_a, &slope(at_b))]);
+        let inverse = dense::inverse(&jacobian)?;
+        let step = dense::times(&inverse, &[&f, &g].map(|form| value(form, &at_a, &at_b)));
+        let size = step[0].bound().max(step[1].bound());
+        if !(size < 0.3) || !(size < before || size < 1e-20) {
+            return None;
+        }
+        if size < 1e-24 {
+            let rotations = bar.rotations(&a, &b);
+            let values = form.slides_at(&rotations).values?;
+            let plain = |z: Quad| Complex::new(z.re.to_f64(), z.im.to_f64());
+            let mut start: Six<Complex<f64>> = [Complex::new(0.0, 0.0); 6];
+            for (&unknown, &(cos, sin)) in form.rotations.iter().zip(&rotations) {
+                start[unknown] = Scalar::angle_of(plain(cos), plain(sin));
+            }
+            for (slide, value) in form.slides.iter().zip(values) {
+                start[slide.unknown] = plain(value);
+            }
+            return Some(start);
+        }
+        before = size;
+        for (w, d) in state.iter_mut().zip(step) {
+            *w = w.mul(&small_turn(d.neg()));
+        }
+    }
+    None
 }
 
 impl Family for OfFourBar<'_> {

@@ -12,6 +12,8 @@ pub const NEAR_REAL: f64 = 1e-4;
 pub const RAW: f64 = 1e-3;
 /// Growth of rounding errors round the loop above which complex candidates are polished in double-double arithmetic.
 pub const FAR: f64 = 1e9;
+/// Translations up to this length may close with an error in proportion, not those beyond.
+pub const LONGEST: f64 = 1e3;
 /// Closure after polishing above which a candidate is no solution.
 pub const CLOSED: f64 = 1e-12;
 /// |1 + x^2| / (1 + |x|^2) below which a root belongs to no finite angle.

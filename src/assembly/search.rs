@@ -219,7 +219,7 @@ impl Search<'_> {
             return true;
         }
         // Rounding errors of a closure grow with its longest translation, too.
-        let reach = reach(&self.closed.variables, &polished.unknowns.map(Scalar::to_complex));
+        let reach = reach(&self.closed.variables, &polished.unknowns.map(Scalar::to_complex)).min(limits::LONGEST);
         let closed = limits::CLOSED * reach + self.gap_rounding;
         if !(polished.closure.defect <= closed.max((1e-14 * growth).min(1e-4))) {
             return false;
@@ -352,8 +352,10 @@ impl Search<'_> {
             }
             let both = starts.map(|(starts, _)| (apart(&starts), starts.map(|start| self.proved_mode(&start))));
             let radius = |mode: &Mode| mode.certificate.map_or(f64::INFINITY, |proof| proof.radius);
+            let reach = reach(&variables, &own);
             let alone = |mode: &Mode| {
-                distance(&variables, &mode.unknowns, &own) < limits::SAME && radius(mode) < limits::LONE_RADIUS
+                let near = distance(&variables, &mode.unknowns, &own) < limits::SAME * reach;
+                near && radius(mode) < limits::LONE_RADIUS * reach
             };
             let proved = match both {
                 Some((_, [Some(one), Some(two)]))
