@@ -6,6 +6,7 @@ use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
 use crate::elimination::degree::{Degree, degree, general_filling};
+use crate::elimination::point_reach;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
@@ -90,9 +91,16 @@ impl Prepared {
             let locked = self.layout.locked.map(|k| self.layout.variables[k]);
             let general = |choice| modular_loop(chain, &self.layout, &general_filling(locked, choice)?);
             let other = if locked.is_none() { general(1) } else { None };
-            let counted = general(0).and_then(|closed| degree(&closed, other.as_ref()));
+            let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref()));
             counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"))
         })
+    }
+
+    /// The number of solutions, exactly.
+    fn degree(&self, closed: &ClosedLoop<Mod>, other: Option<&ClosedLoop<Mod>>) -> Option<Degree> {
+        let Some(ball) = self.layout.ball_unknown() else { return degree(closed, other) };
+        let solutions = point_reach::count(closed, ball)?;
+        Some(Degree { solutions, left_out: self.general().saturating_sub(solutions) })
     }
 
     /// The degree of the closure polynomial of general loops with these unknowns.
@@ -127,7 +135,10 @@ impl Mechanism {
             let layout = Layout::of(&entry.chain, locked)?;
             let open: OpenLoop<f64> = entry.chain.open_loop(&layout)?;
             let start = Instant::now();
-            let solver = Solver::prepare(&open);
+            let solver = match layout.ball_unknown() {
+                Some(ball) => Solver::with_ball(&open, ball),
+                None => Solver::prepare(&open),
+            };
             let prepare_us = start.elapsed().as_secs_f64() * 1e6;
             if solver.is_out_of_reach() {
                 return Err(Error::Unsupported(
@@ -179,7 +190,7 @@ impl Mechanism {
             },
             || {
                 let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
-                Some(bound_from(degree(&closed, None)?, "at this pose"))
+                Some(bound_from(prepared.degree(&closed, None)?, "at this pose"))
             },
             prepared.solver.too_far(&gap),
         );

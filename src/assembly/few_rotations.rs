@@ -107,7 +107,7 @@ enum Bridged {
 }
 
 /// Cosine and sine of an angle from its half tangent less an offset.
-fn unshifted<S: Scalar>(x: S, (cos, sin): (f64, f64)) -> Option<(S, S)> {
+pub(super) fn unshifted<S: Scalar>(x: S, (cos, sin): (f64, f64)) -> Option<(S, S)> {
     let (c, s) = double_angle(S::one(), x)?;
     Some((c.times(cos).sub(&s.times(sin)), s.times(cos).add(&c.times(sin))))
 }
@@ -165,7 +165,7 @@ struct OfFourBar<'a> {
 }
 
 /// Both roots of `row . (1, cos, sin) = 0`.
-fn both_roots<S: Scalar>([constant, cos, sin]: &[S; 3]) -> Option<[(S, S); 2]> {
+pub(super) fn both_roots<S: Scalar>([constant, cos, sin]: &[S; 3]) -> Option<[(S, S); 2]> {
     let square = cos.mul(cos).add(&sin.mul(sin));
     let inverse = square.inverse()?;
     let root = square.sub(&constant.mul(constant)).root();

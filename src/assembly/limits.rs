@@ -39,6 +39,10 @@ pub const NEAR_DOUBLE: f64 = 1e-6;
 pub const SHARED: f64 = 1e-7;
 /// Squared sines of twists, and amplitudes of one angle's equation, below which axes are parallel.
 pub const PARALLEL: f64 = 1e-12;
+/// Determinants of the equations of a ball's centre below this, in scaled lengths, are zero.
+pub const REACH_DEPENDENT: f64 = 1e-9;
+/// Sines of the second angle of a ball below this are too near 0 for the other two to be told apart.
+pub const LOCKED: f64 = 0.05;
 /// Translations nearer than this to dependent ones need not close a loop.
 pub const DEPENDENT: f64 = 1e-6;
 /// The two equations of a spherical four-bar nearer than this to dependent ones may have two solutions at one angle.

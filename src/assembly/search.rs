@@ -1,5 +1,6 @@
 //! One pose being solved: cut after cut, root after root, until nothing is missing.
 
+use super::ball::canonical;
 use super::limits;
 use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
@@ -26,6 +27,8 @@ pub(super) struct Search<'a> {
     pub prepared: &'a [PreparedCut],
     /// The loop, scaled.
     pub closed: &'a ClosedLoop<f64>,
+    /// Where the three rotations of a ball begin, if there is one.
+    pub ball: Option<usize>,
     /// How far rounding may have moved the gap.
     pub gap_rounding: f64,
     /// What is looked for.
@@ -40,6 +43,7 @@ impl Search<'_> {
     /// Finds all there is to find.
     pub fn run(&mut self, most: &dyn Fn() -> usize) {
         match general_degree(self.closed.variables) {
+            _ if self.ball.is_some() => self.ball.into_iter().for_each(|ball| self.centre(ball)),
             Some(2) => self.triangle(),
             Some(8) => self.four_bars(most),
             _ => self.all_cuts(most),
@@ -298,7 +302,10 @@ impl Search<'_> {
         (drift < limits::LONE_RADIUS).then_some(Certificate { radius: proof.radius + drift, ..proof })
     }
 
-    fn merge(&mut self, mode: Mode) {
+    pub fn merge(&mut self, mut mode: Mode) {
+        if let Some(ball) = self.ball {
+            canonical(&mut mode.unknowns, ball);
+        }
         let variables = self.closed.variables;
         for other in &mut self.assembly.modes {
             let distance = distance(&variables, &other.unknowns, &mode.unknowns);

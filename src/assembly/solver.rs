@@ -9,6 +9,7 @@ use crate::closure::half_angle::half_angle_form;
 use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::degree::general_degree;
 use crate::elimination::pencil::{before_second_link, bilinear};
+use crate::elimination::point_reach::general_count;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
 use crate::solve::eigen::{EigenWorkspace, companion};
@@ -45,6 +46,8 @@ pub struct Solver {
     /// Cuts that need no pose, best first.
     prepared: Vec<PreparedCut>,
     structural_rank: usize,
+    /// Where the three rotations of a ball begin, if there is one.
+    ball: Option<usize>,
 }
 
 /// What a pose or input leaves open: the constant behind the last unknown, in the scale of its solver.
@@ -109,7 +112,13 @@ impl Solver {
             .collect();
         prepared.sort_by(|a, b| b.form.score.total_cmp(&a.form.score));
         let structural_rank = structural_rank(&closed);
-        Self { open, scale, prepared, structural_rank }
+        Self { open, scale, prepared, structural_rank, ball: None }
+    }
+
+    /// As [`Solver::prepare`] for a loop with a ball, whose three rotations begin at this unknown.
+    #[must_use]
+    pub fn with_ball(open: &OpenLoop<f64>, ball: usize) -> Self {
+        Self { ball: Some(ball), prepared: Vec::new(), ..Self::prepare(open) }
     }
 
     /// The largest rank the six joints reach in general position: below 6 the arm is structurally deficient, and every
@@ -135,7 +144,10 @@ impl Solver {
     /// The degree of the closure polynomial of general loops with these unknowns, 0 where [`Self::is_out_of_reach`].
     #[must_use]
     pub fn general_degree(&self) -> usize {
-        general_degree(self.open.variables).unwrap_or(0)
+        match self.ball {
+            Some(ball) => general_count([3, 4, 5].map(|k| self.open.variables[(ball + k) % 6])),
+            None => general_degree(self.open.variables).unwrap_or(0),
+        }
     }
 
     /// Whether the gap is wider than the links are long together, so that no real solution can close it; then both
@@ -205,8 +217,16 @@ impl Solver {
         (assembly.self_motion, assembly.clean, assembly.tries) = (0, false, 0);
         let closed = self.close(gap);
         let eigen = &mut workspace.eigen;
-        Search { prepared: &self.prepared, closed: &closed, gap_rounding: gap.rounding, roots, eigen, assembly }
-            .run(most);
+        Search {
+            prepared: &self.prepared,
+            closed: &closed,
+            ball: self.ball,
+            gap_rounding: gap.rounding,
+            roots,
+            eigen,
+            assembly,
+        }
+        .run(most);
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
                 let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));

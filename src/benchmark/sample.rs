@@ -222,14 +222,7 @@ fn joint(set: Set, kind: JointKind, random: &mut ChaCha8Rng) -> Joint {
         _ => Angle::zero(),
     };
     let d = if kind == JointKind::Revolute { Number::from_f64(d) } else { Number::zero() };
-    Joint {
-        kind,
-        a: Number::from_f64(a),
-        alpha,
-        d,
-        theta0,
-        pitch: None,
-    }
+    Joint { kind, a: Number::from_f64(a), alpha, d, theta0, pitch: None }
 }
 
 /// The Jacobian at a configuration, as the twists of the axes in the base frame.

@@ -150,7 +150,7 @@ fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
         JointKind::Cylindrical => (&["d0", "theta0", "tan_half_theta0"], "a C joint"),
         JointKind::Helical => (&["d", "theta0", "tan_half_theta0", "pitch"], "an H joint"),
         JointKind::Universal => (&["d"], "a U joint"),
-        JointKind::Spherical => (&[], "an S joint"),
+        JointKind::Spherical => (&["d"], "an S joint"),
     };
     let table = scope.table(node, what, &[&link, own].concat())?;
     let a = scope.length(scope.need(&table, "a")?, "a")?;
@@ -159,8 +159,7 @@ fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
     let d = match kind {
         JointKind::Revolute | JointKind::Helical => scope.length(scope.need(&table, "d")?, "d")?,
         JointKind::Prismatic | JointKind::Cylindrical => optional("d0")?,
-        JointKind::Universal => optional("d")?,
-        JointKind::Spherical => Number::zero(),
+        JointKind::Universal | JointKind::Spherical => optional("d")?,
     };
     let theta0 = match kind {
         JointKind::Prismatic => angle(scope, &table, "theta", "tan_half_theta", true)?,

@@ -4,5 +4,6 @@ pub mod cut;
 pub mod degree;
 pub mod octic;
 pub mod pencil;
+pub mod point_reach;
 pub mod spherical_four_bar;
 pub mod spherical_triangle;
