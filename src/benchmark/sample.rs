@@ -35,8 +35,9 @@ pub enum Set {
 }
 
 /// What is left of the single-loop mechanisms with one input when that is given: six joint variables of revolute,
-/// prismatic and cylindrical joints, up to rotation and reversal, and the degree of the closure polynomial in general.
-pub const CHAINS: [(&str, usize); 20] = [
+/// prismatic and cylindrical joints, up to rotation and reversal, or a ball and three; and the number of solutions in
+/// general.
+pub const CHAINS: [(&str, usize); 32] = [
     ("CCC", 2),
     ("CCPR", 2),
     ("CPCR", 2),
@@ -57,6 +58,18 @@ pub const CHAINS: [(&str, usize); 20] = [
     ("CRRRR", 16),
     ("PRRRRR", 16),
     ("RRRRRR", 16),
+    ("SRRR", 4),
+    ("SRRP", 4),
+    ("SPRR", 4),
+    ("SRPR", 4),
+    ("SCR", 4),
+    ("SRC", 4),
+    ("SPPR", 2),
+    ("SPRP", 2),
+    ("SRPP", 2),
+    ("SCP", 2),
+    ("SPC", 2),
+    ("SPPP", 1),
 ];
 
 impl Set {
@@ -81,6 +94,7 @@ impl Set {
         let kind = |letter| match letter {
             'P' => JointKind::Prismatic,
             'C' => JointKind::Cylindrical,
+            'S' => JointKind::Spherical,
             _ => JointKind::Revolute,
         };
         CHAINS[index].0.chars().map(kind).collect()
@@ -126,9 +140,16 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
     loop {
         let joints: Vec<Joint> = set.joints().into_iter().map(|kind| joint(set, kind, &mut random)).collect();
         let chain = Chain { geometry: Geometry::Dh(joints), base: Placement::identity(), tool: Placement::identity() };
-        let open: OpenLoop<f64> = chain.open_loop(&Layout::of(&chain, None)?)?;
+        let layout = Layout::of(&chain, None)?;
+        let open: OpenLoop<f64> = chain.open_loop(&layout)?;
         let variables = open.variables;
         let mut planted: [f64; 6] = std::array::from_fn(|k| value(set, variables[k], &mut random));
+        if let Some(ball) = layout.ball {
+            // Not near the ends of the second angle's range, where the other two are not unique.
+            for k in 0..3 {
+                planted[ball + k] = if k == 1 { random.random_range(0.1..3.0) } else { random.random_range(-PI..PI) };
+            }
+        }
         if set == Set::NearSingular {
             let away = 10.0_f64.powi(-2 - i32::try_from(index % 5).unwrap_or(0));
             let Some((singular, joint)) = singular_near(&open, planted) else { continue };
