@@ -121,7 +121,8 @@ impl Mechanism {
     /// Prepares an entry for all its cases.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for platforms and for joints other than R, P and C.
+    /// [`Error::Unsupported`] for platforms, for joints other than R, P, C and S, and for loops with fewer than three
+    /// rotations.
     pub fn prepare(entry: &Entry) -> Result<Self> {
         if entry.kind == Kind::Platform {
             return Err(Error::Unsupported("platforms are read but not solved yet".to_owned()));
@@ -141,9 +142,14 @@ impl Mechanism {
             };
             let prepare_us = start.elapsed().as_secs_f64() * 1e6;
             if solver.is_out_of_reach() {
-                return Err(Error::Unsupported(
-                    "too many translations for the elimination of five and six rotations".to_owned(),
-                ));
+                let rotations = layout_rotations(&open);
+                let rank = solver.structural_rank();
+                return Err(Error::Unsupported(format!(
+                    "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without \
+                     turning; the screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does \
+                     not close; planar and translational loops are not solved",
+                    6 - rank
+                )));
             }
             prepared.push(Prepared { layout, solver, bound: OnceLock::new(), prepare_us });
         }
@@ -217,6 +223,10 @@ impl Mechanism {
             solve_us,
         })
     }
+}
+
+fn layout_rotations(open: &OpenLoop<f64>) -> usize {
+    open.variables.iter().filter(|v| **v == Variable::Rotation).count()
 }
 
 /// The variable that the input of a loop locks; `None` for arms.

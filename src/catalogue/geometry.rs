@@ -102,9 +102,29 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
         return Ok(());
     }
     let joints = kinds.len();
+    let off = count.abs_diff(expected.0);
+    let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
+    let what = match (expected.0, count > expected.0) {
+        (7, true) => {
+            let mobility = count - 6;
+            let balls = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
+            let spin =
+                if balls > 1 { "; the spin of a link between two S joints about their centres counts" } else { "" };
+            format!("mobility {mobility} by Gruebler's count ({count} - 6){spin}: {freedoms} too many for one input")
+        }
+        (7, false) => format!(
+            "mobility {} by Gruebler's count ({count} - 6): {freedoms} missing for one input, if it is not overconstrained",
+            count.cast_signed() - 6
+        ),
+        (_, true) => format!("a pose leaves {freedoms} undetermined"),
+        (_, false) => format!("{freedoms} missing for a pose"),
+    };
     Err(scope.fail(
         line,
-        format!("found {joints} joints with {count} variables (R, P and H count 1, C and U 2, S 3), {}", expected.1),
+        format!(
+            "found {joints} joints with {count} variables (R, P and H count 1, C and U 2, S 3), {}; {what}",
+            expected.1
+        ),
     ))
 }
 

@@ -235,17 +235,28 @@ pub fn quartic<R: Ring>(conic: &[[R; 3]; 3], powers: &[[R; 3]; 3]) -> [R; 5] {
     coefficients
 }
 
+/// The offset of angles in exact work, 2 atan(3/7) as (1, cos, sin) times 58: no root is likely at infinity.
+fn offset<R: Ring>() -> [R; 3] {
+    [58, 40, 42].map(R::from_integer)
+}
+
+/// The closure polynomial in the half tangent of the hidden angle, less 2 atan(3/7), or in the hidden distance, where
+/// the monomials of the other variable are `other` times those of the hidden one.
+#[must_use]
+pub fn closure_polynomial<F: Field>(reach: &Reach<F>, hidden: usize, other: &[[F; 3]; 3]) -> Univariate<F> {
+    let powers = powers(reach.kind(hidden), &offset());
+    Univariate::new(quartic(&reach.conic(hidden, other), &powers).to_vec())
+}
+
 /// How many positions of its centre a ball allows, exactly; `None` where some are not isolated.
 #[must_use]
 pub fn count<F: Field + Domain>(closed: &ClosedLoop<F>, ball: usize) -> Option<usize> {
     let reach = Reach::of(closed, ball);
-    // Angles are counted from 2 atan(3/7), so that no root is likely at infinity.
-    let offset = [58, 40, 42].map(F::from_integer);
     let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
     match reach.plan(0.0) {
         Plan::Together { hidden, other } => {
-            let powers = powers(reach.kind(hidden), &offset);
-            let polynomial = Univariate::new(quartic(&reach.conic(hidden, &other), &powers).to_vec());
+            let powers = powers(reach.kind(hidden), &offset());
+            let polynomial = closure_polynomial(&reach, hidden, &other);
             polynomial.degree()?;
             let rest = match reach.kind(hidden) {
                 Variable::Rotation => polynomial.remove_factor(&circle).1,

@@ -189,8 +189,8 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
         paragraph(&mut text, &format!("warning: {warning}"));
     }
     let proved = matches!(solution.verdict.status, Status::Complete | Status::Unreachable);
-    if entry.rounded && proved && solution.verdict.complex < 16 {
-        // Fewer than 16 roots are complete by exact work on the geometry only.
+    if entry.rounded && proved && solution.verdict.reason.contains("a closure polynomial of degree") {
+        // Fewer roots than there are in general are complete by exact work on the geometry only.
         text.push_str("note: irrational numbers of the file were rounded for exact work (--digits)\n");
     }
     text
@@ -218,7 +218,10 @@ pub fn variables(entry: &Entry) -> Vec<(String, Variable)> {
             JointKind::Prismatic => names.push((format!("q{joint}"), Variable::Translation)),
             JointKind::Cylindrical => names.extend([angle, (format!("d{joint}"), Variable::Translation)]),
             JointKind::Universal => names.extend([angle.clone(), angle]),
-            JointKind::Spherical => names.extend([angle.clone(), angle.clone(), angle]),
+            // About z, x and z again.
+            JointKind::Spherical => {
+                names.extend(["z", "x", "z'"].map(|axis| (format!("q{joint}{axis}"), Variable::Rotation)));
+            }
             JointKind::Revolute | JointKind::Helical => names.push(angle),
         }
     }
