@@ -173,7 +173,7 @@ pub fn table(rows: &[(&str, Counts)]) -> String {
     let columns = ["chain", "loops", "found", "lost", "spurious", "double", "proved", "residual", "complex solutions"];
     let line = |cells: [String; 9]| {
         let [chain, rest @ .., last] = cells;
-        let middle: String = rest.iter().map(|cell| format!("{cell:>9}")).collect();
+        let middle = rest.iter().fold(String::new(), |text, cell| text + &format!("{cell:>9}"));
         format!("{chain:<8}{middle}  {last}\n")
     };
     let mut text = line(columns.map(str::to_owned));

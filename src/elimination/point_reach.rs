@@ -265,7 +265,7 @@ pub fn count<F: Field + Domain>(closed: &ClosedLoop<F>, ball: usize) -> Option<u
             if reach.variables[1] == Variable::Rotation {
                 // Where the centre lies on the axis of V2, V2 is not determined.
                 let monomials = powers.map(|row| Univariate::new(row.to_vec()));
-                let side = &reach.sides[if hidden == 0 { 0 } else { 1 }];
+                let side = &reach.sides[hidden];
                 let at = |i: usize| {
                     (0..3).fold(Univariate::zero(), |sum: Univariate<F>, k| sum.add(&monomials[k].scale(&side[k][i])))
                 };

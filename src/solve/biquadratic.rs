@@ -27,6 +27,15 @@ pub struct Roots {
 
 type Pencil = [[[f64; 4]; 4]; 3];
 
+/// A pencil at one offset, its leading matrix factored.
+struct Turned {
+    quality: f64,
+    pencil: Pencil,
+    factors: [[f64; 4]; 4],
+    order: [usize; 4],
+    offset: (f64, f64),
+}
+
 /// The roots of both equations in the half tangent of the hidden angle; `None` where the pencil is singular.
 #[must_use]
 pub fn roots(equations: &Equations<f64>, hidden: Hidden) -> Option<Roots> {
@@ -40,20 +49,20 @@ pub fn roots(equations: &Equations<f64>, hidden: Hidden) -> Option<Roots> {
     if !(f.1 > 0.0 && g.1 > 0.0) {
         return None;
     }
-    let mut best: Option<(f64, Pencil, [[f64; 4]; 4], [usize; 4], (f64, f64))> = None;
+    let mut best: Option<Turned> = None;
     for k in 0..8 {
         let (sin, cos) = (0.1 + 0.25 * PI * f64::from(k)).sin_cos();
         let pencil = pencil(&f.0, &g.0, (cos, sin));
         let mut factors = pencil[2];
         let (quality, order) = dense::factor(&mut factors);
-        if best.as_ref().is_none_or(|b| quality > b.0) {
-            best = Some((quality, pencil, factors, order, (cos, sin)));
+        if best.as_ref().is_none_or(|b| quality > b.quality) {
+            best = Some(Turned { quality, pencil, factors, order, offset: (cos, sin) });
         }
         if quality > GOOD_LEADING {
             break;
         }
     }
-    let (quality, pencil, factors, order, offset) = best?;
+    let Turned { quality, pencil, factors, order, offset } = best?;
     if !(quality > LEADING) {
         return None;
     }
