@@ -13,7 +13,8 @@ use looproot::benchmark::sample::{CHAINS, Set};
 use looproot::elimination::cut::{Cut, Hidden};
 use looproot::elimination::degree::{degree, general_degree};
 use looproot::elimination::octic;
-use looproot::elimination::point_reach::{self, Plan, Reach};
+use looproot::elimination::point_reach::{self, Reach};
+use looproot::elimination::separated::{Plan, closure_polynomial};
 use looproot::elimination::spherical_four_bar::FourBar;
 use looproot::elimination::spherical_triangle::triangle;
 use looproot::kinematics::chain::{Chain, Geometry, JointKind};
@@ -156,11 +157,11 @@ fn every_quartic_of_a_ball_has_the_planted_root_and_the_real_roots_that_are_foun
         let solution = at_pose(&chain, pose(&chain, &values));
         assert_eq!((solution.verdict.status, solution.verdict.complex), (Status::Complete, count), "{name}");
         let reach = Reach::of(&closed, 0);
-        let Plan::Together { hidden, other } = reach.plan(0.0) else { continue };
-        let polynomial = point_reach::closure_polynomial(&reach, hidden, &other);
+        let Plan::Together { hidden, other } = reach.equations.plan(0.0) else { continue };
+        let polynomial = closure_polynomial(&reach.equations, hidden, &other);
         assert_eq!(polynomial.degree(), Some(count), "{name}");
         let value = &values[if hidden == 0 { 5 } else { 3 }];
-        let root = if reach.kind(hidden) == Variable::Rotation { turned(value) } else { value.clone() };
+        let root = if reach.equations.kinds[hidden] == Variable::Rotation { turned(value) } else { value.clone() };
         assert!(polynomial.eval(&root).is_zero(), "{name}");
         assert_eq!(polynomial.distinct_real_roots(), solution.verdict.real, "{name}");
     }

@@ -2,17 +2,16 @@
 //!
 //! A ball is three rotations about z, x and z again, the second one from 0 to pi, so that every rotation is listed once.
 
-use super::few_rotations::{both_roots, unshifted};
 use super::limits;
-use super::mode::{Assembly, Mode};
+use super::mode::{Assembly, Mode, wrapped};
 use super::search::{Family, RootOutcome, Search};
-use crate::elimination::point_reach::{Plan, Reach, powers, quartic};
+use crate::elimination::point_reach::Reach;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::link_form::product as matrix_product;
 use crate::kinematics::motion::Motion;
-use crate::solve::francis;
 use crate::solve::newton::{Six, coordinates, turn};
 use crate::solve::scalar::Scalar;
+use crate::solve::separated::{SeparatedRoots, pair};
 use num_complex::Complex;
 use std::f64::consts::PI;
 
@@ -22,17 +21,10 @@ impl Search<'_> {
     /// Every position of the centre of the ball that begins at this unknown.
     pub fn centre(&mut self, ball: usize) {
         let reach = Reach::of(self.closed, ball);
-        let plan = reach.plan(limits::REACH_DEPENDENT);
-        let (side, conic) = match &plan {
-            Plan::Together { hidden, other } => (*hidden, reach.conic(*hidden, other)),
-            Plan::Apart { first, equation, .. } => (*first, [*equation, [0.0; 3], [0.0; 3]]),
-        };
-        // The constant monomial is 1: a linear equation is a form with a factor 1.
-        let kind = reach.kind(side);
-        let Some((roots, offset)) = roots_of(kind, &conic) else { return };
+        let Some(found) = SeparatedRoots::of(&reach.equations, limits::REACH_DEPENDENT) else { return };
         self.assembly.tries += 1;
-        let mut family = OfBall { ball, plan: &plan, side, offset, reach: &reach, complex: None };
-        self.assembly.clean = self.all_roots(&mut family, roots.as_slice());
+        let mut family = OfBall { ball, found: &found, reach: &reach, complex: None };
+        self.assembly.clean = self.all_roots(&mut family, found.roots());
     }
 
     /// Admits a loop with a ball: in angles of the ball that are far from where they are not independent.
@@ -143,158 +135,33 @@ fn back(mode: &mut Mode, ball: usize) {
 /// The angles of a ball with the second one from 0 to pi, the same rotation.
 pub(super) fn canonical(unknowns: &mut Six<Complex<f64>>, ball: usize) {
     let index = |k: usize| (ball + k) % 6;
-    if super::mode::wrapped(unknowns[index(1)].re) < 0.0 {
+    if wrapped(unknowns[index(1)].re) < 0.0 {
         unknowns[index(1)] = -unknowns[index(1)];
         for k in [0, 2] {
             let angle = &mut unknowns[index(k)];
-            angle.re = super::mode::wrapped(angle.re + PI);
+            angle.re = wrapped(angle.re + PI);
         }
     }
-}
-
-/// Some roots of a polynomial, without allocation.
-struct RootList {
-    list: [Complex<f64>; 4],
-    count: usize,
-}
-
-impl RootList {
-    fn as_slice(&self) -> &[Complex<f64>] {
-        &self.list[..self.count]
-    }
-}
-
-/// The roots of a conic form in the monomials of a variable, and the offset from which its angle is counted; `None`
-/// where the form vanishes.
-fn roots_of(kind: Variable, conic: &[[f64; 3]; 3]) -> Option<(RootList, (f64, f64))> {
-    let mut best: Option<(f64, [f64; 5], (f64, f64))> = None;
-    for k in 0..8 {
-        let (sin, cos) = (0.1 + 0.25 * PI * f64::from(k)).sin_cos();
-        let coefficients = quartic(conic, &powers(kind, &[1.0, cos, sin]));
-        let largest = coefficients.iter().map(|c| c.abs()).fold(0.0, f64::max);
-        if !(largest > 0.0) || !largest.is_finite() {
-            return None;
-        }
-        let quality = coefficients[4].abs() / largest;
-        if best.as_ref().is_none_or(|b| quality > b.0) {
-            best = Some((quality, coefficients.map(|c| c / largest), (cos, sin)));
-        }
-        if quality > 0.1 || kind == Variable::Translation {
-            break;
-        }
-    }
-    let (_, coefficients, offset) = best?;
-    Some((polynomial_roots(&coefficients)?, offset))
-}
-
-/// Leading coefficients below this part of the largest one are none.
-const LEADING: f64 = 1e-13;
-
-fn polynomial_roots(coefficients: &[f64; 5]) -> Option<RootList> {
-    let degree = (0..5).rev().find(|&k| coefficients[k].abs() > LEADING)?;
-    let monic: [f64; 4] =
-        std::array::from_fn(|k| if k < degree { coefficients[k] / coefficients[degree] } else { 0.0 });
-    let mut list = [Complex::new(0.0, 0.0); 4];
-    match degree {
-        0 => {}
-        1 => list[0] = Complex::from(-monic[0]),
-        2 => {
-            let (half, constant) = (-0.5 * monic[1], monic[0]);
-            let discriminant = half * half - constant;
-            if discriminant >= 0.0 {
-                let larger = half + discriminant.sqrt().copysign(half);
-                list[0] = Complex::from(larger);
-                list[1] = Complex::from(if larger == 0.0 { 0.0 } else { constant / larger });
-            } else {
-                list[0] = Complex::new(half, (-discriminant).sqrt());
-                list[1] = list[0].conj();
-            }
-        }
-        3 => list[..3].copy_from_slice(&companion_roots([monic[0], monic[1], monic[2]])?),
-        _ => list = companion_roots(monic)?,
-    }
-    Some(RootList { list, count: degree })
-}
-
-fn companion_roots<const N: usize>(monic: [f64; N]) -> Option<[Complex<f64>; N]> {
-    let mut matrix = [[0.0; N]; N];
-    for k in 0..N {
-        matrix[k][N - 1] = -monic[k];
-        if k > 0 {
-            matrix[k][k - 1] = 1.0;
-        }
-    }
-    francis::eigenvalues(&mut matrix)
 }
 
 /// The positions of the centre of a ball.
 struct OfBall<'a> {
     ball: usize,
-    plan: &'a Plan<f64>,
-    side: usize,
-    offset: (f64, f64),
+    found: &'a SeparatedRoots,
     reach: &'a Reach<f64>,
     complex: Option<Reach<Complex<f64>>>,
 }
 
-/// `row . m`
-fn at<S: Scalar>(row: &[f64; 3], m: &[S; 3]) -> S {
-    (0..3).fold(S::zero(), |sum, k| sum.add(&m[k].times(row[k])))
-}
-
-/// The monomials of a variable at which `row . m = 0`.
-fn zeros<S: Scalar>(kind: Variable, row: &[S; 3]) -> [Option<[S; 3]>; 2] {
-    let distance = |d: S| [S::one(), d, d.mul(&d)];
-    match kind {
-        Variable::Rotation => both_roots(row).map_or([None; 2], |pairs| pairs.map(|(c, s)| Some([S::one(), c, s]))),
-        Variable::Translation => {
-            let size = row[0].size().max(row[1].size());
-            if !(row[2].size() > LEADING * size) {
-                return [row[1].inverse().map(|inverse| distance(row[0].mul(&inverse).neg())), None];
-            }
-            let half = row[1].over(row[2]).halved().neg();
-            let root = half.mul(&half).sub(&row[0].over(row[2])).root();
-            [Some(distance(half.add(&root))), Some(distance(half.sub(&root)))]
-        }
-    }
-}
-
-/// The pair with which a variable enters a motion, from its monomials.
-fn pair<S: Scalar>(kind: Variable, m: &[S; 3]) -> (S, S) {
-    match kind {
-        Variable::Rotation => (m[1], m[2]),
-        Variable::Translation => (m[1], S::zero()),
-    }
-}
-
 impl OfBall<'_> {
     fn one<S: Scalar>(&self, reach: &Reach<S>, search: &mut Search<'_>, x: S) -> RootOutcome {
-        let mut outcome = RootOutcome { settled: false, unresolved: false, shared: false, separation: 1.0 };
-        let kind = reach.kind(self.side);
-        let known = match kind {
-            Variable::Rotation => match unshifted(x, self.offset) {
-                Some((cos, sin)) => [S::one(), cos, sin],
-                None => return outcome,
-            },
-            Variable::Translation => [S::one(), x, x.mul(&x)],
-        };
-        let others = match self.plan {
-            Plan::Together { other, .. } => [Some(other.each_ref().map(|row| at(row, &known))), None],
-            Plan::Apart { then, .. } => {
-                outcome.shared = true;
-                let mut row = then[1].map(S::from_f64);
-                row[0] = row[0].sub(&at(&then[0], &known));
-                zeros(reach.kind(1 - self.side), &row)
-            }
-        };
-        for other in others.into_iter().flatten() {
-            let monomials = if self.side == 0 { [&known, &other] } else { [&other, &known] };
-            let Some(middle) = reach.middle(monomials) else {
+        let mut outcome = RootOutcome { shared: self.found.are_shared(), ..RootOutcome::nothing() };
+        for monomials in self.found.monomials(x).into_iter().flatten() {
+            let Some(middle) = reach.middle(monomials.each_ref()) else {
                 outcome.unresolved = true;
                 continue;
             };
-            let [near, far] = [0, 1].map(|side| pair(reach.kind(side), monomials[side]));
             let [first, second, third] = reach.variables;
+            let (near, far) = (pair(third, &monomials[0]), pair(first, &monomials[1]));
             let values = [(first, far), (second, middle), (third, near)];
             outcome.settled |= search.admit_ball(self.ball, &values);
         }

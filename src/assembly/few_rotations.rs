@@ -6,14 +6,16 @@ use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::Ring;
 use crate::certify::{exponential, exponential_pair, small_turn};
 use crate::elimination::cut::Hidden;
+use crate::elimination::opposite_axes::OppositeAxes;
+use crate::elimination::separated::Plan;
 use crate::elimination::spherical_four_bar::{Equations, Form, FourBar};
 use crate::elimination::spherical_triangle::{Triangle, triangle};
 use crate::kinematics::link_form::LinkForm;
 use crate::solve::biquadratic;
 use crate::solve::dense;
-use crate::solve::kernel::double_angle;
 use crate::solve::newton::Six;
 use crate::solve::scalar::{Number, Scalar};
+use crate::solve::separated::{SeparatedRoots, both_roots, unshifted};
 use num_complex::Complex;
 
 impl Search<'_> {
@@ -41,6 +43,9 @@ impl Search<'_> {
     /// from the others too, until the search is done.
     pub fn four_bars(&mut self, most: &dyn Fn() -> usize) {
         let Some(form) = LinkForm::of(self.closed) else { return };
+        if self.opposite_axes(&form) {
+            return;
+        }
         let mut bases = [0, 1, 2, 3];
         bases.sort_by(|&a, &b| form.twist(b + 2).0.total_cmp(&form.twist(a + 2).0));
         let bars = bases.into_iter().filter(|base| form.twist(base + 2).0 > limits::PARALLEL);
@@ -64,6 +69,21 @@ impl Search<'_> {
                 }
             }
         }
+    }
+
+    /// The four solutions where the translations run along two opposite axes. Whether they do, and every root of the
+    /// quartic was accounted for.
+    fn opposite_axes(&mut self, form: &LinkForm<f64, 4, 2>) -> bool {
+        let Some(axes) = OppositeAxes::of(form, limits::ALONG) else { return false };
+        let equations = axes.equations(form);
+        if matches!(equations.plan(limits::REACH_DEPENDENT), Plan::Apart { .. }) {
+            return false;
+        }
+        let Some(found) = SeparatedRoots::of(&equations, limits::REACH_DEPENDENT) else { return false };
+        self.assembly.tries += 1;
+        let mut family = OfOppositeAxes { form, axes, found: &found, complex: None };
+        self.assembly.clean = self.all_roots(&mut family, found.roots());
+        self.assembly.clean
     }
 
     /// Admits the loop at these rotations, its translations computed.
@@ -106,17 +126,6 @@ enum Bridged {
     Family,
 }
 
-/// Cosine and sine of an angle from its half tangent less an offset.
-pub(super) fn unshifted<S: Scalar>(x: S, (cos, sin): (f64, f64)) -> Option<(S, S)> {
-    let (c, s) = double_angle(S::one(), x)?;
-    Some((c.times(cos).sub(&s.times(sin)), s.times(cos).add(&c.times(sin))))
-}
-
-/// No root, or none that is finite.
-fn nothing() -> RootOutcome {
-    RootOutcome { settled: false, unresolved: false, shared: false, separation: 1.0 }
-}
-
 /// The roots of a spherical triangle.
 struct OfTriangle<'a> {
     form: &'a LinkForm<f64, 3, 3>,
@@ -127,16 +136,16 @@ struct OfTriangle<'a> {
 
 impl OfTriangle<'_> {
     fn one<S: Scalar>(&self, form: &LinkForm<S, 3, 3>, search: &mut Search<'_>, x: S) -> RootOutcome {
-        let Some(known) = unshifted(x, self.offset) else { return nothing() };
+        let Some(known) = unshifted(x, self.offset) else { return RootOutcome::nothing() };
         let triangle = Triangle { dropped: self.triangle.dropped, equation: self.triangle.equation.map(S::from_f64) };
         let Some(rotations) = triangle.rotations(form, &known) else {
-            return RootOutcome { unresolved: true, ..nothing() };
+            return RootOutcome { unresolved: true, ..RootOutcome::nothing() };
         };
         let bridged = search.admit_rotations(form, &rotations);
         RootOutcome {
             settled: matches!(bridged, Bridged::Closed | Bridged::Never),
             unresolved: bridged == Bridged::Family,
-            ..nothing()
+            ..RootOutcome::nothing()
         }
     }
 }
@@ -148,7 +157,7 @@ impl Family for OfTriangle<'_> {
 
     fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
         let form = self.complex.take().or_else(|| self.form.map(|x| Some(Complex::from(*x))));
-        let outcome = form.as_ref().map_or_else(nothing, |form| self.one(form, search, x));
+        let outcome = form.as_ref().map_or_else(RootOutcome::nothing, |form| self.one(form, search, x));
         self.complex = form;
         outcome
     }
@@ -164,27 +173,14 @@ struct OfFourBar<'a> {
     complex: Option<LinkForm<Complex<f64>, 4, 2>>,
 }
 
-/// Both roots of `row . (1, cos, sin) = 0`.
-pub(super) fn both_roots<S: Scalar>([constant, cos, sin]: &[S; 3]) -> Option<[(S, S); 2]> {
-    let square = cos.mul(cos).add(&sin.mul(sin));
-    let inverse = square.inverse()?;
-    let root = square.sub(&constant.mul(constant)).root();
-    let at = |w: &S| {
-        let c = constant.mul(cos).add(&sin.mul(w)).neg().mul(&inverse);
-        let s = cos.mul(w).sub(&constant.mul(sin)).mul(&inverse);
-        (c, s)
-    };
-    Some([at(&root), at(&root.neg())])
-}
-
 fn size<S: Scalar>(values: &[S]) -> f64 {
     values.iter().map(|x| x.to_complex().norm_sqr()).sum::<f64>().sqrt()
 }
 
 impl OfFourBar<'_> {
     fn one<S: Scalar>(&self, form: &LinkForm<S, 4, 2>, search: &mut Search<'_>, x: S) -> RootOutcome {
-        let Some(known) = unshifted(x, self.offset) else { return nothing() };
-        let Some(bar) = FourBar::new(form, self.base) else { return nothing() };
+        let Some(known) = unshifted(x, self.offset) else { return RootOutcome::nothing() };
+        let Some(bar) = FourBar::new(form, self.base) else { return RootOutcome::nothing() };
         let angle = [S::one(), known.0, known.1];
         let row = |form: &[[f64; 3]; 3]| -> [S; 3] {
             std::array::from_fn(|l| {
@@ -211,7 +207,7 @@ impl OfFourBar<'_> {
                 (others[1], others[2]) = (Some(one), Some(two));
             }
         }
-        let mut outcome = RootOutcome { shared, ..nothing() };
+        let mut outcome = RootOutcome { shared, ..RootOutcome::nothing() };
         for other in others.into_iter().flatten() {
             let (a, b) = if self.hidden == Hidden::First { (known, other) } else { (other, known) };
             let mut bridged = search.admit_rotations(form, &bar.rotations(&a, &b));
@@ -226,6 +222,43 @@ impl OfFourBar<'_> {
             outcome.settled |= matches!(bridged, Bridged::Closed | Bridged::Never);
             outcome.unresolved |= bridged == Bridged::Family;
         }
+        outcome
+    }
+}
+
+/// The roots of a loop whose translations run along two opposite axes.
+struct OfOppositeAxes<'a> {
+    form: &'a LinkForm<f64, 4, 2>,
+    axes: OppositeAxes,
+    found: &'a SeparatedRoots,
+    complex: Option<LinkForm<Complex<f64>, 4, 2>>,
+}
+
+impl OfOppositeAxes<'_> {
+    fn one<S: Scalar>(&self, form: &LinkForm<S, 4, 2>, search: &mut Search<'_>, x: S) -> RootOutcome {
+        let mut outcome = RootOutcome::nothing();
+        for [[_, c, s], [_, c2, s2]] in self.found.monomials(x).into_iter().flatten() {
+            let Some(rotations) = self.axes.rotations(form, &(c, s), &(c2, s2)) else {
+                outcome.unresolved = true;
+                continue;
+            };
+            let bridged = search.admit_rotations(form, &rotations);
+            outcome.settled |= matches!(bridged, Bridged::Closed | Bridged::Never);
+            outcome.unresolved |= bridged == Bridged::Family;
+        }
+        outcome
+    }
+}
+
+impl Family for OfOppositeAxes<'_> {
+    fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome {
+        self.one(self.form, search, x)
+    }
+
+    fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
+        let form = self.complex.take().or_else(|| self.form.map(|x| Some(Complex::from(*x))));
+        let outcome = form.as_ref().map_or_else(RootOutcome::nothing, |form| self.one(form, search, x));
+        self.complex = form;
         outcome
     }
 }
@@ -285,7 +318,7 @@ impl Family for OfFourBar<'_> {
 
     fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
         let form = self.complex.take().or_else(|| self.form.map(|x| Some(Complex::from(*x))));
-        let outcome = form.as_ref().map_or_else(nothing, |form| self.one(form, search, x));
+        let outcome = form.as_ref().map_or_else(RootOutcome::nothing, |form| self.one(form, search, x));
         self.complex = form;
         outcome
     }

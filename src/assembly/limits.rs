@@ -47,3 +47,5 @@ pub const LOCKED: f64 = 0.05;
 pub const DEPENDENT: f64 = 1e-6;
 /// The two equations of a spherical four-bar nearer than this to dependent ones may have two solutions at one angle.
 pub const SHARED_ANGLE: f64 = 1e-6;
+/// Sines below which a translation runs along an axis.
+pub const ALONG: f64 = 1e-12;

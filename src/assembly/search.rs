@@ -488,3 +488,10 @@ pub(super) struct RootOutcome {
     /// How far from that it is.
     pub separation: f64,
 }
+
+impl RootOutcome {
+    /// No root, or none that leads anywhere.
+    pub fn nothing() -> Self {
+        Self { settled: false, unresolved: false, shared: false, separation: 1.0 }
+    }
+}

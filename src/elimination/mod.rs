@@ -3,7 +3,9 @@
 pub mod cut;
 pub mod degree;
 pub mod octic;
+pub mod opposite_axes;
 pub mod pencil;
 pub mod point_reach;
+pub mod separated;
 pub mod spherical_four_bar;
 pub mod spherical_triangle;

@@ -8,4 +8,5 @@ pub mod francis;
 pub mod kernel;
 pub mod newton;
 pub mod scalar;
+pub mod separated;
 pub mod singular;
