@@ -23,6 +23,7 @@ pub mod reduction;
 pub mod resultant;
 pub mod ring;
 mod rounded_chain;
+pub mod series;
 pub mod sturm;
 pub mod text;
 pub mod trigonometric;

@@ -122,6 +122,9 @@ pub struct SolveOptions {
     /// Platform: solve for the legs that this pose asks for: "x, y, z; w, x, y, z", position and quaternion
     #[arg(long, value_name = "POSE", conflicts_with_all = ["pose", "legs"], allow_hyphen_values = true)]
     pub at: Option<String>,
+    /// Loops: velocities and accelerations of all joints per unit rate of the input, at every real mode
+    #[arg(long)]
+    pub derivatives: bool,
     /// Solutions outside the joint limits
     #[arg(long, value_name = "HOW", default_value = "mark")]
     pub limits: Limits,

@@ -6,10 +6,11 @@ use super::output::{Output, pool};
 use super::wanted::wanted;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use looproot::assembly::{Assembly, Roots, Workspace};
-use looproot::catalogue::entry::Entry;
+use looproot::catalogue::entry::{Entry, Kind};
 use looproot::catalogue::load;
 use looproot::error::Error;
-use looproot::mechanism::{Mechanism, Solution};
+use looproot::mechanism::{Derivatives, InputCurve, Mechanism, Solution};
+use looproot::report::derivatives;
 use looproot::report::json;
 use looproot::report::model::case_noun;
 use looproot::report::number::{counted, duration};
@@ -26,13 +27,18 @@ use std::time::Instant;
 pub fn run(options: &SolveOptions) -> Result<Exit, Fault> {
     let mut entry = load(&options.mechanism, &options.read.options())?;
     let wanted = wanted(options, &mut entry)?;
+    if options.derivatives && entry.kind() != Kind::Loop {
+        let what = if entry.kind() == Kind::Arm { "an arm" } else { "a platform" };
+        let message = format!("found --derivatives for {what}, expected a loop: derivatives are by its input");
+        return Err(Error::Invalid(message).into());
+    }
     let mut report = Report::open(options, &entry, wanted.len())?;
     let exit = match Mechanism::prepare(&entry) {
         Ok(mechanism) => solve(options, &entry, &mechanism, wanted, &mut report)?,
         // The document of a mechanism that cannot be solved says so, case by case.
         Err(error @ Error::Unsupported(_)) if report.is_json() => {
             for index in wanted {
-                report.add(index, &unsupported(&error))?;
+                report.add(index, &unsupported(&error), None)?;
             }
             Exit::Unsupported
         }
@@ -50,7 +56,6 @@ fn solve(
     wanted: Range<usize>,
     report: &mut Report<'_>,
 ) -> Result<Exit, Fault> {
-    let roots = if options.real { Roots::Real } else { Roots::All };
     let stop = stop_on_interrupt();
     let pool = pool(if wanted.len() == 1 { Some(1) } else { options.threads })?;
     let chunk = 16 * pool.current_num_threads();
@@ -58,21 +63,21 @@ fn solve(
     let indices: Vec<usize> = wanted.collect();
     for chunk in indices.chunks(chunk) {
         let memory = || (Workspace::default(), Assembly::default());
-        let solutions: Vec<Option<Result<Solution, Error>>> = pool.install(|| {
+        let solutions: Vec<Option<Result<Answer, Error>>> = pool.install(|| {
             let one = |memory: &mut (Workspace, Assembly), index: &usize| {
                 let stopped = stop.load(Ordering::Relaxed);
-                (!stopped).then(|| mechanism.solve(&entry.cases[*index], roots, &mut memory.0, &mut memory.1))
+                (!stopped).then(|| answer(options, entry, mechanism, *index, memory))
             };
             chunk.par_iter().map_init(memory, one).collect()
         });
         for (index, solution) in chunk.iter().zip(solutions) {
             let Some(solution) = solution else { return Ok(Exit::Interrupted) };
-            let solution = match solution {
-                Err(error @ Error::Unsupported(_)) => unsupported(&error),
+            let (solution, derivatives) = match solution {
+                Err(error @ Error::Unsupported(_)) => (unsupported(&error), None),
                 other => other?,
             };
             exit = exit.max(Exit::of(&solution));
-            report.add(*index, &solution)?;
+            report.add(*index, &solution, derivatives.as_deref())?;
         }
         report.flush()?;
         if stop.load(Ordering::Relaxed) && chunk.last() != indices.last() {
@@ -80,6 +85,25 @@ fn solve(
         }
     }
     Ok(exit)
+}
+
+/// A solution, and where they are asked for the derivatives at each of its modes.
+type Answer = (Solution, Option<Vec<Option<Derivatives>>>);
+
+/// Solves one case.
+fn answer(
+    options: &SolveOptions,
+    entry: &Entry,
+    mechanism: &Mechanism,
+    index: usize,
+    memory: &mut (Workspace, Assembly),
+) -> Result<Answer, Error> {
+    let roots = if options.real { Roots::Real } else { Roots::All };
+    let case = &entry.cases[index];
+    let solution = mechanism.solve(case, roots, &mut memory.0, &mut memory.1)?;
+    let curve = if options.derivatives { Some(InputCurve::of(entry, case)?) } else { None };
+    let derivatives = curve.map(|curve| solution.modes.iter().map(|mode| curve.derivatives(mode)).collect());
+    Ok((solution, derivatives))
 }
 
 /// Raised by the first Ctrl-C, which lets what is done be printed; the second one ends the program at once.
@@ -158,7 +182,19 @@ impl<'a> Report<'a> {
         self.form != Form::Text
     }
 
-    fn add(&mut self, index: usize, solution: &Solution) -> Result<(), Fault> {
+    fn add(
+        &mut self,
+        index: usize,
+        solution: &Solution,
+        derivatives: Option<&[Option<Derivatives>]>,
+    ) -> Result<(), Fault> {
+        let document = || {
+            let mut result = json::result(index + 1, solution, &self.view);
+            if let Some(derivatives) = derivatives {
+                derivatives::insert(&mut result, solution, derivatives, &self.view);
+            }
+            result
+        };
         let out = &mut self.output.writer;
         match self.form {
             Form::Document if self.written == 0 => write!(out, "{}\n  ", json::head(self.entry))?,
@@ -170,9 +206,12 @@ impl<'a> Report<'a> {
             Form::Text => {
                 let case = &self.entry.cases[index];
                 write!(out, "{}", text::solution(self.entry, index + 1, case, solution, &self.view))?;
+                if let (Some(derivatives), false) = (derivatives, self.view.quiet) {
+                    write!(out, "{}", derivatives::text(self.entry, case, solution, derivatives, &self.view))?;
+                }
             }
-            Form::Document => write!(out, "{}", json::result(index + 1, solution, &self.view))?,
-            Form::Lines => writeln!(out, "{}", json::result(index + 1, solution, &self.view))?,
+            Form::Document => write!(out, "{}", document())?,
+            Form::Lines => writeln!(out, "{}", document())?,
         }
         self.written += 1;
         self.tally[solution.verdict.status as usize] += 1;

@@ -1,7 +1,10 @@
 //! A mechanism ready to solve: what a file says, prepared once, answered case by case.
 
+mod input_curve;
 mod platform;
 mod single_loop;
+
+pub use input_curve::{Derivatives, InputCurve};
 
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};

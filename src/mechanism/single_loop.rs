@@ -186,7 +186,7 @@ fn layout_rotations(open: &OpenLoop<f64>) -> usize {
 }
 
 /// The variable that the input of a loop locks; `None` at the pose of an arm.
-fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
+pub(super) fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
     if case.pose.is_some() {
         return Ok(None);
     }

@@ -1,0 +1,244 @@
+//! The curve that a loop of seven variables runs through: its Taylor coefficients and its points.
+//!
+//! The closure over truncated power series gives, order by order, one linear system with one and the same matrix: the
+//! seven twists, bordered by one row that says along what the curve is measured (the implicit function theorem).
+
+use super::dense::{inverse, times};
+use crate::algebra::ring::Ring;
+use crate::algebra::series::Series;
+use crate::kinematics::closed_loop::{OpenLoop, Variable};
+use crate::kinematics::motion::{Motion, cross};
+
+/// Seven joint variables: the six unknowns in loop order, then the input. Lengths over the scale of the loop.
+pub type Point = [f64; 7];
+
+/// Position of the input among the variables of a [`Point`].
+pub const INPUT: usize = 6;
+
+/// The border that measures a curve by its input.
+pub const ALONG_INPUT: Point = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+
+/// A loop with its input left variable: `V1 G1 ... V6 G6 V7 G7 = I`.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    variables: [Variable; 7],
+    constants: [Motion<f64>; 7],
+    scale: f64,
+}
+
+/// The closure at a point.
+struct Here {
+    /// The skew-symmetric part of the rotation of the product round the loop as a vector, and its translation.
+    residual: [f64; 6],
+    /// Column j is the twist of variable j.
+    jacobian: [[f64; 7]; 6],
+}
+
+/// The skew-symmetric part of the rotation as a vector, and the translation.
+fn skew_part<R: Ring>(motion: &Motion<R>) -> [[R; 2]; 3] {
+    let r = &motion.rotation;
+    let pair = |i: usize, j: usize| [r[i][j].clone(), r[j][i].clone()];
+    [pair(2, 1), pair(0, 2), pair(1, 0)]
+}
+
+/// The matrix bordered below by one row.
+fn bordered(jacobian: &[[f64; 7]; 6], border: &Point) -> [[f64; 7]; 7] {
+    std::array::from_fn(|i| if i < 6 { jacobian[i] } else { *border })
+}
+
+impl Curve {
+    /// The curve of a loop whose gap the input of this kind fills.
+    #[must_use]
+    pub fn new(open: &OpenLoop<f64>, input: Variable) -> Self {
+        let mut constants: [Motion<f64>; 7] = std::array::from_fn(|j| match j {
+            0..5 => open.constants[j].clone(),
+            5 => open.before_gap.clone(),
+            _ => open.after_gap.clone(),
+        });
+        let square = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>();
+        let mean = (constants.iter().map(square).sum::<f64>() / 7.0).sqrt();
+        // A power of two: scaling costs no digit.
+        let scale = if mean > 0.0 { mean.log2().round().exp2() } else { 1.0 };
+        for constant in &mut constants {
+            constant.translation = constant.translation.map(|x| x / scale);
+        }
+        let variables = std::array::from_fn(|j| if j < 6 { open.variables[j] } else { input });
+        Self { variables, constants, scale }
+    }
+
+    /// What each variable does.
+    #[must_use]
+    pub fn variables(&self) -> &[Variable; 7] {
+        &self.variables
+    }
+
+    /// The unit of a variable inside the curve: 1 for angles, the scale of the loop for lengths.
+    #[must_use]
+    pub fn unit(&self, index: usize) -> f64 {
+        if self.variables[index] == Variable::Rotation { 1.0 } else { self.scale }
+    }
+
+    /// The product round the loop over series.
+    fn product<const N: usize>(&self, values: &[Series<f64, N>; 7]) -> Motion<Series<f64, N>> {
+        let mut frame = Motion::identity();
+        for (j, value) in values.iter().enumerate() {
+            let motion = match self.variables[j] {
+                Variable::Rotation => {
+                    let (sin, cos) = value.coefficients[0].sin_cos();
+                    let (cos, sin) = value.cos_sin_beyond(cos, sin).expect("every small number has an inverse in f64");
+                    Motion::rotation_z(cos, sin)
+                }
+                Variable::Translation => Motion::translation_z(*value),
+            };
+            let constant = self.constants[j].map(|x| Some(Series::constant(*x))).expect("every number has an image");
+            frame = frame.then_after(&motion).then_after(&constant);
+        }
+        frame
+    }
+
+    /// The residual of one order of a product round the loop.
+    fn residual<const N: usize>(product: &Motion<Series<f64, N>>, order: usize) -> [f64; 6] {
+        let skew = skew_part(product);
+        std::array::from_fn(|i| match i.checked_sub(3) {
+            None => (skew[i][0].coefficients[order] - skew[i][1].coefficients[order]) / 2.0,
+            Some(k) => product.translation[k].coefficients[order],
+        })
+    }
+
+    fn here(&self, at: &Point) -> Here {
+        let mut frame = Motion::identity();
+        let mut jacobian = [[0.0; 7]; 6];
+        for j in 0..7 {
+            let z: [f64; 3] = std::array::from_fn(|i| frame.rotation[i][2]);
+            let moment = cross(&frame.translation, &z);
+            let motion = match self.variables[j] {
+                Variable::Rotation => {
+                    for i in 0..3 {
+                        (jacobian[i][j], jacobian[3 + i][j]) = (z[i], moment[i]);
+                    }
+                    let (sin, cos) = at[j].sin_cos();
+                    Motion::rotation_z(cos, sin)
+                }
+                Variable::Translation => {
+                    for i in 0..3 {
+                        jacobian[3 + i][j] = z[i];
+                    }
+                    Motion::translation_z(at[j])
+                }
+            };
+            frame = frame.then_after(&motion).then_after(&self.constants[j]);
+        }
+        let skew = skew_part(&frame);
+        let residual = std::array::from_fn(|i| match i.checked_sub(3) {
+            None => (skew[i][0] - skew[i][1]) / 2.0,
+            Some(k) => frame.translation[k],
+        });
+        Here { residual, jacobian }
+    }
+
+    /// The Taylor coefficients of the curve at a point of it, by a parameter of which `border . q` is a linear function of
+    /// slope 1: coefficient k of every variable. `None` where `border` is no coordinate of the curve, as the input is
+    /// none at a limit position.
+    #[must_use]
+    pub fn taylor<const N: usize>(&self, at: &Point, border: &Point) -> Option<[[f64; 7]; N]> {
+        let inverted = inverse(&bordered(&self.here(at).jacobian, border))?;
+        let mut values: [Series<f64, N>; 7] = at.map(Series::constant);
+        for order in 1..N {
+            // With this order still 0 the residual holds what the lower ones bring about.
+            let residual = Self::residual(&self.product(&values), order);
+            let right =
+                std::array::from_fn(|i| if i < 6 { -residual[i] } else { f64::from(u8::from(order == 1)) });
+            let solved = times(&inverted, &right);
+            if solved.iter().any(|x| !x.is_finite()) {
+                return None;
+            }
+            for (value, x) in values.iter_mut().zip(solved) {
+                value.coefficients[order] = x;
+            }
+        }
+        Some(std::array::from_fn(|k| values.map(|value| value.coefficients[k])))
+    }
+
+    /// The direction of the curve at a point of it, of length 1, on the side of `towards`. `None` where several curves
+    /// meet.
+    #[must_use]
+    pub fn tangent(&self, at: &Point, towards: &Point) -> Option<Point> {
+        /// Columns left over by elimination below this part of the largest are none.
+        const RANK: f64 = 1e-10;
+        let mut a = self.here(at).jacobian;
+        let mut columns = [0, 1, 2, 3, 4, 5, 6];
+        let mut first = 0.0;
+        // Complete pivoting: what is left over is the free column.
+        for k in 0..6 {
+            let (mut row, mut column) = (k, k);
+            for i in k..6 {
+                for j in k..7 {
+                    if a[i][j].abs() > a[row][column].abs() {
+                        (row, column) = (i, j);
+                    }
+                }
+            }
+            let pivot = a[row][column];
+            if k == 0 {
+                first = pivot.abs();
+            }
+            if !(pivot.abs() > RANK * first) {
+                return None;
+            }
+            a.swap(k, row);
+            for line in &mut a {
+                line.swap(k, column);
+            }
+            columns.swap(k, column);
+            let pivot_row = a[k];
+            for line in a.iter_mut().skip(k + 1) {
+                let factor = line[k] / pivot;
+                for j in k..7 {
+                    line[j] -= factor * pivot_row[j];
+                }
+            }
+        }
+        let mut solved = [0.0; 7];
+        solved[6] = 1.0;
+        for k in (0..6).rev() {
+            let sum: f64 = (k + 1..7).map(|j| a[k][j] * solved[j]).sum();
+            solved[k] = -sum / a[k][k];
+        }
+        let length = solved.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let mut tangent = [0.0; 7];
+        for (k, column) in columns.into_iter().enumerate() {
+            tangent[column] = solved[k] / length;
+        }
+        let side: f64 = tangent.iter().zip(towards).map(|(x, y)| x * y).sum();
+        Some(if side < 0.0 { tangent.map(|x| -x) } else { tangent })
+    }
+
+    /// The point of the curve with the same `border . q` as `start`, by Newton's method, and the length of the first step.
+    /// `None` where that does not converge quickly.
+    #[must_use]
+    pub fn corrected(&self, start: &Point, border: &Point) -> Option<(Point, f64)> {
+        const MOST_STEPS: usize = 8;
+        let mut at = *start;
+        let mut steps: Vec<f64> = Vec::with_capacity(MOST_STEPS);
+        for _ in 0..MOST_STEPS {
+            let here = self.here(&at);
+            let right = std::array::from_fn(|i| if i < 6 { here.residual[i] } else { 0.0 });
+            let step = times(&inverse(&bordered(&here.jacobian, border))?, &right);
+            let size = step.iter().map(|x| x.abs()).fold(0.0, f64::max);
+            let longest = at.iter().map(|x| x.abs()).fold(1.0, f64::max);
+            if !size.is_finite() || steps.last().is_some_and(|last| size > last.max(1e-12 * longest)) {
+                return None;
+            }
+            for (x, d) in at.iter_mut().zip(step) {
+                *x -= d;
+            }
+            steps.push(size);
+            if size < 1e-13 * longest {
+                break;
+            }
+        }
+        let closed = self.here(&at).residual.iter().map(|x| x.abs()).fold(0.0, f64::max);
+        let reach = at.iter().map(|x| x.abs()).fold(1.0, f64::max);
+        (closed < 1e-11 * reach).then(|| (at, steps[0]))
+    }
+}
