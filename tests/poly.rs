@@ -62,6 +62,7 @@ fn answers_read_as_agreed() {
         &["expand", "x^2*y - 1/3", "--json"],
         &["resultant", "x^2 + y^2 - 1", "x - y/3", "--eliminate", "x"],
         &["resultant", "a*x^2 + b*x + c", "2*a*x + b", "--eliminate", "x", "--vars", "a,b,c,x"],
+        &["resultant", "x^2 + y^2 - 25", "x*y - 12", "--eliminate", "x", "--lift"],
         &["det", "[[x, 1/2], [2, x + 1]]"],
         &["det", "a, b; c, d"],
         &["roots", "(x - 1)^2*(x^2 - 2)*(x - 1/3)^3"],

@@ -159,7 +159,7 @@ def pari_job(job):
     if kind == "polydet":
         entry = lambda c: "+".join(f"({a})*x^{k}" for k, a in enumerate(c))
         matrix = "[" + ";".join(",".join(entry(c) for c in row) for row in job["M"]) + "]"
-        given, run, value = f"matrix={matrix};", "matdet(matrix)", "subst(answer,x,2)"
+        given, run, value = f"given={matrix};", "matdet(given)", "subst(answer,x,2)"
     elif kind == "roots":
         text = job.get("poly") or "+".join(f"({c})*x^{k}" for k, c in enumerate(job["coefficients"]))
         given, run, value = f"first={text};", "polrootsreal(first)", "#answer"

@@ -111,6 +111,10 @@ pub struct ResultantOptions {
     /// The variable to eliminate
     #[arg(long, value_name = "X")]
     pub eliminate: String,
+    /// Print a second polynomial that gives the eliminated variable: it vanishes at the common root, and is linear in X
+    /// where one exists
+    #[arg(long)]
+    pub lift: bool,
     #[command(flatten)]
     pub read: ReadOptions,
     #[command(flatten)]

@@ -4,7 +4,8 @@ use super::arguments::ResultantOptions;
 use super::{input, tell};
 use crate::command::exit::{Exit, Fault};
 use looproot::algebra::int::Int;
-use looproot::algebra::resultant::resultant;
+use looproot::algebra::polynomial::Polynomial;
+use looproot::algebra::resultant::{eliminate, resultant};
 use looproot::algebra::ring::Ring;
 use looproot::algebra::text::Fraction;
 use rug::ops::Pow;
@@ -16,8 +17,13 @@ pub fn run(options: &ResultantOptions) -> Result<Exit, Fault> {
     input::check_degrees(&polynomials)?;
     let variable = names.known(&options.eliminate)?;
     let [f, g] = &polynomials;
-    let result = of_fractions(f, g, variable);
-    tell::results(&[result], &names, &options.write, &input::files(&arguments))?;
+    let mut results = vec![of_fractions(f, g, variable)];
+    if options.lift {
+        let lift = eliminate(&f.numerator, &g.numerator, variable).lift;
+        let numerator = Polynomial::from_coefficients_in(variable, lift.coefficients()).primitive_part();
+        results.push(Fraction { numerator, denominator: Int::one() });
+    }
+    tell::results(&results, &names, &options.write, &input::files(&arguments))?;
     Ok(Exit::Complete)
 }
 

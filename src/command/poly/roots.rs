@@ -13,6 +13,9 @@ use looproot::report::table::Columns;
 use rug::Rational;
 use serde_json::{Value, json};
 
+/// The degree up to which roots are counted a second time, by Sturm's theorem, which takes longer than isolating them.
+const HIGHEST_STURM: usize = 200;
+
 /// Finds all real roots of a polynomial in one variable.
 pub fn run(options: &RootsOptions) -> Result<Exit, Fault> {
     let argument = &[options.polynomial.as_str()];
@@ -20,10 +23,15 @@ pub fn run(options: &RootsOptions) -> Result<Exit, Fault> {
     input::check_degrees(std::slice::from_ref(&f))?;
     let (polynomial, name) = univariate(&f, &names)?;
     let mut roots = polynomial.real_roots();
-    let text =
-        if options.write.json { document(&mut roots, &polynomial, name) } else { table(&mut roots, &polynomial, name) };
+    let sturm = (polynomial.degree() <= Some(HIGHEST_STURM)).then(|| polynomial.distinct_real_roots());
+    let write = if options.write.json { document } else { table };
+    let text = write(&mut roots, &polynomial, name, sturm);
     tell::write(&text, options.write.output.as_ref(), &input::files(argument))?;
-    Ok(if roots.is_empty() { Exit::Unreachable } else { Exit::Complete })
+    Ok(match sturm {
+        Some(count) if count != roots.len() => Exit::NotProved,
+        _ if roots.is_empty() => Exit::Unreachable,
+        _ => Exit::Complete,
+    })
 }
 
 /// The polynomial in its only variable, and the name of that.
@@ -46,18 +54,22 @@ fn univariate<'n>(f: &Fraction, names: &'n Names) -> Result<(Univariate<Rational
     }
 }
 
-/// `3 distinct real roots of a polynomial of degree 5 in x, 4 counted with multiplicity`
-fn verdict(roots: &[RealRoot], polynomial: &Univariate<Rational>, name: &str) -> String {
+/// `3 distinct real roots of degree 5 in x, 4 with multiplicity; Sturm's theorem counts 3`
+fn verdict(roots: &[RealRoot], polynomial: &Univariate<Rational>, name: &str, sturm: Option<usize>) -> String {
     let degree = polynomial.degree().unwrap_or(0);
     let total: usize = roots.iter().map(RealRoot::multiplicity).sum();
     let count = counted(roots.len(), "distinct real root").replacen("0 ", "no ", 1);
     let count = if roots.is_empty() { count.replace("distinct ", "") } else { count };
     let tail = if total > roots.len() { format!(", {total} with multiplicity") } else { String::new() };
-    format!("{count} of degree {degree} in {name}{tail}")
+    let check = sturm.map_or_else(String::new, |count| match count == roots.len() {
+        true => format!("; Sturm's theorem counts {count}"),
+        false => format!("; CONTRADICTION: Sturm's theorem counts {count}"),
+    });
+    format!("{count} of degree {degree} in {name}{tail}{check}")
 }
 
-fn table(roots: &mut [RealRoot], polynomial: &Univariate<Rational>, name: &str) -> String {
-    let mut text = verdict(roots, polynomial, name) + "\n";
+fn table(roots: &mut [RealRoot], polynomial: &Univariate<Rational>, name: &str, sturm: Option<usize>) -> String {
+    let mut text = verdict(roots, polynomial, name, sturm) + "\n";
     if roots.is_empty() {
         return text;
     }
@@ -82,7 +94,7 @@ fn table(roots: &mut [RealRoot], polynomial: &Univariate<Rational>, name: &str) 
     text
 }
 
-fn document(roots: &mut [RealRoot], polynomial: &Univariate<Rational>, name: &str) -> String {
+fn document(roots: &mut [RealRoot], polynomial: &Univariate<Rational>, name: &str, sturm: Option<usize>) -> String {
     let root = |root: &mut RealRoot| -> Value {
         // Narrows the interval, too.
         let (value, exact) = (root.to_f64(), root.rational());
@@ -94,5 +106,7 @@ fn document(roots: &mut [RealRoot], polynomial: &Univariate<Rational>, name: &st
     };
     let roots: Vec<String> = roots.iter_mut().map(|r| format!("\n{}", root(r))).collect();
     let degree = polynomial.degree().unwrap_or(0);
-    format!("{{ \"variable\": {}, \"degree\": {degree}, \"roots\": [{}\n] }}\n", json!(name), roots.join(","))
+    let (name, sturm) = (json!(name), json!(sturm));
+    let roots = roots.join(",");
+    format!("{{ \"variable\": {name}, \"degree\": {degree}, \"sturm\": {sturm}, \"roots\": [{roots}\n] }}\n")
 }
