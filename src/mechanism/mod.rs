@@ -77,7 +77,7 @@ pub struct Mechanism(Solver);
 /// Who solves it.
 enum Solver {
     SingleLoop(SingleLoop),
-    Platform(PreparedPlatform),
+    Platform(Box<PreparedPlatform>),
 }
 
 impl Mechanism {
@@ -88,7 +88,7 @@ impl Mechanism {
     pub fn prepare(entry: &Entry) -> Result<Self> {
         Ok(Self(match &entry.design {
             Design::Arm(chain) | Design::Loop(chain) => Solver::SingleLoop(SingleLoop::prepare(entry, chain)?),
-            Design::Platform(geometry) => Solver::Platform(PreparedPlatform::prepare(geometry)?),
+            Design::Platform(geometry) => Solver::Platform(Box::new(PreparedPlatform::prepare(geometry)?)),
         }))
     }
 
