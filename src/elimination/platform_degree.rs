@@ -39,6 +39,9 @@ pub fn modular_setting(
     squares: &[Rational; 6],
 ) -> Option<Setting<u64>> {
     let image = |q: &Rational| -> Option<u64> {
+        if *q.denom() == 1 {
+            return Some(modulus.reduce(q.numer()));
+        }
         let denominator = modulus.reduce(q.denom());
         (denominator != 0).then(|| Modulus::mul(modulus, modulus.reduce(q.numer()), modulus.inverse(denominator)))
     };
