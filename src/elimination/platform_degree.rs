@@ -87,7 +87,7 @@ fn turned(platform: &Platform<Rational>, choice: usize) -> Platform<Rational> {
 #[must_use]
 pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<PlatformDegree> {
     let modulus = primes().next()?;
-    let mut last = None;
+    let mut settings = Vec::new();
     for choice in 0..TURNS.len() {
         let legs = linear_legs(&turned(platform, choice));
         let setting = modular_setting(&modulus, &legs, legs_squared)?;
@@ -95,9 +95,12 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
             let null = DIMENSION - regular_part(&modulus, &products).pivots.len();
             return Some(PlatformDegree::Finite { poses: DIMENSION - null, null, curves: false });
         }
-        last = Some(setting);
+        settings.push(setting);
     }
-    let Some(products) = special_products(&modulus, &last?) else { return Some(PlatformDegree::Infinite) };
+    // A pose where one chart ends looks like a curve there: all charts must agree on one.
+    let Some(products) = settings.iter().find_map(|setting| special_products(&modulus, setting)) else {
+        return Some(PlatformDegree::Infinite);
+    };
     let poses = regular_part(&modulus, &products).pivots.len();
     Some(PlatformDegree::Finite { poses, null: DIMENSION.saturating_sub(poses), curves: true })
 }

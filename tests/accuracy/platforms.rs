@@ -6,8 +6,9 @@ use looproot::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWor
 use looproot::benchmark::accuracy::Counts;
 use looproot::benchmark::platform::accuracy::{PlatformJob, run};
 use looproot::benchmark::platform::sample::{PlatformSet, sample};
-use looproot::elimination::platform_degree::PlatformDegree;
+use looproot::elimination::platform_degree::{PlatformDegree, platform_degree};
 use looproot::verdict::{Status, platform_verdict};
+use rug::Rational;
 
 fn counts(set: PlatformSet, count: u64, roots: Roots) -> Counts {
     let counts = run(PlatformJob { set, count, seed: 2024, roots }, || true, || ()).unwrap();
@@ -53,6 +54,16 @@ fn special_platforms_have_as_many_poses_as_an_exact_count_finds() {
         let counts = counts(set, 8, Roots::All);
         assert_eq!(counts.complex.get(&expected), Some(&8), "{set:?}\n{counts}");
     }
+}
+
+#[test]
+fn a_pose_where_a_chart_ends_is_no_curve_of_poses() {
+    // The planted pose of this sample lies at infinity of one of the charts in which poses are counted.
+    let drawn = sample(PlatformSet::Similar, 1, 225).unwrap();
+    let squares = drawn.entry.cases[0].legs_squared.as_ref().unwrap().each_ref().map(|s| s.rational().clone());
+    let exact = drawn.platform.map(|x| Rational::from_f64(*x)).unwrap();
+    let degree = platform_degree(&exact, &squares).unwrap();
+    assert!(matches!(degree, PlatformDegree::Finite { poses: 24, .. }), "{degree:?}");
 }
 
 /// A platform with all its poses.
