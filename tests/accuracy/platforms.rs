@@ -41,8 +41,8 @@ fn special_platforms_have_as_many_poses_as_an_exact_count_finds() {
     let expected = [40, 32, 16, 16, 8, 40, 24, 24, 16, 16, 16, 24, 16, 16];
     let shared = PlatformSet::NAMED.into_iter().filter(|(_, set)| matches!(set, PlatformSet::Shared(..)));
     for ((name, set), expected) in shared.zip(expected) {
-        let counts = counts(set, 8, Roots::All);
-        assert_eq!((counts.counted, counts.complex.get(&expected)), (8, Some(&8)), "{name}\n{counts}");
+        let counts = counts(set, 5, Roots::All);
+        assert_eq!((counts.counted, counts.complex.get(&expected)), (5, Some(&5)), "{name}\n{counts}");
     }
     let related = [
         (PlatformSet::Affine, 32),
@@ -51,8 +51,8 @@ fn special_platforms_have_as_many_poses_as_an_exact_count_finds() {
         (PlatformSet::SimilarPlanar, 16),
     ];
     for (set, expected) in related {
-        let counts = counts(set, 8, Roots::All);
-        assert_eq!(counts.complex.get(&expected), Some(&8), "{set:?}\n{counts}");
+        let counts = counts(set, 5, Roots::All);
+        assert_eq!(counts.complex.get(&expected), Some(&5), "{set:?}\n{counts}");
     }
 }
 
@@ -99,7 +99,9 @@ fn no_crippled_list_is_called_complete() {
                 let status = judge(&solver, &crippled, poses);
                 assert!(!is_claimed(status), "{set:?}: {status:?} although mode {k} {what}");
             };
-            refused("is missing", &|list| drop(list.modes.remove(k)));
+            refused("is missing", &|list| {
+                list.modes.remove(k);
+            });
             refused("has no certificate", &|list| list.modes[k].certificate = None);
             refused("has no multiplicity", &|list| list.modes[k].multiplicity = 0);
             refused("counts twice", &|list| list.modes[k].multiplicity = 2);

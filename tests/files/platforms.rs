@@ -190,8 +190,7 @@ fn every_claimed_pose_of_the_library_fits_its_legs() {
     for name in builtin_names().into_iter().filter(|name| name.starts_with("platform/")) {
         let entry = builtin(&name, &Options::default()).unwrap();
         let Design::Platform(numbers) = &entry.design else { panic!("{name}") };
-        let points =
-            |p: &[[Number; 3]; 6]| p.each_ref().map(|p| p.each_ref().map(Number::to_f64));
+        let points = |p: &[[Number; 3]; 6]| p.each_ref().map(|p| p.each_ref().map(Number::to_f64));
         let Platform { base, plate } = Platform { base: points(&numbers.base), plate: points(&numbers.plate) };
         for case in &entry.cases {
             let wanted = case.legs_squared.as_ref().unwrap();
