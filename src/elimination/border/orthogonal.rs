@@ -3,7 +3,7 @@
 use super::arithmetic::{LEVEL, LOW, MOST_CANDIDATES, MOST_RELATIONS, Relations, STRIDE, Split, WIDTH};
 
 /// Pivots of this relative size or less are rounding of zero: genuine ones of 20,000 random platforms were above 3e-6.
-const NO_PIVOT: f64 = 1e-12;
+const NO_PIVOT: f64 = 1e-10;
 /// After so many steps the sizes of the rows left are computed anew.
 const REFRESH: usize = 4;
 
