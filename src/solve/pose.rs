@@ -224,13 +224,13 @@ pub fn refine(
     None
 }
 
-/// Newton's method in numbers of twice the precision all along, for poses very far away, where `N = x.x` is tiny: the
-/// point, its equations, and the inverse of their Jacobian; `None` where it does not settle.
+/// A pose in numbers of twice the precision: the point, its equations, and the inverse of their Jacobian.
+pub type WidePose = (Eight<Wide>, Equations<Wide>, [Eight<Wide>; 8]);
+
+/// Newton's method in numbers of twice the precision all along, for poses very far away, where `N = x.x` is tiny; `None`
+/// where it does not settle.
 #[must_use]
-pub fn polish_wide(
-    legs: &[Leg<f64>; 6],
-    start: &Eight<Complex<f64>>,
-) -> Option<(Eight<Wide>, Equations<Wide>, [Eight<Wide>; 8])> {
+pub fn polish_wide(legs: &[Leg<f64>; 6], start: &Eight<Complex<f64>>) -> Option<WidePose> {
     let start = normalised(start)?;
     let mut point = start.map(wide);
     let patch: Four<Wide> = std::array::from_fn(|k| wide(start[k].conj()));
