@@ -2,10 +2,12 @@
 #![allow(unsafe_code, reason = "counting allocations takes an allocator, and its trait is unsafe")]
 #![allow(clippy::unwrap_used)]
 
+use looproot::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
 use looproot::assembly::{Assembly, Roots, Solver, Workspace};
 use looproot::benchmark::sample::{Set, sample};
 use looproot::kinematics::closed_loop::{Layout, OpenLoop};
 use looproot::kinematics::motion::Motion;
+use looproot::kinematics::platform::Platform;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::alloc::{GlobalAlloc, Layout as Block, System};
@@ -90,5 +92,26 @@ fn solving_pose_after_pose_allocates_nothing() {
             }
         }
         assert!(solutions >= 200, "{roots:?}: {solutions}");
+    }
+}
+
+#[test]
+fn solving_a_platform_for_leg_after_leg_allocates_nothing() {
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let (mut workspace, mut assembly) = (PlatformWorkspace::default(), PlatformAssembly::default());
+    for (trial, flat) in [false, false, false, true].into_iter().enumerate() {
+        let mut points = || -> [[f64; 3]; 6] {
+            std::array::from_fn(|_| {
+                std::array::from_fn(|k| if flat && k == 2 { 0.0 } else { random.random_range(-1.0..1.0) })
+            })
+        };
+        let solver = PlatformSolver::prepare(&Platform { base: points(), plate: points() });
+        for round in 0..10 {
+            let legs = std::array::from_fn(|_| random.random_range(1.0..4.0));
+            let before = requests();
+            solver.solve(&legs, if round % 3 == 2 { Roots::Real } else { Roots::All }, &mut workspace, &mut assembly);
+            // The list of modes grows to its size once.
+            assert!(requests() == before || (trial, round) == (0, 0), "platform {trial}, legs {round}");
+        }
     }
 }

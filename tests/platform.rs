@@ -9,3 +9,5 @@ mod equations;
 mod exact;
 #[path = "platform/poses.rs"]
 mod poses;
+#[path = "platform/template.rs"]
+mod template;

@@ -63,12 +63,18 @@ impl Modulus {
     /// `a b`
     #[must_use]
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "the low word, and a quotient below 2p")]
     pub const fn mul(&self, a: u64, b: u64) -> u64 {
-        let product = a as u128 * b as u128;
-        let quotient = (product as u64).wrapping_mul(self.negative_inverse);
-        // Below 2^126 + 2^127, so no overflow; the low word of the sum is 0.
-        let reduced = ((product + quotient as u128 * self.p as u128) >> 64) as u64;
+        self.fold(a as u128 * b as u128)
+    }
+
+    /// The residue `sum / 2^64` of a number below `p 2^64`: of a sum of products of residues, the residue of the sum.
+    #[must_use]
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "the low word, and a quotient below 2p")]
+    pub const fn fold(&self, sum: u128) -> u64 {
+        let quotient = (sum as u64).wrapping_mul(self.negative_inverse);
+        // Below 2^127 + 2^127, so no overflow; the low word of the sum is 0.
+        let reduced = ((sum + quotient as u128 * self.p as u128) >> 64) as u64;
         if reduced >= self.p { reduced - self.p } else { reduced }
     }
 

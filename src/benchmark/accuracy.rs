@@ -29,6 +29,8 @@ pub struct Counts {
     pub duplicates: usize,
     /// Complex solutions more or fewer than an exact count finds, where there is one: platforms.
     pub miscounted: usize,
+    /// In which samples.
+    pub miscounted_in: Vec<u64>,
     /// Lists that were compared with an exact count or with the most there can be.
     pub counted: usize,
     /// Closure residuals of all modes.
@@ -160,6 +162,7 @@ impl Counts {
         self.solved += other.solved;
         self.miscounted += other.miscounted;
         self.counted += other.counted;
+        self.miscounted_in.append(&mut other.miscounted_in);
         self.found += other.found;
         self.lost.append(&mut other.lost);
         self.on_self_motion += other.on_self_motion;
@@ -260,9 +263,11 @@ impl Display for Counts {
         if self.on_self_motion > 0 {
             writeln!(f, "  on a self-motion     {} planted, reported as such", self.on_self_motion)?;
         }
-        if !self.lost.is_empty() {
-            let shown: Vec<String> = self.lost.iter().take(10).map(u64::to_string).collect();
-            writeln!(f, "  lost samples         {}", shown.join(" "))?;
+        for (what, samples) in [("lost samples", &self.lost), ("miscounted samples", &self.miscounted_in)] {
+            if !samples.is_empty() {
+                let shown: Vec<String> = samples.iter().take(10).map(u64::to_string).collect();
+                writeln!(f, "  {what:<21}{}", shown.join(" "))?;
+            }
         }
         let verdicts: Vec<String> = self.verdicts.iter().map(|(word, count)| format!("{count} {word}")).collect();
         writeln!(f, "  verdicts             {}", verdicts.join(", "))?;

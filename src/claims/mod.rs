@@ -101,7 +101,7 @@ pub fn judge(entry: &Entry) -> Result<Judgement> {
     let mechanism = Mechanism::prepare(entry)?;
     let ruler = match &entry.design {
         Design::Arm(chain) | Design::Loop(chain) => Ruler::Joints(Joints::of(chain)?),
-        Design::Platform(platform) => Ruler::Poses(Poses::of(platform)),
+        Design::Platform(platform) => Ruler::Poses(Box::new(Poses::of(platform))),
     };
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
     let mut judgement = Judgement { cases: entry.cases.len(), ..Judgement::default() };
@@ -124,7 +124,7 @@ pub fn judge(entry: &Entry) -> Result<Judgement> {
 /// What measures a claimed solution.
 enum Ruler<'a> {
     Joints(Joints<'a>),
-    Poses(Poses),
+    Poses(Box<Poses>),
 }
 
 impl Ruler<'_> {

@@ -98,6 +98,7 @@ fn document(counts: &Counts, set: &str, options: &AccuracyOptions) -> serde_json
         counts.noun: counts.solved, "found": counts.found, "lost": counts.lost.len(), "lost_samples": counts.lost,
         "on_self_motion": counts.on_self_motion, "spurious": counts.spurious, "duplicates": counts.duplicates,
         "exactly_counted": counts.counted, "miscounted": counts.miscounted,
+        "miscounted_samples": counts.miscounted_in,
         "modes": counts.modes.0, "certified": counts.modes.1,
         "verdicts": counts.verdicts, "reasons": counts.reasons,
         "residual": spread(&counts.residuals), "distance": spread(&counts.errors),

@@ -51,11 +51,10 @@ fn reduce(modulus: &Modulus, matrix: &mut [Vec<u64>]) {
         }
         // The inverse operations from the right.
         for row in matrix.iter_mut() {
-            let mut sum = row[target];
-            for (x, factor) in row.iter().zip(&factors).skip(target + 1) {
-                sum = Modulus::add(modulus, sum, Modulus::mul(modulus, *x, *factor));
-            }
-            row[target] = sum;
+            let mut sum = [row[target]];
+            let terms = row.chunks_exact(1).zip(&factors).skip(target + 1).map(|(x, &factor)| (factor, x));
+            modulus.add_combination(&mut sum, terms);
+            row[target] = sum[0];
         }
     }
 }

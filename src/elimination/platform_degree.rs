@@ -39,6 +39,9 @@ pub fn modular_setting(
     squares: &[Rational; 6],
 ) -> Option<Setting<u64>> {
     let image = |q: &Rational| -> Option<u64> {
+        if *q.denom() == 1 {
+            return Some(modulus.reduce(q.numer()));
+        }
         let denominator = modulus.reduce(q.denom());
         (denominator != 0).then(|| Modulus::mul(modulus, modulus.reduce(q.numer()), modulus.inverse(denominator)))
     };
@@ -84,7 +87,7 @@ fn turned(platform: &Platform<Rational>, choice: usize) -> Platform<Rational> {
 #[must_use]
 pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<PlatformDegree> {
     let modulus = primes().next()?;
-    let mut last = None;
+    let mut settings = Vec::new();
     for choice in 0..TURNS.len() {
         let legs = linear_legs(&turned(platform, choice));
         let setting = modular_setting(&modulus, &legs, legs_squared)?;
@@ -92,9 +95,12 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
             let null = DIMENSION - regular_part(&modulus, &products).pivots.len();
             return Some(PlatformDegree::Finite { poses: DIMENSION - null, null, curves: false });
         }
-        last = Some(setting);
+        settings.push(setting);
     }
-    let Some(products) = special_products(&modulus, &last?) else { return Some(PlatformDegree::Infinite) };
+    // A pose where one chart ends looks like a curve there: all charts must agree on one.
+    let Some(products) = settings.iter().find_map(|setting| special_products(&modulus, setting)) else {
+        return Some(PlatformDegree::Infinite);
+    };
     let poses = regular_part(&modulus, &products).pivots.len();
     Some(PlatformDegree::Finite { poses, null: DIMENSION.saturating_sub(poses), curves: true })
 }

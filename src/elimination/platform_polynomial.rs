@@ -3,7 +3,7 @@
 //! In the quotient algebra of the equations modulo a prime, multiplication by a quotient of two coordinates of the rotation
 //! is a matrix; its characteristic polynomial is the image of the one over the rationals. Enough primes give that.
 
-use super::border::{Arithmetic, BorderBasis};
+use super::border::{Arithmetic, BorderBasis, DIMENSION};
 use super::characteristic::characteristic_polynomial;
 use super::platform_degree::{general_products, modular_setting, regular_part, row_times, special_products};
 use crate::algebra::modp::{Modulus, primes};
@@ -77,6 +77,8 @@ struct Modular<'a> {
     weights: [i32; 3],
     /// Whether the general border basis does not exist.
     special: bool,
+    /// Whether no solution has `N = 0`, as is known from the first prime.
+    all_regular: bool,
 }
 
 impl Modular<'_> {
@@ -88,7 +90,7 @@ impl Modular<'_> {
         } else {
             general_products(modulus, &setting, memory)?
         };
-        let regular = regular_part(modulus, &products);
+        let regular = (!self.all_regular).then(|| regular_part(modulus, &products));
         let weights = self.weights.map(|w| modulus.reduce(&Integer::from(w)));
         let [mut matrix, rest @ ..] = products;
         for (k, row) in matrix.iter_mut().enumerate() {
@@ -99,7 +101,9 @@ impl Modular<'_> {
                 modulus.add_multiple(row, w, &other[k]);
             }
         }
-        if regular.pivots.len() < matrix.len() {
+        if let Some(regular) = regular
+            && regular.pivots.len() < matrix.len()
+        {
             let image = |v: &Vec<u64>| {
                 let product = row_times(modulus, v, &matrix);
                 regular.pivots.iter().map(|&p| product[p]).collect()
@@ -146,8 +150,10 @@ pub fn platform_polynomial(platform: &Platform<Rational>, legs_squared: &[Ration
     [false, true].into_iter().find_map(|special| {
         COORDINATES.iter().find_map(|coordinate| {
             let legs = &linear_legs(&coordinate.turned(platform));
-            let modular = Modular { legs, squares: legs_squared, weights: coordinate.weights, special };
+            let weights = coordinate.weights;
+            let mut modular = Modular { legs, squares: legs_squared, weights, special, all_regular: false };
             let first = modular.polynomial(&modulus, &mut BorderBasis::new(&modulus))?;
+            modular.all_regular = !special && first.len() == DIMENSION + 1;
             (first.len() > 1 && is_square_free(&modulus, &first)).then_some(())?;
             lifted(&modular, *coordinate, first.len())
         })
@@ -226,7 +232,7 @@ impl Combined {
             .iter()
             .map(|r| symmetric(Integer::from(r * &denominator) % &self.product, &self.product))
             .collect();
-        let common = coefficients.iter().fold(Integer::new(), |g, c| g.gcd(c));
+        let common = coefficients.iter().fold(Integer::new(), Integer::gcd);
         for c in &mut coefficients {
             c.div_exact_mut(&common);
         }

@@ -79,8 +79,8 @@ pub struct Mechanism(Solver);
 
 /// Who solves it.
 enum Solver {
-    SingleLoop(SingleLoop),
-    Platform(PreparedPlatform),
+    SingleLoop(Box<SingleLoop>),
+    Platform(Box<PreparedPlatform>),
 }
 
 impl Mechanism {
@@ -90,8 +90,10 @@ impl Mechanism {
     /// [`crate::error::Error::Unsupported`] for joints other than R, P and C, and for too many translations.
     pub fn prepare(entry: &Entry) -> Result<Self> {
         Ok(Self(match &entry.design {
-            Design::Arm(chain) | Design::Loop(chain) => Solver::SingleLoop(SingleLoop::prepare(entry, chain)?),
-            Design::Platform(geometry) => Solver::Platform(PreparedPlatform::prepare(geometry)?),
+            Design::Arm(chain) | Design::Loop(chain) => {
+                Solver::SingleLoop(Box::new(SingleLoop::prepare(entry, chain)?))
+            }
+            Design::Platform(geometry) => Solver::Platform(Box::new(PreparedPlatform::prepare(geometry)?)),
         }))
     }
 

@@ -80,12 +80,20 @@ impl PreparedPlatform {
         let (memory, assembly) = (&mut workspace.platform, &mut workspace.platform_assembly);
         let start = Instant::now();
         self.solver.solve(&squares, roots, memory, assembly);
-        let solve_us = start.elapsed().as_secs_f64() * 1e6;
+        let mut solve_us = start.elapsed().as_secs_f64() * 1e6;
         let rationals = case_squares.each_ref().map(|square| square.rational().clone());
         let exact = match roots {
             Roots::All if !is_settled(assembly) => self.degree(&rationals),
             _ => None,
         };
+        // Knowing how many poses there are, it looks for those it missed.
+        if let Some(PlatformDegree::Finite { poses, .. }) = exact
+            && assembly.total() < poses
+        {
+            let start = Instant::now();
+            self.solver.solve_up_to(&squares, roots, Some(poses), memory, assembly);
+            solve_us += start.elapsed().as_secs_f64() * 1e6;
+        }
         account_for_singular(assembly, exact);
         let study: Vec<_> = assembly.modes.iter().map(|mode| self.solver.study(mode)).collect();
         let verdict = platform_verdict(assembly, &study, roots, exact);

@@ -63,18 +63,14 @@ pub fn equations<S: Number<Real: From<f64>>>(legs: &[Leg<f64>; 6], v: &Eight<S>,
         let w = leg.vector(&x, &y, times);
         equations.values[i] = scalar(&w, &w).sub(&times(&norm, &leg.square)).halved();
         let by_x = leg.half_slope(&w, &x, times);
-        for k in 0..4 {
-            equations.jacobian[i][k] = by_x[k];
-            equations.jacobian[i][4 + k] = w[k];
-        }
+        equations.jacobian[i][..4].copy_from_slice(&by_x);
+        equations.jacobian[i][4..].copy_from_slice(&w);
         equations.sizes[i] = 0.5 * (square(&w) + leg.square.abs() * length);
     }
     equations.values[6] = scalar(&x, &y);
-    for k in 0..4 {
-        equations.jacobian[6][k] = y[k];
-        equations.jacobian[6][4 + k] = x[k];
-        equations.jacobian[7][k] = patch[k];
-    }
+    equations.jacobian[6][..4].copy_from_slice(&y);
+    equations.jacobian[6][4..].copy_from_slice(&x);
+    equations.jacobian[7][..4].copy_from_slice(patch);
     equations
 }
 
@@ -96,6 +92,9 @@ impl<S: Number> Equations<S> {
         inverse.iter().map(|row| row.iter().zip(rows).map(|(x, r)| x.bound() * r).sum::<f64>()).fold(0.0, f64::max)
     }
 }
+
+/// A complex number with twice the digits.
+pub type Wide = Complex<DoubleDouble>;
 
 /// A polished pose.
 #[derive(Clone, Copy, Debug)]
@@ -202,10 +201,10 @@ pub fn refine(
     legs: &[Leg<f64>; 6],
     v: &Eight<Complex<f64>>,
     inverse: &[Eight<Complex<f64>>; 8],
-) -> Option<(Eight<Complex<DoubleDouble>>, Equations<Complex<DoubleDouble>>)> {
+) -> Option<(Eight<Wide>, Equations<Wide>)> {
     let mut point = v.map(wide);
-    let patch: Four<Complex<DoubleDouble>> = std::array::from_fn(|k| wide(v[k].conj()));
-    let narrow = |z: &Complex<DoubleDouble>| Complex::new(z.re.to_f64(), z.im.to_f64());
+    let patch: Four<Wide> = std::array::from_fn(|k| wide(v[k].conj()));
+    let narrow = |z: &Wide| Complex::new(z.re.to_f64(), z.im.to_f64());
     let mut before = f64::INFINITY;
     for _ in 0..MOST_STEPS {
         let here = equations(legs, &point, &patch);
@@ -225,17 +224,16 @@ pub fn refine(
     None
 }
 
-/// Newton's method in numbers of twice the precision all along, for poses very far away, where `N = x.x` is tiny: the
-/// point, its equations, and the inverse of their Jacobian; `None` where it does not settle.
+/// A pose in numbers of twice the precision: the point, its equations, and the inverse of their Jacobian.
+pub type WidePose = (Eight<Wide>, Equations<Wide>, [Eight<Wide>; 8]);
+
+/// Newton's method in numbers of twice the precision all along, for poses very far away, where `N = x.x` is tiny; `None`
+/// where it does not settle.
 #[must_use]
-#[expect(clippy::type_complexity, reason = "what a polished pose consists of")]
-pub fn polish_wide(
-    legs: &[Leg<f64>; 6],
-    start: &Eight<Complex<f64>>,
-) -> Option<(Eight<Complex<DoubleDouble>>, Equations<Complex<DoubleDouble>>, [Eight<Complex<DoubleDouble>>; 8])> {
+pub fn polish_wide(legs: &[Leg<f64>; 6], start: &Eight<Complex<f64>>) -> Option<WidePose> {
     let start = normalised(start)?;
     let mut point = start.map(wide);
-    let patch: Four<Complex<DoubleDouble>> = std::array::from_fn(|k| wide(start[k].conj()));
+    let patch: Four<Wide> = std::array::from_fn(|k| wide(start[k].conj()));
     let mut before = f64::INFINITY;
     let mut growing = 0;
     for _ in 0..2 * MOST_STEPS {
@@ -261,6 +259,6 @@ pub fn polish_wide(
 
 /// A complex number with twice the digits.
 #[must_use]
-pub fn wide(z: Complex<f64>) -> Complex<DoubleDouble> {
+pub fn wide(z: Complex<f64>) -> Wide {
     Complex::new(z.re.into(), z.im.into())
 }

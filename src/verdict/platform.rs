@@ -15,6 +15,7 @@ type Study = [Complex<f64>; 8];
 
 /// Judges the poses of a platform. `study` holds Study's parameters of every mode, `exact` the exact number of poses where
 /// that was asked for.
+#[must_use]
 pub fn platform_verdict(
     assembly: &PlatformAssembly,
     study: &[Study],

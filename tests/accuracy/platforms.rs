@@ -6,8 +6,9 @@ use looproot::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWor
 use looproot::benchmark::accuracy::Counts;
 use looproot::benchmark::platform::accuracy::{PlatformJob, run};
 use looproot::benchmark::platform::sample::{PlatformSet, sample};
-use looproot::elimination::platform_degree::PlatformDegree;
+use looproot::elimination::platform_degree::{PlatformDegree, platform_degree};
 use looproot::verdict::{Status, platform_verdict};
+use rug::Rational;
 
 fn counts(set: PlatformSet, count: u64, roots: Roots) -> Counts {
     let counts = run(PlatformJob { set, count, seed: 2024, roots }, || true, || ()).unwrap();
@@ -40,8 +41,8 @@ fn special_platforms_have_as_many_poses_as_an_exact_count_finds() {
     let expected = [40, 32, 16, 16, 8, 40, 24, 24, 16, 16, 16, 24, 16, 16];
     let shared = PlatformSet::NAMED.into_iter().filter(|(_, set)| matches!(set, PlatformSet::Shared(..)));
     for ((name, set), expected) in shared.zip(expected) {
-        let counts = counts(set, 8, Roots::All);
-        assert_eq!((counts.counted, counts.complex.get(&expected)), (8, Some(&8)), "{name}\n{counts}");
+        let counts = counts(set, 5, Roots::All);
+        assert_eq!((counts.counted, counts.complex.get(&expected)), (5, Some(&5)), "{name}\n{counts}");
     }
     let related = [
         (PlatformSet::Affine, 32),
@@ -50,9 +51,19 @@ fn special_platforms_have_as_many_poses_as_an_exact_count_finds() {
         (PlatformSet::SimilarPlanar, 16),
     ];
     for (set, expected) in related {
-        let counts = counts(set, 8, Roots::All);
-        assert_eq!(counts.complex.get(&expected), Some(&8), "{set:?}\n{counts}");
+        let counts = counts(set, 5, Roots::All);
+        assert_eq!(counts.complex.get(&expected), Some(&5), "{set:?}\n{counts}");
     }
+}
+
+#[test]
+fn a_pose_where_a_chart_ends_is_no_curve_of_poses() {
+    // The planted pose of this sample lies at infinity of one of the charts in which poses are counted.
+    let drawn = sample(PlatformSet::Similar, 1, 225).unwrap();
+    let squares = drawn.entry.cases[0].legs_squared.as_ref().unwrap().each_ref().map(|s| s.rational().clone());
+    let exact = drawn.platform.map(|x| Rational::from_f64(*x)).unwrap();
+    let degree = platform_degree(&exact, &squares).unwrap();
+    assert!(matches!(degree, PlatformDegree::Finite { poses: 24, .. }), "{degree:?}");
 }
 
 /// A platform with all its poses.
@@ -88,7 +99,9 @@ fn no_crippled_list_is_called_complete() {
                 let status = judge(&solver, &crippled, poses);
                 assert!(!is_claimed(status), "{set:?}: {status:?} although mode {k} {what}");
             };
-            refused("is missing", &|list| drop(list.modes.remove(k)));
+            refused("is missing", &|list| {
+                list.modes.remove(k);
+            });
             refused("has no certificate", &|list| list.modes[k].certificate = None);
             refused("has no multiplicity", &|list| list.modes[k].multiplicity = 0);
             refused("counts twice", &|list| list.modes[k].multiplicity = 2);

@@ -1,6 +1,7 @@
 //! Platform files: read exactly, and every mistake named with its line.
 
 use crate::{complaint, read};
+use looproot::algebra::number::Number;
 use looproot::catalogue::entry::{Design, Entry, Kind};
 use looproot::catalogue::{Format, Options, builtin, builtin_names, load_text};
 use looproot::kinematics::platform::Platform;
@@ -167,7 +168,7 @@ fn bodies_without_extent_are_no_platforms() {
     };
     let point = "[0.1, 0.2, \"1/3\"], ".repeat(6);
     assert!(plate(&point).contains("test.toml:14: found six equal points in `plate`, expected a body of some size"));
-    let line: String = (0..6).map(|k| format!("[{k}, {}, 7], ", 2 * k)).collect();
+    let line = (0..6).map(|k| format!("[{k}, {}, 7]", 2 * k)).collect::<Vec<_>>().join(", ");
     assert!(plate(&line).contains("test.toml:14: found all points of `plate` on one line"));
     // Nearly so, as rounding would have it; and as far from it as a millionth.
     let nearly = |off: &str| line.replacen("[2, 4, 7]", &format!("[2, {off}, 7]"), 1);
@@ -189,8 +190,7 @@ fn every_claimed_pose_of_the_library_fits_its_legs() {
     for name in builtin_names().into_iter().filter(|name| name.starts_with("platform/")) {
         let entry = builtin(&name, &Options::default()).unwrap();
         let Design::Platform(numbers) = &entry.design else { panic!("{name}") };
-        let points =
-            |p: &[[looproot::algebra::number::Number; 3]; 6]| p.each_ref().map(|p| p.each_ref().map(|x| x.to_f64()));
+        let points = |p: &[[Number; 3]; 6]| p.each_ref().map(|p| p.each_ref().map(Number::to_f64));
         let Platform { base, plate } = Platform { base: points(&numbers.base), plate: points(&numbers.plate) };
         for case in &entry.cases {
             let wanted = case.legs_squared.as_ref().unwrap();

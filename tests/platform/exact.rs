@@ -51,7 +51,7 @@ fn special_geometries_have_fewer_poses_and_all_are_found() {
             p.plate = p.base.clone().map(|a| a.map(|x| x * Rational::from((2, 3))));
         }),
     ];
-    for (seed, (name, poses, make)) in (20..).zip(classes) {
+    for (seed, (name, poses, make)) in (20_u64..).zip(classes) {
         let mut draw = Draw::new(seed);
         let mut platform = draw.platform();
         make(&mut platform);
@@ -66,7 +66,7 @@ fn special_geometries_have_fewer_poses_and_all_are_found() {
 /// Points of a circle, and a smaller similar plate.
 fn on_a_circle() -> Platform<Rational> {
     let base = std::array::from_fn(|i| {
-        let t = Rational::from((3 * i as i32 - 7, 5));
+        let t = Rational::from((3 * i32::try_from(i).unwrap() - 7, 5));
         let square = Rational::from(&t * &t);
         let whole = Rational::from(&square + 1);
         [(1 - square) * 10 / &whole, t * 20 / whole, Rational::new()]

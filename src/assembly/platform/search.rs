@@ -81,6 +81,8 @@ pub struct Search<'a> {
     pub curvature: &'a Curvature,
     /// What is looked for.
     pub roots: Roots,
+    /// How many poses there are, where that is known.
+    pub expected: Option<usize>,
     /// What was found, without conjugates.
     pub found: &'a mut Vec<Found>,
     /// Eigenvalues that belong to no pose.
@@ -105,10 +107,26 @@ enum Outcome {
 
 impl<'a> Search<'a> {
     /// The search with nothing found yet.
-    pub fn new(legs: &'a [Leg<f64>; 6], curvature: &'a Curvature, roots: Roots, found: &'a mut Vec<Found>) -> Self {
+    pub fn new(
+        legs: &'a [Leg<f64>; 6],
+        curvature: &'a Curvature,
+        roots: Roots,
+        expected: Option<usize>,
+        found: &'a mut Vec<Found>,
+    ) -> Self {
         found.clear();
-        let stray = [None; STRAYS];
-        Self { legs, curvature, roots, found, null: 0, lost: 0, followed: false, followed_pair: false, stray }
+        Self {
+            legs,
+            curvature,
+            roots,
+            expected,
+            found,
+            null: 0,
+            lost: 0,
+            followed: false,
+            followed_pair: false,
+            stray: [None; STRAYS],
+        }
     }
 
     /// The dimension of the self-motion on which poses lie that are no isolated solutions.
@@ -122,17 +140,30 @@ impl<'a> Search<'a> {
         self.found.iter().map(|f| f.multiplicity() * if f.real { 1 } else { 2 }).sum()
     }
 
-    /// Eigenvalues of the border basis followed last that are not accounted for.
+    /// Poses that are missing, or else eigenvalues of the border basis followed last that are not accounted for.
     pub fn unresolved(&self) -> usize {
         match self.roots {
             Roots::Real => self.lost,
-            Roots::All => DIMENSION.saturating_sub(self.poses() + self.null),
+            Roots::All => match self.expected {
+                Some(expected) => expected.saturating_sub(self.poses()),
+                None => DIMENSION.saturating_sub(self.poses() + self.null),
+            },
         }
     }
 
     /// Whether a border basis was followed, and nothing of it is left to be found.
     pub fn is_done(&self) -> bool {
         self.followed && self.unresolved() == 0
+    }
+
+    /// Whether fewer poses were found than there are, where that is known.
+    pub fn lacks_known_poses(&self) -> bool {
+        self.roots == Roots::All && self.expected.is_some_and(|expected| self.poses() < expected)
+    }
+
+    /// Whether all poses were found, where their number is known.
+    pub fn has_all_known_poses(&self) -> bool {
+        self.roots == Roots::All && self.expected.is_some_and(|expected| self.poses() >= expected)
     }
 
     /// Follows all eigenvalues of a border basis.
@@ -243,7 +274,7 @@ impl<'a> Search<'a> {
         let Some((point, there, inverse)) = polish_wide(self.legs, start) else { return false };
         let proof = pose_certificate(self.legs, self.curvature, &point, &there, &inverse);
         let study = point.map(narrow);
-        let Some(certificate) = proof.map(|c| rounded(c, &study)).filter(|c| holds(c, &study, false)) else {
+        let Some(certificate) = proof.filter(|c| holds(c, &study, false)).map(|c| rounded(c, &study)) else {
             return false;
         };
         if self.known(&study, false).is_none() {
@@ -290,21 +321,26 @@ impl<'a> Search<'a> {
         if certificate.is_none() {
             // Once more with twice the digits.
             let inverse = polished.inverse.map(|row| row.map(Scalar::to_complex));
-            certificate = refine(legs, &study, &inverse).and_then(|(point, equations)| {
+            certificate = refine(legs, &study, &inverse).and_then(|(point, there)| {
                 let inverse = inverse.map(|row| row.map(wide));
-                let proof = pose_certificate(legs, curvature, &point, &equations, &inverse)?;
+                let proof = pose_certificate(legs, curvature, &point, &there, &inverse)?;
                 study = point.map(narrow);
-                Some(rounded(proof, &study)).filter(|c| holds(c, &study, S::REAL))
+                holds(&proof, &study, S::REAL).then(|| rounded(proof, &study))
             });
         }
         if certificate.is_none() && norm(&study).norm() < DOUBTFUL {
             return;
         }
+        let residual = if study == complex(&polished.study) {
+            polished.equations.residual()
+        } else {
+            equations(legs, &study, &patch(&study)).residual()
+        };
         self.found.push(Found {
             study,
             real: S::REAL,
             certificate,
-            residual: polished.equations.residual(),
+            residual,
             condition: polished.equations.condition(&polished.inverse),
             eigenvalues: 0,
             last: usize::MAX,
@@ -352,9 +388,11 @@ fn rounded(proof: Certificate, study: &Eight<Complex<f64>>) -> Certificate {
     Certificate { radius: proof.radius + ROUNDED * reach, ..proof }
 }
 
-/// Whether what is proved is a pose, and real or not as it seems.
+/// Whether what is proved is a pose, and real or not as it seems. The point may have been rounded to f64 since: every
+/// coordinate relative to itself, those of x to 1.
 fn holds(certificate: &Certificate, study: &Eight<Complex<f64>>, real: bool) -> bool {
-    is_pose(study, certificate.radius) && (real || is_complex(study, certificate.radius))
+    let radius = certificate.radius + ROUNDED;
+    is_pose(study, radius) && (real || is_complex(study, rounded(*certificate, study).radius))
 }
 
 /// The rotation z of eigenvalue k, of any length: quotients where the eigenvector is largest.

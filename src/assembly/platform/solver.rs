@@ -17,6 +17,9 @@ use num_complex::Complex;
 /// Platforms moved a little that are solved for one whose border basis loses rank, at most.
 const MOST_RUNS: usize = 8;
 
+/// So many times more are where it is known that poses are missing.
+const PATIENCE: usize = 4;
+
 /// The geometry of a platform, prepared for every set of leg lengths. Shared between threads.
 #[derive(Clone, Debug)]
 pub struct PlatformSolver {
@@ -83,6 +86,20 @@ impl PlatformSolver {
         workspace: &mut PlatformWorkspace,
         assembly: &mut PlatformAssembly,
     ) {
+        self.solve_up_to(legs_squared, roots, None, workspace, assembly);
+    }
+
+    /// As [`PlatformSolver::solve`]; where the number of poses is known (see
+    /// [`platform_degree`](crate::elimination::platform_degree::platform_degree)), special geometries are searched until
+    /// all of them are found, and not longer.
+    pub fn solve_up_to(
+        &self,
+        legs_squared: &[f64; 6],
+        roots: Roots,
+        expected: Option<usize>,
+        workspace: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) {
         assembly.modes.clear();
         assembly.route = Route::None;
         assembly.lost_rank = None;
@@ -95,7 +112,7 @@ impl PlatformSolver {
             leg.square = square;
         }
         let curvature = Curvature::new(&legs);
-        let mut search = Search::new(&legs, &curvature, roots, &mut workspace.found);
+        let mut search = Search::new(&legs, &curvature, roots, expected, &mut workspace.found);
         let mut solve = |chart: &Chart, path: &[[Leg<f64>; 6]], search: &mut Search| {
             let setting = chart.with_legs(&squares);
             if let Err(lost) = workspace.basis.build(&Reals, &setting) {
@@ -123,11 +140,12 @@ impl PlatformSolver {
                 break;
             }
         }
-        if assembly.route == Route::None {
+        if assembly.route == Route::None || search.lacks_known_poses() {
             // One border basis after the other, until three in a row bring nothing new.
             let mut unchanged = 0;
             let mut runs = 0;
-            while runs < MOST_RUNS && unchanged < 3 {
+            let most = if expected.is_some() { PATIENCE * MOST_RUNS } else { MOST_RUNS };
+            while runs < most && (unchanged < 3 || search.lacks_known_poses()) && !search.has_all_known_poses() {
                 let before = search.found.len();
                 let platforms = self.frame.perturbed(runs / 2);
                 let path = platforms

@@ -70,6 +70,7 @@ fn one(job: PlatformJob, index: u64, (workspace, assembly): &mut Memory) -> Resu
         if let Some(expected) = expected {
             counts.counted = 1;
             counts.miscounted = expected.abs_diff(solution.verdict.complex);
+            counts.miscounted_in.extend((counts.miscounted > 0).then_some(index));
         }
     }
     Ok(counts)

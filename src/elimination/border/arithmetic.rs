@@ -42,6 +42,9 @@ pub struct Split<E> {
 /// The most elements of one level.
 pub const LEVEL: usize = 9;
 
+/// So many products of residues modulo a prime below 2^62 are less than `p 2^64`.
+const PRODUCTS: usize = 4;
+
 /// Numbers, and how relations between them are solved.
 pub trait Arithmetic {
     /// The numbers.
@@ -58,6 +61,18 @@ pub trait Arithmetic {
     fn mul(&self, a: Self::Element, b: Self::Element) -> Self::Element;
     /// `target += factor source`
     fn add_multiple(&self, target: &mut [Self::Element], factor: Self::Element, source: &[Self::Element]);
+    /// `target += sum of factor source`, sources as long as the target or shorter.
+    fn add_combination<'a>(
+        &self,
+        target: &mut [Self::Element],
+        terms: impl Iterator<Item = (Self::Element, &'a [Self::Element])>,
+    ) where
+        Self::Element: 'a,
+    {
+        for (factor, source) in terms {
+            self.add_multiple(target, factor, source);
+        }
+    }
     /// Solves relations of the given rank for as many candidates; the others, or combinations of them, are the new basis
     /// elements. The smallest pivot over the largest, or else the rank found.
     ///
@@ -142,6 +157,34 @@ impl Arithmetic for Modulus {
         }
         for (t, s) in target.iter_mut().zip(source) {
             *t = Modulus::add(self, *t, Modulus::mul(self, factor, *s));
+        }
+    }
+    fn add_combination<'a>(&self, target: &mut [u64], terms: impl Iterator<Item = (u64, &'a [u64])>) {
+        // Sums of products are folded once: four products of residues below 2^62 add less than p 2^64.
+        let mut buffer = [0_u128; STRIDE];
+        let sums = &mut buffer[..target.len()];
+        for (sum, &t) in sums.iter_mut().zip(target.iter()) {
+            *sum = u128::from(t) << 64;
+        }
+        let limit = u128::from(self.prime()) << 64;
+        let mut open = 0;
+        for (factor, source) in terms {
+            if factor == 0 {
+                continue;
+            }
+            for (sum, &s) in sums.iter_mut().zip(source) {
+                *sum += u128::from(factor) * u128::from(s);
+            }
+            open += 1;
+            if open == PRODUCTS {
+                open = 0;
+                for sum in sums.iter_mut() {
+                    *sum -= if *sum >= limit { limit } else { 0 };
+                }
+            }
+        }
+        for (t, sum) in target.iter_mut().zip(sums) {
+            *t = self.fold(if *sum >= limit { *sum - limit } else { *sum });
         }
     }
     fn solve(&self, relations: &mut Relations<u64>, rank: usize, split: &mut Split<u64>) -> Result<f64, usize> {

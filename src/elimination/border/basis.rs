@@ -160,13 +160,8 @@ impl<A: Arithmetic> Building<'_, A> {
             *target = arithmetic.add(*target, source);
         }
         let products = &self.memory.products[i - 1];
-        let zero = arithmetic.zero();
-        for (c, &factor) in v[..start].iter().enumerate() {
-            if factor != zero {
-                let reach = START[LEVEL_OF[c] + 2];
-                arithmetic.add_multiple(&mut row[LOW..LOW + reach], factor, &products[c][..reach]);
-            }
-        }
+        let terms = v[..start].iter().enumerate().map(|(c, &factor)| (factor, &products[c][..START[LEVEL_OF[c] + 2]]));
+        arithmetic.add_combination(&mut row[LOW..LOW + end], terms);
     }
 
     /// `z_i v` as a vector, for v up to a level below the ones known; `z_0 = 1`.
@@ -175,10 +170,9 @@ impl<A: Arithmetic> Building<'_, A> {
             return *v;
         }
         let mut product = [self.arithmetic.zero(); DIMENSION];
-        for (c, &factor) in v[..length].iter().enumerate() {
-            let reach = START[LEVEL_OF[c] + 2];
-            self.arithmetic.add_multiple(&mut product[..reach], factor, &self.memory.products[i - 1][c][..reach]);
-        }
+        let products = &self.memory.products[i - 1];
+        let terms = v[..length].iter().enumerate().map(|(c, &factor)| (factor, &products[c][..START[LEVEL_OF[c] + 2]]));
+        self.arithmetic.add_combination(&mut product, terms);
         product
     }
 
@@ -398,11 +392,11 @@ impl<A: Arithmetic> Building<'_, A> {
                 let mut row = self.empty();
                 for i in 1..4 {
                     let mut v = [self.arithmetic.zero(); DIMENSION];
-                    for c in 0..LEVELS[2] {
+                    let terms = (0..LEVELS[2]).map(|c| {
                         let weight = self.memory.lifts[1][((i - 1) * LEVELS[2] + c) * LEVEL + b];
-                        let product = &self.memory.tau_products[a][START[2] + c];
-                        self.arithmetic.add_multiple(&mut v[..START[5]], weight, &product[..START[5]]);
-                    }
+                        (weight, &self.memory.tau_products[a][START[2] + c][..START[5]])
+                    });
+                    self.arithmetic.add_combination(&mut v[..START[5]], terms);
                     self.add_product(&mut row, 5, i, &v);
                 }
                 self.memory.tau_rows[a][b] = row;
@@ -443,16 +437,14 @@ impl<A: Arithmetic> Building<'_, A> {
         let (size, start) = (LEVELS[level], START[level]);
         for i in 1..4 {
             let mut v = [self.arithmetic.zero(); DIMENSION];
-            for b in 0..size {
-                let product = &self.memory.tau_products[a][start + b];
-                self.arithmetic.add_multiple(&mut v[..reach], relation[(i - 1) * size + b], &product[..reach]);
-            }
+            let products = &self.memory.tau_products[a][start..start + size];
+            let terms = products.iter().enumerate().map(|(b, p)| (relation[(i - 1) * size + b], &p[..reach]));
+            self.arithmetic.add_combination(&mut v[..reach], terms);
             self.add_product(&mut row, degree, i, &v);
         }
-        for b in 0..START[level + 1] {
-            let product = &self.memory.tau_products[a][b];
-            self.arithmetic.add_multiple(&mut row[LOW..LOW + reach], relation[LOW + b], &product[..reach]);
-        }
+        let products = &self.memory.tau_products[a][..START[level + 1]];
+        let terms = products.iter().enumerate().map(|(b, p)| (relation[LOW + b], &p[..reach]));
+        self.arithmetic.add_combination(&mut row[LOW..LOW + reach], terms);
         row
     }
 
@@ -486,10 +478,9 @@ impl<A: Arithmetic> Building<'_, A> {
                     let product = &mut memory.tau_products[a][START[level] + b];
                     product.fill(self.arithmetic.zero());
                     product[..START[degree]].copy_from_slice(&row[LOW..LOW + START[degree]]);
-                    for c in 0..memory.relations.candidates {
-                        let normal = &memory.split.normal[c * WIDTH..][..width];
-                        self.arithmetic.add_multiple(&mut product[..width], row[c], normal);
-                    }
+                    let normal = memory.split.normal.chunks_exact(WIDTH).take(memory.relations.candidates);
+                    let terms = row.iter().zip(normal).map(|(&c, normal)| (c, &normal[..width]));
+                    self.arithmetic.add_combination(&mut product[..width], terms);
                 }
             }
         }

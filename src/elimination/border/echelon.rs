@@ -18,59 +18,64 @@ pub fn solve(
     let mut pivots = [0; MOST_CANDIDATES];
     let mut free = [0; MOST_CANDIDATES];
     let (mut found, mut left) = (0, 0);
-    for column in 0..n {
-        let Some(best) = (found..count).find(|i| rows[i * STRIDE + column] != 0) else {
-            free[left] = column;
-            left += 1;
-            continue;
-        };
-        if best != found {
-            let (head, tail) = rows.split_at_mut(best * STRIDE);
-            head[found * STRIDE..(found + 1) * STRIDE].swap_with_slice(&mut tail[..STRIDE]);
+    // Candidates first, row after row by the pivots found; what that does to the other part is one combination.
+    for i in 0..count {
+        let (done, rest) = rows.split_at_mut(i * STRIDE);
+        let row = &mut rest[..STRIDE];
+        let mut factors = [0; MOST_CANDIDATES];
+        for (k, pivot_row) in done.chunks_exact(STRIDE).take(found).enumerate() {
+            let column = pivots[k];
+            factors[k] = modulus.neg(row[column]);
+            modulus.add_multiple(&mut row[column..n], factors[k], &pivot_row[column..n]);
         }
-        let (head, tail) = rows.split_at_mut((found + 1) * STRIDE);
-        let pivot_row = &mut head[found * STRIDE..];
-        let inverse = modulus.inverse(pivot_row[column]);
-        for part in [column..n, LOW..LOW + low] {
-            for x in &mut pivot_row[part] {
-                *x = modulus.mul(*x, inverse);
-            }
-        }
-        for row in tail.chunks_exact_mut(STRIDE).take(count - found - 1) {
-            let factor = modulus.neg(row[column]);
-            modulus.add_multiple(&mut row[column..n], factor, &pivot_row[column..n]);
-            modulus.add_multiple(&mut row[LOW..LOW + low], factor, &pivot_row[LOW..LOW + low]);
+        let (lead, behind) = row.split_at_mut(LOW);
+        let pivot_rows = done.chunks_exact(STRIDE).take(found).map(|r| &r[LOW..LOW + low]);
+        modulus.add_combination(&mut behind[..low], factors.iter().copied().zip(pivot_rows));
+        let Some(column) = lead[..n].iter().position(|&x| x != 0) else { continue };
+        let inverse = modulus.inverse(lead[column]);
+        for x in lead[column..n].iter_mut().chain(&mut behind[..low]) {
+            *x = modulus.mul(*x, inverse);
         }
         pivots[found] = column;
+        if i != found {
+            done[found * STRIDE..(found + 1) * STRIDE].swap_with_slice(row);
+        }
         found += 1;
+    }
+    for column in 0..n {
+        if !pivots[..found].contains(&column) {
+            free[left] = column;
+            left += 1;
+        }
     }
     let consistent = (found..count).all(|i| rows[i * STRIDE + LOW..i * STRIDE + LOW + low].iter().all(|&x| x == 0));
     if found != rank || !consistent {
         return Err(if consistent { found } else { n });
     }
-    // From the last pivot up: the rows of later pivots are solved already.
+    // From the largest pivot column down: a row reaches to larger columns only, and those are solved by then.
     let normal = &mut split.normal;
-    for k in (0..rank).rev() {
+    let one = modulus.one();
+    let mut order: [usize; MOST_CANDIDATES] = std::array::from_fn(|k| k);
+    order[..rank].sort_unstable_by_key(|&k| std::cmp::Reverse(pivots[k]));
+    for (t, &column) in free[..left].iter().enumerate() {
+        let row = &mut normal[column * WIDTH..][..low + left];
+        row.fill(0);
+        row[low + t] = one;
+    }
+    for &k in &order[..rank] {
         let row = &rows[k * STRIDE..(k + 1) * STRIDE];
         let mut solved = [0; WIDTH];
         for (target, &source) in solved.iter_mut().zip(&row[LOW..LOW + low]) {
             *target = modulus.neg(source);
         }
-        for t in 0..left {
-            solved[low + t] = modulus.neg(row[free[t]]);
-        }
-        for &column in &pivots[k + 1..rank] {
-            let factor = modulus.neg(row[column]);
-            modulus.add_multiple(&mut solved[..low + left], factor, &normal[column * WIDTH..][..low + left]);
-        }
-        normal[pivots[k] * WIDTH..][..low + left].copy_from_slice(&solved[..low + left]);
+        let column = pivots[k];
+        let later = normal.chunks_exact(WIDTH).take(n).enumerate().skip(column + 1);
+        let terms = later.map(|(c, normal)| (modulus.neg(row[c]), &normal[..low + left]));
+        modulus.add_combination(&mut solved[..low + left], terms);
+        normal[column * WIDTH..][..low + left].copy_from_slice(&solved[..low + left]);
     }
     split.lift[..n * LEVEL].fill(0);
-    let one = modulus.one();
     for (t, &column) in free[..left].iter().enumerate() {
-        let row = &mut normal[column * WIDTH..][..low + left];
-        row.fill(0);
-        row[low + t] = one;
         split.lift[column * LEVEL + t] = one;
     }
     Ok(1.0)
