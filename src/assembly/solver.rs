@@ -81,6 +81,13 @@ pub struct Workspace {
     eigen: EigenWorkspace,
 }
 
+impl Workspace {
+    /// Memory of the eigenvalue routines.
+    pub(super) fn eigen(&mut self) -> &mut EigenWorkspace {
+        &mut self.eigen
+    }
+}
+
 impl Solver {
     /// Prepares a geometry: all that does not depend on the pose, and the order of the cuts.
     #[must_use]

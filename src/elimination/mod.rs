@@ -8,4 +8,5 @@ pub mod pencil;
 pub mod point_reach;
 pub mod separated;
 pub mod spherical_four_bar;
+pub mod spherical_pair;
 pub mod spherical_triangle;
