@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::assembly::{Assembly, Roots, Solver, Workspace};
-use looproot::benchmark::sample::{Set, sample};
+use looproot::benchmark::sample::{CHAINS, Set, motions, sample};
 use looproot::kinematics::closed_loop::{Layout, OpenLoop};
 use looproot::kinematics::motion::Motion;
 use rand::{Rng, SeedableRng};
@@ -90,5 +90,27 @@ fn solving_pose_after_pose_allocates_nothing() {
             }
         }
         assert!(solutions >= 200, "{roots:?}: {solutions}");
+    }
+}
+
+#[test]
+fn no_chain_allocates_once_the_list_of_modes_has_its_size() {
+    for (index, (name, count)) in CHAINS.into_iter().enumerate() {
+        let drawn = sample(Set::Chain(index), 5, 0).unwrap();
+        let layout = Layout::of(&drawn.entry.chain, None).unwrap();
+        let open: OpenLoop<f64> = drawn.entry.chain.open_loop(&layout).unwrap();
+        let solver = match layout.ball_unknown() {
+            Some(ball) => Solver::with_ball(&open, ball),
+            None => Solver::prepare(&open),
+        };
+        let filling = drawn.entry.chain.forward::<f64>(&motions(&drawn.variables, &drawn.planted)).unwrap().inverse();
+        for roots in [Roots::Real, Roots::All] {
+            let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+            solver.solve(&filling, Roots::All, &mut workspace, &mut assembly);
+            assert_eq!(assembly.total(), count, "{name}");
+            let before = requests();
+            solver.solve(&filling, roots, &mut workspace, &mut assembly);
+            assert_eq!(requests() - before, 0, "{name}, {roots:?}");
+        }
     }
 }

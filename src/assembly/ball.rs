@@ -4,7 +4,7 @@
 
 use super::limits;
 use super::mode::{Assembly, Mode, wrapped};
-use super::search::{Family, RootOutcome, Search};
+use super::search::{AS_IT_IS, Family, RootOutcome, Search};
 use crate::elimination::point_reach::Reach;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::link_form::product as matrix_product;
@@ -60,6 +60,7 @@ impl Search<'_> {
             prepared: &[],
             closed: &closed,
             ball: None,
+            arrangement: AS_IT_IS,
             gap_rounding: self.gap_rounding,
             roots: self.roots,
             eigen: &mut *self.eigen,

@@ -3,7 +3,7 @@
 use super::ball::{ball_angles, ball_rotation, lifted, quarter, transposed};
 use super::limits;
 use super::mode::{Assembly, Roots};
-use super::search::Search;
+use super::search::{AS_IT_IS, Search};
 use super::solver::Workspace;
 use crate::elimination::spherical_pair::equation;
 use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Variable};
@@ -109,6 +109,7 @@ fn one<S: Scalar>(
         prepared: &[],
         closed: &closed,
         ball: None,
+        arrangement: AS_IT_IS,
         gap_rounding: 0.0,
         roots,
         eigen: workspace.eigen(),

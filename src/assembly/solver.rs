@@ -3,7 +3,7 @@
 use super::limits;
 use super::mode::{Assembly, Mode, Roots};
 use super::prepared::PreparedCut;
-use super::search::Search;
+use super::search::{AS_IT_IS, Search};
 use super::shifted::Shifted;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::cut::{Cut, Hidden};
@@ -228,6 +228,7 @@ impl Solver {
             prepared: &self.prepared,
             closed: &closed,
             ball: self.ball,
+            arrangement: AS_IT_IS,
             gap_rounding: gap.rounding,
             roots,
             eigen,

@@ -6,6 +6,7 @@ pub mod octic;
 pub mod opposite_axes;
 pub mod pencil;
 pub mod point_reach;
+pub mod rearranged;
 pub mod separated;
 pub mod spherical_four_bar;
 pub mod spherical_pair;
