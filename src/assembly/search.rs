@@ -97,17 +97,18 @@ impl Search<'_> {
 
     /// Cuts whose elimination is not prepared, best first. Whether the search is done.
     fn cuts_inside(&mut self, closed: &ClosedLoop<f64>, cuts: &[Cut], most: &dyn Fn() -> usize) -> bool {
-        let mut rest: Vec<(Cut, ClosedLoop<f64>, HalfAngleForm<f64>)> = cuts
-            .iter()
-            .filter(|cut| cut.fits(closed.variables))
-            .filter_map(|&cut| {
-                let view = cut.of(closed);
-                let form = half_angle_form(&view)?;
-                (form.score > limits::SCORE).then_some((cut, view, form))
-            })
-            .collect();
-        rest.sort_by(|a, b| b.2.score.total_cmp(&a.2.score));
-        rest.iter().any(|(cut, view, form)| {
+        let ready = |cut: &Cut| {
+            let view = cut.of(closed);
+            let form = half_angle_form(&view).filter(|form| form.score > limits::SCORE)?;
+            Some((*cut, view, form))
+        };
+        let fitting = |k: usize| cuts.get(k).filter(|cut| cut.fits(closed.variables));
+        let rest: [Option<(Cut, ClosedLoop<f64>, HalfAngleForm<f64>)>; 12] =
+            std::array::from_fn(|k| fitting(k).and_then(ready));
+        let score = |k: usize| rest[k].as_ref().map_or(0.0, |(_, _, form)| form.score);
+        let mut order: [usize; 12] = std::array::from_fn(|k| k);
+        order.sort_by(|&a, &b| score(b).total_cmp(&score(a)));
+        order.iter().filter_map(|&k| rest[k].as_ref()).any(|(cut, view, form)| {
             let rows = before_second_link(form, &view.constants[1]);
             self.both_hidings(*cut, view, form, &rows, most)
         })
