@@ -22,6 +22,9 @@ use crate::solve::scalar::Scalar;
 use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
 use num_complex::Complex;
 
+/// A cut, the loop as it reads it, and its elimination.
+type Ready = (Cut, ClosedLoop<f64>, HalfAngleForm<f64>);
+
 /// The loop with every unknown in its place.
 pub(super) const AS_IT_IS: ([usize; 6], bool) = ([0, 1, 2, 3, 4, 5], false);
 
@@ -103,8 +106,7 @@ impl Search<'_> {
             Some((*cut, view, form))
         };
         let fitting = |k: usize| cuts.get(k).filter(|cut| cut.fits(closed.variables));
-        let rest: [Option<(Cut, ClosedLoop<f64>, HalfAngleForm<f64>)>; 12] =
-            std::array::from_fn(|k| fitting(k).and_then(ready));
+        let rest: [Option<Ready>; 12] = std::array::from_fn(|k| fitting(k).and_then(ready));
         let score = |k: usize| rest[k].as_ref().map_or(0.0, |(_, _, form)| form.score);
         let mut order: [usize; 12] = std::array::from_fn(|k| k);
         order.sort_by(|&a, &b| score(b).total_cmp(&score(a)));

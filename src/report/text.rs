@@ -189,7 +189,7 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
         paragraph(&mut text, &format!("warning: {warning}"));
     }
     let proved = matches!(solution.verdict.status, Status::Complete | Status::Unreachable);
-    if entry.rounded && proved && solution.verdict.reason.contains("a closure polynomial of degree") {
+    if entry.rounded && proved && !solution.verdict.reason.contains(" roots of a degree-") {
         // Fewer roots than there are in general are complete by exact work on the geometry only.
         text.push_str("note: irrational numbers of the file were rounded for exact work (--digits)\n");
     }
