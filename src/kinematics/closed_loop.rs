@@ -1,7 +1,7 @@
 //! The canonical form of every single loop: six unknown rotations or translations and six constant motions.
 //!
 //! `V1(x1) G1 V2(x2) G2 ... V6(x6) G6 = I` with each `V` a rotation about or a translation along its own z axis. An arm
-//! at a pose, a loop with one joint given, joints of type R, P and C: nothing else about them survives, so that one code
+//! at a pose, a loop with one joint given, joints of type R, P, C and S: nothing else about them survives, so that one code
 //! path serves all. \[LeeLiang1988\]
 
 use super::chain::{Chain, Geometry, Joint, JointKind, ScrewJoint};
@@ -92,7 +92,7 @@ impl Layout {
     /// The variables of a chain in joint order.
     ///
     /// # Errors
-    /// For joints that are not R, P or C: a message that names the joint.
+    /// For joints that are not R, P, C or S, and for a third S joint: a message that names the joint.
     pub fn of(chain: &Chain, locked: Option<usize>) -> Result<Self, Error> {
         let (mut variables, mut ball, mut second_ball) = (Vec::new(), None, None);
         for (i, kind) in chain.joint_kinds().into_iter().enumerate() {
@@ -349,7 +349,7 @@ impl Chain {
     }
 }
 
-/// The unknowns of one R, P or C joint and its own constants (offsets).
+/// The unknowns of one joint and its own constants (offsets).
 fn joint_steps<R: Ring>(joint: &Joint, steps: &mut Vec<Step<R>>) -> Option<()> {
     screw_steps(joint.kind, steps);
     let (cos, sin) = R::cos_sin(&joint.theta0)?;
