@@ -61,61 +61,84 @@ fn off_identity<S: Number>(at: &Closure<S>) -> f64 {
     8.0 * at.defect + product_error(at)
 }
 
-/// Bounds the sum of the |Z_j|.
-fn twists<S: Number>(at: &Closure<S>) -> f64 {
-    MARGIN * at.norms.iter().map(|n| n.twist).sum::<f64>()
+/// Every unknown counts alike.
+const ALIKE: Six<f64> = [1.0; 6];
+
+/// Bounds the sum of the |Z_j|, each unknown measured by its weight.
+fn twists<S: Number>(at: &Closure<S>, weights: &Six<f64>) -> f64 {
+    MARGIN * at.norms.iter().zip(weights).map(|(n, w)| n.twist * w).sum::<f64>()
 }
 
 /// Bounds the error of the Jacobian, summed over a row: the derivative is L(Z_j E), from which `at.jacobian` differs by
 /// |Z_j| |E - I|, and Z_j is computed from a product of steps.
 #[must_use]
 pub fn derivative_error<S: Number>(at: &Closure<S>) -> f64 {
-    twists(at) * (2.0 * off_identity(at) + 4.0 * product_error(at))
+    weighted_derivative_error(at, &ALIKE)
+}
+
+fn weighted_derivative_error<S: Number>(at: &Closure<S>, weights: &Six<f64>) -> f64 {
+    twists(at, weights) * (2.0 * off_identity(at) + 4.0 * product_error(at))
 }
 
 /// Bounds how much faster than a distance the derivative changes, as the largest sum over a row, within `r` (largest
 /// coordinate) of the unknowns.
 #[must_use]
 pub fn curvature<S: Number>(at: &Closure<S>, r: f64) -> f64 {
-    let twists = twists(at);
+    weighted_curvature(at, r, &ALIKE)
+}
+
+fn weighted_curvature<S: Number>(at: &Closure<S>, r: f64, weights: &Six<f64>) -> f64 {
+    let twists = twists(at, weights);
     twists * twists * (r * twists).exp() * (1.0 + off_identity(at))
 }
 
 /// Proves that exactly one solution lies near these unknowns; `None` where that cannot be shown.
 #[must_use]
 pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]) -> Option<Certificate> {
+    weighted_certificate(at, approximate_inverse, &ALIKE)
+}
+
+/// As [`certificate`], with the size of every unknown measured by its weight, at least 1: long translations need not be
+/// as exact as angles.
+fn weighted_certificate<S: Number>(
+    at: &Closure<S>,
+    approximate_inverse: &[Six<S>; 6],
+    weights: &Six<f64>,
+) -> Option<Certificate> {
     let product_error = product_error(at);
     if !(off_identity(at) < 1e-3) {
         return None;
     }
-    let inverse_norm = norm(approximate_inverse) * MARGIN;
+    let row = |(row, weight): (&Six<S>, &f64)| row.iter().map(|x| x.bound()).sum::<f64>() / weight;
+    let inverse_norm = approximate_inverse.iter().zip(weights).map(row).fold(0.0, f64::max) * MARGIN;
     // |A F| with the error of F and of the product A F.
-    let step = times(approximate_inverse, &at.residual).into_iter().map(Number::bound).fold(0.0, f64::max);
+    let step = times(approximate_inverse, &at.residual);
+    let step = step.into_iter().zip(weights).map(|(x, weight)| x.bound() / weight).fold(0.0, f64::max);
     let residual = at.residual.iter().map(|x| x.bound()).fold(0.0, f64::max);
     let y = MARGIN * (step + inverse_norm * (product_error + 16.0 * S::UNIT_ROUNDOFF * residual));
     // |I - A J|, the error of J as the derivative, and the roundings of this very product.
-    let mut deviation = [[S::zero(); 6]; 6];
-    let mut sums = 0.0_f64;
-    for (i, row) in deviation.iter_mut().enumerate() {
-        let mut sum = 0.0;
-        for (j, entry) in row.iter_mut().enumerate() {
+    let (mut deviation, mut sums) = (0.0_f64, 0.0_f64);
+    for i in 0..6 {
+        let (mut off, mut sum) = (0.0, 0.0);
+        for j in 0..6 {
             let mut value = if i == j { S::one() } else { S::zero() };
             for k in 0..6 {
                 let term = approximate_inverse[i][k].mul(&at.jacobian[k][j]);
-                sum += term.bound();
+                sum += term.bound() * weights[j];
                 value = value.sub(&term);
             }
-            *entry = value;
+            off += value.bound() * weights[j];
         }
-        sums = sums.max(sum);
+        deviation = deviation.max(off / weights[i]);
+        sums = sums.max(sum / weights[i]);
     }
-    let derivative_error = inverse_norm * derivative_error(at);
-    let z0 = MARGIN * (norm(&deviation) + 40.0 * S::UNIT_ROUNDOFF * sums + derivative_error);
+    let derivative_error = inverse_norm * weighted_derivative_error(at, weights);
+    let z0 = MARGIN * (deviation + 40.0 * S::UNIT_ROUNDOFF * sums + derivative_error);
     if !(z0 < 0.5) {
         return None;
     }
     // Smallest radius that works, then the largest one (with half the contraction to spare).
-    let bend = |r: f64| MARGIN * inverse_norm * curvature(at, r);
+    let bend = |r: f64| MARGIN * inverse_norm * weighted_curvature(at, r, weights);
     let radius = (1.05 * y / (1.0 - z0)).max(f64::MIN_POSITIVE);
     let works = |r: f64| {
         let z2 = bend(r);
@@ -129,7 +152,10 @@ pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]
             isolation = radius;
         }
     }
-    Some(Certificate { radius, isolation })
+    // Of coordinates, not of weighted ones.
+    let largest = weights.iter().copied().fold(1.0, f64::max);
+    let radius = radius * largest;
+    (radius <= isolation).then_some(Certificate { radius, isolation })
 }
 
 /// As [`certificate`], with the loop opened in turn behind each of its joints: imaginary parts make some frames far
@@ -226,7 +252,7 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
             return None;
         }
         if size < 1e-26 || stalls || round == 11 {
-            let proof = certificate(&here, &inverse).or_else(|| in_any_frame(&precise, &pairs))?;
+            let proof = certificate(&here, &inverse).or_else(|| in_any_frame(&precise, &pairs, reach))?;
             let refined: Six<Complex<f64>> = std::array::from_fn(|j| {
                 let z = Complex::new(state[j].re.to_f64(), state[j].im.to_f64());
                 match variables[j] {
@@ -257,13 +283,15 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
     None
 }
 
-/// [`certificate`] in double-double arithmetic with the loop opened in turn behind each of its joints.
-fn in_any_frame(closed: &ClosedLoop<DoubleDouble>, pairs: &[(Quad, Quad); 6]) -> Option<Certificate> {
-    (1..6).find_map(|k| {
+/// [`certificate`] in double-double arithmetic with the loop opened in turn behind each of its joints,
+/// and translations measured by the reach of the loop.
+fn in_any_frame(closed: &ClosedLoop<DoubleDouble>, pairs: &[(Quad, Quad); 6], reach: f64) -> Option<Certificate> {
+    (0..6).find_map(|k| {
         let rotated = Cut { rotation: k, reversed: false }.of(closed);
         let here = closure_at::<Quad>(&rotated, &std::array::from_fn(|j| pairs[(k + j) % 6]));
         let jacobian = here.jacobian.map(|row| row.map(|x| Complex::new(x.re.to_f64(), x.im.to_f64())));
-        certificate(&here, &inverse(&jacobian)?.map(|row| row.map(quad)))
+        let weights = rotated.variables.map(|v| if v == Variable::Translation { reach } else { 1.0 });
+        weighted_certificate(&here, &inverse(&jacobian)?.map(|row| row.map(quad)), &weights)
     })
 }
 

@@ -4,7 +4,7 @@
 
 use looproot::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
 use looproot::assembly::{Assembly, Roots, Solver, Workspace};
-use looproot::benchmark::sample::{Set, sample};
+use looproot::benchmark::sample::{CHAINS, Set, motions, sample};
 use looproot::kinematics::closed_loop::{Layout, OpenLoop};
 use looproot::kinematics::motion::Motion;
 use looproot::kinematics::platform::Platform;
@@ -112,6 +112,28 @@ fn solving_a_platform_for_leg_after_leg_allocates_nothing() {
             solver.solve(&legs, if round % 3 == 2 { Roots::Real } else { Roots::All }, &mut workspace, &mut assembly);
             // The list of modes grows to its size once.
             assert!(requests() == before || (trial, round) == (0, 0), "platform {trial}, legs {round}");
+        }
+    }
+}
+
+#[test]
+fn no_chain_allocates_once_the_list_of_modes_has_its_size() {
+    for (index, (name, count)) in CHAINS.into_iter().enumerate() {
+        let drawn = sample(Set::Chain(index), 5, 0).unwrap();
+        let layout = Layout::of(&drawn.chain, None).unwrap();
+        let open: OpenLoop<f64> = drawn.chain.open_loop(&layout).unwrap();
+        let solver = match layout.ball_unknown() {
+            Some(ball) => Solver::with_ball(&open, ball),
+            None => Solver::prepare(&open),
+        };
+        let filling = drawn.chain.forward::<f64>(&motions(&drawn.variables, &drawn.planted)).unwrap().inverse();
+        for roots in [Roots::Real, Roots::All] {
+            let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+            solver.solve(&filling, Roots::All, &mut workspace, &mut assembly);
+            assert_eq!(assembly.total(), count, "{name}");
+            let before = requests();
+            solver.solve(&filling, roots, &mut workspace, &mut assembly);
+            assert_eq!(requests() - before, 0, "{name}, {roots:?}");
         }
     }
 }

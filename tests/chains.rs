@@ -10,6 +10,7 @@ use looproot::algebra::univariate::Univariate;
 use looproot::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
 use looproot::benchmark::accuracy::{Job, run};
 use looproot::benchmark::sample::{CHAINS, Set};
+use looproot::catalogue::entry::{Input, InputValue, Kind};
 use looproot::elimination::cut::{Cut, Hidden};
 use looproot::elimination::degree::{degree, general_degree};
 use looproot::elimination::octic;
@@ -17,10 +18,11 @@ use looproot::elimination::point_reach::{self, Reach};
 use looproot::elimination::separated::{Plan, closure_polynomial};
 use looproot::elimination::spherical_four_bar::FourBar;
 use looproot::elimination::spherical_triangle::triangle;
-use looproot::kinematics::chain::{Chain, Geometry, JointKind};
+use looproot::kinematics::chain::{Chain, Geometry, JointKind, Placement};
 use looproot::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
 use looproot::kinematics::link_form::LinkForm;
 use looproot::kinematics::motion::Motion;
+use looproot::mechanism::Mechanism;
 use looproot::verdict::Status;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
@@ -113,8 +115,7 @@ fn a_spherical_triangle_vanishes_exactly_at_the_planted_angle() {
         let t = &values[form.rotations[(triangle.dropped + 2) % 3]];
         let [constant, cos, sin] = &triangle.equation;
         let square = Rational::from(t * t);
-        let value: Rational =
-            Rational::from(constant * (1 + square.clone())) + cos * (1 - square) + sin * Rational::from(t * 2);
+        let value: Rational = constant * (1 + square.clone()) + cos * (1 - square) + sin * Rational::from(t * 2);
         assert!(value.is_zero(), "{name}");
         assert!(!cos.is_zero() || !sin.is_zero(), "{name}");
     }
@@ -239,11 +240,11 @@ fn a_ball_whose_second_angle_is_0_or_pi_is_found_and_proved() {
 }
 
 /// A chain of prismatic joints at right angles with this twist between the last two, and three revolutes.
-fn gantry(twist: Rational) -> Chain {
+fn gantry(twist: &Rational) -> Chain {
     let right = ratio(1, 1);
     let mut joints = vec![
         joint(JointKind::Prismatic, &ratio(1, 2), &right, &ratio(0, 1)),
-        joint(JointKind::Prismatic, &ratio(1, 3), &twist, &ratio(0, 1)),
+        joint(JointKind::Prismatic, &ratio(1, 3), twist, &ratio(0, 1)),
         joint(JointKind::Prismatic, &ratio(1, 5), &ratio(1, 3), &ratio(0, 1)),
     ];
     joints[1].theta0 = arms::angle(&right);
@@ -256,13 +257,13 @@ fn gantry(twist: Rational) -> Chain {
 #[test]
 fn dependent_translations_are_never_called_complete() {
     // Two of the three translations are parallel: a solution is one of a continuum.
-    let chain = gantry(ratio(0, 1));
-    let values: [Rational; 6] = std::array::from_fn(|k| ratio(k as i32 + 1, 3));
+    let chain = gantry(&ratio(0, 1));
+    let values: [Rational; 6] = [1, 2, 3, 4, 5, 6].map(|k| ratio(k, 3));
     let solution = at_pose(&chain, pose(&chain, &values));
     assert_ne!(solution.verdict.status, Status::Complete, "{}", solution.verdict.reason);
     assert_ne!(solution.verdict.status, Status::Unreachable, "{}", solution.verdict.reason);
     assert_eq!(degree(&closed_at::<Mod>(&chain, &values), None), None);
-    let chain = gantry(ratio(1, 2));
+    let chain = gantry(&ratio(1, 2));
     let solution = at_pose(&chain, pose(&chain, &values));
     assert_eq!((solution.verdict.status, solution.verdict.complex), (Status::Complete, 2));
 }
@@ -279,4 +280,60 @@ fn the_closure_polynomials_of_rationals_and_of_residues_are_the_same() {
     let modulo = octic::closure_polynomial(&FourBar::new(&image, 0).unwrap().equations(), Hidden::First);
     let mapped = p.map(<Mod as looproot::algebra::ring::Ring>::from_rational).unwrap();
     assert_eq!(mapped.normalise(), modulo.normalise());
+}
+
+#[test]
+fn the_link_between_two_balls_may_spin() {
+    let mut random = random(38);
+    for name in ["RSSR", "RSSP", "SRSR", "PSSR", "SPSR"] {
+        let mut chain = general(name, &mut random);
+        let variables = Layout::of(&chain, None).unwrap().variables;
+        let values: Vec<Rational> = variables.iter().map(|_| small(&mut random)).collect();
+        let reached: Motion<Rational> = chain.forward(&arms::motions(&variables, &values)).unwrap();
+        chain.tool = Placement::from_motion_exact(reached.inverse());
+        // The last joint is given, or the first one where the last is a slider.
+        let (joint, given) = if name.ends_with('R') { (name.len(), 7) } else { (1, 0) };
+        let solution = arms::at_input(&chain, joint, &values[given]);
+        assert_eq!((solution.verdict.status, solution.verdict.complex), (Status::Complete, 2), "{name}");
+        assert!(solution.verdict.reason.contains("spins freely"), "{name}: {}", solution.verdict.reason);
+        // Index of the unknown that is no ball.
+        let unknown = match name {
+            "RSSR" | "PSSR" => 0,
+            "RSSP" => 7,
+            _ => 3,
+        };
+        let planted = match variables[unknown] {
+            Variable::Rotation => 2.0 * values[unknown].to_f64().atan(),
+            Variable::Translation => values[unknown].to_f64(),
+        };
+        let near = |q: &[num_complex::Complex<f64>]| (q[unknown] - planted).norm() < 1e-9;
+        assert!(solution.modes.iter().any(|mode| mode.real && mode.certified && near(&mode.q)), "{name}");
+        for mode in solution.modes.iter().filter(|mode| mode.real) {
+            let motion = |(variable, q): (&Variable, &num_complex::Complex<f64>)| match variable {
+                Variable::Rotation => Motion::rotation_z(q.re.cos(), q.re.sin()),
+                Variable::Translation => Motion::translation_z(q.re),
+            };
+            let motions: Vec<Motion<f64>> = variables.iter().zip(&mode.q).map(motion).collect();
+            let closed = chain.forward(&motions).unwrap();
+            let identity: Motion<f64> = Motion::identity();
+            for i in 0..3 {
+                assert!(closed.translation[i].abs() < 1e-10, "{name}: {closed:?}");
+                for j in 0..3 {
+                    assert!((closed.rotation[i][j] - identity.rotation[i][j]).abs() < 1e-10, "{name}: {closed:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn loops_with_fewer_than_three_rotations_are_unsupported_and_say_why() {
+    let mut random = random(39);
+    let chain = general("PPPPRRR", &mut random);
+    let input = Input { joint: 5, value: InputValue::Angle(arms::angle(&ratio(1, 2))) };
+    let entry = arms::entry(Kind::Loop, chain, vec![arms::case(None, vec![input])]);
+    let Err(fault) = Mechanism::prepare(&entry) else { panic!("prepared") };
+    assert_eq!(fault.exit_code(), 4);
+    let text = fault.to_string();
+    assert!(text.contains("2 unknown rotations") && text.contains("screw rank is 5 of 6"), "{text}");
 }

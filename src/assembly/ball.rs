@@ -4,7 +4,7 @@
 
 use super::limits;
 use super::mode::{Assembly, Mode, wrapped};
-use super::search::{Family, RootOutcome, Search};
+use super::search::{AS_IT_IS, Family, RootOutcome, Search};
 use crate::elimination::point_reach::Reach;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::link_form::product as matrix_product;
@@ -60,6 +60,7 @@ impl Search<'_> {
             prepared: &[],
             closed: &closed,
             ball: None,
+            arrangement: AS_IT_IS,
             gap_rounding: self.gap_rounding,
             roots: self.roots,
             eigen: &mut *self.eigen,
@@ -74,7 +75,7 @@ impl Search<'_> {
     }
 }
 
-fn lifted<S: Scalar>(motion: &Motion<f64>) -> Motion<S> {
+pub(super) fn lifted<S: Scalar>(motion: &Motion<f64>) -> Motion<S> {
     Motion {
         rotation: motion.rotation.map(|row| row.map(S::from_f64)),
         translation: motion.translation.map(S::from_f64),
@@ -87,13 +88,18 @@ fn place<S: Copy>(unknowns: &mut Six<S>, ball: usize, angles: [S; 3]) {
     }
 }
 
+/// The inverse of a rotation.
+pub(super) fn transposed<S: Scalar>(r: &Rotation<S>) -> Rotation<S> {
+    std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]))
+}
+
 /// A quarter turn about y.
-fn quarter() -> Rotation<f64> {
+pub(super) fn quarter() -> Rotation<f64> {
     [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
 }
 
 /// The rotation of a ball.
-fn ball_rotation<S: Scalar>(angles: [S; 3]) -> Rotation<S> {
+pub(super) fn ball_rotation<S: Scalar>(angles: [S; 3]) -> Rotation<S> {
     let about_z = |q: S| {
         let mut m: Motion<S> = Motion::identity();
         turn(&mut m, Variable::Rotation, coordinates(Variable::Rotation, q));
@@ -106,7 +112,7 @@ fn ball_rotation<S: Scalar>(angles: [S; 3]) -> Rotation<S> {
 
 /// The three angles of a ball, and the sine of the second one: near 0 the other two are not independent, and at 0 the
 /// third one is.
-fn ball_angles<S: Scalar>(r: &Rotation<S>) -> ([S; 3], f64) {
+pub(super) fn ball_angles<S: Scalar>(r: &Rotation<S>) -> ([S; 3], f64) {
     let cos = r[2][2];
     // The larger of two ways to the square of the sine keeps its digits.
     let square = r[0][2].mul(&r[0][2]).add(&r[1][2].mul(&r[1][2]));

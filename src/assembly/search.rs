@@ -11,6 +11,7 @@ use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::degree::general_degree;
 use crate::elimination::pencil::{before_second_link, bilinear};
+use crate::elimination::rearranged::rearranged;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
@@ -20,6 +21,12 @@ use crate::solve::newton::{Closure, Polished, Six, approach, closure, polish, re
 use crate::solve::scalar::Scalar;
 use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
 use num_complex::Complex;
+
+/// A cut, the loop as it reads it, and its elimination.
+type Ready = (Cut, ClosedLoop<f64>, HalfAngleForm<f64>);
+
+/// The loop with every unknown in its place.
+pub(super) const AS_IT_IS: ([usize; 6], bool) = ([0, 1, 2, 3, 4, 5], false);
 
 /// One pose being solved.
 pub(super) struct Search<'a> {
@@ -31,6 +38,8 @@ pub(super) struct Search<'a> {
     pub ball: Option<usize>,
     /// How far rounding may have moved the gap.
     pub gap_rounding: f64,
+    /// Which unknown each one of the cuts is, and whether the translation counts the other way there.
+    pub arrangement: ([usize; 6], bool),
     /// What is looked for.
     pub roots: Roots,
     /// Memory of the eigenvalue routines.
@@ -57,6 +66,21 @@ impl Search<'_> {
 
     /// Solves one pencil after the other, the prepared ones first, until the search is done.
     fn all_cuts(&mut self, most: &dyn Fn() -> usize) {
+        if self.cuts_of_this(most) || !self.closed.variables.contains(&Variable::Translation) {
+            return;
+        }
+        for moved in rearranged(self.closed, limits::ALONG) {
+            self.arrangement = (moved.order, moved.flipped);
+            let done = self.cuts_inside(&moved.closed, &Cut::ALL, most);
+            self.arrangement = AS_IT_IS;
+            if done {
+                return;
+            }
+        }
+    }
+
+    /// The cuts of the loop as it is. Whether the search is done.
+    fn cuts_of_this(&mut self, most: &dyn Fn() -> usize) -> bool {
         for prepared in self.prepared {
             let cut = prepared.cut.of(self.closed);
             let carried;
@@ -67,26 +91,29 @@ impl Search<'_> {
                 &carried
             };
             if self.both_hidings(prepared.cut, &cut, &prepared.form, rows, most) {
-                return;
+                return true;
             }
         }
-        // The cuts with the pose inside their elimination, best first.
-        let mut rest: Vec<(Cut, ClosedLoop<f64>, HalfAngleForm<f64>)> = Cut::ALL[Cut::PREPARED..]
-            .iter()
-            .filter(|cut| cut.fits(self.closed.variables))
-            .filter_map(|&cut| {
-                let view = cut.of(self.closed);
-                let form = half_angle_form(&view)?;
-                (form.score > limits::SCORE).then_some((cut, view, form))
-            })
-            .collect();
-        rest.sort_by(|a, b| b.2.score.total_cmp(&a.2.score));
-        for (cut, view, form) in &rest {
+        let closed = self.closed;
+        self.cuts_inside(closed, &Cut::ALL[Cut::PREPARED..], most)
+    }
+
+    /// Cuts whose elimination is not prepared, best first. Whether the search is done.
+    fn cuts_inside(&mut self, closed: &ClosedLoop<f64>, cuts: &[Cut], most: &dyn Fn() -> usize) -> bool {
+        let ready = |cut: &Cut| {
+            let view = cut.of(closed);
+            let form = half_angle_form(&view).filter(|form| form.score > limits::SCORE)?;
+            Some((*cut, view, form))
+        };
+        let fitting = |k: usize| cuts.get(k).filter(|cut| cut.fits(closed.variables));
+        let rest: [Option<Ready>; 12] = std::array::from_fn(|k| fitting(k).and_then(ready));
+        let score = |k: usize| rest[k].as_ref().map_or(0.0, |(_, _, form)| form.score);
+        let mut order: [usize; 12] = std::array::from_fn(|k| k);
+        order.sort_by(|&a, &b| score(b).total_cmp(&score(a)));
+        order.iter().filter_map(|&k| rest[k].as_ref()).any(|(cut, view, form)| {
             let rows = before_second_link(form, &view.constants[1]);
-            if self.both_hidings(*cut, view, form, &rows, most) {
-                return;
-            }
-        }
+            self.both_hidings(*cut, view, form, &rows, most)
+        })
     }
 
     /// Solves a cut with each of its two angles hidden, the better one first, until the search is done.
@@ -205,7 +232,9 @@ impl Search<'_> {
         for candidate in candidates.as_slice() {
             let mut start = [S::zero(); 6];
             for (j, value) in candidate.iter().enumerate() {
-                start[cut.unknown_index(j)] = if cut.reversed { value.neg() } else { *value };
+                let (index, (order, flipped)) = (cut.unknown_index(j), self.arrangement);
+                let flip = flipped && self.closed.variables[order[index]] == Variable::Translation;
+                start[order[index]] = if cut.reversed == flip { *value } else { value.neg() };
             }
             outcome.settled &= self.admit(&start);
         }

@@ -4,7 +4,7 @@ use super::limits;
 use super::mode::{Assembly, Mode, Roots};
 use super::platform::{PlatformAssembly, PlatformWorkspace};
 use super::prepared::PreparedCut;
-use super::search::Search;
+use super::search::{AS_IT_IS, Search};
 use super::shifted::Shifted;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::cut::{Cut, Hidden};
@@ -84,6 +84,13 @@ pub struct Workspace {
     pub platform: PlatformWorkspace,
     /// What was found last of a platform.
     pub platform_assembly: PlatformAssembly,
+}
+
+impl Workspace {
+    /// Memory of the eigenvalue routines.
+    pub(super) fn eigen(&mut self) -> &mut EigenWorkspace {
+        &mut self.eigen
+    }
 }
 
 impl Solver {
@@ -226,6 +233,7 @@ impl Solver {
             prepared: &self.prepared,
             closed: &closed,
             ball: self.ball,
+            arrangement: AS_IT_IS,
             gap_rounding: gap.rounding,
             roots,
             eigen,

@@ -100,7 +100,9 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
 pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expected: (usize, &str)) -> Result<()> {
     let kinds = kinds(chain);
     let count: usize = kinds.iter().map(|kind| variables(*kind).len()).sum();
-    if count == expected.0 {
+    let balls = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
+    // The spin of a link between two balls is a freedom that moves nothing else.
+    if count == expected.0 || (expected.0 == 7 && count == 8 && balls == 2) {
         return Ok(());
     }
     let joints = kinds.len();
@@ -109,7 +111,6 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
     let what = match (expected.0, count > expected.0) {
         (7, true) => {
             let mobility = count - 6;
-            let balls = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
             let spin =
                 if balls > 1 { "; the spin of a link between two S joints about their centres counts" } else { "" };
             format!("mobility {mobility} by Gruebler's count ({count} - 6){spin}: {freedoms} too many for one input")

@@ -11,6 +11,7 @@
 
 use super::cut::{Cut, Hidden};
 use super::pencil::{before_second_link, bilinear, offset, pencil};
+use super::rearranged::{Rearranged, rearranged};
 use super::{octic, spherical_triangle};
 use crate::algebra::determinant::by_interpolation;
 use crate::algebra::ring::{Domain, Field};
@@ -103,18 +104,27 @@ pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLo
 /// [`degree`] of a loop with five or six rotations.
 fn degree_by_cuts<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>) -> Option<Degree> {
     let mut best: Option<Degree> = None;
-    for cut in Cut::ALL {
-        for hidden in [Hidden::First, Hidden::Second] {
-            let Some(found) = closure_polynomial(closed, cut, hidden) else { continue };
-            let standing = other
-                .and_then(|other| closure_polynomial(other, cut, hidden))
-                .map_or(0, |other| found.cofactor.gcd(&other.cofactor).degree().unwrap_or(0));
-            let left_out = 2 * found.spurious + standing;
-            let bound = Degree { solutions: 16 - left_out, left_out };
-            if best.is_none_or(|b| bound.solutions < b.solutions) {
-                best = Some(bound);
+    let mut all = |closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>| {
+        for cut in Cut::ALL {
+            for hidden in [Hidden::First, Hidden::Second] {
+                let Some(found) = closure_polynomial(closed, cut, hidden) else { continue };
+                let standing = other
+                    .and_then(|other| closure_polynomial(other, cut, hidden))
+                    .map_or(0, |other| found.cofactor.gcd(&other.cofactor).degree().unwrap_or(0));
+                let left_out = 2 * found.spurious + standing;
+                let bound = Degree { solutions: 16 - left_out, left_out };
+                if best.is_none_or(|b| bound.solutions < b.solutions) {
+                    best = Some(bound);
+                }
             }
         }
+    };
+    all(closed, other);
+    // The other loop at another pose has the same parallel axes, as a rule.
+    let others = other.map(|other| rearranged(other, 0.0));
+    for (k, moved) in rearranged(closed, 0.0).iter().enumerate() {
+        let same = |other: &&Rearranged<F>| other.order == moved.order;
+        all(&moved.closed, others.as_ref().and_then(|list| list.get(k)).filter(same).map(|other| &other.closed));
     }
     best
 }

@@ -11,6 +11,8 @@ pub mod pencil;
 pub mod platform_degree;
 pub mod platform_polynomial;
 pub mod point_reach;
+pub mod rearranged;
 pub mod separated;
 pub mod spherical_four_bar;
+pub mod spherical_pair;
 pub mod spherical_triangle;

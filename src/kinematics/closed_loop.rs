@@ -1,7 +1,7 @@
 //! The canonical form of every single loop: six unknown rotations or translations and six constant motions.
 //!
 //! `V1(x1) G1 V2(x2) G2 ... V6(x6) G6 = I` with each `V` a rotation about or a translation along its own z axis. An arm
-//! at a pose, a loop with one joint given, joints of type R, P and C: nothing else about them survives, so that one code
+//! at a pose, a loop with one joint given, joints of type R, P, C and S: nothing else about them survives, so that one code
 //! path serves all. \[LeeLiang1988\]
 
 use super::chain::{Chain, Geometry, Joint, JointKind, ScrewJoint};
@@ -52,6 +52,24 @@ pub struct Layout {
     pub locked: Option<usize>,
     /// Index of the first of the three variables of a ball, if there is one.
     pub ball: Option<usize>,
+    /// The same of a second ball: then the link between the two spins freely, an eighth variable.
+    pub second_ball: Option<usize>,
+}
+
+/// A loop of two balls and one unknown V, `X L Y K V H = I` with rotations X and Y: the link L between the balls spins
+/// freely about the line of their centres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupled<R> {
+    /// What V does.
+    pub variable: Variable,
+    /// L, the link between the balls.
+    pub link: Motion<R>,
+    /// K, from the second ball to V.
+    pub before: Motion<R>,
+    /// H, from V to the first ball.
+    pub behind: Motion<R>,
+    /// Indices of the first variables of the two balls, and of V, in joint order.
+    pub indices: [usize; 3],
 }
 
 /// One motion of a chain on the way from base to tool.
@@ -74,21 +92,21 @@ impl Layout {
     /// The variables of a chain in joint order.
     ///
     /// # Errors
-    /// For joints that are not R, P or C: a message that names the joint.
+    /// For joints that are not R, P, C or S, and for a third S joint: a message that names the joint.
     pub fn of(chain: &Chain, locked: Option<usize>) -> Result<Self, Error> {
-        let (mut variables, mut ball) = (Vec::new(), None);
+        let (mut variables, mut ball, mut second_ball) = (Vec::new(), None, None);
         for (i, kind) in chain.joint_kinds().into_iter().enumerate() {
             match kind {
                 JointKind::Revolute => variables.push(Variable::Rotation),
                 JointKind::Prismatic => variables.push(Variable::Translation),
                 JointKind::Cylindrical => variables.extend([Variable::Rotation, Variable::Translation]),
-                JointKind::Spherical if ball.is_none() => {
-                    ball = Some(variables.len());
+                JointKind::Spherical if second_ball.is_none() => {
+                    if ball.is_none() { &mut ball } else { &mut second_ball }.replace(variables.len());
                     variables.extend([Variable::Rotation; 3]);
                 }
                 JointKind::Spherical => {
                     return Err(Error::Unsupported(format!(
-                        "joint {}: a second S joint; the link between two of them spins about their centres",
+                        "joint {}: a third S joint; solved are loops with one, or with two and one more unknown",
                         i + 1
                     )));
                 }
@@ -100,7 +118,7 @@ impl Layout {
                 }
             }
         }
-        Ok(Self { variables, locked, ball })
+        Ok(Self { variables, locked, ball, second_ball })
     }
 
     /// Which unknown of the loop is the first of the three rotations of a ball, if there is one.
@@ -234,6 +252,56 @@ impl Chain {
         Ok(Some(open))
     }
 
+    /// The loop of a chain with two balls, its locked variable filled by this motion.
+    ///
+    /// # Errors
+    /// Unless there is exactly one more unknown; and for an unlucky prime.
+    pub fn coupled_loop<R: Ring>(&self, layout: &Layout, filling: &Motion<R>) -> Result<Coupled<R>, Error> {
+        let unlucky = || Error::Unsupported("the geometry has no image in this ring (unlucky prime)".into());
+        let steps = self.steps::<R>().ok_or_else(unlucky)?;
+        let balls = [layout.ball, layout.second_ball];
+        // Index of the first variable and the constant behind each ball and unknown; what stands before the first of
+        // them comes last.
+        let mut items: Vec<(usize, Motion<R>)> = Vec::new();
+        let mut start = Motion::identity();
+        let mut index = 0;
+        for step in steps {
+            let motion = match step {
+                Step::Constant(motion) => motion,
+                Step::Unknown(_) => {
+                    index += 1;
+                    let inside = balls.into_iter().flatten().any(|ball| index - 1 > ball && index - 1 < ball + 3);
+                    if layout.locked == Some(index - 1) {
+                        filling.clone()
+                    } else {
+                        if !inside {
+                            items.push((index - 1, Motion::identity()));
+                        }
+                        continue;
+                    }
+                }
+            };
+            // Inside a ball only its own quarter turns stand, which cancel but for the unknowns.
+            let last = items.last_mut().map_or(&mut start, |(_, constant)| constant);
+            *last = last.then_after(&motion);
+        }
+        if let Some((_, constant)) = items.last_mut() {
+            *constant = constant.then_after(&start);
+        }
+        let is_ball = |at: usize| balls.contains(&Some(at));
+        let found = items.iter().position(|(at, _)| !is_ball(*at)).filter(|_| items.len() == 3);
+        let Some(position) = found else {
+            return Err(Error::Unsupported(format!(
+                "{} joint variables with two S joints: solved are loops with one more unknown, as RSSR",
+                layout.variables.len()
+            )));
+        };
+        items.rotate_left((position + 1) % 3);
+        let [(x, link), (y, before), (v, behind)]: [(usize, Motion<R>); 3] =
+            items.try_into().map_err(|_| Error::Unsupported("two balls and one unknown".into()))?;
+        Ok(Coupled { variable: layout.variables[v], link, before, behind, indices: [x, y, v] })
+    }
+
     /// Everything from base to tool in order; `None` for an unlucky prime.
     fn steps<R: Ring>(&self) -> Option<Vec<Step<R>>> {
         let image = |m: &Motion<Rational>| m.map(R::from_rational);
@@ -281,7 +349,7 @@ impl Chain {
     }
 }
 
-/// The unknowns of one R, P or C joint and its own constants (offsets).
+/// The unknowns of one joint and its own constants (offsets).
 fn joint_steps<R: Ring>(joint: &Joint, steps: &mut Vec<Step<R>>) -> Option<()> {
     screw_steps(joint.kind, steps);
     let (cos, sin) = R::cos_sin(&joint.theta0)?;

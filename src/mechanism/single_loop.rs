@@ -4,10 +4,10 @@ use super::{FullMode, Solution};
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
+use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, coupler, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::degree::{Degree, degree, general_filling};
-use crate::elimination::point_reach;
+use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
@@ -22,7 +22,8 @@ use std::time::Instant;
 /// The solver of one choice of the locked joint (of an arm: the only one).
 struct Prepared {
     layout: Layout,
-    solver: Solver,
+    /// None for loops with two balls, which are solved without preparation.
+    solver: Option<Solver>,
     bound: OnceLock<Bound>,
     prepare_us: f64,
 }
@@ -70,7 +71,7 @@ impl Prepared {
 
     /// The degree of the closure polynomial of general loops with these unknowns.
     fn general(&self) -> usize {
-        self.solver.general_degree()
+        self.solver.as_ref().map_or(2, Solver::general_degree)
     }
 }
 
@@ -91,6 +92,11 @@ impl SingleLoop {
                 continue;
             }
             let layout = Layout::of(chain, locked)?;
+            if layout.second_ball.is_some() {
+                chain.coupled_loop::<f64>(&layout, &Motion::identity())?;
+                prepared.push(Prepared { layout, solver: None, bound: OnceLock::new(), prepare_us: 0.0 });
+                continue;
+            }
             let open: OpenLoop<f64> = chain.open_loop(&layout)?;
             let start = Instant::now();
             let solver = match layout.ball_unknown() {
@@ -108,7 +114,7 @@ impl SingleLoop {
                     6 - rank
                 )));
             }
-            prepared.push(Prepared { layout, solver, bound: OnceLock::new(), prepare_us });
+            prepared.push(Prepared { layout, solver: Some(solver), bound: OnceLock::new(), prepare_us });
         }
         Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), prepared })
     }
@@ -127,54 +133,101 @@ impl SingleLoop {
             .iter()
             .find(|p| p.layout.locked == locked)
             .ok_or_else(|| Error::Invalid("the case locks a joint that was not prepared".to_owned()))?;
-        let mut gap = prepared.solver.gap(&filling(case)?);
+        let Some(solver) = &prepared.solver else {
+            return self.solve_coupled(&prepared.layout, case, roots, workspace, assembly);
+        };
+        let mut gap = solver.gap(&filling(case)?);
         if gap.is_rough() {
             let open: OpenLoop<Rational> = self.chain.open_loop(&prepared.layout)?;
             let [.., last] = open.close(&filling(case)?).constants;
             let rounded = last.map(|x| Some(nearest_f64(x)));
-            gap = rounded.map_or(gap, |last| prepared.solver.exact_gap(&last));
+            gap = rounded.map_or(gap, |last| solver.exact_gap(&last));
         }
         let most = || prepared.bound(&self.chain).count;
         let start = Instant::now();
-        prepared.solver.solve_up_to(&gap, roots, &most, workspace, assembly);
+        solver.solve_up_to(&gap, roots, &most, workspace, assembly);
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
         let verdict = verdict(
             assembly,
             roots,
-            prepared.solver.structural_rank(),
+            solver.structural_rank(),
             prepared.general(),
             || {
                 // The exact count costs more than a search for real roots, and rarely helps one.
-                let skip = roots == Roots::Real && !prepared.solver.is_special();
+                let skip = roots == Roots::Real && !solver.is_special();
                 if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
             },
             || {
                 let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
                 Some(bound_from(prepared.degree(&closed, None)?, "at this pose"))
             },
-            prepared.solver.too_far(&gap),
+            solver.too_far(&gap),
         );
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {
             let q = prepared.layout.assemble(&mode.unknowns, locked_value);
-            FullMode {
-                real: mode.real,
-                multiplicity: mode.multiplicity,
-                residual: mode.residual,
-                condition: mode.condition,
-                certified: mode.certificate.is_some(),
-                radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius),
-                within_limits: (mode.real && !self.limits.is_empty())
-                    .then(|| within_limits(&q, &prepared.layout.variables, &self.limits)),
-                q,
-                platform: None,
-            }
+            self.full_mode(mode, q, &prepared.layout.variables)
         });
         Ok(Solution {
             verdict,
             modes: modes.collect(),
             warnings: case.warnings.clone(),
             prepare_us: prepared.prepare_us,
+            solve_us,
+            platform: None,
+        })
+    }
+
+    fn full_mode(&self, mode: &Mode, q: Vec<Complex<f64>>, variables: &[Variable]) -> FullMode {
+        FullMode {
+            real: mode.real,
+            multiplicity: mode.multiplicity,
+            residual: mode.residual,
+            condition: mode.condition,
+            certified: mode.certificate.is_some(),
+            radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius),
+            within_limits: (mode.real && !self.limits.is_empty()).then(|| within_limits(&q, variables, &self.limits)),
+            q,
+            platform: None,
+        }
+    }
+
+    /// Solves a loop with two balls.
+    fn solve_coupled(
+        &self,
+        layout: &Layout,
+        case: &Case,
+        roots: Roots,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> Result<Solution> {
+        let start = Instant::now();
+        let coupled = self.chain.coupled_loop::<f64>(layout, &filling(case)?)?;
+        let balls = coupler::solve(&coupled, roots, workspace, assembly);
+        let solve_us = start.elapsed().as_secs_f64() * 1e6;
+        let count = filling::<Mod>(case)
+            .and_then(|filling| self.chain.coupled_loop::<Mod>(layout, &filling))
+            .map(|coupled| spherical_pair::count(&coupled));
+        let bound = || match count {
+            Ok(Some(count)) => bound_from(Degree { solutions: count, left_out: 2 - count }, "at this input"),
+            _ => Bound::general(2),
+        };
+        let mut verdict = verdict(assembly, roots, 6, 2, bound, || Some(bound()), None);
+        verdict.reason += "; the link between the two S joints spins freely about the line of their centres, \
+                           and is shown at one position of that spin";
+        let modes = assembly.modes.iter().zip(balls).map(|(mode, balls)| {
+            let mut q = vec![Complex::from(locked_value(case)); layout.variables.len()];
+            for (&at, angles) in coupled.indices.iter().zip(balls) {
+                q[at..at + 3].copy_from_slice(&angles);
+            }
+            q[coupled.indices[2]] = mode.unknowns[5];
+            self.full_mode(mode, q, &layout.variables)
+        });
+        Ok(Solution {
+            verdict,
+            modes: modes.collect(),
+            warnings: case.warnings.clone(),
+            prepare_us: 0.0,
             solve_us,
             platform: None,
         })

@@ -104,7 +104,7 @@ fn at<S: Scalar>(row: &[f64; 3], m: &[S; 3]) -> S {
 }
 
 /// The monomials of a variable at which `row . m = 0`.
-fn zeros<S: Scalar>(kind: Variable, row: &[S; 3]) -> [Option<[S; 3]>; 2] {
+pub fn zeros<S: Scalar>(kind: Variable, row: &[S; 3]) -> [Option<[S; 3]>; 2] {
     let distance = |d: S| [S::one(), d, d.mul(&d)];
     match kind {
         Variable::Rotation => both_roots(row).map_or([None; 2], |pairs| pairs.map(|(c, s)| Some([S::one(), c, s]))),

@@ -1,0 +1,182 @@
+//! Loops with two balls: the link between them spins freely, and is taken at one position of that spin.
+
+use super::ball::{ball_angles, ball_rotation, lifted, quarter, transposed};
+use super::limits;
+use super::mode::{Assembly, Roots};
+use super::search::{AS_IT_IS, Search};
+use super::solver::Workspace;
+use crate::elimination::spherical_pair::equation;
+use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Variable};
+use crate::kinematics::link_form::product;
+use crate::kinematics::motion::{Motion, Vector, cross, dot};
+use crate::solve::newton::{Six, turn};
+use crate::solve::scalar::Scalar;
+use crate::solve::separated::{pair, zeros};
+use num_complex::Complex;
+
+type Rotation<S> = [[S; 3]; 3];
+type Angles = [Complex<f64>; 3];
+
+/// Finds both positions. Fills `assembly` with modes whose last unknown is that of the loop, and returns the angles of
+/// both balls for each of them, about z, x and z.
+pub fn solve(
+    coupled: &Coupled<f64>,
+    roots: Roots,
+    workspace: &mut Workspace,
+    assembly: &mut Assembly,
+) -> Vec<[Angles; 2]> {
+    assembly.modes.clear();
+    (assembly.self_motion, assembly.clean, assembly.tries) = (0, true, 1);
+    let row = equation(coupled);
+    let [constant, first, second] = row;
+    let discriminant = match coupled.variable {
+        Variable::Rotation => first * first + second * second - constant * constant,
+        Variable::Translation => 0.25 * first * first - constant,
+    };
+    let mut balls = Vec::new();
+    if discriminant >= 0.0 {
+        for m in zeros::<f64>(coupled.variable, &row).into_iter().flatten() {
+            one(coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut balls);
+        }
+    } else if roots == Roots::All
+        && let Some(m) = zeros::<Complex<f64>>(coupled.variable, &row.map(Complex::from))[0]
+    {
+        one(coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut balls);
+    }
+    balls
+}
+
+/// Admits one position.
+fn one<S: Scalar>(
+    coupled: &Coupled<f64>,
+    value: (S, S),
+    roots: Roots,
+    workspace: &mut Workspace,
+    assembly: &mut Assembly,
+    balls: &mut Vec<[Angles; 2]>,
+) {
+    // X L Y = (K V H)^-1
+    let mut rest = lifted::<S>(&coupled.before);
+    turn(&mut rest, coupled.variable, value);
+    let across = rest.then_after(&lifted(&coupled.behind)).inverse();
+    let link = coupled.link.translation;
+    let Some(frame) = frame_along(&link) else { return };
+    let frame_s = frame.map(|row| row.map(S::from_f64));
+    let Some(toward) = rotation_between(&link.map(S::from_f64), &across.translation, &frame_s) else { return };
+    // Both balls at any spin: the first turns the link where it has to be, the second is what is left.
+    let left = product(&transposed(&product(&toward, &frame_s)), &across.rotation);
+    // The second one as a turn about the link, which is the idle spin, and two more: the better of two ways.
+    let quarters = [Motion::identity().rotation, quarter()];
+    let tries = quarters.map(|q| ball_angles(&product(&left, &transposed(&q.map(|row| row.map(S::from_f64))))));
+    let chosen = usize::from(tries[1].1 > tries[0].1);
+    let ([spin, second, third], behind) = (tries[chosen].0, quarters[chosen]);
+    let (cos, sin) = spin.cos_sin_of();
+    let spun = product(&product(&frame_s, &Motion::rotation_z(cos, sin).rotation), &transposed(&frame_s));
+    let first_ball = product(&toward, &spun);
+    let tries = quarters.map(|q| ball_angles(&product(&first_ball, &transposed(&q.map(|row| row.map(S::from_f64))))));
+    let chosen = usize::from(tries[1].1 > tries[0].1);
+    let (angles, before) = (tries[chosen].0, quarters[chosen]);
+    let constant = |rotation: Rotation<f64>| Motion { rotation, translation: [0.0; 3] };
+    let to_x = constant(quarter());
+    let back = to_x.inverse();
+    let to_link =
+        constant(before).then_after(&Motion::translation(link)).then_after(&constant(frame)).then_after(&to_x);
+    let closed = ClosedLoop {
+        variables: [
+            Variable::Rotation,
+            Variable::Rotation,
+            Variable::Rotation,
+            Variable::Rotation,
+            Variable::Rotation,
+            coupled.variable,
+        ],
+        constants: [
+            to_x,
+            back.clone(),
+            to_link,
+            back,
+            constant(behind).then_after(&coupled.before),
+            coupled.behind.clone(),
+        ],
+    };
+    let last = match coupled.variable {
+        Variable::Rotation => S::angle_of(value.0, value.1),
+        Variable::Translation => value.0,
+    };
+    let start: Six<S> = [angles[0], angles[1], angles[2], second, third, last];
+    let mut found = Assembly::default();
+    Search {
+        prepared: &[],
+        closed: &closed,
+        ball: None,
+        arrangement: AS_IT_IS,
+        gap_rounding: 0.0,
+        roots,
+        eigen: workspace.eigen(),
+        assembly: &mut found,
+    }
+    .admit(&start);
+    for mode in found.modes {
+        let [a, b, c, beta, gamma, _] = mode.unknowns;
+        let lift = |rotation: Rotation<f64>| rotation.map(|row| row.map(Complex::from));
+        let one = product(&ball_rotation([a, b, c]), &lift(before));
+        // R_L Y = F Rx(beta) Rz(gamma) Q
+        let turned = product(&lift(frame), &ball_rotation([Complex::from(0.0), beta, gamma]));
+        let two = product(&transposed(&lift(coupled.link.rotation)), &product(&turned, &lift(behind)));
+        balls.push([one, two].map(|r| plain_angles(&r, mode.real)));
+        assembly.modes.push(mode);
+    }
+}
+
+fn plain_angles(rotation: &Rotation<Complex<f64>>, real: bool) -> Angles {
+    if real {
+        ball_angles(&rotation.map(|row| row.map(|z| z.re))).0.map(Complex::from)
+    } else {
+        ball_angles(rotation).0
+    }
+}
+
+/// A frame whose z axis lies along a vector; `None` for none.
+fn frame_along(v: &Vector<f64>) -> Option<Rotation<f64>> {
+    let length = dot(v, v).sqrt();
+    if !(length > limits::REACH_DEPENDENT) {
+        return None;
+    }
+    let z = v.map(|x| x / length);
+    // The coordinate axis farthest from it helps.
+    let smallest = (1..3).fold(0, |best, i| if z[i].abs() < z[best].abs() { i } else { best });
+    let helper: Vector<f64> = std::array::from_fn(|i| if i == smallest { 1.0 } else { 0.0 });
+    let x = cross(&helper, &z);
+    let size = dot(&x, &x).sqrt();
+    let x = x.map(|c| c / size);
+    let y = cross(&z, &x);
+    Some(std::array::from_fn(|i| [x[i], y[i], z[i]]))
+}
+
+/// A rotation that carries one vector into another one of the same length; `frame` has its z axis along the first.
+fn rotation_between<S: Scalar>(from: &Vector<S>, to: &Vector<S>, frame: &Rotation<S>) -> Option<Rotation<S>> {
+    let square = dot(from, from);
+    // The shortest one, or a half turn before it where that is not unique.
+    let opposite = square.add(&dot(from, to)).size() < 0.5 * square.size();
+    let start = if opposite { from.map(|x| x.neg()) } else { *from };
+    let axis = cross(&start, to);
+    let inverse = square.inverse()?;
+    let factor = square.add(&dot(&start, to)).inverse()?.mul(&inverse);
+    let hat = |v: &Vector<S>| -> Rotation<S> {
+        let nought = S::zero();
+        [[nought, v[2].neg(), v[1]], [v[2], nought, v[0].neg()], [v[1].neg(), v[0], nought]]
+    };
+    let (linear, quadratic) = (hat(&axis), product(&hat(&axis), &hat(&axis)));
+    let shortest: Rotation<S> = std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let one = if i == j { S::one() } else { S::zero() };
+            one.add(&linear[i][j].mul(&inverse)).add(&quadratic[i][j].mul(&factor))
+        })
+    });
+    if !opposite {
+        return Some(shortest);
+    }
+    // The half turn about the frame's x axis reverses the vector.
+    let half = Motion::rotation_x(S::one().neg(), S::zero()).rotation;
+    Some(product(&shortest, &product(&product(frame, &half), &transposed(frame))))
+}
