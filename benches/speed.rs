@@ -19,7 +19,7 @@ fn main() {
 
 /// The loop of an entry, and what fills its gap in the first case.
 fn first_case(entry: &Entry) -> (OpenLoop<f64>, Motion<f64>) {
-    let case = &entry.cases[0];
+    let (case, chain) = (&entry.cases[0], entry.chain().unwrap());
     let (locked, filling) = if let Some(pose) = &case.pose {
         (None, pose.float.inverse())
     } else {
@@ -28,19 +28,19 @@ fn first_case(entry: &Entry) -> (OpenLoop<f64>, Motion<f64>) {
             InputValue::Angle(angle) => (Variable::Rotation, angle_motion(angle)),
             InputValue::Distance(distance) => (Variable::Translation, distance_motion(distance)),
         };
-        (Layout::variable_of(&entry.chain, input.joint, wanted), filling.unwrap())
+        (Layout::variable_of(chain, input.joint, wanted), filling.unwrap())
     };
-    (entry.chain.open_loop(&Layout::of(&entry.chain, locked).unwrap()).unwrap(), filling)
+    (chain.open_loop(&Layout::of(chain, locked).unwrap()).unwrap(), filling)
 }
 
 fn builtin_case(name: &str) -> (OpenLoop<f64>, Motion<f64>) {
     first_case(&builtin(name, &Options::default()).unwrap())
 }
 
-/// All entries that are solved.
+/// All arms and loops.
 fn names() -> Vec<String> {
-    let is_solved = |name: &String| builtin(name, &Options::default()).unwrap().kind != Kind::Platform;
-    builtin_names().into_iter().filter(is_solved).collect()
+    let is_chain = |name: &String| builtin(name, &Options::default()).unwrap().kind() != Kind::Platform;
+    builtin_names().into_iter().filter(is_chain).collect()
 }
 
 /// The matrix of a general arm at a pose.

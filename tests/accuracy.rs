@@ -5,6 +5,8 @@ mod arms;
 
 #[path = "accuracy/degenerate.rs"]
 mod degenerate;
+#[path = "accuracy/platforms.rs"]
+mod platforms;
 #[path = "accuracy/verdicts.rs"]
 mod verdicts;
 
@@ -16,7 +18,7 @@ use looproot::benchmark::sample::Set;
 fn faultless(set: Set, count: u64, roots: Roots) -> Counts {
     let counts = run(Job { set, count, seed: 2024, roots }, || true, || ()).unwrap();
     assert!(counts.is_faultless(), "{set:?}, {roots:?}:\n{counts}");
-    assert_eq!(counts.arms as u64, count, "{set:?}, {roots:?}");
+    assert_eq!(counts.solved as u64, count, "{set:?}, {roots:?}");
     let residual = counts.residuals.iter().copied().fold(0.0, f64::max);
     assert!(residual <= 1e-14, "{set:?}, {roots:?}: {residual:e}\n{counts}");
     counts

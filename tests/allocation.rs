@@ -54,7 +54,7 @@ fn requests() -> usize {
 
 /// A general arm prepared, and what fills its gap at random poses.
 fn arm(index: u64, poses: usize) -> (Solver, Vec<Motion<f64>>) {
-    let chain = sample(Set::General, 5, index).unwrap().entry.chain;
+    let chain = sample(Set::General, 5, index).unwrap().chain;
     let open: OpenLoop<f64> = chain.open_loop(&Layout::of(&chain, None).unwrap()).unwrap();
     let mut random = ChaCha8Rng::seed_from_u64(index);
     let mut filling = || {

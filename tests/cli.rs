@@ -106,6 +106,9 @@ fn the_document_follows_its_schema() {
         &["solve", "ur5", "--json", "--complex"],
         &["solve", "general_12real", "--json", "--real"],
         &["solve", "three_parallel", "--json"],
+        &["solve", "dietmaier_40real", "--json"],
+        &["solve", "platform/hexapod", "--json", "--complex"],
+        &["solve", "platform/circle", "--json"],
     ] {
         let run = run(arguments);
         assert_eq!(run.err, "", "{arguments:?}");
@@ -211,6 +214,127 @@ fn one_case_can_be_picked_or_given() {
         &["solve", "general_02real", "--joints", "1,2,3"],
         &["solve", "general_02real", "--joints", "1,2,3,4,5,nan"],
     ] {
+        assert_eq!(run(arguments).code, 1, "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_platform_is_solved_with_quaternions_and_positions() {
+    let all = run(&["solve", "dietmaier_40real"]);
+    let first = all.out.lines().next().unwrap();
+    assert!(first.starts_with("40 of 40 roots (40 real), all certified, residual <= "), "{first}");
+    assert_eq!((all.code, all.out.lines().filter(|line| line.ends_with("  yes")).count()), (0, 40));
+    assert!(all.out.contains("route: border basis"), "{}", all.out);
+    let document = json(&run(&["solve", "platform_06real", "--json", "--complex"]).out);
+    assert_eq!(document["kind"], "platform");
+    let result = &document["results"][0];
+    assert_eq!((&result["verdict"]["complex"], &result["verdict"]["real"]), (&40.into(), &6.into()));
+    assert_eq!(result["legs"].as_array().unwrap().len(), 6);
+    let modes = result["modes"].as_array().unwrap();
+    assert_eq!(modes.len(), 40);
+    for (index, mode) in modes.iter().enumerate() {
+        assert_eq!(mode["real"], index < 6, "real ones first");
+        assert!(mode.get("q").is_none() && mode.get("within_limits").is_none());
+        let (quaternion, position) = (mode["quaternion"].as_array().unwrap(), mode["position"].as_array().unwrap());
+        assert_eq!((quaternion.len(), position.len()), (4, 3));
+        let values = mode["singular_values"].as_array();
+        assert_eq!((values.is_some(), mode["twist"].is_array()), (index < 6, index < 6));
+        if let Some(values) = values {
+            let norm: f64 = quaternion.iter().map(|q| q.as_f64().unwrap().powi(2)).sum();
+            assert!((norm - 1.0).abs() < 1e-14);
+            let ratio = values[0].as_f64().unwrap() / values[5].as_f64().unwrap();
+            assert!((mode["condition"].as_f64().unwrap() / ratio - 1.0).abs() < 1e-12);
+        }
+    }
+    let lines = run(&["solve", "platform/hexapod", "--jsonl"]);
+    assert_eq!((lines.code, lines.out.lines().map(json).count()), (0, 3));
+    let real = run(&["solve", "dietmaier_40real", "--real", "-q"]);
+    assert!(real.code == 0 && real.out.starts_with("40 of 40 roots"), "{}", real.out);
+    let posture = run(&["solve", "platform/hexapod", "--pose", "2", "-q"]);
+    assert!(posture.code == 0 && posture.out.starts_with("28 of 28 roots (8 real)"), "{}", posture.out);
+}
+
+#[test]
+fn what_becomes_of_a_platform_is_in_the_exit_code() {
+    for (name, code, start) in [
+        ("platform_00real", 3, "0 real of 40 roots, all certified: no pose has legs of these lengths, "),
+        ("points_6_3", 0, "16 of 16 roots (6 real), all certified"),
+        ("bricard_octahedron", 2, "self-motion of dimension 1, "),
+        ("singular_pose", 2, "40 of 40 roots (2 real), 38 certified, 1 multiple (counted 2), "),
+    ] {
+        let run = run(&["solve", &format!("platform/{name}"), "-q"]);
+        assert!(run.code == code && run.out.starts_with(start), "{name}: {} {}", run.code, run.out);
+    }
+    // Legs that are too short to reach are an answer.
+    let short = run(&["solve", "dietmaier_40real", "--legs", "1, 1, 1, 1, 1, 0.001"]);
+    assert!(short.code == 3 && short.out.starts_with("0 real of 40 roots"), "{} {}", short.code, short.out);
+}
+
+#[test]
+fn legs_can_be_given_or_asked_for() {
+    let at = run(&["solve", "dietmaier_40real", "--at", "0.1, 0.2, \"1\"; 1, 0, 0, 0"]);
+    assert_eq!(at.code, 1, "a stray quotation mark: {}", at.err);
+    let at = json(&run(&["solve", "dietmaier_40real", "--at", "0.1, 20 cm, 1; 0.6, 0, 0, -0.8", "--json"]).out);
+    let legs: Vec<f64> = at["results"][0]["legs"].as_array().unwrap().iter().map(|l| l.as_f64().unwrap()).collect();
+    assert!((legs[0] - 1.05_f64.sqrt()).abs() < 1e-15, "{legs:?}");
+    let hit = |mode: &Value| (mode["position"][1].as_f64().unwrap() - 0.2).abs() < 1e-12;
+    assert!(at["results"][0]["modes"].as_array().unwrap().iter().any(hit), "{at}");
+    let lengths = legs.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+    let back = json(&run(&["solve", "dietmaier_40real", "--legs", &lengths, "--json"]).out);
+    assert!(back["results"][0]["modes"].as_array().unwrap().iter().any(hit), "{back}");
+    for arguments in [
+        &["solve", "dietmaier_40real", "--legs", "1, 2, 3"][..],
+        &["solve", "dietmaier_40real", "--legs", "1, 2, 3, 4, 5, -6"],
+        &["solve", "dietmaier_40real", "--legs", "1, 2, 3, 4, 5, nan"],
+        &["solve", "dietmaier_40real", "--at", "1, 2, 3"],
+        &["solve", "dietmaier_40real", "--at", "1, 2; 1, 0, 0, 0"],
+        &["solve", "dietmaier_40real", "--at", "1, 2, 3; 2, 0, 0, 0"],
+        &["solve", "dietmaier_40real", "--at", "1, 2, 3; 1, 0, 0, 0", "--pose", "1"],
+        &["solve", "dietmaier_40real", "--pose", "2"],
+        &["solve", "dietmaier_40real", "--input", "1"],
+        &["solve", "dietmaier_40real", "--joints", "1"],
+        &["solve", "general_02real", "--legs", "1, 2, 3, 4, 5, 6"],
+        &["solve", "general_7r", "--at", "1, 2, 3; 1, 0, 0, 0"],
+    ] {
+        let run = run(arguments);
+        assert!(run.code == 1 && run.err.starts_with("error: "), "{arguments:?}: {} {}", run.code, run.err);
+    }
+    let shown = run(&["show", "platform/hexapod"]);
+    assert!(shown.out.contains("6-6 platform") && shown.out.contains("L6 [m]"), "{}", shown.out);
+    let model = json(&run(&["show", "points_6_3", "--json"]).out);
+    assert_eq!((&model["type"], model["plate"].as_array().unwrap().len()), (&"6-3".into(), 6));
+    assert_eq!(model["cases"][0]["legs"].as_array().unwrap().len(), 6);
+}
+
+#[test]
+fn bad_platforms_exit_with_1() {
+    let good = library("platform/platform_06real");
+    let cases = [
+        ("five.toml", good.replacen("    [6, 6, 1],\n", "", 1), "5 points"),
+        ("nan.toml", good.replacen("[6, 6, 1]", "[nan, 6, 1]", 1), "nan"),
+        ("negative.toml", good.replacen("[253, ", "[-253, ", 1), "negative"),
+        ("short.toml", good.replacen("[253, ", "[", 1), "5 values"),
+        ("truncated.toml", good[..good.len() / 3].to_owned(), "expected"),
+    ];
+    for (name, content, word) in cases {
+        let path = file(&format!("platforms/{name}"), &content);
+        for verb in ["solve", "show", "check"] {
+            let run = run(&[verb, &path]);
+            assert_eq!(run.code, 1, "{verb} {name}: {}", run.err);
+            assert!(run.err.contains(name) && run.err.contains(word), "{name}: {}", run.err);
+        }
+    }
+}
+
+#[test]
+fn platforms_are_measured() {
+    let counts = run(&["bench", "accuracy", "--set", "platform-planar-base", "--count", "3"]);
+    assert!(counts.code == 0 && counts.out.starts_with("3 platforms: 3 planted found, 0 lost"), "{}", counts.out);
+    let document = json(&run(&["bench", "accuracy", "--set", "platform", "--count", "2", "--json"]).out);
+    assert_eq!((&document["platforms"], &document["miscounted"]), (&2.into(), &0.into()));
+    let times = run(&["bench", "speed", "--set", "platform", "--count", "1", "--repeats", "1"]);
+    assert!(times.code == 0 && times.out.contains("all 40 poses"), "{}", times.out);
+    for arguments in [&["bench", "accuracy", "--set", "platform-7-7"][..], &["bench", "speed", "--set", "structured"]] {
         assert_eq!(run(arguments).code, 1, "{arguments:?}");
     }
 }

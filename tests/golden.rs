@@ -4,7 +4,8 @@
 
 use looproot::catalogue::entry::Entry;
 use looproot::catalogue::{Format, Options, load_text};
-use looproot::mechanism::{FullMode, Solution};
+use looproot::kinematics::velocity::Velocity;
+use looproot::mechanism::{FullMode, PlatformAnswer, PlatformMode, Solution};
 use looproot::report::text::{View, solution};
 use looproot::report::{json, model};
 use looproot::verdict::{Status, Verdict};
@@ -57,6 +58,7 @@ fn mode(real: bool, multiplicity: usize, certified: bool) -> FullMode {
         certified,
         radius: if certified { 2e-15 } else { f64::INFINITY },
         within_limits: real.then_some(multiplicity == 1),
+        platform: None,
     }
 }
 
@@ -72,7 +74,7 @@ fn answer(status: Status, modes: Vec<FullMode>, reason: &str) -> Solution {
         reason: reason.to_owned(),
     };
     let warnings = vec!["the rotation matrix is off by 3e-7; the nearest rotation was taken".to_owned()];
-    Solution { verdict, modes, warnings, prepare_us: 71.25, solve_us: 46.0 }
+    Solution { verdict, modes, warnings, prepare_us: 71.25, solve_us: 46.0, platform: None }
 }
 
 fn answers() -> Vec<(&'static str, Solution)> {
@@ -84,7 +86,7 @@ fn answers() -> Vec<(&'static str, Solution)> {
         ("incomplete", answer(Status::Incomplete, vec![simple(), mode(true, 0, false)], "not proved: a singular root")),
         ("nothing", answer(Status::Incomplete, Vec::new(), "structurally deficient")),
         ("self-motion", answer(Status::SelfMotion, vec![simple()], "solutions form a self-motion of dimension 1")),
-        ("unsupported", answer(Status::Unsupported, Vec::new(), "platforms are read but not solved yet")),
+        ("unsupported", answer(Status::Unsupported, Vec::new(), "joints of type H")),
     ]
 }
 
@@ -147,6 +149,62 @@ fn screws() -> Entry {
         "#
     );
     load_text(&text, "arm.toml", Format::Toml, &Options::default()).unwrap()
+}
+
+/// A platform with two sets of legs.
+fn platform() -> Entry {
+    let text = r#"
+        title = "Golden platform"
+        source = { key = "Dietmaier1998" }
+        [mechanism]
+        kind = "platform"
+        base = [[0, 0, 0], [1, 0, 0], [1, "2/3", 0], [0, 0.5, 0], [0, 0, 0], [0.25, 0.125, 0]]
+        plate = [[0, 0, 0], [1, 0, 0], [1, "2/3", 0], [0, 0.5, 0], [1, 1, 0], [1, 1, 0]]
+        [[legs]]
+        lengths = [1, 2, "sqrt(2)", "150 cm", 1, 0]
+        expected = { complex = 40, real = 2 }
+        solution = [{ quaternion = [0.6, 0, 0, 0.8], position = [1, 2, 3], digits = 3 }]
+        [[legs]]
+        squared = [1, 4, 2, 3, 5, 6]
+    "#;
+    load_text(text, "platform.toml", Format::Toml, &Options::default()).unwrap()
+}
+
+fn pose(real: bool, mirror: Option<usize>) -> FullMode {
+    let q = [0.6, 0.0, -0.8, 0.0, 1.25, -3.5, 1e-9].map(|re| Complex::new(re, if real { 0.0 } else { 0.25 }));
+    let velocity = Velocity { singular_values: [2.0, 1.0, 0.5, 0.25, 0.125, 0.1], twist: None };
+    FullMode {
+        q: q.to_vec(),
+        within_limits: None,
+        platform: Some(PlatformMode { velocity: real.then_some(velocity), mirror }),
+        ..mode(real, 1, true)
+    }
+}
+
+#[test]
+fn platforms_read_as_agreed() {
+    let entry = platform();
+    let legs = [1.0, 2.0, 2.0_f64.sqrt(), 1.5, 1.0, 0.0];
+    let answered = |status, modes, reason: &str| Solution {
+        platform: Some(PlatformAnswer { legs, route: "the only one".to_owned() }),
+        ..answer(status, modes, reason)
+    };
+    let proved = "3 distinct certified roots of a test";
+    let modes = vec![pose(true, Some(2)), pose(true, Some(1)), pose(false, None)];
+    let answers = [
+        answered(Status::Complete, modes, proved),
+        answered(Status::Unreachable, vec![pose(false, None)], proved),
+        answered(Status::Unreachable, Vec::new(), proved),
+        answered(Status::SelfMotion, Vec::new(), "poses form a self-motion of dimension 1"),
+    ];
+    let mut text = model::text(&entry);
+    for answer in &answers {
+        let answer = Solution { verdict: Verdict { at_infinity: 0, ..answer.verdict.clone() }, ..answer.clone() };
+        text += &format!("===\n{}", solution(&entry, 1, &entry.cases[0], &answer, &View::default()));
+        text += &format!("{}\n", json::result(1, &answer, &View { complex: true, ..View::default() }));
+    }
+    text += &format!("===\n{:#}\n", model::json(&entry));
+    compare("platforms.txt", &text);
 }
 
 #[test]

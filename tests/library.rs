@@ -28,3 +28,13 @@ fn every_entry_has_a_source_and_a_case() {
         assert!(!entry.cases.is_empty(), "{name}");
     }
 }
+
+#[test]
+fn no_two_entries_share_a_name() {
+    let names = builtin_names();
+    let mut short: Vec<&str> = names.iter().filter_map(|name| name.rsplit('/').next()).collect();
+    short.sort_unstable();
+    let all = short.len();
+    short.dedup();
+    assert_eq!(short.len(), all, "entries are found without their folder");
+}

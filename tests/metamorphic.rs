@@ -8,3 +8,5 @@ mod arms;
 mod answers;
 #[path = "metamorphic/equations.rs"]
 mod equations;
+#[path = "metamorphic/platforms.rs"]
+mod platforms;

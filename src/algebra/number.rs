@@ -88,6 +88,13 @@ impl Number {
         simplest_within(float, &(relative(digits) * float.clone().abs()))
     }
 
+    /// The square, as exact as the number is.
+    #[must_use]
+    pub fn squared(&self) -> Self {
+        let square = Rational::from(self.rational.square_ref());
+        if self.exact { Self::exact(square) } else { Self::rounded(square) }
+    }
+
     /// The number 0.
     #[must_use]
     pub fn zero() -> Self {

@@ -1,10 +1,10 @@
 //! Counting: what of the planted truth is found, and whether all that is found is true.
 
-use super::sample::{Sample, Set, sample};
+use super::sample::{Sample, Set, motions, sample};
 use crate::assembly::{Assembly, Roots, Workspace, wrapped};
 use crate::error::Result;
-use crate::kinematics::motion::Motion;
-use crate::mechanism::{FullMode, Mechanism};
+use crate::kinematics::closed_loop::Variable;
+use crate::mechanism::{FullMode, Mechanism, Solution};
 use crate::verdict::Status;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -13,8 +13,10 @@ use std::fmt::{self, Display};
 /// The counts of one run.
 #[derive(Clone, Debug, Default)]
 pub struct Counts {
-    /// Arms solved.
-    pub arms: usize,
+    /// What was solved, in the plural.
+    pub noun: &'static str,
+    /// How many of them.
+    pub solved: usize,
     /// Planted configurations found.
     pub found: usize,
     /// Planted configurations that are neither listed nor on a reported self-motion.
@@ -25,6 +27,10 @@ pub struct Counts {
     pub spurious: usize,
     /// Pairs of real modes of one pose nearer than 1e-6 radians, not proved to be two.
     pub duplicates: usize,
+    /// Complex solutions more or fewer than an exact count finds, where there is one: platforms.
+    pub miscounted: usize,
+    /// Lists that were compared with an exact count or with the most there can be.
+    pub counted: usize,
     /// Closure residuals of all modes.
     pub residuals: Vec<f64>,
     /// Distances from the planted to the found configuration.
@@ -60,29 +66,43 @@ pub struct Job {
 /// # Errors
 /// None in practice, see [`sample`].
 pub fn run(job: Job, running: impl Fn() -> bool + Sync, tick: impl Fn() + Sync) -> Result<Counts> {
-    (0..job.count)
-        .into_par_iter()
-        .map_init(
-            || (Workspace::default(), Assembly::default()),
-            |(workspace, assembly), index| {
-                if !running() {
-                    return Ok(Counts::default());
-                }
-                let counts = one(job, index, workspace, assembly);
-                tick();
-                counts
-            },
-        )
-        .try_reduce(Counts::default, |a, b| Ok(a.and(b)))
+    over_all(job.count, running, tick, |index, memory| one(job, index, memory))
 }
 
-fn one(job: Job, index: u64, workspace: &mut Workspace, assembly: &mut Assembly) -> Result<Counts> {
+/// What one thread works with.
+pub(super) type Memory = (Workspace, Assembly);
+
+/// Adds up the counts of all samples, on all threads.
+pub(super) fn over_all(
+    count: u64,
+    running: impl Fn() -> bool + Sync,
+    tick: impl Fn() + Sync,
+    one: impl Fn(u64, &mut Memory) -> Result<Counts> + Sync,
+) -> Result<Counts> {
+    let counted = |memory: &mut Memory, index: u64| {
+        if !running() {
+            return Ok(Counts::default());
+        }
+        let counts = one(index, memory);
+        tick();
+        counts
+    };
+    (0..count).into_par_iter().map_init(Memory::default, counted).try_reduce(Counts::default, |a, b| Ok(a.and(b)))
+}
+
+fn one(job: Job, index: u64, (workspace, assembly): &mut Memory) -> Result<Counts> {
     let drawn = sample(job.set, job.seed, index)?;
     let mechanism = Mechanism::prepare(&drawn.entry)?;
     let solution = mechanism.solve(&drawn.entry.cases[0], job.roots, workspace, assembly)?;
-    let mut counts = Counts { arms: 1, ..Counts::default() };
+    let mut counts = Counts::of("arms", &solution);
     let real: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real).collect();
-    let apart = |mode: &FullMode, q: &[f64; 6]| (0..6).map(|k| wrapped(mode.q[k].re - q[k]).abs()).fold(0.0, f64::max);
+    let apart = |mode: &FullMode, q: &[f64; 6]| {
+        let difference = |k: usize| match drawn.variables[k] {
+            Variable::Rotation => wrapped(mode.q[k].re - q[k]).abs(),
+            Variable::Translation => (mode.q[k].re - q[k]).abs(),
+        };
+        (0..6).map(difference).fold(0.0, f64::max)
+    };
     let nearest = real.iter().map(|m| apart(m, &drawn.planted)).fold(f64::INFINITY, f64::min);
     if nearest < job.set.tolerance() {
         counts.found = 1;
@@ -98,24 +118,13 @@ fn one(job: Job, index: u64, workspace: &mut Workspace, assembly: &mut Assembly)
         counts.duplicates +=
             real[..k].iter().filter(|other| apart(other, &q) < 1e-6 && !(mode.certified && other.certified)).count();
     }
-    counts.residuals = solution.modes.iter().map(|m| m.residual).collect();
-    counts.real.insert(solution.verdict.real, 1);
-    counts.complex.insert(solution.verdict.complex, 1);
-    counts.verdicts.insert(solution.verdict.status.word(), 1);
-    if solution.verdict.status == Status::Incomplete {
-        // Numbers differ from arm to arm: the reason is what is counted.
-        let reason = solution.verdict.reason.split_whitespace();
-        let plain = reason.map(|word| if word.parse::<usize>().is_ok() { "n" } else { word });
-        counts.reasons.insert(plain.collect::<Vec<_>>().join(" "), 1);
-    }
-    counts.modes = (solution.modes.len(), solution.modes.iter().filter(|m| m.certified).count());
     Ok(counts)
 }
 
 /// How far the tool is from the pose at a mode, by forward kinematics alone: largest entry of the difference.
 fn miss(drawn: &Sample, mode: &FullMode) -> f64 {
-    let turns: Vec<Motion<f64>> = mode.q.iter().map(|q| Motion::rotation_z(q.re.cos(), q.re.sin())).collect();
-    let (Some(reached), Some(wanted)) = (drawn.entry.chain.forward(&turns), &drawn.entry.cases[0].pose) else {
+    let motions = motions(&drawn.variables, &std::array::from_fn(|k| mode.q[k].re));
+    let (Some(reached), Some(wanted)) = (drawn.chain.forward(&motions), &drawn.entry.cases[0].pose) else {
         return f64::INFINITY;
     };
     let mut largest = 0.0_f64;
@@ -129,8 +138,28 @@ fn miss(drawn: &Sample, mode: &FullMode) -> f64 {
 }
 
 impl Counts {
+    /// What is counted of any answer.
+    pub(super) fn of(noun: &'static str, solution: &Solution) -> Self {
+        let mut counts = Self { noun, solved: 1, ..Self::default() };
+        counts.residuals = solution.modes.iter().map(|m| m.residual).collect();
+        counts.real.insert(solution.verdict.real, 1);
+        counts.complex.insert(solution.verdict.complex, 1);
+        counts.verdicts.insert(solution.verdict.status.word(), 1);
+        if solution.verdict.status == Status::Incomplete {
+            // Numbers differ from sample to sample: the reason is what is counted.
+            let reason = solution.verdict.reason.split_whitespace();
+            let plain = reason.map(|word| if word.parse::<usize>().is_ok() { "n" } else { word });
+            counts.reasons.insert(plain.collect::<Vec<_>>().join(" "), 1);
+        }
+        counts.modes = (solution.modes.len(), solution.modes.iter().filter(|m| m.certified).count());
+        counts
+    }
+
     fn and(mut self, mut other: Self) -> Self {
-        self.arms += other.arms;
+        self.noun = if self.noun.is_empty() { other.noun } else { self.noun };
+        self.solved += other.solved;
+        self.miscounted += other.miscounted;
+        self.counted += other.counted;
         self.found += other.found;
         self.lost.append(&mut other.lost);
         self.on_self_motion += other.on_self_motion;
@@ -154,11 +183,46 @@ impl Counts {
         self
     }
 
-    /// Whether nothing is lost, spurious or double.
+    /// Whether nothing is lost, spurious, double or miscounted.
     #[must_use]
     pub fn is_faultless(&self) -> bool {
-        self.lost.is_empty() && self.spurious == 0 && self.duplicates == 0
+        self.lost.is_empty() && self.spurious == 0 && self.duplicates == 0 && self.miscounted == 0
     }
+}
+
+/// One line per family.
+#[must_use]
+pub fn table(rows: &[(&str, Counts)]) -> String {
+    let columns = ["chain", "loops", "found", "lost", "spurious", "double", "proved", "residual", "complex solutions"];
+    let line = |cells: [String; 9]| {
+        let [chain, rest @ .., last] = cells;
+        let middle = rest.iter().fold(String::new(), |text, cell| text + &format!("{cell:>9}"));
+        format!("{chain:<8}{middle}  {last}\n")
+    };
+    let mut text = line(columns.map(str::to_owned));
+    for (name, counts) in rows {
+        let word = |word: &str| counts.verdicts.get(word).copied().unwrap_or(0);
+        let complex = counts.complex.iter().map(|(key, count)| format!("{key}:{count}")).collect::<Vec<_>>().join(" ");
+        let worst = counts.residuals.iter().copied().fold(0.0, f64::max);
+        text += &line([
+            (*name).to_owned(),
+            counts.solved.to_string(),
+            counts.found.to_string(),
+            counts.lost.len().to_string(),
+            counts.spurious.to_string(),
+            counts.duplicates.to_string(),
+            (word("complete") + word("unreachable")).to_string(),
+            format!("{worst:.1e}"),
+            complex,
+        ]);
+        for (reason, count) in &counts.reasons {
+            text += &format!("    incomplete {count:>6}  {reason}\n");
+        }
+        if counts.on_self_motion > 0 {
+            text += &format!("    on a self-motion {:>6}\n", counts.on_self_motion);
+        }
+    }
+    text
 }
 
 /// Quantiles of a sample: median, 99 %, 99.9 %, largest.
@@ -181,13 +245,18 @@ impl Display for Counts {
         };
         writeln!(
             f,
-            "{} arms: {} planted found, {} lost, {} spurious, {} duplicates",
-            self.arms,
+            "{} {}: {} planted found, {} lost, {} spurious, {} duplicates",
+            self.solved,
+            self.noun,
             self.found,
             self.lost.len(),
             self.spurious,
             self.duplicates
         )?;
+        if self.counted > 0 {
+            let (counted, off) = (self.counted, self.miscounted);
+            writeln!(f, "  exact count          known of {counted}, found {off} solutions more or fewer")?;
+        }
         if self.on_self_motion > 0 {
             writeln!(f, "  on a self-motion     {} planted, reported as such", self.on_self_motion)?;
         }

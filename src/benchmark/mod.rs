@@ -1,5 +1,6 @@
 //! The program measures itself: solutions found, lost, spurious, duplicated against planted truth, and its speed.
 
 pub mod accuracy;
+pub mod platform;
 pub mod sample;
 pub mod speed;

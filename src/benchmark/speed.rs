@@ -12,7 +12,7 @@ use std::fmt::{self, Display};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Median and fastest time of each stage, microseconds per arm.
+/// Median and fastest time of each stage, microseconds per sample.
 #[derive(Clone, Debug)]
 pub struct Timings {
     /// Name, median, minimum.
@@ -28,7 +28,7 @@ pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
     let mut arms: Vec<(OpenLoop<f64>, Motion<f64>)> = Vec::new();
     for index in 0..count {
         let drawn = sample(Set::General, seed, index)?;
-        let open = drawn.entry.chain.open_loop(&Layout::of(&drawn.entry.chain, None)?)?;
+        let open = drawn.chain.open_loop(&Layout::of(&drawn.chain, None)?)?;
         let pose = drawn.entry.cases[0].pose.as_ref().map(|p| p.float.inverse());
         arms.extend(pose.map(|pose| (open, pose)));
     }
@@ -37,44 +37,66 @@ pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
         solvers.iter().zip(&arms).filter_map(|(solver, (_, pose))| solver.companion(pose)).collect();
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
     let mut eigen = EigenWorkspace::default();
-    let names = [
+    let mut stages = Stages::new(&[
         "faer, eigenvalues of 16x16",
         "own eigenvalues of 16x16",
         "real solutions",
         "all 16 solutions",
         "prepare a geometry",
-    ];
-    let mut times = vec![Vec::new(); names.len()];
+    ]);
     for _ in 0..repeats {
-        let mut stage = |index: usize, work: &mut dyn FnMut(usize)| {
-            let start = Instant::now();
-            for k in 0..arms.len() {
-                work(k);
-            }
-            times[index].push(start.elapsed().as_secs_f64() * 1e6 / arms.len() as f64);
-        };
-        stage(0, &mut |k| {
+        stages.time(0, arms.len(), &mut |k| {
             black_box(eigen.of_matrix(&matrices[k % matrices.len()]));
         });
-        stage(1, &mut |k| {
+        stages.time(1, arms.len(), &mut |k| {
             black_box(francis::eigenvalues(&mut matrices[k % matrices.len()].clone()));
         });
-        stage(2, &mut |k| solvers[k].solve(&arms[k].1, Roots::Real, &mut workspace, &mut assembly));
-        stage(3, &mut |k| solvers[k].solve(&arms[k].1, Roots::All, &mut workspace, &mut assembly));
-        stage(4, &mut |k| {
+        stages.time(2, arms.len(), &mut |k| {
+            solvers[k].solve(&arms[k].1, Roots::Real, &mut workspace, &mut assembly);
+        });
+        stages.time(3, arms.len(), &mut |k| solvers[k].solve(&arms[k].1, Roots::All, &mut workspace, &mut assembly));
+        stages.time(4, arms.len(), &mut |k| {
             black_box(Solver::prepare(&arms[k].0));
         });
     }
-    let rows = names.iter().zip(&mut times).map(|(name, times)| {
-        times.sort_by(f64::total_cmp);
-        (*name, times[times.len() / 2], times[0])
-    });
-    Ok(Timings { rows: rows.collect() })
+    Ok(stages.timings())
+}
+
+/// Times of several stages, gathered over many repeats.
+pub(super) struct Stages {
+    names: Vec<&'static str>,
+    times: Vec<Vec<f64>>,
+}
+
+impl Stages {
+    /// Stages of these names, the first one the measure of all.
+    pub(super) fn new(names: &[&'static str]) -> Self {
+        Self { names: names.to_vec(), times: vec![Vec::new(); names.len()] }
+    }
+
+    /// Times one stage over so many samples.
+    pub(super) fn time(&mut self, stage: usize, samples: usize, work: &mut dyn FnMut(usize)) {
+        let start = Instant::now();
+        for k in 0..samples {
+            work(k);
+        }
+        self.times[stage].push(start.elapsed().as_secs_f64() * 1e6 / samples as f64);
+    }
+
+    /// Median and minimum of every stage that was timed.
+    pub(super) fn timings(mut self) -> Timings {
+        let rows = self.names.iter().zip(&mut self.times).filter(|(_, times)| !times.is_empty());
+        let rows = rows.map(|(name, times)| {
+            times.sort_by(f64::total_cmp);
+            (*name, times[times.len() / 2], times[0])
+        });
+        Timings { rows: rows.collect() }
+    }
 }
 
 impl Display for Timings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (_, base_median, _) = self.rows[0];
+        let base_median = self.rows.first().map_or(f64::NAN, |(_, median, _)| *median);
         write!(f, "{:<28}{:>10}{:>10}{:>12}", "microseconds, one core", "median", "least", "of faer")?;
         for (name, median, least) in &self.rows {
             write!(f, "\n{name:<28}{median:>10.1}{least:>10.1}{:>12.2}", median / base_median)?;

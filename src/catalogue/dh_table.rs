@@ -1,6 +1,6 @@
 //! DH tables as CSV: a header `type,a,alpha,d,theta0`, then one joint per line, classic convention.
 
-use super::entry::{Entry, Kind};
+use super::entry::{Design, Entry};
 use super::geometry::check_count;
 use super::node::{Node, Value};
 use super::scope::Scope;
@@ -33,8 +33,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str) -> Result<Entry> 
         title: name.to_owned(),
         source: None,
         notes: None,
-        kind: Kind::Arm,
-        chain,
+        design: Design::Arm(chain),
         limits: Vec::new(),
         cases: Vec::new(),
         rounded: scope.is_rounded(),

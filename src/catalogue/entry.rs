@@ -2,6 +2,7 @@
 
 use crate::algebra::number::{Angle, Number};
 use crate::kinematics::chain::{Chain, Placement};
+use crate::kinematics::platform::Platform;
 
 /// The kind of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,6 +13,17 @@ pub enum Kind {
     Loop,
     /// A Stewart platform.
     Platform,
+}
+
+/// What a mechanism is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Design {
+    /// The joints of an arm.
+    Arm(Chain),
+    /// The joints round a loop.
+    Loop(Chain),
+    /// The points of a platform.
+    Platform(Box<Platform<Number>>),
 }
 
 /// Where a mechanism comes from.
@@ -41,19 +53,63 @@ pub struct Input {
     pub value: InputValue,
 }
 
-/// One job of a file: a pose of an arm or an input of a loop, with what is claimed of it.
+/// One job of a file: a pose of an arm, an input of a loop or the legs of a platform, with what is claimed of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    /// The pose (arm).
+    /// The pose (arm; platform, where its legs were computed from one).
     pub pose: Option<Placement>,
     /// The given variables (loop).
     pub input: Vec<Input>,
+    /// The squares of the lengths of the legs (platform).
+    pub legs_squared: Option<[Number; 6]>,
     /// Claims about this case.
     pub expected: Expected,
     /// Warnings to repeat in every report on this case (a projected pose, for example).
     pub warnings: Vec<String>,
     /// Line of the file at which the case begins, from 1.
     pub line: usize,
+}
+
+impl Case {
+    /// A pose of an arm, without claims.
+    #[must_use]
+    pub fn at(pose: Placement, line: usize) -> Self {
+        Self { pose: Some(pose), ..Self::empty(line) }
+    }
+
+    /// An input of a loop, without claims.
+    #[must_use]
+    pub fn given(input: Input, line: usize) -> Self {
+        Self { input: vec![input], ..Self::empty(line) }
+    }
+
+    /// Legs of a platform with these squared lengths, without claims.
+    #[must_use]
+    pub fn legs(squares: [Number; 6], line: usize) -> Self {
+        let empty: Vec<String> =
+            (0..6).filter(|k| *squares[*k].rational() == 0).map(|k| format!("leg {}", k + 1)).collect();
+        let warnings = if empty.is_empty() {
+            Vec::new()
+        } else {
+            let legs = empty.join(" and ");
+            vec![format!("{legs} of length 0: where the ends of a leg coincide, real solutions are singular")]
+        };
+        Self { legs_squared: Some(squares), warnings, ..Self::empty(line) }
+    }
+
+    /// Legs of a platform as long as this pose of the plate makes them, exact where it is; without claims.
+    #[must_use]
+    pub fn legs_at(platform: &Platform<Number>, pose: Placement, line: usize) -> Self {
+        let exact = |points: &[[Number; 3]; 6]| points.each_ref().map(|p| p.each_ref().map(|x| x.rational().clone()));
+        let platform = Platform { base: exact(&platform.base), plate: exact(&platform.plate) };
+        let squares = platform.legs_squared(&pose.exact).map(Number::exact);
+        Self { pose: Some(pose), ..Self::legs(squares, line) }
+    }
+
+    fn empty(line: usize) -> Self {
+        let (expected, warnings) = (Expected::default(), Vec::new());
+        Self { pose: None, input: Vec::new(), legs_squared: None, expected, warnings, line }
+    }
 }
 
 /// Claims that `looproot check` tests; every one optional.
@@ -72,7 +128,7 @@ pub struct Expected {
 /// A claimed solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
-    /// Joint variables in joint order.
+    /// Joint variables in joint order; of a platform the quaternion `w, x, y, z` and the position `x, y, z`.
     pub q: Vec<f64>,
     /// Correct decimal digits of `q`.
     pub digits: u32,
@@ -91,14 +147,33 @@ pub struct Entry {
     pub source: Option<Source>,
     /// Remarks of the file.
     pub notes: Option<String>,
-    /// Arm, loop or platform.
-    pub kind: Kind,
-    /// The joints.
-    pub chain: Chain,
+    /// The joints or points.
+    pub design: Design,
     /// Lower and upper joint limits, radians or lengths, in joint order; empty if none are given.
     pub limits: Vec<[f64; 2]>,
     /// The poses or inputs.
     pub cases: Vec<Case>,
     /// Whether some number of the file had to be replaced by a nearby rational for exact work.
     pub rounded: bool,
+}
+
+impl Entry {
+    /// Arm, loop or platform.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        match self.design {
+            Design::Arm(_) => Kind::Arm,
+            Design::Loop(_) => Kind::Loop,
+            Design::Platform(_) => Kind::Platform,
+        }
+    }
+
+    /// The joints of an arm or a loop.
+    #[must_use]
+    pub fn chain(&self) -> Option<&Chain> {
+        match &self.design {
+            Design::Arm(chain) | Design::Loop(chain) => Some(chain),
+            Design::Platform(_) => None,
+        }
+    }
 }

@@ -1,17 +1,19 @@
 //! The `[mechanism]` table: joints, base, tool and limits.
 
-use super::entry::Kind;
+use super::entry::{Case, Design, Kind};
 use super::node::Node;
+use super::platform::platform;
 use super::scope::{Scope, Table};
 use crate::algebra::number::{Angle, Number, Quantity};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 
 /// The mechanism of a file.
 pub(super) struct Mechanism {
-    pub(super) kind: Kind,
-    pub(super) chain: Chain,
+    pub(super) design: Design,
     pub(super) limits: Vec<[f64; 2]>,
+    /// The legs of a platform, where they stand beside its points.
+    pub(super) case: Option<Case>,
 }
 
 /// What one joint variable measures.
@@ -45,13 +47,12 @@ pub(super) fn kinds(chain: &Chain) -> Vec<JointKind> {
 pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     let anything = ["kind", "convention", "joints", "base", "tool", "home", "limits", "plate", "legs", "legs_squared"];
     let table = scope.table(node, "[mechanism]", &anything)?;
-    let kind_node = scope.need(&table, "kind")?;
-    let kind = match scope.word(kind_node, "kind", &["arm", "loop", "platform"])? {
+    let kind = match scope.word(scope.need(&table, "kind")?, "kind", &["arm", "loop", "platform"])? {
         "arm" => Kind::Arm,
         "loop" => Kind::Loop,
         _ => {
-            let message = "mechanisms of kind \"platform\" are read but not solved yet".to_owned();
-            return Err(Error::Unsupported(message).at(scope.path, kind_node.line));
+            let (platform, case) = platform(scope, node)?;
+            return Ok(Mechanism { design: Design::Platform(Box::new(platform)), limits: Vec::new(), case });
         }
     };
     let table = match kind {
@@ -91,7 +92,8 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     };
     check_count(scope, &chain, joints.line, expected)?;
     let limits = table.get("limits").map_or(Ok(Vec::new()), |node| limits(scope, node, &chain))?;
-    Ok(Mechanism { kind, chain, limits })
+    let design = if kind == Kind::Arm { Design::Arm(chain) } else { Design::Loop(chain) };
+    Ok(Mechanism { design, limits, case: None })
 }
 
 /// Refuses a chain whose number of joint variables does not fit its kind.
@@ -102,9 +104,29 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
         return Ok(());
     }
     let joints = kinds.len();
+    let off = count.abs_diff(expected.0);
+    let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
+    let what = match (expected.0, count > expected.0) {
+        (7, true) => {
+            let mobility = count - 6;
+            let balls = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
+            let spin =
+                if balls > 1 { "; the spin of a link between two S joints about their centres counts" } else { "" };
+            format!("mobility {mobility} by Gruebler's count ({count} - 6){spin}: {freedoms} too many for one input")
+        }
+        (7, false) => format!(
+            "mobility {} by Gruebler's count ({count} - 6): {freedoms} missing for one input, if it is not overconstrained",
+            count.cast_signed() - 6
+        ),
+        (_, true) => format!("a pose leaves {freedoms} undetermined"),
+        (_, false) => format!("{freedoms} missing for a pose"),
+    };
     Err(scope.fail(
         line,
-        format!("found {joints} joints with {count} variables (R, P and H count 1, C and U 2, S 3), {}", expected.1),
+        format!(
+            "found {joints} joints with {count} variables (R, P and H count 1, C and U 2, S 3), {}; {what}",
+            expected.1
+        ),
     ))
 }
 
@@ -150,7 +172,7 @@ fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
         JointKind::Cylindrical => (&["d0", "theta0", "tan_half_theta0"], "a C joint"),
         JointKind::Helical => (&["d", "theta0", "tan_half_theta0", "pitch"], "an H joint"),
         JointKind::Universal => (&["d"], "a U joint"),
-        JointKind::Spherical => (&[], "an S joint"),
+        JointKind::Spherical => (&["d"], "an S joint"),
     };
     let table = scope.table(node, what, &[&link, own].concat())?;
     let a = scope.length(scope.need(&table, "a")?, "a")?;
@@ -159,8 +181,7 @@ fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
     let d = match kind {
         JointKind::Revolute | JointKind::Helical => scope.length(scope.need(&table, "d")?, "d")?,
         JointKind::Prismatic | JointKind::Cylindrical => optional("d0")?,
-        JointKind::Universal => optional("d")?,
-        JointKind::Spherical => Number::zero(),
+        JointKind::Universal | JointKind::Spherical => optional("d")?,
     };
     let theta0 = match kind {
         JointKind::Prismatic => angle(scope, &table, "theta", "tan_half_theta", true)?,

@@ -1,8 +1,9 @@
 //! Poses, inputs and the claims made of them.
 
-use super::entry::{Case, Claim, Entry, Expected, Input, InputValue, Kind, Source};
+use super::entry::{Case, Claim, Design, Entry, Expected, Input, InputValue, Source};
 use super::geometry::{Mechanism, kinds, mechanism, variable_value, variables};
 use super::node::Node;
+use super::platform;
 use super::scope::{Scope, Table};
 use crate::algebra::number::{Number, Quantity};
 use crate::error::Result;
@@ -13,7 +14,7 @@ const DIGITS: u32 = 6;
 
 /// Reads a whole mechanism file.
 pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<Entry> {
-    let keys = ["title", "source", "notes", "units", "mechanism", "pose", "input", "expected", "solution"];
+    let keys = ["title", "source", "notes", "units", "mechanism", "pose", "input", "legs", "expected", "solution"];
     let table = scope.table(root, "the file", &keys)?;
     if let Some(node) = table.get("units") {
         units(scope, node)?;
@@ -24,33 +25,59 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
     };
     let source = table.get("source").map(|node| source(scope, node)).transpose()?;
     let notes = table.get("notes").map(|node| scope.text(node, "notes").map(str::to_owned)).transpose()?;
-    let Mechanism { kind, chain, limits } = mechanism(scope, scope.need(&table, "mechanism")?)?;
+    let Mechanism { design, limits, case } = mechanism(scope, scope.need(&table, "mechanism")?)?;
     let shared = scope.take_warnings();
-    let (own, foreign) = if kind == Kind::Arm { ("pose", "input") } else { ("input", "pose") };
-    if let Some(node) = table.get(foreign) {
-        let kind = if kind == Kind::Arm { "an arm" } else { "a loop" };
-        return Err(scope.fail(node.line, format!("found `{foreign}` in the file of {kind}, expected `{own}`")));
-    }
-    let blocks = scope.list(scope.need(&table, own)?, own)?;
-    let mut cases = Vec::with_capacity(blocks.len());
-    for node in blocks {
-        let mut case = if kind == Kind::Arm { pose(scope, node, &chain)? } else { input(scope, node, &chain)? };
+    let mut cases = cases(scope, &table, &design, case)?;
+    for case in &mut cases {
         case.warnings.splice(0..0, shared.iter().cloned());
-        cases.push(case);
     }
-    let Some(first) = cases.first_mut() else {
-        return Err(scope.fail(root.line, format!("found an empty list `{own}`, expected at least one")));
-    };
     // Claims at the top of a file are about its first case.
-    let top = expected(scope, &table, &chain)?;
-    if top != Expected::default() {
+    let top = expected(scope, &table, &|scope, node| claim_of(scope, node, &design))?;
+    if let (Some(first), true) = (cases.first_mut(), top != Expected::default()) {
         if first.expected != Expected::default() {
             return Err(scope
                 .fail(first.line, "found claims about this case here and at the top of the file, expected one place"));
         }
         first.expected = top;
     }
-    Ok(Entry { name: name.to_owned(), title, source, notes, kind, chain, limits, cases, rounded: scope.is_rounded() })
+    Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, cases, rounded: scope.is_rounded() })
+}
+
+/// The poses of an arm, the inputs of a loop, the legs of a platform: one at least.
+fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case>) -> Result<Vec<Case>> {
+    let (what, allowed): (&str, &[&str]) = match design {
+        Design::Arm(_) => ("an arm", &["pose"]),
+        Design::Loop(_) => ("a loop", &["input"]),
+        Design::Platform(_) => ("a platform", &["legs", "pose"]),
+    };
+    let given: Vec<(&str, &Node)> =
+        ["pose", "input", "legs"].into_iter().filter_map(|key| Some((key, table.get(key)?))).collect();
+    if let Some((key, node)) = given.iter().find(|(key, _)| !allowed.contains(key)) {
+        let expected = allowed.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(" or ");
+        return Err(scope.fail(node.line, format!("found `{key}` in the file of {what}, expected {expected}")));
+    }
+    let (key, node) = match (given.as_slice(), own) {
+        ([], Some(case)) => return Ok(vec![case]),
+        ([(key, node)], None) => (*key, *node),
+        ([], None) if matches!(design, Design::Platform(_)) => {
+            let message = "found no legs, expected `legs` or `legs_squared` in the [mechanism], [[legs]] or [[pose]]";
+            return Err(scope.fail(table.line(), message));
+        }
+        ([], None) => (allowed[0], scope.need(table, allowed[0])?),
+        ([.., (_, node)], _) => {
+            return Err(scope.fail(node.line, "found the legs of a platform in two places, expected one"));
+        }
+    };
+    let blocks = scope.list(node, key)?;
+    if blocks.is_empty() {
+        return Err(scope.fail(node.line, format!("found an empty list `{key}`, expected at least one")));
+    }
+    let read = |node: &Node| match (design, key) {
+        (Design::Loop(chain), _) => input(scope, node, chain),
+        (Design::Platform(_), "legs") => platform::leg_lengths(scope, node),
+        _ => pose(scope, node, design),
+    };
+    blocks.iter().map(read).collect()
 }
 
 fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
@@ -73,7 +100,7 @@ fn source(scope: &Scope<'_>, node: &Node) -> Result<Source> {
     Ok(Source { key, place })
 }
 
-fn pose(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
+fn pose(scope: &Scope<'_>, node: &Node, design: &Design) -> Result<Case> {
     let table = scope.table(node, "[[pose]]", &["matrix", "position", "quaternion", "expected", "solution"])?;
     let pose = match (table.get("matrix"), table.get("position"), table.get("quaternion")) {
         (Some(matrix), None, None) => scope.matrix(matrix, "matrix")?,
@@ -84,8 +111,14 @@ fn pose(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
             return Err(scope.fail(table.line(), message));
         }
     };
-    let expected = expected(scope, &table, chain)?;
-    Ok(Case { pose: Some(pose), input: Vec::new(), expected, warnings: scope.take_warnings(), line: table.line() })
+    let expected = expected(scope, &table, &|scope, node| claim_of(scope, node, design))?;
+    let line = table.line();
+    let case = match design {
+        Design::Platform(platform) => Case::legs_at(platform, pose, line),
+        Design::Arm(_) | Design::Loop(_) => Case::at(pose, line),
+    };
+    let warnings = [scope.take_warnings(), case.warnings].concat();
+    Ok(Case { expected, warnings, ..case })
 }
 
 fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
@@ -111,15 +144,24 @@ fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
     };
     if !fits {
         let found = if matches!(value, InputValue::Angle(_)) { "an angle" } else { "a distance" };
-        return Err(scope.fail(table.line(), format!("found {found} as input of joint {joint}, which is {kind:?}")));
+        let expected = match kind {
+            JointKind::Prismatic => "expected `distance`",
+            JointKind::Spherical | JointKind::Universal => "expected a joint with one variable, or a C joint",
+            _ => "expected `angle` or `tan_half`",
+        };
+        let message = format!("found {found} as input of joint {joint}, which is {kind:?} and has none; {expected}");
+        return Err(scope.fail(table.line(), message));
     }
-    let expected = expected(scope, &table, chain)?;
-    let input = vec![Input { joint, value }];
-    Ok(Case { pose: None, input, expected, warnings: scope.take_warnings(), line: table.line() })
+    let expected = expected(scope, &table, &|scope, node| claim(scope, node, chain))?;
+    Ok(Case { expected, warnings: scope.take_warnings(), ..Case::given(Input { joint, value }, table.line()) })
 }
 
-/// The claims beside a case or at the top of the file.
-fn expected(scope: &Scope<'_>, table: &Table<'_>, chain: &Chain) -> Result<Expected> {
+/// The claims beside a case or at the top of the file, whose solutions `claim` reads.
+pub(super) fn expected(
+    scope: &Scope<'_>,
+    table: &Table<'_>,
+    claim: &dyn Fn(&Scope<'_>, &Node) -> Result<Claim>,
+) -> Result<Expected> {
     let mut expected = Expected::default();
     if let Some(node) = table.get("expected") {
         let claims = scope.table(node, "[expected]", &["complex", "real", "dimension"])?;
@@ -136,12 +178,20 @@ fn expected(scope: &Scope<'_>, table: &Table<'_>, chain: &Chain) -> Result<Expec
     }
     if let Some(node) = table.get("solution") {
         for node in scope.list(node, "solution")? {
-            expected.solutions.push(claim(scope, node, chain)?);
+            expected.solutions.push(claim(scope, node)?);
         }
     }
     Ok(expected)
 }
 
+fn claim_of(scope: &Scope<'_>, node: &Node, design: &Design) -> Result<Claim> {
+    match design {
+        Design::Arm(chain) | Design::Loop(chain) => claim(scope, node, chain),
+        Design::Platform(_) => platform::claim(scope, node),
+    }
+}
+
+/// A `[[solution]]` of an arm or a loop.
 fn claim(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Claim> {
     let table = scope.table(node, "[[solution]]", &["q", "digits"])?;
     let list = scope.need(&table, "q")?;
@@ -157,12 +207,16 @@ fn claim(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Claim> {
     let own = Scope::new(scope.path, scope.reading.clone());
     let values = nodes.iter().zip(variables).map(|(node, variable)| variable_value(&own, node, variable, "q"));
     let q = values.collect::<Result<_>>()?;
-    let digits = match table.get("digits") {
-        None => DIGITS,
+    Ok(Claim { q, digits: digits(scope, &table)?, line: table.line() })
+}
+
+/// How many digits of a claimed solution are correct.
+pub(super) fn digits(scope: &Scope<'_>, table: &Table<'_>) -> Result<u32> {
+    match table.get("digits") {
+        None => Ok(DIGITS),
         Some(node) => match u32::try_from(scope.count(node, "digits")?) {
-            Ok(digits @ 1..=60) => digits,
-            _ => return Err(scope.fail(node.line, "found `digits` out of range, expected 1 to 60")),
+            Ok(digits @ 1..=60) => Ok(digits),
+            _ => Err(scope.fail(node.line, "found `digits` out of range, expected 1 to 60")),
         },
-    };
-    Ok(Claim { q, digits, line: table.line() })
+    }
 }

@@ -7,6 +7,7 @@ mod job;
 mod library;
 mod node;
 mod options;
+mod platform;
 mod scope;
 mod source;
 mod text;

@@ -1,6 +1,6 @@
 //! Robot descriptions (URDF): the chain of joints between two links, as screw axes in the home position.
 
-use super::entry::{Entry, Kind};
+use super::entry::{Design, Entry};
 use super::geometry::check_count;
 use super::node::{Node, Value};
 use super::options::Options;
@@ -58,8 +58,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
         title: robot.attribute("name").unwrap_or(name).to_owned(),
         source: None,
         notes: None,
-        kind: Kind::Arm,
-        chain,
+        design: Design::Arm(chain),
         limits,
         cases: Vec::new(),
         rounded: scope.is_rounded(),

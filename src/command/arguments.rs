@@ -1,5 +1,6 @@
 //! The words of the command line.
 
+use super::poly::arguments::PolyOptions;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use looproot::catalogue::Options;
@@ -29,7 +30,9 @@ pub enum Verb {
     Show(ShowOptions),
     /// Test every claim of mechanism files
     Check(CheckOptions),
-    /// Measure accuracy and speed on random arms
+    /// Polynomials: multiply out, eliminate, determinants, real roots
+    Poly(PolyOptions),
+    /// Measure accuracy and speed on random arms and platforms
     Bench(BenchOptions),
     /// Print the completions of a shell
     Completions(CompletionsOptions),
@@ -104,7 +107,7 @@ pub struct SolveOptions {
     /// JSON Lines: one result a line, as soon as it is there
     #[arg(long, conflicts_with = "json")]
     pub jsonl: bool,
-    /// Solve this pose of the file only, counted from 1
+    /// Solve this pose (of a platform: set of legs) of the file only, counted from 1
     #[arg(long, value_name = "K")]
     pub pose: Option<usize>,
     /// Solve this input of the file only, counted from 1, or another one: 7="90 deg", 3="20 mm"
@@ -113,6 +116,12 @@ pub struct SolveOptions {
     /// Solve the pose that these joint values reach: "10 deg, 0.3, pi/2, ..."
     #[arg(long, value_name = "Q", conflicts_with_all = ["pose", "input"], allow_hyphen_values = true)]
     pub joints: Option<String>,
+    /// Platform: solve for legs of these lengths: "1, 1.2, 900 mm, ..."
+    #[arg(long, value_name = "L", conflicts_with = "pose", allow_hyphen_values = true)]
+    pub legs: Option<String>,
+    /// Platform: solve for the legs that this pose asks for: "x, y, z; w, x, y, z", position and quaternion
+    #[arg(long, value_name = "POSE", conflicts_with_all = ["pose", "legs"], allow_hyphen_values = true)]
+    pub at: Option<String>,
     /// Solutions outside the joint limits
     #[arg(long, value_name = "HOW", default_value = "mark")]
     pub limits: Limits,
@@ -180,17 +189,18 @@ pub struct BenchOptions {
 pub enum Measure {
     /// Solutions found, lost, spurious, duplicated against planted configurations
     Accuracy(AccuracyOptions),
-    /// Times on one core beside the eigenvalues of one 16 x 16 matrix
+    /// Times on one core beside faer's eigenvalues of one 16 x 16 or 40 x 40 matrix
     Speed(SpeedOptions),
 }
 
 /// `looproot bench accuracy`
 #[derive(Args)]
 pub struct AccuracyOptions {
-    /// general, structured, near-singular, badly-scaled or calibrated
+    /// general, structured, near-singular, badly-scaled or calibrated arms; loops or special-loops of all residual
+    /// chains; platform, platform-planar-base, platform-near-planar, platform-6-3 ... (all names: --set help)
     #[arg(long, default_value = "general")]
     pub set: String,
-    /// Number of arms
+    /// Number of arms or platforms, or of loops per chain
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub count: u64,
     /// Seed of the draw
@@ -210,10 +220,13 @@ pub struct AccuracyOptions {
 /// `looproot bench speed`
 #[derive(Args)]
 pub struct SpeedOptions {
-    /// Number of arms
+    /// general (arms), platform or another set of platforms
+    #[arg(long, default_value = "general")]
+    pub set: String,
+    /// Number of arms or platforms
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=100_000))]
     pub count: u64,
-    /// How often each stage is timed over all arms
+    /// How often each stage is timed over all of them
     #[arg(long, value_name = "N", default_value_t = 101)]
     pub repeats: usize,
     /// Seed of the draw

@@ -27,7 +27,7 @@ fn table(entries: &[(String, Entry)]) -> String {
     for (name, entry) in entries {
         table.row([
             name.clone(),
-            format!("{} {}", joints(entry), kind(entry.kind)),
+            format!("{} {}", joints(entry), kind(entry.kind())),
             cases(entry),
             claimed(entry, |claims| claims.complex),
             claimed(entry, |claims| claims.real),
@@ -42,7 +42,12 @@ fn document(entries: &[(String, Entry)]) -> String {
     let lines = entries.iter().map(|(name, entry)| {
         let mut line = summary(entry);
         line["name"] = json!(name);
-        line[if entry.kind == Kind::Arm { "poses" } else { "inputs" }] = json!(entry.cases.len());
+        let cases = match entry.kind() {
+            Kind::Arm => "poses",
+            Kind::Loop => "inputs",
+            Kind::Platform => "leg_sets",
+        };
+        line[cases] = json!(entry.cases.len());
         let counts = |claim: fn(&_) -> Option<usize>| -> Vec<Value> {
             entry.cases.iter().map(|case| json!(claim(&case.expected))).collect()
         };

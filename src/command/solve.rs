@@ -3,16 +3,15 @@
 use super::arguments::{Limits, SolveOptions};
 use super::exit::{Exit, Fault};
 use super::output::{Output, pool};
+use super::wanted::wanted;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use looproot::algebra::number::{Angle, Number, Quantity, Reading};
 use looproot::assembly::{Assembly, Roots, Workspace};
-use looproot::catalogue::entry::{Case, Entry, Expected, Input, InputValue, Kind};
+use looproot::catalogue::entry::Entry;
 use looproot::catalogue::load;
 use looproot::error::Error;
-use looproot::kinematics::chain::Placement;
-use looproot::kinematics::closed_loop::{Layout, Variable, angle_motion, distance_motion};
 use looproot::mechanism::{Mechanism, Solution};
 use looproot::report::json;
+use looproot::report::model::case_noun;
 use looproot::report::number::{counted, duration};
 use looproot::report::text::{self, View};
 use looproot::verdict::{Status, Verdict};
@@ -104,95 +103,7 @@ fn unsupported(error: &Error) -> Solution {
     };
     let status = Status::Unsupported;
     let verdict = Verdict { status, complex: 0, real: 0, at_infinity: 0, self_motion: 0, certified: 0, reason };
-    Solution { verdict, modes: Vec::new(), warnings: Vec::new(), prepare_us: 0.0, solve_us: 0.0 }
-}
-
-/// Which cases to solve. A case given on the command line takes the place of those of the file.
-fn wanted(options: &SolveOptions, entry: &mut Entry) -> Result<Range<usize>, Error> {
-    let is_arm = entry.kind == Kind::Arm;
-    if let Some(joints) = &options.joints {
-        if !is_arm {
-            return Err(Error::Invalid("found --joints for a loop, expected --input".to_owned()));
-        }
-        entry.cases = vec![reached(entry, joints)?];
-    }
-    let number = match (&options.input, options.pose) {
-        (Some(_), _) if is_arm => return Err(Error::Invalid("found --input for an arm, expected --pose".to_owned())),
-        (_, Some(_)) if !is_arm => return Err(Error::Invalid("found --pose for a loop, expected --input".to_owned())),
-        (Some(input), _) => match input.split_once('=') {
-            Some((joint, value)) => {
-                entry.cases = vec![given(entry, joint, value)?];
-                None
-            }
-            None => Some(input.trim().parse().map_err(|_| {
-                Error::Invalid(format!("found --input {input}, expected a number from 1 or JOINT=VALUE"))
-            })?),
-        },
-        (None, pose) => pose,
-    };
-    let count = entry.cases.len();
-    match number {
-        None if count == 0 => {
-            let hint = if is_arm {
-                "expected a [[pose]], or --joints with joint values that reach one"
-            } else {
-                "expected an [[input]]"
-            };
-            Err(Error::Invalid(format!("{}: found nothing to solve, {hint}", options.mechanism)))
-        }
-        None => Ok(0..count),
-        Some(number) if (1..=count).contains(&number) => Ok(number - 1..number),
-        Some(number) => {
-            let noun = if is_arm { "pose" } else { "input" };
-            Err(Error::Invalid(format!("found --{noun} {number}, expected 1 to {count}")))
-        }
-    }
-}
-
-/// A case that locks a joint at a value of the command line.
-fn given(entry: &Entry, joint: &str, value: &str) -> Result<Case, Error> {
-    let joint: usize = joint.trim().trim_start_matches('q').parse().map_err(|_| {
-        Error::Invalid(format!("found --input {joint}={value}, expected the number of a joint before `=`"))
-    })?;
-    let reading = Reading::default();
-    let is_length = Layout::variable_of(&entry.chain, joint, Variable::Rotation).is_none();
-    if is_length && Layout::variable_of(&entry.chain, joint, Variable::Translation).is_none() {
-        let count = entry.chain.joint_kinds().len();
-        return Err(Error::Invalid(format!("found joint {joint} in --input, expected one from 1 to {count}")));
-    }
-    let value = if is_length {
-        InputValue::Distance(Number::parse(value, Quantity::Length, &reading)?)
-    } else {
-        InputValue::Angle(Angle::parse(value, &reading)?)
-    };
-    Ok(case(None, vec![Input { joint, value }]))
-}
-
-/// A case that asks for the pose which these joint values reach.
-fn reached(entry: &Entry, joints: &str) -> Result<Case, Error> {
-    let variables = Layout::of(&entry.chain, None)?.variables;
-    let texts: Vec<&str> = joints.split(',').map(str::trim).collect();
-    if texts.len() != variables.len() {
-        let (found, expected) = (texts.len(), variables.len());
-        return Err(Error::Invalid(format!(
-            "found {found} values in --joints, expected {expected}, separated by commas"
-        )));
-    }
-    let reading = Reading::default();
-    let mut motions = Vec::new();
-    for (text, variable) in texts.into_iter().zip(variables) {
-        let motion = match variable {
-            Variable::Rotation => angle_motion(&Angle::parse(text, &reading)?),
-            Variable::Translation => distance_motion(&Number::parse(text, Quantity::Length, &reading)?),
-        };
-        motions.extend(motion);
-    }
-    let pose = entry.chain.forward(&motions).map(Placement::from_motion_exact);
-    Ok(case(pose, Vec::new()))
-}
-
-fn case(pose: Option<Placement>, input: Vec<Input>) -> Case {
-    Case { pose, input, expected: Expected::default(), warnings: Vec::new(), line: 1 }
+    Solution { verdict, modes: Vec::new(), warnings: Vec::new(), prepare_us: 0.0, solve_us: 0.0, platform: None }
 }
 
 /// The form of the output.
@@ -281,7 +192,7 @@ impl<'a> Report<'a> {
             Form::Document if self.written == 0 => writeln!(out, "{}] }}", json::head(self.entry))?,
             Form::Document => writeln!(out, "\n] }}")?,
             Form::Text if self.total > 1 => {
-                let noun = if self.entry.kind == Kind::Arm { "pose" } else { "input" };
+                let noun = case_noun(self.entry);
                 let words = ["complete", "incomplete", "unreachable", "self-motion", "unsupported"];
                 let counts = words.iter().zip(self.tally).filter(|(_, count)| *count > 0);
                 let counts: Vec<String> = counts.map(|(word, count)| format!("{count} {word}")).collect();

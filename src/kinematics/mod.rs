@@ -3,6 +3,8 @@
 pub mod chain;
 pub mod closed_loop;
 pub mod dual_quaternion;
+pub mod link_form;
 pub mod motion;
 pub mod placement;
 pub mod platform;
+pub mod velocity;

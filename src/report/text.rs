@@ -1,9 +1,10 @@
 //! Solutions for a human: the verdict first, then the modes, then why, then what to beware of.
 
+use super::model::case_noun;
 use super::number::{at_most, counted, duration, magnitude, short};
 use super::table::{Columns, paragraph};
 use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
-use crate::kinematics::chain::JointKind;
+use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{FullMode, Solution};
 use crate::verdict::Status;
@@ -53,13 +54,14 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
         Status::Unreachable => {
             let what = match kind {
                 Kind::Arm => "this pose cannot be reached",
-                _ => "the loop cannot be assembled at this input",
+                Kind::Loop => "the loop cannot be assembled at this input",
+                Kind::Platform => "no pose has legs of these lengths",
             };
-            // A pose out of reach is known to be one without any root.
-            let found = if found == 0 {
-                "at most 16 roots".to_owned()
-            } else {
-                format!("{found} roots, {}", certified(solution))
+            let found = match (found, kind) {
+                // A pose out of reach is known to be one without any root.
+                (0, Kind::Arm | Kind::Loop) => "at most 16 roots".to_owned(),
+                (0, Kind::Platform) => "0 roots".to_owned(),
+                _ => format!("{found} roots, {}", certified(solution)),
             };
             format!("0 real of {found}: {what}, {}", measured(solution))
         }
@@ -117,7 +119,7 @@ pub fn solution(entry: &Entry, number: usize, case: &Case, solution: &Solution, 
         Status::Incomplete | Status::SelfMotion => 33,
         Status::Unreachable | Status::Unsupported => 31,
     };
-    let mut text = view.painted(&verdict(entry.kind, solution), colour) + "\n";
+    let mut text = view.painted(&verdict(entry.kind(), solution), colour) + "\n";
     if view.quiet {
         return text;
     }
@@ -145,8 +147,7 @@ pub fn solution(entry: &Entry, number: usize, case: &Case, solution: &Solution, 
 fn heading(entry: &Entry, number: usize, case: &Case) -> String {
     let mut text = entry.title.clone();
     if entry.cases.len() > 1 {
-        let noun = if entry.kind == Kind::Arm { "pose" } else { "input" };
-        let _ = write!(text, ", {noun} {number} of {}", entry.cases.len());
+        let _ = write!(text, ", {} {number} of {}", case_noun(entry), entry.cases.len());
     }
     for input in &case.input {
         let value = match &input.value {
@@ -154,6 +155,10 @@ fn heading(entry: &Entry, number: usize, case: &Case) -> String {
             InputValue::Distance(distance) => format!("{} m", short(distance.to_f64(), 9)),
         };
         let _ = write!(text, ", q{} = {value}", input.joint);
+    }
+    if let Some(squares) = &case.legs_squared {
+        let lengths = squares.each_ref().map(|square| short(square.to_f64().sqrt(), 9));
+        let _ = write!(text, "\nlegs {} m", lengths.join(", "));
     }
     text
 }
@@ -163,6 +168,9 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
     let mut text = String::new();
     if solution.verdict.status != Status::Incomplete && solution.verdict.status != Status::Unsupported {
         paragraph(&mut text, &format!("why: {}", solution.verdict.reason));
+    }
+    if let Some(platform) = &solution.platform {
+        paragraph(&mut text, &format!("route: {}", platform.route));
     }
     if !entry.limits.is_empty() {
         paragraph(&mut text, &format!("joint limits: {}", limits(entry)));
@@ -183,21 +191,27 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
     let nearly: Vec<f64> = complex.map(imaginary).filter(|size| *size < 1e-5).collect();
     if !nearly.is_empty() {
         let size = at_most(nearly.iter().copied().fold(0.0, f64::max));
-        let _ = writeln!(text, "nearly real: {}, imaginary parts <= {size} rad", counted(nearly.len(), "complex root"));
+        let unit = if solution.platform.is_some() { "" } else { " rad" };
+        let roots = counted(nearly.len(), "complex root");
+        let _ = writeln!(text, "nearly real: {roots}, imaginary parts <= {size}{unit}");
     }
     for warning in &solution.warnings {
         paragraph(&mut text, &format!("warning: {warning}"));
     }
     let proved = matches!(solution.verdict.status, Status::Complete | Status::Unreachable);
-    if entry.rounded && proved && solution.verdict.complex < 16 {
-        // Fewer than 16 roots are complete by exact work on the geometry only.
+    // Fewer roots than there are in general are complete by exact work on the geometry only.
+    let exact = match solution.platform {
+        Some(_) => solution.verdict.complex < 40,
+        None => solution.verdict.reason.contains("a closure polynomial of degree"),
+    };
+    if entry.rounded && proved && exact {
         text.push_str("note: irrational numbers of the file were rounded for exact work (--digits)\n");
     }
     text
 }
 
 fn limits(entry: &Entry) -> String {
-    let variables = variables(entry);
+    let variables = entry.chain().map(variables).unwrap_or_default();
     let pairs = entry.limits.iter().zip(&variables).map(|([low, high], (name, variable))| match variable {
         Variable::Rotation => {
             format!("{name} {}..{} deg", short(low.to_degrees(), 2), short(high.to_degrees(), 2))
@@ -209,32 +223,56 @@ fn limits(entry: &Entry) -> String {
 
 /// The name of every joint variable and what it measures: `q1`, ..., of a C joint `q3` and `d3`.
 #[must_use]
-pub fn variables(entry: &Entry) -> Vec<(String, Variable)> {
+pub fn variables(chain: &Chain) -> Vec<(String, Variable)> {
     let mut names = Vec::new();
-    for (index, kind) in entry.chain.joint_kinds().into_iter().enumerate() {
+    for (index, kind) in chain.joint_kinds().into_iter().enumerate() {
         let joint = index + 1;
         let angle = (format!("q{joint}"), Variable::Rotation);
         match kind {
             JointKind::Prismatic => names.push((format!("q{joint}"), Variable::Translation)),
             JointKind::Cylindrical => names.extend([angle, (format!("d{joint}"), Variable::Translation)]),
             JointKind::Universal => names.extend([angle.clone(), angle]),
-            JointKind::Spherical => names.extend([angle.clone(), angle.clone(), angle]),
+            // About z, x and z again.
+            JointKind::Spherical => {
+                names.extend(["z", "x", "z'"].map(|axis| (format!("q{joint}{axis}"), Variable::Rotation)));
+            }
             JointKind::Revolute | JointKind::Helical => names.push(angle),
         }
     }
     names
 }
 
+/// What a column of the table of modes measures.
+#[derive(Clone, Copy)]
+enum Measure {
+    Angle,
+    Length,
+    Ratio,
+}
+
+/// The columns of what a mode is made of.
+fn columns(entry: &Entry) -> Vec<(String, Measure)> {
+    let Some(chain) = entry.chain() else {
+        let quaternion = ["qw", "qx", "qy", "qz"].map(|name| (name.to_owned(), Measure::Ratio));
+        let position = ["x [m]", "y [m]", "z [m]"].map(|name| (name.to_owned(), Measure::Length));
+        return quaternion.into_iter().chain(position).collect();
+    };
+    let column = |(name, variable): (String, Variable)| match variable {
+        Variable::Rotation => (format!("{name} [deg]"), Measure::Angle),
+        Variable::Translation => (format!("{name} [m]"), Measure::Length),
+    };
+    variables(chain).into_iter().map(column).collect()
+}
+
 /// The modes, one a row; columns that would say nothing are left out.
 fn modes(entry: &Entry, modes: &[&FullMode]) -> Columns {
-    let variables = variables(entry);
+    let columns = columns(entry);
     let multiple = modes.iter().any(|mode| mode.multiplicity != 1);
     let limited = modes.iter().any(|mode| mode.within_limits.is_some());
+    let mirror = |mode: &FullMode| mode.platform.as_ref().and_then(|platform| platform.mirror);
+    let mirrored = modes.iter().any(|mode| mirror(mode).is_some());
     let mut header = vec!["#".to_owned()];
-    header.extend(variables.iter().map(|(name, variable)| match variable {
-        Variable::Rotation => format!("{name} [deg]"),
-        Variable::Translation => format!("{name} [m]"),
-    }));
+    header.extend(columns.iter().map(|(name, _)| name.clone()));
     if multiple {
         header.push("multiplicity".to_owned());
     }
@@ -242,10 +280,13 @@ fn modes(entry: &Entry, modes: &[&FullMode]) -> Columns {
     if limited {
         header.push("in limits".to_owned());
     }
+    if mirrored {
+        header.push("mirror of".to_owned());
+    }
     let mut table = Columns::new(&header, &["certified", "in limits"]);
     for (index, mode) in modes.iter().enumerate() {
         let mut row = vec![(index + 1).to_string()];
-        row.extend(mode.q.iter().zip(&variables).map(|(value, (_, variable))| shown(value, *variable, mode.real)));
+        row.extend(mode.q.iter().zip(&columns).map(|(value, (_, measure))| shown(value, *measure, mode.real)));
         if multiple {
             row.push(if mode.multiplicity == 0 { "?".to_owned() } else { mode.multiplicity.to_string() });
         }
@@ -254,16 +295,19 @@ fn modes(entry: &Entry, modes: &[&FullMode]) -> Columns {
         if limited {
             row.push(mode.within_limits.map_or("", |within| if within { "yes" } else { "no" }).to_owned());
         }
+        if mirrored {
+            row.push(mirror(mode).map_or(String::new(), |number| number.to_string()));
+        }
         table.row(row);
     }
     table
 }
 
 /// Degrees or metres; a complex value as `re+imi`.
-fn shown(value: &Complex<f64>, variable: Variable, real: bool) -> String {
-    let (scale, decimals) = match variable {
-        Variable::Rotation => (1_f64.to_degrees(), 4),
-        Variable::Translation => (1.0, 6),
+fn shown(value: &Complex<f64>, measure: Measure, real: bool) -> String {
+    let (scale, decimals) = match measure {
+        Measure::Angle => (1_f64.to_degrees(), 4),
+        Measure::Length | Measure::Ratio => (1.0, 6),
     };
     let (re, im) = (value.re * scale, value.im * scale);
     let plain = |x: f64| {

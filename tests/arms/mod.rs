@@ -6,7 +6,7 @@ use looproot::algebra::determinant::determinant;
 use looproot::algebra::number::{Angle, HalfTangent, Number};
 use looproot::algebra::ring::Ring;
 use looproot::assembly::{Assembly, Roots, Workspace};
-use looproot::catalogue::entry::{Case, Entry, Expected, Input, InputValue, Kind};
+use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue};
 use looproot::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use looproot::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
 use looproot::kinematics::motion::{Motion, cross};
@@ -165,29 +165,16 @@ pub fn rounded(motion: &Motion<Rational>) -> Motion<f64> {
 
 /// A mechanism file without words.
 #[must_use]
-pub fn entry(kind: Kind, chain: Chain, cases: Vec<Case>) -> Entry {
+pub fn entry(design: Design, cases: Vec<Case>) -> Entry {
     Entry {
         name: String::new(),
         title: String::new(),
         source: None,
         notes: None,
-        kind,
-        chain,
+        design,
         limits: Vec::new(),
         cases,
         rounded: false,
-    }
-}
-
-/// A job of one.
-#[must_use]
-pub fn case(pose: Option<Motion<Rational>>, input: Vec<Input>) -> Case {
-    Case {
-        pose: pose.map(Placement::from_motion_exact),
-        input,
-        expected: Expected::default(),
-        warnings: Vec::new(),
-        line: 0,
     }
 }
 
@@ -202,14 +189,14 @@ pub fn solve(entry: &Entry) -> Solution {
 /// All solutions of an arm at a pose.
 #[must_use]
 pub fn at_pose(chain: &Chain, pose: Motion<Rational>) -> Solution {
-    solve(&entry(Kind::Arm, chain.clone(), vec![case(Some(pose), Vec::new())]))
+    solve(&entry(Design::Arm(chain.clone()), vec![Case::at(Placement::from_motion_exact(pose), 0)]))
 }
 
 /// All solutions of a loop with this joint (from 1) at this half tangent.
 #[must_use]
 pub fn at_input(chain: &Chain, joint: usize, half_tangent: &Rational) -> Solution {
     let input = Input { joint, value: InputValue::Angle(angle(half_tangent)) };
-    solve(&entry(Kind::Loop, chain.clone(), vec![case(None, vec![input])]))
+    solve(&entry(Design::Loop(chain.clone()), vec![Case::given(input, 0)]))
 }
 
 /// The Jacobian of a loop of rotations at these joint motions: column j is the twist of joint j.

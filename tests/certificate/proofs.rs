@@ -56,7 +56,7 @@ fn jobs() -> Vec<Job> {
         for index in 0..count {
             let drawn = sample(set, 77, index).unwrap();
             let placement = drawn.entry.cases[0].pose.as_ref().unwrap();
-            jobs.push(job(format!("{set:?} {index}"), &drawn.entry.chain, &placement.exact));
+            jobs.push(job(format!("{set:?} {index}"), &drawn.chain, &placement.exact));
         }
     }
     jobs

@@ -7,6 +7,7 @@ use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::motion::Vector;
 use crate::kinematics::platform::Platform;
 use crate::solve::scalar::Scalar;
+use num_complex::Complex;
 
 /// Turns of base and plate, so that no solution of a real mechanism lies where a chart ends: (w, x, y, z).
 const TURNS: [[[f64; 4]; 2]; 2] = [
@@ -174,6 +175,22 @@ impl Frame {
             let moved = vector[k].times(self.scale).sub(&turned[k]).over(norm);
             moved.add(&S::from_f64(self.origins[0][k]))
         })
+    }
+}
+
+impl Frame {
+    /// Study's parameters, in the unit and about the origin of this frame, of a pose in those of the platform as given.
+    pub fn study(&self, rotation: &[Complex<f64>; 4], position: &[Complex<f64>; 3]) -> [Complex<f64>; 8] {
+        let pure = |vector: [Complex<f64>; 3]| Quaternion { scalar: Complex::from(0.0), vector };
+        let [w, x, y, z] = *rotation;
+        let x = Quaternion { scalar: w, vector: [x, y, z] };
+        // y = p' x with p' = (p - o + R o') / scale, and R o' x = x o'.
+        let moved = std::array::from_fn(|k| position[k] - self.origins[0][k]);
+        let (base, plate) = (pure(moved).mul(&x), x.mul(&pure(self.origins[1].map(Complex::from))));
+        let dual = |a: Complex<f64>, b: Complex<f64>| (a + b) / self.scale;
+        let [v, u] = [base.vector, plate.vector];
+        let y = [dual(base.scalar, plate.scalar), dual(v[0], u[0]), dual(v[1], u[1]), dual(v[2], u[2])];
+        std::array::from_fn(|k| if k < 4 { rotation[k] } else { y[k - 4] })
     }
 }
 

@@ -1,6 +1,6 @@
 //! A platform prepared once and solved for one set of leg lengths after the other.
 
-use super::mode::{PlatformAssembly, Route};
+use super::mode::{PlatformAssembly, PlatformMode, Route};
 use super::prepared::{Chart, Frame, STAGES};
 use super::reflection::Reflection;
 use super::search::{Found, Search, Source};
@@ -8,9 +8,11 @@ use crate::assembly::Roots;
 use crate::certify::pose::Curvature;
 use crate::closure::study::Leg;
 use crate::elimination::border::{BorderBasis, DIMENSION, Reals};
+use crate::elimination::pencil::Square;
 use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
 use crate::solve::spectrum::Spectrum;
+use num_complex::Complex;
 
 /// Platforms moved a little that are solved for one whose border basis loses rank, at most.
 const MOST_RUNS: usize = 8;
@@ -57,6 +59,22 @@ impl PlatformSolver {
     #[must_use]
     pub fn platform(&self) -> &Platform<f64> {
         &self.platform
+    }
+
+    /// The 40 x 40 matrix whose eigenvalues are asked for with these legs; `None` where the geometry is special.
+    #[must_use]
+    pub fn matrix(&self, legs_squared: &[f64; 6], workspace: &mut PlatformWorkspace) -> Option<Square<f64, DIMENSION>> {
+        let unit = self.frame.scale * self.frame.scale;
+        let setting = self.charts[0].with_legs(&legs_squared.map(|square| square / unit));
+        workspace.basis.build(&Reals, &setting).ok()?;
+        workspace.basis.products[0].as_slice().try_into().ok()
+    }
+
+    /// Study's parameters of a mode as its certificate bounds them, where it has one: about the centre of the platform,
+    /// lengths over the scale.
+    #[must_use]
+    pub fn study(&self, mode: &PlatformMode) -> [Complex<f64>; 8] {
+        self.frame.study(&mode.quaternion, &mode.position)
     }
 
     /// All poses with legs of these squared lengths (negative ones are meant as written: no pose is real then). With

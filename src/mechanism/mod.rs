@@ -1,0 +1,111 @@
+//! A mechanism ready to solve: what a file says, prepared once, answered case by case.
+
+mod platform;
+mod single_loop;
+
+use crate::assembly::{Assembly, Roots, Workspace};
+use crate::catalogue::entry::{Case, Design, Entry};
+use crate::error::Result;
+use crate::kinematics::velocity::Velocity;
+use crate::verdict::Verdict;
+use num_complex::Complex;
+use platform::PreparedPlatform;
+use single_loop::SingleLoop;
+
+/// One solution as a user reads it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FullMode {
+    /// Joint variables in joint order; a C joint has its angle, then its distance; the given joint of a loop included.
+    /// Of a platform the quaternion `w, x, y, z` and the position `x, y, z` of the plate.
+    pub q: Vec<Complex<f64>>,
+    /// Whether all of them are real.
+    pub real: bool,
+    /// How many solutions coincide here; 0 where that is not known.
+    pub multiplicity: usize,
+    /// Closure residual, dimensionless: see [`crate::assembly::Mode::residual`].
+    pub residual: f64,
+    /// Condition number of the Jacobian.
+    pub condition: f64,
+    /// Whether exactly one solution was proved to lie within `radius`.
+    pub certified: bool,
+    /// Error bound of every joint variable (radians; lengths over the scale of the mechanism); infinite without proof.
+    pub radius: f64,
+    /// Whether a real solution respects the joint limits; `None` for complex ones or without limits.
+    pub within_limits: Option<bool>,
+    /// What only a platform has.
+    pub platform: Option<PlatformMode>,
+}
+
+/// What only the mode of a platform has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlatformMode {
+    /// How the plate moves with the legs, at a real mode.
+    pub velocity: Option<Velocity>,
+    /// Number, from 1, of the mode that is this one mirrored in the plane of the base.
+    pub mirror: Option<usize>,
+}
+
+/// The answer to one case of a file.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// Is the list complete, and why.
+    pub verdict: Verdict,
+    /// Isolated solutions, real ones first.
+    pub modes: Vec<FullMode>,
+    /// What the reader of the file and the solver want known.
+    pub warnings: Vec<String>,
+    /// Microseconds for the preparation of the geometry, spent once for all cases.
+    pub prepare_us: f64,
+    /// Microseconds for this case.
+    pub solve_us: f64,
+    /// What only a platform has.
+    pub platform: Option<PlatformAnswer>,
+}
+
+/// What only the answer to a case of a platform has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlatformAnswer {
+    /// The lengths of the legs.
+    pub legs: [f64; 6],
+    /// Which way the modes were found, and why.
+    pub route: String,
+}
+
+/// A mechanism file, prepared. Shared between threads; every thread brings its own [`Workspace`].
+pub struct Mechanism(Solver);
+
+/// Who solves it.
+enum Solver {
+    SingleLoop(SingleLoop),
+    Platform(PreparedPlatform),
+}
+
+impl Mechanism {
+    /// Prepares an entry for all its cases.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Unsupported`] for joints other than R, P and C, and for too many translations.
+    pub fn prepare(entry: &Entry) -> Result<Self> {
+        Ok(Self(match &entry.design {
+            Design::Arm(chain) | Design::Loop(chain) => Solver::SingleLoop(SingleLoop::prepare(entry, chain)?),
+            Design::Platform(geometry) => Solver::Platform(PreparedPlatform::prepare(geometry)?),
+        }))
+    }
+
+    /// Solves one case.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Invalid`] for a case whose locked joint was not prepared.
+    pub fn solve(
+        &self,
+        case: &Case,
+        roots: Roots,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> Result<Solution> {
+        match &self.0 {
+            Solver::SingleLoop(solver) => solver.solve(case, roots, workspace, assembly),
+            Solver::Platform(solver) => solver.solve(case, roots, workspace),
+        }
+    }
+}

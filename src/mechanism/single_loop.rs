@@ -1,0 +1,235 @@
+//! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
+
+use super::{FullMode, Solution};
+use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::number::nearest_f64;
+use crate::algebra::ring::Ring;
+use crate::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
+use crate::catalogue::entry::{Case, Entry, InputValue};
+use crate::elimination::degree::{Degree, degree, general_filling};
+use crate::elimination::point_reach;
+use crate::error::{Error, Result};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::motion::Motion;
+use crate::verdict::{Bound, verdict};
+use num_complex::Complex;
+use rug::Rational;
+use std::f64::consts::TAU;
+use std::sync::OnceLock;
+use std::time::Instant;
+
+/// The solver of one choice of the locked joint (of an arm: the only one).
+struct Prepared {
+    layout: Layout,
+    solver: Solver,
+    bound: OnceLock<Bound>,
+    prepare_us: f64,
+}
+
+/// The field of exact degree counts.
+type Mod = ModP<PRIME_61>;
+
+/// The loop of a chain modulo a prime, its gap filled.
+fn modular_loop(chain: &Chain, layout: &Layout, filling: &Motion<Mod>) -> Option<ClosedLoop<Mod>> {
+    let open: OpenLoop<Mod> = chain.try_open_loop(layout).ok()??;
+    Some(open.close(filling))
+}
+
+fn bound_from(degree: Degree, place: &str) -> Bound {
+    let all = degree.solutions + degree.left_out;
+    let because = if degree.left_out == 0 {
+        format!("a closure polynomial of degree {all} {place}")
+    } else {
+        format!(
+            "a closure polynomial of degree {all}, of whose roots {} belong to no solution {place} (modulo 2^61 - 1)",
+            degree.left_out
+        )
+    };
+    Bound { count: degree.solutions, because }
+}
+
+impl Prepared {
+    /// The bound on the number of solutions at every pose or input, computed when first asked for.
+    fn bound(&self, chain: &Chain) -> &Bound {
+        self.bound.get_or_init(|| {
+            let locked = self.layout.locked.map(|k| self.layout.variables[k]);
+            let general = |choice| modular_loop(chain, &self.layout, &general_filling(locked, choice)?);
+            let other = if locked.is_none() { general(1) } else { None };
+            let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref()));
+            counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"))
+        })
+    }
+
+    /// The number of solutions, exactly.
+    fn degree(&self, closed: &ClosedLoop<Mod>, other: Option<&ClosedLoop<Mod>>) -> Option<Degree> {
+        let Some(ball) = self.layout.ball_unknown() else { return degree(closed, other) };
+        let solutions = point_reach::count(closed, ball)?;
+        Some(Degree { solutions, left_out: self.general().saturating_sub(solutions) })
+    }
+
+    /// The degree of the closure polynomial of general loops with these unknowns.
+    fn general(&self) -> usize {
+        self.solver.general_degree()
+    }
+}
+
+/// A chain, prepared for all its cases.
+pub(super) struct SingleLoop {
+    chain: Chain,
+    limits: Vec<[f64; 2]>,
+    prepared: Vec<Prepared>,
+}
+
+impl SingleLoop {
+    /// Prepares the chain of an entry for all its cases.
+    pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
+        let mut prepared: Vec<Prepared> = Vec::new();
+        for case in &entry.cases {
+            let locked = locked_variable(chain, case)?;
+            if prepared.iter().any(|p| p.layout.locked == locked) {
+                continue;
+            }
+            let layout = Layout::of(chain, locked)?;
+            let open: OpenLoop<f64> = chain.open_loop(&layout)?;
+            let start = Instant::now();
+            let solver = match layout.ball_unknown() {
+                Some(ball) => Solver::with_ball(&open, ball),
+                None => Solver::prepare(&open),
+            };
+            let prepare_us = start.elapsed().as_secs_f64() * 1e6;
+            if solver.is_out_of_reach() {
+                let rotations = layout_rotations(&open);
+                let rank = solver.structural_rank();
+                return Err(Error::Unsupported(format!(
+                    "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without \
+                     turning; the screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does \
+                     not close; planar and translational loops are not solved",
+                    6 - rank
+                )));
+            }
+            prepared.push(Prepared { layout, solver, bound: OnceLock::new(), prepare_us });
+        }
+        Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), prepared })
+    }
+
+    /// Solves one case.
+    pub(super) fn solve(
+        &self,
+        case: &Case,
+        roots: Roots,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> Result<Solution> {
+        let locked = locked_variable(&self.chain, case)?;
+        let prepared = self
+            .prepared
+            .iter()
+            .find(|p| p.layout.locked == locked)
+            .ok_or_else(|| Error::Invalid("the case locks a joint that was not prepared".to_owned()))?;
+        let mut gap = prepared.solver.gap(&filling(case)?);
+        if gap.is_rough() {
+            let open: OpenLoop<Rational> = self.chain.open_loop(&prepared.layout)?;
+            let [.., last] = open.close(&filling(case)?).constants;
+            let rounded = last.map(|x| Some(nearest_f64(x)));
+            gap = rounded.map_or(gap, |last| prepared.solver.exact_gap(&last));
+        }
+        let most = || prepared.bound(&self.chain).count;
+        let start = Instant::now();
+        prepared.solver.solve_up_to(&gap, roots, &most, workspace, assembly);
+        let solve_us = start.elapsed().as_secs_f64() * 1e6;
+        let verdict = verdict(
+            assembly,
+            roots,
+            prepared.solver.structural_rank(),
+            prepared.general(),
+            || {
+                // The exact count costs more than a search for real roots, and rarely helps one.
+                let skip = roots == Roots::Real && !prepared.solver.is_special();
+                if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
+            },
+            || {
+                let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
+                Some(bound_from(prepared.degree(&closed, None)?, "at this pose"))
+            },
+            prepared.solver.too_far(&gap),
+        );
+        let locked_value = Complex::from(locked_value(case));
+        let modes = assembly.modes.iter().map(|mode| {
+            let q = prepared.layout.assemble(&mode.unknowns, locked_value);
+            FullMode {
+                real: mode.real,
+                multiplicity: mode.multiplicity,
+                residual: mode.residual,
+                condition: mode.condition,
+                certified: mode.certificate.is_some(),
+                radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius),
+                within_limits: (mode.real && !self.limits.is_empty())
+                    .then(|| within_limits(&q, &prepared.layout.variables, &self.limits)),
+                q,
+                platform: None,
+            }
+        });
+        Ok(Solution {
+            verdict,
+            modes: modes.collect(),
+            warnings: case.warnings.clone(),
+            prepare_us: prepared.prepare_us,
+            solve_us,
+            platform: None,
+        })
+    }
+}
+
+fn layout_rotations(open: &OpenLoop<f64>) -> usize {
+    open.variables.iter().filter(|v| **v == Variable::Rotation).count()
+}
+
+/// The variable that the input of a loop locks; `None` at the pose of an arm.
+fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
+    if case.pose.is_some() {
+        return Ok(None);
+    }
+    let [input] = case.input.as_slice() else {
+        return Err(Error::Unsupported(format!(
+            "{} given joint variables: a loop of seven variables takes one",
+            case.input.len()
+        )));
+    };
+    let wanted = match input.value {
+        InputValue::Angle(_) => Variable::Rotation,
+        InputValue::Distance(_) => Variable::Translation,
+    };
+    let variable = Layout::variable_of(chain, input.joint, wanted);
+    variable.map(Some).ok_or_else(|| Error::Invalid(format!("joint {} has no such variable", input.joint)))
+}
+
+/// What fills the gap of the loop: the inverse of an arm's pose, a loop's locked joint.
+fn filling<R: Ring>(case: &Case) -> Result<Motion<R>> {
+    let motion = case.pose.as_ref().and_then(|pose| pose.exact.inverse().map(R::from_rational));
+    let motion = motion.or_else(|| {
+        case.input.first().and_then(|input| match &input.value {
+            InputValue::Angle(angle) => angle_motion(angle),
+            InputValue::Distance(distance) => distance_motion(distance),
+        })
+    });
+    motion.ok_or_else(|| Error::Invalid("a case without pose and input".to_owned()))
+}
+
+fn locked_value(case: &Case) -> f64 {
+    case.input.first().map_or(0.0, |input| match &input.value {
+        InputValue::Angle(angle) => wrapped(angle.radians()),
+        InputValue::Distance(distance) => distance.to_f64(),
+    })
+}
+
+/// Whether every joint can be within its limits, angles modulo whole turns.
+fn within_limits(q: &[Complex<f64>], variables: &[Variable], limits: &[[f64; 2]]) -> bool {
+    q.iter().zip(variables).zip(limits).all(|((value, variable), [low, high])| match variable {
+        Variable::Translation => (*low..=*high).contains(&value.re),
+        Variable::Rotation => {
+            let above = value.re + TAU * ((low - value.re) / TAU).ceil();
+            above <= *high
+        }
+    })
+}

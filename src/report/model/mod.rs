@@ -1,0 +1,192 @@
+//! A mechanism in its normalised form: what was understood of a file, for the reader to compare.
+
+mod chain;
+mod platform;
+
+use super::json::{kind, number};
+use super::number::counted;
+use super::table::paragraph;
+use crate::catalogue::citation;
+use crate::catalogue::entry::{Case, Design, Entry, Expected, InputValue, Kind};
+use crate::kinematics::chain::Placement;
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+/// The joints in short: `6R`, `RRPRRR`; of a platform the numbers of different points: `6-3`.
+#[must_use]
+pub fn joints(entry: &Entry) -> String {
+    let letters = match &entry.design {
+        Design::Platform(platform) => return platform::points(platform),
+        Design::Arm(chain) | Design::Loop(chain) => chain::letters(chain),
+    };
+    let first = &letters[..1.min(letters.len())];
+    if letters.len() > 1 && letters.replace(first, "").is_empty() {
+        return format!("{}{first}", letters.len());
+    }
+    letters
+}
+
+/// `6 poses`, `1 input`.
+#[must_use]
+pub fn cases(entry: &Entry) -> String {
+    counted(entry.cases.len(), case_noun(entry))
+}
+
+/// What a case of this entry is called.
+#[must_use]
+pub fn case_noun(entry: &Entry) -> &'static str {
+    match entry.kind() {
+        Kind::Arm => "pose",
+        Kind::Loop => "input",
+        // Legs that were computed from poses.
+        Kind::Platform if entry.cases.first().is_some_and(|case| case.pose.is_some()) => "pose",
+        Kind::Platform => "leg set",
+    }
+}
+
+/// The claims of one sort over all cases: `16`, `4-8`, empty without any.
+#[must_use]
+pub fn claimed(entry: &Entry, claim: impl Fn(&Expected) -> Option<usize>) -> String {
+    let counts: Vec<usize> = entry.cases.iter().filter_map(|case| claim(&case.expected)).collect();
+    match (counts.iter().min(), counts.iter().max()) {
+        (Some(low), Some(high)) if low == high => low.to_string(),
+        (Some(low), Some(high)) => format!("{low}-{high}"),
+        _ => String::new(),
+    }
+}
+
+/// The model as a table, with its source and its claims.
+#[must_use]
+pub fn text(entry: &Entry) -> String {
+    let mut text = format!("{}\n", entry.title);
+    let _ = writeln!(text, "{} {}{}", joints(entry), kind(entry.kind()), formula(entry));
+    if let Some(source) = &entry.source {
+        let place = source.place.as_ref().map_or(String::new(), |place| format!(", {place}"));
+        let citation = citation(&source.key).map_or(String::new(), |citation| format!(". {citation}"));
+        paragraph(&mut text, &format!("source: [{}]{place}{citation}", source.key));
+    }
+    if let Some(notes) = &entry.notes {
+        paragraph(&mut text, &format!("notes: {notes}"));
+    }
+    if entry.rounded {
+        paragraph(&mut text, "exact: no; some numbers are irrational and rounded for exact work (--digits)");
+    }
+    text.push('\n');
+    match &entry.design {
+        Design::Arm(chain) | Design::Loop(chain) => chain::write(&mut text, entry, chain),
+        Design::Platform(platform) => platform::write(&mut text, entry, platform),
+    }
+    let _ = write!(text, "\n{}", cases(entry));
+    let solutions: usize = entry.cases.iter().map(|case| case.expected.solutions.len()).sum();
+    let claims = [
+        ("complex", claimed(entry, |e| e.complex)),
+        ("real", claimed(entry, |e| e.real)),
+        ("dimension", claimed(entry, |e| e.dimension)),
+        ("solutions", if solutions > 0 { solutions.to_string() } else { String::new() }),
+    ];
+    let claims: Vec<String> = claims
+        .into_iter()
+        .filter(|(_, count)| !count.is_empty())
+        .map(|(what, count)| format!("{what} {count}"))
+        .collect();
+    if claims.is_empty() {
+        text.push_str(", no claims\n");
+    } else {
+        let _ = writeln!(text, "; claimed: {}", claims.join(", "));
+    }
+    text
+}
+
+/// What relates its numbers.
+fn formula(entry: &Entry) -> String {
+    match &entry.design {
+        Design::Arm(chain) | Design::Loop(chain) => {
+            let (name, formula) = chain::convention(&chain.geometry);
+            format!(", {name}: {formula}")
+        }
+        Design::Platform(_) => ": leg i is |p + R plate_i - base_i| long".to_owned(),
+    }
+}
+
+/// The homogeneous matrix of a placement.
+fn matrix(placement: &Placement) -> [[f64; 4]; 4] {
+    let motion = &placement.float;
+    let mut rows = [[0.0, 0.0, 0.0, 1.0]; 4];
+    for (i, row) in rows.iter_mut().take(3).enumerate() {
+        row[..3].copy_from_slice(&motion.rotation[i]);
+        row[3] = motion.translation[i];
+    }
+    rows
+}
+
+/// The model in radians and metres.
+#[must_use]
+pub fn json(entry: &Entry) -> Value {
+    let mut object = identity(entry);
+    object.insert("notes".into(), json!(entry.notes));
+    object.insert("citation".into(), json!(entry.source.as_ref().and_then(|source| citation(&source.key))));
+    match &entry.design {
+        Design::Arm(chain) | Design::Loop(chain) => chain::insert(&mut object, entry, chain),
+        Design::Platform(platform) => platform::insert(&mut object, platform),
+    }
+    object.insert("exact".into(), json!(!entry.rounded));
+    object.insert("cases".into(), json!(entry.cases.iter().map(case).collect::<Vec<_>>()));
+    Value::Object(object)
+}
+
+/// What a listing says of an entry.
+#[must_use]
+pub fn summary(entry: &Entry) -> Value {
+    Value::Object(identity(entry))
+}
+
+fn identity(entry: &Entry) -> Map<String, Value> {
+    let source = entry.source.as_ref().map(|source| json!({ "key": source.key, "where": source.place }));
+    let kinds = match &entry.design {
+        Design::Arm(chain) | Design::Loop(chain) => chain::letters(chain),
+        Design::Platform(platform) => platform::points(platform),
+    };
+    let mut object = Map::new();
+    object.insert("name".into(), json!(entry.name));
+    object.insert("title".into(), json!(entry.title));
+    object.insert("kind".into(), json!(kind(entry.kind())));
+    object.insert("type".into(), json!(kinds));
+    object.insert("source".into(), json!(source));
+    object
+}
+
+fn case(case: &Case) -> Value {
+    let mut object = Map::new();
+    if let Some(pose) = &case.pose {
+        object.insert("matrix".into(), json!(matrix(pose)));
+    }
+    for input in &case.input {
+        object.insert("joint".into(), json!(input.joint));
+        match &input.value {
+            InputValue::Angle(angle) => object.insert("angle".into(), number(angle.radians())),
+            InputValue::Distance(distance) => object.insert("distance".into(), number(distance.to_f64())),
+        };
+    }
+    if let Some(squares) = &case.legs_squared {
+        object.insert("legs".into(), json!(platform::lengths(squares).map(number)));
+    }
+    object.insert("expected".into(), expected(&case.expected, case.legs_squared.is_some()));
+    Value::Object(object)
+}
+
+/// The claims of a case.
+fn expected(expected: &Expected, of_platform: bool) -> Value {
+    let counts = [("complex", expected.complex), ("real", expected.real), ("dimension", expected.dimension)];
+    let mut object: Map<String, Value> =
+        counts.into_iter().filter_map(|(key, count)| Some((key.to_owned(), json!(count?)))).collect();
+    if !expected.solutions.is_empty() {
+        let solutions = expected.solutions.iter().map(|claim| match claim.q.split_at_checked(4) {
+            Some((quaternion, position)) if of_platform => {
+                json!({ "quaternion": quaternion, "position": position, "digits": claim.digits })
+            }
+            _ => json!({ "q": claim.q, "digits": claim.digits }),
+        });
+        object.insert("solutions".into(), json!(solutions.collect::<Vec<_>>()));
+    }
+    Value::Object(object)
+}

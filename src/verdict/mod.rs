@@ -1,0 +1,217 @@
+//! The verdict on a list of modes: is it complete, and why.
+
+mod platform;
+
+pub use platform::platform_verdict;
+
+use crate::assembly::{Assembly, Mode, Roots, distance};
+use crate::kinematics::closed_loop::Variable;
+
+/// The outcome in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Every isolated solution was found, and why is known.
+    Complete,
+    /// Something may be missing.
+    Incomplete,
+    /// Complete, and no solution is real.
+    Unreachable,
+    /// Solutions form a curve or more.
+    SelfMotion,
+    /// Beyond what is implemented.
+    Unsupported,
+}
+
+impl Status {
+    /// The word of the JSON output.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Complete => "complete",
+            Self::Incomplete => "incomplete",
+            Self::Unreachable => "unreachable",
+            Self::SelfMotion => "self-motion",
+            Self::Unsupported => "unsupported",
+        }
+    }
+}
+
+/// What is claimed of a list of modes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// The outcome.
+    pub status: Status,
+    /// Isolated complex solutions found, with multiplicity.
+    pub complex: usize,
+    /// Real ones among them, with multiplicity.
+    pub real: usize,
+    /// Solutions of the general pose that are at infinity here.
+    pub at_infinity: usize,
+    /// Dimension of the self-motion, 0 if there is none.
+    pub self_motion: usize,
+    /// Distinct modes with a certificate.
+    pub certified: usize,
+    /// Why.
+    pub reason: String,
+}
+
+/// An upper bound on the number of isolated solutions, and where it comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bound {
+    /// At most this many, with multiplicity.
+    pub count: usize,
+    /// A clause such as `the closure polynomial of this arm has degree 8 (mod p)`.
+    pub because: String,
+}
+
+impl Bound {
+    /// What holds for every loop whose closure polynomial has this degree in general.
+    #[must_use]
+    pub fn general(degree: usize) -> Self {
+        Self { count: degree, because: format!("a degree-{degree} closure polynomial") }
+    }
+}
+
+/// Judges a list of modes. `general` is the degree of the closure polynomial of general loops of this kind; `geometry` bounds the number of solutions at every pose, `pose` at this one; each is asked
+/// only when needed. `too_far` holds the width of a gap and the length of all links if that is shorter.
+pub fn verdict(
+    assembly: &Assembly,
+    roots: Roots,
+    structural_rank: usize,
+    general: usize,
+    geometry: impl FnOnce() -> Bound,
+    pose: impl FnOnce() -> Option<Bound>,
+    too_far: Option<(f64, f64)>,
+) -> Verdict {
+    let mut judged = if assembly.self_motion > 0 {
+        Judged { status: Status::SelfMotion, ..Judged::unproved(self_motion(assembly, structural_rank)) }
+    } else if structural_rank < 6 {
+        let found = if assembly.modes.is_empty() { "no solution was found" } else { "the list is not proved complete" };
+        Judged::unproved(format!("{}; {found}", deficient(structural_rank)))
+    } else if let Some(doubt) = doubt(&assembly.modes) {
+        Judged::unproved(format!("not proved: {doubt}"))
+    } else {
+        count(assembly, roots, general, geometry, pose)
+    };
+    if let (Some((gap, links)), Status::Incomplete, 0) = (too_far, judged.status, assembly.real()) {
+        judged.status = Status::Unreachable;
+        judged.reason = format!("out of reach: {gap:.4e} has to be bridged by links of {links:.4e} together");
+    }
+    Verdict {
+        status: judged.status,
+        complex: assembly.total(),
+        real: assembly.real(),
+        at_infinity: judged.at_infinity,
+        self_motion: assembly.self_motion,
+        certified: certified(&assembly.modes),
+        reason: judged.reason,
+    }
+}
+
+/// A status and its reason.
+struct Judged {
+    status: Status,
+    at_infinity: usize,
+    reason: String,
+}
+
+impl Judged {
+    fn unproved(reason: String) -> Self {
+        Self { status: Status::Incomplete, at_infinity: 0, reason }
+    }
+}
+
+fn certified(modes: &[Mode]) -> usize {
+    modes.iter().filter(|m| m.certificate.is_some()).count()
+}
+
+fn deficient(rank: usize) -> String {
+    format!("structurally deficient: the joint axes reach only rank {rank} of 6 in general position")
+}
+
+fn self_motion(assembly: &Assembly, structural_rank: usize) -> String {
+    let because = if structural_rank < 6 { format!(" ({})", deficient(structural_rank)) } else { String::new() };
+    format!(
+        "solutions form a self-motion of dimension {}{because}; the isolated ones are listed, not proved complete",
+        assembly.self_motion
+    )
+}
+
+/// What speaks against counting these modes at all.
+fn doubt(modes: &[Mode]) -> Option<String> {
+    if let Some(mode) = modes.iter().find(|m| m.multiplicity == 0) {
+        let kind = if mode.real { "real" } else { "complex" };
+        return Some(format!("a singular {kind} solution of unknown multiplicity"));
+    }
+    let unproved = modes.iter().filter(|m| m.multiplicity == 1 && m.certificate.is_none()).count();
+    if unproved > 0 {
+        return Some(format!("{unproved} of {} roots have no certificate", modes.len()));
+    }
+    if (1..modes.len()).any(|k| modes[..k].iter().any(|other| !are_distinct(other, &modes[k]))) {
+        return Some("two roots are not proved to be distinct".to_owned());
+    }
+    let undecided = modes.iter().any(|mode| !mode.real && !is_proved_complex(mode));
+    undecided.then(|| "a root is neither proved real nor proved complex".to_owned())
+}
+
+/// Compares the number of modes with what is known of the number of solutions.
+fn count(
+    assembly: &Assembly,
+    roots: Roots,
+    general: usize,
+    geometry: impl FnOnce() -> Bound,
+    pose: impl FnOnce() -> Option<Bound>,
+) -> Judged {
+    let found = assembly.total();
+    let bound = if found == general { Bound::general(general) } else { geometry() };
+    if found > bound.count {
+        return Judged::unproved(format!("contradiction: {found} roots found, but {}", bound.because));
+    }
+    let status = if assembly.real() == 0 { Status::Unreachable } else { Status::Complete };
+    if found == bound.count {
+        return Judged { status, at_infinity: 0, reason: accounted(&assembly.modes, &bound) };
+    }
+    if roots == Roots::Real {
+        return Judged::unproved("not proved: only real roots were looked for".to_owned());
+    }
+    match pose() {
+        Some(here) if here.count == found => {
+            Judged { status, at_infinity: bound.count - found, reason: accounted(&assembly.modes, &here) }
+        }
+        here => {
+            let bound = here.filter(|here| here.count < bound.count).unwrap_or(bound);
+            Judged::unproved(format!("not proved: found {found} of up to {} roots of {}", bound.count, bound.because))
+        }
+    }
+}
+
+/// How the modes add up to the bound.
+fn accounted(modes: &[Mode], bound: &Bound) -> String {
+    let multiple: Vec<usize> = modes.iter().map(|m| m.multiplicity).filter(|&m| m > 1).collect();
+    accounted_for(certified(modes), &multiple, bound)
+}
+
+/// How so many certified modes and multiple ones of these multiplicities add up to the bound.
+fn accounted_for(certified: usize, multiple: &[usize], bound: &Bound) -> String {
+    let also = match multiple.len() {
+        0 => String::new(),
+        several => format!(" and {several} multiple ones (counted {})", multiple.iter().sum::<usize>()),
+    };
+    format!("{certified} distinct certified roots{also} of {}", bound.because)
+}
+
+/// Whether the solutions proved of two modes cannot be one. A check of the list as a whole: the solver has merged what
+/// is one already. Every unknown counts as an angle here, which can only bring modes nearer.
+fn are_distinct(one: &Mode, two: &Mode) -> bool {
+    let radius = |mode: &Mode| mode.certificate.map_or(0.0, |c| c.radius);
+    distance(&[Variable::Rotation; 6], &one.unknowns, &two.unknowns) > radius(one) + radius(two)
+}
+
+/// Whether a complex mode is farther from the real numbers than its error.
+fn is_proved_complex(mode: &Mode) -> bool {
+    let imaginary = mode.unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
+    match mode.certificate {
+        Some(certificate) => imaginary > certificate.radius,
+        None => imaginary > 1e-6,
+    }
+}

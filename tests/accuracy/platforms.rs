@@ -1,0 +1,116 @@
+//! Planted poses found in random platforms of every class, as many as an exact count finds; and crippled lists noticed.
+
+use looproot::algebra::number::Number;
+use looproot::assembly::Roots;
+use looproot::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
+use looproot::benchmark::accuracy::Counts;
+use looproot::benchmark::platform::accuracy::{PlatformJob, run};
+use looproot::benchmark::platform::sample::{PlatformSet, sample};
+use looproot::elimination::platform_degree::PlatformDegree;
+use looproot::verdict::{Status, platform_verdict};
+
+fn counts(set: PlatformSet, count: u64, roots: Roots) -> Counts {
+    let counts = run(PlatformJob { set, count, seed: 2024, roots }, || true, || ()).unwrap();
+    assert!(counts.is_faultless(), "{set:?}, {roots:?}:\n{counts}");
+    let residual = counts.residuals.iter().copied().fold(0.0, f64::max);
+    assert!(residual <= 1e-14, "{set:?}, {roots:?}: {residual:e}\n{counts}");
+    counts
+}
+
+#[test]
+fn general_platforms_are_all_complete() {
+    let counts = self::counts(PlatformSet::General, 100, Roots::All);
+    assert_eq!(counts.complex.get(&40), Some(&100), "\n{counts}");
+    assert_eq!(counts.modes, (4000, 4000), "\n{counts}");
+    assert_eq!(counts.verdicts.get("complete"), Some(&100), "\n{counts}");
+    self::counts(PlatformSet::General, 100, Roots::Real);
+}
+
+#[test]
+fn plane_platforms_are_all_complete() {
+    for set in [PlatformSet::PlanarBase, PlatformSet::PlanarPlate, PlatformSet::PlanarBoth] {
+        let counts = counts(set, 30, Roots::All);
+        assert_eq!(counts.complex.get(&40), Some(&30), "{set:?}\n{counts}");
+    }
+}
+
+#[test]
+fn special_platforms_have_as_many_poses_as_an_exact_count_finds() {
+    // The numbers found by Gröbner bases for each class.
+    let expected = [40, 32, 16, 16, 8, 40, 24, 24, 16, 16, 16, 24, 16, 16];
+    let shared = PlatformSet::NAMED.into_iter().filter(|(_, set)| matches!(set, PlatformSet::Shared(..)));
+    for ((name, set), expected) in shared.zip(expected) {
+        let counts = counts(set, 8, Roots::All);
+        assert_eq!((counts.counted, counts.complex.get(&expected)), (8, Some(&8)), "{name}\n{counts}");
+    }
+    let related = [
+        (PlatformSet::Affine, 32),
+        (PlatformSet::Similar, 24),
+        (PlatformSet::Congruent, 24),
+        (PlatformSet::SimilarPlanar, 16),
+    ];
+    for (set, expected) in related {
+        let counts = counts(set, 8, Roots::All);
+        assert_eq!(counts.complex.get(&expected), Some(&8), "{set:?}\n{counts}");
+    }
+}
+
+/// A platform with all its poses.
+fn list(set: PlatformSet, index: u64) -> (PlatformSolver, PlatformAssembly) {
+    let drawn = sample(set, 5, index).unwrap();
+    let solver = PlatformSolver::prepare(&drawn.platform);
+    let squares = drawn.entry.cases[0].legs_squared.as_ref().unwrap().each_ref().map(Number::to_f64);
+    let mut assembly = PlatformAssembly::default();
+    solver.solve(&squares, Roots::All, &mut PlatformWorkspace::default(), &mut assembly);
+    (solver, assembly)
+}
+
+fn judge(solver: &PlatformSolver, assembly: &PlatformAssembly, poses: usize) -> Status {
+    let study: Vec<_> = assembly.modes.iter().map(|mode| solver.study(mode)).collect();
+    let exact = (poses < 40).then_some(PlatformDegree::Finite { poses, null: 40 - poses, curves: false });
+    platform_verdict(assembly, &study, Roots::All, exact).status
+}
+
+fn is_claimed(status: Status) -> bool {
+    matches!(status, Status::Complete | Status::Unreachable)
+}
+
+#[test]
+fn no_crippled_list_is_called_complete() {
+    let sets = [(PlatformSet::General, 40), (PlatformSet::PlanarBoth, 40), (PlatformSet::Hexapod, 28)];
+    for (set, poses) in sets {
+        let (solver, whole) = list(set, 1);
+        assert!(is_claimed(judge(&solver, &whole, poses)), "{set:?}: not complete to begin with");
+        for k in 0..whole.modes.len() {
+            let refused = |what: &str, cripple: &dyn Fn(&mut PlatformAssembly)| {
+                let mut crippled = whole.clone();
+                cripple(&mut crippled);
+                let status = judge(&solver, &crippled, poses);
+                assert!(!is_claimed(status), "{set:?}: {status:?} although mode {k} {what}");
+            };
+            refused("is missing", &|list| drop(list.modes.remove(k)));
+            refused("has no certificate", &|list| list.modes[k].certificate = None);
+            refused("has no multiplicity", &|list| list.modes[k].multiplicity = 0);
+            refused("counts twice", &|list| list.modes[k].multiplicity = 2);
+            refused("is replaced by its neighbour", &|list| {
+                list.modes[k] = list.modes[(k + 1) % list.modes.len()].clone();
+            });
+            refused("is there twice", &|list| list.modes.push(list.modes[k].clone()));
+            refused("moves", &|list| list.self_motion = 1);
+            if !whole.modes[k].real {
+                refused("may be real", &|list| {
+                    let claim = list.modes[k].certificate.as_mut().unwrap();
+                    claim.radius = 10.0;
+                });
+            }
+        }
+    }
+}
+
+#[test]
+fn a_curve_of_poses_is_a_self_motion() {
+    let (solver, whole) = list(PlatformSet::General, 2);
+    let study: Vec<_> = whole.modes.iter().map(|mode| solver.study(mode)).collect();
+    let verdict = platform_verdict(&whole, &study, Roots::All, Some(PlatformDegree::Infinite));
+    assert_eq!((verdict.status, verdict.self_motion), (Status::SelfMotion, 1));
+}
