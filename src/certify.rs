@@ -25,7 +25,7 @@ use crate::elimination::cut::Cut;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::{Motion, cross};
 use crate::solve::dense::{inverse, norm, times};
-use crate::solve::newton::{Closure, Six, closure, closure_at, coordinates, product};
+use crate::solve::newton::{Closure, Six, closure, closure_at, coordinates, product, reach};
 use crate::solve::scalar::{Number, Scalar};
 use num_complex::Complex;
 
@@ -43,7 +43,8 @@ pub struct Certificate {
 const ROUNDINGS: f64 = 70.0;
 /// Roundings in a stored constant.
 const CONSTANT_ROUNDINGS: f64 = 8.0;
-/// A solution that the rounding of the constants may have moved farther than this is not proved at all.
+/// A solution that the rounding of the constants may have moved farther than this, over its longest translation, is not
+/// proved at all.
 const MOST_DRIFT: f64 = 1e-6;
 /// Margin on bounds that are themselves computed in f64.
 const MARGIN: f64 = 1.01;
@@ -148,6 +149,36 @@ fn quad(z: Complex<f64>) -> Quad {
     Complex { re: DoubleDouble::from(z.re), im: DoubleDouble::from(z.im) }
 }
 
+/// `e^(iq)` of an angle known in f64: any number but 0 is an exact angle in this form, and no cosine is needed in
+/// double-double precision.
+#[must_use]
+pub fn exponential(angle: Complex<f64>) -> Complex<DoubleDouble> {
+    // From cosine and sine it would cancel for large imaginary parts.
+    let (sin, cos) = angle.re.sin_cos();
+    quad(Complex::new(cos, sin) * (-angle.im).exp())
+}
+
+/// Cosine and sine of an angle q given as `w = e^(iq)`; `None` for 0.
+#[must_use]
+pub fn exponential_pair(w: Complex<DoubleDouble>) -> Option<(Complex<DoubleDouble>, Complex<DoubleDouble>)> {
+    let back = crate::algebra::ring::Field::inverse(&w)?;
+    // sin = (w - 1/w) / (2i)
+    let difference = w.sub(&back).halved();
+    Some((w.add(&back).halved(), Complex { re: difference.im, im: difference.re.neg() }))
+}
+
+/// `e^(id)` to order 5: good enough for a Newton step, after which w is as exact an angle as before.
+#[must_use]
+pub fn small_turn(d: Complex<DoubleDouble>) -> Complex<DoubleDouble> {
+    let turn = d.mul(&Complex { re: DoubleDouble::zero(), im: DoubleDouble::one() });
+    let mut factor = Quad::one();
+    for k in (1..=5).rev() {
+        let term = turn.mul(&factor).times(DoubleDouble::from(1.0 / f64::from(k)));
+        factor = Quad::one().add(&term);
+    }
+    factor
+}
+
 /// A solution refined and proved in double-double arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refined {
@@ -170,27 +201,17 @@ pub struct Refined {
 pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>) -> Option<Refined> {
     let variables = closed.variables;
     let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
-    // Angles live as w = e^(iq): any w but 0 is an exact angle, and no cosine is needed in this precision.
     let mut state: Six<Quad> = std::array::from_fn(|j| match variables[j] {
-        Variable::Rotation => {
-            // From cosine and sine it would cancel for large imaginary parts.
-            let (sin, cos) = unknowns[j].re.sin_cos();
-            quad(Complex::new(cos, sin) * (-unknowns[j].im).exp())
-        }
+        Variable::Rotation => exponential(unknowns[j]),
         Variable::Translation => quad(unknowns[j]),
     });
+    let reach = reach(&variables, unknowns);
     let mut before = f64::INFINITY;
     for round in 0..12 {
         let mut pairs = [(Quad::zero(), Quad::zero()); 6];
         for j in 0..6 {
             pairs[j] = match variables[j] {
-                Variable::Rotation => {
-                    let back = crate::algebra::ring::Field::inverse(&state[j])?;
-                    let cos = state[j].add(&back).halved();
-                    // sin = (w - 1/w) / (2i)
-                    let difference = state[j].sub(&back).halved();
-                    (cos, Complex { re: difference.im, im: difference.re.neg() })
-                }
+                Variable::Rotation => exponential_pair(state[j])?,
                 Variable::Translation => (state[j], Quad::zero()),
             };
         }
@@ -198,14 +219,14 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
         let jacobian = here.jacobian.map(|row| row.map(|x| Complex::new(x.re.to_f64(), x.im.to_f64())));
         let inverse = inverse(&jacobian)?.map(|row| row.map(quad));
         let step = times(&inverse, &here.residual);
-        let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max);
+        let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max) / reach;
         // Newton's method has to converge from where it starts, not to wander.
         let stalls = !(size < 0.5 * before);
         if !(size < 0.3) || (stalls && size > 1e-12) {
             return None;
         }
         if size < 1e-26 || stalls || round == 11 {
-            let proof = certificate(&here, &inverse)?;
+            let proof = certificate(&here, &inverse).or_else(|| in_any_frame(&precise, &pairs))?;
             let refined: Six<Complex<f64>> = std::array::from_fn(|j| {
                 let z = Complex::new(state[j].re.to_f64(), state[j].im.to_f64());
                 match variables[j] {
@@ -218,30 +239,44 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
             let rounding = 4.0 * f64::EPSILON * largest;
             let drift = drift(closed, &refined);
             let certificate = Certificate { radius: proof.radius + rounding + drift, ..proof };
-            let imaginary = refined.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
-            let real = imaginary <= proof.radius + rounding && 3.0 * (proof.radius + rounding) <= proof.isolation;
+            // Judged by the solution itself, not by what its rounding left of it.
+            let imaginary = (0..6).map(|j| imaginary(variables[j], state[j])).fold(0.0, f64::max);
+            let real = imaginary <= proof.radius && 3.0 * proof.radius <= proof.isolation;
             let unknowns = if real { refined.map(|z| z.re.into()) } else { refined };
-            return (drift < MOST_DRIFT).then_some(Refined { unknowns, real, certificate });
+            return (drift < MOST_DRIFT * reach).then_some(Refined { unknowns, real, certificate });
         }
         before = size;
         for j in 0..6 {
             let d = step[j].neg();
             match variables[j] {
-                // e^(id) to order 5: good enough for a step, after which w is as exact an angle as before.
-                Variable::Rotation => {
-                    let turn = d.mul(&Complex { re: DoubleDouble::zero(), im: DoubleDouble::one() });
-                    let mut factor = Quad::one();
-                    for k in (1..=5).rev() {
-                        let term = turn.mul(&factor).times(DoubleDouble::from(1.0 / f64::from(k)));
-                        factor = Quad::one().add(&term);
-                    }
-                    state[j] = state[j].mul(&factor);
-                }
+                Variable::Rotation => state[j] = state[j].mul(&small_turn(d)),
                 Variable::Translation => state[j] = state[j].add(&d),
             }
         }
     }
     None
+}
+
+/// [`certificate`] in double-double arithmetic with the loop opened in turn behind each of its joints.
+fn in_any_frame(closed: &ClosedLoop<DoubleDouble>, pairs: &[(Quad, Quad); 6]) -> Option<Certificate> {
+    (1..6).find_map(|k| {
+        let rotated = Cut { rotation: k, reversed: false }.of(closed);
+        let here = closure_at::<Quad>(&rotated, &std::array::from_fn(|j| pairs[(k + j) % 6]));
+        let jacobian = here.jacobian.map(|row| row.map(|x| Complex::new(x.re.to_f64(), x.im.to_f64())));
+        certificate(&here, &inverse(&jacobian)?.map(|row| row.map(quad)))
+    })
+}
+
+/// The size of the imaginary part of an unknown, an angle q given as e^(iq); near 0 to double-double precision.
+fn imaginary(variable: Variable, state: Quad) -> f64 {
+    match variable {
+        Variable::Rotation => {
+            let square = state.re.mul(&state.re).add(&state.im.mul(&state.im));
+            let off = square.sub(&DoubleDouble::one()).to_f64();
+            0.5 * off.ln_1p().abs()
+        }
+        Variable::Translation => state.im.to_f64().abs(),
+    }
 }
 
 /// How far the rounding of the constants can have moved a solution, to first order. A constant off by a twist x, a few

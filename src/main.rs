@@ -17,6 +17,7 @@ fn main() -> ExitCode {
         Verb::List(options) => command::list::run(options),
         Verb::Show(options) => command::show::run(options),
         Verb::Check(options) => command::check::run(options),
+        Verb::Poly(options) => command::poly::run(options),
         Verb::Bench(options) => command::bench::run(options),
         Verb::Completions(options) => command::completions::run(options),
     };

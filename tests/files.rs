@@ -266,9 +266,12 @@ fn loops_need_seven_variables_and_one_input() {
     };
     assert!(json("\"type\": \"R\", \"a\": 100", "\"type\": \"C\", \"a\": 100").contains("unknown key `d`"));
     assert!(json("\"a\": 1, \"alpha\": 20, \"d\": 1.5e1", "\"a\": 1").contains("test.json:12: found neither `alpha`"));
-    assert!(
-        json(",\n      { \"type\": \"R\", \"a\": 1, \"alpha\": 20, \"d\": 1.5e1 }", "").contains("with 6 variables")
-    );
+    let immobile = json(",\n      { \"type\": \"R\", \"a\": 1, \"alpha\": 20, \"d\": 1.5e1 }", "");
+    assert!(immobile.contains("with 6 variables") && immobile.contains("mobility 0 by Gruebler's count (6 - 6)"));
+    let loose =
+        json("\"type\": \"R\", \"a\": 1, \"alpha\": 20, \"d\": 1.5e1", "\"type\": \"S\", \"a\": 1, \"alpha\": 20");
+    assert!(loose.contains("mobility 3 by Gruebler's count (9 - 6): 2 freedoms too many for one input"), "{loose}");
+    assert!(json("\"angle\": 90 }", "\"distance\": 90 }").contains("expected `angle` or `tan_half`"));
     assert!(json("\"joint\": 1", "\"joint\": 8").contains("test.json:16: found joint 8, expected one from 1 to 5"));
     assert!(json("\"joint\": 1, ", "").contains("test.json:16: found no `joint`"));
     assert!(
@@ -330,10 +333,17 @@ fn unknown_names_suggest_near_ones() {
 /// `base * prod * tool` of the claim's joint variables, written here once more in f64 as the formats define it.
 fn forward(entry: &Entry, q: &[f64]) -> Motion<f64> {
     let mut values = q.iter();
+    let rz = |q: f64| Motion::rotation_z(q.cos(), q.sin());
+    // The motion of a joint's variables about and along z, apart from its offsets.
     let mut variables = |kind: JointKind| match kind {
-        JointKind::Revolute => (*values.next().unwrap(), 0.0),
-        JointKind::Prismatic => (0.0, *values.next().unwrap()),
-        JointKind::Cylindrical => (*values.next().unwrap(), *values.next().unwrap()),
+        JointKind::Revolute => (*values.next().unwrap(), 0.0, None),
+        JointKind::Prismatic => (0.0, *values.next().unwrap(), None),
+        JointKind::Cylindrical => (*values.next().unwrap(), *values.next().unwrap(), None),
+        JointKind::Spherical => {
+            let [first, second, third] = [(); 3].map(|()| *values.next().unwrap());
+            let tilt = Motion::rotation_x(second.cos(), second.sin());
+            (0.0, 0.0, Some(rz(first).then_after(&tilt).then_after(&rz(third))))
+        }
         _ => panic!("no such joint in the library"),
     };
     let mut motion = entry.chain().unwrap().base.float.clone();
@@ -341,7 +351,8 @@ fn forward(entry: &Entry, q: &[f64]) -> Motion<f64> {
         Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
             let craig = matches!(entry.chain().unwrap().geometry, Geometry::ModifiedDh(_));
             for joint in joints {
-                let (angle, distance) = variables(joint.kind);
+                let (angle, distance, ball) = variables(joint.kind);
+                motion = motion.then_after(&ball.unwrap_or_else(Motion::identity));
                 let angle = angle + joint.theta0.radians();
                 let mut turn = Motion::rotation_z(angle.cos(), angle.sin());
                 turn.translation[2] = distance + joint.d.to_f64();
@@ -352,7 +363,8 @@ fn forward(entry: &Entry, q: &[f64]) -> Motion<f64> {
         }
         Geometry::Screws { joints, home } => {
             for joint in joints {
-                let (angle, distance) = variables(joint.kind);
+                let (angle, distance, ball) = variables(joint.kind);
+                assert!(ball.is_none(), "no ball by its axis in the library");
                 let axis = joint.axis.each_ref().map(Number::to_f64);
                 motion = motion.then_after(&screw(axis, joint.point.each_ref().map(Number::to_f64), angle, distance));
             }

@@ -3,14 +3,26 @@
 
 mod strategies;
 
+#[path = "laws/determinants.rs"]
+mod determinants;
 #[path = "laws/intervals.rs"]
 mod intervals;
 #[path = "laws/matrices.rs"]
 mod matrices;
 #[path = "laws/motions.rs"]
 mod motions;
+#[path = "laws/multivariate.rs"]
+mod multivariate;
 #[path = "laws/polynomials.rs"]
 mod polynomials;
+#[path = "laws/resultants.rs"]
+mod resultants;
+#[path = "laws/roots.rs"]
+mod roots;
+#[path = "laws/texts.rs"]
+mod texts;
+#[path = "laws/trigonometry.rs"]
+mod trigonometry;
 #[path = "laws/velocities.rs"]
 mod velocities;
 

@@ -1,8 +1,8 @@
 //! Integers that stay in a machine word while they fit: the coefficients of symbolic work, which rarely leave 64 bits.
 
 use super::ring::{Domain, Ring};
-use rug::{Complete, Integer, Rational};
-use std::cmp::Ordering;
+use rug::{Complete, Integer, Rational, integer::IntegerExt64};
+use std::{cmp::Ordering, fmt};
 
 /// An integer of any size, without allocation while it fits an i64.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -47,17 +47,96 @@ impl Int {
     /// The greatest common divisor, never negative; zero only of two zeros.
     #[must_use]
     pub fn gcd(&self, other: &Self) -> Self {
-        Self::from(self.to_integer().gcd(&other.to_integer()))
+        match (&self.0, &other.0) {
+            (Repr::Small(a), Repr::Small(b)) => Self::from(gcd_of_words(a.unsigned_abs(), b.unsigned_abs())),
+            (Repr::Small(0), Repr::Large(n)) | (Repr::Large(n), Repr::Small(0)) => Self::from(n.abs_ref().complete()),
+            (Repr::Small(a), Repr::Large(n)) | (Repr::Large(n), Repr::Small(a)) => {
+                let rest = n.mod_u64(a.unsigned_abs());
+                Self::from(gcd_of_words(a.unsigned_abs(), rest))
+            }
+            (Repr::Large(a), Repr::Large(b)) => Self::from(a.gcd_ref(b).complete()),
+        }
+    }
+
+    /// The nearest f64.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "the conversion rounds to nearest")]
+    pub fn to_f64(&self) -> f64 {
+        match &self.0 {
+            Repr::Small(n) => *n as f64,
+            Repr::Large(n) => super::number::nearest_f64(&Rational::from(&**n)),
+        }
+    }
+
+    /// The absolute value.
+    #[must_use]
+    pub fn abs(&self) -> Self {
+        if self.sign() == Ordering::Less { self.neg() } else { self.clone() }
+    }
+}
+
+/// Stein's binary algorithm.
+fn gcd_of_words(mut a: u64, mut b: u64) -> u64 {
+    if a == 0 || b == 0 {
+        return a | b;
+    }
+    let twos = (a | b).trailing_zeros();
+    a >>= a.trailing_zeros();
+    while b != 0 {
+        b >>= b.trailing_zeros();
+        (a, b) = (a.min(b), a.abs_diff(b));
+    }
+    a << twos
+}
+
+impl fmt::Display for Int {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match &self.0 {
+            Repr::Small(n) => n.fmt(f),
+            Repr::Large(n) => n.fmt(f),
+        }
+    }
+}
+
+impl PartialOrd for Int {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Int {
+    fn cmp(&self, other: &Self) -> Ordering {
+        match (&self.0, &other.0) {
+            (Repr::Small(a), Repr::Small(b)) => a.cmp(b),
+            (Repr::Large(a), Repr::Large(b)) => a.cmp(b),
+            // A large one lies beyond all small ones, on the side of its sign.
+            (Repr::Small(_), Repr::Large(b)) => b.cmp0().reverse(),
+            (Repr::Large(a), Repr::Small(_)) => a.cmp0(),
+        }
+    }
+}
+
+impl From<i32> for Int {
+    fn from(n: i32) -> Self {
+        Self::from(i64::from(n))
     }
 }
 
 impl From<i64> for Int {
+    #[inline(always)]
     fn from(n: i64) -> Self {
         Self(Repr::Small(n))
     }
 }
 
+impl From<u64> for Int {
+    fn from(n: u64) -> Self {
+        Self::from(i128::from(n))
+    }
+}
+
 impl From<i128> for Int {
+    #[inline]
     fn from(n: i128) -> Self {
         i64::try_from(n).map_or_else(|_| Self(Repr::Large(Box::new(Integer::from(n)))), Self::from)
     }
@@ -113,6 +192,38 @@ impl Ring for Int {
             (Repr::Large(a), Repr::Large(b)) => Self::from((&**a * &**b).complete()),
         }
     }
+    #[inline]
+    fn add_product(&mut self, a: &Self, b: &Self) {
+        match (&mut self.0, &a.0, &b.0) {
+            (Repr::Small(sum), Repr::Small(a), Repr::Small(b)) => {
+                // Below 2^126 + 2^63, so no overflow.
+                *self = Self::from(i128::from(*sum) + i128::from(*a) * i128::from(*b));
+            }
+            (Repr::Small(sum), _, _) => *self = Self::from(*sum).add(&a.mul(b)),
+            (Repr::Large(sum), a, b) => {
+                match (a, b) {
+                    (Repr::Small(a), Repr::Small(b)) => **sum += i128::from(*a) * i128::from(*b),
+                    (Repr::Small(a), Repr::Large(b)) | (Repr::Large(b), Repr::Small(a)) => **sum += &**b * *a,
+                    (Repr::Large(a), Repr::Large(b)) => **sum += &**a * &**b,
+                }
+                if let Some(small) = sum.to_i64() {
+                    *self = Self::from(small);
+                }
+            }
+        }
+    }
+    #[inline(always)]
+    fn to_wide(&self) -> Option<i128> {
+        match &self.0 {
+            Repr::Small(n) => Some(i128::from(*n)),
+            Repr::Large(n) => n.to_i128(),
+        }
+    }
+    #[inline]
+    fn from_wide(n: i128) -> Self {
+        Self::from(n)
+    }
+    #[inline]
     fn neg(&self) -> Self {
         match &self.0 {
             Repr::Small(n) => n.checked_neg().map_or_else(|| Self::from(-i128::from(*n)), Self::from),
@@ -134,15 +245,22 @@ impl Ring for Int {
 
 impl Domain for Int {
     fn checked_div_exact(&self, other: &Self) -> Option<Self> {
-        if other.is_zero() {
-            return None;
-        }
-        if let (Repr::Small(a), Repr::Small(b)) = (&self.0, &other.0) {
-            if let Some(remainder) = a.checked_rem(*b) {
-                return (remainder == 0).then(|| Self(Repr::Small(a / b)));
+        match (&self.0, &other.0) {
+            (_, Repr::Small(0)) => None,
+            // Only i64::MIN / -1 leaves the word.
+            (Repr::Small(a), Repr::Small(-1)) => Some(Self::from(-i128::from(*a))),
+            (Repr::Small(a), Repr::Small(b)) => (a % b == 0).then(|| Self::from(a / b)),
+            (Repr::Small(0), Repr::Large(_)) => Some(Self::zero()),
+            // i64::MIN by 2^63 is the one quotient of a small number by a large one.
+            (Repr::Small(a), Repr::Large(b)) => (**b == -i128::from(*a)).then(|| Self::from(-1_i64)),
+            (Repr::Large(a), Repr::Small(b)) => {
+                let (quotient, rest) = a.div_rem_ref(&Integer::from(*b)).complete();
+                rest.is_zero().then(|| Self::from(quotient))
+            }
+            (Repr::Large(a), Repr::Large(b)) => {
+                let (quotient, rest) = a.div_rem_ref(b).complete();
+                rest.is_zero().then(|| Self::from(quotient))
             }
         }
-        let (a, b) = (self.to_integer(), other.to_integer());
-        a.is_divisible(&b).then(|| Self::from(a.div_exact(&b)))
     }
 }

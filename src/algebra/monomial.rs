@@ -52,9 +52,17 @@ impl Packing {
 
     /// The word of a variable's field, and the place of its lowest bit there.
     #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "a word has at most 32 fields")]
     pub const fn place(&self, variable: usize) -> (usize, u32) {
         let per_word = self.per_word();
         (variable / per_word, 64 - self.bits * ((variable % per_word) as u32 + 1))
+    }
+
+    /// The exponent in a field of a word.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "a field has at most 32 bits")]
+    pub(super) const fn field(&self, word: u64, shift: u32) -> u32 {
+        ((word >> shift) & ((1 << self.bits) - 1)) as u32
     }
 
     /// A word with the guard bits of all fields.
@@ -76,7 +84,7 @@ impl Packing {
             return 0;
         }
         let (word, shift) = self.place(variable);
-        ((monomial[word] >> shift) & ((1 << self.bits) - 1)) as u32
+        self.field(monomial[word], shift)
     }
 
     /// Appends the packed monomial.
@@ -92,6 +100,41 @@ impl Packing {
             let (word, shift) = self.place(variable);
             packed[start + word] |= u64::from(exponent) << shift;
         }
+    }
+
+    /// Whether a monomial has the same words in both packings, one of them perhaps with more variables.
+    pub(super) const fn agrees(&self, other: &Self) -> bool {
+        self.bits == other.bits && self.words() == other.words()
+    }
+
+    /// Monomials of another packing in this one, which has at least its variables and room for their exponents.
+    pub(super) fn repack(&self, source: &Self, monomials: &[u64]) -> Vec<u64> {
+        let (from, to) = (source.words(), self.words());
+        let mut packed = vec![0; monomials.len() / from * to];
+        for variable in 0..source.variables {
+            let ((word, shift), (source_word, source_shift)) = (self.place(variable), source.place(variable));
+            let mask = (1 << source.bits) - 1;
+            for (target, monomial) in packed.chunks_exact_mut(to).zip(monomials.chunks_exact(from)) {
+                target[word] |= ((monomial[source_word] >> source_shift) & mask) << shift;
+            }
+        }
+        packed
+    }
+
+    /// Whether products of these monomials and those surely stay below the guard bits.
+    pub(super) fn holds_products(&self, a: &[u64], b: &[u64]) -> bool {
+        let (words, guards) = (self.words(), self.guards());
+        // The bitwise or of monomials is an upper bound in each field.
+        let outline = |monomials: &[u64], word: usize| monomials[word..].iter().step_by(words).fold(0, |or, m| or | m);
+        (0..words).all(|word| (outline(a, word) + outline(b, word)) & guards == 0)
+    }
+
+    /// The mask of one word that keeps the fields of the first `count` variables.
+    #[expect(clippy::cast_possible_truncation, reason = "a word has at most 32 fields")]
+    pub(super) fn leading(&self, word: usize, count: usize) -> u64 {
+        let fields = count.saturating_sub(word * self.per_word()).min(self.per_word());
+        let kept = fields as u32 * self.bits;
+        if kept == 0 { 0 } else { u64::MAX << (64 - kept) }
     }
 
     /// The exponents of a monomial, one for each variable.

@@ -95,6 +95,15 @@ impl Ring for Integer {
     fn is_zero(&self) -> bool {
         self.cmp0() == Ordering::Equal
     }
+    fn add_product(&mut self, a: &Self, b: &Self) {
+        *self += a * b;
+    }
+    fn to_wide(&self) -> Option<i128> {
+        self.to_i128()
+    }
+    fn from_wide(n: i128) -> Self {
+        Integer::from(n)
+    }
     /// Only integers have an image.
     fn from_rational(q: &Rational) -> Option<Self> {
         q.is_integer().then(|| q.numer().clone())

@@ -44,6 +44,26 @@ pub trait Ring: Clone + PartialEq + Debug {
         Self::from_rational(&Rational::from(n)).expect("integers map into every ring")
     }
 
+    /// `self += a b`; types whose numbers own memory do it in place.
+    fn add_product(&mut self, a: &Self, b: &Self) {
+        *self = self.add(&a.mul(b));
+    }
+
+    /// The integer that an element of a ring of integers is, if it fits an i128: sums of many products then run in machine
+    /// words. `None` in all other rings.
+    fn to_wide(&self) -> Option<i128> {
+        None
+    }
+
+    /// The image of a sum of products of machine words, and of any other integer of this size.
+    ///
+    /// # Panics
+    /// Never: integers have an image in every ring.
+    #[must_use]
+    fn from_wide(n: i128) -> Self {
+        Self::from_rational(&Rational::from(n)).expect("integers map into every ring")
+    }
+
     /// Cosine and sine of an angle, see [`exact_cos_sin`].
     /// Inexact rings override this with the correctly rounded values. `None` for an unlucky prime.
     #[must_use]

@@ -12,6 +12,8 @@ pub const NEAR_REAL: f64 = 1e-4;
 pub const RAW: f64 = 1e-3;
 /// Growth of rounding errors round the loop above which complex candidates are polished in double-double arithmetic.
 pub const FAR: f64 = 1e9;
+/// Translations up to this length may close with an error in proportion, not those beyond.
+pub const LONGEST: f64 = 1e3;
 /// Closure after polishing above which a candidate is no solution.
 pub const CLOSED: f64 = 1e-12;
 /// |1 + x^2| / (1 + |x|^2) below which a root belongs to no finite angle.
@@ -35,3 +37,15 @@ pub const SINGULAR: f64 = 1e5;
 pub const NEAR_DOUBLE: f64 = 1e-6;
 /// Separation of the kernel below which a root that does not close may belong to a family.
 pub const SHARED: f64 = 1e-7;
+/// Squared sines of twists, and amplitudes of one angle's equation, below which axes are parallel.
+pub const PARALLEL: f64 = 1e-12;
+/// Determinants of the equations of a ball's centre below this, in scaled lengths, are zero.
+pub const REACH_DEPENDENT: f64 = 1e-9;
+/// Sines of the second angle of a ball below this are too near 0 for the other two to be told apart.
+pub const LOCKED: f64 = 0.05;
+/// Translations nearer than this to dependent ones need not close a loop.
+pub const DEPENDENT: f64 = 1e-6;
+/// The two equations of a spherical four-bar nearer than this to dependent ones may have two solutions at one angle.
+pub const SHARED_ANGLE: f64 = 1e-6;
+/// Sines below which a translation runs along an axis.
+pub const ALONG: f64 = 1e-12;

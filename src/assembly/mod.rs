@@ -1,5 +1,7 @@
 //! Roots to assembly modes: prepare a geometry once, then find every way to close it, pose after pose.
 
+mod ball;
+mod few_rotations;
 mod limits;
 mod mode;
 pub mod platform;

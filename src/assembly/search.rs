@@ -1,5 +1,6 @@
 //! One pose being solved: cut after cut, root after root, until nothing is missing.
 
+use super::ball::canonical;
 use super::limits;
 use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
@@ -8,13 +9,14 @@ use crate::certify::{Certificate, Refined, certificate, certificate_in_any_frame
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
+use crate::elimination::degree::general_degree;
 use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{double_angle, kernel};
-use crate::solve::newton::{Closure, Polished, Six, approach, closure, polish};
+use crate::solve::newton::{Closure, Polished, Six, approach, closure, polish, reach};
 use crate::solve::scalar::Scalar;
 use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
 use num_complex::Complex;
@@ -25,6 +27,8 @@ pub(super) struct Search<'a> {
     pub prepared: &'a [PreparedCut],
     /// The loop, scaled.
     pub closed: &'a ClosedLoop<f64>,
+    /// Where the three rotations of a ball begin, if there is one.
+    pub ball: Option<usize>,
     /// How far rounding may have moved the gap.
     pub gap_rounding: f64,
     /// What is looked for.
@@ -38,7 +42,12 @@ pub(super) struct Search<'a> {
 impl Search<'_> {
     /// Finds all there is to find.
     pub fn run(&mut self, most: &dyn Fn() -> usize) {
-        self.all_cuts(most);
+        match general_degree(self.closed.variables) {
+            _ if self.ball.is_some() => self.ball.into_iter().for_each(|ball| self.centre(ball)),
+            Some(2) => self.triangle(),
+            Some(8) => self.four_bars(most),
+            _ => self.all_cuts(most),
+        }
         if !self.assembly.clean {
             self.cast_about();
         }
@@ -113,14 +122,15 @@ impl Search<'_> {
     }
 
     /// Whether more pencils are of no use.
-    fn done(&self, most: &dyn Fn() -> usize, clean: bool) -> bool {
+    pub fn done(&self, most: &dyn Fn() -> usize, clean: bool) -> bool {
         match self.roots {
             Roots::Real => clean,
             Roots::All => {
                 let proved = self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
                 // What has no proof yet is double, as a rule: the verdict will see.
                 let likely = 2 * self.assembly.modes.len() - proved;
-                proved >= 16 || (clean && (likely >= 16 || likely >= most()))
+                let general = general_degree(self.closed.variables).unwrap_or(0);
+                proved >= general || (clean && (likely >= general || likely >= most()))
             }
         }
     }
@@ -133,34 +143,26 @@ impl Search<'_> {
         [Method::Francis, Method::Faer].into_iter().any(|method| {
             self.assembly.tries += 1;
             let roots = self.eigen.companion(method, &constant, &linear);
-            roots.is_some_and(|roots| self.all_roots(cut, view, form, shifted, roots))
+            let mut family =
+                OfPencil { cut, view, form, shifted, real: CutView::new(view, form, shifted.hidden), complex: None };
+            roots.is_some_and(|roots| self.all_roots(&mut family, &roots))
         })
     }
 
-    /// Admits what the roots of a pencil lead to. Whether all of them are accounted for.
-    fn all_roots(
-        &mut self,
-        cut: Cut,
-        view: &ClosedLoop<f64>,
-        form: &HalfAngleForm<f64>,
-        shifted: &Shifted,
-        roots: [Complex<f64>; 16],
-    ) -> bool {
-        let real_view = CutView::<f64>::new(view, form, shifted.hidden);
-        let mut complex_view: Option<CutView<Complex<f64>>> = None;
+    /// Admits what the roots of a polynomial lead to. Whether all of them are accounted for.
+    pub fn all_roots(&mut self, family: &mut impl Family, roots: &[Complex<f64>]) -> bool {
         let mut clean = true;
-        for x in roots {
+        for &x in roots {
             let size = 1.0 + x.norm_sqr();
             if (1.0 + x * x).norm() < limits::INFINITE * size && x.im.abs() > limits::NEAR_REAL * size {
                 // tan(q/2) near +-i: in special geometry where no solution is, but look in case one is.
                 if self.roots == Roots::All && x.im > 0.0 {
-                    let complex_view = complex_view.get_or_insert_with(|| CutView::new(view, form, shifted.hidden));
-                    self.one_root(cut, complex_view, shifted, x);
+                    family.complex(self, x);
                 }
                 continue;
             }
             if x.im.abs() < limits::NEAR_REAL * size {
-                let outcome = self.one_root(cut, &real_view, shifted, x.re);
+                let outcome = family.real(self, x.re);
                 let settled = outcome.settled && !(self.roots == Roots::All && outcome.shared);
                 clean &= !outcome.unresolved;
                 if settled {
@@ -177,8 +179,7 @@ impl Search<'_> {
             if x.im < 0.0 {
                 continue;
             }
-            let complex_view = complex_view.get_or_insert_with(|| CutView::new(view, form, shifted.hidden));
-            let outcome = self.one_root(cut, complex_view, shifted, x);
+            let outcome = family.complex(self, x);
             clean &= outcome.settled && !outcome.unresolved;
         }
         clean
@@ -212,7 +213,7 @@ impl Search<'_> {
     }
 
     /// Polishes a candidate and takes it into the list if it closes. Whether it was a solution from the start.
-    fn admit<S: Scalar>(&mut self, start: &Six<S>) -> bool {
+    pub fn admit<S: Scalar>(&mut self, start: &Six<S>) -> bool {
         let polished = polish(self.closed, start);
         let growth = 6.0 * polished.closure.growth(false);
         if !S::REAL && !(growth < limits::FAR) {
@@ -221,17 +222,20 @@ impl Search<'_> {
             self.merge_with_conjugate(mode);
             return true;
         }
-        if !(polished.closure.defect <= (limits::CLOSED + self.gap_rounding).max((1e-14 * growth).min(1e-4))) {
+        // Rounding errors of a closure grow with its longest translation, too.
+        let reach = reach(&self.closed.variables, &polished.unknowns.map(Scalar::to_complex)).min(limits::LONGEST);
+        let closed = limits::CLOSED * reach + self.gap_rounding;
+        if !(polished.closure.defect <= closed.max((1e-14 * growth).min(1e-4))) {
             return false;
         }
-        let near = polished.raw < limits::RAW.max((1e-10 * growth).min(0.1)) && polished.moved < 0.1;
+        let near = polished.raw < limits::RAW.max((1e-10 * growth).min(0.1)) * reach && polished.moved < 0.1 * reach;
         let imaginary = polished.unknowns.iter().map(|x| x.to_complex().im.abs()).fold(0.0, f64::max);
         // Beside a real double root, a complex point within rounding of closing is no solution of its own.
         let singular = polished.inverse.as_ref().is_none_or(|a| dense::norm(a) > 1e6);
         let nearly_real = if singular { limits::NEAR_DOUBLE } else { limits::REAL_PART };
         if !S::REAL && imaginary < nearly_real {
             let real = polish::<f64>(self.closed, &polished.unknowns.map(|x| x.to_complex().re));
-            if real.closure.defect <= limits::CLOSED + self.gap_rounding {
+            if real.closure.defect <= closed {
                 self.record(&real);
                 return near;
             }
@@ -298,7 +302,10 @@ impl Search<'_> {
         (drift < limits::LONE_RADIUS).then_some(Certificate { radius: proof.radius + drift, ..proof })
     }
 
-    fn merge(&mut self, mode: Mode) {
+    pub fn merge(&mut self, mut mode: Mode) {
+        if let Some(ball) = self.ball {
+            canonical(&mut mode.unknowns, ball);
+        }
         let variables = self.closed.variables;
         for other in &mut self.assembly.modes {
             let distance = distance(&variables, &other.unknowns, &mode.unknowns);
@@ -352,8 +359,10 @@ impl Search<'_> {
             }
             let both = starts.map(|(starts, _)| (apart(&starts), starts.map(|start| self.proved_mode(&start))));
             let radius = |mode: &Mode| mode.certificate.map_or(f64::INFINITY, |proof| proof.radius);
+            let reach = reach(&variables, &own);
             let alone = |mode: &Mode| {
-                distance(&variables, &mode.unknowns, &own) < limits::SAME && radius(mode) < limits::LONE_RADIUS
+                let near = distance(&variables, &mode.unknowns, &own) < limits::SAME * reach;
+                near && radius(mode) < limits::LONE_RADIUS * reach
             };
             let proved = match both {
                 Some((_, [Some(one), Some(two)]))
@@ -439,14 +448,50 @@ impl Search<'_> {
     }
 }
 
+/// What the roots of one closure polynomial lead to.
+pub(super) trait Family {
+    /// Admits what a real root leads to.
+    fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome;
+    /// Admits what a complex root leads to.
+    fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome;
+}
+
+/// The roots of the pencil of a cut.
+struct OfPencil<'a> {
+    cut: Cut,
+    view: &'a ClosedLoop<f64>,
+    form: &'a HalfAngleForm<f64>,
+    shifted: &'a Shifted,
+    real: CutView<'a, f64>,
+    complex: Option<CutView<'a, Complex<f64>>>,
+}
+
+impl Family for OfPencil<'_> {
+    fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome {
+        search.one_root(self.cut, &self.real, self.shifted, x)
+    }
+
+    fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
+        let view = self.complex.get_or_insert_with(|| CutView::new(self.view, self.form, self.shifted.hidden));
+        search.one_root(self.cut, view, self.shifted, x)
+    }
+}
+
 /// What became of one root.
-struct RootOutcome {
+pub(super) struct RootOutcome {
     /// Every candidate of the root closed.
-    settled: bool,
+    pub settled: bool,
     /// A family of solutions belongs to the root.
-    unresolved: bool,
-    /// The kernel has more than one dimension.
-    shared: bool,
+    pub unresolved: bool,
+    /// Several solutions may belong to the root.
+    pub shared: bool,
     /// How far from that it is.
-    separation: f64,
+    pub separation: f64,
+}
+
+impl RootOutcome {
+    /// No root, or none that leads anywhere.
+    pub fn nothing() -> Self {
+        Self { settled: false, unresolved: false, shared: false, separation: 1.0 }
+    }
 }

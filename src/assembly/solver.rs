@@ -8,7 +8,9 @@ use super::search::Search;
 use super::shifted::Shifted;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::cut::{Cut, Hidden};
+use crate::elimination::degree::general_degree;
 use crate::elimination::pencil::{before_second_link, bilinear};
+use crate::elimination::point_reach::general_count;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
 use crate::solve::eigen::{EigenWorkspace, companion};
@@ -45,6 +47,8 @@ pub struct Solver {
     /// Cuts that need no pose, best first.
     prepared: Vec<PreparedCut>,
     structural_rank: usize,
+    /// Where the three rotations of a ball begin, if there is one.
+    ball: Option<usize>,
 }
 
 /// What a pose or input leaves open: the constant behind the last unknown, in the scale of its solver.
@@ -113,7 +117,13 @@ impl Solver {
             .collect();
         prepared.sort_by(|a, b| b.form.score.total_cmp(&a.form.score));
         let structural_rank = structural_rank(&closed);
-        Self { open, scale, prepared, structural_rank }
+        Self { open, scale, prepared, structural_rank, ball: None }
+    }
+
+    /// As [`Solver::prepare`] for a loop with a ball, whose three rotations begin at this unknown.
+    #[must_use]
+    pub fn with_ball(open: &OpenLoop<f64>, ball: usize) -> Self {
+        Self { ball: Some(ball), prepared: Vec::new(), ..Self::prepare(open) }
     }
 
     /// The largest rank the six joints reach in general position: below 6 the arm is structurally deficient, and every
@@ -127,13 +137,22 @@ impl Solver {
     #[must_use]
     pub fn is_special(&self) -> bool {
         let fitting = Cut::ALL[..Cut::PREPARED].iter().filter(|cut| cut.fits(self.open.variables)).count();
-        self.prepared.len() < fitting
+        self.prepared.len() < fitting || fitting == 0
     }
 
-    /// Whether no cut fits: translations stand where the elimination cannot take them.
+    /// Whether the loop has fewer than three rotations: its links move in parallel planes or without turning.
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
-        !Cut::ALL.iter().any(|cut| cut.fits(self.open.variables))
+        general_degree(self.open.variables).is_none()
+    }
+
+    /// The degree of the closure polynomial of general loops with these unknowns, 0 where [`Self::is_out_of_reach`].
+    #[must_use]
+    pub fn general_degree(&self) -> usize {
+        match self.ball {
+            Some(ball) => general_count([3, 4, 5].map(|k| self.open.variables[(ball + k) % 6])),
+            None => general_degree(self.open.variables).unwrap_or(0),
+        }
     }
 
     /// Whether the gap is wider than the links are long together, so that no real solution can close it; then both
@@ -186,7 +205,7 @@ impl Solver {
     /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing
     /// once `assembly` has grown to its size, but for degenerate poses.
     pub fn solve(&self, filling: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
-        self.solve_up_to(&self.gap(filling), roots, &|| 16, workspace, assembly);
+        self.solve_up_to(&self.gap(filling), roots, &|| usize::MAX, workspace, assembly);
     }
 
     /// As [`Solver::solve`], for a geometry known to have no more than `most()` solutions: stops looking for more.
@@ -203,8 +222,16 @@ impl Solver {
         (assembly.self_motion, assembly.clean, assembly.tries) = (0, false, 0);
         let closed = self.close(gap);
         let eigen = &mut workspace.eigen;
-        Search { prepared: &self.prepared, closed: &closed, gap_rounding: gap.rounding, roots, eigen, assembly }
-            .run(most);
+        Search {
+            prepared: &self.prepared,
+            closed: &closed,
+            ball: self.ball,
+            gap_rounding: gap.rounding,
+            roots,
+            eigen,
+            assembly,
+        }
+        .run(most);
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
                 let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));

@@ -1,9 +1,9 @@
 //! Counting: what of the planted truth is found, and whether all that is found is true.
 
-use super::sample::{Sample, Set, sample};
+use super::sample::{Sample, Set, motions, sample};
 use crate::assembly::{Assembly, Roots, Workspace, wrapped};
 use crate::error::Result;
-use crate::kinematics::motion::Motion;
+use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{FullMode, Mechanism, Solution};
 use crate::verdict::Status;
 use rayon::prelude::*;
@@ -98,7 +98,13 @@ fn one(job: Job, index: u64, (workspace, assembly): &mut Memory) -> Result<Count
     let solution = mechanism.solve(&drawn.entry.cases[0], job.roots, workspace, assembly)?;
     let mut counts = Counts::of("arms", &solution);
     let real: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real).collect();
-    let apart = |mode: &FullMode, q: &[f64; 6]| (0..6).map(|k| wrapped(mode.q[k].re - q[k]).abs()).fold(0.0, f64::max);
+    let apart = |mode: &FullMode, q: &[f64; 6]| {
+        let difference = |k: usize| match drawn.variables[k] {
+            Variable::Rotation => wrapped(mode.q[k].re - q[k]).abs(),
+            Variable::Translation => (mode.q[k].re - q[k]).abs(),
+        };
+        (0..6).map(difference).fold(0.0, f64::max)
+    };
     let nearest = real.iter().map(|m| apart(m, &drawn.planted)).fold(f64::INFINITY, f64::min);
     if nearest < job.set.tolerance() {
         counts.found = 1;
@@ -119,8 +125,8 @@ fn one(job: Job, index: u64, (workspace, assembly): &mut Memory) -> Result<Count
 
 /// How far the tool is from the pose at a mode, by forward kinematics alone: largest entry of the difference.
 fn miss(drawn: &Sample, mode: &FullMode) -> f64 {
-    let turns: Vec<Motion<f64>> = mode.q.iter().map(|q| Motion::rotation_z(q.re.cos(), q.re.sin())).collect();
-    let (Some(reached), Some(wanted)) = (drawn.chain.forward(&turns), &drawn.entry.cases[0].pose) else {
+    let motions = motions(&drawn.variables, &std::array::from_fn(|k| mode.q[k].re));
+    let (Some(reached), Some(wanted)) = (drawn.chain.forward(&motions), &drawn.entry.cases[0].pose) else {
         return f64::INFINITY;
     };
     let mut largest = 0.0_f64;
@@ -185,6 +191,41 @@ impl Counts {
     pub fn is_faultless(&self) -> bool {
         self.lost.is_empty() && self.spurious == 0 && self.duplicates == 0 && self.miscounted == 0
     }
+}
+
+/// One line per family.
+#[must_use]
+pub fn table(rows: &[(&str, Counts)]) -> String {
+    let columns = ["chain", "loops", "found", "lost", "spurious", "double", "proved", "residual", "complex solutions"];
+    let line = |cells: [String; 9]| {
+        let [chain, rest @ .., last] = cells;
+        let middle = rest.iter().fold(String::new(), |text, cell| text + &format!("{cell:>9}"));
+        format!("{chain:<8}{middle}  {last}\n")
+    };
+    let mut text = line(columns.map(str::to_owned));
+    for (name, counts) in rows {
+        let word = |word: &str| counts.verdicts.get(word).copied().unwrap_or(0);
+        let complex = counts.complex.iter().map(|(key, count)| format!("{key}:{count}")).collect::<Vec<_>>().join(" ");
+        let worst = counts.residuals.iter().copied().fold(0.0, f64::max);
+        text += &line([
+            (*name).to_owned(),
+            counts.solved.to_string(),
+            counts.found.to_string(),
+            counts.lost.len().to_string(),
+            counts.spurious.to_string(),
+            counts.duplicates.to_string(),
+            (word("complete") + word("unreachable")).to_string(),
+            format!("{worst:.1e}"),
+            complex,
+        ]);
+        for (reason, count) in &counts.reasons {
+            text += &format!("    incomplete {count:>6}  {reason}\n");
+        }
+        if counts.on_self_motion > 0 {
+            text += &format!("    on a self-motion {:>6}\n", counts.on_self_motion);
+        }
+    }
+    text
 }
 
 /// Quantiles of a sample: median, 99 %, 99.9 %, largest.

@@ -4,7 +4,7 @@ use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
-use crate::kinematics::closed_loop::{Layout, OpenLoop};
+use crate::kinematics::closed_loop::{Layout, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
 use crate::solve::newton::closure;
 use nalgebra::Matrix6;
@@ -27,7 +27,50 @@ pub enum Set {
     BadlyScaled,
     /// Structured arms as calibrated: every parameter off by 1e-6.
     Calibrated,
+    /// Loops of one of the [`CHAINS`] in general.
+    Chain(usize),
+    /// Loops of one of the [`CHAINS`] with right angles, parallel and crossing axes, at angles that are mostly 0, right
+    /// or pi.
+    SpecialChain(usize),
 }
+
+/// What is left of the single-loop mechanisms with one input when that is given: six joint variables of revolute,
+/// prismatic and cylindrical joints, up to rotation and reversal, or a ball and three; and the number of solutions in
+/// general.
+pub const CHAINS: [(&str, usize); 32] = [
+    ("CCC", 2),
+    ("CCPR", 2),
+    ("CPCR", 2),
+    ("CPPRR", 2),
+    ("CPRPR", 2),
+    ("CPRRP", 2),
+    ("CRPPR", 2),
+    ("PPPRRR", 2),
+    ("PPRPRR", 2),
+    ("PRPRPR", 2),
+    ("CRCR", 4),
+    ("CCRR", 8),
+    ("CPRRR", 8),
+    ("CRPRR", 8),
+    ("PPRRRR", 8),
+    ("PRPRRR", 8),
+    ("PRRPRR", 8),
+    ("CRRRR", 16),
+    ("PRRRRR", 16),
+    ("RRRRRR", 16),
+    ("SRRR", 4),
+    ("SRRP", 4),
+    ("SPRR", 4),
+    ("SRPR", 4),
+    ("SCR", 4),
+    ("SRC", 4),
+    ("SPPR", 2),
+    ("SPRP", 2),
+    ("SRPP", 2),
+    ("SCP", 2),
+    ("SPC", 2),
+    ("SPPP", 1),
+];
 
 impl Set {
     /// All of them by name.
@@ -42,7 +85,34 @@ impl Set {
     /// How near the planted configuration must be found, radians.
     #[must_use]
     pub fn tolerance(self) -> f64 {
-        if self == Self::General { 1e-6 } else { 1e-5 }
+        if matches!(self, Self::General | Self::Chain(_)) { 1e-6 } else { 1e-5 }
+    }
+
+    /// The joints of a chain of this set.
+    fn joints(self) -> Vec<JointKind> {
+        let (Self::Chain(index) | Self::SpecialChain(index)) = self else { return vec![JointKind::Revolute; 6] };
+        let kind = |letter| match letter {
+            'P' => JointKind::Prismatic,
+            'C' => JointKind::Cylindrical,
+            'S' => JointKind::Spherical,
+            _ => JointKind::Revolute,
+        };
+        CHAINS[index].0.chars().map(kind).collect()
+    }
+
+    /// Whether lengths vanish and angles are right often.
+    fn is_structured(self) -> bool {
+        matches!(self, Self::Structured | Self::Calibrated | Self::SpecialChain(_))
+    }
+
+    /// Planted configurations are farther than this from singular ones.
+    fn least_regularity(self) -> f64 {
+        match self {
+            Self::Calibrated => 1e-4,
+            Self::SpecialChain(_) => 1e-3,
+            // A deficient arm has no isolated solution to plant.
+            _ => 1e-13,
+        }
     }
 }
 
@@ -53,8 +123,10 @@ pub struct Sample {
     pub entry: Entry,
     /// Its joints.
     pub chain: Chain,
-    /// The planted joint angles.
+    /// The planted joint variables.
     pub planted: [f64; 6],
+    /// What each of them measures.
+    pub variables: [Variable; 6],
     /// Smallest over largest singular value of the Jacobian there, lengths as given.
     pub regularity: f64,
 }
@@ -68,10 +140,18 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(index);
     loop {
-        let joints: Vec<Joint> = (0..6).map(|_| joint(set, &mut random)).collect();
+        let joints: Vec<Joint> = set.joints().into_iter().map(|kind| joint(set, kind, &mut random)).collect();
         let chain = Chain { geometry: Geometry::Dh(joints), base: Placement::identity(), tool: Placement::identity() };
-        let open: OpenLoop<f64> = chain.open_loop(&Layout::of(&chain, None)?)?;
-        let mut planted: [f64; 6] = std::array::from_fn(|_| random.random_range(-PI..PI));
+        let layout = Layout::of(&chain, None)?;
+        let open: OpenLoop<f64> = chain.open_loop(&layout)?;
+        let variables = open.variables;
+        let mut planted: [f64; 6] = std::array::from_fn(|k| value(set, variables[k], &mut random));
+        if let Some(ball) = layout.ball {
+            // Not near the ends of the second angle's range, where the other two are not unique.
+            for k in 0..3 {
+                planted[ball + k] = if k == 1 { random.random_range(0.1..3.0) } else { random.random_range(-PI..PI) };
+            }
+        }
         if set == Set::NearSingular {
             let away = 10.0_f64.powi(-2 - i32::try_from(index % 5).unwrap_or(0));
             let Some((singular, joint)) = singular_near(&open, planted) else { continue };
@@ -79,12 +159,10 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
             planted[joint] += away;
         }
         let regularity = regularity(&open, &planted);
-        // A deficient arm has no isolated solution to plant.
-        if regularity < if set == Set::Calibrated { 1e-4 } else { 1e-13 } {
+        if regularity < set.least_regularity() {
             continue;
         }
-        let turns = planted.map(|q| Motion::rotation_z(q.cos(), q.sin()));
-        let Some(pose) = chain.forward::<f64>(&turns) else { continue };
+        let Some(pose) = chain.forward::<f64>(&motions(&variables, &planted)) else { continue };
         let (placement, _) = Placement::from_matrix(&matrix(&pose))?;
         let case = Case::at(placement, 0);
         let entry = Entry {
@@ -97,7 +175,7 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
             cases: vec![case],
             rounded: true,
         };
-        return Ok(Sample { entry, chain, planted, regularity });
+        return Ok(Sample { entry, chain, planted, variables, regularity });
     }
 }
 
@@ -111,11 +189,30 @@ fn matrix(pose: &Motion<f64>) -> [[Number; 4]; 4] {
     })
 }
 
-fn joint(set: Set, random: &mut ChaCha8Rng) -> Joint {
+/// The motions of joint variables.
+#[must_use]
+pub fn motions(variables: &[Variable; 6], values: &[f64; 6]) -> [Motion<f64>; 6] {
+    std::array::from_fn(|k| match variables[k] {
+        Variable::Rotation => Motion::rotation_z(values[k].cos(), values[k].sin()),
+        Variable::Translation => Motion::translation_z(values[k]),
+    })
+}
+
+fn value(set: Set, variable: Variable, random: &mut ChaCha8Rng) -> f64 {
+    match variable {
+        Variable::Translation => random.random_range(-2.0..2.0),
+        Variable::Rotation if matches!(set, Set::SpecialChain(_)) && random.random_bool(0.6) => {
+            0.5 * PI * f64::from(random.random_range(-1..3))
+        }
+        Variable::Rotation => random.random_range(-PI..PI),
+    }
+}
+
+fn joint(set: Set, kind: JointKind, random: &mut ChaCha8Rng) -> Joint {
     let length = |random: &mut ChaCha8Rng| {
         let x: f64 = random.random_range(-1.0..1.0);
         match set {
-            Set::Structured | Set::Calibrated if random.random_bool(0.4) => 0.0,
+            _ if set.is_structured() && random.random_bool(0.4) => 0.0,
             Set::BadlyScaled => x.signum() * 10.0_f64.powf(3.0 * x.abs() - 3.0),
             _ => x,
         }
@@ -123,7 +220,7 @@ fn joint(set: Set, random: &mut ChaCha8Rng) -> Joint {
     let (a, d) = (length(random), length(random));
     let free = random.random_range(-PI..PI);
     let right = |numerator: i32| Angle::from_half_tangent(HalfTangent::Finite(Rational::from(numerator)));
-    let structured = matches!(set, Set::Structured | Set::Calibrated);
+    let structured = set.is_structured();
     let alpha = match random.random_range(0..10) {
         0..3 if structured => Angle::zero(),
         3..5 if structured => right(1),
@@ -134,14 +231,14 @@ fn joint(set: Set, random: &mut ChaCha8Rng) -> Joint {
     let mut off = |x: f64| if set == Set::Calibrated { x + random.random_range(-1e-6..1e-6) } else { x };
     let (a, d) = (off(a), off(d));
     let alpha = if set == Set::Calibrated { Angle::from_radians(off(alpha.radians())) } else { alpha };
-    Joint {
-        kind: JointKind::Revolute,
-        a: Number::from_f64(a),
-        alpha,
-        d: Number::from_f64(d),
-        theta0: Angle::zero(),
-        pitch: None,
-    }
+    // The constant angle of a prismatic joint; offsets of variables are left at zero.
+    let theta0 = match kind {
+        JointKind::Prismatic if structured && random.random_bool(0.6) => right(random.random_range(-1..2)),
+        JointKind::Prismatic => Angle::from_radians(random.random_range(-PI..PI)),
+        _ => Angle::zero(),
+    };
+    let d = if kind == JointKind::Revolute { Number::from_f64(d) } else { Number::zero() };
+    Joint { kind, a: Number::from_f64(a), alpha, d, theta0, pitch: None }
 }
 
 /// The Jacobian at a configuration, as the twists of the axes in the base frame.

@@ -104,9 +104,29 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
         return Ok(());
     }
     let joints = kinds.len();
+    let off = count.abs_diff(expected.0);
+    let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
+    let what = match (expected.0, count > expected.0) {
+        (7, true) => {
+            let mobility = count - 6;
+            let balls = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
+            let spin =
+                if balls > 1 { "; the spin of a link between two S joints about their centres counts" } else { "" };
+            format!("mobility {mobility} by Gruebler's count ({count} - 6){spin}: {freedoms} too many for one input")
+        }
+        (7, false) => format!(
+            "mobility {} by Gruebler's count ({count} - 6): {freedoms} missing for one input, if it is not overconstrained",
+            count.cast_signed() - 6
+        ),
+        (_, true) => format!("a pose leaves {freedoms} undetermined"),
+        (_, false) => format!("{freedoms} missing for a pose"),
+    };
     Err(scope.fail(
         line,
-        format!("found {joints} joints with {count} variables (R, P and H count 1, C and U 2, S 3), {}", expected.1),
+        format!(
+            "found {joints} joints with {count} variables (R, P and H count 1, C and U 2, S 3), {}; {what}",
+            expected.1
+        ),
     ))
 }
 
@@ -152,7 +172,7 @@ fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
         JointKind::Cylindrical => (&["d0", "theta0", "tan_half_theta0"], "a C joint"),
         JointKind::Helical => (&["d", "theta0", "tan_half_theta0", "pitch"], "an H joint"),
         JointKind::Universal => (&["d"], "a U joint"),
-        JointKind::Spherical => (&[], "an S joint"),
+        JointKind::Spherical => (&["d"], "an S joint"),
     };
     let table = scope.table(node, what, &[&link, own].concat())?;
     let a = scope.length(scope.need(&table, "a")?, "a")?;
@@ -161,8 +181,7 @@ fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
     let d = match kind {
         JointKind::Revolute | JointKind::Helical => scope.length(scope.need(&table, "d")?, "d")?,
         JointKind::Prismatic | JointKind::Cylindrical => optional("d0")?,
-        JointKind::Universal => optional("d")?,
-        JointKind::Spherical => Number::zero(),
+        JointKind::Universal | JointKind::Spherical => optional("d")?,
     };
     let theta0 = match kind {
         JointKind::Prismatic => angle(scope, &table, "theta", "tan_half_theta", true)?,

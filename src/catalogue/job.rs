@@ -144,7 +144,13 @@ fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
     };
     if !fits {
         let found = if matches!(value, InputValue::Angle(_)) { "an angle" } else { "a distance" };
-        return Err(scope.fail(table.line(), format!("found {found} as input of joint {joint}, which is {kind:?}")));
+        let expected = match kind {
+            JointKind::Prismatic => "expected `distance`",
+            JointKind::Spherical | JointKind::Universal => "expected a joint with one variable, or a C joint",
+            _ => "expected `angle` or `tan_half`",
+        };
+        let message = format!("found {found} as input of joint {joint}, which is {kind:?} and has none; {expected}");
+        return Err(scope.fail(table.line(), message));
     }
     let expected = expected(scope, &table, &|scope, node| claim(scope, node, chain))?;
     Ok(Case { expected, warnings: scope.take_warnings(), ..Case::given(Input { joint, value }, table.line()) })

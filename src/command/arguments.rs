@@ -1,5 +1,6 @@
 //! The words of the command line.
 
+use super::poly::arguments::PolyOptions;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use looproot::catalogue::Options;
@@ -29,6 +30,8 @@ pub enum Verb {
     Show(ShowOptions),
     /// Test every claim of mechanism files
     Check(CheckOptions),
+    /// Polynomials: multiply out, eliminate, determinants, real roots
+    Poly(PolyOptions),
     /// Measure accuracy and speed on random arms and platforms
     Bench(BenchOptions),
     /// Print the completions of a shell
@@ -193,11 +196,11 @@ pub enum Measure {
 /// `looproot bench accuracy`
 #[derive(Args)]
 pub struct AccuracyOptions {
-    /// general, structured, near-singular, badly-scaled or calibrated arms; platform, platform-planar-base,
-    /// platform-near-planar, platform-6-3 ... (all names: --set help)
+    /// general, structured, near-singular, badly-scaled or calibrated arms; loops or special-loops of all residual
+    /// chains; platform, platform-planar-base, platform-near-planar, platform-6-3 ... (all names: --set help)
     #[arg(long, default_value = "general")]
     pub set: String,
-    /// Number of arms or platforms
+    /// Number of arms or platforms, or of loops per chain
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub count: u64,
     /// Seed of the draw

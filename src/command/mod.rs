@@ -7,6 +7,7 @@ pub mod completions;
 pub mod exit;
 pub mod list;
 pub mod output;
+pub mod poly;
 pub mod show;
 pub mod solve;
 pub mod wanted;

@@ -5,16 +5,19 @@
 //! belong to no finite angle, and roots that an arm shows at two general poses alike to no solution: a joint that stood
 //! still at all poses would leave five joints for six freedoms. What remains of 16 bounds the number of isolated
 //! solutions, and the least such bound over all cuts holds. Over a general pose of a geometry it holds for all its
-//! poses, because isolated solutions with multiplicity can only become fewer in special positions.
+//! poses, because isolated solutions with multiplicity can only become fewer in special positions. Loops with three and
+//! four rotations are counted by their own polynomials, of degree 2 and 8.
 //! \[SommeseWampler2005\]
 
 use super::cut::{Cut, Hidden};
 use super::pencil::{before_second_link, bilinear, offset, pencil};
+use super::{octic, spherical_triangle};
 use crate::algebra::determinant::by_interpolation;
 use crate::algebra::ring::{Domain, Field};
 use crate::algebra::univariate::Univariate;
 use crate::closure::half_angle::half_angle_form;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::link_form::LinkForm;
 use crate::kinematics::motion::Motion;
 
 /// The closure polynomial of one cut.
@@ -33,8 +36,20 @@ pub struct ClosurePolynomial<F> {
 pub struct Degree {
     /// At most this many finite solutions, with multiplicity.
     pub solutions: usize,
-    /// How many roots of the polynomial of degree 16 were left out.
+    /// How many roots of the closure polynomial were left out.
     pub left_out: usize,
+}
+
+/// The degree of the closure polynomial of a general loop with these unknowns; `None` for fewer than three rotations,
+/// which move in parallel planes.
+#[must_use]
+pub fn general_degree(variables: [Variable; 6]) -> Option<usize> {
+    match variables.iter().filter(|v| **v == Variable::Rotation).count() {
+        0..3 => None,
+        3 => Some(2),
+        4 => Some(8),
+        _ => Some(16),
+    }
 }
 
 /// Cosine and sine of the angle with half-angle tangent `t`; `None` where `1 + t^2` has no inverse.
@@ -73,6 +88,20 @@ pub fn closure_polynomial<F: Field + Domain>(
 /// which roots independent of the pose are known; none for a loop, or where the count at one special pose is wanted.
 #[must_use]
 pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>) -> Option<Degree> {
+    let general = general_degree(closed.variables)?;
+    if general == 16 {
+        return degree_by_cuts(closed, other);
+    }
+    let solutions = if general == 2 {
+        spherical_triangle::count(&LinkForm::of(closed)?)?
+    } else {
+        octic::bound(&LinkForm::of(closed)?)?
+    };
+    Some(Degree { solutions, left_out: general - solutions })
+}
+
+/// [`degree`] of a loop with five or six rotations.
+fn degree_by_cuts<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>) -> Option<Degree> {
     let mut best: Option<Degree> = None;
     for cut in Cut::ALL {
         for hidden in [Hidden::First, Hidden::Second] {

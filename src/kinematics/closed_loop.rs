@@ -50,6 +50,8 @@ pub struct Layout {
     pub variables: Vec<Variable>,
     /// Index of the locked variable, for loops.
     pub locked: Option<usize>,
+    /// Index of the first of the three variables of a ball, if there is one.
+    pub ball: Option<usize>,
 }
 
 /// One motion of a chain on the way from base to tool.
@@ -74,21 +76,38 @@ impl Layout {
     /// # Errors
     /// For joints that are not R, P or C: a message that names the joint.
     pub fn of(chain: &Chain, locked: Option<usize>) -> Result<Self, Error> {
-        let mut variables = Vec::new();
+        let (mut variables, mut ball) = (Vec::new(), None);
         for (i, kind) in chain.joint_kinds().into_iter().enumerate() {
             match kind {
                 JointKind::Revolute => variables.push(Variable::Rotation),
                 JointKind::Prismatic => variables.push(Variable::Translation),
                 JointKind::Cylindrical => variables.extend([Variable::Rotation, Variable::Translation]),
+                JointKind::Spherical if ball.is_none() => {
+                    ball = Some(variables.len());
+                    variables.extend([Variable::Rotation; 3]);
+                }
+                JointKind::Spherical => {
+                    return Err(Error::Unsupported(format!(
+                        "joint {}: a second S joint; the link between two of them spins about their centres",
+                        i + 1
+                    )));
+                }
                 other => {
                     return Err(Error::Unsupported(format!(
-                        "joint {}: {other:?} joints are read but not solved yet; solved are R, P and C",
+                        "joint {}: {other:?} joints are read but not solved yet; solved are R, P, C and S",
                         i + 1
                     )));
                 }
             }
         }
-        Ok(Self { variables, locked })
+        Ok(Self { variables, locked, ball })
+    }
+
+    /// Which unknown of the loop is the first of the three rotations of a ball, if there is one.
+    #[must_use]
+    pub fn ball_unknown(&self) -> Option<usize> {
+        let total = self.variables.len();
+        self.ball.map(|ball| self.locked.map_or(ball, |locked| (ball + total - locked - 1) % total))
     }
 
     /// Index of the variable that locking `joint` (from 1) by an angle or a distance locks.
@@ -99,6 +118,7 @@ impl Layout {
             let of_joint: &[Variable] = match kind {
                 JointKind::Cylindrical => &[Variable::Rotation, Variable::Translation],
                 JointKind::Prismatic => &[Variable::Translation],
+                JointKind::Spherical => &[Variable::Rotation; 3],
                 _ => &[Variable::Rotation],
             };
             if i + 1 == joint {
@@ -279,7 +299,25 @@ fn screw_steps<R: Ring>(kind: JointKind, steps: &mut Vec<Step<R>>) {
             steps.push(Step::Unknown(Variable::Rotation));
             steps.push(Step::Unknown(Variable::Translation));
         }
+        JointKind::Spherical => {
+            // About z, about x, and about z again.
+            let to_x = quarter_turn();
+            steps.push(Step::Unknown(Variable::Rotation));
+            steps.push(Step::Constant(to_x.clone()));
+            steps.push(Step::Unknown(Variable::Rotation));
+            steps.push(Step::Constant(to_x.inverse()));
+            steps.push(Step::Unknown(Variable::Rotation));
+        }
         _ => steps.push(Step::Unknown(Variable::Rotation)),
+    }
+}
+
+/// The quarter turn about y that carries the z axis into the x axis.
+fn quarter_turn<R: Ring>() -> Motion<R> {
+    let (one, nought) = (R::one, R::zero);
+    Motion {
+        rotation: [[nought(), nought(), one()], [nought(), one(), nought()], [one().neg(), nought(), nought()]],
+        translation: std::array::from_fn(|_| nought()),
     }
 }
 

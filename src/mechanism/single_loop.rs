@@ -7,6 +7,7 @@ use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::degree::{Degree, degree, general_filling};
+use crate::elimination::point_reach;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
@@ -36,11 +37,12 @@ fn modular_loop(chain: &Chain, layout: &Layout, filling: &Motion<Mod>) -> Option
 }
 
 fn bound_from(degree: Degree, place: &str) -> Bound {
+    let all = degree.solutions + degree.left_out;
     let because = if degree.left_out == 0 {
-        format!("a closure polynomial of degree 16 {place}")
+        format!("a closure polynomial of degree {all} {place}")
     } else {
         format!(
-            "a closure polynomial of degree 16, of whose roots {} belong to no solution {place} (modulo 2^61 - 1)",
+            "a closure polynomial of degree {all}, of whose roots {} belong to no solution {place} (modulo 2^61 - 1)",
             degree.left_out
         )
     };
@@ -54,9 +56,21 @@ impl Prepared {
             let locked = self.layout.locked.map(|k| self.layout.variables[k]);
             let general = |choice| modular_loop(chain, &self.layout, &general_filling(locked, choice)?);
             let other = if locked.is_none() { general(1) } else { None };
-            let counted = general(0).and_then(|closed| degree(&closed, other.as_ref()));
-            counted.map_or_else(Bound::general, |d| bound_from(d, "at general poses"))
+            let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref()));
+            counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"))
         })
+    }
+
+    /// The number of solutions, exactly.
+    fn degree(&self, closed: &ClosedLoop<Mod>, other: Option<&ClosedLoop<Mod>>) -> Option<Degree> {
+        let Some(ball) = self.layout.ball_unknown() else { return degree(closed, other) };
+        let solutions = point_reach::count(closed, ball)?;
+        Some(Degree { solutions, left_out: self.general().saturating_sub(solutions) })
+    }
+
+    /// The degree of the closure polynomial of general loops with these unknowns.
+    fn general(&self) -> usize {
+        self.solver.general_degree()
     }
 }
 
@@ -79,12 +93,20 @@ impl SingleLoop {
             let layout = Layout::of(chain, locked)?;
             let open: OpenLoop<f64> = chain.open_loop(&layout)?;
             let start = Instant::now();
-            let solver = Solver::prepare(&open);
+            let solver = match layout.ball_unknown() {
+                Some(ball) => Solver::with_ball(&open, ball),
+                None => Solver::prepare(&open),
+            };
             let prepare_us = start.elapsed().as_secs_f64() * 1e6;
             if solver.is_out_of_reach() {
-                return Err(Error::Unsupported(
-                    "too many translations for the elimination of five and six rotations".to_owned(),
-                ));
+                let rotations = layout_rotations(&open);
+                let rank = solver.structural_rank();
+                return Err(Error::Unsupported(format!(
+                    "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without \
+                     turning; the screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does \
+                     not close; planar and translational loops are not solved",
+                    6 - rank
+                )));
             }
             prepared.push(Prepared { layout, solver, bound: OnceLock::new(), prepare_us });
         }
@@ -120,14 +142,15 @@ impl SingleLoop {
             assembly,
             roots,
             prepared.solver.structural_rank(),
+            prepared.general(),
             || {
                 // The exact count costs more than a search for real roots, and rarely helps one.
                 let skip = roots == Roots::Real && !prepared.solver.is_special();
-                if skip { Bound::general() } else { prepared.bound(&self.chain).clone() }
+                if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
             },
             || {
                 let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
-                Some(bound_from(degree(&closed, None)?, "at this pose"))
+                Some(bound_from(prepared.degree(&closed, None)?, "at this pose"))
             },
             prepared.solver.too_far(&gap),
         );
@@ -156,6 +179,10 @@ impl SingleLoop {
             platform: None,
         })
     }
+}
+
+fn layout_rotations(open: &OpenLoop<f64>) -> usize {
+    open.variables.iter().filter(|v| **v == Variable::Rotation).count()
 }
 
 /// The variable that the input of a loop locks; `None` at the pose of an arm.

@@ -199,9 +199,12 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
         paragraph(&mut text, &format!("warning: {warning}"));
     }
     let proved = matches!(solution.verdict.status, Status::Complete | Status::Unreachable);
-    let most = if solution.platform.is_some() { 40 } else { 16 };
-    if entry.rounded && proved && solution.verdict.complex < most {
-        // Fewer roots than the most there can be are complete by exact work on the geometry only.
+    // Fewer roots than there are in general are complete by exact work on the geometry only.
+    let exact = match solution.platform {
+        Some(_) => solution.verdict.complex < 40,
+        None => solution.verdict.reason.contains("a closure polynomial of degree"),
+    };
+    if entry.rounded && proved && exact {
         text.push_str("note: irrational numbers of the file were rounded for exact work (--digits)\n");
     }
     text
@@ -229,7 +232,10 @@ pub fn variables(chain: &Chain) -> Vec<(String, Variable)> {
             JointKind::Prismatic => names.push((format!("q{joint}"), Variable::Translation)),
             JointKind::Cylindrical => names.extend([angle, (format!("d{joint}"), Variable::Translation)]),
             JointKind::Universal => names.extend([angle.clone(), angle]),
-            JointKind::Spherical => names.extend([angle.clone(), angle.clone(), angle]),
+            // About z, x and z again.
+            JointKind::Spherical => {
+                names.extend(["z", "x", "z'"].map(|axis| (format!("q{joint}{axis}"), Variable::Rotation)));
+            }
             JointKind::Revolute | JointKind::Helical => names.push(angle),
         }
     }

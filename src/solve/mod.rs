@@ -1,6 +1,7 @@
 //! Pencil to roots, in f64: eigenvalues, null vectors, back-substitution, polish.
 
 pub mod back_substitution;
+pub mod biquadratic;
 pub mod dense;
 pub mod eigen;
 pub mod francis;
@@ -8,5 +9,6 @@ pub mod kernel;
 pub mod newton;
 pub mod pose;
 pub mod scalar;
+pub mod separated;
 pub mod singular;
 pub mod spectrum;

@@ -4,6 +4,7 @@ use super::dense::{inverse, times};
 use super::scalar::{Number, Scalar};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::Motion;
+use num_complex::Complex;
 
 /// Six numbers or residuals.
 pub type Six<S> = [S; 6];
@@ -183,6 +184,13 @@ where
         trace: r[0][0].add(&r[1][1]).add(&r[2][2]),
         norms,
     }
+}
+
+/// The longest translation of some unknowns, at least 1: the size of a closed loop.
+#[must_use]
+pub fn reach(variables: &[Variable; 6], unknowns: &Six<Complex<f64>>) -> f64 {
+    let translations = unknowns.iter().zip(variables).filter(|(_, variable)| **variable == Variable::Translation);
+    translations.map(|(x, _)| x.norm()).fold(1.0, f64::max)
 }
 
 /// The maximum that keeps NaN, so that nonsense never passes a test of smallness.

@@ -65,19 +65,20 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// What holds for every loop of six unknown joints.
+    /// What holds for every loop whose closure polynomial has this degree in general.
     #[must_use]
-    pub fn general() -> Self {
-        Self { count: 16, because: "a degree-16 closure polynomial".to_owned() }
+    pub fn general(degree: usize) -> Self {
+        Self { count: degree, because: format!("a degree-{degree} closure polynomial") }
     }
 }
 
-/// Judges a list of modes. `geometry` bounds the number of solutions at every pose, `pose` at this one; each is asked
+/// Judges a list of modes. `general` is the degree of the closure polynomial of general loops of this kind; `geometry` bounds the number of solutions at every pose, `pose` at this one; each is asked
 /// only when needed. `too_far` holds the width of a gap and the length of all links if that is shorter.
 pub fn verdict(
     assembly: &Assembly,
     roots: Roots,
     structural_rank: usize,
+    general: usize,
     geometry: impl FnOnce() -> Bound,
     pose: impl FnOnce() -> Option<Bound>,
     too_far: Option<(f64, f64)>,
@@ -90,7 +91,7 @@ pub fn verdict(
     } else if let Some(doubt) = doubt(&assembly.modes) {
         Judged::unproved(format!("not proved: {doubt}"))
     } else {
-        count(assembly, roots, geometry, pose)
+        count(assembly, roots, general, geometry, pose)
     };
     if let (Some((gap, links)), Status::Incomplete, 0) = (too_far, judged.status, assembly.real()) {
         judged.status = Status::Unreachable;
@@ -157,11 +158,12 @@ fn doubt(modes: &[Mode]) -> Option<String> {
 fn count(
     assembly: &Assembly,
     roots: Roots,
+    general: usize,
     geometry: impl FnOnce() -> Bound,
     pose: impl FnOnce() -> Option<Bound>,
 ) -> Judged {
     let found = assembly.total();
-    let bound = if found == 16 { Bound::general() } else { geometry() };
+    let bound = if found == general { Bound::general(general) } else { geometry() };
     if found > bound.count {
         return Judged::unproved(format!("contradiction: {found} roots found, but {}", bound.because));
     }

@@ -45,7 +45,7 @@ fn lists() -> Vec<List> {
 
 fn judge(list: &List, assembly: &Assembly, roots: Roots, rank: usize) -> Status {
     let bound = |count| Bound { count, because: "a test".to_owned() };
-    verdict(assembly, roots, rank, || bound(list.everywhere), || Some(bound(list.here)), None).status
+    verdict(assembly, roots, rank, 16, || bound(list.everywhere), || Some(bound(list.here)), None).status
 }
 
 fn is_claimed(status: Status) -> bool {

@@ -1,0 +1,289 @@
+//! Common divisors and square-free factors of integer polynomials, by images modulo primes and a proof over the integers.
+
+use super::modp::{Modulus, PRIME_61, PRIME_62, primes};
+use super::ring::Ring;
+use super::univariate::Univariate;
+use rug::{Integer, Rational};
+use std::cmp::Ordering;
+
+/// The residues of an integer polynomial, constant term first; empty when all vanish.
+fn residues(coefficients: &[Integer], modulus: &Modulus) -> Vec<u64> {
+    trimmed(coefficients.iter().map(|c| modulus.reduce(c)).collect())
+}
+
+fn trimmed(mut residues: Vec<u64>) -> Vec<u64> {
+    let length = residues.iter().rposition(|&r| r != 0).map_or(0, |last| last + 1);
+    residues.truncate(length);
+    residues
+}
+
+/// The derivative of residues.
+fn slope(residues: &[u64], modulus: &Modulus) -> Vec<u64> {
+    let (one, mut index) = (modulus.enter(1), 0);
+    let term = |&r: &u64| {
+        index = modulus.add(index, one);
+        modulus.mul(index, r)
+    };
+    trimmed(residues.iter().skip(1).map(term).collect())
+}
+
+/// Reduces `a` to a multiple of its remainder by `b`. Cross-multiplication needs no inverse.
+fn reduce(a: &mut Vec<u64>, b: &[u64], modulus: &Modulus) {
+    let Some(&leading) = b.last() else { return };
+    while a.len() >= b.len() {
+        let top = a[a.len() - 1];
+        let shift = a.len() - b.len();
+        for c in &mut a[..shift] {
+            *c = modulus.mul(*c, leading);
+        }
+        for (x, &y) in a[shift..].iter_mut().zip(b) {
+            *x = modulus.sub(modulus.mul(*x, leading), modulus.mul(y, top));
+        }
+        let length = a.iter().rposition(|&r| r != 0).map_or(0, |last| last + 1);
+        a.truncate(length);
+    }
+}
+
+/// A greatest common divisor of residues, not normalised.
+fn common_divisor(mut a: Vec<u64>, mut b: Vec<u64>, modulus: &Modulus) -> Vec<u64> {
+    while !b.is_empty() {
+        reduce(&mut a, &b, modulus);
+        (a, b) = (b, a);
+    }
+    a
+}
+
+/// A common divisor known modulo a product of primes, coefficients symmetric about 0.
+struct Lifted {
+    coefficients: Vec<Integer>,
+    product: Integer,
+}
+
+impl Lifted {
+    /// Joins an image, of the same length, modulo a further prime; whether that changed anything.
+    fn join(&mut self, image: &[u64], modulus: &Modulus) -> bool {
+        let inverse = modulus.inverse(modulus.reduce(&self.product));
+        let mut changed = false;
+        for (c, &r) in self.coefficients.iter_mut().zip(image) {
+            let digit = modulus.leave(modulus.mul(modulus.sub(r, modulus.reduce(c)), inverse));
+            changed |= digit != 0;
+            // The symmetric digit keeps the sum symmetric.
+            if digit > modulus.prime() / 2 {
+                *c -= Integer::from(&self.product * (modulus.prime() - digit));
+            } else {
+                *c += Integer::from(&self.product * digit);
+            }
+        }
+        self.product *= modulus.prime();
+        changed
+    }
+}
+
+impl Univariate<Integer> {
+    /// The greatest common divisor of the coefficients, positive; 0 for the zero polynomial.
+    #[must_use]
+    pub fn content(&self) -> Integer {
+        let mut content = Integer::new();
+        for c in self.coefficients().iter().rev() {
+            content.gcd_mut(c);
+            if content == 1 {
+                break;
+            }
+        }
+        content
+    }
+
+    /// The polynomial divided by its content, with positive leading coefficient.
+    #[must_use]
+    pub fn primitive_part(&self) -> Self {
+        let mut content = self.content();
+        if self.coefficients().last().is_some_and(Integer::is_negative) {
+            content = -content;
+        }
+        match content.to_i32() {
+            Some(0 | 1) => self.clone(),
+            _ => Self::new(self.coefficients().iter().map(|c| Integer::from(c.div_exact_ref(&content))).collect()),
+        }
+    }
+
+    /// The quotient where the division leaves no remainder and no fraction.
+    ///
+    /// # Panics
+    /// When the divisor is zero.
+    #[must_use]
+    pub fn quotient(&self, divisor: &Self) -> Option<Self> {
+        let (leading, lower) = divisor.coefficients().split_last().expect("the divisor is not zero");
+        let mut rest = self.coefficients().to_vec();
+        let mut quotient = Vec::new();
+        while rest.len() > lower.len() {
+            let top = rest.pop()?;
+            if !top.is_divisible(leading) {
+                return None;
+            }
+            let factor = top.div_exact(leading);
+            let shift = rest.len() - lower.len();
+            for (x, y) in rest[shift..].iter_mut().zip(lower) {
+                *x -= Integer::from(&factor * y);
+            }
+            quotient.push(factor);
+        }
+        quotient.reverse();
+        rest.iter().all(|c| *c == 0).then(|| Self::new(quotient))
+    }
+
+    /// The greatest common divisor with positive leading coefficient, contents included; zero only of two zeros.
+    ///
+    /// # Source
+    /// Images modulo primes, joined by remainders; a candidate that divides both polynomials and has the degree of an
+    /// image is the divisor (Brown 1971, "On Euclid's algorithm and the computation of polynomial greatest common
+    /// divisors", J. ACM 18).
+    ///
+    /// # Panics
+    /// Never: there are more primes than can be unlucky.
+    #[must_use]
+    pub fn gcd(&self, other: &Self) -> Self {
+        let content = self.content().gcd(&other.content());
+        let (f, g) = (self.primitive_part(), other.primitive_part());
+        let (Some(f_leading), Some(g_leading)) = (f.coefficients().last(), g.coefficients().last()) else {
+            // One of them is zero; the other, with its content, is the divisor.
+            let rest = if f.degree().is_some() { f } else { g };
+            return rest.mul(&Self::constant(content));
+        };
+        let leading = Integer::from(f_leading.gcd_ref(g_leading));
+        let mut lifted: Option<Lifted> = None;
+        for modulus in primes() {
+            let scale = modulus.reduce(&leading);
+            let (a, b) = (residues(f.coefficients(), &modulus), residues(g.coefficients(), &modulus));
+            if a.len() < f.coefficients().len() || b.len() < g.coefficients().len() {
+                continue;
+            }
+            let mut image = common_divisor(a, b, &modulus);
+            if image.len() == 1 {
+                return Self::constant(content);
+            }
+            // The image with the leading coefficient that the candidate has.
+            let factor = modulus.mul(scale, modulus.inverse(image[image.len() - 1]));
+            for r in &mut image {
+                *r = modulus.mul(*r, factor);
+            }
+            match &mut lifted {
+                // An image of higher degree is of an unlucky prime; one of lower degree shows that all before were.
+                Some(known) if known.coefficients.len() < image.len() => continue,
+                Some(known) if known.coefficients.len() == image.len() => {
+                    if known.join(&image, &modulus) {
+                        continue;
+                    }
+                }
+                _ => {
+                    let start = vec![Integer::new(); image.len()];
+                    let mut first = Lifted { coefficients: start, product: Integer::from(1) };
+                    first.join(&image, &modulus);
+                    lifted = Some(first);
+                    continue;
+                }
+            }
+            let Some(known) = &lifted else { continue };
+            let candidate = Self::new(known.coefficients.clone()).primitive_part();
+            if f.quotient(&candidate).is_some() && g.quotient(&candidate).is_some() {
+                return candidate.mul(&Self::constant(content));
+            }
+        }
+        unreachable!("only finitely many primes are unlucky")
+    }
+
+    /// Whether the image modulo one prime proves that there is no multiple factor; `false` proves nothing.
+    fn is_clearly_square_free(&self) -> bool {
+        let image = |modulus: Modulus| {
+            let f = residues(self.coefficients(), &modulus);
+            let same_degree = f.len() == self.coefficients().len();
+            let derivative = slope(&f, &modulus);
+            same_degree && common_divisor(f, derivative, &modulus).len() == 1
+        };
+        // A second prime, because the first may be unlucky.
+        [PRIME_62, PRIME_61].into_iter().any(|p| image(Modulus::new(p)))
+    }
+
+    /// Whether the image modulo one prime proves that the remainders of Euclid's algorithm for the polynomial and its
+    /// derivative fall in degree by one each, down to a constant; `false` proves nothing.
+    pub(super) fn has_clearly_full_chain(&self) -> bool {
+        let modulus = Modulus::new(PRIME_62);
+        let mut a = residues(self.coefficients(), &modulus);
+        let mut b = slope(&a, &modulus);
+        let mut length = self.coefficients().len();
+        while length > 1 {
+            if a.len() != length || b.len() != length - 1 {
+                return false;
+            }
+            reduce(&mut a, &b, &modulus);
+            (a, b, length) = (b, a, length - 1);
+        }
+        a.len() == 1
+    }
+
+    /// The sign of the value at a rational number.
+    #[must_use]
+    pub fn sign_at(&self, x: &Rational) -> Ordering {
+        let mut power = Integer::from(1);
+        let mut value = Integer::new();
+        for c in self.coefficients().iter().rev() {
+            value *= x.numer();
+            value += Integer::from(c * &power);
+            power *= x.denom();
+        }
+        value.cmp0()
+    }
+
+    /// The product of the distinct irreducible factors, primitive with positive leading coefficient.
+    ///
+    /// # Panics
+    /// When the polynomial is zero.
+    #[must_use]
+    pub fn square_free_part(&self) -> Self {
+        assert!(self.degree().is_some(), "zero has every factor");
+        let primitive = self.primitive_part();
+        if primitive.is_clearly_square_free() {
+            return primitive;
+        }
+        primitive.divided(&primitive.gcd(&primitive.derivative())).primitive_part()
+    }
+
+    /// The exact quotient by a primitive divisor.
+    fn divided(&self, divisor: &Self) -> Self {
+        self.quotient(divisor).expect("a primitive divisor over the rationals divides over the integers")
+    }
+
+    /// The square-free factors that are not constant, primitive with positive leading coefficient, each with its
+    /// multiplicity, by increasing multiplicity; the product of their powers is the primitive part.
+    ///
+    /// # Panics
+    /// When the polynomial is zero.
+    ///
+    /// # Source
+    /// Yun 1976, On square-free decomposition algorithms, SYMSAC.
+    #[must_use]
+    pub fn square_free_decomposition(&self) -> Vec<(Self, usize)> {
+        assert!(self.degree().is_some(), "zero has every factor");
+        let primitive = self.primitive_part();
+        if primitive.degree() == Some(0) {
+            return Vec::new();
+        }
+        if primitive.is_clearly_square_free() {
+            return vec![(primitive, 1)];
+        }
+        let derivative = primitive.derivative();
+        let repeated = primitive.gcd(&derivative).primitive_part();
+        let mut rest = primitive.divided(&repeated);
+        let mut slope = derivative.divided(&repeated).sub(&rest.derivative());
+        let (mut factors, mut multiplicity) = (Vec::new(), 1);
+        while rest.degree() > Some(0) {
+            let factor = rest.gcd(&slope).primitive_part();
+            rest = rest.divided(&factor);
+            slope = slope.divided(&factor).sub(&rest.derivative());
+            if factor.degree() > Some(0) {
+                factors.push((factor, multiplicity));
+            }
+            multiplicity += 1;
+        }
+        factors
+    }
+}

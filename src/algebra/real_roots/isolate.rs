@@ -1,0 +1,295 @@
+//! Isolation of the real roots of a square-free integer polynomial by Descartes' rule on dyadic cells.
+//!
+//! Cells are halved until the sign changes of the Bernstein coefficients say none or one. When averages have eaten
+//! their bits, they are computed afresh from the polynomial, in as many bits as it takes. A cluster of m roots keeps
+//! m sign changes while its cell shrinks; a Newton step for an m-fold root then guesses a far smaller cell, which is
+//! taken if it has all m (Sagraloff and Mehlhorn 2016, "Computing real roots of real polynomials").
+
+use super::bernstein::{Expansion, Source};
+use super::cell::Cell;
+use super::evaluate::{length, sign, value_at};
+use super::fixed::Wide;
+use rug::Integer;
+
+/// The precision in which big integers are tried first.
+const FIRST_PRECISION: i64 = 256;
+/// The bits of the first leap towards a cluster, which is also how many halvings go before, and those of the longest.
+const FIRST_LEAP: u32 = 8;
+const LONGEST_LEAP: u32 = 1 << 20;
+/// The bits of a guess that f64 arithmetic nearly always gets right.
+const GUESS_BITS: u32 = 48;
+/// The bits that a Newton step is computed with beyond those of the leap.
+const LEAP_GUARD: i64 = 64;
+
+/// Where about in its cell a root probably is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guess {
+    /// From 0 at the left end to 1 at the right.
+    pub(super) y: f64,
+    /// How many bits of that are to be relied upon.
+    pub(super) bits: u32,
+}
+
+/// Where one root is.
+#[derive(Clone, Debug)]
+pub(super) enum Place {
+    /// Exactly at `numerator 2^exponent`.
+    At(Integer, i64),
+    /// Alone inside a cell, the polynomial having this sign in the cell left of the root.
+    Within(Cell, i8, Option<Guess>),
+}
+
+impl Place {
+    /// The place of the root of `p(-x)` that belongs to this root of `p(x)`.
+    fn mirrored(self) -> Self {
+        match self {
+            Self::At(numerator, exponent) => Self::At(-numerator, exponent),
+            Self::Within(cell, sign, guess) => {
+                Self::Within(cell.mirrored(), -sign, guess.map(|Guess { y, bits }| Guess { y: 1.0 - y, bits }))
+            }
+        }
+    }
+}
+
+/// The places of all real roots of a square-free polynomial that does not vanish at 0, from left to right.
+pub(super) fn isolate(coefficients: Vec<Integer>) -> Vec<Place> {
+    let source = Source::new(coefficients);
+    let negative = positive_roots(&source.mirrored());
+    let mut places: Vec<Place> = negative.into_iter().rev().map(Place::mirrored).collect();
+    places.extend(positive_roots(&source));
+    places
+}
+
+/// The places of the positive roots.
+fn positive_roots(source: &Source) -> Vec<Place> {
+    let mut search = Search { source, places: Vec::new(), bits: FIRST_PRECISION, value_bits: FIRST_PRECISION };
+    if let Some(k) = bound(source).and_then(|k| skip_empty(source, k)) {
+        search.run(k);
+    }
+    search.places
+}
+
+/// A power of two above all positive roots (`2 max |c_i/c_n|^(1/(n-i))` over the c_i of the other sign, Kioustelidis
+/// 1986, "Bounds for positive roots of polynomials"); `None` when there are none.
+fn bound(source: &Source) -> Option<i64> {
+    let n = source.degree();
+    let leading = &source.coefficients[n];
+    let other = source.coefficients[..n].iter().enumerate().filter(|(_, c)| sign(c) == -sign(leading));
+    let powers = other.map(|(i, c)| {
+        let steps = i64::try_from(n - i).expect("degrees are small");
+        // |c_i/c_n| < 2^(length - length + 1)
+        (length(c) - length(leading) + 1).div_euclid(steps) + 2
+    });
+    powers.max()
+}
+
+/// The index of a term that at `2^k` is larger than all others together.
+fn dominant(source: &Source, k: i64) -> Option<usize> {
+    let margin = length(&Integer::from(source.degree() + 1)) + 1;
+    let (mut best, mut second) = ((i64::MIN, 0), i64::MIN);
+    for (i, (power, length)) in (0_i64..).zip(&source.lengths).enumerate() {
+        let Some(length) = length else { continue };
+        let reach = length + k * power;
+        if reach > best.0 {
+            (best, second) = ((reach, i), best.0);
+        } else {
+            second = second.max(reach);
+        }
+    }
+    (second == i64::MIN || best.0 - second > margin).then_some(best.1)
+}
+
+/// The least power of two, from `2^k` down, below which roots may be; `None` when no root is in `(0, 2^k)`.
+///
+/// A term that dominates at two places dominates between them, because all terms are straight lines in logarithms.
+fn skip_empty(source: &Source, k: i64) -> Option<i64> {
+    let Some(index) = dominant(source, k) else { return Some(k) };
+    if source.lengths[..index].iter().all(Option::is_none) {
+        return None;
+    }
+    // Dominated at 2^k, so the free stretch ends where a lower term comes near: step down in growing steps.
+    let mut low = k;
+    let mut step = 1;
+    while dominant(source, low - step) == Some(index) {
+        low -= step;
+        step *= 2;
+    }
+    while step > 1 {
+        step /= 2;
+        if dominant(source, low - step) == Some(index) {
+            low -= step;
+        }
+    }
+    Some(low)
+}
+
+/// A cell right of 0 to be searched, and the polynomial there.
+struct Node {
+    cell: Cell,
+    expansion: Expansion,
+    /// The signs at both ends, certain.
+    signs: (i8, i8),
+    cluster: Cluster,
+}
+
+/// How long a number of sign changes has stayed the same.
+#[derive(Clone, Copy)]
+struct Cluster {
+    changes: i32,
+    /// The halvings since.
+    halvings: u32,
+    /// The bits of the next leap.
+    leap: u32,
+}
+
+/// What is still to be done, from left to right.
+enum Task {
+    Search(Node),
+    Report(Place),
+}
+
+/// What Descartes' rule says of a node.
+enum Verdict {
+    Empty,
+    /// One root, the polynomial having this sign left of it.
+    One(i8),
+    /// More sign changes; `None` when their number is not certain.
+    Several(Option<i32>),
+}
+
+impl Node {
+    fn verdict(&self) -> Verdict {
+        let (first, last) = self.signs;
+        match self.expansion.sign_changes(first, last) {
+            (_, 0) => Verdict::Empty,
+            (1, 1) if first != 0 => Verdict::One(first),
+            (1, 1) if last != 0 => Verdict::One(-last),
+            (1, 1) => Verdict::One(self.expansion.first_sign()),
+            (least, most) => Verdict::Several((least == most).then_some(least)),
+        }
+    }
+}
+
+/// The search for the positive roots of one polynomial.
+struct Search<'a> {
+    source: &'a Source,
+    places: Vec<Place>,
+    /// The precisions in which expansions, and values, are tried first.
+    bits: i64,
+    value_bits: i64,
+}
+
+impl Search<'_> {
+    /// The certain sign at `numerator 2^exponent`, from an approximate value where that is enough.
+    fn sign(&mut self, value: Wide, error: u64, numerator: &Integer, exponent: i64) -> i8 {
+        match value.sign_beyond(error) {
+            0 => {
+                let value = value_at(&self.source.coefficients, numerator, exponent, 1, &mut self.value_bits);
+                sign(&value.mantissa)
+            }
+            sign => sign,
+        }
+    }
+
+    fn node(&mut self, cell: Cell, cluster: Cluster) -> Node {
+        let expansion = self.source.expand(&cell, &mut self.bits);
+        let b = &expansion.coefficients;
+        let first = self.sign(b[0], expansion.error, &cell.numerator, cell.exponent);
+        let last = self.sign(b[b.len() - 1], expansion.error, &cell.end(), cell.exponent);
+        Node { cell, expansion, signs: (first, last), cluster }
+    }
+
+    /// The node `(0, 2^k)`.
+    fn start(&mut self, k: i64) -> Node {
+        self.node(Cell::new(Integer::new(), k), Cluster { changes: 0, halvings: 0, leap: FIRST_LEAP })
+    }
+
+    /// Searches `(0, 2^k)`.
+    fn run(&mut self, k: i64) {
+        let mut stack = vec![Task::Search(self.start(k))];
+        while let Some(task) = stack.pop() {
+            let node = match task {
+                Task::Search(node) => node,
+                Task::Report(place) => {
+                    self.places.push(place);
+                    continue;
+                }
+            };
+            match node.verdict() {
+                Verdict::Empty => {}
+                Verdict::One(sign) => {
+                    let guess = node.expansion.guess_root(sign).map(|y| Guess { y, bits: GUESS_BITS });
+                    self.places.push(Place::Within(node.cell, sign, guess));
+                }
+                Verdict::Several(changes) => self.split(node, changes, &mut stack),
+            }
+        }
+    }
+
+    /// Puts off the parts of a node that may hold roots, the leftmost to be done first.
+    fn split(&mut self, mut node: Node, changes: Option<i32>, stack: &mut Vec<Task>) {
+        let k = node.cell.exponent;
+        if node.cell.numerator == 0 {
+            match skip_empty(self.source, k) {
+                None => return,
+                Some(lower) if lower < k => return stack.push(Task::Search(self.start(lower))),
+                Some(_) => {}
+            }
+        }
+        if !node.expansion.is_precise() {
+            let fresh = self.node(node.cell, node.cluster);
+            return stack.push(Task::Search(fresh));
+        }
+        let changes = changes.unwrap_or(0);
+        let cluster = &mut node.cluster;
+        if changes == cluster.changes && changes > 0 {
+            cluster.halvings += 1;
+        } else {
+            *cluster = Cluster { changes, halvings: 0, leap: FIRST_LEAP };
+        }
+        if node.cluster.halvings >= FIRST_LEAP {
+            if let Some(next) = self.leap(&node) {
+                return stack.push(Task::Search(next));
+            }
+            node.cluster = Cluster { changes, halvings: 0, leap: (node.cluster.leap / 2).max(FIRST_LEAP) };
+        }
+        let left = node.expansion.halve();
+        let (left_cell, right_cell) = (node.cell.part(&Integer::new(), 1), node.cell.part(&Integer::from(1), 1));
+        let (numerator, exponent) = (&right_cell.numerator, right_cell.exponent);
+        let middle = self.sign(node.expansion.coefficients[0], left.error, numerator, exponent);
+        let root = (middle == 0).then(|| Task::Report(Place::At(numerator.clone(), exponent)));
+        let (first, last) = node.signs;
+        stack.push(Task::Search(Node { cell: right_cell, signs: (middle, last), ..node }));
+        stack.extend(root);
+        let signs = (first, middle);
+        stack.push(Task::Search(Node { cell: left_cell, expansion: left, signs, cluster: node.cluster }));
+    }
+
+    /// The far smaller cell to which Newton's step for an m-fold root leads from either end, if it has all m changes.
+    fn leap(&mut self, node: &Node) -> Option<Node> {
+        let Cluster { changes, leap, .. } = node.cluster;
+        let b = self.source.expand_long(&node.cell, i64::from(leap) + LEAP_GUARD, &mut self.bits);
+        let n = b.len() - 1;
+        let last = (Integer::from(1) << leap) - 1_u32;
+        // m p/p' at an end, in units of the small cells; p' is n times the difference of neighbours.
+        let step = |end: &Integer, inner: &Integer| {
+            let slope = Integer::from(end - inner) * n;
+            (slope != 0).then(|| (Integer::from(end * changes) << leap) / slope)
+        };
+        let from_right = step(&b[n], &b[n - 1]).map(|step| &last - step);
+        let mut tried = None;
+        for guess in [step(&b[0], &b[1]), from_right].into_iter().flatten() {
+            let index = guess.clamp(&Integer::new(), &last);
+            if tried.as_ref() == Some(&index) {
+                continue;
+            }
+            let cluster = Cluster { changes, halvings: FIRST_LEAP, leap: (2 * leap).min(LONGEST_LEAP) };
+            let next = self.node(node.cell.part(&index, leap), cluster);
+            if matches!(next.verdict(), Verdict::Several(Some(m)) if m == changes) {
+                return Some(next);
+            }
+            tried = Some(index);
+        }
+        None
+    }
+}

@@ -1,0 +1,52 @@
+//! What is wrong with a text, and where.
+
+use crate::error::Error;
+
+/// A place in a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// From 1.
+    pub line: usize,
+    /// From 1, in bytes.
+    pub column: usize,
+}
+
+/// What was found and what was expected, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Where.
+    pub place: Place,
+    /// What.
+    pub message: String,
+}
+
+impl Fault {
+    pub(super) const fn new(place: Place, message: String) -> Self {
+        Self { place, message }
+    }
+
+    /// The fault of a file.
+    #[must_use]
+    pub fn in_file(self, path: &str) -> Error {
+        let message = format!("column {}: {}", self.place.column, self.message);
+        Error::File { path: path.to_owned(), line: self.place.line, message }
+    }
+
+    /// The fault of a text that stands in no file, such as an argument of a command line.
+    #[must_use]
+    pub fn in_text(self, text: &str) -> Error {
+        let Place { line, column } = self.place;
+        let place =
+            if text.contains('\n') { format!("line {line}, column {column}") } else { format!("column {column}") };
+        Error::Invalid(format!("`{}`, {place}: {}", shortened(text.trim()), self.message))
+    }
+}
+
+/// The text, cut to a readable length.
+pub(super) fn shortened(text: &str) -> String {
+    if text.chars().count() <= 40 {
+        return text.to_owned();
+    }
+    let head: String = text.chars().take(37).collect();
+    format!("{head}...")
+}

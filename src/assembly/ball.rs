@@ -1,0 +1,187 @@
+//! Loops with a ball: its centre first, by the point that both sides reach; its rotation is what is left.
+//!
+//! A ball is three rotations about z, x and z again, the second one from 0 to pi, so that every rotation is listed once.
+
+use super::limits;
+use super::mode::{Assembly, Mode, wrapped};
+use super::search::{Family, RootOutcome, Search};
+use crate::elimination::point_reach::Reach;
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::link_form::product as matrix_product;
+use crate::kinematics::motion::Motion;
+use crate::solve::newton::{Six, coordinates, turn};
+use crate::solve::scalar::Scalar;
+use crate::solve::separated::{SeparatedRoots, pair};
+use num_complex::Complex;
+use std::f64::consts::PI;
+
+type Rotation<S> = [[S; 3]; 3];
+
+impl Search<'_> {
+    /// Every position of the centre of the ball that begins at this unknown.
+    pub fn centre(&mut self, ball: usize) {
+        let reach = Reach::of(self.closed, ball);
+        let Some(found) = SeparatedRoots::of(&reach.equations, limits::REACH_DEPENDENT) else { return };
+        self.assembly.tries += 1;
+        let mut family = OfBall { ball, found: &found, reach: &reach, complex: None };
+        self.assembly.clean = self.all_roots(&mut family, found.roots());
+    }
+
+    /// Admits a loop with a ball: in angles of the ball that are far from where they are not independent.
+    fn admit_ball<S: Scalar>(&mut self, ball: usize, others: &[(Variable, (S, S)); 3]) -> bool {
+        let mut rest: Motion<S> = Motion::identity();
+        for (k, (variable, pair)) in others.iter().enumerate() {
+            turn(&mut rest, *variable, *pair);
+            rest = rest.then_after(&lifted(&self.closed.constants[(ball + 3 + k) % 6]));
+        }
+        let behind = lifted::<S>(&self.closed.constants[(ball + 2) % 6]);
+        let inverse = matrix_product(&behind.rotation, &rest.rotation);
+        let rotation: Rotation<S> = std::array::from_fn(|i| std::array::from_fn(|j| inverse[j][i]));
+        let mut start: Six<S> = [S::zero(); 6];
+        for (k, (variable, (first, second))) in others.iter().enumerate() {
+            start[(ball + 3 + k) % 6] = match variable {
+                Variable::Rotation => S::angle_of(*first, *second),
+                Variable::Translation => *first,
+            };
+        }
+        let (angles, lock) = ball_angles(&rotation);
+        if lock > limits::LOCKED {
+            place(&mut start, ball, angles);
+            return self.admit(&start);
+        }
+        // Near the lock, as a ball with its third angle about another axis.
+        let turned = matrix_product(&rotation, &quarter().map(|row| row.map(S::from_f64)));
+        place(&mut start, ball, ball_angles(&turned).0);
+        let mut closed = self.closed.clone();
+        let constant = &mut closed.constants[(ball + 2) % 6];
+        *constant = Motion { rotation: quarter(), translation: [0.0; 3] }.inverse().then_after(constant);
+        let mut found = Assembly { tries: self.assembly.tries, ..Assembly::default() };
+        let settled = Search {
+            prepared: &[],
+            closed: &closed,
+            ball: None,
+            gap_rounding: self.gap_rounding,
+            roots: self.roots,
+            eigen: &mut *self.eigen,
+            assembly: &mut found,
+        }
+        .admit(&start);
+        for mut mode in found.modes {
+            back(&mut mode, ball);
+            self.merge(mode);
+        }
+        settled
+    }
+}
+
+fn lifted<S: Scalar>(motion: &Motion<f64>) -> Motion<S> {
+    Motion {
+        rotation: motion.rotation.map(|row| row.map(S::from_f64)),
+        translation: motion.translation.map(S::from_f64),
+    }
+}
+
+fn place<S: Copy>(unknowns: &mut Six<S>, ball: usize, angles: [S; 3]) {
+    for (k, angle) in angles.into_iter().enumerate() {
+        unknowns[(ball + k) % 6] = angle;
+    }
+}
+
+/// A quarter turn about y.
+fn quarter() -> Rotation<f64> {
+    [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
+}
+
+/// The rotation of a ball.
+fn ball_rotation<S: Scalar>(angles: [S; 3]) -> Rotation<S> {
+    let about_z = |q: S| {
+        let mut m: Motion<S> = Motion::identity();
+        turn(&mut m, Variable::Rotation, coordinates(Variable::Rotation, q));
+        m.rotation
+    };
+    let (cos, sin) = coordinates(Variable::Rotation, angles[1]);
+    let about_x = Motion::rotation_x(cos, sin).rotation;
+    matrix_product(&matrix_product(&about_z(angles[0]), &about_x), &about_z(angles[2]))
+}
+
+/// The three angles of a ball, and the sine of the second one: near 0 the other two are not independent, and at 0 the
+/// third one is.
+fn ball_angles<S: Scalar>(r: &Rotation<S>) -> ([S; 3], f64) {
+    let cos = r[2][2];
+    // The larger of two ways to the square of the sine keeps its digits.
+    let square = r[0][2].mul(&r[0][2]).add(&r[1][2].mul(&r[1][2]));
+    let sin = square.root();
+    let lock = sin.size();
+    if !(lock > 1e-9) {
+        return ([S::angle_of(r[0][0], r[1][0]), S::angle_of(cos, S::zero()), S::zero()], lock);
+    }
+    ([S::angle_of(r[1][2].neg(), r[0][2]), S::angle_of(cos, sin), S::angle_of(r[2][1], r[2][0])], lock)
+}
+
+/// A mode of the turned ball in the angles of the ball as it is.
+fn back(mode: &mut Mode, ball: usize) {
+    let angles = [0, 1, 2].map(|k| mode.unknowns[(ball + k) % 6]);
+    let quarter = quarter();
+    let inverse: Rotation<Complex<f64>> = std::array::from_fn(|i| std::array::from_fn(|j| quarter[j][i].into()));
+    let rotation = matrix_product(&ball_rotation(angles), &inverse);
+    let angles = if mode.real {
+        ball_angles(&rotation.map(|row| row.map(|z| z.re))).0.map(Complex::from)
+    } else {
+        ball_angles(&rotation).0
+    };
+    place(&mut mode.unknowns, ball, angles);
+}
+
+/// The angles of a ball with the second one from 0 to pi, the same rotation.
+pub(super) fn canonical(unknowns: &mut Six<Complex<f64>>, ball: usize) {
+    let index = |k: usize| (ball + k) % 6;
+    if wrapped(unknowns[index(1)].re) < 0.0 {
+        unknowns[index(1)] = -unknowns[index(1)];
+        for k in [0, 2] {
+            let angle = &mut unknowns[index(k)];
+            angle.re = wrapped(angle.re + PI);
+        }
+    }
+}
+
+/// The positions of the centre of a ball.
+struct OfBall<'a> {
+    ball: usize,
+    found: &'a SeparatedRoots,
+    reach: &'a Reach<f64>,
+    complex: Option<Reach<Complex<f64>>>,
+}
+
+impl OfBall<'_> {
+    fn one<S: Scalar>(&self, reach: &Reach<S>, search: &mut Search<'_>, x: S) -> RootOutcome {
+        let mut outcome = RootOutcome { shared: self.found.are_shared(), ..RootOutcome::nothing() };
+        for monomials in self.found.monomials(x).into_iter().flatten() {
+            let Some(middle) = reach.middle(monomials.each_ref()) else {
+                outcome.unresolved = true;
+                continue;
+            };
+            let [first, second, third] = reach.variables;
+            let (near, far) = (pair(third, &monomials[0]), pair(first, &monomials[1]));
+            let values = [(first, far), (second, middle), (third, near)];
+            outcome.settled |= search.admit_ball(self.ball, &values);
+        }
+        outcome
+    }
+}
+
+impl Family for OfBall<'_> {
+    fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome {
+        self.one(self.reach, search, x)
+    }
+
+    fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
+        let closed = search.closed;
+        let reach = self.complex.take().unwrap_or_else(|| {
+            let constants = closed.constants.each_ref().map(lifted::<Complex<f64>>);
+            Reach::of(&ClosedLoop { variables: closed.variables, constants }, self.ball)
+        });
+        let outcome = self.one(&reach, search, x);
+        self.complex = Some(reach);
+        outcome
+    }
+}

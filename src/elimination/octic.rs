@@ -1,0 +1,91 @@
+//! The closure polynomial of a loop with four rotations, and how many of its eight roots are solutions.
+//!
+//! With `f = (C, A, B) . (1, cos b, sin b)`, `g` likewise and `N = f x g`, eliminating angle b leaves
+//! `N1^2 + N2^2 - N3^2`, in the tangent x of half the other angle of degree 8. Not all of its roots need be finite
+//! solutions: x = +-i belongs to no angle, nor does a root at which f and g have tan(b/2) = +-i in common; and where the
+//! two directions of translation are parallel, g = 0 whether the loop closes or not. All three are found by exact
+//! division and greatest common divisors, whose multiplicity never exceeds that of the root, so that what is left
+//! bounds the number of isolated solutions; the least such bound over all choices of angles holds.
+
+use super::cut::Hidden;
+use super::spherical_four_bar::{Equations, Form, FourBar};
+use crate::algebra::ring::{Domain, Field, Ring};
+use crate::algebra::univariate::Univariate;
+use crate::kinematics::link_form::LinkForm;
+
+/// A form by the powers of the hidden half tangent, over (1, cos, sin) of the other angle; the hidden angle is turned by
+/// 2 atan(3/7), so that no root is likely at infinity.
+fn by_hidden<F: Field>(form: &Form<F>, hidden: Hidden) -> [Univariate<F>; 3] {
+    let poly = |c: [i32; 3]| Univariate::new(c.map(F::from_integer).to_vec());
+    // 1, cos and sin of q' + 2 atan(3/7), times 58 (1 + x^2).
+    let angle = [poly([58, 0, 58]), poly([40, -84, -40]), poly([42, 80, -42])];
+    std::array::from_fn(|k| {
+        angle.iter().enumerate().fold(Univariate::zero(), |sum, (l, part)| {
+            let coefficient = if hidden == Hidden::First { &form[l][k] } else { &form[k][l] };
+            sum.add(&part.scale(coefficient))
+        })
+    })
+}
+
+/// `N1^2 + N2^2 - N3^2`
+fn eliminant<F: Field>(f: &[Univariate<F>; 3], g: &[Univariate<F>; 3]) -> Univariate<F> {
+    let minor = |i: usize, j: usize| f[i].mul(&g[j]).sub(&f[j].mul(&g[i]));
+    let (n1, n2, n3) = (minor(2, 0), minor(0, 1), minor(1, 2));
+    n1.mul(&n1).add(&n2.mul(&n2)).sub(&n3.mul(&n3))
+}
+
+/// The closure polynomial of degree 8 in the tangent of half the hidden angle (less the angle 2 atan(3/7)).
+#[must_use]
+pub fn closure_polynomial<F: Field>(equations: &Equations<F>, hidden: Hidden) -> Univariate<F> {
+    eliminant(&by_hidden(&equations.f, hidden), &by_hidden(&equations.g, hidden))
+}
+
+/// A bound on the number of isolated solutions as one hidden angle gives it; `None` where the polynomial vanishes.
+fn bound_of<F: Field + Domain>(bar: &FourBar<'_, F>, equations: &Equations<F>, hidden: Hidden) -> Option<usize> {
+    let (f, g) = (by_hidden(&equations.f, hidden), by_hidden(&equations.g, hidden));
+    let polynomial = eliminant(&f, &g);
+    polynomial.degree()?;
+    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
+    let (spurious, mut rest) = polynomial.remove_factor(&circle);
+    // Common roots of A + i B of both rows: the other half tangent is i there, or -i.
+    let pair = |x: &[Univariate<F>; 3], y: &[Univariate<F>; 3]| x[1].mul(&y[1]).add(&x[2].mul(&y[2]));
+    let crossed = f[1].mul(&g[2]).sub(&f[2].mul(&g[1]));
+    let mut lost = 2 * spurious;
+    let infinite = rest.gcd(&pair(&f, &f)).gcd(&pair(&g, &g)).gcd(&pair(&f, &g)).gcd(&crossed);
+    let (_, infinite) = if infinite.is_zero() { (0, infinite) } else { infinite.remove_factor(&circle) };
+    if infinite.degree() > Some(0) {
+        lost += infinite.degree().unwrap_or(0);
+        rest = rest.div_exact(&infinite);
+    }
+    // A vector in general position: coplanar with both directions only where these are parallel.
+    let general = [1_234_577, -7_654_321, 3_141_593].map(F::from_integer);
+    let plane = by_hidden(&bar.coplanarity(bar.base, &general), hidden);
+    let parallel = eliminant(&f, &plane);
+    parallel.degree()?;
+    let parallel = rest.gcd(&parallel);
+    if parallel.degree() > Some(0) {
+        // Parallel translations that do close the loop leave it a continuum.
+        let gap = eliminant(&f, &by_hidden(&bar.gap(bar.base, &general), hidden));
+        if parallel.gcd(&gap).degree() > Some(0) {
+            return None;
+        }
+        lost += parallel.degree().unwrap_or(0);
+    }
+    Some(8_usize.saturating_sub(lost))
+}
+
+/// At most so many isolated solutions, with multiplicity; `None` where every choice of angles is degenerate.
+#[must_use]
+pub fn bound<F: Field + Domain>(form: &LinkForm<F, 4, 2>) -> Option<usize> {
+    let mut best: Option<usize> = None;
+    for base in 0..4 {
+        let Some(bar) = FourBar::new(form, base) else { continue };
+        let equations = bar.equations();
+        for hidden in [Hidden::First, Hidden::Second] {
+            if let Some(bound) = bound_of(&bar, &equations, hidden) {
+                best = Some(best.map_or(bound, |b| b.min(bound)));
+            }
+        }
+    }
+    best
+}

@@ -1,0 +1,161 @@
+//! Three rotations: a spherical triangle, degree 2.
+//!
+//! The rotations of the loop close by themselves. With link m left out, read from the rotation behind it, the third row
+//! r of the first rotation's link and the third column q of the next one's give one equation in the angle between them,
+//! `(r1 q1 + r2 q2) cos + (r2 q1 - r1 q2) sin + r3 q3 - (R_m)_33 = 0`; the other angles and then the three translations
+//! are rational in it. Two roots, no other factor.
+
+use crate::algebra::ring::{Domain, Field, Ring};
+use crate::algebra::univariate::Univariate;
+use crate::kinematics::link_form::{LinkForm, product, turned};
+use crate::kinematics::motion::{cross, dot};
+
+/// The equation of one angle of a spherical triangle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Triangle<R> {
+    /// The link left out.
+    pub dropped: usize,
+    /// `equation . (1, cos, sin) = 0` for the rotation two behind that link.
+    pub equation: [R; 3],
+}
+
+/// The equation with the link left out whose sine is smallest, so that two axes may be parallel.
+#[must_use]
+pub fn triangle<F: Field>(form: &LinkForm<F, 3, 3>) -> Triangle<F> {
+    let mut dropped = 0;
+    for link in 1..3 {
+        if form.twist(link).0.pivot_size() < form.twist(dropped).0.pivot_size() {
+            dropped = link;
+        }
+    }
+    let (first, second) = (&form.links[(dropped + 1) % 3].rotation, &form.links[(dropped + 2) % 3].rotation);
+    let ([r1, r2, r3], [q1, q2, q3]) = (&first[2], [&second[0][2], &second[1][2], &second[2][2]]);
+    let constant = r3.mul(q3).sub(&form.links[dropped].rotation[2][2]);
+    Triangle { dropped, equation: [constant, r1.mul(q1).add(&r2.mul(q2)), r2.mul(q1).sub(&r1.mul(q2))] }
+}
+
+impl<F: Field> Triangle<F> {
+    /// All three rotations at cosine and sine of the one of the equation; `None` where two axes are parallel, so that
+    /// the others are not determined.
+    #[must_use]
+    pub fn rotations(&self, form: &LinkForm<F, 3, 3>, known: &(F, F)) -> Option<[(F, F); 3]> {
+        let [first, second, third] = [self.dropped + 1, self.dropped + 2, self.dropped].map(|k| k % 3);
+        let next = following(form, self.dropped, known, &form.twist(third).0.inverse()?);
+        let last = form.last_rotation(second, &[known.clone(), next.clone()]);
+        let mut all: [(F, F); 3] = std::array::from_fn(|_| (F::zero(), F::zero()));
+        (all[first], all[second], all[third]) = (last, known.clone(), next);
+        Some(all)
+    }
+}
+
+/// The rotation behind the dropped link's, times the unit in which `known` is measured: `Rz(q) m = t`.
+fn following<R: Ring>(form: &LinkForm<R, 3, 3>, dropped: usize, known: &(R, R), inverse: &R) -> (R, R) {
+    let product =
+        product(&turned(&form.links[(dropped + 1) % 3].rotation, known), &form.links[(dropped + 2) % 3].rotation);
+    let link = &form.links[dropped].rotation;
+    let (m1, m2, t1, t2) = (&link[0][2], &link[1][2], &product[2][0], &product[2][1]);
+    (m1.mul(t1).add(&m2.mul(t2)).mul(inverse), m1.mul(t2).sub(&m2.mul(t1)).mul(inverse))
+}
+
+/// How many solutions a loop with three rotations has, exactly: the roots of its closure polynomial at which the three
+/// translations are independent. `None` where rotations or translations are not determined, so that solutions form
+/// families, if there are any.
+#[must_use]
+pub fn count<F: Field + Domain>(form: &LinkForm<F, 3, 3>) -> Option<usize> {
+    let triangle = triangle(form);
+    let [constant, cos, sin] = &triangle.equation;
+    if cos.is_zero() && sin.is_zero() {
+        return (!constant.is_zero()).then_some(0);
+    }
+    let inverse = form.twist(triangle.dropped).0.inverse()?;
+    // The loop turned by a fixed angle, so that no root is at infinity; over 1 + x^2.
+    let lift = |x: &F| Some(Univariate::constant(x.clone()));
+    let lifted = form.map(lift)?;
+    let poly = |c: [i32; 3]| Univariate::new(c.map(F::from_integer).to_vec());
+    // cos and sin of q' + 2 atan(3/7), times 58 (1 + x^2).
+    let (one, known) = (poly([58, 0, 58]), (poly([40, -84, -40]), poly([42, 80, -42])));
+    let equation = |[k, c, s]: [&F; 3]| one.scale(k).add(&known.0.scale(c)).add(&known.1.scale(s));
+    let roots = equation([constant, cos, sin]);
+    let second = (triangle.dropped + 2) % 3;
+    // Directions of the translations in a frame before the known rotation, each times a power of `one`.
+    let next = following_scaled(&lifted, triangle.dropped, &known, &one, &Univariate::constant(inverse));
+    let mut directions = Vec::new();
+    for slide in &lifted.slides {
+        let u = &slide.direction;
+        let weigh = |m: [[Univariate<F>; 3]; 3]| m.map(|row| dot(&row, u));
+        let rotation = |pair| turning(pair, &one);
+        directions.push(if slide.link == second {
+            weigh(rotation(&known))
+        } else if slide.link == triangle.dropped {
+            let behind = product(&rotation(&known), &lifted.links[second].rotation);
+            weigh(product(&behind, &rotation(&next)))
+        } else {
+            let link = &lifted.links[slide.link].rotation;
+            std::array::from_fn(|i| dot(&std::array::from_fn(|k| link[k][i].clone()), u))
+        });
+    }
+    let [u, v, w] = [&directions[0], &directions[1], &directions[2]];
+    let determinant = dot(&cross(u, v), w);
+    if determinant.is_zero() {
+        return None;
+    }
+    let lost = roots.gcd(&determinant);
+    if lost.degree() == Some(0) {
+        return Some(2);
+    }
+    // What the translations have to bridge: s of the three links in the same frame, over a power of `one` in common.
+    let sum = links_sum(&lifted, triangle.dropped, &known, &next, &one);
+    let bridged = [cross(v, w), cross(w, u), cross(u, v)].iter().fold(lost.clone(), |g, n| g.gcd(&dot(n, &sum)));
+    if bridged.degree() > Some(0) {
+        return None;
+    }
+    // A double root at which the translations are dependent is no isolated solution either.
+    let double = roots.gcd(&roots.derivative()).degree() > Some(0);
+    Some(if double { 0 } else { 2 - lost.degree().unwrap_or(0) })
+}
+
+/// The sum of the links, turned into the frame before the known rotation and times `one` squared.
+fn links_sum<F: Field>(
+    form: &LinkForm<Univariate<F>, 3, 3>,
+    dropped: usize,
+    known: &(Univariate<F>, Univariate<F>),
+    next: &(Univariate<F>, Univariate<F>),
+    one: &Univariate<F>,
+) -> [Univariate<F>; 3] {
+    let (first, second) = ((dropped + 1) % 3, (dropped + 2) % 3);
+    let turn = turning(known, one);
+    let behind = product(&product(&turn, &form.links[second].rotation), &turning(next, one));
+    let back = &form.links[first].rotation;
+    let translation = |k: usize| &form.links[k].translation;
+    std::array::from_fn(|i| {
+        let column: [Univariate<F>; 3] = std::array::from_fn(|k| back[k][i].clone());
+        let terms = [
+            dot(&turn[i], translation(second)).mul(one),
+            dot(&behind[i], translation(dropped)),
+            dot(&column, translation(first)).mul(one).mul(one),
+        ];
+        terms.iter().fold(Univariate::zero(), |sum, term| sum.add(term))
+    })
+}
+
+/// `Rz` of a pair measured by `one`, times `one`.
+fn turning<R: Ring>((cos, sin): &(R, R), one: &R) -> [[R; 3]; 3] {
+    let nought = R::zero;
+    [[cos.clone(), sin.neg(), nought()], [sin.clone(), cos.clone(), nought()], [nought(), nought(), one.clone()]]
+}
+
+/// [`following`] for a known pair over `one`: the result is over `one` too.
+fn following_scaled<F: Field>(
+    form: &LinkForm<Univariate<F>, 3, 3>,
+    dropped: usize,
+    known: &(Univariate<F>, Univariate<F>),
+    one: &Univariate<F>,
+    inverse: &Univariate<F>,
+) -> (Univariate<F>, Univariate<F>) {
+    // The third column of R1 Rz(q) R2 mixes in the fixed axis: it is measured by `one` like the pair.
+    let mut scaled = form.clone();
+    for row in &mut scaled.links[(dropped + 1) % 3].rotation {
+        row[2] = row[2].mul(one);
+    }
+    following(&scaled, dropped, known, inverse)
+}
