@@ -58,3 +58,36 @@ fn reduce(modulus: &Modulus, matrix: &mut [Vec<u64>]) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_companion_matrix_has_its_polynomial_and_so_have_matrices_similar_to_it() {
+        let modulus = Modulus::new(crate::algebra::modp::PRIME_61);
+        let n = 7;
+        let coefficients: Vec<u64> = (0..n).map(|k| modulus.enter(3 + 5 * k as u64 * k as u64)).collect();
+        let mut matrix = vec![vec![0; n]; n];
+        for k in 0..n {
+            if k + 1 < n {
+                matrix[k + 1][k] = modulus.enter(1);
+            }
+            matrix[k][n - 1] = modulus.neg(coefficients[k]);
+        }
+        // Adding a multiple of row i to row j and the opposite multiple of column j to column i keeps the polynomial.
+        for (i, j, c) in [(0, 4, 7), (6, 1, 2), (3, 5, 11), (5, 0, 4), (2, 6, 3)] {
+            let c = modulus.enter(c);
+            let row = matrix[i].clone();
+            modulus.add_multiple(&mut matrix[j], c, &row);
+            for row in &mut matrix {
+                row[i] = Modulus::sub(&modulus, row[i], Modulus::mul(&modulus, c, row[j]));
+            }
+        }
+        let mut expected = coefficients;
+        expected.push(modulus.enter(1));
+        assert_eq!(characteristic_polynomial(&modulus, &mut matrix), expected);
+        // A matrix in blocks: of zeros, x^2.
+        assert_eq!(characteristic_polynomial(&modulus, &mut [vec![0, 0], vec![0, 0]]), [0, 0, modulus.enter(1)]);
+    }
+}

@@ -23,7 +23,8 @@ pub enum PlatformDegree {
         /// Whether solutions with `N = 0` form curves, so that the general border basis does not exist.
         curves: bool,
     },
-    /// A curve of poses, or more: a self-motion, real or complex.
+    /// A curve of poses, or more: a self-motion, real or complex. Told by the count growing with the degree at which it
+    /// is taken, up to degree 10, by when it has settled in all classes of special geometry known.
     Infinite,
 }
 
@@ -187,7 +188,7 @@ fn echelon(modulus: &Modulus, rows: &mut Vec<Vec<u64>>) -> Vec<usize> {
 }
 
 /// Powers of N that kill what has `N = 0`, degrees at which the rest has settled, in turn.
-const ATTEMPTS: [(usize, usize); 3] = [(1, 5), (2, 5), (2, 7)];
+const ATTEMPTS: [(usize, usize); 2] = [(1, 5), (2, 5)];
 
 /// The multiplication matrices where solutions with `N = 0` form curves, on what multiplication by a power of N leaves;
 /// `None` where that grows with the degree: a curve of poses.

@@ -311,7 +311,27 @@ fn double_step<const N: usize>(a: &mut Square<f64, N>, first: usize, last: usize
 
 #[cfg(test)]
 mod tests {
-    use super::eigenvalues;
+    use super::{back, eigenvalues, of_hessenberg, reduce, vector};
+    use num_complex::Complex;
+
+    #[test]
+    fn vectors_belong_to_their_values() {
+        const N: usize = 9;
+        let zero = Complex::new(0.0, 0.0);
+        let matrix: [[f64; N]; N] =
+            std::array::from_fn(|i| std::array::from_fn(|j| ((i * 31 + j * 17 + i * j * 7) % 23) as f64 / 11.0 - 1.0));
+        let mut reduced = matrix;
+        let order = reduce(&mut reduced);
+        for value in of_hessenberg(&mut reduced.clone()).unwrap() {
+            let mut found = vector(&reduced, value, &mut [[zero; N]; N]);
+            back(&reduced, &order, &mut found);
+            let size = found.iter().map(|x| x.norm()).fold(0.0, f64::max);
+            for (row, x) in matrix.iter().zip(&found) {
+                let image: Complex<f64> = row.iter().zip(&found).map(|(a, x)| a * x).sum();
+                assert!((image - value * x).norm() < 1e-12 * size, "{value}");
+            }
+        }
+    }
 
     #[test]
     fn known_spectra() {

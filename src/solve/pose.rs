@@ -23,6 +23,8 @@ const CARRIED: f64 = 1e-7;
 const STRAY: f64 = 0.3;
 /// A refined step of this size is the last.
 const REFINED: f64 = 1e-18;
+/// Relative residual of a solution polished as far as rounding allows, as a rule.
+const ROUNDED: f64 = 1e-15;
 /// Relative residual of a solution.
 const CLOSED: f64 = 1e-14;
 
@@ -109,6 +111,15 @@ pub struct PolishedPose<S> {
     pub step: f64,
 }
 
+impl<S: Scalar> PolishedPose<S> {
+    /// The point behind the step that was left, if the legs are better met there.
+    fn one_step_further(self, legs: &[Leg<f64>; 6], step: &Eight<S>) -> Self {
+        let Some(study) = normalised(&std::array::from_fn(|k| self.study[k].sub(&step[k]))) else { return self };
+        let there = equations(legs, &study, &patch(&study));
+        if there.residual() < self.equations.residual() { Self { study, equations: there, ..self } } else { self }
+    }
+}
+
 /// The point with x of hermitian norm 1; `None` for x = 0 and what is not finite.
 #[inline(always)]
 pub fn normalised<S: Scalar>(v: &Eight<S>) -> Option<Eight<S>> {
@@ -146,7 +157,8 @@ pub fn polish<S: Scalar>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Polis
         let at_rounding = settled || (stalls && size < ROUNDING * reach && here.residual() < CLOSED);
         if at_rounding {
             let inverse = inverse.or_else(|| dense::inverse(&here.jacobian))?;
-            return Some(PolishedPose { study: v, equations: here, inverse, step: size });
+            let stay = PolishedPose { study: v, equations: here, inverse, step: size };
+            return Some(if here.residual() > ROUNDED { stay.one_step_further(legs, &step) } else { stay });
         }
         growing += usize::from(stalls);
         if growing > 3 {

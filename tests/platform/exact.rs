@@ -1,9 +1,13 @@
 //! Numbers of poses and closure polynomials, exactly.
 
 use super::cases::{Draw, case, cases, solved};
+use looproot::algebra::modp::primes;
+use looproot::algebra::number::nearest_f64;
 use looproot::algebra::univariate::Univariate;
 use looproot::assembly::Roots;
-use looproot::elimination::platform_degree::{PlatformDegree, platform_degree};
+use looproot::closure::study::linear_legs;
+use looproot::elimination::border::{Arithmetic, BorderBasis, DIMENSION, Reals, Setting, weak_directions};
+use looproot::elimination::platform_degree::{PlatformDegree, modular_setting, platform_degree};
 use looproot::elimination::platform_polynomial::platform_polynomial;
 use looproot::kinematics::platform::Platform;
 use num_complex::Complex;
@@ -79,11 +83,54 @@ fn on_a_circle() -> Platform<Rational> {
 fn architecture_singular_platforms_have_no_pose_or_a_curve_of_them() {
     let platform = on_a_circle();
     let mut legs = platform.legs_squared(&Draw::new(5).pose().1);
+    assert_eq!(count(&platform, &legs), None);
     assert_eq!(solved(&platform, &legs, Roots::Real).self_motion, 1);
     legs[0] += 1;
     assert_eq!(count(&platform, &legs), Some(0));
     let assembly = solved(&platform, &legs, Roots::All);
     assert!(assembly.modes.is_empty() && assembly.self_motion == 0);
+}
+
+/// The largest entry of `X_i X_j - X_j X_i`, as the arithmetic has it.
+fn commutators<A: Arithmetic>(arithmetic: &A, basis: &BorderBasis<A::Element>) -> Vec<A::Element> {
+    let mut all = Vec::new();
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        for b in 0..DIMENSION {
+            let mut row = [arithmetic.zero(); DIMENSION];
+            for k in 0..DIMENSION {
+                arithmetic.add_multiple(&mut row, basis.products[i][b][k], &basis.products[j][k]);
+                arithmetic.add_multiple(&mut row, arithmetic.neg(basis.products[j][b][k]), &basis.products[i][k]);
+            }
+            all.extend(row);
+        }
+    }
+    all
+}
+
+#[test]
+fn multiplication_commutes_exactly_and_in_f64() {
+    for seed in 0..3 {
+        let mut draw = Draw::new(seed);
+        let platform = draw.platform();
+        let legs = platform.legs_squared(&draw.pose().1);
+        let modulus = primes().nth(5).unwrap();
+        let setting = modular_setting(&modulus, &linear_legs(&platform), &legs).unwrap();
+        let mut basis = BorderBasis::new(&modulus);
+        basis.build(&modulus, &setting).unwrap();
+        assert!(commutators(&modulus, &basis).iter().all(|&x| x == 0));
+
+        let scaled = platform.map(|x| Some(nearest_f64(x) / 20.0)).unwrap();
+        let linear = linear_legs(&scaled);
+        let directions = weak_directions(&linear.matrix);
+        let setting = Setting::new(&Reals, &directions, &linear.forms);
+        let setting = setting.with_legs(&Reals, &directions, &legs.each_ref().map(|l| nearest_f64(l) / 400.0));
+        let mut basis = BorderBasis::new(&Reals);
+        basis.build(&Reals, &setting).unwrap();
+        assert!(basis.quality > 1e-6);
+        let largest = basis.products.iter().flatten().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let worst = commutators(&Reals, &basis).iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        assert!(worst < 1e-9 * largest * largest, "{worst:e} {largest:e}");
+    }
 }
 
 /// `|p(t)|` over the size of its terms.

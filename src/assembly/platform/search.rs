@@ -277,7 +277,7 @@ impl<'a> Search<'a> {
         let Some(certificate) = proof.filter(|c| holds(c, &study, false)).map(|c| rounded(c, &study)) else {
             return false;
         };
-        if self.known(&study, false).is_none() {
+        if self.known(&study, false, certificate.radius).is_none() {
             let inverse = inverse.map(|row| row.map(narrow));
             let here = equations(self.legs, &study, &patch(&study));
             self.found.push(Found {
@@ -293,16 +293,16 @@ impl<'a> Search<'a> {
         true
     }
 
-    /// The place of a solution, or of its conjugate, in the list.
-    fn known(&self, study: &Eight<Complex<f64>>, real: bool) -> Option<usize> {
+    /// The place in the list of a solution known to within `least`, or of its conjugate.
+    fn known(&self, study: &Eight<Complex<f64>>, real: bool, least: f64) -> Option<usize> {
         let same_rotation = |w: &Eight<Complex<f64>>, conjugate: bool| {
             let product: Complex<f64> = (0..4).map(|k| study[k] * if conjugate { w[k] } else { w[k].conj() }).sum();
             product.norm_sqr() > 1.0 - SAME
         };
         // Polished to rounding: what is farther apart than this is not one. Singular ones are less accurate.
         self.found.iter().position(|found| {
-            let room = if found.certificate.is_some() { REAL_PART } else { SINGULAR };
-            let same = |w: &Eight<Complex<f64>>| !are_apart(study, room, w, room);
+            let room = found.certificate.map_or(SINGULAR, |c| c.radius.max(REAL_PART));
+            let same = |w: &Eight<Complex<f64>>| !are_apart(study, room.max(least), w, room);
             (same_rotation(&found.study, false) && same(&found.study))
                 || (!real && same_rotation(&found.study, true) && same(&found.study.map(|z| z.conj())))
         })
@@ -311,7 +311,7 @@ impl<'a> Search<'a> {
     /// Adds a polished solution to the list unless it is there.
     fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>, eigenvalue: usize) {
         let mut study = complex(&polished.study);
-        if let Some(at) = self.known(&study, S::REAL) {
+        if let Some(at) = self.known(&study, S::REAL, REAL_PART) {
             self.count(at, eigenvalue);
             return;
         }
@@ -331,6 +331,8 @@ impl<'a> Search<'a> {
         if certificate.is_none() && norm(&study).norm() < DOUBTFUL {
             return;
         }
+        // The solutions proved must be different ones: a wide ball may reach another.
+        certificate = certificate.filter(|c| c.radius <= REAL_PART || self.known(&study, S::REAL, c.radius).is_none());
         let residual = if study == complex(&polished.study) {
             polished.equations.residual()
         } else {

@@ -189,3 +189,53 @@ pub fn exact_directions<A: Arithmetic>(
     }
     Some(Directions { rank, count: left, particular, null, dropped, slopes: [[zero; MOST]; MOST - 1] })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elimination::border::Reals;
+
+    /// `K u` for `u = particular c + sum_a tau_a null_a` is c, but for the conditions left.
+    fn check(matrix: &[[f64; 7]; 6], directions: &Directions<f64>) {
+        let c = [0.3, -1.0, 0.7, 2.0, -0.4, 1.1];
+        let tau = [0.9, -0.6, 0.8, 0.5];
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+        let u: [f64; 7] = std::array::from_fn(|k| {
+            let along: f64 = (0..directions.count).map(|a| tau[a] * directions.null[a][k]).sum();
+            dot(&directions.particular[k], &c) + along
+        });
+        let defect: [f64; 6] = std::array::from_fn(|i| c[i] - dot(&matrix[i], &u));
+        // The defect lies in the span of the conditions: combining the legs so gives what they say is left.
+        for a in 0..directions.count - 1 {
+            let combined: [f64; 7] =
+                std::array::from_fn(|k| (0..6).map(|i| directions.dropped[a][i] * matrix[i][k]).sum());
+            let slope = dot(&directions.slopes[a], &tau);
+            assert!((dot(&combined, &u) - slope).abs() < 1e-12);
+        }
+        if directions.count == 1 {
+            assert!(defect.iter().all(|d| d.abs() < 1e-12), "{defect:?}");
+        }
+    }
+
+    fn matrix(height: f64) -> [[f64; 7]; 6] {
+        std::array::from_fn(|i| {
+            let angle = |k: usize| ((3 * i + 5 * k * k + i * i * k) as f64).sin();
+            [1.0, angle(1), angle(2), height * angle(3), angle(4), angle(5), height * angle(6)]
+        })
+    }
+
+    #[test]
+    fn both_ways_solve_the_legs() {
+        for (height, rank) in [(1.0, 6), (1e-6, 6), (0.0, 5)] {
+            let matrix = matrix(height);
+            let directions = weak_directions(&matrix);
+            assert_eq!(directions.rank, rank);
+            assert!(directions.count == 1 || height < 1.0, "{}", directions.count);
+            check(&matrix, &directions);
+        }
+        let matrix = matrix(1.0);
+        let exact = exact_directions(&Reals, |x| (x != 0.0).then(|| 1.0 / x), &matrix).unwrap();
+        assert_eq!((exact.rank, exact.count), (6, 1));
+        check(&matrix, &exact);
+    }
+}
