@@ -337,3 +337,15 @@ fn loops_with_fewer_than_three_rotations_are_unsupported_and_say_why() {
     let text = fault.to_string();
     assert!(text.contains("2 unknown rotations") && text.contains("screw rank is 5 of 6"), "{text}");
 }
+
+#[test]
+fn a_loop_whose_axes_are_all_parallel_is_named() {
+    let link = |k: i32| joint(JointKind::Revolute, &ratio(k, 4), &ratio(0, 1), &ratio(0, 1));
+    let mut chain = arms::chain(Geometry::Dh((1..8).map(link).collect()));
+    let values: Vec<Rational> = (1..8).map(|k| ratio(k, 5)).collect();
+    let reached: Motion<Rational> = chain.forward(&arms::motions(&[Variable::Rotation; 7], &values)).unwrap();
+    chain.tool = Placement::from_motion_exact(reached.inverse());
+    let verdict = arms::at_input(&chain, 1, &values[0]).verdict;
+    assert_ne!(verdict.status, Status::Complete, "{}", verdict.reason);
+    assert!(verdict.reason.contains("rank 3 of 6") && verdict.reason.contains("3 of the six"), "{}", verdict.reason);
+}

@@ -126,7 +126,11 @@ fn certified(modes: &[Mode]) -> usize {
 }
 
 fn deficient(rank: usize) -> String {
-    format!("structurally deficient: the joint axes reach only rank {rank} of 6 in general position")
+    format!(
+        "structurally deficient: the joint axes reach only rank {rank} of 6 in general position; where it closes, {} of \
+         the six unknowns stay free",
+        6 - rank
+    )
 }
 
 fn self_motion(assembly: &Assembly, structural_rank: usize) -> String {
