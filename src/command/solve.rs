@@ -25,7 +25,7 @@ use std::time::Instant;
 /// Finds every solution of every case, or of the one asked for, and prints them in the order of the file.
 pub fn run(options: &SolveOptions) -> Result<Exit, Fault> {
     let mut entry = load(&options.mechanism, &options.read.options())?;
-    let wanted = wanted(options, &mut entry)?;
+    let wanted = wanted(&options.asked, &options.mechanism, &mut entry)?;
     let mut report = Report::open(options, &entry, wanted.len())?;
     let exit = match Mechanism::prepare(&entry) {
         Ok(mechanism) => solve(options, &entry, &mechanism, wanted, &mut report)?,
