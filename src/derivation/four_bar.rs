@@ -52,7 +52,7 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
     let label = |k: usize| symbols.label(unknown(k));
     let monomials = [0, 1].map(|k| symbols.monomials(unknown(k), false));
     let listed = [
-        (format!("spherical four-bar {}-{} n.n'", label(3), label(2)), &equations.f),
+        (format!("spherical four-bar {}-{} n.n'", label(2), label(3)), &equations.f),
         (format!("coplanarity of translations {}-{} [u, v, s]", label(0), label(1)), &equations.g),
     ];
     let listed = listed

@@ -46,8 +46,11 @@ impl Derivation {
     #[must_use]
     pub fn system(&self) -> Vec<Polynomial<Rational>> {
         let equations = self.equations.iter().filter_map(|equation| equation.algebraic.clone());
+        let mut system: Vec<Polynomial<Rational>> = equations.chain(self.definition.clone()).collect();
         let polynomial = self.polynomial.as_ref().map(ClosurePolynomial::to_polynomial);
-        equations.chain(self.definition.clone()).chain(polynomial).collect()
+        // A single equation in one unknown is its own closure polynomial.
+        system.extend(polynomial.filter(|polynomial| !system.contains(polynomial)));
+        system
     }
 }
 

@@ -27,7 +27,9 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
     let squares = case.legs_squared.as_ref().ok_or_else(missing)?;
     let squares = squares.each_ref().map(|square| square.rational().clone());
     let platform: Platform<Rational> = platform_over(geometry).ok_or_else(missing)?;
-    let found = platform_polynomial(&platform, &squares);
+    let degree = platform_degree(&platform, &squares);
+    let isolated = !matches!(degree, Some(PlatformDegree::Infinite | PlatformDegree::Finite { poses: 0, .. }));
+    let found = if isolated { platform_polynomial(&platform, &squares) } else { None };
     let mut steps = vec![
         "A pose is x, the quaternion of the rotation, and y = p x with the position p: with a, b the points of a leg of length \
          L, w = y + x b - a x is the leg times x, w.w = L^2 x.x for each of six legs, and x.y = 0 (Study)."
@@ -49,11 +51,14 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
         definition = Some(super::equation::primitive(&quotient(&found.coordinate)));
         polynomial = ClosurePolynomial::of(QUOTIENT, found.coefficients, Meaning::Plain)?;
     } else {
-        without = Some(match platform_degree(&platform, &squares) {
+        without = Some(match degree {
             Some(PlatformDegree::Infinite) => "the poses are not isolated: a self-motion, real or complex".to_owned(),
             Some(PlatformDegree::Finite { poses: 0, .. }) => "no pose, real or complex".to_owned(),
             Some(PlatformDegree::Finite { poses, .. }) => {
-                format!("{poses} poses with multiplicity, of which some coincide: no polynomial with simple roots")
+                format!(
+                    "{poses} poses with multiplicity, of which some coincide or share their rotation: no polynomial in a \
+                     quotient of its coordinates has simple roots"
+                )
             }
             None => "the number of poses is not known".to_owned(),
         });
