@@ -40,7 +40,7 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
     let symbols = Symbols::of(chain, &layout, closed.variables);
     let exact = Exact { closed, modular, symbols };
     let eliminated = match (layout.ball_unknown(), general_degree(exact.closed.variables)) {
-        (Some(ball), _) => two_sides::ball(&exact, ball),
+        (Some(ball), _) => Some(two_sides::ball(&exact, ball)),
         (None, Some(2)) => triangle::eliminate(&exact),
         (None, Some(8)) => two_sides::opposite_axes(&exact).or_else(|| four_bar::eliminate(&exact)),
         (None, Some(_)) => Some(cuts::eliminate(&exact)),

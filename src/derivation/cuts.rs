@@ -115,7 +115,7 @@ fn reduced(symbols: &Symbols, cut: Cut, rows: &Bilinear<Rational>) -> Vec<Equati
         let form = |e: usize| bilinear_form(&rows[e], &monomials[0], &monomials[1]);
         let polynomial = form(k).add(&form(4 + k).mul(&tangent));
         let name = format!("without {}, {}, {}: equation {}", label(3), label(4), label(5), k + 1);
-        Equation::used(name, &polynomial, symbols)
+        Equation::used(name, &polynomial)
     };
     (0..4).map(one).collect()
 }
@@ -161,7 +161,10 @@ fn steps(symbols: &Symbols, cut: Cut, hidden: Hidden) -> Vec<String> {
             name(kept),
             other = name(other)
         ),
-        format!("Its determinant, of degree 16 or less in {}, is the closure polynomial.", name(kept)),
+        format!(
+            "Its determinant, of degree 16 or less in {}, is the closure polynomial: every solution is a root.",
+            name(kept)
+        ),
         format!("At a root the kernel gives {} and {}, then linear equations the other joints.", name(other), name(2)),
     ]
 }

@@ -1,6 +1,6 @@
 //! One closure equation.
 
-use super::symbols::Symbols;
+use super::symbols::half_angles;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use rug::Rational;
@@ -29,8 +29,8 @@ impl Equation {
     }
 
     /// An equation that the elimination goes on with.
-    pub(super) fn used(name: String, polynomial: &Polynomial<Rational>, symbols: &Symbols) -> Self {
-        let algebraic = Some(primitive(&symbols.half_angles(polynomial)));
+    pub(super) fn used(name: String, polynomial: &Polynomial<Rational>) -> Self {
+        let algebraic = Some(primitive(&half_angles(polynomial)));
         Self { algebraic, ..Self::listed(name, polynomial) }
     }
 }

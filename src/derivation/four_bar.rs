@@ -55,9 +55,8 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
         (format!("spherical four-bar {}-{} n.n'", label(2), label(3)), &equations.f),
         (format!("coplanarity of translations {}-{} [u, v, s]", label(0), label(1)), &equations.g),
     ];
-    let listed = listed
-        .into_iter()
-        .map(|(name, form)| Equation::used(name, &bilinear_form(form, &monomials[0], &monomials[1]), symbols));
+    let listed =
+        listed.into_iter().map(|(name, form)| Equation::used(name, &bilinear_form(form, &monomials[0], &monomials[1])));
     let kept = unknown(usize::from(hidden == Hidden::Second));
     let gone = unknown(usize::from(hidden == Hidden::First));
     let steps = vec![
@@ -74,7 +73,9 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
              N3^2 = 0, a polynomial of degree 8 or less in {}.",
             symbols.label(gone), symbols.name(kept)
         ),
-        "The other rotations and the two translations follow rationally.".to_owned(),
+        "Every solution is a root; a root at which u and v are parallel need not be one. The other rotations and the two \
+         translations follow rationally."
+            .to_owned(),
     ];
     let polynomial = if degenerate && exact.modular.is_some() {
         None

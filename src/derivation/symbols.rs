@@ -76,15 +76,15 @@ impl Symbols {
             }
         }
     }
+}
 
-    /// The polynomial with half-angle tangents in place of cosines and sines, multiplied by the powers of `1 + t^2` that
-    /// this takes.
-    pub fn half_angles(&self, polynomial: &Polynomial<Rational>) -> Polynomial<Rational> {
-        let used = |k: &usize| polynomial.degree(3 * k) > 0 || polynomial.degree(3 * k + 1) > 0;
-        let pairs: Vec<(Pair, usize)> =
-            (0..6).filter(used).map(|k| (Pair { cos: 3 * k, sin: 3 * k + 1 }, 3 * k + 2)).collect();
-        half_tangents(polynomial, &pairs).polynomial
-    }
+/// The polynomial with half-angle tangents in place of cosines and sines, multiplied by the powers of `1 + t^2` that this
+/// takes.
+pub(super) fn half_angles(polynomial: &Polynomial<Rational>) -> Polynomial<Rational> {
+    let used = |k: &usize| polynomial.degree(3 * k) > 0 || polynomial.degree(3 * k + 1) > 0;
+    let pairs: Vec<(Pair, usize)> =
+        (0..6).filter(used).map(|k| (Pair { cos: 3 * k, sin: 3 * k + 1 }, 3 * k + 2)).collect();
+    half_tangents(polynomial, &pairs).polynomial
 }
 
 /// Per joint variable the number of its joint; the turns of a ball are told apart.

@@ -43,7 +43,7 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
         format!("In {} the equation is of degree 2.", exact.symbols.name(unknown)),
     ];
     Some(Eliminated {
-        equations: vec![Equation::used(name, &polynomial, &exact.symbols)],
+        equations: vec![Equation::used(name, &polynomial)],
         steps,
         polynomial: Some((unknown, of_row(Variable::Rotation, &found.equation), Meaning::HalfTangent { degree: 2 })),
     })

@@ -15,7 +15,7 @@ use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
 
 /// A ball: the point at its centre is reached from both sides.
-pub(super) fn ball(exact: &Exact, ball: usize) -> Option<Eliminated> {
+pub(super) fn ball(exact: &Exact, ball: usize) -> Eliminated {
     let reach = Reach::of(&exact.closed, ball);
     let [first, second, third] = [3, 4, 5].map(|k| (ball + k) % 6);
     let label = |k: usize| exact.symbols.label(k);
@@ -34,10 +34,10 @@ pub(super) fn ball(exact: &Exact, ball: usize) -> Option<Eliminated> {
         label(first),
         label(second)
     )];
-    let mut eliminated = solve(exact, &reach.equations, [third, first], names)?;
+    let mut eliminated = solve(exact, &reach.equations, [third, first], names);
     steps.append(&mut eliminated.steps);
     steps.push(format!("Joint {} and the rotation of the ball follow rationally.", label(second)));
-    Some(Eliminated { steps, ..eliminated })
+    Eliminated { steps, ..eliminated }
 }
 
 /// Translations along two opposite axes; `None` where they run otherwise, or the polynomial vanishes.
@@ -57,7 +57,7 @@ pub(super) fn opposite_axes(exact: &Exact) -> Option<Eliminated> {
         label(0),
         label(2)
     )];
-    let mut eliminated = solve(exact, &equations, [rotation(1), rotation(3)], names)?;
+    let mut eliminated = solve(exact, &equations, [rotation(1), rotation(3)], names);
     steps.append(&mut eliminated.steps);
     steps.push("The rotations about both axes and the two translations follow rationally.".to_owned());
     eliminated.polynomial.as_ref().filter(|(_, polynomial, _)| !polynomial.is_zero())?;
@@ -65,16 +65,11 @@ pub(super) fn opposite_axes(exact: &Exact) -> Option<Eliminated> {
 }
 
 /// The equations with these unknowns on their sides.
-fn solve(
-    exact: &Exact,
-    equations: &Separated<Rational>,
-    unknowns: [usize; 2],
-    names: [String; 2],
-) -> Option<Eliminated> {
+fn solve(exact: &Exact, equations: &Separated<Rational>, unknowns: [usize; 2], names: [String; 2]) -> Eliminated {
     let monomials = unknowns.map(|unknown| exact.symbols.monomials(unknown, false));
     let listed = equations.rows.iter().zip(names).map(|(row, name)| {
         let [left, right] = [0, 1].map(|side| combination(row[side].iter().zip(&monomials[side])));
-        Equation::used(name, &left.sub(&right), &exact.symbols)
+        Equation::used(name, &left.sub(&right))
     });
     let name = |side: usize| exact.symbols.name(unknowns[side]);
     let (side, polynomial, step) = match equations.plan(0.0) {
@@ -112,5 +107,5 @@ fn solve(
         Variable::Translation => Meaning::Plain,
     };
     let polynomial = Some((unknowns[side], polynomial, meaning));
-    Some(Eliminated { equations: listed.collect(), steps: vec![step], polynomial })
+    Eliminated { equations: listed.collect(), steps: vec![step], polynomial }
 }
