@@ -24,6 +24,8 @@ pub mod verdict;
 
 pub mod mechanism;
 
+pub mod derivation;
+
 pub mod benchmark;
 
 pub mod claims;

@@ -15,7 +15,7 @@ use looproot::elimination::cut::{Cut, Hidden};
 use looproot::elimination::degree::{degree, general_degree};
 use looproot::elimination::octic;
 use looproot::elimination::point_reach::{self, Reach};
-use looproot::elimination::separated::{Plan, closure_polynomial};
+use looproot::elimination::separated::{Plan, closure_polynomial, offset};
 use looproot::elimination::spherical_four_bar::FourBar;
 use looproot::elimination::spherical_triangle::triangle;
 use looproot::kinematics::chain::{Chain, Geometry, JointKind, Placement};
@@ -135,7 +135,7 @@ fn every_octic_has_the_planted_root_and_the_real_roots_that_are_found() {
             let bar = FourBar::new(&form, base).unwrap();
             let equations = bar.equations();
             for (hidden, ahead) in [(Hidden::First, 0), (Hidden::Second, 1)] {
-                let octic = octic::closure_polynomial(&equations, hidden);
+                let octic = octic::closure_polynomial(&equations, hidden, &offset());
                 assert_eq!(octic.degree(), Some(8), "{name} {base} {hidden:?}");
                 let root = turned(&values[form.rotations[(base + ahead) % 4]]);
                 assert!(octic.eval(&root).is_zero(), "{name} {base} {hidden:?}");
@@ -276,8 +276,8 @@ fn the_closure_polynomials_of_rationals_and_of_residues_are_the_same() {
     let exact = LinkForm::<Rational, 4, 2>::of(&closed_at(&chain, &values)).unwrap();
     let image = LinkForm::<Mod, 4, 2>::of(&closed_at(&chain, &values)).unwrap();
     let p: Univariate<Rational> =
-        octic::closure_polynomial(&FourBar::new(&exact, 0).unwrap().equations(), Hidden::First);
-    let modulo = octic::closure_polynomial(&FourBar::new(&image, 0).unwrap().equations(), Hidden::First);
+        octic::closure_polynomial(&FourBar::new(&exact, 0).unwrap().equations(), Hidden::First, &offset());
+    let modulo = octic::closure_polynomial(&FourBar::new(&image, 0).unwrap().equations(), Hidden::First, &offset());
     let mapped = p.map(<Mod as looproot::algebra::ring::Ring>::from_rational).unwrap();
     assert_eq!(mapped.normalise(), modulo.normalise());
 }

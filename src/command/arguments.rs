@@ -1,8 +1,9 @@
 //! The words of the command line.
 
-use super::poly::arguments::PolyOptions;
+use super::poly::arguments::{PolyOptions, format};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use looproot::algebra::text::Format;
 use looproot::catalogue::Options;
 use std::path::PathBuf;
 
@@ -24,6 +25,8 @@ Exit codes: 0 complete and certified, 1 usage or input, 2 not proved complete or
 pub enum Verb {
     /// Find every solution of a mechanism file
     Solve(SolveOptions),
+    /// Derive the closure equations and the exact closure polynomial of one case
+    Derive(DeriveOptions),
     /// List the built-in library
     List(ListOptions),
     /// Print a mechanism as it was understood
@@ -57,6 +60,26 @@ impl ReadOptions {
     pub fn options(&self) -> Options {
         Options { digits: self.digits, base_link: self.base_link.clone(), tip_link: self.tip_link.clone() }
     }
+}
+
+/// Which case of a mechanism is meant.
+#[derive(Args)]
+pub struct CaseOptions {
+    /// This pose (of a platform: set of legs) of the file only, counted from 1
+    #[arg(long, value_name = "K")]
+    pub pose: Option<usize>,
+    /// This input of the file only, counted from 1, or another one: 7="90 deg", 3="20 mm"
+    #[arg(long, value_name = "K|JOINT=VALUE", conflicts_with = "pose")]
+    pub input: Option<String>,
+    /// The pose that these joint values reach: "10 deg, 0.3, pi/2, ..."
+    #[arg(long, value_name = "Q", conflicts_with_all = ["pose", "input"], allow_hyphen_values = true)]
+    pub joints: Option<String>,
+    /// Platform: legs of these lengths: "1, 1.2, 900 mm, ..."
+    #[arg(long, value_name = "L", conflicts_with = "pose", allow_hyphen_values = true)]
+    pub legs: Option<String>,
+    /// Platform: the legs that this pose asks for: "x, y, z; w, x, y, z", position and quaternion
+    #[arg(long, value_name = "POSE", conflicts_with_all = ["pose", "legs"], allow_hyphen_values = true)]
+    pub at: Option<String>,
 }
 
 /// Where the output goes.
@@ -107,21 +130,8 @@ pub struct SolveOptions {
     /// JSON Lines: one result a line, as soon as it is there
     #[arg(long, conflicts_with = "json")]
     pub jsonl: bool,
-    /// Solve this pose (of a platform: set of legs) of the file only, counted from 1
-    #[arg(long, value_name = "K")]
-    pub pose: Option<usize>,
-    /// Solve this input of the file only, counted from 1, or another one: 7="90 deg", 3="20 mm"
-    #[arg(long, value_name = "K|JOINT=VALUE", conflicts_with = "pose")]
-    pub input: Option<String>,
-    /// Solve the pose that these joint values reach: "10 deg, 0.3, pi/2, ..."
-    #[arg(long, value_name = "Q", conflicts_with_all = ["pose", "input"], allow_hyphen_values = true)]
-    pub joints: Option<String>,
-    /// Platform: solve for legs of these lengths: "1, 1.2, 900 mm, ..."
-    #[arg(long, value_name = "L", conflicts_with = "pose", allow_hyphen_values = true)]
-    pub legs: Option<String>,
-    /// Platform: solve for the legs that this pose asks for: "x, y, z; w, x, y, z", position and quaternion
-    #[arg(long, value_name = "POSE", conflicts_with_all = ["pose", "legs"], allow_hyphen_values = true)]
-    pub at: Option<String>,
+    #[command(flatten)]
+    pub asked: CaseOptions,
     /// Loops: velocities and accelerations of all joints per unit rate of the input, at every real mode
     #[arg(long)]
     pub derivatives: bool,
@@ -134,6 +144,33 @@ pub struct SolveOptions {
     /// Print verdicts only
     #[arg(short, long)]
     pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// `looproot derive`
+#[derive(Args)]
+pub struct DeriveOptions {
+    /// A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input; of several
+    /// poses or inputs the first one, unless one is asked for
+    pub mechanism: String,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// The equations in half-angle form (of a platform: in Study's parameters) and the closure polynomial as a file for
+    /// another program
+    #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]
+    pub format: Option<Format>,
+    /// The whole derivation in Markdown with LaTeX formulas
+    #[arg(long, conflicts_with_all = ["json", "format"])]
+    pub explain: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub asked: CaseOptions,
     #[command(flatten)]
     pub read: ReadOptions,
     #[command(flatten)]

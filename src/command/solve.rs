@@ -26,7 +26,7 @@ use std::time::Instant;
 /// Finds every solution of every case, or of the one asked for, and prints them in the order of the file.
 pub fn run(options: &SolveOptions) -> Result<Exit, Fault> {
     let mut entry = load(&options.mechanism, &options.read.options())?;
-    let wanted = wanted(options, &mut entry)?;
+    let wanted = wanted(&options.asked, &options.mechanism, &mut entry)?;
     if options.derivatives && entry.kind() != Kind::Loop {
         let what = if entry.kind() == Kind::Arm { "an arm" } else { "a platform" };
         let message = format!("found --derivatives for {what}, expected a loop: derivatives are by its input");

@@ -1,6 +1,6 @@
-//! Which case `looproot solve` is about.
+//! Which case a verb is about.
 
-use super::arguments::SolveOptions;
+use super::arguments::CaseOptions;
 use looproot::algebra::number::{Angle, Number, Quantity, Reading};
 use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue, Kind};
 use looproot::error::Error;
@@ -10,8 +10,8 @@ use looproot::kinematics::platform::Platform;
 use looproot::report::model::case_noun;
 use std::ops::Range;
 
-/// Which cases to solve. A case given on the command line takes the place of those of the file.
-pub fn wanted(options: &SolveOptions, entry: &mut Entry) -> Result<Range<usize>, Error> {
+/// The cases asked for. A case given on the command line takes the place of those of the file.
+pub fn wanted(options: &CaseOptions, mechanism: &str, entry: &mut Entry) -> Result<Range<usize>, Error> {
     refuse(options, entry.kind())?;
     let (own, number) = match &entry.design {
         Design::Arm(chain) => (options.joints.as_ref().map(|joints| reached(chain, joints)), options.pose),
@@ -34,7 +34,7 @@ pub fn wanted(options: &SolveOptions, entry: &mut Entry) -> Result<Range<usize>,
         None if count == 0 => {
             // Tables and robot descriptions are arms without poses; other files have a case.
             let hint = "expected a [[pose]], or --joints with joint values that reach one";
-            Err(Error::Invalid(format!("{}: found nothing to solve, {hint}", options.mechanism)))
+            Err(Error::Invalid(format!("{mechanism}: found nothing to solve, {hint}")))
         }
         None => Ok(0..count),
         Some(number) if (1..=count).contains(&number) => Ok(number - 1..number),
@@ -43,7 +43,7 @@ pub fn wanted(options: &SolveOptions, entry: &mut Entry) -> Result<Range<usize>,
 }
 
 /// Refuses what is no option for this kind of mechanism.
-fn refuse(options: &SolveOptions, kind: Kind) -> Result<(), Error> {
+fn refuse(options: &CaseOptions, kind: Kind) -> Result<(), Error> {
     let given = [
         ("--pose", options.pose.is_some()),
         ("--input", options.input.is_some()),

@@ -8,17 +8,17 @@
 //! bounds the number of isolated solutions; the least such bound over all choices of angles holds.
 
 use super::cut::Hidden;
+use super::separated::{offset, powers};
 use super::spherical_four_bar::{Equations, Form, FourBar};
 use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
+use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::link_form::LinkForm;
 
-/// A form by the powers of the hidden half tangent, over (1, cos, sin) of the other angle; the hidden angle is turned by
-/// 2 atan(3/7), so that no root is likely at infinity.
-fn by_hidden<F: Field>(form: &Form<F>, hidden: Hidden) -> [Univariate<F>; 3] {
-    let poly = |c: [i32; 3]| Univariate::new(c.map(F::from_integer).to_vec());
-    // 1, cos and sin of q' + 2 atan(3/7), times 58 (1 + x^2).
-    let angle = [poly([58, 0, 58]), poly([40, -84, -40]), poly([42, 80, -42])];
+/// A form by the powers of the hidden half tangent, over (1, cos, sin) of the other angle; the hidden angle is counted from
+/// `origin`.
+fn by_hidden<F: Field>(form: &Form<F>, hidden: Hidden, origin: &[F; 3]) -> [Univariate<F>; 3] {
+    let angle = powers(Variable::Rotation, origin).map(|row| Univariate::new(row.to_vec()));
     std::array::from_fn(|k| {
         angle.iter().enumerate().fold(Univariate::zero(), |sum, (l, part)| {
             let coefficient = if hidden == Hidden::First { &form[l][k] } else { &form[k][l] };
@@ -34,15 +34,18 @@ fn eliminant<F: Field>(f: &[Univariate<F>; 3], g: &[Univariate<F>; 3]) -> Univar
     n1.mul(&n1).add(&n2.mul(&n2)).sub(&n3.mul(&n3))
 }
 
-/// The closure polynomial of degree 8 in the tangent of half the hidden angle (less the angle 2 atan(3/7)).
+/// The closure polynomial of degree 8 in the tangent of half the hidden angle, counted from an angle given as
+/// (1, cos, sin) or a multiple of that.
 #[must_use]
-pub fn closure_polynomial<F: Field>(equations: &Equations<F>, hidden: Hidden) -> Univariate<F> {
-    eliminant(&by_hidden(&equations.f, hidden), &by_hidden(&equations.g, hidden))
+pub fn closure_polynomial<F: Field>(equations: &Equations<F>, hidden: Hidden, origin: &[F; 3]) -> Univariate<F> {
+    eliminant(&by_hidden(&equations.f, hidden, origin), &by_hidden(&equations.g, hidden, origin))
 }
 
 /// A bound on the number of isolated solutions as one hidden angle gives it; `None` where the polynomial vanishes.
 fn bound_of<F: Field + Domain>(bar: &FourBar<'_, F>, equations: &Equations<F>, hidden: Hidden) -> Option<usize> {
-    let (f, g) = (by_hidden(&equations.f, hidden), by_hidden(&equations.g, hidden));
+    // So that no root is likely at infinity.
+    let origin = &offset();
+    let (f, g) = (by_hidden(&equations.f, hidden, origin), by_hidden(&equations.g, hidden, origin));
     let polynomial = eliminant(&f, &g);
     polynomial.degree()?;
     let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
@@ -59,13 +62,13 @@ fn bound_of<F: Field + Domain>(bar: &FourBar<'_, F>, equations: &Equations<F>, h
     }
     // A vector in general position: coplanar with both directions only where these are parallel.
     let general = [1_234_577, -7_654_321, 3_141_593].map(F::from_integer);
-    let plane = by_hidden(&bar.coplanarity(bar.base, &general), hidden);
+    let plane = by_hidden(&bar.coplanarity(bar.base, &general), hidden, origin);
     let parallel = eliminant(&f, &plane);
     parallel.degree()?;
     let parallel = rest.gcd(&parallel);
     if parallel.degree() > Some(0) {
         // Parallel translations that do close the loop leave it a continuum.
-        let gap = eliminant(&f, &by_hidden(&bar.gap(bar.base, &general), hidden));
+        let gap = eliminant(&f, &by_hidden(&bar.gap(bar.base, &general), hidden, origin));
         if parallel.gcd(&gap).degree() > Some(0) {
             return None;
         }

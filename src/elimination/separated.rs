@@ -141,7 +141,8 @@ pub fn quartic<R: Ring>(conic: &[[R; 3]; 3], powers: &[[R; 3]; 3]) -> [R; 5] {
 }
 
 /// The offset of angles in exact work, 2 atan(3/7) as (1, cos, sin) times 58: no root is likely at infinity.
-pub(super) fn offset<R: Ring>() -> [R; 3] {
+#[must_use]
+pub fn offset<R: Ring>() -> [R; 3] {
     [58, 40, 42].map(R::from_integer)
 }
 

@@ -238,6 +238,16 @@ fn layout_rotations(open: &OpenLoop<f64>) -> usize {
     open.variables.iter().filter(|v| **v == Variable::Rotation).count()
 }
 
+/// The loop of one case over a ring, and the order of its variables; `None` for an unlucky prime.
+pub(crate) fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<(Layout, ClosedLoop<R>)>> {
+    let layout = Layout::of(chain, locked_variable(chain, case)?)?;
+    let open: Option<OpenLoop<R>> = chain.try_open_loop(&layout)?;
+    Ok(match (open, filling(case)) {
+        (Some(open), Ok(filling)) => Some((layout, open.close(&filling))),
+        _ => None,
+    })
+}
+
 /// The variable that the input of a loop locks; `None` at the pose of an arm.
 pub(super) fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
     if case.pose.is_some() {

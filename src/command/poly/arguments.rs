@@ -68,7 +68,8 @@ impl WriteOptions {
     }
 }
 
-fn format() -> impl TypedValueParser<Value = Format> {
+/// A language by its name.
+pub fn format() -> impl TypedValueParser<Value = Format> {
     let find = |name: String| Format::NAMED.into_iter().find(|(known, _)| *known == name).map(|(_, format)| format);
     PossibleValuesParser::new(Format::NAMED.map(|(name, _)| name)).try_map(move |name| find(name).ok_or("no language"))
 }

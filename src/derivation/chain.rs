@@ -1,0 +1,75 @@
+//! Arms and loops: which elimination.
+
+use super::polynomial::{ClosurePolynomial, Meaning};
+use super::symbols::Symbols;
+use super::{Derivation, Equation, cuts, four_bar, triangle, two_sides};
+use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::univariate::Univariate;
+use crate::catalogue::entry::Case;
+use crate::elimination::degree::general_degree;
+use crate::error::{Error, Result};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::mechanism::closed_loop;
+use rug::Rational;
+
+/// The field in which ways to eliminate are compared before the best one is taken over the rationals.
+pub(super) type Mod = ModP<PRIME_61>;
+
+/// What an elimination hands over.
+pub(super) struct Eliminated {
+    pub equations: Vec<Equation>,
+    pub steps: Vec<String>,
+    /// The unknown that is left, the polynomial in it, and what its variable is.
+    pub polynomial: Option<(usize, Univariate<Rational>, Meaning)>,
+}
+
+/// A loop over the rationals and modulo a prime.
+pub(super) struct Exact {
+    pub closed: ClosedLoop<Rational>,
+    pub modular: Option<ClosedLoop<Mod>>,
+    pub symbols: Symbols,
+}
+
+/// The derivation of one case of an arm or a loop.
+pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
+    let Some((layout, closed)) = closed_loop::<Rational>(chain, case)? else {
+        return Err(Error::Invalid("a case without pose and input".to_owned()));
+    };
+    let modular = closed_loop::<Mod>(chain, case)?.map(|(_, closed)| closed);
+    let symbols = Symbols::of(chain, &layout, closed.variables);
+    let exact = Exact { closed, modular, symbols };
+    let eliminated = match (layout.ball_unknown(), general_degree(exact.closed.variables)) {
+        (Some(ball), _) => Some(two_sides::ball(&exact, ball)),
+        (None, Some(2)) => triangle::eliminate(&exact),
+        (None, Some(8)) => two_sides::opposite_axes(&exact).or_else(|| four_bar::eliminate(&exact)),
+        (None, Some(_)) => Some(cuts::eliminate(&exact)),
+        (None, None) => {
+            let rotations = exact.closed.variables.iter().filter(|v| **v == Variable::Rotation).count();
+            return Err(Error::Unsupported(format!(
+                "{rotations} unknown rotations: planar and translational loops have no exact route"
+            )));
+        }
+    };
+    let Some(eliminated) = eliminated else {
+        return Err(Error::Unsupported("all axes are parallel: the loop moves in parallel planes".to_owned()));
+    };
+    let polynomial = match eliminated.polynomial {
+        Some((unknown, polynomial, meaning)) if polynomial.degree().is_some() => {
+            ClosurePolynomial::of(Symbols::variable(unknown), polynomial.primitive_integers(), meaning)?
+        }
+        _ => None,
+    };
+    let without = polynomial
+        .is_none()
+        .then(|| "every elimination vanishes identically: a self-motion, or no isolated solution at all".to_owned());
+    Ok(Derivation {
+        names: exact.symbols.names()?,
+        equations: eliminated.equations,
+        steps: eliminated.steps,
+        polynomial,
+        without,
+        definition: None,
+        warnings: Vec::new(),
+    })
+}

@@ -1,0 +1,170 @@
+//! Five or six rotations: fourteen equations of a cut, four of them without three unknowns, one pencil of size 8.
+
+use super::Equation;
+use super::chain::{Eliminated, Exact, Mod};
+use super::four_bar::quality;
+use super::polynomial::Meaning;
+use super::symbols::{Symbols, bilinear_form};
+use crate::algebra::determinant::modular;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::Ring;
+use crate::algebra::univariate::Univariate;
+use crate::closure::half_angle::half_angle_form;
+use crate::closure::woernle_lee::{
+    FIXED, MarkedLine, TURNING_X, TURNING_Y, act, left_columns, right_columns, split_inverse,
+};
+use crate::elimination::cut::{Cut, Hidden};
+use crate::elimination::degree::closure_polynomial;
+use crate::elimination::pencil::{Bilinear, before_second_link, bilinear, pencil};
+use crate::kinematics::closed_loop::ClosedLoop;
+use rug::Rational;
+
+/// The invariants of two lines with a marked point each: n, n' their directions, r from one point to the other.
+const INVARIANTS: [&str; 6] = ["n.n'", "n.r", "n'.r", "r.r", "n.(r x n')", "(r.r) n.n' - 2 (n.r)(n'.r)"];
+/// The vectors whose coordinates across the first axis turn with it.
+const TURNING: [&str; 4] = ["n'", "r", "r x n'", "(r.r) n' - 2 (n'.r) r"];
+
+/// The first cut that leaves the fewest roots, distinct if possible. The first one of all is taken at once where it
+/// leaves 16 distinct ones, as in general.
+fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
+    let mut best = None;
+    for cut in Cut::ALL {
+        for hidden in [Hidden::First, Hidden::Second] {
+            let Some(found) = closure_polynomial(closed, cut, hidden) else { continue };
+            let Some(quality) = quality(&found.cofactor) else { continue };
+            if best.is_none_or(|(least, _, _)| quality < least) {
+                best = Some((quality, cut, hidden));
+            }
+            if quality == (16, false) {
+                return best.map(|(_, cut, hidden)| (cut, hidden));
+            }
+        }
+    }
+    best.map(|(_, cut, hidden)| (cut, hidden))
+}
+
+/// The equations of the best cut and the determinant of its pencil.
+pub(super) fn eliminate(exact: &Exact) -> Eliminated {
+    let chosen = exact.modular.as_ref().and_then(choice);
+    let regular = |cut: &&Cut| cut.fits(exact.closed.variables) && half_angle_form(&cut.of(&exact.closed)).is_some();
+    let (cut, hidden) = match (chosen, Cut::ALL.iter().find(regular)) {
+        (Some(chosen), _) => chosen,
+        (None, Some(&cut)) => (cut, Hidden::First),
+        (None, None) => {
+            let step = "Every cut of the loop loses equations.".to_owned();
+            return Eliminated { equations: Vec::new(), steps: vec![step], polynomial: None };
+        }
+    };
+    let view = cut.of(&exact.closed);
+    let mut equations = listed(&exact.symbols, cut, &view);
+    let Some(form) = half_angle_form(&view) else {
+        return Eliminated { equations, steps: Vec::new(), polynomial: None };
+    };
+    let rows = bilinear(&before_second_link(&form, &view.constants[1]), &view);
+    equations.extend(reduced(&exact.symbols, cut, &rows));
+    let kept = cut.unknown_index(usize::from(hidden == Hidden::Second));
+    let determinant = modular(&pencil(&rows, hidden).coefficients);
+    let polynomial = (!determinant.is_zero()).then(|| {
+        let polynomial = if cut.reversed { mirrored(&determinant) } else { determinant };
+        (kept, polynomial, Meaning::HalfTangent { degree: 16 })
+    });
+    Eliminated { equations, steps: steps(&exact.symbols, cut, hidden), polynomial }
+}
+
+/// `p(-x)`
+fn mirrored(polynomial: &Univariate<Rational>) -> Univariate<Rational> {
+    let signed = |(k, c): (usize, &Rational)| if k % 2 == 1 { Rational::from(-c) } else { c.clone() };
+    Univariate::new(polynomial.coefficients().iter().enumerate().map(signed).collect())
+}
+
+/// The fourteen equations of a cut.
+fn listed(symbols: &Symbols, cut: Cut, view: &ClosedLoop<Rational>) -> Vec<Equation> {
+    let monomials: [[Polynomial<Rational>; 3]; 5] =
+        std::array::from_fn(|j| symbols.monomials(cut.unknown_index(j), cut.reversed));
+    let label = |j: usize| symbols.label(cut.unknown_index(j));
+    // All as seen from the axis of unknown 3: the left sides in unknowns 4 and 5, the right ones in 1, 2 and 3.
+    let left: [MarkedLine<Rational>; 9] = left_columns(view).map(|column| act(&view.constants[2], &column));
+    let back = view.constants[1].inverse();
+    let right = right_columns(view).map(|row| row.map(|column| split_inverse(view.variables[2], &act(&back, &column))));
+    let coordinate = |i: usize| {
+        let parts: [[Rational; 3]; 3] =
+            std::array::from_fn(|five| std::array::from_fn(|four| left[3 * five + four][i].clone()));
+        let left = bilinear_form(&parts, &monomials[4], &monomials[3]);
+        (0..3).fold(left, |sum, three| {
+            let parts: [[Rational; 3]; 3] =
+                std::array::from_fn(|one| std::array::from_fn(|two| right[one][two][three][i].clone()));
+            sum.sub(&bilinear_form(&parts, &monomials[0], &monomials[1]).mul(&monomials[2][three]))
+        })
+    };
+    let pair = format!("{}-{}", label(2), label(5));
+    let fixed = FIXED[1..].iter().zip(INVARIANTS);
+    let fixed = fixed.map(|(&i, name)| Equation::listed(format!("Woernle-Lee {pair} {name}"), &coordinate(i)));
+    let turning = TURNING_X.into_iter().zip(TURNING_Y).zip(TURNING).flat_map(|((x, y), name)| {
+        [(x, "x"), (y, "y")]
+            .map(|(i, axis)| Equation::listed(format!("half-angle pair {pair} {axis}.({name})"), &coordinate(i)))
+    });
+    fixed.chain(turning).collect()
+}
+
+/// The four equations without unknowns 4 to 6, linear in the half-angle tangent of unknown 3.
+fn reduced(symbols: &Symbols, cut: Cut, rows: &Bilinear<Rational>) -> Vec<Equation> {
+    let monomials = [0, 1].map(|j| symbols.monomials(cut.unknown_index(j), cut.reversed));
+    let tangent = Symbols::tangent(cut.unknown_index(2), cut.reversed);
+    let label = |j: usize| symbols.label(cut.unknown_index(j));
+    let one = |k: usize| {
+        let form = |e: usize| bilinear_form(&rows[e], &monomials[0], &monomials[1]);
+        let polynomial = form(k).add(&form(4 + k).mul(&tangent));
+        let name = format!("without {}, {}, {}: equation {}", label(3), label(4), label(5), k + 1);
+        Equation::used(name, &polynomial)
+    };
+    (0..4).map(one).collect()
+}
+
+fn steps(symbols: &Symbols, cut: Cut, hidden: Hidden) -> Vec<String> {
+    let label = |j: usize| symbols.label(cut.unknown_index(j));
+    let name = |j: usize| symbols.name(cut.unknown_index(j));
+    let (kept, other) = if hidden == Hidden::First { (0, 1) } else { (1, 0) };
+    vec![
+        format!(
+            "The loop is cut at the axes of joints {} and {}, of directions n, n', with r from a point of the first to one of \
+             the second: seen from the first axis, each side of the loop gives the same line with a marked point. Six \
+             invariants of it are free of joints {} and {} (Woernle-Lee), eight coordinates turn with joint {} (half-angle \
+             pairs): 14 equations in five unknowns.",
+            label(2),
+            label(5),
+            label(2),
+            label(5),
+            label(2)
+        ),
+        format!(
+            "They are linear in the 8 products of (1, cos, sin) of joints {} and {}: a 15 x 9 matrix of rank 9 leaves 6 \
+             equations in joints {}, {} and {}.",
+            label(3),
+            label(4),
+            label(0),
+            label(1),
+            label(2)
+        ),
+        format!(
+            "Of these, as complex numbers, 4 combinations (the left kernel of a 12 x 8 matrix) are linear in {} without the \
+             factor 1 + {}^2: degrees 2, 2 and 1 in {}, {} and {}.",
+            name(2),
+            name(2),
+            name(0),
+            name(1),
+            name(2)
+        ),
+        format!(
+            "Times 1 and {other}, they are 8 linear equations in the products of (1, {other}, {other}^2, {other}^3) and (1, \
+             {}): an 8 x 8 matrix of degree 2 in {}.",
+            name(2),
+            name(kept),
+            other = name(other)
+        ),
+        format!(
+            "Its determinant, of degree 16 or less in {}, is the closure polynomial: every solution is a root.",
+            name(kept)
+        ),
+        format!("At a root the kernel gives {} and {}, then linear equations the other joints.", name(other), name(2)),
+    ]
+}

@@ -1,0 +1,87 @@
+//! Four rotations: a spherical four-bar and one condition on the translations.
+
+use super::Equation;
+use super::chain::{Eliminated, Exact, Mod};
+use super::polynomial::Meaning;
+use super::symbols::bilinear_form;
+use crate::algebra::ring::{Domain, Field, Ring};
+use crate::algebra::univariate::Univariate;
+use crate::elimination::cut::Hidden;
+use crate::elimination::octic::closure_polynomial;
+use crate::elimination::separated::offset;
+use crate::elimination::spherical_four_bar::FourBar;
+use crate::kinematics::link_form::LinkForm;
+use rug::Rational;
+
+/// How good a polynomial is: the number of roots that may be solutions, then whether some coincide. Less is better.
+pub(super) fn quality<F: Field + Domain>(polynomial: &Univariate<F>) -> Option<(usize, bool)> {
+    polynomial.degree()?;
+    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
+    let rest = polynomial.remove_factor(&circle).1;
+    let multiple = rest.gcd(&rest.derivative()).degree() > Some(0);
+    Some((rest.degree().unwrap_or(0), multiple))
+}
+
+/// The link from which to look, and the angle to keep: the first that leaves the fewest roots, distinct if possible.
+fn choice(form: &LinkForm<Mod, 4, 2>) -> Option<(usize, Hidden)> {
+    let mut best = None;
+    for base in 0..4 {
+        let Some(bar) = FourBar::new(form, base) else { continue };
+        let equations = bar.equations();
+        for hidden in [Hidden::First, Hidden::Second] {
+            let Some(quality) = quality(&closure_polynomial(&equations, hidden, &offset())) else { continue };
+            if best.is_none_or(|(least, _, _)| quality < least) {
+                best = Some((quality, base, hidden));
+            }
+        }
+    }
+    best.map(|(_, base, hidden)| (base, hidden))
+}
+
+/// The two equations and their polynomial.
+pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
+    let form: LinkForm<Rational, 4, 2> = LinkForm::of(&exact.closed)?;
+    let chosen = exact.modular.as_ref().and_then(|modular| choice(&LinkForm::of(modular)?));
+    let degenerate = chosen.is_none();
+    let any = || (0..4).find(|&base| FourBar::new(&form, base).is_some()).map(|base| (base, Hidden::First));
+    let (base, hidden) = chosen.or_else(any)?;
+    let bar = FourBar::new(&form, base)?;
+    let equations = bar.equations();
+    let unknown = |k: usize| form.rotations[(base + k) % 4];
+    let symbols = &exact.symbols;
+    let label = |k: usize| symbols.label(unknown(k));
+    let monomials = [0, 1].map(|k| symbols.monomials(unknown(k), false));
+    let listed = [
+        (format!("spherical four-bar {}-{} n.n'", label(2), label(3)), &equations.f),
+        (format!("coplanarity of translations {}-{} [u, v, s]", label(0), label(1)), &equations.g),
+    ];
+    let listed =
+        listed.into_iter().map(|(name, form)| Equation::used(name, &bilinear_form(form, &monomials[0], &monomials[1])));
+    let kept = unknown(usize::from(hidden == Hidden::Second));
+    let gone = unknown(usize::from(hidden == Hidden::First));
+    let steps = vec![
+        format!(
+            "The rotations {}, {}, {}, {} close by themselves: the axes of joints {} and {} keep the angle of the link between \
+             them, f = 0, bilinear in cosine and sine of joints {} and {}.",
+            label(0), label(1), label(2), label(3), label(2), label(3), label(0), label(1)
+        ),
+        "The translations can close the loop if their directions u, v and the sum s of the links are coplanar: g = [u, v, s] \
+         = 0, reduced modulo f to be bilinear in the same angles."
+            .to_owned(),
+        format!(
+            "With f = (C, A, B).(1, cos, sin) of joint {} and g likewise, the vector product N of both leaves N1^2 + N2^2 - \
+             N3^2 = 0, a polynomial of degree 8 or less in {}.",
+            symbols.label(gone), symbols.name(kept)
+        ),
+        "Every solution is a root; a root at which u and v are parallel need not be one. The other rotations and the two \
+         translations follow rationally."
+            .to_owned(),
+    ];
+    let polynomial = if degenerate && exact.modular.is_some() {
+        None
+    } else {
+        let polynomial = closure_polynomial(&equations, hidden, &[1, 1, 0].map(Rational::from));
+        (!polynomial.is_zero()).then_some((kept, polynomial, Meaning::HalfTangent { degree: 8 }))
+    };
+    Some(Eliminated { equations: listed.collect(), steps, polynomial })
+}

@@ -1,0 +1,73 @@
+//! A mechanism's closure equations and its closure polynomial, exactly.
+//!
+//! The equations are those of [`crate::closure`] and [`crate::elimination`], written over the rationals in the cosines and
+//! sines of the unknowns; the polynomial comes from the same eliminations as the numbers of the solver.
+
+mod chain;
+mod cuts;
+mod equation;
+mod four_bar;
+mod platform;
+mod polynomial;
+mod symbols;
+mod triangle;
+mod two_sides;
+
+pub use equation::Equation;
+pub use polynomial::{ClosurePolynomial, Root};
+
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::text::Names;
+use crate::catalogue::entry::{Case, Design, Entry};
+use crate::error::Result;
+use rug::Rational;
+
+/// The derivation of one case of a mechanism file.
+#[derive(Clone, Debug)]
+pub struct Derivation {
+    /// The names of all variables.
+    pub names: Names,
+    /// The closure equations, in the order in which they are used.
+    pub equations: Vec<Equation>,
+    /// How they lead to the polynomial, a sentence each.
+    pub steps: Vec<String>,
+    /// The closure polynomial; `None` where it vanishes identically or is not known.
+    pub polynomial: Option<ClosurePolynomial>,
+    /// Why there is no polynomial.
+    pub without: Option<String>,
+    /// What the variable of the polynomial is, as an equation; none where the equations have it.
+    pub definition: Option<Polynomial<Rational>>,
+    /// What the reader wants known.
+    pub warnings: Vec<String>,
+}
+
+impl Derivation {
+    /// The equations that hold the unknowns of the polynomial without cosines and sines, and the polynomial itself.
+    #[must_use]
+    pub fn system(&self) -> Vec<Polynomial<Rational>> {
+        let equations = self.equations.iter().filter_map(|equation| equation.algebraic.clone());
+        let mut system: Vec<Polynomial<Rational>> = equations.chain(self.definition.clone()).collect();
+        let polynomial = self.polynomial.as_ref().map(ClosurePolynomial::to_polynomial);
+        // A single equation in one unknown is its own closure polynomial.
+        system.extend(polynomial.filter(|polynomial| !system.contains(polynomial)));
+        system
+    }
+}
+
+/// Derives the closure equations and the closure polynomial of one case.
+///
+/// # Errors
+/// [`crate::error::Error::Unsupported`] for mechanisms without an exact route.
+pub fn derive(entry: &Entry, case: &Case) -> Result<Derivation> {
+    let mut derivation = match &entry.design {
+        Design::Arm(chain) | Design::Loop(chain) => chain::derive(chain, case)?,
+        Design::Platform(geometry) => platform::derive(geometry, case)?,
+    };
+    if entry.rounded {
+        let rounded = "numbers of the file without rational value or half-angle tangent are replaced by rationals nearby \
+                       (--digits): everything here is exact for those";
+        derivation.warnings.push(rounded.to_owned());
+    }
+    derivation.warnings.extend(case.warnings.iter().cloned());
+    Ok(derivation)
+}

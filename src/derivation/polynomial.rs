@@ -1,0 +1,102 @@
+//! A closure polynomial over the integers, with all that can be proved of its roots.
+
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::real_roots::RealRoot;
+use crate::algebra::univariate::Univariate;
+use crate::error::{Error, Result};
+use rug::{Integer, Rational};
+
+/// A closure polynomial in one variable.
+#[derive(Clone, Debug)]
+pub struct ClosurePolynomial {
+    /// Which variable.
+    pub variable: usize,
+    /// Integers without common factor, constant term first, the last one positive.
+    pub coefficients: Univariate<Integer>,
+    /// The power k of the factor `(1 + t^2)^k` that was divided out: no angle has the half-angle tangent i.
+    pub circle: usize,
+    /// How many roots are at infinity, where the angle is pi.
+    pub at_pi: usize,
+    /// Degree and multiplicity of the square-free factors.
+    pub factors: Vec<(usize, usize)>,
+    /// The distinct finite real roots, isolated.
+    pub roots: Vec<Root>,
+}
+
+/// A real root.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Root {
+    /// The number itself, where it was met, else the nearest float.
+    pub value: f64,
+    /// The root where it is known to be rational.
+    pub exact: Option<Rational>,
+    /// How often it counts.
+    pub multiplicity: usize,
+}
+
+impl Root {
+    fn of(mut root: RealRoot) -> Self {
+        Self { value: root.to_f64(), exact: root.exact(), multiplicity: root.multiplicity() }
+    }
+}
+
+/// What the variable of a polynomial is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Meaning {
+    /// The half-angle tangent in a polynomial that would be of this degree if no root were at infinity.
+    HalfTangent { degree: usize },
+    /// Anything else.
+    Plain,
+}
+
+impl ClosurePolynomial {
+    /// The polynomial without factors `1 + t^2`; `None` for zero.
+    ///
+    /// # Errors
+    /// Where isolation and Sturm's theorem disagree on the number of real roots, which neither can be wrong about.
+    pub(super) fn of(variable: usize, integers: Vec<Integer>, meaning: Meaning) -> Result<Option<Self>> {
+        let mut coefficients = Univariate::new(integers);
+        let Some(degree) = coefficients.degree() else { return Ok(None) };
+        let mut circle = 0;
+        let mut at_pi = 0;
+        if let Meaning::HalfTangent { degree: full } = meaning {
+            let factor = Univariate::new([1, 0, 1].map(Integer::from).to_vec());
+            while let Some(quotient) = coefficients.quotient(&factor) {
+                (coefficients, circle) = (quotient, circle + 1);
+            }
+            at_pi = full.saturating_sub(degree);
+        }
+        coefficients = coefficients.primitive_part();
+        if coefficients.coefficients().last().is_some_and(Integer::is_negative) {
+            coefficients = Univariate::new(coefficients.coefficients().iter().map(|c| Integer::from(-c)).collect());
+        }
+        let factors = coefficients.square_free_decomposition();
+        let factors = factors.iter().filter_map(|(factor, k)| Some((factor.degree()?, *k))).collect();
+        let roots: Vec<Root> = coefficients.real_roots().into_iter().map(Root::of).collect();
+        let counted = coefficients.distinct_real_roots();
+        if counted != roots.len() {
+            let isolated = roots.len();
+            return Err(Error::Invalid(format!("{isolated} real roots isolated, {counted} by Sturm's theorem")));
+        }
+        Ok(Some(Self { variable, coefficients, circle, at_pi, factors, roots }))
+    }
+
+    /// The degree.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.coefficients.degree().unwrap_or(0)
+    }
+
+    /// The number of distinct complex roots.
+    #[must_use]
+    pub fn distinct(&self) -> usize {
+        self.factors.iter().map(|(degree, _)| degree).sum()
+    }
+
+    /// As a polynomial in its variable.
+    #[must_use]
+    pub fn to_polynomial(&self) -> Polynomial<Rational> {
+        let image: Vec<Rational> = self.coefficients.coefficients().iter().map(Rational::from).collect();
+        Polynomial::from_univariate(self.variable, &Univariate::new(image))
+    }
+}

@@ -1,0 +1,123 @@
+//! The unknowns of a loop as variables of polynomials.
+
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::Ring;
+use crate::algebra::text::Names;
+use crate::algebra::trigonometric::{Pair, half_tangents};
+use crate::error::Result;
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::{Layout, Variable};
+use rug::Rational;
+
+/// Cosine, sine and half-angle tangent of every unknown rotation, every unknown translation, in loop order.
+#[derive(Clone, Debug)]
+pub(super) struct Symbols {
+    kinds: [Variable; 6],
+    labels: [String; 6],
+}
+
+impl Symbols {
+    /// Named by the numbers of the joints: `c3`, `s3` and `t3`, or `d3`.
+    pub fn of(chain: &Chain, layout: &Layout, kinds: [Variable; 6]) -> Self {
+        let total = layout.variables.len();
+        let joints = joint_labels(chain);
+        let first = layout.locked.map_or(0, |locked| locked + 1);
+        let labels = std::array::from_fn(|k| joints.get((first + k) % total.max(1)).cloned().unwrap_or_default());
+        Self { kinds, labels }
+    }
+
+    /// The number of the joint of an unknown, with that of the turn for a ball.
+    pub fn label(&self, unknown: usize) -> &str {
+        &self.labels[unknown % 6]
+    }
+
+    /// The names of all variables.
+    pub fn names(&self) -> Result<Names> {
+        let names = (0..6).flat_map(|k| {
+            let last = if self.kinds[k] == Variable::Rotation { "t" } else { "d" };
+            ["c", "s", last].map(|letter| format!("{letter}{}", self.labels[k]))
+        });
+        // A translation has neither cosine nor sine: a name that its own joint's rotation does not have.
+        let mut list: Vec<String> = names.collect();
+        for k in (0..6).filter(|&k| self.kinds[k] == Variable::Translation) {
+            for name in &mut list[3 * k..3 * k + 2] {
+                name.push_str("_0");
+            }
+        }
+        Names::given(list)
+    }
+
+    /// The variable of the half-angle tangent or of the distance.
+    pub fn variable(unknown: usize) -> usize {
+        3 * (unknown % 6) + 2
+    }
+
+    /// The name of that variable.
+    pub fn name(&self, unknown: usize) -> String {
+        let letter = if self.kinds[unknown % 6] == Variable::Rotation { 't' } else { 'd' };
+        format!("{letter}{}", self.label(unknown))
+    }
+
+    /// The half-angle tangent or the distance of an unknown, or of its negative.
+    pub fn tangent(unknown: usize, negated: bool) -> Polynomial<Rational> {
+        let variable = Polynomial::variable(Self::variable(unknown));
+        if negated { variable.neg() } else { variable }
+    }
+
+    /// `(1, cos, sin)` or `(1, d, d^2)` of an unknown, or of its negative.
+    pub fn monomials(&self, unknown: usize, negated: bool) -> [Polynomial<Rational>; 3] {
+        let k = unknown % 6;
+        let signed = |p: Polynomial<Rational>| if negated { p.neg() } else { p };
+        match self.kinds[k] {
+            Variable::Rotation => [Ring::one(), Polynomial::variable(3 * k), signed(Polynomial::variable(3 * k + 1))],
+            Variable::Translation => {
+                let d = Polynomial::variable(3 * k + 2);
+                [Ring::one(), signed(d.clone()), d.mul(&d)]
+            }
+        }
+    }
+}
+
+/// The polynomial with half-angle tangents in place of cosines and sines, multiplied by the powers of `1 + t^2` that this
+/// takes.
+pub(super) fn half_angles(polynomial: &Polynomial<Rational>) -> Polynomial<Rational> {
+    let used = |k: &usize| polynomial.degree(3 * k) > 0 || polynomial.degree(3 * k + 1) > 0;
+    let pairs: Vec<(Pair, usize)> =
+        (0..6).filter(used).map(|k| (Pair { cos: 3 * k, sin: 3 * k + 1 }, 3 * k + 2)).collect();
+    half_tangents(polynomial, &pairs).polynomial
+}
+
+/// Per joint variable the number of its joint; the turns of a ball are told apart.
+fn joint_labels(chain: &Chain) -> Vec<String> {
+    use crate::kinematics::chain::JointKind;
+    let mut labels = Vec::new();
+    for (number, kind) in (1..).zip(chain.joint_kinds()) {
+        match kind {
+            JointKind::Cylindrical => labels.extend([number.to_string(), number.to_string()]),
+            JointKind::Spherical => labels.extend((1..=3).map(|turn| format!("{number}_{turn}"))),
+            _ => labels.push(number.to_string()),
+        }
+    }
+    labels
+}
+
+/// `sum coefficient * monomial`
+pub(super) fn combination<'a>(
+    terms: impl IntoIterator<Item = (&'a Rational, &'a Polynomial<Rational>)>,
+) -> Polynomial<Rational> {
+    terms.into_iter().fold(
+        Polynomial::zero(),
+        |sum, (c, monomial)| {
+            if c.is_zero() { sum } else { sum.add(&monomial.scale(c)) }
+        },
+    )
+}
+
+/// `sum form[i][j] rows[i] columns[j]`
+pub(super) fn bilinear_form(
+    form: &[[Rational; 3]; 3],
+    rows: &[Polynomial<Rational>; 3],
+    columns: &[Polynomial<Rational>; 3],
+) -> Polynomial<Rational> {
+    (0..3).fold(Polynomial::zero(), |sum, i| sum.add(&rows[i].mul(&combination(form[i].iter().zip(columns)))))
+}

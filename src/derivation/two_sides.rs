@@ -1,0 +1,111 @@
+//! Balls, and translations along two opposite axes: two equations whose sides have one unknown each.
+
+use super::Equation;
+use super::chain::{Eliminated, Exact};
+use super::polynomial::Meaning;
+use super::symbols::combination;
+use super::triangle::of_row;
+use crate::algebra::ring::Ring;
+use crate::algebra::univariate::Univariate;
+use crate::elimination::opposite_axes::OppositeAxes;
+use crate::elimination::point_reach::Reach;
+use crate::elimination::separated::{Plan, Separated, powers, quartic};
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::link_form::LinkForm;
+use rug::Rational;
+
+/// A ball: the point at its centre is reached from both sides.
+pub(super) fn ball(exact: &Exact, ball: usize) -> Eliminated {
+    let reach = Reach::of(&exact.closed, ball);
+    let [first, second, third] = [3, 4, 5].map(|k| (ball + k) % 6);
+    let label = |k: usize| exact.symbols.label(k);
+    let centre = label(ball).split('_').next().unwrap_or_default().to_owned();
+    let (names, how) = match reach.variables[1] {
+        Variable::Rotation => {
+            (["n.r", "r.r"], "have the same height along the axis and the same distance from a point of it")
+        }
+        Variable::Translation => (["x.r", "y.r"], "lie over the same point of a plane across the axis"),
+    };
+    let names = names.map(|name| format!("centre of ball {centre}, axis {}, {name}", label(second)));
+    let mut steps = vec![format!(
+        "The centre of ball {centre}, carried by joint {} on one side and by joint {} on the other, is brought together by \
+         joint {}: seen from there both places {how}.",
+        label(third),
+        label(first),
+        label(second)
+    )];
+    let mut eliminated = solve(exact, &reach.equations, [third, first], names);
+    steps.append(&mut eliminated.steps);
+    steps.push(format!("Joint {} and the rotation of the ball follow rationally.", label(second)));
+    Eliminated { steps, ..eliminated }
+}
+
+/// Translations along two opposite axes; `None` where they run otherwise, or the polynomial vanishes.
+pub(super) fn opposite_axes(exact: &Exact) -> Option<Eliminated> {
+    let form: LinkForm<Rational, 4, 2> = LinkForm::of(&exact.closed)?;
+    let axes = OppositeAxes::of(&form, 0.0)?;
+    let rotation = |k: usize| form.rotations[(axes.first + k) % 4];
+    let label = |k: usize| exact.symbols.label(rotation(k));
+    let equations = axes.equations(&form);
+    if matches!(equations.plan(0.0), Plan::Apart { .. }) {
+        return None;
+    }
+    let names = ["n.n'", "n.(r x n')"].map(|name| format!("dual cosine {}-{} {name}", label(0), label(2)));
+    let mut steps = vec![format!(
+        "The translations run along the axes of joints {} and {}: angle and moment of these two lines are free of them and of \
+         both rotations about them.",
+        label(0),
+        label(2)
+    )];
+    let mut eliminated = solve(exact, &equations, [rotation(1), rotation(3)], names);
+    steps.append(&mut eliminated.steps);
+    steps.push("The rotations about both axes and the two translations follow rationally.".to_owned());
+    eliminated.polynomial.as_ref().filter(|(_, polynomial, _)| !polynomial.is_zero())?;
+    Some(Eliminated { steps, ..eliminated })
+}
+
+/// The equations with these unknowns on their sides.
+fn solve(exact: &Exact, equations: &Separated<Rational>, unknowns: [usize; 2], names: [String; 2]) -> Eliminated {
+    let monomials = unknowns.map(|unknown| exact.symbols.monomials(unknown, false));
+    let listed = equations.rows.iter().zip(names).map(|(row, name)| {
+        let [left, right] = [0, 1].map(|side| combination(row[side].iter().zip(&monomials[side])));
+        Equation::used(name, &left.sub(&right))
+    });
+    let name = |side: usize| exact.symbols.name(unknowns[side]);
+    let (side, polynomial, step) = match equations.plan(0.0) {
+        Plan::Together { hidden, other } => {
+            let origin = [1, 1, 0].map(Rational::from);
+            let powers = powers(equations.kinds[hidden], &origin);
+            let polynomial = Univariate::new(quartic(&equations.conic(hidden, &other), &powers).to_vec());
+            let conic = match equations.kinds[1 - hidden] {
+                Variable::Rotation => "cos^2 + sin^2 = 1",
+                Variable::Translation => "d d = d^2",
+            };
+            let step = format!(
+                "The two equations are linear in the monomials of both unknowns, {} and {}: solved for those of the second \
+                 one and put into {conic}, they leave a polynomial of degree 4 or less in {}.",
+                name(hidden),
+                name(1 - hidden),
+                name(hidden)
+            );
+            (hidden, polynomial, step)
+        }
+        Plan::Apart { first, equation, .. } => {
+            let step = format!(
+                "One combination of the two equations is free of {}: degree 2 or less in {}; to each root belong the roots of \
+                 an equation of degree 2 or less in {}.",
+                name(1 - first),
+                name(first),
+                name(1 - first)
+            );
+            (first, of_row(equations.kinds[first], &equation), step)
+        }
+    };
+    let degree = if matches!(equations.plan(0.0), Plan::Apart { .. }) { 2 } else { 4 };
+    let meaning = match equations.kinds[side] {
+        Variable::Rotation => Meaning::HalfTangent { degree },
+        Variable::Translation => Meaning::Plain,
+    };
+    let polynomial = Some((unknowns[side], polynomial, meaning));
+    Eliminated { equations: listed.collect(), steps: vec![step], polynomial }
+}

@@ -1,0 +1,234 @@
+//! Derivations: the verdict first, then equations, steps and polynomial; as text, JSON and Markdown.
+
+use super::json::{kind, number};
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::text::{Format, Names};
+use crate::catalogue::entry::{Entry, Kind};
+use crate::derivation::{ClosurePolynomial, Derivation, Root};
+use crate::error::Result;
+use rug::Rational;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// The name of the polynomial's variable.
+fn variable<'d>(derivation: &'d Derivation, polynomial: &ClosurePolynomial) -> &'d str {
+    &derivation.names.list()[polynomial.variable]
+}
+
+/// `degree 16 in t3, 16 distinct roots, 6 real (proved), removed (1 + t3^2)^4`
+#[must_use]
+pub fn verdict(derivation: &Derivation) -> String {
+    let Some(polynomial) = &derivation.polynomial else {
+        return format!("no closure polynomial: {}", derivation.without.as_deref().unwrap_or("not known"));
+    };
+    let (name, degree) = (variable(derivation, polynomial), polynomial.degree());
+    let mut text = match (polynomial.distinct(), polynomial.roots.len()) {
+        (0, _) => format!("degree 0 in {name}, no root"),
+        (1, real) => format!("degree {degree} in {name}, 1 distinct root, {real} real (proved)"),
+        (distinct, real) => format!("degree {degree} in {name}, {distinct} distinct roots, {real} real (proved)"),
+    };
+    match polynomial.at_pi {
+        0 => {}
+        1 => text.push_str(&format!(", 1 more at {name} = inf (the angle pi)")),
+        n => text.push_str(&format!(", {n} more at {name} = inf (the angle pi)")),
+    }
+    if let Some(factor) = removed(name, polynomial) {
+        text.push_str(&format!(", removed {factor}"));
+    }
+    text
+}
+
+fn removed(name: &str, polynomial: &ClosurePolynomial) -> Option<String> {
+    match polynomial.circle {
+        0 => None,
+        1 => Some(format!("1 + {name}^2")),
+        k => Some(format!("(1 + {name}^2)^{k}")),
+    }
+}
+
+/// `degree 12; degree 2, twice`
+fn factors(polynomial: &ClosurePolynomial) -> String {
+    match polynomial.factors.as_slice() {
+        [(_, 1)] | [] => "square-free".to_owned(),
+        several => {
+            let each = several.iter().map(|(degree, multiplicity)| format!("(degree {degree})^{multiplicity}"));
+            format!("square-free factors {}", each.collect::<Vec<_>>().join(" "))
+        }
+    }
+}
+
+fn root(root: &Root) -> String {
+    let value = root.exact.as_ref().map_or_else(|| format!("{:?}", root.value), ToString::to_string);
+    if root.multiplicity > 1 { format!("{value} (multiplicity {})", root.multiplicity) } else { value }
+}
+
+fn plain(polynomial: &Polynomial<Rational>, names: &Names) -> String {
+    Format::Text.polynomial(polynomial, names)
+}
+
+/// Everything for a reader.
+#[must_use]
+pub fn text(derivation: &Derivation) -> String {
+    let names = &derivation.names;
+    let mut text = verdict(derivation) + "\n";
+    if !derivation.equations.is_empty() {
+        text.push_str("\nClosure equations (= 0)\n");
+    }
+    for equation in &derivation.equations {
+        let _ = writeln!(text, "{}:\n  {}", equation.name, plain(&equation.polynomial, names));
+        if let Some(algebraic) = equation.algebraic.as_ref().filter(|a| **a != equation.polynomial) {
+            let _ = writeln!(text, "  in half-angle tangents: {}", plain(algebraic, names));
+        }
+    }
+    text.push_str("\nElimination\n");
+    for (number, step) in (1..).zip(&derivation.steps) {
+        let _ = writeln!(text, "{number}. {step}");
+    }
+    if let Some(polynomial) = &derivation.polynomial {
+        let _ = writeln!(text, "\nClosure polynomial, {}", factors(polynomial));
+        let _ = writeln!(text, "  {}", plain(&polynomial.to_polynomial(), names));
+        if !polynomial.roots.is_empty() {
+            let name = variable(derivation, polynomial);
+            let _ = writeln!(text, "\nReal roots, isolated and counted by Sturm's theorem");
+            for real in &polynomial.roots {
+                let _ = writeln!(text, "  {name} = {}", root(real));
+            }
+        }
+    }
+    for warning in &derivation.warnings {
+        let _ = writeln!(text, "\nwarning: {warning}");
+    }
+    text
+}
+
+/// The document that equations/derivation.schema.json describes; `case` is the number of the case in the file.
+#[must_use]
+pub fn json(entry: &Entry, case: usize, derivation: &Derivation) -> Value {
+    let names = &derivation.names;
+    let equations: Vec<Value> = derivation
+        .equations
+        .iter()
+        .map(|equation| {
+            let mut object = json!({ "name": equation.name, "text": plain(&equation.polynomial, names) });
+            if let Some(algebraic) = &equation.algebraic {
+                object["half_angle"] = json!(plain(algebraic, names));
+            }
+            object
+        })
+        .collect();
+    let mut document = json!({
+        "title": entry.title,
+        "kind": kind(entry.kind()),
+        "case": case,
+        "verdict": verdict(derivation),
+        "unknowns": [],
+        "degree": null,
+        "real_roots": null,
+        "polynomial": null,
+        "removed_factors": [],
+        "equations": equations,
+        "steps": derivation.steps,
+        "warnings": derivation.warnings,
+    });
+    if let Some(polynomial) = &derivation.polynomial {
+        let name = variable(derivation, polynomial);
+        let coefficients: Vec<String> =
+            polynomial.coefficients.coefficients().iter().map(ToString::to_string).collect();
+        document["unknowns"] = json!([name]);
+        document["degree"] = json!(polynomial.degree());
+        document["real_roots"] = json!(polynomial.roots.len());
+        document["at_pi"] = json!(polynomial.at_pi);
+        document["polynomial"] = json!({ "variable": name, "coefficients": coefficients });
+        if polynomial.circle > 0 {
+            let factor = json!({ "factor": format!("1 + {name}^2"), "multiplicity": polynomial.circle });
+            document["removed_factors"] = json!([factor]);
+        }
+        let factor =
+            |(degree, multiplicity): &(usize, usize)| json!({ "degree": degree, "multiplicity": multiplicity });
+        document["square_free"] = polynomial.factors.iter().map(factor).collect();
+        let root = |root: &Root| {
+            let exact = root.exact.as_ref().map(ToString::to_string);
+            json!({ "value": number(root.value), "exact": exact, "multiplicity": root.multiplicity })
+        };
+        document["roots"] = polynomial.roots.iter().map(root).collect();
+    }
+    document
+}
+
+/// The system in the language of another program, over the variables that occur.
+///
+/// # Errors
+/// Where the language has no way to say it.
+pub fn system(derivation: &Derivation, format: Format) -> Result<String> {
+    let polynomials = derivation.system();
+    let used: Vec<usize> = (0..derivation.names.list().len())
+        .filter(|&variable| polynomials.iter().any(|p| p.degree(variable) > 0))
+        .collect();
+    let names = Names::given(used.iter().map(|&variable| &derivation.names.list()[variable]))?;
+    let compact = |polynomial: &Polynomial<Rational>| {
+        Polynomial::from_terms(polynomial.terms().map(|(exponents, c)| {
+            let exponent = |variable: &usize| exponents.get(*variable).copied().unwrap_or(0);
+            (used.iter().map(exponent).collect(), c.clone())
+        }))
+    };
+    format.system(&polynomials.iter().map(compact).collect::<Vec<_>>(), &names)
+}
+
+/// The derivation as Markdown with formulas in LaTeX, every displayed equation one of those that were used.
+///
+/// # Errors
+/// Never for derivations of this crate.
+pub fn markdown(entry: &Entry, case: usize, derivation: &Derivation) -> Result<String> {
+    let names = &derivation.names;
+    let display = |polynomial: &Polynomial<Rational>| -> Result<String> {
+        let lines = Format::Latex.system(std::slice::from_ref(polynomial), names)?;
+        let lines = lines.replace("  f &= ", "  & ").replace("\n\\end{align*}", " = 0\n\\end{align*}");
+        Ok(format!("$$\n{}$$\n", lines.replace("align*", "aligned")))
+    };
+    let mut text = format!("# {}\n\n{}, case {case}: {}.\n\n", entry.title, kind(entry.kind()), verdict(derivation));
+    text.push_str("## Unknowns\n\n");
+    text.push_str(match entry.kind() {
+        Kind::Platform => {
+            "A pose is a point $(x, y)$ of the projective space of dimension 7: $x$ the quaternion of the rotation, $y = p\\,x$ \
+             that of the translation $p$, as a dual quaternion $x + \\tfrac12\\varepsilon y$. With $a_i$, $b_i$ the ends of leg \
+             $i$, of length $L_i$, as pure quaternions:\n\n\
+             $$\nw_i = y + x\\,b_i - a_i\\,x, \\qquad w_i \\cdot w_i = L_i^2\\,(x \\cdot x), \\qquad x \\cdot y = 0\n$$\n"
+        }
+        Kind::Arm | Kind::Loop => {
+            "The motions of the joints, multiplied round the loop, are the identity: $V_1 G_1 V_2 G_2 \\cdots V_6 G_6 = I$ \
+             with constant $G_j$ and each $V_j$ a rotation about or a translation along its own $z$ axis. The cosine, sine and \
+             half-angle tangent of joint $j$ are $c_j$, $s_j$ and $t_j$, a distance is $d_j$:\n\n\
+             $$\nc_j = \\frac{1 - t_j^2}{1 + t_j^2}, \\qquad s_j = \\frac{2 t_j}{1 + t_j^2}\n$$\n"
+        }
+    });
+    text.push_str("\n## Closure equations\n\nWith integer coefficients without common factor.\n");
+    for equation in &derivation.equations {
+        let _ = write!(text, "\n**{}**\n\n{}", equation.name, display(&equation.polynomial)?);
+        if let Some(algebraic) = equation.algebraic.as_ref().filter(|a| **a != equation.polynomial) {
+            let _ = write!(text, "\nin half-angle tangents\n\n{}", display(algebraic)?);
+        }
+    }
+    text.push_str("\n## Elimination\n\n");
+    for (number, step) in (1..).zip(&derivation.steps) {
+        let _ = writeln!(text, "{number}. {step}");
+    }
+    if let Some(polynomial) = &derivation.polynomial {
+        let _ = write!(text, "\n## Closure polynomial\n\n{}; ", verdict(derivation));
+        let _ = write!(text, "{}.\n\n", factors(polynomial));
+        if let Some(definition) = &derivation.definition {
+            let _ = write!(text, "Its variable is defined by\n\n{}\n", display(definition)?);
+        }
+        text.push_str(&display(&polynomial.to_polynomial())?);
+        if !polynomial.roots.is_empty() {
+            let name = variable(derivation, polynomial);
+            text.push_str("\nReal roots, isolated by Descartes' rule and counted by Sturm's theorem:\n\n");
+            for real in &polynomial.roots {
+                let _ = writeln!(text, "- {name} = {}", root(real));
+            }
+        }
+    }
+    for warning in &derivation.warnings {
+        let _ = writeln!(text, "\n> {warning}");
+    }
+    Ok(text)
+}

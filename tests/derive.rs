@@ -1,0 +1,237 @@
+//! Derivations: every solution satisfies every equation, every real one is a root of the polynomial, and the counts agree.
+#![allow(clippy::unwrap_used)]
+
+use looproot::algebra::polynomial::Polynomial;
+use looproot::assembly::{Assembly, Roots, Workspace};
+use looproot::catalogue::entry::Entry;
+use looproot::catalogue::{Options, load};
+use looproot::derivation::{ClosurePolynomial, Derivation, derive};
+use looproot::kinematics::chain::{Chain, JointKind};
+use looproot::mechanism::{FullMode, Mechanism, Solution};
+use looproot::report::derivation::{markdown, verdict};
+use looproot::verdict::Status;
+use rug::Rational;
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::{Command, Stdio};
+
+fn entry(path: &str) -> Entry {
+    load(&format!("{}/equations/{path}", env!("CARGO_MANIFEST_DIR")), &Options::default()).unwrap()
+}
+
+fn folder(name: &str) -> Vec<Entry> {
+    let files = fs::read_dir(format!("{}/equations/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let mut files: Vec<String> = files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
+    files.retain(|file| file.ends_with(".toml"));
+    files.sort();
+    files.iter().map(|file| entry(&format!("{name}/{file}"))).collect()
+}
+
+fn solved(entry: &Entry) -> Solution {
+    let mechanism = Mechanism::prepare(entry).unwrap();
+    mechanism.solve(&entry.cases[0], Roots::All, &mut Workspace::default(), &mut Assembly::default()).unwrap()
+}
+
+/// Cosine, sine and half-angle tangent, or distance, of every joint variable by its name.
+fn named(chain: &Chain, q: &[f64]) -> BTreeMap<String, f64> {
+    let mut values = BTreeMap::new();
+    let mut q = q.iter();
+    for (joint, kind) in (1..).zip(chain.joint_kinds()) {
+        if kind == JointKind::Spherical {
+            q.nth(2);
+            continue;
+        }
+        if kind != JointKind::Prismatic {
+            let angle: f64 = *q.next().unwrap();
+            values.insert(format!("c{joint}"), angle.cos());
+            values.insert(format!("s{joint}"), angle.sin());
+            values.insert(format!("t{joint}"), (0.5 * angle).tan());
+        }
+        if matches!(kind, JointKind::Prismatic | JointKind::Cylindrical) {
+            values.insert(format!("d{joint}"), *q.next().unwrap());
+        }
+    }
+    values
+}
+
+/// The value over the sum of the sizes of all terms.
+fn relative(polynomial: &Polynomial<Rational>, names: &[String], values: &BTreeMap<String, f64>) -> f64 {
+    let largest = polynomial.coefficients().iter().map(|c| c.clone().abs()).max().unwrap();
+    let (mut sum, mut size) = (0.0, 0.0);
+    for (exponents, c) in polynomial.terms() {
+        let mut term = Rational::from(c / &largest).to_f64();
+        for (name, exponent) in names.iter().zip(exponents).filter(|(_, exponent)| *exponent > 0) {
+            term *= values[name].powi(i32::try_from(exponent).unwrap());
+        }
+        sum += term;
+        size += term.abs();
+    }
+    sum.abs() / size
+}
+
+/// All equations, in both forms, at a solution; those in half-angle tangents only where no angle is pi.
+fn assert_vanishing(what: &str, derivation: &Derivation, values: &BTreeMap<String, f64>) {
+    let names = derivation.names.list();
+    let at_pi = values.iter().any(|(name, value)| name.starts_with('t') && value.abs() > 1e6);
+    for equation in &derivation.equations {
+        let forms = std::iter::once(&equation.polynomial).chain(&equation.algebraic);
+        for form in forms.filter(|form| !at_pi || !has_tangent(form, names)) {
+            let residual = relative(form, names, values);
+            assert!(residual < 1e-8, "{what}, {}: {residual:e}", equation.name);
+        }
+    }
+}
+
+fn has_tangent(form: &Polynomial<Rational>, names: &[String]) -> bool {
+    (0..names.len()).any(|variable| names[variable].starts_with('t') && form.degree(variable) > 0)
+}
+
+/// How far the nearest root is from a value of the variable; angles by their difference.
+fn distance(polynomial: &ClosurePolynomial, is_angle: bool, value: f64) -> f64 {
+    let at = |t: f64| if is_angle { 2.0 * t.atan() } else { t };
+    let distances = polynomial.roots.iter().map(|root| (at(root.value) - at(value)).abs());
+    let nearest = distances.fold(f64::INFINITY, f64::min);
+    // Half-angle tangents near infinity of either sign are near one another.
+    if is_angle && polynomial.at_pi > 0 { nearest.min(std::f64::consts::PI - at(value).abs()) } else { nearest }
+}
+
+fn real(solution: &Solution) -> impl Iterator<Item = &FullMode> {
+    solution.modes.iter().filter(|mode| mode.real)
+}
+
+fn check(entry: &Entry) {
+    let (name, chain) = (&entry.name, entry.chain().unwrap());
+    let derivation = derive(entry, &entry.cases[0]).unwrap();
+    let solution = solved(entry);
+    for mode in real(&solution) {
+        let q: Vec<f64> = mode.q.iter().map(|z| z.re).collect();
+        assert_vanishing(name, &derivation, &named(chain, &q));
+    }
+    let Some(polynomial) = &derivation.polynomial else {
+        assert_eq!(solution.verdict.status, Status::SelfMotion, "{name}");
+        return;
+    };
+    let variable = &derivation.names.list()[polynomial.variable];
+    let mut found: Vec<f64> = Vec::new();
+    for mode in real(&solution) {
+        let q: Vec<f64> = mode.q.iter().map(|z| z.re).collect();
+        let value = named(chain, &q)[variable];
+        let distance = distance(polynomial, variable.starts_with('t'), value);
+        assert!(distance < 1e-7, "{name}: {variable} = {value} is {distance:e} from every root");
+        found.push(value);
+    }
+    // Every complex solution is a root: where there are no other roots, the real ones are counted alike.
+    if polynomial.degree() + polynomial.at_pi == solution.verdict.complex
+        && polynomial.distinct() == polynomial.degree()
+    {
+        assert_eq!(polynomial.roots.len() + polynomial.at_pi, found.len(), "{name}: {}", verdict(&derivation));
+    }
+}
+
+#[test]
+fn loops_of_the_library_are_derived_as_they_are_solved() {
+    folder("loop").iter().for_each(check);
+}
+
+#[test]
+fn arms_of_the_library_are_derived_as_they_are_solved() {
+    folder("arm").iter().for_each(check);
+}
+
+#[test]
+fn platforms_are_derived_as_they_are_solved() {
+    for path in ["platform/platform_06real.toml", "platform/planar_both.toml", "platform/points_6_3.toml"] {
+        let entry = entry(path);
+        let derivation = derive(&entry, &entry.cases[0]).unwrap();
+        let solution = solved(&entry);
+        let polynomial = derivation.polynomial.as_ref().unwrap();
+        assert_eq!((polynomial.degree(), polynomial.distinct()), (solution.verdict.complex, solution.verdict.complex));
+        assert_eq!(polynomial.roots.len(), solution.verdict.real, "{path}");
+        assert_eq!(derivation.equations.len(), 7);
+        for mode in real(&solution) {
+            let q: Vec<f64> = mode.q.iter().map(|z| z.re).collect();
+            // y = p x
+            let ([w, i, j, k], [x, y, z]) = ([q[0], q[1], q[2], q[3]], [q[4], q[5], q[6]]);
+            let y = [-x * i - y * j - z * k, x * w + y * k - z * j, y * w + z * i - x * k, z * w + x * j - y * i];
+            let mut values: BTreeMap<String, f64> = BTreeMap::new();
+            for n in 0..4 {
+                values.insert(format!("x{n}"), q[n]);
+                values.insert(format!("y{n}"), y[n]);
+            }
+            // The definition of k is linear in it.
+            let definition = derivation.definition.as_ref().unwrap();
+            let at = |k: i32| {
+                let parts = definition.coefficients_in(polynomial.variable);
+                let [rest, factor] = parts.as_slice() else { panic!("{path}: linear in k") };
+                let value = |p: &Polynomial<Rational>| -> f64 {
+                    let image = p.map(|c| Some(c.to_f64())).unwrap();
+                    image.evaluate(&q[..4])
+                };
+                value(factor) * f64::from(k) + value(rest)
+            };
+            values.insert("k".to_owned(), at(0) / (at(0) - at(1)));
+            assert_vanishing(path, &derivation, &values);
+            assert!(distance(polynomial, false, values["k"]) < 1e-7 * (1.0 + values["k"].abs()), "{path}");
+        }
+    }
+}
+
+#[test]
+fn the_text_of_a_derivation_names_what_it_shows() {
+    let entry = entry("loop/general_7r.toml");
+    let derivation = derive(&entry, &entry.cases[0]).unwrap();
+    assert_eq!(derivation.equations.len(), 18);
+    assert_eq!(derivation.equations[0].name, "Woernle-Lee 3-6 n.n'");
+    let text = markdown(&entry, 1, &derivation).unwrap();
+    assert_eq!(text.matches("\\begin{aligned}").count(), 18 + 4 + 1);
+}
+
+fn run(arguments: &[&str]) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_looproot"));
+    command.args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).stdin(Stdio::null());
+    let output = command.output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn what_is_printed_is_what_was_printed() {
+    let mut printed = String::new();
+    for arguments in [
+        &["derive", "cccr_1_angle"][..],
+        &["derive", "crcrr_2_angle"],
+        &["derive", "rrsrr", "--json"],
+        &["derive", "rsrc", "--format", "singular"],
+        &["derive", "ik_4r2p_wrist", "--quiet"],
+        &["derive", "cprcr_2_distance", "--explain"],
+    ] {
+        let (code, out, err) = run(arguments);
+        assert_eq!((code, err.as_str()), (0, ""), "{arguments:?}");
+        printed += &format!("$ looproot {}\n{out}\n", arguments.join(" "));
+    }
+    let path = format!("{}/tests/golden/derive.txt", env!("CARGO_MANIFEST_DIR"));
+    if std::env::var_os("BLESS").is_some() {
+        fs::write(&path, &printed).unwrap();
+    }
+    assert_eq!(printed, fs::read_to_string(&path).unwrap(), "BLESS=1 writes {path}");
+}
+
+#[test]
+fn exit_codes_tell_what_came_of_it() {
+    let quiet = |name: &str| run(&["derive", name, "-q"]);
+    assert_eq!(quiet("bricard_line_symmetric").0, 2);
+    assert_eq!(quiet("platform_00real").0, 3);
+    let (code, out, err) = quiet("no_such_entry");
+    assert!(code == 1 && out.is_empty() && err.contains("no_such_entry"));
+    let (code, _, err) = run(&["derive", "general_7r", "--input", "99"]);
+    assert!(code == 1 && err.contains("99"), "{err}");
+    let planar = format!("{}/derive_planar.toml", env!("CARGO_TARGET_TMPDIR"));
+    let joints = "{ type = \"P\", a = 1, alpha = \"pi/3\", d0 = 0, theta = 1 },\n".repeat(5);
+    let joints = joints + &"{ type = \"R\", a = 1, alpha = \"pi/3\", d = 0 },\n".repeat(2);
+    let text = format!(
+        "title = \"slides\"\n[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [\n{joints}]\n[[input]]\njoint = 7\nangle = 1\n"
+    );
+    fs::write(&planar, text).unwrap();
+    let (code, out, err) = run(&["derive", &planar]);
+    assert!(code == 4 && out.is_empty() && err.contains("exact route"), "{code} {err}");
+}
