@@ -24,6 +24,8 @@ pub mod verdict;
 
 pub mod mechanism;
 
+pub mod sweep;
+
 pub mod benchmark;
 
 pub mod claims;

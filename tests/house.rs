@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, each importing earlier ones only.
-const LAYERS: [&str; 14] = [
+const LAYERS: [&str; 15] = [
     "error",
     "algebra",
     "kinematics",
@@ -18,6 +18,7 @@ const LAYERS: [&str; 14] = [
     "assembly",
     "verdict",
     "mechanism",
+    "sweep",
     "benchmark",
     "claims",
     "report",

@@ -10,4 +10,5 @@ pub mod output;
 pub mod poly;
 pub mod show;
 pub mod solve;
+pub mod sweep;
 pub mod wanted;
