@@ -26,6 +26,8 @@ pub mod mechanism;
 
 pub mod derivation;
 
+pub mod sweep;
+
 pub mod benchmark;
 
 pub mod claims;

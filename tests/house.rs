@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, each importing earlier ones only.
-const LAYERS: [&str; 15] = [
+const LAYERS: [&str; 16] = [
     "error",
     "algebra",
     "kinematics",
@@ -19,6 +19,7 @@ const LAYERS: [&str; 15] = [
     "verdict",
     "mechanism",
     "derivation",
+    "sweep",
     "benchmark",
     "claims",
     "report",

@@ -27,6 +27,8 @@ pub enum Verb {
     Solve(SolveOptions),
     /// Derive the closure equations and the exact closure polynomial of one case
     Derive(DeriveOptions),
+    /// Run the input of a loop through a range: branches, limit positions
+    Sweep(SweepOptions),
     /// List the built-in library
     List(ListOptions),
     /// Print a mechanism as it was understood
@@ -175,6 +177,51 @@ pub struct DeriveOptions {
     pub read: ReadOptions,
     #[command(flatten)]
     pub output: OutputOptions,
+}
+
+/// `looproot sweep`
+#[derive(Args)]
+pub struct SweepOptions {
+    /// A file of a loop, the name of a built-in entry, or - for standard input
+    pub mechanism: String,
+    /// The joint to sweep, counted from 1; of a C joint its angle (3 or q3) or its distance (d3) [default: the input of the
+    /// file]
+    #[arg(long, value_name = "JOINT")]
+    pub joint: Option<String>,
+    /// Where the input begins: "-180 deg", "pi/3", "20 mm"; plain numbers are radians or metres
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub from: String,
+    /// Where it ends; a full turn joins up
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub to: String,
+    /// Number of equal steps between
+    #[arg(long, value_name = "N", default_value = "360", value_parser = steps)]
+    pub steps: usize,
+    /// CSV: one row for every branch and step, radians and metres
+    #[arg(long, conflicts_with = "json")]
+    pub csv: bool,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Print the verdict only
+    #[arg(short, long)]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// A number of steps.
+fn steps(text: &str) -> Result<usize, String> {
+    const MOST: usize = 100_000;
+    match text.trim().parse() {
+        Ok(steps @ 1..=MOST) => Ok(steps),
+        _ => Err(format!("expected 1 to {MOST}")),
+    }
 }
 
 /// `looproot list`

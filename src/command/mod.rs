@@ -11,4 +11,5 @@ pub mod output;
 pub mod poly;
 pub mod show;
 pub mod solve;
+pub mod sweep;
 pub mod wanted;

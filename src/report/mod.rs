@@ -5,5 +5,6 @@ pub mod derivatives;
 pub mod json;
 pub mod model;
 pub mod number;
+pub mod sweep;
 pub mod table;
 pub mod text;

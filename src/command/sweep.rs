@@ -1,0 +1,121 @@
+//! `looproot sweep`
+
+use super::arguments::SweepOptions;
+use super::exit::{Exit, Fault};
+use super::output::{Output, pool};
+use super::solve::stop_on_interrupt;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use looproot::algebra::number::{Angle, Number, Quantity, Reading};
+use looproot::catalogue::entry::{Design, Entry, InputValue, Kind};
+use looproot::catalogue::load;
+use looproot::error::Error;
+use looproot::kinematics::chain::{Chain, JointKind};
+use looproot::kinematics::closed_loop::Variable;
+use looproot::report::sweep::{self as report, Swept};
+use looproot::sweep::{Range, Sweep, sweep};
+use looproot::verdict::Status;
+use std::io::Write;
+use std::sync::atomic::Ordering;
+
+/// Sweeps an input through its range and prints the branches.
+pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
+    let entry = load(&options.mechanism, &options.read.options())?;
+    let Design::Loop(chain) = &entry.design else {
+        let what = if entry.kind() == Kind::Arm { "an arm" } else { "a platform" };
+        return Err(Error::Invalid(format!("found {what}, expected a loop, which has an input to sweep")).into());
+    };
+    let swept = swept(options, &entry, chain)?;
+    let [from, to] = [("--from", &options.from), ("--to", &options.to)].map(|(name, text)| end(name, text, swept));
+    let (from, to) = (from?, to?);
+    if from == to {
+        let message = format!("found --from and --to both {}, expected a range", options.from);
+        return Err(Error::Invalid(message).into());
+    }
+    let range = Range { from, to, steps: options.steps };
+    let output = Output::open(&options.output, &options.mechanism)?;
+    let target = if output.is_terminal || options.quiet {
+        ProgressDrawTarget::hidden()
+    } else {
+        // Hidden by itself where stderr is no terminal.
+        ProgressDrawTarget::stderr()
+    };
+    let progress = ProgressBar::with_draw_target(Some(options.steps as u64 + 1), target);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta}") {
+        progress.set_style(style);
+    }
+    let stop = stop_on_interrupt();
+    let running = || !stop.load(Ordering::Relaxed);
+    let pool = pool(options.threads)?;
+    let found = pool.install(|| sweep(&entry, swept.joint, swept.variable, range, running, || progress.inc(1)))?;
+    progress.finish_and_clear();
+    write(options, &entry, swept, &found, output)?;
+    Ok(exit(&found))
+}
+
+fn write(options: &SweepOptions, entry: &Entry, swept: Swept, found: &Sweep, mut output: Output) -> Result<(), Fault> {
+    let out = &mut output.writer;
+    if options.json {
+        writeln!(out, "{}", report::json(entry, swept, found))?;
+    } else if options.csv {
+        write!(out, "{}", report::csv(entry, found))?;
+    } else if options.quiet {
+        writeln!(out, "{}", report::verdict(found))?;
+    } else {
+        write!(out, "{}", report::text(entry, swept, found))?;
+    }
+    Ok(out.flush()?)
+}
+
+fn exit(found: &Sweep) -> Exit {
+    if found.samples.len() <= found.range.steps {
+        return Exit::Interrupted;
+    }
+    let doubtful = found.unresolved() + found.samples.iter().filter(|sample| !sample.is_complete()).count();
+    match (doubtful, found.count(Status::Unreachable)) {
+        (1.., _) => Exit::NotProved,
+        (0, n) if n == found.samples.len() && found.branches.is_empty() => Exit::Unreachable,
+        _ => Exit::Complete,
+    }
+}
+
+/// The joint variable to sweep: the one asked for, or the input of the file.
+fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, Error> {
+    let Some(name) = &options.joint else {
+        let input = entry.cases.first().and_then(|case| case.input.first());
+        let input = input.ok_or_else(|| Error::Invalid("found no input in the file, expected --joint".to_owned()))?;
+        let variable = match input.value {
+            InputValue::Angle(_) => Variable::Rotation,
+            InputValue::Distance(_) => Variable::Translation,
+        };
+        return Ok(Swept { joint: input.joint, variable });
+    };
+    let kinds = chain.joint_kinds();
+    let found = |what: &str| Error::Invalid(format!("found --joint {name}, {what}"));
+    let (letter, digits) = match name.trim().split_at_checked(1) {
+        Some((letter @ ("q" | "d"), digits)) => (letter, digits),
+        _ => ("", name.trim()),
+    };
+    let joint: usize = digits.parse().map_err(|_| found("expected the number of a joint, or q3, or d3"))?;
+    let kind = joint.checked_sub(1).and_then(|index| kinds.get(index));
+    let kind = kind.ok_or_else(|| found(&format!("expected one from 1 to {}", kinds.len())))?;
+    let variable = match (kind, letter) {
+        (JointKind::Revolute, "" | "q") | (JointKind::Cylindrical, "" | "q") => Variable::Rotation,
+        (JointKind::Prismatic, _) | (JointKind::Cylindrical, _) => Variable::Translation,
+        (JointKind::Revolute, _) => return Err(found("which turns and has no distance; expected q before its number")),
+        _ => return Err(found(&format!("which is {kind:?}; expected a joint R, P or C"))),
+    };
+    Ok(Swept { joint, variable })
+}
+
+/// An end of the range.
+fn end(name: &str, text: &str, swept: Swept) -> Result<f64, Error> {
+    let reading = Reading::default();
+    let value = match swept.variable {
+        Variable::Rotation => Angle::parse(text, &reading).map(|angle| angle.radians()),
+        Variable::Translation => Number::parse(text, Quantity::Length, &reading).map(|length| length.to_f64()),
+    };
+    value.map_err(|error| match error {
+        Error::Invalid(message) => Error::Invalid(format!("{name}: {message}")),
+        other => other,
+    })
+}

@@ -1,0 +1,194 @@
+//! All branches of a loop while its input runs through a range: every mode at every step, followed from step to step.
+//!
+//! The list of modes of each step comes from the solver, with its verdict. Between two steps every mode is followed
+//! along the curve of the loop, forwards from one and backwards from the other, round limit positions where the input
+//! turns back. Both ways must agree with each other and with the two lists; where they do not, the step is halved, and
+//! what still does not add up is said to be unresolved.
+
+mod branch;
+mod bridge;
+mod sample;
+mod track;
+
+pub use branch::{Branch, End, Limit, Row};
+pub use sample::{Sample, case};
+
+use crate::assembly::{Assembly, Workspace};
+use crate::catalogue::entry::Entry;
+use crate::error::{Error, Result};
+use crate::kinematics::closed_loop::Variable;
+use crate::mechanism::{InputCurve, Mechanism};
+use crate::solve::curve::INPUT;
+use crate::verdict::Status;
+use branch::Web;
+use bridge::{Bridge, Fate, bridges, mode_at};
+use rayon::prelude::*;
+use sample::Swept;
+use std::f64::consts::TAU;
+
+/// Beside a singular step branches are followed from inputs this part of a step away.
+const BESIDE: f64 = 1e-3;
+
+/// The range of an input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// Where it begins: radians or a length.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Number of equal steps between.
+    pub steps: usize,
+}
+
+impl Range {
+    /// The input at the end of a step, or the first one.
+    #[must_use]
+    pub fn input(&self, step: usize) -> f64 {
+        if step == self.steps {
+            return self.to;
+        }
+        self.from + (self.to - self.from) * (step as f64 / self.steps as f64)
+    }
+}
+
+/// What a sweep found.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// The range that was asked for.
+    pub range: Range,
+    /// The real modes at the first input and at the end of every step, as far as the sweep came.
+    pub samples: Vec<Sample>,
+    /// The branches, in the order in which they appear.
+    pub branches: Vec<Branch>,
+    /// The limit positions, in the order of their inputs.
+    pub limits: Vec<Limit>,
+    /// Whether the range is a full turn, whose end is its beginning.
+    pub is_full_turn: bool,
+}
+
+impl Sweep {
+    /// How many inputs have this status.
+    #[must_use]
+    pub fn count(&self, status: Status) -> usize {
+        self.samples.iter().filter(|sample| sample.status == status).count()
+    }
+
+    /// How many ends of branches are not known.
+    #[must_use]
+    pub fn unresolved(&self) -> usize {
+        let ends = self.branches.iter().flat_map(|branch| [&branch.begin, &branch.end]);
+        ends.filter(|end| matches!(end, End::Unresolved(_))).count()
+    }
+}
+
+/// Sweeps a loop, on all threads of the current pool. `running` is asked now and then and stops the sweep, which keeps
+/// what is done; `tick` is called for every input.
+///
+/// # Errors
+/// [`Error::Invalid`] for entries that are no loops, joints without such a variable and empty ranges;
+/// [`Error::Unsupported`] for loops that are not solved.
+pub fn sweep(
+    entry: &Entry,
+    joint: usize,
+    variable: Variable,
+    range: Range,
+    running: impl Fn() -> bool + Sync,
+    tick: impl Fn() + Sync,
+) -> Result<Sweep> {
+    if !(range.from - range.to).is_normal() || range.steps == 0 {
+        let message = format!("found a range from {} to {} in {} steps", range.from, range.to, range.steps);
+        return Err(Error::Invalid(format!("{message}, expected two different ends and a step at least")));
+    }
+    let mut entry = entry.clone();
+    entry.cases = vec![case(joint, variable, range.from)];
+    let curve = InputCurve::of(&entry, &entry.cases[0])?;
+    let mechanism = Mechanism::prepare(&entry)?;
+    let swept = Swept { mechanism: &mechanism, curve: &curve, joint, variable };
+    let memory = || (Workspace::default(), Assembly::default());
+    let mut samples: Vec<Sample> = Vec::new();
+    let steps: Vec<usize> = (0..=range.steps).collect();
+    for chunk in steps.chunks(16 * rayon::current_num_threads()) {
+        if !running() {
+            break;
+        }
+        let solve = |memory: &mut (Workspace, Assembly), step: &usize| {
+            let sample = swept.sample(range.input(*step), memory);
+            tick();
+            sample
+        };
+        let solved: Result<Vec<Sample>> = chunk.par_iter().map_init(memory, solve).collect();
+        samples.extend(solved?);
+    }
+    let is_whole = samples.len() == range.steps + 1;
+    let turn = variable == Variable::Rotation && ((range.to - range.from).abs() - TAU).abs() < 1e-12;
+    let is_full_turn = turn && is_whole;
+    let web = connect(&swept, range, &samples, is_full_turn)?;
+    let (branches, limits) = web.branches(&curve, &samples, range);
+    Ok(Sweep { range, samples, branches, limits, is_full_turn })
+}
+
+/// Follows all modes between all neighbouring samples.
+fn connect(swept: &Swept<'_>, range: Range, samples: &[Sample], is_full_turn: bool) -> Result<Web> {
+    let memory = || (Workspace::default(), Assembly::default());
+    // Singular samples are replaced by regular ones on both sides.
+    let aside = BESIDE * (range.to - range.from) / range.steps as f64;
+    let stand_ins = |memory: &mut (Workspace, Assembly), (step, sample): (usize, &Sample)| {
+        if sample.is_regular {
+            return Ok(vec![(sample.clone(), step)]);
+        }
+        let mut beside = Vec::new();
+        for side in [-aside, aside] {
+            let input = sample.input + side;
+            if (input - range.from) * (input - range.to) <= 0.0 {
+                let sample = swept.sample(input, memory)?;
+                if sample.is_regular {
+                    beside.push((sample, step));
+                }
+            }
+        }
+        Ok(beside)
+    };
+    let nodes: Result<Vec<Vec<(Sample, usize)>>> =
+        samples.par_iter().enumerate().map_init(memory, |memory, item| stand_ins(memory, item)).collect();
+    let nodes: Vec<(Sample, usize)> = nodes?.into_iter().flatten().collect();
+    let pairs: Vec<&[(Sample, usize)]> = nodes.windows(2).collect();
+    let between = |memory: &mut (Workspace, Assembly), pair: &&[(Sample, usize)]| {
+        bridges(swept, &pair[0].0, &pair[1].0, 0, memory)
+    };
+    let found: Result<Vec<(Vec<Sample>, Vec<Bridge>)>> = pairs.par_iter().map_init(memory, between).collect();
+    let mut web = Web::new(is_full_turn);
+    for ((sample, step), (middle, bridges)) in nodes.iter().zip(found?) {
+        web.add(sample.clone(), Some(*step));
+        middle.into_iter().for_each(|sample| web.add(sample, None));
+        bridges.into_iter().for_each(|bridge| web.bridge(bridge));
+    }
+    if let Some((sample, step)) = nodes.last() {
+        web.add(sample.clone(), Some(*step));
+    }
+    if let (true, Some((first, _)), Some((last, _))) = (is_full_turn, nodes.first(), nodes.last()) {
+        let (middle, bridges) = closing(swept, first, last, range)?;
+        middle.into_iter().for_each(|sample| web.add(sample, None));
+        bridges.into_iter().for_each(|bridge| web.bridge(bridge));
+    }
+    Ok(web)
+}
+
+/// The bridge from the end of a full turn to its beginning.
+fn closing(swept: &Swept<'_>, first: &Sample, last: &Sample, range: Range) -> Result<(Vec<Sample>, Vec<Bridge>)> {
+    let turn = range.to - range.from;
+    let mut next = first.clone();
+    next.input += turn;
+    for point in &mut next.points {
+        point[INPUT] += turn;
+    }
+    if (next.input - last.input).abs() > 1e-12 {
+        return bridges(swept, last, &next, 0, &mut (Workspace::default(), Assembly::default()));
+    }
+    // The same input twice: the same modes.
+    let same = |own: &Sample, other: &Sample| -> Vec<Fate> {
+        let fate = |point| mode_at(swept.curve, other, point).map_or(Fate::Lost, |mode| Fate::On(mode, Vec::new()));
+        own.points.iter().map(fate).collect()
+    };
+    let (forwards, backwards) = (same(last, &next), same(&next, last));
+    Ok((Vec::new(), vec![Bridge { forwards, backwards, folds: Vec::new() }]))
+}

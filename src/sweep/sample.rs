@@ -1,0 +1,74 @@
+//! The real modes at one input.
+
+use crate::algebra::number::{Angle, Number};
+use crate::assembly::{Assembly, Roots, Workspace};
+use crate::catalogue::entry::{Case, Input, InputValue};
+use crate::error::Result;
+use crate::kinematics::closed_loop::Variable;
+use crate::mechanism::{InputCurve, Mechanism};
+use crate::solve::curve::{INPUT, Point};
+use crate::verdict::Status;
+
+/// What was found at one input.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// The input: radians, not reduced modulo 2 pi, or a length.
+    pub input: f64,
+    /// Is the list of modes complete.
+    pub status: Status,
+    /// Why, or why not.
+    pub reason: String,
+    /// The real modes: joint variables in joint order.
+    pub modes: Vec<Vec<f64>>,
+    /// Whether every real mode is simple, and the list nothing but isolated modes: branches can be followed from here.
+    pub(super) is_regular: bool,
+    /// The modes as points of the curve.
+    pub(super) points: Vec<Point>,
+}
+
+impl Sample {
+    /// Whether the list of modes is proved complete.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        matches!(self.status, Status::Complete | Status::Unreachable)
+    }
+}
+
+/// The case of a loop with this joint at this value.
+#[must_use]
+pub fn case(joint: usize, variable: Variable, input: f64) -> Case {
+    let value = match variable {
+        Variable::Rotation => InputValue::Angle(Angle::from_radians(input)),
+        Variable::Translation => InputValue::Distance(Number::from_f64(input)),
+    };
+    Case::given(Input { joint, value }, 0)
+}
+
+/// A loop being swept: prepared once.
+pub(super) struct Swept<'a> {
+    pub mechanism: &'a Mechanism,
+    pub curve: &'a InputCurve,
+    pub joint: usize,
+    pub variable: Variable,
+}
+
+impl Swept<'_> {
+    /// Solves the loop at one input.
+    pub(super) fn sample(&self, input: f64, memory: &mut (Workspace, Assembly)) -> Result<Sample> {
+        let case = case(self.joint, self.variable, input);
+        let solution = self.mechanism.solve(&case, Roots::All, &mut memory.0, &mut memory.1)?;
+        let real = || solution.modes.iter().filter(|mode| mode.real);
+        let is_regular =
+            solution.verdict.status != Status::SelfMotion && real().all(|mode| mode.certified && mode.multiplicity == 1);
+        let modes: Vec<Vec<f64>> = real().map(|mode| mode.q.iter().map(|z| z.re).collect()).collect();
+        let unit = self.curve.curve().unit(INPUT);
+        let point = |q: &Vec<f64>| {
+            let mut point = self.curve.point(q);
+            point[INPUT] = input / unit;
+            point
+        };
+        let points = modes.iter().map(point).collect();
+        let (status, reason) = (solution.verdict.status, solution.verdict.reason);
+        Ok(Sample { input, status, reason, modes, is_regular, points })
+    }
+}

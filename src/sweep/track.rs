@@ -1,0 +1,217 @@
+//! One branch followed along its curve from one input to another, round limit positions where there are any.
+
+use crate::kinematics::closed_loop::Variable;
+use crate::mechanism::InputCurve;
+use crate::solve::curve::{ALONG_INPUT, Curve, INPUT, Point};
+
+/// The longest step, in radians or scaled lengths.
+const LONGEST: f64 = 0.1;
+/// The shortest step before following is given up.
+const SHORTEST: f64 = 1e-8;
+/// The correction of a predicted point over the length of the step above which the step is taken shorter.
+const CORRECTION: f64 = 0.02;
+/// The cosine between directions at both ends of a step below which it is taken shorter.
+const TURN: f64 = 0.97;
+/// The most steps between two inputs.
+const MOST_STEPS: usize = 2000;
+/// Translations beyond this, in scaled lengths, are on their way to infinity.
+const FAR: f64 = 1e3;
+
+/// A limit position as it is met on the way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fold {
+    /// Where.
+    pub point: Point,
+    /// Whether the input is largest there, else smallest.
+    pub is_largest: bool,
+}
+
+/// Where a branch goes to.
+#[derive(Clone, Debug)]
+pub(super) enum Destination {
+    /// To a point at the input it was followed to.
+    Reached(Point),
+    /// Back to a point at the input where it began.
+    Returned(Point),
+    /// To infinity near this input.
+    Infinite(f64),
+    /// Not known: the branch could not be followed.
+    Lost,
+}
+
+/// A branch followed.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    /// Where it goes to.
+    pub destination: Destination,
+    /// The limit positions on the way.
+    pub folds: Vec<Fold>,
+}
+
+/// A point of the curve and the direction in which it is run through.
+#[derive(Clone, Copy)]
+struct Place {
+    point: Point,
+    direction: Point,
+}
+
+fn norm(v: &Point) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn dot(a: &Point, b: &Point) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn difference(a: &Point, b: &Point) -> Point {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+/// The point `at + step h + bend h^2`.
+fn along(at: &Point, step: &Point, bend: &Point, h: f64) -> Point {
+    std::array::from_fn(|k| at[k] + h * (step[k] + h * bend[k]))
+}
+
+/// Follows the branch of a point at input `point[INPUT]` to the input `target`, both in the unit of the curve.
+pub(super) fn follow(curve: &InputCurve, point: &Point, target: f64) -> Track {
+    let mut track = Track { destination: Destination::Lost, folds: Vec::new() };
+    let walk = Walk { curve: curve.curve(), begin: point[INPUT], target };
+    if let Some(destination) = walk.run(point, &mut track.folds) {
+        track.destination = destination;
+    }
+    track
+}
+
+/// The way between two inputs.
+struct Walk<'a> {
+    curve: &'a Curve,
+    begin: f64,
+    target: f64,
+}
+
+impl Walk<'_> {
+    /// Walks on until the way ends; `None` where it cannot be followed.
+    fn run(&self, start: &Point, folds: &mut Vec<Fold>) -> Option<Destination> {
+        let mut towards = ALONG_INPUT;
+        towards[INPUT] = (self.target - self.begin).signum();
+        let mut here = Place { point: *start, direction: self.curve.tangent(start, &towards)? };
+        let mut longest = LONGEST;
+        for _ in 0..MOST_STEPS {
+            let far = here.point[..INPUT].iter().zip(self.curve.variables()).any(|(x, variable)| {
+                *variable == Variable::Translation && x.abs() > FAR
+            });
+            if far {
+                return Some(Destination::Infinite(here.point[INPUT]));
+            }
+            let reach = norm(&here.point).max(4.0) / 4.0;
+            let (next, h) = self.step(&here, longest.min(LONGEST * reach))?;
+            if let Some(end) = self.events(&here, &next, h, folds)? {
+                return Some(end);
+            }
+            here = next;
+            longest = 2.0 * h;
+        }
+        None
+    }
+
+    /// One step along the curve, no longer than `longest`, and its length.
+    fn step(&self, here: &Place, longest: f64) -> Option<(Place, f64)> {
+        let [_, slope, bend] = self.curve.taylor::<3>(&here.point, &here.direction)?;
+        let curvature = norm(&bend);
+        let mut h = if curvature * longest > 0.2 { 0.2 / curvature } else { longest };
+        while h > SHORTEST {
+            let predicted = along(&here.point, &slope, &bend, h);
+            if let Some((point, correction)) = self.curve.corrected(&predicted, &here.direction)
+                && correction < CORRECTION * h
+                && let Some(direction) = self.curve.tangent(&point, &here.direction)
+                && dot(&direction, &here.direction) > TURN
+            {
+                return Some((Place { point, direction }, h));
+            }
+            h /= 2.0;
+        }
+        None
+    }
+
+    /// What happens between two neighbouring places: a limit position, the end of the way. `None` where that is not
+    /// found although it must be there.
+    fn events(&self, here: &Place, next: &Place, h: f64, folds: &mut Vec<Fold>) -> Option<Option<Destination>> {
+        let (before, after) = (here.direction[INPUT], next.direction[INPUT]);
+        if before * after > 0.0 {
+            return self.landing(&here.point, &next.point, Bend::None);
+        }
+        let fold = self.fold(here, next, h)?;
+        if let Some(end) = self.landing(&here.point, &fold, Bend::AtEnd)? {
+            return Some(Some(end));
+        }
+        folds.push(Fold { point: fold, is_largest: before > 0.0 });
+        self.landing(&fold, &next.point, Bend::AtBegin)
+    }
+
+    /// The limit position between two places: where the input, as a function of the way along the first direction, has
+    /// slope 0. Newton's method on its second derivative, held between the two places.
+    fn fold(&self, here: &Place, next: &Place, h: f64) -> Option<Point> {
+        let border = here.direction;
+        let slope_of = |point: &Point| {
+            let [_, slope, bend] = self.curve.taylor::<3>(point, &border)?;
+            Some((slope, bend))
+        };
+        let (mut low, mut high) = (0.0, dot(&difference(&next.point, &here.point), &border));
+        let sign = here.direction[INPUT].signum();
+        let mut point = here.point;
+        let mut way = 0.0;
+        // A quarter of the bits at worst by bisection, then quadratic.
+        for _ in 0..60 {
+            let (slope, bend) = slope_of(&point)?;
+            if slope[INPUT] * sign > 0.0 { low = way } else { high = way }
+            let newton = way - slope[INPUT] / (2.0 * bend[INPUT]);
+            let aim = if newton >= low && newton <= high { newton } else { (low + high) / 2.0 };
+            if (aim - way).abs() < 1e-13 * h.max(1e-3) || high - low < 1e-15 {
+                return Some(point);
+            }
+            let predicted = along(&point, &slope, &bend, aim - way);
+            (point, _) = self.curve.corrected(&predicted, &border)?;
+            way = aim;
+        }
+        Some(point)
+    }
+
+    /// Where the curve between two neighbouring points, along which the input is monotone, meets an end of the way.
+    fn landing(&self, from: &Point, to: &Point, bend: Bend) -> Option<Option<Destination>> {
+        let inside = |x: f64| (x - self.begin) * (x - self.target) <= 0.0;
+        let heading = (to[INPUT] - from[INPUT]) * (self.target - self.begin) > 0.0;
+        let (end, reached) = if heading { (self.target, true) } else { (self.begin, false) };
+        let passed = if heading {
+            (to[INPUT] - self.target) * (self.target - self.begin) >= 0.0
+        } else {
+            (self.begin - to[INPUT]) * (self.target - self.begin) >= 0.0
+        };
+        // A limit position may lie beyond the end by rounding only where it is the beginning.
+        if !passed || !(inside(from[INPUT]) || bend == Bend::AtBegin) {
+            return Some(None);
+        }
+        let span = to[INPUT] - from[INPUT];
+        let part = if span == 0.0 { 0.0 } else { ((end - from[INPUT]) / span).clamp(0.0, 1.0) };
+        let part = match bend {
+            Bend::None => part,
+            Bend::AtEnd => 1.0 - (1.0 - part).sqrt(),
+            Bend::AtBegin => part.sqrt(),
+        };
+        let mut guess: Point = std::array::from_fn(|k| from[k] + part * (to[k] - from[k]));
+        guess[INPUT] = end;
+        let (point, _) = self.curve.corrected(&guess, &ALONG_INPUT)?;
+        let near = norm(&difference(&point, &guess)) <= 0.5 * norm(&difference(to, from)).max(1e-6);
+        if !near {
+            return None;
+        }
+        Some(Some(if reached { Destination::Reached(point) } else { Destination::Returned(point) }))
+    }
+}
+
+/// Where on a piece of the curve the input stands still.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Bend {
+    None,
+    AtBegin,
+    AtEnd,
+}
