@@ -202,7 +202,7 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
     // Fewer roots than there are in general are complete by exact work on the geometry only.
     let exact = match solution.platform {
         Some(_) => solution.verdict.complex < 40,
-        None => solution.verdict.reason.contains("a closure polynomial of degree"),
+        None => !solution.verdict.reason.contains(" roots of a degree-"),
     };
     if entry.rounded && proved && exact {
         text.push_str("note: irrational numbers of the file were rounded for exact work (--digits)\n");
