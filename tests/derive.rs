@@ -177,6 +177,18 @@ fn platforms_are_derived_as_they_are_solved() {
 }
 
 #[test]
+fn poses_of_one_rotation_are_multiple_roots() {
+    for (path, distinct) in [("platform/congruent.toml", 12), ("platform/hexapod.toml", 26)] {
+        let entry = entry(path);
+        let polynomial = derive(&entry, &entry.cases[0]).unwrap().polynomial.unwrap();
+        let solution = solved(&entry);
+        assert_eq!((polynomial.degree(), polynomial.distinct()), (solution.verdict.complex, distinct), "{path}");
+        let real: usize = polynomial.roots.iter().map(|root| root.multiplicity).sum();
+        assert_eq!(real, solution.verdict.real, "{path}");
+    }
+}
+
+#[test]
 fn the_text_of_a_derivation_names_what_it_shows() {
     let entry = entry("loop/general_7r.toml");
     let derivation = derive(&entry, &entry.cases[0]).unwrap();
