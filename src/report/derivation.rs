@@ -23,14 +23,13 @@ pub fn verdict(derivation: &Derivation) -> String {
     };
     let (name, degree) = (variable(derivation, polynomial), polynomial.degree());
     let mut text = match (polynomial.distinct(), polynomial.roots.len()) {
-        (0, _) => format!("degree 0 in {name}, no root"),
+        (0, _) => format!("degree 0 in {name}, no finite root"),
         (1, real) => format!("degree {degree} in {name}, 1 distinct root, {real} real (proved)"),
         (distinct, real) => format!("degree {degree} in {name}, {distinct} distinct roots, {real} real (proved)"),
     };
-    match polynomial.at_pi {
-        0 => {}
-        1 => text.push_str(&format!(", 1 more at {name} = inf (the angle pi)")),
-        n => text.push_str(&format!(", {n} more at {name} = inf (the angle pi)")),
+    if polynomial.at_pi > 0 {
+        let more = if degree > 0 { " more" } else { "" };
+        text.push_str(&format!(", {}{more} at {name} = inf (the angle pi)", polynomial.at_pi));
     }
     if let Some(factor) = removed(name, polynomial) {
         text.push_str(&format!(", removed {factor}"));
