@@ -74,6 +74,7 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
         steps,
         polynomial,
         without,
+        per_root: 1,
         definition,
         warnings: Vec::new(),
     })

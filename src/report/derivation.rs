@@ -31,6 +31,9 @@ pub fn verdict(derivation: &Derivation) -> String {
         let more = if degree > 0 { " more" } else { "" };
         text.push_str(&format!(", {}{more} at {name} = inf (the angle pi)", polynomial.at_pi));
     }
+    if derivation.per_root > 1 {
+        text.push_str(&format!(", up to {} solutions at each", derivation.per_root));
+    }
     if let Some(factor) = removed(name, polynomial) {
         text.push_str(&format!(", removed {factor}"));
     }
@@ -136,6 +139,7 @@ pub fn json(entry: &Entry, case: usize, derivation: &Derivation) -> Value {
         document["unknowns"] = json!([name]);
         document["degree"] = json!(polynomial.degree());
         document["real_roots"] = json!(polynomial.roots.len());
+        document["solutions_per_root"] = json!(derivation.per_root);
         document["at_pi"] = json!(polynomial.at_pi);
         document["polynomial"] = json!({ "variable": name, "coefficients": coefficients });
         if polynomial.circle > 0 {
