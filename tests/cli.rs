@@ -98,25 +98,41 @@ fn an_unreachable_pose_is_an_answer_of_its_own() {
 
 #[test]
 fn the_document_follows_its_schema() {
-    let schema = fs::read_to_string(format!("{}/equations/result.schema.json", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    follows(
+        "result.schema.json",
+        &[
+            &["solve", "general_7r", "--json"],
+            &["solve", "general_02real", "--json", "--complex"],
+            &["solve", "ur5", "--json", "--complex"],
+            &["solve", "general_12real", "--json", "--real"],
+            &["solve", "three_parallel", "--json"],
+            &["solve", "dietmaier_40real", "--json"],
+            &["solve", "platform/hexapod", "--json", "--complex"],
+            &["solve", "platform/circle", "--json"],
+        ],
+    );
+    follows(
+        "derivation.schema.json",
+        &[
+            &["derive", "puma560", "--json"],
+            &["derive", "rsrc", "--json"],
+            &["derive", "bricard_line_symmetric", "--json"],
+            &["derive", "platform/hexapod", "--json"],
+        ],
+    );
+}
+
+fn follows(schema: &str, runs: &[&[&str]]) {
+    let schema = fs::read_to_string(format!("{}/equations/{schema}", env!("CARGO_MANIFEST_DIR"))).unwrap();
     let schema = json(&schema);
-    for arguments in [
-        &["solve", "general_7r", "--json"][..],
-        &["solve", "general_02real", "--json", "--complex"],
-        &["solve", "ur5", "--json", "--complex"],
-        &["solve", "general_12real", "--json", "--real"],
-        &["solve", "three_parallel", "--json"],
-        &["solve", "dietmaier_40real", "--json"],
-        &["solve", "platform/hexapod", "--json", "--complex"],
-        &["solve", "platform/circle", "--json"],
-    ] {
+    for arguments in runs {
         let run = run(arguments);
         assert_eq!(run.err, "", "{arguments:?}");
         validate(&json(&run.out), &schema, &schema, "document");
     }
 }
 
-/// As much of JSON Schema as result.schema.json uses.
+/// As much of JSON Schema as the schemas use.
 fn validate(value: &Value, schema: &Value, root: &Value, place: &str) {
     if let Some(reference) = schema["$ref"].as_str() {
         return validate(value, root.pointer(&reference[1..]).unwrap(), root, place);

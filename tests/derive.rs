@@ -177,6 +177,18 @@ fn platforms_are_derived_as_they_are_solved() {
 }
 
 #[test]
+fn poses_of_one_rotation_are_multiple_roots() {
+    for (path, distinct) in [("platform/congruent.toml", 12), ("platform/hexapod.toml", 26)] {
+        let entry = entry(path);
+        let polynomial = derive(&entry, &entry.cases[0]).unwrap().polynomial.unwrap();
+        let solution = solved(&entry);
+        assert_eq!((polynomial.degree(), polynomial.distinct()), (solution.verdict.complex, distinct), "{path}");
+        let real: usize = polynomial.roots.iter().map(|root| root.multiplicity).sum();
+        assert_eq!(real, solution.verdict.real, "{path}");
+    }
+}
+
+#[test]
 fn the_text_of_a_derivation_names_what_it_shows() {
     let entry = entry("loop/general_7r.toml");
     let derivation = derive(&entry, &entry.cases[0]).unwrap();
@@ -225,6 +237,16 @@ fn exit_codes_tell_what_came_of_it() {
     assert!(code == 1 && out.is_empty() && err.contains("no_such_entry"));
     let (code, _, err) = run(&["derive", "general_7r", "--input", "99"]);
     assert!(code == 1 && err.contains("99"), "{err}");
+    // Both roots are at infinity: the angle is pi.
+    let right = format!("{}/derive_pi.toml", env!("CARGO_TARGET_TMPDIR"));
+    let cylinders = "{ type = \"C\", a = 1, alpha = \"pi/2\" },\n".repeat(3);
+    let text = format!(
+        "title = \"right angles\"\n[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [\n{cylinders}{{ type = \"R\", \
+         a = 1, alpha = \"pi/2\", d = 0 }}]\n[[input]]\njoint = 4\nangle = \"pi\"\n"
+    );
+    fs::write(&right, text).unwrap();
+    let (code, out, _) = run(&["derive", &right, "-q"]);
+    assert_eq!((code, out.as_str()), (0, "degree 0 in t2, no finite root, 2 at t2 = inf (the angle pi)\n"));
     let planar = format!("{}/derive_planar.toml", env!("CARGO_TARGET_TMPDIR"));
     let joints = "{ type = \"P\", a = 1, alpha = \"pi/3\", d0 = 0, theta = 1 },\n".repeat(5);
     let joints = joints + &"{ type = \"R\", a = 1, alpha = \"pi/3\", d = 0 },\n".repeat(2);

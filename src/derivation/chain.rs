@@ -22,6 +22,8 @@ pub(super) struct Eliminated {
     pub steps: Vec<String>,
     /// The unknown that is left, the polynomial in it, and what its variable is.
     pub polynomial: Option<(usize, Univariate<Rational>, Meaning)>,
+    /// At most so many solutions belong to a root by the way of the elimination.
+    pub per_root: usize,
 }
 
 /// A loop over the rationals and modulo a prime.
@@ -69,6 +71,7 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
         steps: eliminated.steps,
         polynomial,
         without,
+        per_root: eliminated.per_root,
         definition: None,
         warnings: Vec::new(),
     })

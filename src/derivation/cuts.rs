@@ -52,23 +52,26 @@ pub(super) fn eliminate(exact: &Exact) -> Eliminated {
         (None, Some(&cut)) => (cut, Hidden::First),
         (None, None) => {
             let step = "Every cut of the loop loses equations.".to_owned();
-            return Eliminated { equations: Vec::new(), steps: vec![step], polynomial: None };
+            return Eliminated { equations: Vec::new(), steps: vec![step], polynomial: None, per_root: 1 };
         }
     };
     let view = cut.of(&exact.closed);
     let mut equations = listed(&exact.symbols, cut, &view);
     let Some(form) = half_angle_form(&view) else {
-        return Eliminated { equations, steps: Vec::new(), polynomial: None };
+        return Eliminated { equations, steps: Vec::new(), polynomial: None, per_root: 1 };
     };
     let rows = bilinear(&before_second_link(&form, &view.constants[1]), &view);
     equations.extend(reduced(&exact.symbols, cut, &rows));
     let kept = cut.unknown_index(usize::from(hidden == Hidden::Second));
-    let determinant = modular(&pencil(&rows, hidden).coefficients);
-    let polynomial = (!determinant.is_zero()).then(|| {
-        let polynomial = if cut.reversed { mirrored(&determinant) } else { determinant };
-        (kept, polynomial, Meaning::HalfTangent { degree: 16 })
-    });
-    Eliminated { equations, steps: steps(&exact.symbols, cut, hidden), polynomial }
+    let determinant = determinant(cut, hidden, &rows);
+    let polynomial = (!determinant.is_zero()).then_some((kept, determinant, Meaning::HalfTangent { degree: 16 }));
+    Eliminated { equations, steps: steps(&exact.symbols, cut, hidden), polynomial, per_root: 1 }
+}
+
+/// The determinant of the pencil, in the half-angle tangent of the joint itself.
+fn determinant(cut: Cut, hidden: Hidden, rows: &Bilinear<Rational>) -> Univariate<Rational> {
+    let determinant = modular(&pencil(rows, hidden).coefficients);
+    if cut.reversed { mirrored(&determinant) } else { determinant }
 }
 
 /// `p(-x)`
@@ -167,4 +170,37 @@ fn steps(symbols: &Symbols, cut: Cut, hidden: Hidden) -> Vec<String> {
         ),
         format!("At a root the kernel gives {} and {}, then linear equations the other joints.", name(other), name(2)),
     ]
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::catalogue::{Options, load};
+    use crate::mechanism::closed_loop;
+
+    #[test]
+    fn all_cuts_that_keep_the_same_joint_give_the_same_polynomial() {
+        let entry = load("general_7r", &Options::default()).unwrap();
+        let (_, closed) = closed_loop::<Rational>(entry.chain().unwrap(), &entry.cases[0]).unwrap().unwrap();
+        let mut found: [Option<Vec<rug::Integer>>; 6] = std::array::from_fn(|_| None);
+        let mut agreed = 0;
+        for cut in Cut::ALL {
+            let view = cut.of(&closed);
+            let form = half_angle_form(&view).unwrap();
+            let rows = bilinear(&before_second_link(&form, &view.constants[1]), &view);
+            for (hidden, j) in [(Hidden::First, 0), (Hidden::Second, 1)] {
+                let polynomial = determinant(cut, hidden, &rows).primitive_integers();
+                assert_eq!(polynomial.len(), 17);
+                match &found[cut.unknown_index(j)] {
+                    Some(before) => {
+                        assert_eq!(*before, polynomial, "{cut:?} {hidden:?}");
+                        agreed += 1;
+                    }
+                    None => found[cut.unknown_index(j)] = Some(polynomial),
+                }
+            }
+        }
+        assert_eq!(agreed, 18);
+    }
 }

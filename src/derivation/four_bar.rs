@@ -83,5 +83,5 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
         let polynomial = closure_polynomial(&equations, hidden, &[1, 1, 0].map(Rational::from));
         (!polynomial.is_zero()).then_some((kept, polynomial, Meaning::HalfTangent { degree: 8 }))
     };
-    Some(Eliminated { equations: listed.collect(), steps, polynomial })
+    Some(Eliminated { equations: listed.collect(), steps, polynomial, per_root: 1 })
 }

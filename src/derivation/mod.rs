@@ -35,6 +35,8 @@ pub struct Derivation {
     pub polynomial: Option<ClosurePolynomial>,
     /// Why there is no polynomial.
     pub without: Option<String>,
+    /// At most so many solutions belong to a simple root in general.
+    pub per_root: usize,
     /// What the variable of the polynomial is, as an equation; none where the equations have it.
     pub definition: Option<Polynomial<Rational>>,
     /// What the reader wants known.

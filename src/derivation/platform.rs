@@ -9,7 +9,7 @@ use crate::algebra::text::Names;
 use crate::catalogue::entry::Case;
 use crate::closure::study::{Leg, scalar};
 use crate::elimination::platform_degree::{PlatformDegree, platform_degree};
-use crate::elimination::platform_polynomial::{Coordinate, platform_polynomial};
+use crate::elimination::platform_polynomial::{Coordinate, multiple_platform_polynomial, platform_polynomial};
 use crate::error::{Error, Result};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
@@ -29,7 +29,8 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
     let platform: Platform<Rational> = platform_over(geometry).ok_or_else(missing)?;
     let degree = platform_degree(&platform, &squares);
     let isolated = !matches!(degree, Some(PlatformDegree::Infinite | PlatformDegree::Finite { poses: 0, .. }));
-    let found = if isolated { platform_polynomial(&platform, &squares) } else { None };
+    let simple = || platform_polynomial(&platform, &squares);
+    let found = if isolated { simple().or_else(|| multiple_platform_polynomial(&platform, &squares)) } else { None };
     let mut steps = vec![
         "A pose is x, the quaternion of the rotation, and y = p x with the position p: with a, b the points of a leg of length \
          L, w = y + x b - a x is the leg times x, w.w = L^2 x.x for each of six legs, and x.y = 0 (Study)."
@@ -48,17 +49,21 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
             found.coefficients.len() - 1,
             found.primes
         ));
+        let analysed = ClosurePolynomial::of(QUOTIENT, found.coefficients, Meaning::Plain)?;
+        if analysed.as_ref().is_some_and(|polynomial| polynomial.distinct() < polynomial.degree()) {
+            steps.push(
+                "Multiple roots are poses that coincide, or different ones of the same rotation: k tells those not apart."
+                    .to_owned(),
+            );
+        }
         definition = Some(super::equation::primitive(&quotient(&found.coordinate)));
-        polynomial = ClosurePolynomial::of(QUOTIENT, found.coefficients, Meaning::Plain)?;
+        polynomial = analysed;
     } else {
         without = Some(match degree {
             Some(PlatformDegree::Infinite) => "the poses are not isolated: a self-motion, real or complex".to_owned(),
             Some(PlatformDegree::Finite { poses: 0, .. }) => "no pose, real or complex".to_owned(),
             Some(PlatformDegree::Finite { poses, .. }) => {
-                format!(
-                    "{poses} poses with multiplicity, of which some coincide or share their rotation: no polynomial in a \
-                     quotient of its coordinates has simple roots"
-                )
+                format!("{poses} poses with multiplicity, but no coordinate in which they have a polynomial")
             }
             None => "the number of poses is not known".to_owned(),
         });
@@ -69,6 +74,7 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
         steps,
         polynomial,
         without,
+        per_root: 1,
         definition,
         warnings: Vec::new(),
     })

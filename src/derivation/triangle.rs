@@ -46,5 +46,6 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
         equations: vec![Equation::used(name, &polynomial)],
         steps,
         polynomial: Some((unknown, of_row(Variable::Rotation, &found.equation), Meaning::HalfTangent { degree: 2 })),
+        per_root: 1,
     })
 }

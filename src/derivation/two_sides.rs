@@ -101,11 +101,12 @@ fn solve(exact: &Exact, equations: &Separated<Rational>, unknowns: [usize; 2], n
             (first, of_row(equations.kinds[first], &equation), step)
         }
     };
-    let degree = if matches!(equations.plan(0.0), Plan::Apart { .. }) { 2 } else { 4 };
+    let apart = matches!(equations.plan(0.0), Plan::Apart { .. });
+    let (degree, per_root) = if apart { (2, 2) } else { (4, 1) };
     let meaning = match equations.kinds[side] {
         Variable::Rotation => Meaning::HalfTangent { degree },
         Variable::Translation => Meaning::Plain,
     };
     let polynomial = Some((unknowns[side], polynomial, meaning));
-    Eliminated { equations: listed.collect(), steps: vec![step], polynomial }
+    Eliminated { equations: listed.collect(), steps: vec![step], polynomial, per_root }
 }

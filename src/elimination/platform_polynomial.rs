@@ -143,18 +143,38 @@ const GROUP: usize = 8;
 const MOST_PRIMES: usize = 4000;
 
 /// The polynomial of a platform with legs of these squared lengths; its degree is the number of poses. `None` where there
-/// is no pose, infinitely many of them, or several coincide.
+/// is no pose, infinitely many of them, or several coincide or share their rotation.
 #[must_use]
 pub fn platform_polynomial(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<PlatformPolynomial> {
+    polynomial_in(&COORDINATES, platform, legs_squared, is_square_free)
+}
+
+/// The polynomial in a general coordinate, whatever the multiplicities of its roots: those of the poses, for poses of one
+/// rotation together. `None` where there is no pose, or infinitely many of them.
+#[must_use]
+pub fn multiple_platform_polynomial(
+    platform: &Platform<Rational>,
+    legs_squared: &[Rational; 6],
+) -> Option<PlatformPolynomial> {
+    polynomial_in(&COORDINATES[COORDINATES.len() - 1..], platform, legs_squared, |_, _| true)
+}
+
+/// The polynomial in the first coordinate whose polynomial modulo a prime is accepted.
+fn polynomial_in(
+    coordinates: &[Coordinate],
+    platform: &Platform<Rational>,
+    legs_squared: &[Rational; 6],
+    accepts: impl Fn(&Modulus, &[u64]) -> bool,
+) -> Option<PlatformPolynomial> {
     let modulus = primes().next()?;
     [false, true].into_iter().find_map(|special| {
-        COORDINATES.iter().find_map(|coordinate| {
+        coordinates.iter().find_map(|coordinate| {
             let legs = &linear_legs(&coordinate.turned(platform));
             let weights = coordinate.weights;
             let mut modular = Modular { legs, squares: legs_squared, weights, special, all_regular: false };
             let first = modular.polynomial(&modulus, &mut BorderBasis::new(&modulus))?;
             modular.all_regular = !special && first.len() == DIMENSION + 1;
-            (first.len() > 1 && is_square_free(&modulus, &first)).then_some(())?;
+            (first.len() > 1 && accepts(&modulus, &first)).then_some(())?;
             lifted(&modular, *coordinate, first.len())
         })
     })

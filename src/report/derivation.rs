@@ -23,14 +23,16 @@ pub fn verdict(derivation: &Derivation) -> String {
     };
     let (name, degree) = (variable(derivation, polynomial), polynomial.degree());
     let mut text = match (polynomial.distinct(), polynomial.roots.len()) {
-        (0, _) => format!("degree 0 in {name}, no root"),
+        (0, _) => format!("degree 0 in {name}, no finite root"),
         (1, real) => format!("degree {degree} in {name}, 1 distinct root, {real} real (proved)"),
         (distinct, real) => format!("degree {degree} in {name}, {distinct} distinct roots, {real} real (proved)"),
     };
-    match polynomial.at_pi {
-        0 => {}
-        1 => text.push_str(&format!(", 1 more at {name} = inf (the angle pi)")),
-        n => text.push_str(&format!(", {n} more at {name} = inf (the angle pi)")),
+    if polynomial.at_pi > 0 {
+        let more = if degree > 0 { " more" } else { "" };
+        text.push_str(&format!(", {}{more} at {name} = inf (the angle pi)", polynomial.at_pi));
+    }
+    if derivation.per_root > 1 {
+        text.push_str(&format!(", up to {} solutions at each", derivation.per_root));
     }
     if let Some(factor) = removed(name, polynomial) {
         text.push_str(&format!(", removed {factor}"));
@@ -137,6 +139,7 @@ pub fn json(entry: &Entry, case: usize, derivation: &Derivation) -> Value {
         document["unknowns"] = json!([name]);
         document["degree"] = json!(polynomial.degree());
         document["real_roots"] = json!(polynomial.roots.len());
+        document["solutions_per_root"] = json!(derivation.per_root);
         document["at_pi"] = json!(polynomial.at_pi);
         document["polynomial"] = json!({ "variable": name, "coefficients": coefficients });
         if polynomial.circle > 0 {
