@@ -109,9 +109,21 @@ fn the_document_follows_its_schema() {
         &["solve", "dietmaier_40real", "--json"],
         &["solve", "platform/hexapod", "--json", "--complex"],
         &["solve", "platform/circle", "--json"],
+        &["solve", "crcrr_2_angle", "--json", "--complex", "--derivatives"],
     ] {
         let run = run(arguments);
         assert_eq!(run.err, "", "{arguments:?}");
+        validate(&json(&run.out), &schema, &schema, "document");
+    }
+}
+
+#[test]
+fn the_document_of_a_sweep_follows_its_schema() {
+    let schema = fs::read_to_string(format!("{}/equations/sweep.schema.json", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let schema = json(&schema);
+    for name in ["cccr_1_angle", "rrsrr"] {
+        let run = run(&["sweep", name, "--from", "-pi", "--to", "pi", "--steps", "24", "--json"]);
+        assert_eq!((run.code, run.err.as_str()), (0, ""));
         validate(&json(&run.out), &schema, &schema, "document");
     }
 }

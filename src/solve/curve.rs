@@ -146,8 +146,7 @@ impl Curve {
         for order in 1..N {
             // With this order still 0 the residual holds what the lower ones bring about.
             let residual = Self::residual(&self.product(&values), order);
-            let right =
-                std::array::from_fn(|i| if i < 6 { -residual[i] } else { f64::from(u8::from(order == 1)) });
+            let right = std::array::from_fn(|i| if i < 6 { -residual[i] } else { f64::from(u8::from(order == 1)) });
             let solved = times(&inverted, &right);
             if solved.iter().any(|x| !x.is_finite()) {
                 return None;

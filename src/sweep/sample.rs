@@ -58,8 +58,8 @@ impl Swept<'_> {
         let case = case(self.joint, self.variable, input);
         let solution = self.mechanism.solve(&case, Roots::All, &mut memory.0, &mut memory.1)?;
         let real = || solution.modes.iter().filter(|mode| mode.real);
-        let is_regular =
-            solution.verdict.status != Status::SelfMotion && real().all(|mode| mode.certified && mode.multiplicity == 1);
+        let is_regular = solution.verdict.status != Status::SelfMotion
+            && real().all(|mode| mode.certified && mode.multiplicity == 1);
         let modes: Vec<Vec<f64>> = real().map(|mode| mode.q.iter().map(|z| z.re).collect()).collect();
         let unit = self.curve.curve().unit(INPUT);
         let point = |q: &Vec<f64>| {

@@ -15,7 +15,7 @@ const TURN: f64 = 0.97;
 /// The most steps between two inputs.
 const MOST_STEPS: usize = 2000;
 /// Translations beyond this, in scaled lengths, are on their way to infinity.
-const FAR: f64 = 1e3;
+const FAR: f64 = 1e5;
 
 /// A limit position as it is met on the way.
 #[derive(Clone, Copy, Debug)]
@@ -97,9 +97,10 @@ impl Walk<'_> {
         let mut here = Place { point: *start, direction: self.curve.tangent(start, &towards)? };
         let mut longest = LONGEST;
         for _ in 0..MOST_STEPS {
-            let far = here.point[..INPUT].iter().zip(self.curve.variables()).any(|(x, variable)| {
-                *variable == Variable::Translation && x.abs() > FAR
-            });
+            let far = here.point[..INPUT]
+                .iter()
+                .zip(self.curve.variables())
+                .any(|(x, variable)| *variable == Variable::Translation && x.abs() > FAR);
             if far {
                 return Some(Destination::Infinite(here.point[INPUT]));
             }
@@ -163,7 +164,11 @@ impl Walk<'_> {
         // A quarter of the bits at worst by bisection, then quadratic.
         for _ in 0..60 {
             let (slope, bend) = slope_of(&point)?;
-            if slope[INPUT] * sign > 0.0 { low = way } else { high = way }
+            if slope[INPUT] * sign > 0.0 {
+                low = way
+            } else {
+                high = way
+            }
             let newton = way - slope[INPUT] / (2.0 * bend[INPUT]);
             let aim = if newton >= low && newton <= high { newton } else { (low + high) / 2.0 };
             if (aim - way).abs() < 1e-13 * h.max(1e-3) || high - low < 1e-15 {
