@@ -183,6 +183,27 @@ fn branches_hold_every_mode_once_and_are_continuous() {
     }
 }
 
+/// Three limit positions lie between two neighbouring inputs of the coarse sweep.
+#[test]
+fn limit_positions_within_a_step_are_found() {
+    let coarse = swept("three_parallel_in_series", 1, Variable::Rotation, [-PI, PI], 60);
+    let fine = swept("three_parallel_in_series", 1, Variable::Rotation, [-PI, PI], 720);
+    for found in [&coarse, &fine] {
+        assert_eq!((found.branches.len(), found.limits.len(), found.unresolved()), (4, 4, 0));
+        assert!(found.limits.iter().all(|limit| limit.branches.len() == 2));
+        assert!(found.branches.iter().all(|branch| branch.circuit == 1));
+    }
+    let sorted = |found: &Sweep| {
+        let mut inputs: Vec<f64> = found.limits.iter().map(|limit| limit.input).collect();
+        inputs.sort_by(f64::total_cmp);
+        inputs
+    };
+    for (one, two) in sorted(&coarse).iter().zip(sorted(&fine)) {
+        assert!((one - two).abs() < 1e-12);
+    }
+    assert_eq!(coarse.branches.iter().filter(|branch| branch.rows.is_empty()).count(), 2);
+}
+
 fn run(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_looproot")).args(arguments).env_remove("NO_COLOR").output().unwrap()
 }

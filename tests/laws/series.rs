@@ -60,7 +60,7 @@ proptest! {
     /// `cos^2 + sin^2 = 1`, the angles add, and the first order is that of a dual angle: exactly, about any rational angle.
     #[test]
     fn of_angles_obey_trigonometry(a in series::<Rational>(), b in series::<Rational>(), s in rational(), t in rational()) {
-        let of = |t: &Rational| {
+        let of = |t: &Rational| -> (Rational, Rational) {
             let square = Rational::from(t * t);
             let length = Rational::from(&square + 1);
             ((1 - square) / &length, Rational::from(t * 2) / length)
