@@ -241,6 +241,9 @@ impl Found<'_> {
         }
         let (begin, from) = self.end(first, false);
         let (end, to) = self.end(last, true);
+        // An end between the end of a full turn and its beginning may be told by its input one turn away.
+        let from = if (from - input(first)) * span > 0.0 { from - span } else { from };
+        let to = if (to - input(last)) * span < 0.0 { to + span } else { to };
         Branch { circuit: 0, from, begin, to: to + turn as f64 * span, end, rows }
     }
 
