@@ -109,6 +109,7 @@ fn the_document_follows_its_schema() {
             &["solve", "dietmaier_40real", "--json"],
             &["solve", "platform/hexapod", "--json", "--complex"],
             &["solve", "platform/circle", "--json"],
+            &["solve", "crcrr_2_angle", "--json", "--complex", "--derivatives"],
         ],
     );
     follows(
@@ -118,6 +119,13 @@ fn the_document_follows_its_schema() {
             &["derive", "rsrc", "--json"],
             &["derive", "bricard_line_symmetric", "--json"],
             &["derive", "platform/hexapod", "--json"],
+        ],
+    );
+    follows(
+        "sweep.schema.json",
+        &[
+            &["sweep", "cccr_1_angle", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
+            &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
         ],
     );
 }

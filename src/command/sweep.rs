@@ -99,8 +99,8 @@ fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, 
     let kind = joint.checked_sub(1).and_then(|index| kinds.get(index));
     let kind = kind.ok_or_else(|| found(&format!("expected one from 1 to {}", kinds.len())))?;
     let variable = match (kind, letter) {
-        (JointKind::Revolute, "" | "q") | (JointKind::Cylindrical, "" | "q") => Variable::Rotation,
-        (JointKind::Prismatic, _) | (JointKind::Cylindrical, _) => Variable::Translation,
+        (JointKind::Revolute | JointKind::Cylindrical, "" | "q") => Variable::Rotation,
+        (JointKind::Prismatic | JointKind::Cylindrical, _) => Variable::Translation,
         (JointKind::Revolute, _) => return Err(found("which turns and has no distance; expected q before its number")),
         _ => return Err(found(&format!("which is {kind:?}; expected a joint R, P or C"))),
     };

@@ -46,18 +46,17 @@ pub fn text(
     }
     let mut text = String::new();
     let per = unit(of);
-    let orders: [(&str, &str, &dyn Fn(&Derivatives) -> &Vec<f64>); 2] = [
-        ("velocities, unit rate", "", &|d| &d.velocity),
-        ("accelerations, unit rate and no acceleration", "^2", &|d| &d.acceleration),
-    ];
-    for (title, power, of_order) in orders {
+    for (order, title, power) in
+        [(1, "velocities, unit rate", ""), (2, "accelerations, unit rate and no acceleration", "^2")]
+    {
         let _ = writeln!(text, "\n{title} of {input_name}");
         let column = |(name, variable): &(String, Variable)| format!("{name} [{}/{per}{power}]", unit(*variable));
         let header: Vec<String> = std::iter::once("#".to_owned()).chain(names.iter().map(column)).collect();
         let mut table = Columns::new(&header, &[]);
         for (index, derivatives) in modes.iter().enumerate() {
             let Some(derivatives) = derivatives else { continue };
-            let values = of_order(derivatives).iter().map(|x| shown_rate(*x));
+            let values = if order == 1 { &derivatives.velocity } else { &derivatives.acceleration };
+            let values = values.iter().map(|x| shown_rate(*x));
             table.row(std::iter::once((index + 1).to_string()).chain(values));
         }
         text.push_str(&table.text());

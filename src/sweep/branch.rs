@@ -142,8 +142,9 @@ impl Web {
         }
         let mut found = Found { web: self, curve, range, limits: Vec::new(), keys: Vec::new() };
         let mut branches: Vec<Branch> = paths.iter().map(|(path, closed)| found.branch(path, *closed, steps)).collect();
-        let mut limits = found.limits;
         self.circuits(&mut branches, &paths, &owner);
+        found.between(&mut branches, &owner);
+        let mut limits = found.limits;
         for (index, branch) in branches.iter().enumerate() {
             for end in [&branch.begin, &branch.end] {
                 if let End::Limit(limit) = end {
@@ -240,6 +241,9 @@ impl Found<'_> {
         }
         let (begin, from) = self.end(first, false);
         let (end, to) = self.end(last, true);
+        // An end between the end of a full turn and its beginning may be told by its input one turn away.
+        let from = if (from - input(first)) * span > 0.0 { from - span } else { from };
+        let to = if (to - input(last)) * span < 0.0 { to + span } else { to };
         Branch { circuit: 0, from, begin, to: to + turn as f64 * span, end, rows }
     }
 
@@ -257,6 +261,35 @@ impl Found<'_> {
             Some(_) => {
                 let other = web.samples[web.neighbour(node.0, forwards)].0.input;
                 (End::Unresolved([own, other]), own)
+            }
+        }
+    }
+
+    /// Adds the branches from one limit position to the next within a step, which hold no mode of any input.
+    fn between(&mut self, branches: &mut Vec<Branch>, owner: &[Vec<Option<usize>>]) {
+        let web = self.web;
+        let forward = self.range.to > self.range.from;
+        for (index, bridge) in web.bridges.iter().enumerate() {
+            let behind = web.neighbour(index, true);
+            let sides = [(index, &bridge.forwards, true), (behind, &bridge.backwards, false)];
+            for (sample, fates, is_forwards) in sides {
+                for (mode, fate) in fates.iter().enumerate() {
+                    // Every way is known from both of its ends.
+                    let folds = match fate {
+                        Fate::On(_, folds) if is_forwards => folds,
+                        Fate::Back(other, folds) if mode < *other => folds,
+                        _ => continue,
+                    };
+                    let circuit = owner[sample][mode].map_or(0, |branch| branches[branch].circuit);
+                    for pair in folds.windows(2) {
+                        let mut ends = [self.limit(index, pair[0]), self.limit(index, pair[1])];
+                        ends.sort_by(|a, b| self.limits[*a].input.total_cmp(&self.limits[*b].input));
+                        let [one, two] = if forward { ends } else { [ends[1], ends[0]] };
+                        let [from, to] = [one, two].map(|limit| self.limits[limit].input);
+                        let (begin, end) = (End::Limit(one), End::Limit(two));
+                        branches.push(Branch { circuit, from, begin, to, end, rows: Vec::new() });
+                    }
+                }
             }
         }
     }

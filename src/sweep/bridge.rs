@@ -116,10 +116,16 @@ pub(super) fn bridge(curve: &InputCurve, low: &Sample, high: &Sample) -> Bridge 
         own.points.iter().map(one).collect()
     };
     let (mut forwards, mut backwards) = (fates(low, high), fates(high, low));
-    // A way must be the same in both directions.
+    // A way must be the same in both directions, and every limit position turns it round.
     let agrees = |own: &[Fate], other: &[Fate], mode: usize| match &own[mode] {
-        Fate::On(next, _) => matches!(&other[*next], Fate::On(back, _) if *back == mode),
-        Fate::Back(next, _) => *next != mode && matches!(&own[*next], Fate::Back(back, _) if *back == mode),
+        Fate::On(next, folds) => {
+            folds.len() % 2 == 0
+                && matches!(&other[*next], Fate::On(back, same) if *back == mode && same.len() == folds.len())
+        }
+        Fate::Back(next, folds) => {
+            let same = matches!(&own[*next], Fate::Back(back, same) if *back == mode && same.len() == folds.len());
+            folds.len() % 2 == 1 && *next != mode && same
+        }
         Fate::Infinite(_) => true,
         Fate::Lost => false,
     };
@@ -127,8 +133,12 @@ pub(super) fn bridge(curve: &InputCurve, low: &Sample, high: &Sample) -> Bridge 
         (0..own.len()).filter(|mode| !agrees(own, other, *mode)).collect()
     };
     let (doubtful_low, doubtful_high) = (doubtful(&forwards, &backwards), doubtful(&backwards, &forwards));
-    doubtful_low.into_iter().for_each(|mode| forwards[mode] = Fate::Lost);
-    doubtful_high.into_iter().for_each(|mode| backwards[mode] = Fate::Lost);
+    for mode in doubtful_low {
+        forwards[mode] = Fate::Lost;
+    }
+    for mode in doubtful_high {
+        backwards[mode] = Fate::Lost;
+    }
     Bridge { forwards, backwards, folds }
 }
 

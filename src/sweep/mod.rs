@@ -159,16 +159,24 @@ fn connect(swept: &Swept<'_>, range: Range, samples: &[Sample], is_full_turn: bo
     let mut web = Web::new(is_full_turn);
     for ((sample, step), (middle, bridges)) in nodes.iter().zip(found?) {
         web.add(sample.clone(), Some(*step));
-        middle.into_iter().for_each(|sample| web.add(sample, None));
-        bridges.into_iter().for_each(|bridge| web.bridge(bridge));
+        for sample in middle {
+            web.add(sample, None);
+        }
+        for bridge in bridges {
+            web.bridge(bridge);
+        }
     }
     if let Some((sample, step)) = nodes.last() {
         web.add(sample.clone(), Some(*step));
     }
     if let (true, Some((first, _)), Some((last, _))) = (is_full_turn, nodes.first(), nodes.last()) {
         let (middle, bridges) = closing(swept, first, last, range)?;
-        middle.into_iter().for_each(|sample| web.add(sample, None));
-        bridges.into_iter().for_each(|bridge| web.bridge(bridge));
+        for sample in middle {
+            web.add(sample, None);
+        }
+        for bridge in bridges {
+            web.bridge(bridge);
+        }
     }
     Ok(web)
 }

@@ -15,7 +15,7 @@ const TURN: f64 = 0.97;
 /// The most steps between two inputs.
 const MOST_STEPS: usize = 2000;
 /// Translations beyond this, in scaled lengths, are on their way to infinity.
-const FAR: f64 = 1e3;
+const FAR: f64 = 1e5;
 
 /// A limit position as it is met on the way.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +47,9 @@ pub(super) struct Track {
     /// The limit positions on the way.
     pub folds: Vec<Fold>,
 }
+
+/// The end of a way, if it is met.
+type Reached = Result<Option<Destination>, Untraceable>;
 
 /// A point of the curve and the direction in which it is run through.
 #[derive(Clone, Copy)]
@@ -106,7 +109,7 @@ impl Walk<'_> {
             }
             let reach = norm(&here.point).max(4.0) / 4.0;
             let (next, h) = self.step(&here, longest.min(LONGEST * reach))?;
-            if let Some(end) = self.events(&here, &next, h, folds)? {
+            if let Some(end) = self.events(&here, &next, h, folds).ok()? {
                 return Some(end);
             }
             here = next;
@@ -134,16 +137,15 @@ impl Walk<'_> {
         None
     }
 
-    /// What happens between two neighbouring places: a limit position, the end of the way. `None` where that is not
-    /// found although it must be there.
-    fn events(&self, here: &Place, next: &Place, h: f64, folds: &mut Vec<Fold>) -> Option<Option<Destination>> {
+    /// What happens between two neighbouring places: a limit position, the end of the way.
+    fn events(&self, here: &Place, next: &Place, h: f64, folds: &mut Vec<Fold>) -> Reached {
         let (before, after) = (here.direction[INPUT], next.direction[INPUT]);
         if before * after > 0.0 {
             return self.landing(&here.point, &next.point, Bend::None);
         }
-        let fold = self.fold(here, next, h)?;
+        let fold = self.fold(here, next, h).ok_or(Untraceable)?;
         if let Some(end) = self.landing(&here.point, &fold, Bend::AtEnd)? {
-            return Some(Some(end));
+            return Ok(Some(end));
         }
         folds.push(Fold { point: fold, is_largest: before > 0.0 });
         self.landing(&fold, &next.point, Bend::AtBegin)
@@ -165,12 +167,12 @@ impl Walk<'_> {
         for _ in 0..60 {
             let (slope, bend) = slope_of(&point)?;
             if slope[INPUT] * sign > 0.0 {
-                low = way
+                low = way;
             } else {
-                high = way
+                high = way;
             }
             let newton = way - slope[INPUT] / (2.0 * bend[INPUT]);
-            let aim = if newton >= low && newton <= high { newton } else { (low + high) / 2.0 };
+            let aim = if newton >= low && newton <= high { newton } else { f64::midpoint(low, high) };
             if (aim - way).abs() < 1e-13 * h.max(1e-3) || high - low < 1e-15 {
                 return Some(point);
             }
@@ -182,7 +184,7 @@ impl Walk<'_> {
     }
 
     /// Where the curve between two neighbouring points, along which the input is monotone, meets an end of the way.
-    fn landing(&self, from: &Point, to: &Point, bend: Bend) -> Option<Option<Destination>> {
+    fn landing(&self, from: &Point, to: &Point, bend: Bend) -> Reached {
         let inside = |x: f64| (x - self.begin) * (x - self.target) <= 0.0;
         let heading = (to[INPUT] - from[INPUT]) * (self.target - self.begin) > 0.0;
         let (end, reached) = if heading { (self.target, true) } else { (self.begin, false) };
@@ -193,7 +195,7 @@ impl Walk<'_> {
         };
         // A limit position may lie beyond the end by rounding only where it is the beginning.
         if !passed || !(inside(from[INPUT]) || bend == Bend::AtBegin) {
-            return Some(None);
+            return Ok(None);
         }
         let span = to[INPUT] - from[INPUT];
         let part = if span == 0.0 { 0.0 } else { ((end - from[INPUT]) / span).clamp(0.0, 1.0) };
@@ -204,14 +206,17 @@ impl Walk<'_> {
         };
         let mut guess: Point = std::array::from_fn(|k| from[k] + part * (to[k] - from[k]));
         guess[INPUT] = end;
-        let (point, _) = self.curve.corrected(&guess, &ALONG_INPUT)?;
+        let (point, _) = self.curve.corrected(&guess, &ALONG_INPUT).ok_or(Untraceable)?;
         let near = norm(&difference(&point, &guess)) <= 0.5 * norm(&difference(to, from)).max(1e-6);
         if !near {
-            return None;
+            return Err(Untraceable);
         }
-        Some(Some(if reached { Destination::Reached(point) } else { Destination::Returned(point) }))
+        Ok(Some(if reached { Destination::Reached(point) } else { Destination::Returned(point) }))
     }
 }
+
+/// The curve could not be followed.
+struct Untraceable;
 
 /// Where on a piece of the curve the input stands still.
 #[derive(Clone, Copy, PartialEq, Eq)]

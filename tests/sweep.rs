@@ -1,0 +1,296 @@
+//! Sweeps: branches, limit positions and derivatives of loops against closed forms, finite differences and the solver itself.
+#![allow(clippy::unwrap_used)]
+
+use looproot::assembly::{Assembly, Roots, Workspace, wrapped};
+use looproot::catalogue::entry::Entry;
+use looproot::catalogue::{Options, load};
+use looproot::kinematics::closed_loop::Variable;
+use looproot::mechanism::{Derivatives, InputCurve, Mechanism, Solution};
+use looproot::sweep::{End, Range, Sweep, case, sweep};
+use std::f64::consts::PI;
+use std::process::{Command, Output};
+
+fn entry(name: &str) -> Entry {
+    load(name, &Options::default()).unwrap()
+}
+
+fn swept(name: &str, joint: usize, variable: Variable, [from, to]: [f64; 2], steps: usize) -> Sweep {
+    sweep(&entry(name), joint, variable, Range { from, to, steps }, || true, || {}).unwrap()
+}
+
+/// A loop at one input, its curve, and what is found there.
+struct At {
+    solution: Solution,
+    curve: InputCurve,
+}
+
+fn at(name: &str, joint: usize, variable: Variable, input: f64) -> At {
+    let mut entry = entry(name);
+    entry.cases = vec![case(joint, variable, input)];
+    let mechanism = Mechanism::prepare(&entry).unwrap();
+    let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+    let solution = mechanism.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap();
+    At { solution, curve: InputCurve::of(&entry, &entry.cases[0]).unwrap() }
+}
+
+impl At {
+    fn real(&self) -> Vec<Vec<f64>> {
+        let real = self.solution.modes.iter().filter(|mode| mode.real);
+        real.map(|mode| mode.q.iter().map(|z| z.re).collect()).collect()
+    }
+
+    fn derivatives(&self) -> Vec<Derivatives> {
+        let real = self.solution.modes.iter().filter(|mode| mode.real);
+        real.map(|mode| self.curve.derivatives(mode).unwrap()).collect()
+    }
+
+    /// The changes from a mode to the nearest one here.
+    fn change(&self, q: &[f64]) -> Vec<f64> {
+        let variables = self.curve.variables();
+        let change = |other: &Vec<f64>| -> Vec<f64> {
+            let pairs = other.iter().zip(q).zip(variables);
+            pairs.map(|((a, b), v)| if *v == Variable::Rotation { wrapped(a - b) } else { a - b }).collect()
+        };
+        let size = |v: &Vec<f64>| v.iter().map(|x| x.abs()).fold(0.0, f64::max);
+        self.real().iter().map(change).min_by(|a, b| size(a).total_cmp(&size(b))).unwrap()
+    }
+}
+
+#[test]
+fn derivatives_agree_with_finite_differences_of_the_solver() {
+    const STEP: f64 = 1e-3;
+    for (name, joint, variable, input) in [
+        ("crcrr_2_angle", 2, Variable::Rotation, 1.176_005_207_095_135),
+        ("rrsrr", 1, Variable::Rotation, 2.5),
+        ("general_7r", 1, Variable::Rotation, -1.080_839_000_541_168),
+        ("cprcr_2_distance", 2, Variable::Translation, 0.75),
+    ] {
+        let here = at(name, joint, variable, input);
+        let [two_behind, behind, ahead, two_ahead] =
+            [-2.0, -1.0, 1.0, 2.0].map(|k| at(name, joint, variable, input + k * STEP));
+        let modes = here.real();
+        assert!(!modes.is_empty(), "{name}");
+        for (q, derivatives) in modes.iter().zip(here.derivatives()) {
+            let [a, b, c, d] = [&two_behind, &behind, &ahead, &two_ahead].map(|there| there.change(q));
+            for k in 0..q.len() {
+                // Differences of fourth order.
+                let velocity = (8.0 * (c[k] - b[k]) - (d[k] - a[k])) / (12.0 * STEP);
+                let acceleration = (16.0 * (c[k] + b[k]) - (d[k] + a[k])) / (12.0 * STEP * STEP);
+                let size = 1.0 + derivatives.acceleration.iter().map(|x| x.abs()).fold(0.0, f64::max).powi(2);
+                let (v, w) = (derivatives.velocity[k], derivatives.acceleration[k]);
+                assert!((v - velocity).abs() < 1e-7 * size, "{name} variable {k}: {v} {velocity}");
+                assert!((w - acceleration).abs() < 1e-5 * size, "{name} variable {k}: {w} {acceleration}");
+            }
+            let input = here.curve.input();
+            assert!((derivatives.velocity[input] - 1.0).abs() < 1e-14 && derivatives.acceleration[input].abs() < 1e-13);
+        }
+    }
+}
+
+#[test]
+fn accelerations_are_derivatives_of_velocities() {
+    const STEP: f64 = 1e-4;
+    let [behind, here, ahead] = [-STEP, 0.0, STEP].map(|h| at("crcrr_2_angle", 2, Variable::Rotation, 1.2 + h));
+    let nearest = |there: &At, q: &[f64]| {
+        let size = |v: &Vec<f64>| v.iter().zip(q).map(|(a, b)| wrapped(a - b).abs()).fold(0.0, f64::max);
+        let modes = there.real();
+        let best = (0..modes.len()).min_by(|a, b| size(&modes[*a]).total_cmp(&size(&modes[*b]))).unwrap();
+        there.derivatives()[best].clone()
+    };
+    for (q, derivatives) in here.real().iter().zip(here.derivatives()) {
+        let (before, after) = (nearest(&behind, q), nearest(&ahead, q));
+        for k in 0..q.len() {
+            let acceleration = (after.velocity[k] - before.velocity[k]) / (2.0 * STEP);
+            assert!((acceleration - derivatives.acceleration[k]).abs() < 1e-5, "variable {k}");
+        }
+    }
+}
+
+/// CCCR: its angles are those of a spherical four-bar with sides of 2 atan(1/2), (3/4), (2/5), (1/3). It stands in a limit
+/// position where the two sides beyond the input lie on one great circle.
+#[test]
+fn limit_positions_of_a_spherical_four_bar_are_those_of_its_triangle() {
+    let [a, b, c, d] = [1.0 / 2.0, 3.0 / 4.0, 2.0 / 5.0, 1.0 / 3.0_f64].map(|t: f64| 2.0 * t.atan());
+    let stretched = |opening: f64| (a.cos() * d.cos() - opening.cos()) / (a.sin() * d.sin());
+    let mut expected: Vec<f64> = [stretched(b - c), stretched(b + c)]
+        .into_iter()
+        .filter(|cos| cos.abs() < 1.0)
+        .flat_map(|cos| [cos.acos(), -cos.acos()])
+        .collect();
+    expected.sort_by(f64::total_cmp);
+    for range in [[-PI, PI], [PI, -PI], [-3.0, 3.0]] {
+        let found = swept("cccr_1_angle", 1, Variable::Rotation, range, 90);
+        let inputs: Vec<f64> = found.limits.iter().map(|limit| limit.input).collect();
+        assert_eq!(inputs.len(), expected.len(), "{inputs:?} {expected:?}");
+        for (x, y) in inputs.iter().zip(&expected) {
+            assert!((x - y).abs() < 1e-10, "{x} {y}");
+        }
+        assert_eq!(found.unresolved(), 0);
+        assert!(found.samples.iter().all(looproot::sweep::Sample::is_complete));
+    }
+}
+
+/// Halves an interval at whose ends the numbers of real modes differ.
+fn change_of_count(name: &str, mut low: f64, mut high: f64) -> f64 {
+    let count = |x: f64| at(name, 1, Variable::Rotation, x).real().len();
+    let at_low = count(low);
+    assert_ne!(at_low, count(high));
+    while high - low > 1e-7 {
+        let middle = f64::midpoint(low, high);
+        if count(middle) == at_low { low = middle } else { high = middle }
+    }
+    f64::midpoint(low, high)
+}
+
+#[test]
+fn limit_positions_are_where_the_number_of_real_modes_changes() {
+    for name in ["rrsrr", "general_7r"] {
+        let found = swept(name, 1, Variable::Rotation, [-PI, PI], 60);
+        assert!(!found.limits.is_empty() && found.unresolved() == 0, "{name}");
+        for limit in &found.limits {
+            let near = found.limits.iter().filter(|other| (other.input - limit.input).abs() < 4e-3).count();
+            if near == 1 {
+                let x = change_of_count(name, limit.input - 2e-3, limit.input + 2e-3);
+                assert!((x - limit.input).abs() < 1e-6, "{name}: {x} {}", limit.input);
+            }
+            assert_eq!(limit.branches.len(), 2, "{name} {limit:?}");
+        }
+    }
+}
+
+/// Every real mode of every input lies on one branch, and branches do not jump.
+#[test]
+fn branches_hold_every_mode_once_and_are_continuous() {
+    for (name, joint) in [("rrsrr", 1), ("general_7r", 1), ("crcrr_2_angle", 2)] {
+        let found = swept(name, joint, Variable::Rotation, [-PI, PI], 120);
+        assert_eq!(found.unresolved(), 0, "{name}");
+        let curve = at(name, joint, Variable::Rotation, 0.1).curve;
+        let mut met: Vec<Vec<usize>> = found.samples.iter().map(|sample| vec![0; sample.modes.len()]).collect();
+        for branch in &found.branches {
+            for row in &branch.rows {
+                met[row.step][row.mode] += 1;
+            }
+            for pair in branch.rows.windows(2) {
+                let next = (pair[0].step + 1) % found.samples.len();
+                assert!(pair[1].step == next || pair[1].step == pair[0].step, "{name}");
+            }
+            if matches!(branch.begin, End::Closed(_)) {
+                assert!(branch.rows.len() >= 121, "{name}");
+            }
+        }
+        assert!(met.iter().flatten().all(|count| *count == 1), "{name}: {met:?}");
+        assert!(found.is_full_turn && curve.variables().len() == 7);
+    }
+}
+
+/// Three limit positions lie between two neighbouring inputs of the coarse sweep.
+#[test]
+fn limit_positions_within_a_step_are_found() {
+    let coarse = swept("three_parallel_in_series", 1, Variable::Rotation, [-PI, PI], 60);
+    let fine = swept("three_parallel_in_series", 1, Variable::Rotation, [-PI, PI], 720);
+    for found in [&coarse, &fine] {
+        assert_eq!((found.branches.len(), found.limits.len(), found.unresolved()), (4, 4, 0));
+        assert!(found.limits.iter().all(|limit| limit.branches.len() == 2));
+        assert!(found.branches.iter().all(|branch| branch.circuit == 1));
+    }
+    let sorted = |found: &Sweep| {
+        let mut inputs: Vec<f64> = found.limits.iter().map(|limit| limit.input).collect();
+        inputs.sort_by(f64::total_cmp);
+        inputs
+    };
+    for (one, two) in sorted(&coarse).iter().zip(sorted(&fine)) {
+        assert!((one - two).abs() < 1e-12);
+    }
+    assert_eq!(coarse.branches.iter().filter(|branch| branch.rows.is_empty()).count(), 2);
+}
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_looproot")).args(arguments).env_remove("NO_COLOR").output().unwrap()
+}
+
+fn printed(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{arguments:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn a_reader_sees_the_verdict_first() {
+    let text = printed(&["sweep", "cccr_1_angle", "--from", "-180 deg", "--to", "pi", "--steps", "60"]);
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/sweep.txt");
+    if std::env::var_os("LOOPROOT_BLESS").is_some() {
+        std::fs::write(path, &text).unwrap();
+    }
+    let golden = std::fs::read_to_string(path).unwrap_or_default();
+    assert!(golden == text, "tests/golden/sweep.txt says\n{golden}\nbut now it is\n{text}");
+    let quiet = printed(&["sweep", "cccr_1_angle", "--from", "0", "--to", "1", "--steps", "4", "--quiet"]);
+    assert_eq!(quiet, "2 branches, 0 limit positions, 5 inputs, all complete\n");
+}
+
+#[test]
+fn csv_has_a_row_for_every_branch_and_step() {
+    let text = printed(&["sweep", "cccr_1_angle", "--from", "0", "--to", "1", "--steps", "4", "--csv"]);
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[0], "branch,circuit,turn,step,input,status,q1,d1,q2,d2,q3,d3,q4");
+    assert_eq!(lines.len(), 11);
+    assert!(lines[1..].iter().all(|line| line.split(',').count() == 13 && line.contains(",complete,")));
+}
+
+#[test]
+fn a_translation_is_swept_in_metres() {
+    let text = printed(&["sweep", "cprcr_2_distance", "--from", "500 mm", "--to", "1", "--steps", "5"]);
+    assert!(text.contains("q2 from 0.5 to 1 m in 5 steps"), "{text}");
+    let angle =
+        printed(&["sweep", "cprcr_2_distance", "--joint", "q3", "--from", "0", "--to", "5 deg", "--steps", "2"]);
+    assert!(angle.contains("q3 from 0 to 5 deg"), "{angle}");
+}
+
+#[test]
+fn what_cannot_be_swept_is_said() {
+    let range = ["--from", "0", "--to", "1"];
+    for (arguments, words) in [
+        (&["rrsrr", "--joint", "9"][..], "expected one from 1 to 5"),
+        (&["rrsrr", "--joint", "0"], "expected one from 1 to 5"),
+        (&["rrsrr", "--joint", "first"], "expected the number of a joint"),
+        (&["rrsrr", "--joint", "3"], "Spherical"),
+        (&["rrsrr", "--joint", "d1"], "has no distance"),
+        (&["rrsrr", "--steps", "0"], "expected 1 to 100000"),
+        (&["rrsrr", "--steps", "100001"], "expected 1 to 100000"),
+        (&["rrsrr", "--steps", "some"], "expected 1 to 100000"),
+        (&["puma560"], "found an arm, expected a loop"),
+        (&["platform/hexapod"], "found a platform, expected a loop"),
+        (&["rrsrr", "--csv", "--json"], "cannot be used with"),
+    ] {
+        let output = run(&[&["sweep"][..], arguments, &range].concat());
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(1) && message.contains(words), "{arguments:?}: {message}");
+    }
+    for (range, words) in [
+        (["--from", "1", "--to", "1"], "expected a range"),
+        (["--from", "1 mm", "--to", "1"], "--from: found `1 mm`, expected an angle"),
+        (["--from", "0", "--to", "east"], "--to: "),
+    ] {
+        let output = run(&[&["sweep", "rrsrr"][..], &range].concat());
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(1) && message.contains(words), "{range:?}: {message}");
+    }
+    for name in ["puma560", "platform/hexapod"] {
+        let output = run(&["solve", name, "--derivatives"]);
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(1) && message.contains("derivatives are by its input"), "{message}");
+    }
+}
+
+#[test]
+fn derivatives_are_printed_beside_the_modes() {
+    let text = printed(&["solve", "cprcr_2_distance", "--derivatives"]);
+    assert!(text.contains("\nvelocities, unit rate of q2\n") && text.contains("q1 [rad/m]"), "{text}");
+    assert!(text.contains("\naccelerations, unit rate and no acceleration of q2\n") && text.contains("[m/m^2]"));
+}
+
+#[test]
+fn help_and_completions_know_sweep() {
+    assert!(printed(&["--help"]).contains("sweep"));
+    assert!(printed(&["sweep", "--help"]).contains("--steps"));
+    assert!(printed(&["completions", "bash"]).contains("sweep"));
+}
