@@ -10,7 +10,7 @@ use looproot::algebra::univariate::Univariate;
 use looproot::assembly::{Assembly, Roots, Solver, Workspace, wrapped};
 use looproot::benchmark::accuracy::{Job, run};
 use looproot::benchmark::sample::{CHAINS, Set};
-use looproot::catalogue::entry::{Input, InputValue, Kind};
+use looproot::catalogue::entry::{Case, Design, Input, InputValue};
 use looproot::elimination::cut::{Cut, Hidden};
 use looproot::elimination::degree::{degree, general_degree};
 use looproot::elimination::octic;
@@ -331,7 +331,7 @@ fn loops_with_fewer_than_three_rotations_are_unsupported_and_say_why() {
     let mut random = random(39);
     let chain = general("PPPPRRR", &mut random);
     let input = Input { joint: 5, value: InputValue::Angle(arms::angle(&ratio(1, 2))) };
-    let entry = arms::entry(Kind::Loop, chain, vec![arms::case(None, vec![input])]);
+    let entry = arms::entry(Design::Loop(chain), vec![Case::given(input, 0)]);
     let Err(fault) = Mechanism::prepare(&entry) else { panic!("prepared") };
     assert_eq!(fault.exit_code(), 4);
     let text = fault.to_string();

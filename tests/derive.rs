@@ -22,7 +22,7 @@ fn entry(path: &str) -> Entry {
 fn folder(name: &str) -> Vec<Entry> {
     let files = fs::read_dir(format!("{}/equations/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap();
     let mut files: Vec<String> = files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
-    files.retain(|file| file.ends_with(".toml"));
+    files.retain(|file| file.strip_suffix(".toml").is_some());
     files.sort();
     files.iter().map(|file| entry(&format!("{name}/{file}"))).collect()
 }
