@@ -204,6 +204,16 @@ fn limit_positions_within_a_step_are_found() {
     assert_eq!(coarse.branches.iter().filter(|branch| branch.rows.is_empty()).count(), 2);
 }
 
+#[test]
+fn a_limit_position_on_the_way_to_infinity_is_found() {
+    let [coarse, fine] = [37, 360].map(|steps| swept("ccprr_4_angle", 4, Variable::Rotation, [-PI, PI], steps));
+    for found in [&coarse, &fine] {
+        assert_eq!((found.branches.len(), found.limits.len(), found.unresolved()), (4, 2, 0));
+        assert!(found.limits.iter().all(|limit| limit.branches.len() == 2));
+    }
+    assert!((coarse.limits[0].input - fine.limits[0].input).abs() < 1e-12);
+}
+
 fn run(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_looproot")).args(arguments).env_remove("NO_COLOR").output().unwrap()
 }

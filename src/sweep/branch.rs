@@ -253,11 +253,13 @@ impl Found<'_> {
         let own = web.samples[node.0].0.input;
         match web.fate(node, forwards) {
             None => (End::Range, own),
-            Some((bridge, Fate::Back(_, folds) | Fate::On(_, folds))) if !folds.is_empty() => {
+            Some((bridge, Fate::Back(_, folds) | Fate::On(_, folds) | Fate::Infinite(_, folds)))
+                if !folds.is_empty() =>
+            {
                 let limit = self.limit(bridge, folds[0]);
                 (End::Limit(limit), self.limits[limit].input)
             }
-            Some((_, Fate::Infinite(input))) => (End::Infinite(*input), *input),
+            Some((_, Fate::Infinite(input, _))) => (End::Infinite(*input), *input),
             Some(_) => {
                 let other = web.samples[web.neighbour(node.0, forwards)].0.input;
                 (End::Unresolved([own, other]), own)
@@ -278,6 +280,7 @@ impl Found<'_> {
                     let folds = match fate {
                         Fate::On(_, folds) if is_forwards => folds,
                         Fate::Back(other, folds) if mode < *other => folds,
+                        Fate::Infinite(_, folds) => folds,
                         _ => continue,
                     };
                     let circuit = owner[sample][mode].map_or(0, |branch| branches[branch].circuit);
@@ -287,6 +290,14 @@ impl Found<'_> {
                         let [one, two] = if forward { ends } else { [ends[1], ends[0]] };
                         let [from, to] = [one, two].map(|limit| self.limits[limit].input);
                         let (begin, end) = (End::Limit(one), End::Limit(two));
+                        branches.push(Branch { circuit, from, begin, to, end, rows: Vec::new() });
+                    }
+                    if let (Fate::Infinite(input, _), Some(last)) = (fate, folds.last()) {
+                        let limit = self.limit(index, *last);
+                        let ends = [(self.limits[limit].input, End::Limit(limit)), (*input, End::Infinite(*input))];
+                        let [one, two] = ends;
+                        let ((from, begin), (to, end)) =
+                            if (one.0 < two.0) == forward { (one, two) } else { (two, one) };
                         branches.push(Branch { circuit, from, begin, to, end, rows: Vec::new() });
                     }
                 }

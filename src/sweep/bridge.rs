@@ -21,8 +21,8 @@ pub(super) enum Fate {
     On(usize, Vec<usize>),
     /// To a limit position, and from there back to another mode of the same input.
     Back(usize, Vec<usize>),
-    /// To infinity near this input.
-    Infinite(f64),
+    /// To infinity near this input; limit positions passed on the way.
+    Infinite(f64, Vec<usize>),
     /// Not known.
     Lost,
 }
@@ -109,7 +109,7 @@ pub(super) fn bridge(curve: &InputCurve, low: &Sample, high: &Sample) -> Bridge 
                 Destination::Returned(point) => {
                     mode_at(curve, own, &point).map_or(Fate::Lost, |mode| Fate::Back(mode, numbers))
                 }
-                Destination::Infinite(input) => Fate::Infinite(input * unit),
+                Destination::Infinite(input) => Fate::Infinite(input * unit, numbers),
                 Destination::Lost => Fate::Lost,
             }
         };
@@ -126,7 +126,7 @@ pub(super) fn bridge(curve: &InputCurve, low: &Sample, high: &Sample) -> Bridge 
             let same = matches!(&own[*next], Fate::Back(back, same) if *back == mode && same.len() == folds.len());
             folds.len() % 2 == 1 && *next != mode && same
         }
-        Fate::Infinite(_) => true,
+        Fate::Infinite(..) => true,
         Fate::Lost => false,
     };
     let doubtful = |own: &[Fate], other: &[Fate]| -> Vec<usize> {
