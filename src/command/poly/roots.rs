@@ -61,9 +61,9 @@ fn verdict(roots: &[RealRoot], polynomial: &Univariate<Rational>, name: &str, st
     let count = counted(roots.len(), "distinct real root").replacen("0 ", "no ", 1);
     let count = if roots.is_empty() { count.replace("distinct ", "") } else { count };
     let tail = if total > roots.len() { format!(", {total} with multiplicity") } else { String::new() };
-    let check = sturm.map_or_else(String::new, |count| match count == roots.len() {
-        true => format!("; Sturm's theorem counts {count}"),
-        false => format!("; CONTRADICTION: Sturm's theorem counts {count}"),
+    let check = sturm.map_or_else(String::new, |count| {
+        let word = if count == roots.len() { "" } else { "CONTRADICTION: " };
+        format!("; {word}Sturm's theorem counts {count}")
     });
     format!("{count} of degree {degree} in {name}{tail}{check}")
 }
