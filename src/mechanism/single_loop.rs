@@ -241,6 +241,9 @@ fn layout_rotations(open: &OpenLoop<f64>) -> usize {
 /// The loop of one case over a ring, and the order of its variables; `None` for an unlucky prime.
 pub(crate) fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<(Layout, ClosedLoop<R>)>> {
     let layout = Layout::of(chain, locked_variable(chain, case)?)?;
+    if layout.second_ball.is_some() {
+        return Err(Error::Unsupported("derivations of loops with two S joints, which are only solved".to_owned()));
+    }
     let open: Option<OpenLoop<R>> = chain.try_open_loop(&layout)?;
     Ok(match (open, filling(case)) {
         (Some(open), Ok(filling)) => Some((layout, open.close(&filling))),
