@@ -259,9 +259,9 @@ def main():
         best = {}
         for _ in range(options.rounds):
             for peer in peers:
-                result = run_peer(peer, job)
                 if "failure" in best.get(peer, {}):
                     continue
+                result = run_peer(peer, job)
                 if peer not in best or "failure" in result or result["seconds"] < best[peer]["seconds"]:
                     best[peer] = result
         values = {r["value"] for r in best.values() if r.get("value") is not None}
