@@ -18,7 +18,7 @@ use std::process::{Command, Stdio};
 
 /// Two conics with awkward names and fractions; they meet in two real and two complex points.
 const SYSTEM: [&str; 2] = ["x_1^2/3 + E*x_1 + 2*E^2 - 7/5", "(x_1 - E)*(x_1 + 3*E) - 12345678901234567890/10^19"];
-/// The resultant of the two with respect to the first variable, computed here.
+/// Their variables, the first of which is eliminated.
 const VARIABLES: [&str; 2] = ["x_1", "E"];
 
 /// The program, unless it is missing, which is said.

@@ -35,7 +35,8 @@ impl Search<'_> {
         let turned = -amplitude.copysign(constant);
         let square = (amplitude - constant.abs()) / (amplitude + constant.abs());
         let root = Complex::new(square, 0.0).sqrt();
-        let mut family = OfTriangle { form: &form, triangle, offset: (cos / turned, sin / turned), complex: None };
+        let roots = OfTriangle { triangle, offset: (cos / turned, sin / turned) };
+        let mut family = InLinkForm { form: &form, complex: None, roots };
         self.assembly.clean = self.all_roots(&mut family, &[root, -root]);
     }
 
@@ -54,14 +55,9 @@ impl Search<'_> {
             for hidden in [Hidden::First, Hidden::Second] {
                 let Some(found) = biquadratic::roots(&equations, hidden) else { continue };
                 self.assembly.tries += 1;
-                let mut family = OfFourBar {
-                    form: &form,
-                    base: bar.base,
-                    hidden,
-                    offset: found.offset,
-                    equations: &equations,
-                    complex: None,
-                };
+                let (base, offset) = (bar.base, found.offset);
+                let roots = OfFourBar { form: &form, base, hidden, offset, equations: &equations };
+                let mut family = InLinkForm { form: &form, complex: None, roots };
                 let clean = self.all_roots(&mut family, &found.roots);
                 self.assembly.clean |= clean;
                 if self.done(most, clean) {
@@ -81,7 +77,7 @@ impl Search<'_> {
         }
         let Some(found) = SeparatedRoots::of(&equations, limits::REACH_DEPENDENT) else { return false };
         self.assembly.tries += 1;
-        let mut family = OfOppositeAxes { form, axes, found: &found, complex: None };
+        let mut family = InLinkForm { form, complex: None, roots: OfOppositeAxes { axes, found: &found } };
         self.assembly.clean = self.all_roots(&mut family, found.roots());
         self.assembly.clean
     }
@@ -126,15 +122,39 @@ enum Bridged {
     Family,
 }
 
-/// The roots of a spherical triangle.
-struct OfTriangle<'a> {
-    form: &'a LinkForm<f64, 3, 3>,
-    triangle: Triangle<f64>,
-    offset: (f64, f64),
-    complex: Option<LinkForm<Complex<f64>, 3, 3>>,
+/// The roots of one elimination: what is made of each, real or complex.
+trait Roots<const RHO: usize, const TAU: usize> {
+    fn one<S: Scalar>(&self, form: &LinkForm<S, RHO, TAU>, search: &mut Search<'_>, x: S) -> RootOutcome;
 }
 
-impl OfTriangle<'_> {
+/// The roots of a loop in link form, whose complex copy is made when the first complex root asks for it.
+struct InLinkForm<'a, T, const RHO: usize, const TAU: usize> {
+    form: &'a LinkForm<f64, RHO, TAU>,
+    complex: Option<LinkForm<Complex<f64>, RHO, TAU>>,
+    roots: T,
+}
+
+impl<T: Roots<RHO, TAU>, const RHO: usize, const TAU: usize> Family for InLinkForm<'_, T, RHO, TAU> {
+    fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome {
+        self.roots.one(self.form, search, x)
+    }
+
+    fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
+        if self.complex.is_none() {
+            self.complex = self.form.map(|x| Some(Complex::from(*x)));
+        }
+        let one = |form: &_| self.roots.one(form, search, x);
+        self.complex.as_ref().map_or_else(RootOutcome::nothing, one)
+    }
+}
+
+/// The roots of a spherical triangle.
+struct OfTriangle {
+    triangle: Triangle<f64>,
+    offset: (f64, f64),
+}
+
+impl Roots<3, 3> for OfTriangle {
     fn one<S: Scalar>(&self, form: &LinkForm<S, 3, 3>, search: &mut Search<'_>, x: S) -> RootOutcome {
         let Some(known) = unshifted(x, self.offset) else { return RootOutcome::nothing() };
         let triangle = Triangle { dropped: self.triangle.dropped, equation: self.triangle.equation.map(S::from_f64) };
@@ -150,19 +170,6 @@ impl OfTriangle<'_> {
     }
 }
 
-impl Family for OfTriangle<'_> {
-    fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome {
-        self.one(self.form, search, x)
-    }
-
-    fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
-        let form = self.complex.take().or_else(|| self.form.map(|x| Some(Complex::from(*x))));
-        let outcome = form.as_ref().map_or_else(RootOutcome::nothing, |form| self.one(form, search, x));
-        self.complex = form;
-        outcome
-    }
-}
-
 /// The roots of a spherical four-bar with two translations.
 struct OfFourBar<'a> {
     form: &'a LinkForm<f64, 4, 2>,
@@ -170,14 +177,13 @@ struct OfFourBar<'a> {
     hidden: Hidden,
     offset: (f64, f64),
     equations: &'a Equations<f64>,
-    complex: Option<LinkForm<Complex<f64>, 4, 2>>,
 }
 
 fn size<S: Scalar>(values: &[S]) -> f64 {
     values.iter().map(|x| x.to_complex().norm_sqr()).sum::<f64>().sqrt()
 }
 
-impl OfFourBar<'_> {
+impl Roots<4, 2> for OfFourBar<'_> {
     fn one<S: Scalar>(&self, form: &LinkForm<S, 4, 2>, search: &mut Search<'_>, x: S) -> RootOutcome {
         let Some(known) = unshifted(x, self.offset) else { return RootOutcome::nothing() };
         let Some(bar) = FourBar::new(form, self.base) else { return RootOutcome::nothing() };
@@ -228,13 +234,11 @@ impl OfFourBar<'_> {
 
 /// The roots of a loop whose translations run along two opposite axes.
 struct OfOppositeAxes<'a> {
-    form: &'a LinkForm<f64, 4, 2>,
     axes: OppositeAxes,
     found: &'a SeparatedRoots,
-    complex: Option<LinkForm<Complex<f64>, 4, 2>>,
 }
 
-impl OfOppositeAxes<'_> {
+impl Roots<4, 2> for OfOppositeAxes<'_> {
     fn one<S: Scalar>(&self, form: &LinkForm<S, 4, 2>, search: &mut Search<'_>, x: S) -> RootOutcome {
         let mut outcome = RootOutcome::nothing();
         for [[_, c, s], [_, c2, s2]] in self.found.monomials(x).into_iter().flatten() {
@@ -246,19 +250,6 @@ impl OfOppositeAxes<'_> {
             outcome.settled |= matches!(bridged, Bridged::Closed | Bridged::Never);
             outcome.unresolved |= bridged == Bridged::Family;
         }
-        outcome
-    }
-}
-
-impl Family for OfOppositeAxes<'_> {
-    fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome {
-        self.one(self.form, search, x)
-    }
-
-    fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
-        let form = self.complex.take().or_else(|| self.form.map(|x| Some(Complex::from(*x))));
-        let outcome = form.as_ref().map_or_else(RootOutcome::nothing, |form| self.one(form, search, x));
-        self.complex = form;
         outcome
     }
 }
@@ -309,17 +300,4 @@ fn refined(form: &LinkForm<f64, 4, 2>, base: usize, angles: [Complex<f64>; 2]) -
         }
     }
     None
-}
-
-impl Family for OfFourBar<'_> {
-    fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome {
-        self.one(self.form, search, x)
-    }
-
-    fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
-        let form = self.complex.take().or_else(|| self.form.map(|x| Some(Complex::from(*x))));
-        let outcome = form.as_ref().map_or_else(RootOutcome::nothing, |form| self.one(form, search, x));
-        self.complex = form;
-        outcome
-    }
 }

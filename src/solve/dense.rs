@@ -2,21 +2,25 @@
 
 use super::scalar::Number;
 
+/// The row, of those from k on, with the largest entry in column k; `None` where all are zero.
+#[inline(always)]
+fn pivot_row<S: Number, const N: usize>(a: &[[S; N]; N], k: usize) -> Option<usize> {
+    let mut row = k;
+    for i in k + 1..N {
+        if a[i][k].size() > a[row][k].size() {
+            row = i;
+        }
+    }
+    (a[row][k].size() > 0.0).then_some(row)
+}
+
 /// The inverse by Gauss-Jordan elimination with partial pivoting; `None` for a singular matrix.
 #[must_use]
 pub fn inverse<S: Number, const N: usize>(matrix: &[[S; N]; N]) -> Option<[[S; N]; N]> {
     let mut a = *matrix;
     let mut pivots = [0; N];
     for k in 0..N {
-        let mut row = k;
-        for i in k + 1..N {
-            if a[i][k].size() > a[row][k].size() {
-                row = i;
-            }
-        }
-        if !(a[row][k].size() > 0.0) {
-            return None;
-        }
+        let row = pivot_row(&a, k)?;
         a.swap(k, row);
         pivots[k] = row;
         let pivot = a[k][k].inverse()?;
@@ -50,15 +54,7 @@ pub fn inverse<S: Number, const N: usize>(matrix: &[[S; N]; N]) -> Option<[[S; N
 pub fn solve_one<S: Number, const N: usize>(matrix: &[[S; N]; N], right: &[S; N]) -> Option<[S; N]> {
     let (mut a, mut x) = (*matrix, *right);
     for k in 0..N {
-        let mut row = k;
-        for i in k + 1..N {
-            if a[i][k].size() > a[row][k].size() {
-                row = i;
-            }
-        }
-        if !(a[row][k].size() > 0.0) {
-            return None;
-        }
+        let row = pivot_row(&a, k)?;
         a.swap(k, row);
         x.swap(k, row);
         let inverse = a[k][k].inverse()?;

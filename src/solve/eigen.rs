@@ -74,11 +74,7 @@ impl EigenWorkspace {
 
     /// The eigenvalues of any 16 x 16 matrix by faer: what the speed of the solver is measured against.
     pub fn of_matrix(&mut self, matrix: &Square<f64, SIZE>) -> Option<[Complex<f64>; SIZE]> {
-        for (i, row) in matrix.iter().enumerate() {
-            for (j, x) in row.iter().enumerate() {
-                self.matrix[(i, j)] = *x;
-            }
-        }
+        copy(matrix, &mut self.matrix);
         let found = evd::evd_real(
             self.matrix.as_ref(),
             self.real.as_mut(),
@@ -92,6 +88,15 @@ impl EigenWorkspace {
         free_registers();
         found.ok()?;
         Some(std::array::from_fn(|k| Complex::new(self.real.column_vector()[k], self.imaginary.column_vector()[k])))
+    }
+}
+
+/// The matrix as faer stores it.
+fn copy<const N: usize>(matrix: &Square<f64, N>, target: &mut Mat<f64>) {
+    for (i, row) in matrix.iter().enumerate() {
+        for (j, x) in row.iter().enumerate() {
+            target[(i, j)] = *x;
+        }
     }
 }
 
@@ -120,11 +125,7 @@ impl<const N: usize> Default for Eigenvectors<N> {
 impl<const N: usize> Eigenvectors<N> {
     /// Eigenvalues and right eigenvectors of a matrix, kept in here; whether the iteration converged.
     pub fn decompose(&mut self, matrix: &Square<f64, N>) -> bool {
-        for (i, row) in matrix.iter().enumerate() {
-            for (j, x) in row.iter().enumerate() {
-                self.matrix[(i, j)] = *x;
-            }
-        }
+        copy(matrix, &mut self.matrix);
         let found = evd::evd_real(
             self.matrix.as_ref(),
             self.real.as_mut(),
