@@ -68,6 +68,27 @@ impl Linkage<Rational> {
 }
 
 impl<F: Field> Linkage<F> {
+    /// The chain in which some joint variables are rigid, at these values: their place in the list of variables, and the
+    /// value.
+    ///
+    /// # Panics
+    /// When no joint variable is left.
+    #[must_use]
+    pub fn locked(&self, at: &[(usize, JointValue<F>)]) -> Self {
+        let mut whole: Vec<JointValue<F>> = vec![[F::one(), F::zero()]; self.variables.len()];
+        for (k, value) in at {
+            whole[*k] = value.clone();
+        }
+        let mut position = self.at(&whole);
+        let mut rigid: Vec<usize> = at.iter().map(|(k, _)| *k).collect();
+        rigid.sort_unstable();
+        for k in rigid.into_iter().rev() {
+            position = position.without(k);
+        }
+        let link = |[a, b, c, d, e, f, g, h]: Study<F>| DualQuaternion::from_study(&[a, b, c, d], &[e, f, g, h]);
+        Self { variables: position.variables, links: position.links.into_iter().map(link).collect() }
+    }
+
     /// The chain with its joints at these values, which need not close.
     ///
     /// # Panics
@@ -90,7 +111,7 @@ impl<F: Field> Position<F> {
     #[must_use]
     pub fn closes(&self) -> bool {
         let product = self.links.iter().fold(one(), |product, link| times(&product, link));
-        !product[0].is_zero() && product[1..].iter().all(F::is_zero)
+        is_unit(&product[0]) && !product[1..].iter().any(is_unit)
     }
 
     /// The chain in which joint variable `k` is rigid.
@@ -111,6 +132,12 @@ impl<F: Field> Position<F> {
         }
         Self { variables, links }
     }
+}
+
+/// Whether this is no zero. Over algebraic numbers what is zero at some roots only makes itself known by the attempt to
+/// invert it.
+pub(super) fn is_unit<F: Field>(x: &F) -> bool {
+    !x.is_zero() && x.inverse().is_some()
 }
 
 /// The dual quaternion 1.
