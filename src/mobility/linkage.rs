@@ -51,6 +51,19 @@ impl Linkage<Rational> {
         Ok(Self { variables: layout.variables, links })
     }
 
+    /// A length of the size of the links: the power of two nearest to their mean, 1 without lengths.
+    #[must_use]
+    pub fn unit(&self) -> Rational {
+        let length = |link: &DualQuaternion<Rational>| {
+            let motion = link.to_motion()?;
+            Some(motion.translation.iter().map(|x| x.to_f64().powi(2)).sum::<f64>())
+        };
+        let squares: f64 = self.links.iter().filter_map(length).sum();
+        let mean = (squares / self.links.len().max(1) as f64).sqrt();
+        let unit = if mean.is_normal() { mean.log2().round().exp2() } else { 1.0 };
+        Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
+    }
+
     /// The same chain over another field; `None` for an unlucky prime.
     #[must_use]
     pub fn map<F: Field>(&self) -> Option<Linkage<F>> {
