@@ -5,6 +5,7 @@ pub mod derivatives;
 pub mod json;
 pub mod model;
 pub mod number;
+pub mod picture;
 pub mod sweep;
 pub mod table;
 pub mod text;
