@@ -3,6 +3,7 @@
 pub mod chain;
 pub mod closed_loop;
 pub mod dual_quaternion;
+pub mod idle;
 pub mod link_form;
 pub mod motion;
 pub mod placement;
