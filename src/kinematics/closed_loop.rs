@@ -254,22 +254,8 @@ impl Chain {
     /// # Errors
     /// As [`Chain::open_loop`].
     pub fn try_open_loop<R: Ring>(&self, layout: &Layout) -> Result<Option<OpenLoop<R>>, Error> {
-        let Some(steps) = self.steps::<R>() else { return Ok(None) };
-        // Collect the unknowns with the constants between them; `constants[k]` stands before unknown k.
-        let mut unknowns = Vec::new();
-        let mut constants = vec![Motion::identity()];
-        for step in steps {
-            match step {
-                Step::Constant(motion) => {
-                    let last = constants.len() - 1;
-                    constants[last] = constants[last].then_after(&motion);
-                }
-                Step::Unknown(variable) => {
-                    unknowns.push(variable);
-                    constants.push(Motion::identity());
-                }
-            }
-        }
+        // `constants[k]` stands before unknown k.
+        let Some((mut unknowns, mut constants)) = self.unknowns_and_constants::<R>() else { return Ok(None) };
         let Some(locked) = self.fill_up(layout, &mut unknowns, &mut constants) else { return Ok(None) };
         let total = unknowns.len();
         let expected = if locked.is_some() { 7 } else { 6 };
@@ -299,6 +285,27 @@ impl Chain {
             }
         };
         Ok(Some(open))
+    }
+
+    /// What each joint variable does, in joint order, and the constant motions between them: motion k stands before
+    /// variable k, and the last one behind them all. `None` for an unlucky prime.
+    #[must_use]
+    pub fn unknowns_and_constants<R: Ring>(&self) -> Option<(Vec<Variable>, Vec<Motion<R>>)> {
+        let mut unknowns = Vec::new();
+        let mut constants = vec![Motion::identity()];
+        for step in self.steps::<R>()? {
+            match step {
+                Step::Constant(motion) => {
+                    let last = constants.len() - 1;
+                    constants[last] = constants[last].then_after(&motion);
+                }
+                Step::Unknown(variable) => {
+                    unknowns.push(variable);
+                    constants.push(Motion::identity());
+                }
+            }
+        }
+        Some((unknowns, constants))
     }
 
     /// Puts the idle unknowns of a layout among the unknowns of a chain, and returns which of all is the locked one;
