@@ -4,7 +4,7 @@ pub mod bezout;
 mod common_divisor;
 pub mod dixon;
 mod eliminant;
-mod linear;
+pub mod linear;
 mod route;
 pub mod subresultant;
 pub mod sylvester;
