@@ -4,6 +4,7 @@ mod approximation;
 pub mod determinant;
 pub mod double_double;
 pub mod dual;
+pub mod echelon;
 mod expression;
 pub mod factors;
 mod half_tangent;

@@ -80,7 +80,7 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
     blocks.iter().map(read).collect()
 }
 
-fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
+pub(super) fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
     let table = scope.table(node, "`units`", &["length", "angle"])?;
     if let Some(length) = table.get("length") {
         let unit = scope.word(length, "length", &["m", "cm", "mm"])?;
@@ -93,7 +93,7 @@ fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
     Ok(())
 }
 
-fn source(scope: &Scope<'_>, node: &Node) -> Result<Source> {
+pub(super) fn source(scope: &Scope<'_>, node: &Node) -> Result<Source> {
     let table = scope.table(node, "`source`", &["key", "where"])?;
     let key = scope.text(scope.need(&table, "key")?, "key")?.to_owned();
     let place = table.get("where").map(|node| scope.text(node, "where").map(str::to_owned)).transpose()?;

@@ -7,4 +7,5 @@ pub mod link_form;
 pub mod motion;
 pub mod placement;
 pub mod platform;
+pub mod screw_system;
 pub mod velocity;
