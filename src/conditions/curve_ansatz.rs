@@ -10,7 +10,7 @@ use super::finite_field::{Turn, half_tangent_turn, square_root, turn};
 use super::lift;
 use super::spherical::{Directions, Triad, triad};
 use crate::algebra::modp::ModP;
-use crate::algebra::resultant::linear::reduce;
+use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::ansatz::Link;
@@ -180,7 +180,7 @@ fn on_branch<F: Field>(
         return None;
     }
     let rows: Vec<Vec<F>> = points.iter().flat_map(|(_, directions)| directions.equations()).collect();
-    let lengths = canonical(reduce(&rows, 10, 0.0).null_space());
+    let lengths = canonical(Echelon::of(rows, 10).null_space());
     if lengths.is_empty() {
         return None;
     }

@@ -7,7 +7,7 @@
 use super::finite_field::{Turn, all_turns, random_unit, turn};
 use super::spherical::Directions;
 use crate::algebra::modp::ModP;
-use crate::algebra::resultant::linear::reduce;
+use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::Ring;
 use crate::catalogue::ansatz::Link;
 use crate::kinematics::dual_quaternion::Quaternion;
@@ -224,7 +224,7 @@ impl<const P: u64> Pattern<P> {
             (0..3).map(|i| if image == k { own[i] } else { own[i].add(&sign.mul(&directions.axes[image][i])) }).collect()
         };
         let velocities: Vec<Vec<ModP<P>>> = self.orbits.iter().map(velocity).collect();
-        let rank = |rows: &[Vec<ModP<P>>]| reduce(rows, 3, 0.0).pivots.len();
+        let rank = |rows: &[Vec<ModP<P>>]| Echelon::of(rows.to_vec(), 3).rank();
         let parallel = |k: usize| {
             let image: &Vector<ModP<P>> = &directions.axes[self.involution.joints[k]];
             cross(&directions.axes[k], image).iter().all(Ring::is_zero)

@@ -3,12 +3,11 @@
 use crate::algebra::ring::Field;
 
 /// A matrix reduced to unit columns at its pivots.
-#[derive(Clone, Debug)]
-pub struct Reduced<F> {
+pub(super) struct Reduced<F> {
     /// The rows of the pivots, in the order of `pivots`.
     rows: Vec<Vec<F>>,
     /// Row and column of each pivot in the matrix as it was given.
-    pub pivots: Vec<(usize, usize)>,
+    pub(super) pivots: Vec<(usize, usize)>,
     columns: usize,
 }
 
@@ -16,17 +15,12 @@ pub struct Reduced<F> {
 ///
 /// # Panics
 /// When a row does not have the given number of columns.
-#[must_use]
-pub fn reduce<F: Field>(matrix: &[Vec<F>], columns: usize, tolerance: f64) -> Reduced<F> {
+pub(super) fn reduce<F: Field>(matrix: &[Vec<F>], columns: usize, tolerance: f64) -> Reduced<F> {
     reduce_up_to(matrix, columns, columns, tolerance)
 }
 
 /// The same, for a matrix whose rank is known not to be above `rank`: what is left then is rounding.
-///
-/// # Panics
-/// When a row does not have the given number of columns.
-#[must_use]
-pub fn reduce_up_to<F: Field>(matrix: &[Vec<F>], columns: usize, rank: usize, tolerance: f64) -> Reduced<F> {
+pub(super) fn reduce_up_to<F: Field>(matrix: &[Vec<F>], columns: usize, rank: usize, tolerance: f64) -> Reduced<F> {
     assert!(matrix.iter().all(|row| row.len() == columns), "the rows of a matrix are of one length");
     let mut rows = matrix.to_vec();
     let mut names: Vec<usize> = (0..rows.len()).collect();
@@ -63,8 +57,7 @@ pub fn reduce_up_to<F: Field>(matrix: &[Vec<F>], columns: usize, rank: usize, to
 
 impl<F: Field> Reduced<F> {
     /// A basis of the vectors that the matrix sends to zero.
-    #[must_use]
-    pub fn null_space(&self) -> Vec<Vec<F>> {
+    pub(super) fn null_space(&self) -> Vec<Vec<F>> {
         let is_free = |column: &usize| self.pivots.iter().all(|(_, used)| used != column);
         let vector = |free: usize| {
             let mut vector = vec![F::zero(); self.columns];

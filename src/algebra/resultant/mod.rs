@@ -4,7 +4,7 @@ pub mod bezout;
 mod common_divisor;
 pub mod dixon;
 mod eliminant;
-pub mod linear;
+mod linear;
 mod route;
 pub mod subresultant;
 pub mod sylvester;
