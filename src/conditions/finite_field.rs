@@ -7,12 +7,12 @@ use rand_chacha::ChaCha8Rng;
 
 /// The primes of the searches, all of them 3 modulo 4: -1 is no square then, so that a vector of a plane has length 0
 /// only when it is 0, and the half-angle tangents of the field and infinity are all its rotations.
-pub const PRIMES: [u64; 7] = [23, 43, 103, 211, 479, 491, 499];
+pub const PRIMES: [u64; 9] = [23, 31, 43, 59, 67, 103, 479, 491, 499];
 
 /// Runs code generic over the prime for one of [`PRIMES`] known as a number only; an error for any other number.
 macro_rules! over_prime {
     ($prime:expr, $p:ident => $body:expr) => {
-        over_prime!(@ $prime, $p => $body, [23 43 103 211 479 491 499])
+        over_prime!(@ $prime, $p => $body, [23 31 43 59 67 103 479 491 499])
     };
     (@ $prime:expr, $p:ident => $body:expr, [$($value:literal)*]) => {
         match $prime {
