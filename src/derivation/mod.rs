@@ -14,7 +14,7 @@ mod triangle;
 mod two_sides;
 
 pub use equation::Equation;
-pub use polynomial::{ClosurePolynomial, Root};
+pub use polynomial::{ClosurePolynomial, Removed, Root};
 
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::Names;

@@ -49,7 +49,7 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
             found.coefficients.len() - 1,
             found.primes
         ));
-        let analysed = ClosurePolynomial::of(QUOTIENT, found.coefficients, Meaning::Plain)?;
+        let analysed = ClosurePolynomial::of(QUOTIENT, found.coefficients, Meaning::Plain, Vec::new())?;
         if analysed.as_ref().is_some_and(|polynomial| polynomial.distinct() < polynomial.degree()) {
             steps.push(
                 "Multiple roots are poses that coincide, or different ones of the same rotation: k tells those not apart."
