@@ -60,7 +60,7 @@ pub(super) fn exact(chain: &Chain, case: &Case) -> Result<Exact> {
 }
 
 /// The elimination that the unknowns ask for.
-fn eliminate(exact: &Exact) -> Result<Eliminated> {
+pub(super) fn eliminate(exact: &Exact) -> Result<Eliminated> {
     let eliminated = match (exact.ball, general_degree(exact.closed.variables)) {
         (Some(ball), _) => Some(two_sides::ball(exact, ball)),
         (None, Some(2)) => triangle::eliminate(exact),

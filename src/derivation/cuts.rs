@@ -26,7 +26,7 @@ const TURNING: [&str; 4] = ["n'", "r", "r x n'", "(r.r) n' - 2 (n'.r) r"];
 
 /// The first cut that leaves the fewest roots, distinct if possible. The first one of all is taken at once where it
 /// leaves 16 distinct ones, as in general.
-fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
+pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
     let mut best = None;
     for cut in Cut::ALL {
         for hidden in [Hidden::First, Hidden::Second] {

@@ -24,7 +24,7 @@ pub(super) fn quality<F: Field + Domain>(polynomial: &Univariate<F>) -> Option<(
 }
 
 /// The link from which to look, and the angle to keep: the first that leaves the fewest roots, distinct if possible.
-fn choice(form: &LinkForm<Mod, 4, 2>) -> Option<(usize, Hidden)> {
+pub(super) fn choice(form: &LinkForm<Mod, 4, 2>) -> Option<(usize, Hidden)> {
     let mut best = None;
     for base in 0..4 {
         let Some(bar) = FourBar::new(form, base) else { continue };

@@ -80,6 +80,15 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
     })
 }
 
+/// The equations of one set of legs alone, with the names of their variables.
+pub(super) fn equations_of(geometry: &Platform<Number>, case: &Case) -> Result<(Names, Vec<Equation>)> {
+    let missing = || Error::Invalid("a case of a platform without legs".to_owned());
+    let squares = case.legs_squared.as_ref().ok_or_else(missing)?;
+    let squares = squares.each_ref().map(|square| square.rational().clone());
+    let platform: Platform<Rational> = platform_over(geometry).ok_or_else(missing)?;
+    Ok((Names::given(NAMES)?, equations(&platform, &squares)))
+}
+
 fn equations(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Vec<Equation> {
     let x: [Polynomial<Rational>; 4] = std::array::from_fn(Polynomial::variable);
     let y: [Polynomial<Rational>; 4] = std::array::from_fn(|k| Polynomial::variable(4 + k));

@@ -36,21 +36,29 @@ impl Symbols {
         &self.labels[unknown % self.labels.len()]
     }
 
+    /// Rotations only, one for each label.
+    pub fn rotations(labels: Vec<String>) -> Self {
+        Self { kinds: vec![Variable::Rotation; labels.len()], labels }
+    }
+
+    /// How many unknowns there are; each has three variables.
+    pub fn len(&self) -> usize {
+        self.kinds.len()
+    }
+
     /// The names of all variables.
     pub fn names(&self) -> Result<Names> {
-        let count = self.kinds.len();
-        let names = (0..count).flat_map(|k| {
-            let last = if self.kinds[k] == Variable::Rotation { "t" } else { "d" };
-            ["c", "s", last].map(|letter| format!("{letter}{}", self.labels[k]))
-        });
-        // A translation has neither cosine nor sine: a name that its own joint's rotation does not have.
-        let mut list: Vec<String> = names.collect();
-        for k in (0..count).filter(|&k| self.kinds[k] == Variable::Translation) {
-            for name in &mut list[3 * k..3 * k + 2] {
-                name.push_str("_0");
-            }
-        }
-        Names::given(list)
+        Names::given(self.list())
+    }
+
+    /// Cosine, sine and half-angle tangent of each unknown rotation. A translation has neither cosine nor sine: it has
+    /// names there that its own joint's rotation does not have.
+    pub fn list(&self) -> Vec<String> {
+        let of_one = |(kind, label): (&Variable, &String)| match kind {
+            Variable::Rotation => ["c", "s", "t"].map(|letter| format!("{letter}{label}")),
+            Variable::Translation => [format!("c{label}_0"), format!("s{label}_0"), format!("d{label}")],
+        };
+        self.kinds.iter().zip(&self.labels).flat_map(of_one).collect()
     }
 
     /// The variable of the half-angle tangent or of the distance.

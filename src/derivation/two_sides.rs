@@ -72,6 +72,13 @@ pub(super) fn coupled(symbols: &Symbols, labels: &[String], coupled: &Coupled<Ra
     }
 }
 
+/// Whether the translations run along two opposite axes, and both equations are needed for either unknown.
+pub(super) fn is_opposite(exact: &Exact) -> bool {
+    let form: Option<LinkForm<Rational, 4, 2>> = LinkForm::of(&exact.closed);
+    let plan = |form: &LinkForm<_, 4, 2>| Some(OppositeAxes::of(form, 0.0)?.equations(form).plan(0.0));
+    matches!(form.as_ref().and_then(plan), Some(Plan::Together { .. }))
+}
+
 /// Translations along two opposite axes; `None` where they run otherwise, or the polynomial vanishes.
 pub(super) fn opposite_axes(exact: &Exact) -> Option<Eliminated> {
     let form: LinkForm<Rational, 4, 2> = LinkForm::of(&exact.closed)?;

@@ -208,11 +208,15 @@ pub fn json(entry: &Entry, case: usize, derivation: &Derivation) -> Value {
 /// # Errors
 /// Where the language has no way to say it.
 pub fn system(derivation: &Derivation, format: Format) -> Result<String> {
-    let polynomials = derivation.system();
-    let used: Vec<usize> = (0..derivation.names.list().len())
+    file(&derivation.system(), &derivation.names, format)
+}
+
+/// Polynomials in the language of another program, over the variables that occur.
+pub(super) fn file(polynomials: &[Polynomial<Rational>], names: &Names, format: Format) -> Result<String> {
+    let used: Vec<usize> = (0..names.list().len())
         .filter(|&variable| polynomials.iter().any(|p| p.degree(variable) > 0))
         .collect();
-    let names = Names::given(used.iter().map(|&variable| &derivation.names.list()[variable]))?;
+    let names = Names::given(used.iter().map(|&variable| &names.list()[variable]))?;
     let compact = |polynomial: &Polynomial<Rational>| {
         Polynomial::from_terms(polynomial.terms().map(|(exponents, c)| {
             let exponent = |variable: &usize| exponents.get(*variable).copied().unwrap_or(0);
