@@ -49,7 +49,7 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
             found.coefficients.len() - 1,
             found.primes
         ));
-        let analysed = ClosurePolynomial::of(QUOTIENT, found.coefficients, Meaning::Plain)?;
+        let analysed = ClosurePolynomial::of(QUOTIENT, found.coefficients, Meaning::Plain, Vec::new())?;
         if analysed.as_ref().is_some_and(|polynomial| polynomial.distinct() < polynomial.degree()) {
             steps.push(
                 "Multiple roots are poses that coincide, or different ones of the same rotation: k tells those not apart."
@@ -78,6 +78,15 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
         definition,
         warnings: Vec::new(),
     })
+}
+
+/// The equations of one set of legs alone, with the names of their variables.
+pub(super) fn equations_of(geometry: &Platform<Number>, case: &Case) -> Result<(Names, Vec<Equation>)> {
+    let missing = || Error::Invalid("a case of a platform without legs".to_owned());
+    let squares = case.legs_squared.as_ref().ok_or_else(missing)?;
+    let squares = squares.each_ref().map(|square| square.rational().clone());
+    let platform: Platform<Rational> = platform_over(geometry).ok_or_else(missing)?;
+    Ok((Names::given(NAMES)?, equations(&platform, &squares)))
 }
 
 fn equations(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Vec<Equation> {

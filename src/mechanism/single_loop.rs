@@ -10,7 +10,7 @@ use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
-use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Layout, OpenLoop, Variable, angle_motion, distance_motion};
 use crate::kinematics::motion::Motion;
 use crate::verdict::{Bound, verdict};
 use num_complex::Complex;
@@ -240,11 +240,11 @@ fn layout_rotations(open: &OpenLoop<f64>) -> usize {
 }
 
 /// The loop of one case over a ring, and the order of its variables; `None` for an unlucky prime.
-pub(crate) fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<(Layout, ClosedLoop<R>)>> {
+///
+/// # Errors
+/// For chains that are not solved, and for a case without pose and input.
+pub fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<(Layout, ClosedLoop<R>)>> {
     let layout = Layout::of(chain, locked_variable(chain, case)?)?;
-    if layout.second_ball.is_some() {
-        return Err(Error::Unsupported("derivations of loops with two S joints, which are only solved".to_owned()));
-    }
     let open: Option<OpenLoop<R>> = chain.try_open_loop(&layout)?;
     Ok(match (open, filling(case)) {
         (Some(open), Ok(filling)) => Some((layout, open.close(&filling))),
@@ -252,8 +252,23 @@ pub(crate) fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<
     })
 }
 
+/// The loop of two balls of one case over a ring; `None` for chains without two balls.
+///
+/// # Errors
+/// As [`closed_loop`], and for an unlucky prime.
+pub fn coupled_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<Coupled<R>>> {
+    let layout = Layout::of(chain, locked_variable(chain, case)?)?;
+    if layout.second_ball.is_none() {
+        return Ok(None);
+    }
+    chain.coupled_loop(&layout, &filling(case)?).map(Some)
+}
+
 /// The variable that the input of a loop locks; `None` at the pose of an arm, and for a loop without input.
-pub(super) fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
+///
+/// # Errors
+/// For several given variables, and for a joint that has none of the kind.
+pub fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
     if case.pose.is_some() {
         return Ok(None);
     }
