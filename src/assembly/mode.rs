@@ -70,6 +70,8 @@ pub struct Assembly {
     pub clean: bool,
     /// How many pencils were solved.
     pub tries: usize,
+    /// How many modes were found or proved in numbers of 384 bits only.
+    pub rescued: usize,
 }
 
 impl Assembly {
