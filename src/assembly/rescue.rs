@@ -6,7 +6,7 @@
 //! proved.
 
 use super::ball::canonical;
-use super::mode::{Assembly, Hits, Mode, distance, wrapped};
+use super::mode::{Hits, Mode, distance, wrapped};
 use crate::algebra::determinant::determinant;
 use crate::algebra::long_float::LongFloat;
 use crate::algebra::ring::{Field, Ring};
@@ -36,7 +36,7 @@ type Long = Complex<LongFloat>;
 type Pairs = [(Long, Long); 6];
 
 /// Closure polynomials that are tried at most: of other cuts, or in other angles.
-const MOST_TRIES: usize = 4;
+const MOST_TRIES: usize = 6;
 /// Imaginary parts below this are rounding of a real root.
 const REAL: f64 = 1e-60;
 
@@ -229,7 +229,7 @@ fn one_cut(closed: &ClosedLoop<LongFloat>, cut: Cut, hidden: Hidden) -> Option<V
     let back = CutView::<Long>::new(&view, &form, hidden);
     let candidates = upper_roots(&polynomial)?.into_iter().filter_map(|root| {
         let [_, cos, sin] = monomials(Variable::Rotation, &root)?;
-        back.pairs_of((cos, sin), &kernel(&at_root(&pencil, root)).basis[0])
+        back.pairs_of((cos, sin), &kernel(&at_root(&pencil, root), 0.0).basis[0])
     });
     Some(candidates.collect())
 }
@@ -310,32 +310,4 @@ fn modes(exact: &ClosedLoop<LongFloat>, ball: Option<usize>, candidates: &[Pairs
         }
     }
     modes
-}
-
-impl Assembly {
-    /// Takes in the modes of a rescue: those not known are added, and where all of the `expected` ones are proved then,
-    /// what could not be proved is left out as none. Returns how many were added or proved.
-    pub(super) fn complete_with(&mut self, modes: Vec<Mode>, variables: &[Variable; 6], expected: usize) -> usize {
-        let radius = |mode: &Mode| mode.certificate.map_or(0.0, |c| c.radius);
-        let proved = |modes: &[Mode]| modes.iter().filter(|m| m.certificate.is_some()).count();
-        let before = proved(&self.modes);
-        let mut all = modes;
-        for mode in self.modes.drain(..) {
-            let new = |other: &Mode| {
-                let room = radius(other) + radius(&mode);
-                distance(variables, &other.unknowns, &mode.unknowns) > room
-            };
-            match all.iter_mut().find(|other| !new(other)) {
-                // What f64 proves already stays as it is.
-                Some(other) if mode.certificate.is_some() && mode.real == other.real => *other = mode,
-                Some(_) => {}
-                None => all.push(mode),
-            }
-        }
-        if proved(&all) >= expected {
-            all.retain(|mode| mode.certificate.is_some());
-        }
-        self.modes = all;
-        proved(&self.modes).saturating_sub(before)
-    }
 }

@@ -16,7 +16,7 @@ use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
-use crate::solve::kernel::{at_root, double_angle, kernel};
+use crate::solve::kernel::{SHARED, at_root, double_angle, kernel};
 use crate::solve::newton::{Closure, Polished, Six, approach, closure, polish, reach};
 use crate::solve::scalar::Scalar;
 use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
@@ -214,7 +214,7 @@ impl Search<'_> {
 
     /// Everything one root of the pencil leads to.
     fn one_root<S: Scalar>(&mut self, cut: Cut, view: &CutView<S>, shifted: &Shifted, x: S) -> RootOutcome {
-        let kernel = kernel(&at_root(&shifted.pencil, x));
+        let kernel = kernel(&at_root(&shifted.pencil, x), SHARED);
         let mut outcome = RootOutcome {
             settled: false,
             unresolved: false,

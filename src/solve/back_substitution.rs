@@ -251,7 +251,7 @@ enum Third<S> {
 fn normalised<S: Number>(cos: S, sin: S) -> Option<(S, S)> {
     let norm = cos.mul(&cos).add(&sin.mul(&sin)).root();
     let size = cos.size().max(sin.size());
-    (norm.size() > 1e-6 * size && size.is_finite()).then(|| (cos.over(norm), sin.over(norm)))
+    (norm.size() > 1e2 * S::UNIT_ROUNDOFF.sqrt() * size && size.is_finite()).then(|| (cos.over(norm), sin.over(norm)))
 }
 
 /// The values of the other unknown for which the kernel holds a vector of the right shape: rows 0-2, 4-6 of the basis

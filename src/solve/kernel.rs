@@ -4,8 +4,8 @@ use super::scalar::Number;
 use crate::algebra::ring::Ring;
 use crate::elimination::pencil::{Pencil, Square};
 
-/// Pivots below this part of the largest one count as zero: a kernel of more than one dimension.
-const SHARED: f64 = 1e-7;
+/// Pivots below this part of the largest one count as zero in f64: a kernel of more than one dimension.
+pub const SHARED: f64 = 1e-7;
 
 /// The kernel of an 8 x 8 matrix that is singular to rounding.
 #[derive(Clone, Debug)]
@@ -31,9 +31,13 @@ pub fn at_root<S: Number>(pencil: &Pencil<S::Real>, x: S) -> Square<S, 8> {
     })
 }
 
-/// The kernel by elimination with complete pivoting; the smallest pivot always counts as zero.
+/// Roundings that may separate what is zero from zero.
+const ROUNDINGS: f64 = 1e4;
+
+/// The kernel by elimination with complete pivoting; the smallest pivot always counts as zero, and those below the part
+/// `shared` of the largest one.
 #[must_use]
-pub fn kernel<S: Number>(matrix: &Square<S, 8>) -> Kernel<S> {
+pub fn kernel<S: Number>(matrix: &Square<S, 8>, shared: f64) -> Kernel<S> {
     let mut a = *matrix;
     let mut columns: [usize; 8] = std::array::from_fn(|j| j);
     let mut pivots = [0.0; 8];
@@ -62,7 +66,7 @@ pub fn kernel<S: Number>(matrix: &Square<S, 8>) -> Kernel<S> {
         }
     }
     let separation = if pivots[0] > 0.0 { pivots[6] / pivots[0] } else { 0.0 };
-    let rank = (0..7).take_while(|&k| pivots[k] > SHARED * pivots[0]).count();
+    let rank = (0..7).take_while(|&k| pivots[k] > shared * pivots[0]).count();
     let dimension = 8 - rank;
     let mut basis = [[S::zero(); 8]; 8];
     for (b, vector) in basis.iter_mut().take(dimension).enumerate() {
@@ -110,7 +114,7 @@ fn orthonormalise<S: Number>(rows: &mut [[S; 8]]) {
 pub fn double_angle<S: Number>(cos_half: S, sin_half: S) -> Option<(S, S)> {
     let (cc, ss) = (cos_half.mul(&cos_half), sin_half.mul(&sin_half));
     let norm = cc.add(&ss);
-    if !(norm.size() > 1e-12 * (cc.size() + ss.size())) {
+    if !(norm.size() > ROUNDINGS * S::UNIT_ROUNDOFF * (cc.size() + ss.size())) {
         return None;
     }
     let product = cos_half.mul(&sin_half);

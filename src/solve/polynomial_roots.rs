@@ -9,13 +9,13 @@ use crate::algebra::univariate::Univariate;
 use num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Rounds after which what has not settled never will: multiple roots come nearer by a constant factor only.
-const MOST_ROUNDS: usize = 400;
+/// Rounds without a root that settles after which none will: multiple roots come nearer by a constant factor only.
+const PATIENCE: usize = 60;
 /// Leading coefficients below this part of the largest one are none.
 const LEADING: f64 = 1e-90;
 
-/// The roots of a polynomial with real coefficients, those at infinity left out; `None` where some do not settle, as
-/// multiple ones, or for zero.
+/// The simple roots of a polynomial with real coefficients; those at infinity and multiple ones, which do not settle, are
+/// left out. `None` for zero.
 #[must_use]
 pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<Complex<R>>> {
     let coefficients = polynomial.coefficients();
@@ -35,7 +35,9 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
     // Corrections of this relative size are rounding.
     let settled = R::UNIT_ROUNDOFF.powf(0.75);
     let mut open = vec![true; degree];
-    for _ in 0..MOST_ROUNDS {
+    let mut idle = 0;
+    while idle < PATIENCE && open.contains(&true) {
+        idle += 1;
         for k in 0..degree {
             if !open[k] {
                 continue;
@@ -44,6 +46,7 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
             let (value, slope) = value_and_slope(coefficients, &x);
             if value.is_zero() {
                 open[k] = false;
+                idle = 0;
                 continue;
             }
             let Some(newton) = slope.inverse().map(|inverse| value.mul(&inverse)) else {
@@ -59,13 +62,13 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
             let factor = if factor.is_finite() { factor } else { Complex::new(1.0, 0.0) };
             let correction = newton.mul(&extended(factor));
             roots[k] = x.sub(&correction);
-            open[k] = correction.size() > settled * roots[k].size();
-        }
-        if !open.contains(&true) {
-            return Some(roots);
+            if correction.size() <= settled * roots[k].size() {
+                open[k] = false;
+                idle = 0;
+            }
         }
     }
-    None
+    Some(roots.into_iter().zip(open).filter(|(_, open)| !open).map(|(root, _)| root).collect())
 }
 
 /// A real polynomial and its derivative at a point.
@@ -112,6 +115,18 @@ mod tests {
         for wanted in expected {
             assert!(roots.iter().any(|root| root.sub(&wanted).size() < 1e-60), "{:?}", narrowed(wanted));
         }
+    }
+
+    #[test]
+    fn multiple_roots_are_left_out() {
+        // (x^2 + 1)^3 (x - 2) (2 x + 1)
+        let mut polynomial = Univariate::new([-2, -3, 2].map(|c| long(c, 1)).to_vec());
+        for _ in 0..3 {
+            polynomial = polynomial.mul(&Univariate::new([1, 0, 1].map(|c| long(c, 1)).to_vec()));
+        }
+        let mut roots: Vec<f64> = polynomial_roots(&polynomial).unwrap().into_iter().map(|z| narrowed(z).re).collect();
+        roots.sort_by(f64::total_cmp);
+        assert_eq!(roots, [-0.5, 2.0]);
     }
 
     #[test]
