@@ -1,6 +1,7 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
 use super::{FullMode, Solution};
+use crate::algebra::long_float::LongFloat;
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
@@ -12,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Layout, OpenLoop, Variable, angle_motion, distance_motion};
 use crate::kinematics::motion::Motion;
-use crate::verdict::{Bound, verdict};
+use crate::verdict::{Bound, Status, verdict};
 use num_complex::Complex;
 use rug::Rational;
 use std::f64::consts::TAU;
@@ -146,23 +147,39 @@ impl SingleLoop {
         let most = || prepared.bound(&self.chain).count;
         let start = Instant::now();
         solver.solve_up_to(&gap, roots, &most, workspace, assembly);
-        let solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let verdict = verdict(
-            assembly,
-            roots,
-            solver.structural_rank(),
-            prepared.general(),
-            || {
-                // The exact count costs more than a search for real roots, and rarely helps one.
-                let skip = roots == Roots::Real && !solver.is_special();
-                if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
-            },
-            || {
-                let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
-                Some(bound_from(prepared.degree(&closed, None)?, "at this pose"))
-            },
-            solver.too_far(&gap),
-        );
+        let mut solve_us = start.elapsed().as_secs_f64() * 1e6;
+        let count_here = || {
+            let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
+            Some(bound_from(prepared.degree(&closed, None)?, "at this pose"))
+        };
+        let judge = |assembly: &Assembly| {
+            verdict(
+                assembly,
+                roots,
+                solver.structural_rank(),
+                prepared.general(),
+                || {
+                    // The exact count costs more than a search for real roots, and rarely helps one.
+                    let skip = roots == Roots::Real && !solver.is_special();
+                    if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
+                },
+                count_here,
+                solver.too_far(&gap),
+            )
+        };
+        let mut verdict = judge(assembly);
+        if roots == Roots::All && verdict.status == Status::Incomplete && solver.structural_rank() == 6 {
+            // What f64 does not reach, the exact data do.
+            let start = Instant::now();
+            let here = count_here().map_or(prepared.general(), |bound| bound.count);
+            let expected = here.min(prepared.bound(&self.chain).count);
+            let open: Option<OpenLoop<LongFloat>> = self.chain.try_open_loop(&prepared.layout)?;
+            if let (Some(open), Ok(filling)) = (open, filling(case)) {
+                solver.rescue(&open.close(&filling), expected, assembly);
+                verdict = judge(assembly);
+            }
+            solve_us += start.elapsed().as_secs_f64() * 1e6;
+        }
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {
             let q = prepared.layout.assemble(&mode.unknowns, locked_value);
