@@ -11,5 +11,6 @@ pub mod newton;
 pub mod pose;
 pub mod scalar;
 pub mod separated;
+pub mod simultaneous;
 pub mod singular;
 pub mod spectrum;

@@ -1,5 +1,6 @@
 //! All poses of a Stewart platform with legs of given lengths.
 
+mod arrival;
 mod candidate;
 mod mode;
 mod prepared;
@@ -7,6 +8,7 @@ mod reflection;
 mod search;
 mod self_motion;
 mod solver;
+mod triangle;
 
 pub use mode::{PlatformAssembly, PlatformMode, Route};
 pub use solver::{PlatformSolver, PlatformWorkspace};

@@ -42,6 +42,11 @@ pub enum Route {
         /// 1, and one more for every weak direction of the legs' matrix K.
         directions: usize,
     },
+    /// The two resultants of a triangle hung on six legs that meet in pairs.
+    Triangle {
+        /// Whether they meet at the base, not at the plate.
+        at_base: bool,
+    },
     /// The border basis of a platform moved by 1e-5, its solutions carried back: the border basis of the platform itself
     /// lost rank.
     Perturbed {
@@ -61,6 +66,11 @@ impl fmt::Display for Route {
                 f,
                 "border basis of dimension 40 with {} weak directions of the legs' matrix K as unknowns",
                 directions - 1
+            ),
+            Self::Triangle { at_base } => write!(
+                f,
+                "two resultants of degree 16 (the legs meet in pairs at the {}: a triangle whose corners move on circles)",
+                if *at_base { "base" } else { "plate" }
             ),
             Self::Perturbed { runs } => write!(
                 f,

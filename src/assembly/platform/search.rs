@@ -20,7 +20,7 @@ use num_complex::Complex;
 /// |Im| / (1 + |lambda|) below which an eigenvalue may belong to a real pose: double ones split by 1e-8 and more.
 const NEAR_REAL: f64 = 1e-4;
 /// Imaginary parts below this are rounding of a real pose.
-const REAL_PART: f64 = 1e-7;
+pub const REAL_PART: f64 = 1e-7;
 /// |N| (with x of hermitian norm 1) below which an eigenvalue that leads to no regular pose is taken to be one without
 /// a pose.
 const NULL: f64 = 1e-6;
@@ -49,7 +49,7 @@ pub struct Found {
     residual: f64,
     condition: f64,
     /// How many eigenvalues of the border basis followed last lead to it.
-    eigenvalues: usize,
+    pub eigenvalues: usize,
     /// The last one of them.
     last: usize,
 }
@@ -309,7 +309,7 @@ impl<'a> Search<'a> {
     }
 
     /// Adds a polished solution to the list unless it is there.
-    fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>, eigenvalue: usize) {
+    pub fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>, eigenvalue: usize) {
         let mut study = complex(&polished.study);
         if let Some(at) = self.known(&study, S::REAL, REAL_PART) {
             self.count(at, eigenvalue);
@@ -376,7 +376,7 @@ impl<'a> Search<'a> {
 const ROUNDED: f64 = 1e-15;
 
 /// Whether a polished solution may belong to a family with `N = 0`.
-fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
+pub fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
     norm(&polished.study).norm() < DOUBTFUL && polished.step > NULL * DOUBTFUL
 }
 
@@ -420,7 +420,7 @@ fn rotation<S: Scalar>(
 }
 
 /// Three real points near a nearly real one: to both sides of it, and its real part.
-fn real_parts(v: &Eight<Complex<f64>>) -> [Eight<f64>; 3] {
+pub fn real_parts(v: &Eight<Complex<f64>>) -> [Eight<f64>; 3] {
     let best = (1..4).fold(0, |best, k| if v[k].norm_sqr() > v[best].norm_sqr() { k } else { best });
     let phase = v[best].conj() / v[best].norm();
     let turned = v.map(|z| z * phase);

@@ -4,6 +4,7 @@ use super::mode::{PlatformAssembly, PlatformMode, Route};
 use super::prepared::{Chart, Frame, STAGES};
 use super::reflection::Reflection;
 use super::search::{Found, Search, Source};
+use super::triangle::TriangleRoute;
 use crate::assembly::Roots;
 use crate::certify::pose::Curvature;
 use crate::closure::study::Leg;
@@ -27,6 +28,7 @@ pub struct PlatformSolver {
     frame: Frame,
     charts: [Chart; 2],
     reflection: Option<Reflection>,
+    triangle: Option<TriangleRoute>,
 }
 
 /// Scratch memory, reused from call to call: one for every thread.
@@ -52,7 +54,8 @@ impl PlatformSolver {
     pub fn prepare(platform: &Platform<f64>) -> Self {
         let frame = Frame::new(platform);
         let charts = std::array::from_fn(|choice| Chart::new(&frame.platform, choice));
-        Self { platform: platform.clone(), frame, charts, reflection: Reflection::of(platform) }
+        let (reflection, triangle) = (Reflection::of(platform), TriangleRoute::of(&frame.platform));
+        Self { platform: platform.clone(), frame, charts, reflection, triangle }
     }
 
     /// The geometry as given.
@@ -113,6 +116,12 @@ impl PlatformSolver {
         }
         let curvature = Curvature::new(&legs);
         let mut search = Search::new(&legs, &curvature, roots, expected, &mut workspace.found);
+        if let Some(triangle) = &self.triangle
+            && triangle.solve(&self.frame.platform, &squares, &mut search)
+            && search.is_done()
+        {
+            assembly.route = Route::Triangle { at_base: triangle.at_base() };
+        }
         let mut solve = |chart: &Chart, path: &[[Leg<f64>; 6]], search: &mut Search| {
             let setting = chart.with_legs(&squares);
             if let Err(lost) = workspace.basis.build(&Reals, &setting) {
@@ -132,6 +141,9 @@ impl PlatformSolver {
             Ok(setting.count)
         };
         for chart in &self.charts {
+            if assembly.route != Route::None {
+                break;
+            }
             match solve(chart, &[], &mut search) {
                 Ok(directions) => assembly.route = Route::BorderBasis { directions },
                 Err(degree) => assembly.lost_rank = Some(degree),
