@@ -9,12 +9,14 @@ mod equation;
 mod four_bar;
 mod platform;
 mod polynomial;
+mod pose;
 mod symbols;
 mod triangle;
 mod two_sides;
 
 pub use equation::Equation;
 pub use polynomial::{ClosurePolynomial, Root};
+pub use pose::RootPose;
 
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::Names;

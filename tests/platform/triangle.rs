@@ -94,7 +94,7 @@ fn two_resultants_find_what_the_border_basis_finds() {
         assert_eq!(assembly.route, Route::Triangle { at_base }, "{label}");
         assert_eq!(assembly.modes.len(), 16, "{label}");
         let other = solved(&parted(&platform), &legs, Roots::All);
-        assert!(matches!(other.route, Route::BorderBasis { .. } | Route::Perturbed { .. }), "{label}");
+        assert!(matches!(other.route, Route::BorderBasis { .. } | Route::Homotopy { .. }), "{label}");
         let distances = assembly
             .modes
             .iter()

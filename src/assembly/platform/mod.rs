@@ -2,6 +2,7 @@
 
 mod arrival;
 mod candidate;
+mod homotopy;
 mod mode;
 mod prepared;
 mod reflection;

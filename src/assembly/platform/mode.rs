@@ -47,10 +47,10 @@ pub enum Route {
         /// Whether they meet at the base, not at the plate.
         at_base: bool,
     },
-    /// The border basis of a platform moved by 1e-5, its solutions carried back: the border basis of the platform itself
-    /// lost rank.
-    Perturbed {
-        /// How many perturbed platforms were solved.
+    /// A parameter homotopy from general platforms: the border basis of the platform itself lost rank, or poses that are
+    /// known to exist were not found with it.
+    Homotopy {
+        /// How many general platforms were started from.
         runs: usize,
     },
 }
@@ -72,10 +72,11 @@ impl fmt::Display for Route {
                 "two resultants of degree 16 (the legs meet in pairs at the {}: a triangle whose corners move on circles)",
                 if *at_base { "base" } else { "plate" }
             ),
-            Self::Perturbed { runs } => write!(
+            Self::Homotopy { runs } => write!(
                 f,
-                "border bases of {runs} platforms moved by 1e-5, carried back (special geometry: the border basis of the \
-                 platform itself loses rank)"
+                "parameter homotopy, 40 paths from a general platform to this one, {runs} {} (special geometry: the border \
+                 basis of the platform itself does not do)",
+                if *runs == 1 { "time" } else { "times" }
             ),
         }
     }

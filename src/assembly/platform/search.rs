@@ -11,7 +11,7 @@ use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certi
 use crate::closure::study::{Four, Leg};
 use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
 use crate::solve::pose::{
-    Eight, PolishedPose, complex, equations, follow, normalised, patch, polish, polish_wide, refine, wide,
+    Eight, PolishedPose, complex, equations, normalised, patch, polish, polish_wide, refine, wide,
 };
 use crate::solve::scalar::Scalar;
 use crate::solve::spectrum::Spectrum;
@@ -69,8 +69,6 @@ pub struct Source<'a> {
     pub setting: &'a Setting<f64>,
     /// The border basis.
     pub basis: &'a BorderBasis<f64>,
-    /// Platforms on the way from this one to the one wanted, if they differ.
-    pub path: &'a [[Leg<f64>; 6]],
 }
 
 /// One set of leg lengths.
@@ -202,7 +200,7 @@ impl<'a> Search<'a> {
         let candidates = candidates(source.setting, &z);
         for (x, y) in &candidates.study[..candidates.count] {
             let start = source.chart.outward(x, y);
-            if let Some(polished) = self.polish(source.path, &start) {
+            if let Some(polished) = polish(self.legs, &start) {
                 self.admit(&polished, k);
                 outcome = Outcome::Pose;
             } else if let Some(free) = self.stray.iter_mut().find(|s| s.is_none()) {
@@ -233,7 +231,7 @@ impl<'a> Search<'a> {
             if near_real {
                 // Both ends of a pair that meets on the real axis.
                 for real in real_parts(&start) {
-                    if let Some(polished) = self.polish(source.path, &real) {
+                    if let Some(polished) = polish(self.legs, &real) {
                         self.admit(&polished, k);
                         outcome = Outcome::Pose;
                     }
@@ -242,9 +240,9 @@ impl<'a> Search<'a> {
                     continue;
                 }
             }
-            let polished = self.polish(source.path, &start).filter(|p| !near_null(p));
+            let polished = polish(self.legs, &start).filter(|p| !near_null(p));
             let Some(polished) = polished else {
-                if raw < NEARLY_NULL && !multiple && source.path.is_empty() && self.far_away(&start) {
+                if raw < NEARLY_NULL && !multiple && self.far_away(&start) {
                     outcome = Outcome::Pose;
                 }
                 continue;
@@ -262,11 +260,6 @@ impl<'a> Search<'a> {
             self.admit(&polished, k);
         }
         outcome
-    }
-
-    /// A solution near a point.
-    fn polish<S: Scalar>(&self, path: &[[Leg<f64>; 6]], start: &Eight<S>) -> Option<PolishedPose<S>> {
-        if path.is_empty() { polish(self.legs, start) } else { polish(self.legs, &follow(path, start)?) }
     }
 
     /// A pose so far away that it needs twice the digits; whether there is one, proved.
