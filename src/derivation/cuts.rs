@@ -52,7 +52,13 @@ pub(super) fn eliminate(exact: &Exact) -> Eliminated {
         (None, Some(&cut)) => (cut, Hidden::First),
         (None, None) => {
             let step = "Every cut of the loop loses equations.".to_owned();
-            return Eliminated { equations: Vec::new(), steps: vec![step], polynomial: None, removed: Vec::new(), per_root: 1 };
+            return Eliminated {
+                equations: Vec::new(),
+                steps: vec![step],
+                polynomial: None,
+                removed: Vec::new(),
+                per_root: 1,
+            };
         }
     };
     let view = cut.of(&exact.closed);

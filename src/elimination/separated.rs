@@ -56,11 +56,7 @@ impl<R: Ring> Separated<R> {
         };
         let first = |k: usize| value(one, k).mul(&two[side][2]).sub(&value(two, k).mul(&one[side][2]));
         let second = |k: usize| value(two, k).mul(&one[side][1]).sub(&value(one, k).mul(&two[side][1]));
-        [
-            [self.determinant(side), R::zero(), R::zero()],
-            std::array::from_fn(first),
-            std::array::from_fn(second),
-        ]
+        [[self.determinant(side), R::zero(), R::zero()], std::array::from_fn(first), std::array::from_fn(second)]
     }
 }
 

@@ -228,9 +228,8 @@ pub fn system(derivation: &Derivation, format: Format) -> Result<String> {
 
 /// Polynomials in the language of another program, over the variables that occur.
 pub(super) fn file(polynomials: &[Polynomial<Rational>], names: &Names, format: Format) -> Result<String> {
-    let used: Vec<usize> = (0..names.list().len())
-        .filter(|&variable| polynomials.iter().any(|p| p.degree(variable) > 0))
-        .collect();
+    let used: Vec<usize> =
+        (0..names.list().len()).filter(|&variable| polynomials.iter().any(|p| p.degree(variable) > 0)).collect();
     let names = Names::given(used.iter().map(|&variable| &names.list()[variable]))?;
     let compact = |polynomial: &Polynomial<Rational>| {
         Polynomial::from_terms(polynomial.terms().map(|(exponents, c)| {

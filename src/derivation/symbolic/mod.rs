@@ -114,7 +114,8 @@ fn numeric(chain: &Chain, case: &Case) -> Result<(Symbols, Option<Numeric>)> {
         return Ok((symbols, Some(Numeric::Coupled(eliminated))));
     }
     let exact = exact(chain, case)?;
-    let special = exact.ball.is_some() || general_degree(exact.closed.variables) == Some(2) || two_sides::is_opposite(&exact);
+    let special =
+        exact.ball.is_some() || general_degree(exact.closed.variables) == Some(2) || two_sides::is_opposite(&exact);
     if !special {
         return Err(size::too_large(chain, case, &exact));
     }

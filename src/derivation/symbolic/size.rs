@@ -150,7 +150,8 @@ fn degree(polynomial: impl Fn(Mod) -> Option<Univariate<Mod>>) -> Option<usize> 
     for n in (0..).take(SAMPLES) {
         let x = Mod::new(3 * n + 11);
         let coefficients = polynomial(x)?.normalise();
-        let weighted = coefficients.coefficients().iter().zip(1..).map(|(c, w)| c.mul(&Mod::from_integer(w * w + 7 * w)));
+        let weighted =
+            coefficients.coefficients().iter().zip(1..).map(|(c, w)| c.mul(&Mod::from_integer(w * w + 7 * w)));
         points.push((x, weighted.fold(Mod::zero(), |sum, term| sum.add(&term))));
     }
     let mut product = Univariate::constant(Mod::one());
@@ -158,7 +159,8 @@ fn degree(polynomial: impl Fn(Mod) -> Option<Univariate<Mod>>) -> Option<usize> 
         product = product.mul(&Univariate::new(vec![x.neg(), Mod::one()]));
     }
     // Euclid's algorithm: of all quotients with these values the one of least degree.
-    let (mut upper, mut lower) = ((product, Univariate::zero()), (Univariate::interpolate(&points), Univariate::constant(Mod::one())));
+    let (mut upper, mut lower) =
+        ((product, Univariate::zero()), (Univariate::interpolate(&points), Univariate::constant(Mod::one())));
     let size = |(numerator, denominator): &(Univariate<Mod>, Univariate<Mod>)| {
         (numerator.degree().unwrap_or(0), denominator.degree().unwrap_or(0))
     };

@@ -1,8 +1,8 @@
 //! The parameters of a loop as symbols.
 
 use crate::algebra::dual::Dual;
-use crate::algebra::polynomial::Polynomial;
 use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Ring, exact_cos_sin};
 use crate::algebra::trigonometric::{Pair, Trigonometric};
 use crate::catalogue::entry::{Case, Input, InputValue};
@@ -36,7 +36,7 @@ pub(super) struct Kept {
 pub(super) struct Table<'c> {
     case: &'c Case,
     pub symbols: Vec<Kept>,
-    /// The others, as `alpha3 = pi/2`, but for angles and offsets about joint axes that are 0.
+    /// The others, as `alpha3 = pi/2`, but for offsets of variables that are 0.
     pub numbers: Vec<String>,
     /// The names of the variables, the first one being that of `first`.
     pub names: Vec<String>,
@@ -87,7 +87,7 @@ impl<'c> Table<'c> {
                 table.names.extend(letters);
                 table.symbols.push(Kept { place, name, variable: next, value });
                 next += count;
-            } else if !(zero && matches!(place, Some((_, Parameter::Angle)))) {
+            } else if !(zero && (matches!(place, Some((_, Parameter::Angle))) || name.starts_with("d0"))) {
                 table.numbers.push(format!("{name} = {}", shown(&value)));
             }
         }
@@ -114,9 +114,7 @@ impl<'c> Table<'c> {
 
     fn length_at(&self, place: Option<(usize, Parameter)>, value: &Number) -> Option<Symbol> {
         match self.find(place) {
-            Some(symbol) => {
-                Some(Trigonometric::new(&Polynomial::variable(symbol.variable), &[]))
-            }
+            Some(symbol) => Some(Trigonometric::new(&Polynomial::variable(symbol.variable), &[])),
             None => Symbol::from_number(value),
         }
     }
@@ -176,7 +174,7 @@ fn all(joints: &[Joint], input: Option<&Input>) -> Vec<Entry> {
             list.push((Some((at, parameter)), name.clone(), vec![name], Value::Length(value.clone())));
         };
         length(Parameter::Length, format!("a{n}"), &joint.a);
-        let offset = matches!(joint.kind, JointKind::Prismatic | JointKind::Cylindrical);
+        let offset = matches!(joint.kind, JointKind::Prismatic | JointKind::Cylindrical | JointKind::Spherical);
         length(Parameter::Offset, format!("{}{n}", if offset { "d0_" } else { "d" }), &joint.d);
     }
     if let Some(input) = input {
