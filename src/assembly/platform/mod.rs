@@ -5,6 +5,7 @@ mod candidate;
 mod homotopy;
 mod mode;
 mod prepared;
+mod reach;
 mod reflection;
 mod search;
 mod self_motion;
@@ -12,4 +13,5 @@ mod solver;
 mod triangle;
 
 pub use mode::{PlatformAssembly, PlatformMode, Route};
+pub use reach::out_of_reach;
 pub use solver::{PlatformSolver, PlatformWorkspace};

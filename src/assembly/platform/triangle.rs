@@ -20,6 +20,9 @@ pub const POSES: usize = 16;
 const INFINITE: f64 = 1e-10;
 /// Corners that miss their distance by this much belong together as well as the nearest ones.
 const TOGETHER: f64 = 1e-6;
+/// Where, and relative to its terms, a form must differ from zero to have 16 roots: otherwise the triangle moves.
+const SAMPLES: [f64; 3] = [0.4, 2.1, 4.9];
+const VANISHING: f64 = 1e-10;
 /// A turn of the complex numbers after which no solution of a real mechanism is at infinity.
 const TURN: [Complex<f64>; 2] = [Complex::new(0.61, 0.27), Complex::new(-0.33, 0.67)];
 
@@ -82,9 +85,17 @@ impl TriangleRoute {
             return false;
         }
         let Some(frame) = Corners::new(&triangle.corners) else { return false };
-        search.begin(DIMENSION - POSES);
         let radius = Complex::from(triangle.circles[first].radius_square).sqrt();
         let eliminant = Eliminant::new(&triangle, first).map(|x| Complex::from(*x));
+        let vanishes = SAMPLES.iter().all(|angle| {
+            let s = Complex::from_polar(1.0, *angle);
+            let [one, other] = eliminant.terms(&on_circle(&s, radius, |z| z));
+            !((one - other).norm() > VANISHING * (one.norm() + other.norm()))
+        });
+        if vanishes {
+            return false;
+        }
+        search.begin(DIMENSION - POSES);
         let dual = eliminant.map(|z| Dual::constant(*z));
         let found: [Complex<f64>; POSES] = roots(|s| {
             let value = dual.value(&on_circle(&Dual::variable(s), radius, Dual::constant));

@@ -105,6 +105,12 @@ impl<R: Ring> Eliminant<R> {
 
     /// The form f at a point `h`.
     pub fn value(&self, h: &Three<R>) -> R {
+        let [one, other] = self.terms(h);
+        one.sub(&other)
+    }
+
+    /// The two terms of which f is the difference: equal all along the circle where the triangle moves.
+    pub fn terms(&self, h: &Three<R>) -> [R; 2] {
         let [a, d] = self.lines_at(h);
         let [second, third] = &self.conics;
         let (inner, outer) = (on_line(&a, second), on_line(&d, third));
@@ -113,6 +119,6 @@ impl<R: Ring> Eliminant<R> {
         let across = dot(&d, &image(&self.adjugate, &a));
         let separate = tangency(&d, third).mul(&tangency(&a, second)).mul(&across.mul(&across));
         let twice = separate.add(&separate);
-        mixed.mul(&mixed).sub(&twice.add(&twice))
+        [mixed.mul(&mixed), twice.add(&twice)]
     }
 }
