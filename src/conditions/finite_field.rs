@@ -101,7 +101,8 @@ mod tests {
             assert_eq!(cos.mul(cos).add(&sin.mul(sin)), ModP::one());
             assert_eq!(usize::from(turn_number(&(*cos, *sin))), j);
         }
-        let on_the_circle = (0..23_u64).flat_map(|x| (0..23_u64).map(move |y| (x * x + y * y) % 23)).filter(|&n| n == 1);
+        let on_the_circle =
+            (0..23_u64).flat_map(|x| (0..23_u64).map(move |y| (x * x + y * y) % 23)).filter(|&n| n == 1);
         assert_eq!(on_the_circle.count(), turns.len());
     }
 
