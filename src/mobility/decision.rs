@@ -92,14 +92,14 @@ impl Subject<'_> {
             return Ok(answer);
         }
         if let Some(closing) = closing(self.entry, &self.variables)? {
-            return Ok(self.swept(closing));
+            return Ok(self.swept(&closing));
         }
         let reason = format!("{}; numbers of the file were rounded, which may have stopped a motion", answer.reason);
         Ok(Mobility { reason, ..answer })
     }
 
     /// A loop that closes to rounding.
-    fn swept(&self, closing: Closing) -> Mobility {
+    fn swept(&self, closing: &Closing) -> Mobility {
         let configurations: Vec<Configuration> =
             closing.modes.iter().map(|mode| Configuration { local: Local::Curve, ..self.measured(mode) }).collect();
         let reason = format!(

@@ -78,11 +78,11 @@ impl Conjugates {
     }
 
     /// The same at the roots of a factor of the polynomial only.
-    fn over(&self, factor: &Univariate<Rational>) -> Option<Self> {
+    fn over(&self, factor: &Univariate<Rational>) -> Self {
         let field = NumberField::new(factor);
         let image = |x: &Algebraic| x.over(&field);
         let values = self.values.iter().map(|[c, s]| [image(c), image(s)]).collect();
-        Some(Self { roots: factor.real_roots(), polynomial: Some(factor.clone()), field: Some(field), values })
+        Self { roots: factor.real_roots(), polynomial: Some(factor.clone()), field: Some(field), values }
     }
 
     /// What `compute` finds at these positions: once for all of them where it never meets a number that is zero at some of
@@ -96,7 +96,7 @@ impl Conjugates {
             match (split, &part.polynomial) {
                 (Some(factor), Some(polynomial)) => {
                     let cofactor = polynomial.div_rem(&factor).0;
-                    open.extend([factor, cofactor].iter().filter_map(|f| part.over(f)));
+                    open.extend([factor, cofactor].iter().map(|f| part.over(f)));
                 }
                 _ => found.push((part, result)),
             }
@@ -234,10 +234,10 @@ impl<'a> Cut<'a> {
             return determinant::modular(&self.matrix);
         }
         // Of more rows than columns two mixtures; what is foreign to the one is not to the other.
-        let mixture = |seed: i64| {
+        let mixture = |seed: usize| {
             let weight = |i: usize, j: usize| {
-                let n = seed * (i as i64 + 2) * (i as i64 + 3 * j as i64 + 1) % 211;
-                Rational::from(n - 105)
+                let n = seed * (i + 2) * (i + 3 * j + 1) % 211;
+                Rational::from(n) - 105
             };
             let mixed: Vec<Vec<Vec<Rational>>> = self
                 .matrix
