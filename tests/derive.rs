@@ -12,7 +12,7 @@ use looproot::algebra::resultant::sylvester;
 use looproot::assembly::{Assembly, Roots, Workspace};
 use looproot::catalogue::entry::Entry;
 use looproot::catalogue::{Options, load};
-use looproot::derivation::{ClosurePolynomial, Derivation, Removed, derive};
+use looproot::derivation::{ClosurePolynomial, Derivation, Removed, RootPose, derive};
 use looproot::elimination::degree::degree;
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::mechanism::{FullMode, Mechanism, Solution, closed_loop};
@@ -148,16 +148,35 @@ fn arms_of_the_library_are_derived_as_they_are_solved() {
 
 #[test]
 fn platforms_are_derived_as_they_are_solved() {
-    for path in ["platform/platform_06real.toml", "platform/planar_both.toml", "platform/points_6_3.toml"] {
+    let paths = [
+        ("platform/platform_06real.toml", 1),
+        ("platform/planar_both.toml", 1),
+        ("platform/points_6_3.toml", 1),
+        ("platform/points_3_3.toml", 2),
+    ];
+    for (path, per_root) in paths {
         let entry = entry(path);
         let derivation = derive(&entry, &entry.cases[0]).unwrap();
         let solution = solved(&entry);
         let polynomial = derivation.polynomial.as_ref().unwrap();
-        assert_eq!((polynomial.degree(), polynomial.distinct()), (solution.verdict.complex, solution.verdict.complex));
-        assert_eq!(polynomial.roots.len(), solution.verdict.real, "{path}");
+        let expected = solution.verdict.complex / per_root;
+        assert_eq!((polynomial.degree(), polynomial.distinct()), (expected, expected), "{path}");
+        assert_eq!(derivation.per_root, per_root, "{path}");
         assert_eq!(derivation.equations.len(), 7);
+        assert_eq!(derivation.warnings, entry.cases[0].warnings, "{path}");
+        let poses: Vec<&RootPose> = polynomial.roots.iter().flat_map(|root| &root.poses).collect();
+        assert_eq!(poses.len(), solution.verdict.real, "{path}");
+        for root in &polynomial.roots {
+            assert!(root.poses.len() == per_root || (per_root == 2 && root.poses.is_empty()), "{path}");
+        }
         for mode in real(&solution) {
             let q: Vec<f64> = mode.q.iter().map(|z| z.re).collect();
+            let apart = |pose: &&RootPose| {
+                let list = pose.quaternion.iter().chain(&pose.position);
+                list.zip(&q).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+            };
+            let nearest = poses.iter().map(apart).fold(f64::INFINITY, f64::min);
+            assert!(nearest < 1e-11, "{path}: {nearest:e}");
             // y = p x
             let ([w, i, j, k], [x, y, z]) = ([q[0], q[1], q[2], q[3]], [q[4], q[5], q[6]]);
             let y = [-x * i - y * j - z * k, x * w + y * k - z * j, y * w + z * i - x * k, z * w + x * j - y * i];
@@ -168,12 +187,13 @@ fn platforms_are_derived_as_they_are_solved() {
             }
             // The definition of k is linear in it.
             let definition = derivation.definition.as_ref().unwrap();
+            let study = [q[0], q[1], q[2], q[3], y[0], y[1], y[2], y[3]];
             let at = |k: i32| {
                 let parts = definition.coefficients_in(polynomial.variable);
                 let [rest, factor] = parts.as_slice() else { panic!("{path}: linear in k") };
                 let value = |p: &Polynomial<Rational>| -> f64 {
                     let image = p.map(|c| Some(c.to_f64())).unwrap();
-                    image.evaluate(&q[..4])
+                    image.evaluate(&study)
                 };
                 value(factor) * f64::from(k) + value(rest)
             };
@@ -182,6 +202,26 @@ fn platforms_are_derived_as_they_are_solved() {
             assert!(distance(polynomial, false, values["k"]) < 1e-7 * (1.0 + values["k"].abs()), "{path}");
         }
     }
+}
+
+/// The entry's own poses stand with 12 digits; the derived ones are right to the last.
+#[test]
+fn poses_at_the_roots_are_right_to_the_last_digit() {
+    let entry = entry("platform/half_turn.toml");
+    let polynomial = derive(&entry, &entry.cases[0]).unwrap().polynomial.unwrap();
+    let poses: Vec<&RootPose> = polynomial.roots.iter().flat_map(|root| &root.poses).collect();
+    assert_eq!(poses.len(), 4);
+    let third = 1.0 / 3.0;
+    let planted = RootPose { quaternion: [0.0, 2.0 * third, -2.0 * third, third], position: [14.0, 16.0, -3.0] };
+    assert!(poses.contains(&&planted), "{poses:?}");
+    let (code, text, _) = run(&["derive", "platform/half_turn"]);
+    let line = "    quaternion (0, 0.666666666666667, -0.666666666666667, 0.333333333333333), position (14, 16, -3)";
+    assert!(code == 0 && text.lines().any(|found| found == line), "{text}");
+    let (_, text, _) = run(&["derive", "platform/half_turn", "--json"]);
+    let document: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let listed: Vec<_> = document["roots"].as_array().unwrap().iter().map(|root| &root["poses"]).collect();
+    assert_eq!(listed.len(), 4);
+    assert!(listed.iter().any(|poses| poses[0]["position"] == serde_json::json!([14.0, 16.0, -3.0])));
 }
 
 #[test]
@@ -193,6 +233,9 @@ fn poses_of_one_rotation_are_multiple_roots() {
         assert_eq!((polynomial.degree(), polynomial.distinct()), (solution.verdict.complex, distinct), "{path}");
         let real: usize = polynomial.roots.iter().map(|root| root.multiplicity).sum();
         assert_eq!(real, solution.verdict.real, "{path}");
+        for root in &polynomial.roots {
+            assert_eq!(root.poses.len(), root.multiplicity, "{path}");
+        }
     }
 }
 

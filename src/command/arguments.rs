@@ -213,8 +213,11 @@ pub struct SweepOptions {
     #[arg(long, value_name = "N", default_value = "360", value_parser = steps)]
     pub steps: usize,
     /// CSV: one row for every branch and step, radians and metres
-    #[arg(long, conflicts_with = "json")]
+    #[arg(long, conflicts_with_all = ["json", "svg"])]
     pub csv: bool,
+    /// A picture: every joint variable against the input
+    #[arg(long, conflicts_with = "json")]
+    pub svg: bool,
     /// One JSON document
     #[arg(long)]
     pub json: bool,

@@ -9,6 +9,7 @@ mod equation;
 mod four_bar;
 mod platform;
 mod polynomial;
+mod pose;
 mod symbolic;
 mod symbols;
 mod triangle;
@@ -16,6 +17,7 @@ mod two_sides;
 
 pub use equation::Equation;
 pub use polynomial::{ClosurePolynomial, Removed, Root};
+pub use pose::RootPose;
 pub use symbolic::{Displayed, Quotient, Symbolic, SymbolicPolynomial, derive_symbolic};
 
 use crate::algebra::number::Number;

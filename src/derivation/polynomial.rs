@@ -1,5 +1,6 @@
 //! A closure polynomial over the integers, with all that can be proved of its roots.
 
+use super::pose::RootPose;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::real_roots::RealRoot;
 use crate::algebra::univariate::Univariate;
@@ -43,11 +44,13 @@ pub struct Root {
     pub exact: Option<Rational>,
     /// How often it counts.
     pub multiplicity: usize,
+    /// The real poses at it, of a platform.
+    pub poses: Vec<RootPose>,
 }
 
 impl Root {
     fn of(mut root: RealRoot) -> Self {
-        Self { value: root.to_f64(), exact: root.exact(), multiplicity: root.multiplicity() }
+        Self { value: root.to_f64(), exact: root.exact(), multiplicity: root.multiplicity(), poses: Vec::new() }
     }
 }
 

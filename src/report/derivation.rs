@@ -1,10 +1,11 @@
 //! Derivations: the verdict first, then equations, steps and polynomial; as text, JSON and Markdown.
 
 use super::json::{kind, number};
+use super::number::digits;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::{Entry, Kind};
-use crate::derivation::{ClosurePolynomial, Derivation, Removed, Root};
+use crate::derivation::{ClosurePolynomial, Derivation, Removed, Root, RootPose};
 use crate::error::Result;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -101,6 +102,12 @@ fn root(root: &Root) -> String {
     if root.multiplicity > 1 { format!("{value} (multiplicity {})", root.multiplicity) } else { value }
 }
 
+/// A pose in 15 digits: `quaternion (1, 0, 0, 0), position (0, 0, 0.5)`.
+fn pose(pose: &RootPose) -> String {
+    let list = |numbers: &[f64]| numbers.iter().map(|x| digits(*x)).collect::<Vec<_>>().join(", ");
+    format!("quaternion ({}), position ({})", list(&pose.quaternion), list(&pose.position))
+}
+
 fn plain(polynomial: &Polynomial<Rational>, names: &Names) -> String {
     Format::Text.polynomial(polynomial, names)
 }
@@ -137,6 +144,9 @@ pub fn text(derivation: &Derivation) -> String {
             let _ = writeln!(text, "\nReal roots, isolated and counted by Sturm's theorem");
             for real in &polynomial.roots {
                 let _ = writeln!(text, "  {name} = {}", root(real));
+                for pose in &real.poses {
+                    let _ = writeln!(text, "    {}", self::pose(pose));
+                }
             }
         }
     }
@@ -196,7 +206,12 @@ pub fn json(entry: &Entry, case: usize, derivation: &Derivation) -> Value {
         document["square_free"] = polynomial.factors.iter().map(factor).collect();
         let root = |root: &Root| {
             let exact = root.exact.as_ref().map(ToString::to_string);
-            json!({ "value": number(root.value), "exact": exact, "multiplicity": root.multiplicity })
+            let mut object = json!({ "value": number(root.value), "exact": exact, "multiplicity": root.multiplicity });
+            if entry.kind() == Kind::Platform {
+                let pose = |pose: &RootPose| json!({ "quaternion": pose.quaternion, "position": pose.position });
+                object["poses"] = root.poses.iter().map(pose).collect();
+            }
+            object
         };
         document["roots"] = polynomial.roots.iter().map(root).collect();
     }
@@ -281,6 +296,9 @@ pub fn markdown(entry: &Entry, case: usize, derivation: &Derivation) -> Result<S
             text.push_str("\nReal roots, isolated by Descartes' rule and counted by Sturm's theorem:\n\n");
             for real in &polynomial.roots {
                 let _ = writeln!(text, "- {name} = {}", root(real));
+                for pose in &real.poses {
+                    let _ = writeln!(text, "  - {}", self::pose(pose));
+                }
             }
         }
     }

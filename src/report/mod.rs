@@ -6,6 +6,7 @@ pub mod derivatives;
 pub mod json;
 pub mod model;
 pub mod number;
+pub mod picture;
 pub mod sweep;
 pub mod symbolic;
 pub mod table;
