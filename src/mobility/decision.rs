@@ -154,13 +154,16 @@ impl Subject<'_> {
         let real = configurations.len();
         let shaky = configurations.iter().filter_map(order).max().filter(|order| *order > 1);
         if configurations.iter().any(|c| c.dimension() != Some(0)) {
-            let reason = "no motion was found through any value of a joint, and a configuration is not decided".to_owned();
+            let reason =
+                "no motion was found through any value of a joint, and a configuration is not decided".to_owned();
             return Mobility { configurations, complex, ..self.answer(None, Proof::None, reason) };
         }
         let reason = match (complex, real) {
             (0, _) => "no configuration: the closure equations have no solution, real or complex".to_owned(),
             (_, 0) => format!("no real configuration: {complex} complex ones, all of them isolated"),
-            _ => format!("{real} real of {complex} complex configurations, all of them isolated{}", order_clause(shaky)),
+            _ => {
+                format!("{real} real of {complex} complex configurations, all of them isolated{}", order_clause(shaky))
+            }
         };
         Mobility { shaky, configurations, complex, ..self.answer(Some(0), Proof::Exact, reason) }
     }
@@ -210,9 +213,7 @@ impl Subject<'_> {
             };
             let held = [(k, tangent)];
             let Some(found) = at(&self.linkage, &held) else { continue };
-            let close = |c: &Configuration| {
-                c.q.iter().zip(&mode.q).all(|(a, b)| ((a - b.re) / 2.0).sin().abs() < 1e-4)
-            };
+            let close = |c: &Configuration| c.q.iter().zip(&mode.q).all(|(a, b)| ((a - b.re) / 2.0).sin().abs() < 1e-4);
             if let Some(found) = decide(&self.linkage, &held, &found).configurations.into_iter().find(close) {
                 return Some(found);
             }

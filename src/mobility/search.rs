@@ -172,7 +172,8 @@ pub(super) fn decide(linkage: &Linkage<Rational>, held: &[(usize, Rational)], fo
             }
         }
     }
-    configurations.sort_by(|a, b| a.q.iter().map(|x| x.abs()).sum::<f64>().total_cmp(&b.q.iter().map(|x| x.abs()).sum()));
+    configurations
+        .sort_by(|a, b| a.q.iter().map(|x| x.abs()).sum::<f64>().total_cmp(&b.q.iter().map(|x| x.abs()).sum()));
     let value = |(k, tangent): &(usize, Rational)| {
         let t = Float::with_val(BITS, tangent);
         (*k, 2.0 * if linkage.variables[*k] == Variable::Rotation { t.atan().to_f64() } else { t.to_f64() })
@@ -183,7 +184,8 @@ pub(super) fn decide(linkage: &Linkage<Rational>, held: &[(usize, Rational)], fo
 
 /// Whether some complex configuration moves.
 fn moves(linkage: &Linkage<Rational>, held: &[(usize, Rational)], found: &[Conjugates]) -> bool {
-    found.iter().flat_map(|conjugates| conjugates.each(|part| Known::of(linkage, held, part))).any(|(_, known)| {
-        known.is_some_and(|known| matches!(known.germ.local, Local::Curve | Local::Manifold { .. }))
-    })
+    found
+        .iter()
+        .flat_map(|conjugates| conjugates.each(|part| Known::of(linkage, held, part)))
+        .any(|(_, known)| known.is_some_and(|known| matches!(known.germ.local, Local::Curve | Local::Manifold { .. })))
 }
