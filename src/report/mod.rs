@@ -4,6 +4,7 @@ pub mod atlas;
 pub mod derivation;
 pub mod derivatives;
 pub mod json;
+pub mod mobility;
 pub mod model;
 pub mod number;
 pub mod picture;
