@@ -51,6 +51,19 @@ impl Linkage<Rational> {
         Ok(Self { variables: layout.variables, links })
     }
 
+    /// A length of the size of the links: the power of two nearest to their mean, 1 without lengths.
+    #[must_use]
+    pub fn unit(&self) -> Rational {
+        let length = |link: &DualQuaternion<Rational>| {
+            let motion = link.to_motion()?;
+            Some(motion.translation.iter().map(|x| x.to_f64().powi(2)).sum::<f64>())
+        };
+        let squares: f64 = self.links.iter().filter_map(length).sum();
+        let mean = (squares / self.links.len().max(1) as f64).sqrt();
+        let unit = if mean.is_normal() { mean.log2().round().exp2() } else { 1.0 };
+        Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
+    }
+
     /// The same chain over another field; `None` for an unlucky prime.
     #[must_use]
     pub fn map<F: Field>(&self) -> Option<Linkage<F>> {
@@ -68,6 +81,27 @@ impl Linkage<Rational> {
 }
 
 impl<F: Field> Linkage<F> {
+    /// The chain in which some joint variables are rigid, at these values: their place in the list of variables, and the
+    /// value.
+    ///
+    /// # Panics
+    /// When no joint variable is left.
+    #[must_use]
+    pub fn locked(&self, at: &[(usize, JointValue<F>)]) -> Self {
+        let mut whole: Vec<JointValue<F>> = vec![[F::one(), F::zero()]; self.variables.len()];
+        for (k, value) in at {
+            whole[*k] = value.clone();
+        }
+        let mut position = self.at(&whole);
+        let mut rigid: Vec<usize> = at.iter().map(|(k, _)| *k).collect();
+        rigid.sort_unstable();
+        for k in rigid.into_iter().rev() {
+            position = position.without(k);
+        }
+        let link = |[a, b, c, d, e, f, g, h]: Study<F>| DualQuaternion::from_study(&[a, b, c, d], &[e, f, g, h]);
+        Self { variables: position.variables, links: position.links.into_iter().map(link).collect() }
+    }
+
     /// The chain with its joints at these values, which need not close.
     ///
     /// # Panics
@@ -90,7 +124,7 @@ impl<F: Field> Position<F> {
     #[must_use]
     pub fn closes(&self) -> bool {
         let product = self.links.iter().fold(one(), |product, link| times(&product, link));
-        !product[0].is_zero() && product[1..].iter().all(F::is_zero)
+        is_unit(&product[0]) && !product[1..].iter().any(is_unit)
     }
 
     /// The chain in which joint variable `k` is rigid.
@@ -111,6 +145,12 @@ impl<F: Field> Position<F> {
         }
         Self { variables, links }
     }
+}
+
+/// Whether this is no zero. Over algebraic numbers what is zero at some roots only makes itself known by the attempt to
+/// invert it.
+pub(super) fn is_unit<F: Field>(x: &F) -> bool {
+    !x.is_zero() && x.inverse().is_some()
 }
 
 /// The dual quaternion 1.

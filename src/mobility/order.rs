@@ -1,8 +1,9 @@
 //! Does a closed chain move from one of its positions: the closure equations as power series.
 
-use super::echelon::Echelon;
-use super::linkage::{Position, Study, one, times, times_axis};
+use super::linkage::{Position, Study, is_unit, one, times, times_axis};
+use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::Field;
+use crate::kinematics::screw_system::{Screw, ScrewSystem};
 
 /// Most solutions that a generic closed chain of six joint variables has, and so the highest multiplicity that an isolated
 /// position of any chain of up to six can have.
@@ -58,6 +59,16 @@ impl<F: Field> Germ<F> {
     /// docs/mobility.md, theorems 1 and 2.
     #[must_use]
     pub fn of(position: &Position<F>) -> Self {
+        Self::of_conjugates(position, 1)
+    }
+
+    /// The same for a position that has at least so many conjugates, itself included: being isolated of the same multiplicity,
+    /// they share the highest multiplicity possible.
+    ///
+    /// # Panics
+    /// When there are no conjugates.
+    #[must_use]
+    pub fn of_conjugates(position: &Position<F>, conjugates: usize) -> Self {
         let n = position.variables.len();
         let mut expansion = Expansion::of(position);
         if !position.closes() && F::PIVOT_ZERO == 0.0 {
@@ -69,19 +80,27 @@ impl<F: Field> Germ<F> {
             let unit = (0..6).map(|j| if i == j { F::one() } else { F::zero() });
             screws.iter().map(|s| s[i].clone()).chain(unit).collect()
         });
-        let echelon = Echelon::of(rows.collect(), n);
-        let rank = echelon.rank();
-        let free: Vec<usize> = (0..n).filter(|k| !echelon.pivots.contains(k)).collect();
+        let solved = Echelon::among(rows.collect(), n + 6, n);
+        let left_over = Echelon::of(screws.iter().map(|s| s.to_vec()).collect(), 6).null_space();
+        let rank = solved.rank();
+        let free: Vec<usize> = (0..n).filter(|k| !solved.pivots().contains(k)).collect();
         let mut germ = Self { local: Local::Deficient, rank, screws, series: Vec::new() };
         if free.is_empty() {
             germ.local = Local::Isolated { order: 1 };
         } else if germ.is_algebra() {
             germ.local = Local::Manifold { dimension: n - rank };
         } else if let [free] = free[..] {
-            germ.local = expansion.solve(&echelon, free);
+            germ.local = expansion.solve(&solved, &left_over, free, MOST_SOLUTIONS / conjugates);
             germ.series = expansion.series;
         }
         germ
+    }
+
+    /// The screws of the joint variables.
+    #[must_use]
+    pub fn system(&self) -> ScrewSystem<F> {
+        let screw = |[a, b, c, d, e, f]: [F; 6]| Screw { direction: [a, b, c], moment: [d, e, f] };
+        ScrewSystem::of(&self.screws.iter().cloned().map(screw).collect::<Vec<_>>())
     }
 
     /// Whether the screws span a Lie algebra: no commutator leads out of their span.
@@ -90,7 +109,7 @@ impl<F: Field> Germ<F> {
             return true;
         }
         let basis = Echelon::of(self.screws.iter().map(|s| s.to_vec()).collect(), 6);
-        let basis = &basis.rows[..basis.pivots.len()];
+        let basis = basis.rows();
         let commutators = (0..basis.len()).flat_map(|i| (0..i).map(move |j| commutator(&basis[i], &basis[j])));
         let rows = basis.iter().cloned().chain(commutators).collect();
         Echelon::of(rows, 6).rank() == self.rank
@@ -188,10 +207,9 @@ impl<'a, F: Field> Expansion<'a, F> {
     }
 
     /// Solves for the pivot variables along the free one, up to the order that decides.
-    fn solve(&mut self, echelon: &Echelon<F>, free: usize) -> Local {
+    fn solve(&mut self, solved: &Echelon<F>, left_over: &[Vec<F>], free: usize, most: usize) -> Local {
         let n = self.series.len();
-        let rank = echelon.rank();
-        for order in 1..=MOST_SOLUTIONS {
+        for order in 1..=most {
             for series in &mut self.series {
                 series.push(F::zero());
             }
@@ -200,23 +218,21 @@ impl<'a, F: Field> Expansion<'a, F> {
             }
             self.extend();
             let rest = equations(&self.products[n][order]);
-            let reduced: Vec<F> = echelon
-                .rows
-                .iter()
-                .map(|row| {
-                    let mut sum = F::zero();
-                    for (x, y) in row[n..].iter().zip(&rest) {
-                        sum.add_product(x, y);
-                    }
-                    sum
-                })
-                .collect();
+            let along = |row: &[F]| {
+                let mut sum = F::zero();
+                for (x, y) in row.iter().zip(&rest) {
+                    sum.add_product(x, y);
+                }
+                sum
+            };
+            // Of an inexact field: beside what cancels in it.
             let level = F::PIVOT_ZERO.sqrt() * rest.iter().map(F::pivot_size).fold(1.0, f64::max);
-            if reduced[rank..].iter().any(|x| if level > 0.0 { x.pivot_size() > level } else { !x.is_zero() }) {
+            let is_there = |x: F| if level > 0.0 { x.pivot_size() > level } else { is_unit(&x) };
+            if left_over.iter().any(|row| is_there(along(row))) {
                 return Local::Isolated { order };
             }
-            for (pivot, x) in echelon.pivots.iter().zip(&reduced) {
-                self.series[*pivot][order] = x.neg();
+            for (pivot, row) in solved.pivots().iter().zip(solved.rows()) {
+                self.series[*pivot][order] = along(&row[n..]).neg();
             }
             // The free variable has been there from the start.
             let kept = std::mem::replace(&mut self.series[free][order], F::zero());

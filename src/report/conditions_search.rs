@@ -24,7 +24,9 @@ pub fn is_proved(search: &Search) -> bool {
             proper.peek().is_some() && proper.all(|found| found.germ.local == Local::Curve)
         }
         (None, None) if search.member.is_some() => member(&search.member),
-        (None, None) => search.mobile_slices.iter().all(|slice| slice.proof.is_some()) && proper_slices(search).count() > 0,
+        (None, None) => {
+            search.mobile_slices.iter().all(|slice| slice.proof.is_some()) && proper_slices(search).count() > 0
+        }
     }
 }
 
@@ -272,7 +274,9 @@ fn curve_text(curves: &CurveSearch, text: &mut String) {
     let chosen = if curves.chosen { ", chosen at random" } else { "" };
     let _ = writeln!(text, "\nCurves with two tied joints, tan(alpha/2) = ({}){chosen}", twists.join(", "));
     if curves.loops.is_empty() {
-        text.push_str("  none on which lengths close, for all pairs of joints, both relations and rational constants\n");
+        text.push_str(
+            "  none on which lengths close, for all pairs of joints, both relations and rational constants\n",
+        );
     }
     for found in &curves.loops {
         let reasons = degenerate(found);
