@@ -258,7 +258,8 @@ fn fit_text(ansatz: &Ansatz, fitted: &Fitted, text: &mut String) {
             text,
             "  proof for all parameters: with w = {} the product of w and the closing translation, {} terms in the cosines \
              and triple products of axes, is divisible by the relation: on it two of three equations are left for the three \
-             degrees of freedom of the spherical loop, wherever w is not 0",
+             degrees of freedom of the spherical loop, and every real closed position of screw rank 5 with w not 0 and axes that \
+             span the space lies on a curve of positions",
             terms.join(" + "),
             multiplier.size
         );
