@@ -28,6 +28,8 @@ pub mod derivation;
 
 pub mod sweep;
 
+pub mod conditions;
+
 pub mod benchmark;
 
 pub mod claims;

@@ -4,6 +4,7 @@ pub mod arguments;
 pub mod bench;
 pub mod check;
 pub mod completions;
+pub mod conditions;
 pub mod derive;
 pub mod exit;
 pub mod list;

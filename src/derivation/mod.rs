@@ -10,6 +10,7 @@ mod four_bar;
 mod platform;
 mod polynomial;
 mod symbols;
+pub mod transference;
 mod triangle;
 mod two_sides;
 
