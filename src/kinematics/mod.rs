@@ -3,8 +3,10 @@
 pub mod chain;
 pub mod closed_loop;
 pub mod dual_quaternion;
+pub mod idle;
 pub mod link_form;
 pub mod motion;
 pub mod placement;
 pub mod platform;
+pub mod screw_system;
 pub mod velocity;

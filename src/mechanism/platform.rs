@@ -25,7 +25,8 @@ pub(super) struct PreparedPlatform {
 }
 
 /// The points over a ring; `None` for an unlucky prime.
-pub(crate) fn over<R: Ring>(geometry: &Platform<Number>) -> Option<Platform<R>> {
+#[must_use]
+pub fn over<R: Ring>(geometry: &Platform<Number>) -> Option<Platform<R>> {
     let points = |points: &[[Number; 3]; 6]| -> Option<[[R; 3]; 6]> {
         let images: Option<Vec<[R; 3]>> =
             points.iter().map(|[x, y, z]| Some([R::from_number(x)?, R::from_number(y)?, R::from_number(z)?])).collect();

@@ -1,10 +1,13 @@
 //! What a reader sees: the verdict in one line, tables, normalised models, JSON.
 
+pub mod atlas;
 pub mod derivation;
 pub mod derivatives;
 pub mod json;
 pub mod model;
 pub mod number;
+pub mod picture;
 pub mod sweep;
+pub mod symbolic;
 pub mod table;
 pub mod text;

@@ -8,6 +8,7 @@ pub mod eigen;
 pub mod francis;
 pub mod kernel;
 pub mod newton;
+pub mod polynomial_roots;
 pub mod pose;
 pub mod scalar;
 pub mod separated;

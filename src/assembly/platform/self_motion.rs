@@ -50,7 +50,7 @@ fn corank<S: Numeric>(legs: &[Leg<f64>; 6], v: &Eight<S>) -> (usize, Eight<S>) {
     (
         count,
         svd.v_t.map_or([<S as Scalar>::from_f64(0.0); 8], |v| {
-            std::array::from_fn(|j| Scalar::conjugate(v[(smallest, j)]))
+            std::array::from_fn(|j| ComplexField::conjugate(v[(smallest, j)]))
         }),
     )
 }
