@@ -342,6 +342,8 @@ pub struct BenchOptions {
 pub enum Measure {
     /// Solutions found, lost, spurious, duplicated against planted configurations
     Accuracy(AccuracyOptions),
+    /// Overconstrained loops with a small error in one link: none of them may be called mobile
+    Mobility(DisturbOptions),
     /// Times on one core beside faer's eigenvalues of one 16 x 16 or 40 x 40 matrix
     Speed(SpeedOptions),
 }
@@ -362,6 +364,26 @@ pub struct AccuracyOptions {
     /// Look for real solutions only
     #[arg(long)]
     pub real: bool,
+    /// A JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+/// `looproot bench mobility`
+#[derive(Args)]
+pub struct DisturbOptions {
+    /// A mobile loop of up to six variables of the built-in library; all of them if none is given
+    #[arg(long, value_name = "NAME")]
+    pub entry: Option<String>,
+    /// Number of disturbed loops of each
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub count: u64,
+    /// Seed of the draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
     /// A JSON document
     #[arg(long)]
     pub json: bool,
