@@ -330,7 +330,9 @@ impl Chain {
     pub fn unit(&self) -> Rational {
         let square = |lengths: &[&Number]| lengths.iter().map(|x| x.to_f64().powi(2)).sum::<f64>();
         let squares: Vec<f64> = match &self.geometry {
-            Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => joints.iter().map(|j| square(&[&j.a, &j.d])).collect(),
+            Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
+                joints.iter().map(|j| square(&[&j.a, &j.d])).collect()
+            }
             Geometry::Screws { joints, .. } => joints.iter().map(|j| square(&j.point.each_ref())).collect(),
         };
         let mean = (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt();

@@ -387,9 +387,8 @@ fn closer(
     };
     let (mut defect, mut here) = size(&at);
     for _ in 0..POLISHINGS {
-        let matrix = SMatrix::<Complex<f64>, 6, 6>::from_fn(|i, j| {
-            if is_idle[j] { Complex::ZERO } else { here.jacobian[i][j] }
-        });
+        let matrix =
+            SMatrix::<Complex<f64>, 6, 6>::from_fn(|i, j| if is_idle[j] { Complex::ZERO } else { here.jacobian[i][j] });
         let svd = matrix.svd(true, true);
         let Ok(step) = svd.solve(&SVector::from(here.residual), RANK * svd.singular_values.max()) else { break };
         let next = std::array::from_fn(|k| {
