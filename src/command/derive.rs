@@ -11,6 +11,9 @@ use std::io::Write;
 
 /// Derives closure equations and closure polynomial of the case asked for, else of the first one.
 pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
+    if options.transference {
+        return super::transference::run(options);
+    }
     let mut entry = load(&options.mechanism, &options.read.options())?;
     let index = wanted(&options.asked, &options.mechanism, &mut entry)?.start;
     let derivation = derive(&entry, &entry.cases[index])?;

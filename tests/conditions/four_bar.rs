@@ -261,9 +261,9 @@ proptest! {
         // Neither folded nor both right-angled, where other signs of the lengths are possible.
         let product = Rational::from(&u * &v);
         prop_assume!(u.clone().abs() != v.clone().abs() && product.clone().abs() != 1);
-        let sine = |t: &Rational| Rational::from(t / Rational::from(Rational::from(t * t) + 1));
-        let first = Rational::from(sine(&u) * &b);
-        let second = if minus { -Rational::from(sine(&v) * &b) } else { Rational::from(sine(&v) * &b) };
+        let sine = |t: &Rational| t / (Rational::from(t * t) + 1);
+        let first = sine(&u) * &b;
+        let second = if minus { -(sine(&v) * &b) } else { sine(&v) * &b };
         let mut values = [
             [first.clone(), u.clone(), Rational::new()], [second.clone(), v.clone(), Rational::new()],
             [first, u, Rational::new()], [second, v, Rational::new()],
