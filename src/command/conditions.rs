@@ -14,9 +14,12 @@ use std::io::Write;
 /// Derives for which parameters a loop moves.
 pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
     let ansatz = read(options)?;
-    if ansatz.joints.len() != 4 {
-        let count = ansatz.joints.len();
-        return Err(Error::Unsupported(format!("conditions of a loop of {count} joints: only of 4")).into());
+    match ansatz.joints.len() {
+        4 => {}
+        5 | 6 => return super::conditions_search::run(options, &ansatz),
+        count => {
+            return Err(Error::Unsupported(format!("conditions of a loop of {count} joints: only of 4 to 6")).into());
+        }
     }
     let theorem = derive();
     let decision = decide(&theorem, &ansatz)?;

@@ -10,11 +10,11 @@ use looproot::report::transference::{json, system, text, verdict};
 use std::io::Write;
 
 /// Derives the spherical and the spatial closure equation of a loop of four joints.
-pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
-    let transfer = match Transfer::named(&options.mechanism.to_ascii_lowercase())? {
+pub fn run(options: &DeriveOptions, mechanism: &str) -> Result<Exit, Fault> {
+    let transfer = match Transfer::named(&mechanism.to_ascii_lowercase())? {
         Some(transfer) => transfer,
         None => {
-            let entry = load(&options.mechanism, &options.read.options())?;
+            let entry = load(mechanism, &options.read.options())?;
             let expected = NAMED.join(", ");
             let other = || Error::Unsupported(format!("transference of what is no loop; expected one, or {expected}"));
             Transfer::of(&entry.title, entry.chain().ok_or_else(other)?)?
@@ -29,7 +29,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     } else {
         text(&transfer)
     };
-    let mut output = Output::open(&options.output, &options.mechanism)?;
+    let mut output = Output::open(&options.output, mechanism)?;
     output.writer.write_all(written.as_bytes())?;
     output.writer.flush()?;
     Ok(Exit::Complete)

@@ -54,7 +54,6 @@ fn numbers_and_faults() {
     assert!(moves.code == 0 && moves.out.starts_with("moves: Bennett (+) (proved"), "{}", moves.out);
     let rigid = run(&["-", "--quiet"], &numbers(["4", "3", "4", "3.000000001"]));
     assert!(rigid.code == 3 && rigid.out.starts_with("does not move (proved"), "{}", rigid.out);
-    assert_eq!(run(&["5R"], "").code, 4);
     assert_eq!(run(&["benet"], "").code, 1);
     assert!(run(&["benet"], "").err.contains("did you mean `bennett`?"));
     let empty =

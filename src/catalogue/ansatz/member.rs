@@ -51,8 +51,7 @@ impl<F: Field> Members<'_, F> {
     /// When the number of values is wrong.
     #[must_use]
     pub fn member(&self, tangents: &[F], lengths: &[F]) -> Option<Vec<Link<F>>> {
-        let (links, residuals) = self.with_residuals(tangents, lengths)?;
-        residuals.iter().all(F::is_zero).then_some(links)
+        self.links(&self.values(tangents, lengths)?)
     }
 
     /// The same member, and the values of all relations that give no length: where they vanish, it is one.
@@ -61,6 +60,34 @@ impl<F: Field> Members<'_, F> {
     /// When the number of values is wrong.
     #[must_use]
     pub fn with_residuals(&self, tangents: &[F], lengths: &[F]) -> Option<(Vec<Link<F>>, Vec<F>)> {
+        let (values, residuals) = self.solved(tangents, lengths)?;
+        Some((self.links(&values)?, residuals))
+    }
+
+    /// The values of all variables of [`Symbols`] for that member; `None` as for [`Self::member`].
+    ///
+    /// # Panics
+    /// When the number of values is wrong.
+    #[must_use]
+    pub fn values(&self, tangents: &[F], lengths: &[F]) -> Option<Vec<F>> {
+        let (values, residuals) = self.solved(tangents, lengths)?;
+        residuals.iter().all(F::is_zero).then_some(values)
+    }
+
+    /// The loop for given values of all variables; `None` for an unlucky prime.
+    #[must_use]
+    pub fn links(&self, values: &[F]) -> Option<Vec<Link<F>>> {
+        let angle = |k: usize| (values[Symbols::cos(k)].clone(), values[Symbols::sin(k)].clone());
+        let angles: Vec<(F, F)> = (0..self.ansatz.symbols.angles.len()).map(angle).collect();
+        let links = self.joints.iter().enumerate().map(|(k, [a, d])| {
+            let (cos, sin) = self.ansatz.joints[k].alpha.cos_sin(&angles)?;
+            Some(Link { cos, sin, a: a.evaluate(values), d: d.evaluate(values) })
+        });
+        links.collect()
+    }
+
+    /// The values of all variables, and what is left of the relations that give no length.
+    fn solved(&self, tangents: &[F], lengths: &[F]) -> Option<(Vec<F>, Vec<F>)> {
         let (symbols, free) = (&self.ansatz.symbols, self.ansatz.free_lengths());
         assert_eq!(tangents.len(), self.ansatz.free_angles.len(), "one tangent for every free angle");
         assert_eq!(lengths.len(), free.len(), "one value for every free length");
@@ -87,11 +114,7 @@ impl<F: Field> Members<'_, F> {
             values[symbols.length(length)] = value.clone();
         }
         let residuals = self.solve(&mut values)?;
-        let links = self.joints.iter().enumerate().map(|(k, [a, d])| {
-            let (cos, sin) = self.ansatz.joints[k].alpha.cos_sin(&angles)?;
-            Some(Link { cos, sin, a: a.evaluate(&values), d: d.evaluate(&values) })
-        });
-        Some((links.collect::<Option<_>>()?, residuals))
+        Some((values, residuals))
     }
 
     fn uses(&self, variable: usize) -> bool {
