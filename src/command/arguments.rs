@@ -187,6 +187,10 @@ pub struct DeriveOptions {
     /// The whole derivation in Markdown with LaTeX formulas
     #[arg(long, conflicts_with_all = ["json", "format"])]
     pub explain: bool,
+    /// Loops of four R or C joints: the spherical closure equation and, over dual numbers, the spatial one; of a file, or with
+    /// all parameters symbols: rccc, ccrr, 4r, hooke
+    #[arg(long, conflicts_with_all = ["explain", "symbolic", "bless", "pose", "input", "joints", "legs", "at"])]
+    pub transference: bool,
     /// Print the verdict only
     #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
     pub quiet: bool,
