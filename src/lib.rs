@@ -28,6 +28,8 @@ pub mod derivation;
 
 pub mod sweep;
 
+pub mod mobility;
+
 pub mod benchmark;
 
 pub mod claims;

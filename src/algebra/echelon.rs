@@ -32,14 +32,24 @@ impl<F: Field> Echelon<F> {
     /// # Panics
     /// When a row has not as many entries as there are columns.
     #[must_use]
-    pub fn of(mut rows: Vec<Vec<F>>, columns: usize) -> Self {
+    pub fn of(rows: Vec<Vec<F>>, columns: usize) -> Self {
+        Self::among(rows, columns, columns)
+    }
+
+    /// The same with pivots in the first `among` columns only: what stands behind them records the row operations, or holds
+    /// right sides. The rank is that of these columns, and rows without pivot are left out.
+    ///
+    /// # Panics
+    /// When a row has not as many entries as there are columns.
+    #[must_use]
+    pub fn among(mut rows: Vec<Vec<F>>, columns: usize, among: usize) -> Self {
         assert!(rows.iter().all(|row| row.len() == columns), "all rows are of one length");
         let mut sources: Vec<usize> = (0..rows.len()).collect();
         let mut pivots = Vec::new();
         let mut largest = 0.0;
         while pivots.len() < rows.len() {
             let step = pivots.len();
-            let Some((size, row, column)) = best_pivot(&rows, step, &pivots, columns) else { break };
+            let Some((size, row, column)) = best_pivot(&rows, step, &pivots, among) else { break };
             if step == 0 {
                 largest = size;
             }
@@ -120,7 +130,7 @@ impl<F: Field> Echelon<F> {
     }
 }
 
-/// The largest entry in the rows and columns that have no pivot yet, with its place; `None` if all are zero.
+/// The largest entry in the rows and the first columns that have no pivot yet, with its place; `None` if all are zero.
 fn best_pivot<F: Field>(rows: &[Vec<F>], step: usize, pivots: &[usize], columns: usize) -> Option<(f64, usize, usize)> {
     let mut used = vec![false; columns];
     for &pivot in pivots {
@@ -128,7 +138,7 @@ fn best_pivot<F: Field>(rows: &[Vec<F>], step: usize, pivots: &[usize], columns:
     }
     let mut best: Option<(f64, usize, usize)> = None;
     for (i, row) in rows.iter().enumerate().skip(step) {
-        for (j, x) in row.iter().enumerate() {
+        for (j, x) in row.iter().enumerate().take(columns) {
             let size = x.pivot_size();
             if !used[j] && size > best.map_or(0.0, |(best, ..)| best) {
                 best = Some((size, i, j));

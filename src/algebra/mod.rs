@@ -16,6 +16,7 @@ pub mod modp;
 pub mod modular;
 pub mod monomial;
 pub mod number;
+pub mod number_field;
 pub mod polynomial;
 pub mod ratio;
 pub mod rational;

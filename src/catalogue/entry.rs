@@ -77,6 +77,12 @@ impl Case {
         Self { pose: Some(pose), ..Self::empty(line) }
     }
 
+    /// A loop without input, without claims.
+    #[must_use]
+    pub fn free(line: usize) -> Self {
+        Self::empty(line)
+    }
+
     /// An input of a loop, without claims.
     #[must_use]
     pub fn given(input: Input, line: usize) -> Self {

@@ -29,6 +29,8 @@ pub enum Verb {
     Derive(DeriveOptions),
     /// Run the input of a loop through a range: branches, limit positions
     Sweep(SweepOptions),
+    /// Decide whether a loop moves, with proof
+    Mobility(MobilityOptions),
     /// List the built-in library
     List(ListOptions),
     /// Print a mechanism as it was understood
@@ -222,6 +224,23 @@ fn steps(text: &str) -> Result<usize, String> {
         Ok(steps @ 1..=MOST) => Ok(steps),
         _ => Err(format!("expected 1 to {MOST}")),
     }
+}
+
+/// `looproot mobility`
+#[derive(Args)]
+pub struct MobilityOptions {
+    /// A file of a loop, the name of a built-in entry, or - for standard input; inputs of the file are not looked at
+    pub mechanism: String,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
 }
 
 /// `looproot list`

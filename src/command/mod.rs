@@ -7,6 +7,7 @@ pub mod completions;
 pub mod derive;
 pub mod exit;
 pub mod list;
+pub mod mobility;
 pub mod output;
 pub mod poly;
 pub mod show;

@@ -2,6 +2,7 @@
 
 pub mod border;
 pub mod characteristic;
+pub mod common_roots;
 pub mod cut;
 pub mod degree;
 pub mod graded_quotient;

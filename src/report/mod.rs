@@ -3,6 +3,7 @@
 pub mod derivation;
 pub mod derivatives;
 pub mod json;
+pub mod mobility;
 pub mod model;
 pub mod number;
 pub mod sweep;
