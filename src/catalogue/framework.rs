@@ -3,9 +3,9 @@
 use super::heading::{Heading, heading};
 use super::node::{Field, Node, Value};
 use super::scope::{Scope, Table, nearest};
-use crate::algebra::number::{Number, Quantity};
-use crate::error::Result;
-use crate::kinematics::framework::Framework;
+use crate::algebra::number::{Number, Quantity, nearest_f64};
+use crate::error::{Error, Result};
+use crate::kinematics::framework::{Framework, Mobility, mobility, mobility_with_lengths};
 use crate::kinematics::motion::Vector;
 use rug::Rational;
 
@@ -32,6 +32,29 @@ pub struct FrameworkFile {
     pub infinitesimal: Option<usize>,
     /// Line of the claims, from 1.
     pub line: usize,
+}
+
+impl FrameworkFile {
+    /// Whether the framework moves; its motion followed for a number of steps in f64.
+    ///
+    /// # Errors
+    /// When there is no realisation with the given lengths near the given vertices.
+    pub fn mobility(&self, steps: usize) -> Result<Mobility> {
+        let found = match (&self.squares, self.exact) {
+            (None, true) => mobility(&self.framework, steps),
+            (given, _) => {
+                let squares = given.clone().unwrap_or_else(|| self.framework.squares());
+                let start = self.framework.map(|q| Some(nearest_f64(q)));
+                start.and_then(|start| mobility_with_lengths(&start, &squares, self.exact, steps))
+            }
+        };
+        found.ok_or_else(|| {
+            let name = &self.heading.name;
+            Error::Invalid(format!(
+                "{name}: found no realisation with the given lengths near the given vertices, expected one"
+            ))
+        })
+    }
 }
 
 /// Reads a framework file.

@@ -6,6 +6,7 @@ pub mod check;
 pub mod completions;
 pub mod derive;
 pub mod exit;
+pub mod factor;
 pub mod list;
 pub mod mobility;
 pub mod output;

@@ -2,9 +2,11 @@
 
 pub mod derivation;
 pub mod derivatives;
+pub mod framework;
 pub mod json;
 pub mod mobility;
 pub mod model;
+pub mod motion;
 pub mod number;
 pub mod sweep;
 pub mod table;

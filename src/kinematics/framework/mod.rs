@@ -1,12 +1,14 @@
 //! Frameworks: bars between ball joints, rods and bodies with several joints, and whether they move.
 
 pub mod flex;
-pub mod mobility;
+mod mobility;
 pub mod octahedron;
 mod order;
+mod parts;
 mod slice;
 
-pub use mobility::{Mobility, Proof, Verdict, mobility};
+pub use mobility::{Mobility, Proof, Verdict, mobility, mobility_with_lengths};
+pub use slice::{Kind as SliceKind, Slice};
 
 use super::motion::{Vector, cross, dot};
 use crate::algebra::echelon::Echelon;
