@@ -19,6 +19,8 @@ pub struct FrameworkFile {
     pub heading: Heading,
     /// The names of the vertices.
     pub names: Vec<String>,
+    /// The bodies, by their vertices.
+    pub bodies: Vec<Vec<usize>>,
     /// The framework where the file puts its vertices.
     pub framework: Framework<Rational>,
     /// The squared length of every bar, where the file gives lengths: then its vertices are where the search for a realisation
@@ -94,7 +96,17 @@ pub(super) fn framework(scope: &mut Scope<'_>, root: &Node, name: &str) -> Resul
         }
         None => (None, None, node.line),
     };
-    Ok(FrameworkFile { heading, names, framework, squares, exact: !scope.is_rounded(), dimension, infinitesimal, line })
+    Ok(FrameworkFile {
+        heading,
+        names,
+        bodies,
+        framework,
+        squares,
+        exact: !scope.is_rounded(),
+        dimension,
+        infinitesimal,
+        line,
+    })
 }
 
 /// The vertices: a table of names, or a list, whose vertices are named by their numbers from 1.
