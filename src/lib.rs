@@ -32,6 +32,8 @@ pub mod mobility;
 
 pub mod factoring;
 
+pub mod conditions;
+
 pub mod benchmark;
 
 pub mod claims;

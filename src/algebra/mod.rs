@@ -11,6 +11,7 @@ mod half_tangent;
 pub mod int;
 mod integer_polynomial;
 pub mod interval;
+pub mod long_float;
 mod minors;
 pub mod modp;
 pub mod modular;

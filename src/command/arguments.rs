@@ -160,11 +160,26 @@ pub struct SolveOptions {
 #[derive(Args)]
 pub struct DeriveOptions {
     /// A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input; of several
-    /// poses or inputs the first one, unless one is asked for
-    pub mechanism: String,
+    /// poses or inputs the first one, unless one is asked for; with --bless files and folders
+    #[arg(required = true, value_name = "MECHANISM")]
+    pub mechanisms: Vec<String>,
     /// One JSON document
     #[arg(long)]
     pub json: bool,
+    /// Keep link parameters and the input as symbols: all that are neither zero nor a right angle, or those named, as
+    /// a1,alpha2,d3,theta4
+    #[arg(
+        long,
+        value_name = "NAMES",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        conflicts_with = "explain"
+    )]
+    pub symbolic: Option<String>,
+    /// Write the equations, where they fit two pages, to name.eqs beside every name.toml
+    #[arg(long, conflicts_with_all = ["json", "format", "explain", "symbolic", "output"])]
+    pub bless: bool,
     /// The equations in half-angle form (of a platform: in Study's parameters) and the closure polynomial as a file for
     /// another program
     #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]
@@ -202,8 +217,11 @@ pub struct SweepOptions {
     #[arg(long, value_name = "N", default_value = "360", value_parser = steps)]
     pub steps: usize,
     /// CSV: one row for every branch and step, radians and metres
-    #[arg(long, conflicts_with = "json")]
+    #[arg(long, conflicts_with_all = ["json", "svg"])]
     pub csv: bool,
+    /// A picture: every joint variable against the input
+    #[arg(long, conflicts_with = "json")]
+    pub svg: bool,
     /// One JSON document
     #[arg(long)]
     pub json: bool,

@@ -52,7 +52,7 @@ pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
 }
 
 /// The mechanism files under these paths, in order; names of built-in entries pass as they are.
-fn files(paths: &[String]) -> Result<Vec<String>, Error> {
+pub fn files(paths: &[String]) -> Result<Vec<String>, Error> {
     let mut files = Vec::new();
     for path in paths {
         if Path::new(path).is_dir() {

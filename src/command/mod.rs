@@ -2,6 +2,7 @@
 
 pub mod arguments;
 pub mod bench;
+pub mod bless;
 pub mod check;
 pub mod completions;
 pub mod derive;

@@ -11,6 +11,7 @@ use looproot::catalogue::load;
 use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::closed_loop::Variable;
+use looproot::report::picture::svg;
 use looproot::report::sweep::{self as report, Swept};
 use looproot::sweep::{Range, Sweep, sweep};
 use looproot::verdict::Status;
@@ -56,6 +57,8 @@ fn write(options: &SweepOptions, entry: &Entry, swept: Swept, found: &Sweep, mut
     let out = &mut output.writer;
     if options.json {
         writeln!(out, "{}", report::json(entry, swept, found))?;
+    } else if options.svg {
+        write!(out, "{}", svg(entry, swept, found))?;
     } else if options.csv {
         write!(out, "{}", report::csv(entry, found))?;
     } else if options.quiet {

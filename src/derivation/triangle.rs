@@ -4,6 +4,7 @@ use super::Equation;
 use super::chain::{Eliminated, Exact};
 use super::polynomial::Meaning;
 use super::symbols::combination;
+use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 use crate::elimination::separated::powers;
 use crate::elimination::spherical_triangle::triangle;
@@ -12,9 +13,9 @@ use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
 
 /// The polynomial of a row over `(1, cos, sin)` or `(1, d, d^2)`.
-pub(super) fn of_row(kind: Variable, row: &[Rational; 3]) -> Univariate<Rational> {
-    let powers = powers(kind, &[1, 1, 0].map(Rational::from));
-    let coefficient = |k: usize| (0..3).map(|i| Rational::from(&row[i] * &powers[i][k])).sum();
+pub(super) fn of_row<R: Ring>(kind: Variable, row: &[R; 3]) -> Univariate<R> {
+    let powers = powers(kind, &[1, 1, 0].map(R::from_integer));
+    let coefficient = |k: usize| (0..3).fold(R::zero(), |sum, i| sum.add(&row[i].mul(&powers[i][k])));
     Univariate::new((0..3).map(coefficient).collect())
 }
 
@@ -46,6 +47,7 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
         equations: vec![Equation::used(name, &polynomial)],
         steps,
         polynomial: Some((unknown, of_row(Variable::Rotation, &found.equation), Meaning::HalfTangent { degree: 2 })),
+        removed: Vec::new(),
         per_root: 1,
     })
 }

@@ -28,6 +28,12 @@ pub fn triangle<F: Field>(form: &LinkForm<F, 3, 3>) -> Triangle<F> {
             dropped = link;
         }
     }
+    triangle_without(form, dropped)
+}
+
+/// The equation with this link left out.
+#[must_use]
+pub fn triangle_without<R: Ring>(form: &LinkForm<R, 3, 3>, dropped: usize) -> Triangle<R> {
     let (first, second) = (&form.links[(dropped + 1) % 3].rotation, &form.links[(dropped + 2) % 3].rotation);
     let ([r1, r2, r3], [q1, q2, q3]) = (&first[2], [&second[0][2], &second[1][2], &second[2][2]]);
     let constant = r3.mul(q3).sub(&form.links[dropped].rotation[2][2]);

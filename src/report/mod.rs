@@ -1,5 +1,6 @@
 //! What a reader sees: the verdict in one line, tables, normalised models, JSON.
 
+pub mod atlas;
 pub mod derivation;
 pub mod derivatives;
 pub mod framework;
@@ -8,6 +9,8 @@ pub mod mobility;
 pub mod model;
 pub mod motion;
 pub mod number;
+pub mod picture;
 pub mod sweep;
+pub mod symbolic;
 pub mod table;
 pub mod text;

@@ -51,6 +51,15 @@ impl<F: Field> Members<'_, F> {
     /// When the number of values is wrong.
     #[must_use]
     pub fn member(&self, tangents: &[F], lengths: &[F]) -> Option<Vec<Link<F>>> {
+        self.links(&self.values(tangents, lengths)?)
+    }
+
+    /// The values of all variables of [`Symbols`] for that member.
+    ///
+    /// # Panics
+    /// When the number of values is wrong.
+    #[must_use]
+    pub fn values(&self, tangents: &[F], lengths: &[F]) -> Option<Vec<F>> {
         let (symbols, free) = (&self.ansatz.symbols, self.ansatz.free_lengths());
         assert_eq!(tangents.len(), self.ansatz.free_angles.len(), "one tangent for every free angle");
         assert_eq!(lengths.len(), free.len(), "one value for every free length");
@@ -77,9 +86,17 @@ impl<F: Field> Members<'_, F> {
             values[symbols.length(length)] = value.clone();
         }
         self.solve(&mut values)?;
+        Some(values)
+    }
+
+    /// The loop for given values of all variables; `None` for an unlucky prime.
+    #[must_use]
+    pub fn links(&self, values: &[F]) -> Option<Vec<Link<F>>> {
+        let angle = |k: usize| (values[Symbols::cos(k)].clone(), values[Symbols::sin(k)].clone());
+        let angles: Vec<(F, F)> = (0..self.ansatz.symbols.angles.len()).map(angle).collect();
         let links = self.joints.iter().enumerate().map(|(k, [a, d])| {
             let (cos, sin) = self.ansatz.joints[k].alpha.cos_sin(&angles)?;
-            Some(Link { cos, sin, a: a.evaluate(&values), d: d.evaluate(&values) })
+            Some(Link { cos, sin, a: a.evaluate(values), d: d.evaluate(values) })
         });
         links.collect()
     }
