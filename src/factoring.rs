@@ -47,10 +47,12 @@ pub struct Loop {
 }
 
 impl Loop {
-    /// Joints and the order of their screw system decide: it moves, and no more than this.
+    /// Least and greatest dimension of the motions: it moves, and to first order in as many ways as joints exceed the order of
+    /// their screw system; of order 6, or with one such way, that is what there is.
     #[must_use]
-    pub fn mobility(&self) -> usize {
-        self.axes.len() - self.order
+    pub fn mobility(&self) -> (usize, usize) {
+        let most = self.axes.len() - self.order;
+        (if self.order == 6 { most } else { 1 }, most)
     }
 }
 

@@ -39,7 +39,7 @@ fn bennett_is_recognised_exactly() {
     assert!(all.contains(&"1 17/9 10/9 -4/9 0 -58/81 85/81 -34/81".to_owned()), "{all:?}");
     assert!(all.contains(&"0 1/9 8/9 4/9 0 -104/81 -4/81 34/81".to_owned()), "{all:?}");
     let closed = factored.closed_loop(None).unwrap().unwrap();
-    assert_eq!((closed.letters.as_str(), closed.order, closed.mobility()), ("4R", 3, 1));
+    assert_eq!((closed.letters.as_str(), closed.order, closed.mobility()), ("4R", 3, (1, 1)));
     assert_eq!(closed.bennett, Some(rational("5/4")));
     let links = closed.parameters.unwrap();
     for k in 0..4 {

@@ -10,7 +10,7 @@ use crate::kinematics::motion::Vector;
 use rug::Rational;
 
 /// Frameworks with more vertices are refused: their rigidity matrices are dense here.
-const MOST_VERTICES: usize = 200;
+const MOST_VERTICES: usize = 100;
 
 /// A framework file, read.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use super::{Finding, Judgement, Sort};
 use crate::catalogue::{FrameworkFile, MotionFile};
 use crate::error::Result;
-use crate::factoring::factor;
+use crate::factoring::{Loop, factor};
 
 /// Steps of a motion that are enough to see it.
 const STEPS: usize = 10;
@@ -45,7 +45,8 @@ pub(super) fn motion(file: &MotionFile) -> Result<Judgement> {
     };
     count(file.factorisations, Some(factored.factorisations()), "factorisations:");
     count(file.order, closed.as_ref().map(|closed| closed.order), "a screw system of order");
-    count(file.dimension, closed.as_ref().map(crate::factoring::Loop::mobility), "motions of dimension");
+    let sure = |closed: &Loop| Some(closed.mobility()).filter(|(least, most)| least == most).map(|(least, _)| least);
+    count(file.dimension, closed.as_ref().and_then(sure), "motions of dimension");
     if let Some(claimed) = &file.closed_loop {
         let found = closed.map_or("none".to_owned(), |closed| closed.letters);
         findings.push(finding(file.line, found == *claimed, format!("claims a loop {claimed}, found {found}")));

@@ -18,12 +18,13 @@ pub fn verdict(factored: &Factored, closed: Option<&Loop>) -> String {
         (Factored::Exact(_), Some(closed)) => {
             let (i, j) = closed.pair;
             let name = closed.bennett.as_ref().map_or("", |_| " (Bennett)");
+            let (least, most) = closed.mobility();
+            let mobility = if least == most { least.to_string() } else { format!("{least} to {most}") };
             format!(
-                "{count} over the rationals; {} and {} close a {} loop{name}, mobile: mobility {}, screw rank {}; proof: exact",
+                "{count} over the rationals; {} and {} close a {} loop{name}, mobile: mobility {mobility}, screw rank {}; proof: exact",
                 i + 1,
                 j + 1,
                 closed.letters,
-                closed.mobility(),
                 closed.order
             )
         }
@@ -149,10 +150,11 @@ pub fn json(file: &MotionFile, factored: &Factored, closed: Option<&Loop>) -> Va
             };
             links.iter().map(one).collect::<Vec<_>>()
         });
+        let (least, most) = closed.mobility();
         json!({
             "pair": [closed.pair.0 + 1, closed.pair.1 + 1],
             "joints": closed.letters,
-            "mobility": closed.mobility(),
+            "mobility": if least == most { json!(least) } else { json!([least, most]) },
             "screw_rank": closed.order,
             "system": closed.system,
             "proof": "exact",

@@ -9,8 +9,11 @@
 use super::Framework;
 use super::octahedron::{Diagonal, Octahedron};
 use crate::algebra::number::Number;
+use crate::kinematics::motion::{Vector, cross, dot};
 use rug::{Float, Rational};
 
+/// Four points whose volume is this small a share of the product of three edges are in a plane.
+const FLAT: f64 = 1e-6;
 /// A held distance that is no bar is a rational number to so many digits.
 const DIGITS: u32 = 9;
 
@@ -51,7 +54,8 @@ fn about(framework: &Framework<f64>, squares: &[Rational], [p, q]: [usize; 2]) -
         for (j, &y) in wings.iter().enumerate().skip(k + 1) {
             if joined(x, y) {
                 let (from, to) = (component[j], component[k]);
-                if from == to {
+                // In one plane with p and q the bar would not hold the angle to first order.
+                if from == to || is_flat([p, q, x, y].map(|v| &framework.vertices[v])) {
                     return None;
                 }
                 component.iter_mut().filter(|c| **c == from).for_each(|c| *c = to);
@@ -81,4 +85,12 @@ fn about(framework: &Framework<f64>, squares: &[Rational], [p, q]: [usize; 2]) -
     component.sort_unstable();
     component.dedup();
     (is_everything && covered.iter().all(|c| *c) && component.len() > 1 && !inside.is_empty()).then_some(found)
+}
+
+/// Whether four points are nearly in a plane.
+fn is_flat([p, q, x, y]: [&Vector<f64>; 4]) -> bool {
+    let from_p = |v: &Vector<f64>| -> Vector<f64> { std::array::from_fn(|k| v[k] - p[k]) };
+    let (q, x, y) = (from_p(q), from_p(x), from_p(y));
+    let size = [q, x, y].iter().map(|v| dot(v, v).sqrt()).product::<f64>();
+    !(dot(&q, &cross(&x, &y)).abs() > FLAT * size)
 }
