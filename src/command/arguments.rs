@@ -33,6 +33,8 @@ pub enum Verb {
     Mobility(MobilityOptions),
     /// Factor a rational motion and close loops of its factorisations
     Factor(FactorOptions),
+    /// Derive for which parameters a closed chain of revolute joints moves
+    Conditions(ConditionsOptions),
     /// List the built-in library
     List(ListOptions),
     /// Print a mechanism as it was understood
@@ -230,6 +232,33 @@ pub struct SweepOptions {
     pub threads: Option<usize>,
     /// Print the verdict only
     #[arg(short, long)]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// `looproot conditions`
+#[derive(Args)]
+pub struct ConditionsOptions {
+    /// 4R (all parameters symbols), a file of a loop with symbols or numbers, the name of a built-in one, or - for standard
+    /// input
+    pub mechanism: String,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// The conditions of one family as a file for another program
+    #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]
+    pub format: Option<Format>,
+    /// Which family: a part of its name, such as "spherical" [default: the first one]
+    #[arg(long, value_name = "NAME", requires = "format")]
+    pub family: Option<String>,
+    /// The whole derivation in Markdown with LaTeX formulas
+    #[arg(long, conflicts_with_all = ["json", "format"])]
+    pub explain: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
     pub quiet: bool,
     #[command(flatten)]
     pub read: ReadOptions,

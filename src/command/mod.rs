@@ -5,6 +5,8 @@ pub mod bench;
 pub mod bless;
 pub mod check;
 pub mod completions;
+pub mod conditions;
+pub mod conditions_search;
 pub mod derive;
 pub mod exit;
 pub mod factor;

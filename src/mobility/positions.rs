@@ -193,7 +193,14 @@ impl<'a> Cut<'a> {
         let mut list = List::default();
         // The half-turn, where t is infinite.
         list.add(self.position(&[Algebraic::zero(), Algebraic::one()]), None)?;
-        let mut polynomial = determinant.square_free_part();
+        let circle = Univariate::new([1, 0, 1].map(Rational::from).to_vec());
+        let (spurious, mut polynomial) = determinant.square_free_part().remove_factor(&circle);
+        if spurious > 0 {
+            // No angle has the tangent i, but limits may.
+            let field = NumberField::new(&circle);
+            let here = self.position(&[Algebraic::one(), field.root()]);
+            list.is_improper |= !matches!(here, Here::Nothing) || field.split().is_some();
+        }
         let mut open = Vec::new();
         if polynomial.degree() > Some(0) {
             for mut root in polynomial.real_roots() {

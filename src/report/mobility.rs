@@ -54,7 +54,7 @@ pub fn text(entry: &Entry, answer: &Mobility) -> String {
     let mut text = verdict(answer) + "\n";
     paragraph(&mut text, &answer.reason);
     let freedoms = answer.variables.len();
-    let _ = writeln!(text, "{} of the joints, {freedoms} - 6 = {}", counted(freedoms, "freedom"), answer.gruebler());
+    let _ = writeln!(text, "Gruebler: {} less 6 = {}", counted(freedoms, "joint freedom"), answer.gruebler());
     let names: Vec<(String, Variable)> = entry.chain().map(variables).unwrap_or_default();
     for (number, configuration) in answer.configurations.iter().enumerate() {
         let Configuration { rank, .. } = configuration;
@@ -62,7 +62,11 @@ pub fn text(entry: &Entry, answer: &Mobility) -> String {
         let redundant = if deficit == 0 {
             String::new()
         } else {
-            format!(": {} as redundant, {freedoms} - {rank} = {}", counted(deficit, "constraint"), freedoms - rank)
+            format!(
+                ", degree of freedom {freedoms} - {rank} = {}, {}",
+                freedoms - rank,
+                counted(deficit, "redundant constraint")
+            )
         };
         let words = format!(
             "\nconfiguration {} ({}): screw rank {rank}{redundant}; {}",

@@ -1,6 +1,8 @@
 //! What a reader sees: the verdict in one line, tables, normalised models, JSON.
 
 pub mod atlas;
+pub mod conditions;
+pub mod conditions_search;
 pub mod derivation;
 pub mod derivatives;
 pub mod framework;
