@@ -84,7 +84,6 @@ impl Framework<Rational> {
 }
 
 /// Vertices of a body that are affinely independent, at most four, and the others as combinations of them.
-#[expect(clippy::type_complexity, reason = "two lists, one of pairs")]
 fn split(vertices: &[Vector<Rational>], body: &[usize]) -> (Vec<usize>, Vec<(usize, Vec<Rational>)>) {
     let (mut base, mut dependent): (Vec<usize>, Vec<(usize, Vec<Rational>)>) = (Vec::new(), Vec::new());
     for &vertex in body {

@@ -195,7 +195,7 @@ impl Condition {
 /// Whether a polynomial is positive wherever the argument is within a share [`NEAR`] of s: its constant Taylor coefficient there
 /// exceeds all others together.
 fn is_positive_near(p: &Poly, s: &Rational) -> bool {
-    let distance = Rational::from(s * Rational::from(NEAR));
+    let distance = s * Rational::from(NEAR);
     let shifted = Poly::new(vec![s.clone(), Rational::from(1)]);
     let taylor =
         p.coefficients().iter().rev().fold(Poly::zero(), |sum, c| sum.mul(&shifted).add(&Poly::constant(c.clone())));
