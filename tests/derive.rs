@@ -67,7 +67,7 @@ fn named(chain: &Chain, q: &[f64]) -> BTreeMap<String, f64> {
     values
 }
 
-/// The value over the sum of the sizes of all terms.
+/// The value over the sum of the sizes of all terms, which at the origin may all be rounding.
 fn relative(polynomial: &Polynomial<Rational>, names: &[String], values: &BTreeMap<String, f64>) -> f64 {
     let largest = polynomial.coefficients().iter().map(|c| c.clone().abs()).max().unwrap();
     let (mut sum, mut size) = (0.0, 0.0);
@@ -79,7 +79,7 @@ fn relative(polynomial: &Polynomial<Rational>, names: &[String], values: &BTreeM
         sum += term;
         size += term.abs();
     }
-    sum.abs() / size
+    sum.abs() / (size + 1e-6)
 }
 
 /// All equations, in both forms, at a solution; those in half-angle tangents only where no angle is pi.
