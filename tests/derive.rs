@@ -10,6 +10,7 @@ use looproot::derivation::{ClosurePolynomial, Derivation, RootPose, derive};
 use looproot::elimination::triangle_platform::{Triangle, pairs};
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::dual_quaternion::Quaternion;
+use looproot::kinematics::platform::Platform;
 use looproot::mechanism::{FullMode, Mechanism, Solution};
 use looproot::report::derivation::{markdown, verdict};
 use looproot::verdict::Status;
@@ -147,7 +148,8 @@ fn arms_of_the_library_are_derived_as_they_are_solved() {
 /// Which legs meet at the plate, and the triangle they carry.
 fn triangle(design: &Design, case: &Case) -> Option<([[usize; 2]; 3], Triangle<Rational>)> {
     let Design::Platform(platform) = design else { return None };
-    let platform = platform.map(|x| Some(x.rational().clone()))?;
+    let exact = |points: &[[Number; 3]; 6]| points.each_ref().map(|p| p.each_ref().map(|x| x.rational().clone()));
+    let platform = Platform { base: exact(&platform.base), plate: exact(&platform.plate) };
     let squares = case.legs_squared.as_ref()?.each_ref().map(|square| square.rational().clone());
     let pairs = pairs(&platform)?;
     Some((pairs.legs, Triangle::new(&platform, &squares, &pairs)?))

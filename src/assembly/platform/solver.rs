@@ -196,15 +196,12 @@ fn by_homotopy(homotopy: &Homotopy, general: &[Found], search: &mut Search) {
         let conjugate = (!found.real).then(|| found.study.map(|z| z.conj()));
         for (side, start) in [Some(found.study), conjugate].into_iter().flatten().enumerate() {
             match homotopy.carry(&start) {
-                End::Regular(point) => {
-                    search.arrive(&point, 2 * index + side);
-                }
                 // Solutions on a curve are none to be listed, but a real one may pass near.
                 End::Singular(point) if self_motion(homotopy.target, &point) > 0 => {
                     search.lost += 1;
                     search.keep_stray(&real_parts(&point)[2]);
                 }
-                End::Singular(point) => {
+                End::Regular(point) | End::Singular(point) => {
                     search.arrive(&point, 2 * index + side);
                 }
                 End::Null => search.null += 1,
