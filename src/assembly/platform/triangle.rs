@@ -26,8 +26,8 @@ const VANISHING: f64 = 1e-10;
 /// A turn of the complex numbers after which no solution of a real mechanism is at infinity.
 const TURN: [Complex<f64>; 2] = [Complex::new(0.61, 0.27), Complex::new(-0.33, 0.67)];
 
-/// The circle in homogeneous coordinates of its points: `(2 x y, r (y^2 + x^2), -i r (y^2 - x^2))`, linear in neither, with
-/// (x, y) from one complex number s.
+/// The circle in homogeneous coordinates of its points, `(2 x y, r (y^2 + x^2), -i r (y^2 - x^2))`, with x and y linear in one
+/// complex number s.
 fn on_circle<S: Ring>(s: &S, radius: Complex<f64>, constant: impl Fn(Complex<f64>) -> S) -> [S; 3] {
     let [p, q] = TURN;
     let x = constant(p).add(&constant(q).mul(s));
