@@ -34,6 +34,12 @@ impl LongFloat {
         if self.negative { -size } else { size }
     }
 
+    /// The least k with `|self| < 2^k`; of zero the least there is.
+    #[must_use]
+    pub fn exponent(self) -> i32 {
+        if self.is_zero() { i32::MIN } else { self.exponent }
+    }
+
     /// `self 2^k`, exactly.
     #[must_use]
     pub fn shifted(self, k: i32) -> Self {

@@ -4,6 +4,7 @@ mod candidate;
 mod mode;
 mod prepared;
 mod reflection;
+mod rescue;
 mod search;
 mod self_motion;
 mod solver;
