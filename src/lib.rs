@@ -28,6 +28,10 @@ pub mod derivation;
 
 pub mod sweep;
 
+pub mod mobility;
+
+pub mod conditions;
+
 pub mod benchmark;
 
 pub mod claims;

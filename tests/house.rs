@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, each importing earlier ones only.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 18] = [
     "error",
     "algebra",
     "kinematics",
@@ -20,6 +20,8 @@ const LAYERS: [&str; 16] = [
     "mechanism",
     "derivation",
     "sweep",
+    "mobility",
+    "conditions",
     "benchmark",
     "claims",
     "report",

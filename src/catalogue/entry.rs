@@ -1,6 +1,6 @@
 //! What a mechanism file says.
 
-use crate::algebra::number::{Angle, Number};
+use crate::algebra::number::{Angle, Number, Reading};
 use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::platform::Platform;
 
@@ -75,6 +75,12 @@ impl Case {
     #[must_use]
     pub fn at(pose: Placement, line: usize) -> Self {
         Self { pose: Some(pose), ..Self::empty(line) }
+    }
+
+    /// A loop without input, without claims.
+    #[must_use]
+    pub fn free(line: usize) -> Self {
+        Self::empty(line)
     }
 
     /// An input of a loop, without claims.
@@ -155,6 +161,8 @@ pub struct Entry {
     pub cases: Vec<Case>,
     /// Whether some number of the file had to be replaced by a nearby rational for exact work.
     pub rounded: bool,
+    /// How numbers without a unit are read in the file.
+    pub reading: Reading,
 }
 
 impl Entry {

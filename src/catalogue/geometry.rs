@@ -88,7 +88,7 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     let chain = Chain { geometry, base: placed("base")?, tool: placed("tool")? };
     let expected = match kind {
         Kind::Arm => (6, "expected 6 for an arm"),
-        _ => (7, "expected 7 for a loop: one given as input, six to find"),
+        _ => (7, "expected at most 7 for a loop: one given as input, six to find"),
     };
     check_count(scope, &chain, joints.line, expected)?;
     let limits = table.get("limits").map_or(Ok(Vec::new()), |node| limits(scope, node, &chain))?;
@@ -102,7 +102,8 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
     let count: usize = kinds.iter().map(|kind| variables(*kind).len()).sum();
     let balls = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
     // The spin of a link between two balls is a freedom that moves nothing else.
-    if count == expected.0 || (expected.0 == 7 && count == 8 && balls == 2) {
+    let is_short_loop = expected.0 == 7 && (2..7).contains(&count);
+    if count == expected.0 || is_short_loop || (expected.0 == 7 && count == 8 && balls == 2) {
         return Ok(());
     }
     let joints = kinds.len();
@@ -115,10 +116,7 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
                 if balls > 1 { "; the spin of a link between two S joints about their centres counts" } else { "" };
             format!("mobility {mobility} by Gruebler's count ({count} - 6){spin}: {freedoms} too many for one input")
         }
-        (7, false) => format!(
-            "mobility {} by Gruebler's count ({count} - 6): {freedoms} missing for one input, if it is not overconstrained",
-            count.cast_signed() - 6
-        ),
+        (7, false) => "no loop of them can close in more than one way".to_owned(),
         (_, true) => format!("a pose leaves {freedoms} undetermined"),
         (_, false) => format!("{freedoms} missing for a pose"),
     };

@@ -40,10 +40,11 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
         }
         first.expected = top;
     }
-    Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, cases, rounded: scope.is_rounded() })
+    let (rounded, reading) = (scope.is_rounded(), scope.reading.clone());
+    Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, cases, rounded, reading })
 }
 
-/// The poses of an arm, the inputs of a loop, the legs of a platform: one at least.
+/// The poses of an arm, the inputs of a loop, the legs of a platform: one at least, or a loop that needs no input.
 fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case>) -> Result<Vec<Case>> {
     let (what, allowed): (&str, &[&str]) = match design {
         Design::Arm(_) => ("an arm", &["pose"]),
@@ -63,6 +64,12 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
             let message = "found no legs, expected `legs` or `legs_squared` in the [mechanism], [[legs]] or [[pose]]";
             return Err(scope.fail(table.line(), message));
         }
+        ([], None) if is_short(design) => return Ok(vec![Case::free(table.line())]),
+        ([], None) if matches!(design, Design::Loop(_)) => {
+            let message = "found no [[input]], expected one: the loop has a mobility of 1 by Gruebler's count, and one \
+                           joint variable has to be given (a loop of six variables or fewer needs none)";
+            return Err(scope.fail(table.line(), message));
+        }
         ([], None) => (allowed[0], scope.need(table, allowed[0])?),
         ([.., (_, node)], _) => {
             return Err(scope.fail(node.line, "found the legs of a platform in two places, expected one"));
@@ -80,7 +87,13 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
     blocks.iter().map(read).collect()
 }
 
-fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
+/// Whether a loop has no more variables than equations, so that it needs no input.
+fn is_short(design: &Design) -> bool {
+    let Design::Loop(chain) = design else { return false };
+    kinds(chain).iter().map(|kind| variables(*kind).len()).sum::<usize>() < 7
+}
+
+pub(super) fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
     let table = scope.table(node, "`units`", &["length", "angle"])?;
     if let Some(length) = table.get("length") {
         let unit = scope.word(length, "length", &["m", "cm", "mm"])?;
@@ -93,7 +106,7 @@ fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
     Ok(())
 }
 
-fn source(scope: &Scope<'_>, node: &Node) -> Result<Source> {
+pub(super) fn source(scope: &Scope<'_>, node: &Node) -> Result<Source> {
     let table = scope.table(node, "`source`", &["key", "where"])?;
     let key = scope.text(scope.need(&table, "key")?, "key")?.to_owned();
     let place = table.get("where").map(|node| scope.text(node, "where").map(str::to_owned)).transpose()?;

@@ -1,5 +1,6 @@
 //! From the text of a mechanism to its entry: which reader it goes to.
 
+use super::ansatz::{Ansatz, ansatz};
 use super::entry::Entry;
 use super::options::Options;
 use super::scope::Scope;
@@ -29,6 +30,39 @@ pub enum Format {
 /// # Errors
 /// [`Error::File`] with file and line for what the text says, [`Error::Unsupported`] for kinds not solved yet.
 pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Entry> {
+    let (text, name, mut scope) = prepared(text, path, options)?;
+    match format {
+        Format::Toml => job::entry(&mut scope, &node::from_toml(text, path)?, &name),
+        Format::Json => job::entry(&mut scope, &node::from_json(text, path)?, &name),
+        Format::Csv => dh_table::entry(&scope, text, &name),
+        Format::Urdf => urdf::entry(&scope, text, &name, options),
+    }
+}
+
+/// Reads a loop with symbols for parameters from text; `path` is the name that errors give.
+///
+/// # Errors
+/// [`Error::File`] with file and line for what the text says, [`Error::Unsupported`] for loops that are beyond this.
+pub fn ansatz_from_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Ansatz> {
+    let (text, name, mut scope) = prepared(text, path, options)?;
+    let root = match format {
+        Format::Toml => node::from_toml(text, path)?,
+        Format::Json => node::from_json(text, path)?,
+        Format::Csv | Format::Urdf => {
+            return Err(Error::Unsupported(format!("{path}: conditions are read from TOML or JSON only")));
+        }
+    };
+    ansatz(&mut scope, &root, &name)
+}
+
+/// Whether a text in TOML is an ansatz and no mechanism: whether it has symbols.
+#[must_use]
+pub fn is_ansatz(text: &str) -> bool {
+    text.lines().any(|line| line.trim_start().starts_with("[symbols]"))
+}
+
+/// The text without byte-order mark, the name of the mechanism and what its reader carries along.
+fn prepared<'a>(text: &'a str, path: &'a str, options: &Options) -> Result<(&'a str, String, Scope<'a>)> {
     if !(1..=MOST_DIGITS).contains(&options.digits) {
         return Err(Error::Invalid(format!("found {} digits, expected 1 to {MOST_DIGITS}", options.digits)));
     }
@@ -45,13 +79,7 @@ pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> R
     }
     let name = Path::new(path).file_stem().map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned());
     let reading = Reading { digits: options.digits, ..Reading::default() };
-    let mut scope = Scope::new(path, reading);
-    match format {
-        Format::Toml => job::entry(&mut scope, &node::from_toml(text, path)?, &name),
-        Format::Json => job::entry(&mut scope, &node::from_json(text, path)?, &name),
-        Format::Csv => dh_table::entry(&scope, text, &name),
-        Format::Urdf => urdf::entry(&scope, text, &name, options),
-    }
+    Ok((text, name, Scope::new(path, reading)))
 }
 
 /// The format that the beginning of a text shows.

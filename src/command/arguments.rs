@@ -29,6 +29,10 @@ pub enum Verb {
     Derive(DeriveOptions),
     /// Run the input of a loop through a range: branches, limit positions
     Sweep(SweepOptions),
+    /// Decide whether a loop moves, with proof
+    Mobility(MobilityOptions),
+    /// Derive for which parameters a closed chain of revolute joints moves
+    Conditions(ConditionsOptions),
     /// List the built-in library
     List(ListOptions),
     /// Print a mechanism as it was understood
@@ -156,11 +160,26 @@ pub struct SolveOptions {
 #[derive(Args)]
 pub struct DeriveOptions {
     /// A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input; of several
-    /// poses or inputs the first one, unless one is asked for
-    pub mechanism: String,
+    /// poses or inputs the first one, unless one is asked for; with --bless files and folders
+    #[arg(required = true, value_name = "MECHANISM")]
+    pub mechanisms: Vec<String>,
     /// One JSON document
     #[arg(long)]
     pub json: bool,
+    /// Keep link parameters and the input as symbols: all that are neither zero nor a right angle, or those named, as
+    /// a1,alpha2,d3,theta4
+    #[arg(
+        long,
+        value_name = "NAMES",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        conflicts_with = "explain"
+    )]
+    pub symbolic: Option<String>,
+    /// Write the equations, where they fit two pages, to name.eqs beside every name.toml
+    #[arg(long, conflicts_with_all = ["json", "format", "explain", "symbolic", "output"])]
+    pub bless: bool,
     /// The equations in half-angle form (of a platform: in Study's parameters) and the closure polynomial as a file for
     /// another program
     #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]
@@ -198,8 +217,11 @@ pub struct SweepOptions {
     #[arg(long, value_name = "N", default_value = "360", value_parser = steps)]
     pub steps: usize,
     /// CSV: one row for every branch and step, radians and metres
-    #[arg(long, conflicts_with = "json")]
+    #[arg(long, conflicts_with_all = ["json", "svg"])]
     pub csv: bool,
+    /// A picture: every joint variable against the input
+    #[arg(long, conflicts_with = "json")]
+    pub svg: bool,
     /// One JSON document
     #[arg(long)]
     pub json: bool,
@@ -215,6 +237,33 @@ pub struct SweepOptions {
     pub output: OutputOptions,
 }
 
+/// `looproot conditions`
+#[derive(Args)]
+pub struct ConditionsOptions {
+    /// 4R (all parameters symbols), a file of a loop with symbols or numbers, the name of a built-in one, or - for standard
+    /// input
+    pub mechanism: String,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// The conditions of one family as a file for another program
+    #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]
+    pub format: Option<Format>,
+    /// Which family: a part of its name, such as "spherical" [default: the first one]
+    #[arg(long, value_name = "NAME", requires = "format")]
+    pub family: Option<String>,
+    /// The whole derivation in Markdown with LaTeX formulas
+    #[arg(long, conflicts_with_all = ["json", "format"])]
+    pub explain: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
 /// A number of steps.
 fn steps(text: &str) -> Result<usize, String> {
     const MOST: usize = 100_000;
@@ -222,6 +271,23 @@ fn steps(text: &str) -> Result<usize, String> {
         Ok(steps @ 1..=MOST) => Ok(steps),
         _ => Err(format!("expected 1 to {MOST}")),
     }
+}
+
+/// `looproot mobility`
+#[derive(Args)]
+pub struct MobilityOptions {
+    /// A file of a loop, the name of a built-in entry, or - for standard input; inputs of the file are not looked at
+    pub mechanism: String,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
 }
 
 /// `looproot list`

@@ -11,6 +11,7 @@ use looproot::catalogue::load;
 use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::closed_loop::Variable;
+use looproot::report::picture::svg;
 use looproot::report::sweep::{self as report, Swept};
 use looproot::sweep::{Range, Sweep, sweep};
 use looproot::verdict::Status;
@@ -25,7 +26,8 @@ pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
         return Err(Error::Invalid(format!("found {what}, expected a loop, which has an input to sweep")).into());
     };
     let swept = swept(options, &entry, chain)?;
-    let [from, to] = [("--from", &options.from), ("--to", &options.to)].map(|(name, text)| end(name, text, swept));
+    let ends = [("--from", &options.from), ("--to", &options.to)];
+    let [from, to] = ends.map(|(name, text)| end(name, text, swept, &entry.reading));
     let (from, to) = (from?, to?);
     if from == to {
         let message = format!("found --from and --to both {}, expected a range", options.from);
@@ -56,6 +58,8 @@ fn write(options: &SweepOptions, entry: &Entry, swept: Swept, found: &Sweep, mut
     let out = &mut output.writer;
     if options.json {
         writeln!(out, "{}", report::json(entry, swept, found))?;
+    } else if options.svg {
+        write!(out, "{}", svg(entry, swept, found))?;
     } else if options.csv {
         write!(out, "{}", report::csv(entry, found))?;
     } else if options.quiet {
@@ -107,12 +111,11 @@ fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, 
     Ok(Swept { joint, variable })
 }
 
-/// An end of the range.
-fn end(name: &str, text: &str, swept: Swept) -> Result<f64, Error> {
-    let reading = Reading::default();
+/// An end of the range; a number without a unit has that of the file.
+fn end(name: &str, text: &str, swept: Swept, reading: &Reading) -> Result<f64, Error> {
     let value = match swept.variable {
-        Variable::Rotation => Angle::parse(text, &reading).map(|angle| angle.radians()),
-        Variable::Translation => Number::parse(text, Quantity::Length, &reading).map(|length| length.to_f64()),
+        Variable::Rotation => Angle::parse(text, reading).map(|angle| angle.radians()),
+        Variable::Translation => Number::parse(text, Quantity::Length, reading).map(|length| length.to_f64()),
     };
     value.map_err(|error| match error {
         Error::Invalid(message) => Error::Invalid(format!("{name}: {message}")),

@@ -2,6 +2,7 @@
 
 pub mod border;
 pub mod characteristic;
+pub mod common_roots;
 pub mod cut;
 pub mod degree;
 pub mod graded_quotient;
@@ -17,3 +18,4 @@ pub mod separated;
 pub mod spherical_four_bar;
 pub mod spherical_pair;
 pub mod spherical_triangle;
+pub mod triangle_platform;

@@ -5,7 +5,8 @@
 //! path serves all. \[LeeLiang1988\]
 
 use super::chain::{Chain, Geometry, Joint, JointKind, ScrewJoint};
-use super::motion::{Motion, dot, link};
+use super::idle::Idle;
+use super::motion::{Motion, dot};
 use crate::algebra::number::{Angle, Number};
 use crate::algebra::ring::Ring;
 use crate::error::Error;
@@ -54,6 +55,8 @@ pub struct Layout {
     pub ball: Option<usize>,
     /// The same of a second ball: then the link between the two spins freely, an eighth variable.
     pub second_ball: Option<usize>,
+    /// What makes up for too few unknowns, in the order of the joint variables behind which they stand.
+    pub idle: Vec<Idle>,
 }
 
 /// A loop of two balls and one unknown V, `X L Y K V H = I` with rotations X and Y: the link L between the balls spins
@@ -70,6 +73,40 @@ pub struct Coupled<R> {
     pub behind: Motion<R>,
     /// Indices of the first variables of the two balls, and of V, in joint order.
     pub indices: [usize; 3],
+}
+
+/// A constant of a DH joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// Link length a.
+    Length,
+    /// Link twist alpha.
+    Twist,
+    /// d, the offset along the axis.
+    Offset,
+    /// theta, the constant angle about the axis.
+    Angle,
+}
+
+/// What the constants of DH joints, counted from 0, are in a ring.
+pub trait Parameters<R: Ring> {
+    /// Cosine and sine of an angle; `None` for an unlucky prime.
+    fn angle(&self, joint: usize, parameter: Parameter, value: &Angle) -> Option<(R, R)>;
+    /// A length; `None` for an unlucky prime.
+    fn length(&self, joint: usize, parameter: Parameter, value: &Number) -> Option<R>;
+}
+
+/// The constants are the numbers of the file.
+#[derive(Clone, Copy, Debug)]
+pub struct Numbers;
+
+impl<R: Ring> Parameters<R> for Numbers {
+    fn angle(&self, _joint: usize, _parameter: Parameter, value: &Angle) -> Option<(R, R)> {
+        R::cos_sin(value)
+    }
+    fn length(&self, _joint: usize, _parameter: Parameter, value: &Number) -> Option<R> {
+        R::from_number(value)
+    }
 }
 
 /// One motion of a chain on the way from base to tool.
@@ -118,7 +155,55 @@ impl Layout {
                 }
             }
         }
-        Ok(Self { variables, locked, ball, second_ball })
+        Ok(Self { variables, locked, ball, second_ball, idle: Vec::new() })
+    }
+
+    /// How many unknowns there are too few; 0 where there are six or more.
+    #[must_use]
+    pub fn missing(&self) -> usize {
+        6_usize.saturating_sub(self.variables.len() - usize::from(self.locked.is_some()))
+    }
+
+    /// The same with idle unknowns, of which the first `rotations` are rotations, to make up for those that are missing.
+    #[must_use]
+    pub fn with_idle(&self, rotations: usize, choice: u32) -> Self {
+        let total = self.variables.len();
+        // Far from the input, translations all in one place, where their directions cannot become dependent.
+        let first = self.locked.map_or(0, |locked| (locked + total / 2) % total);
+        let kind = |k| if k < rotations { Variable::Rotation } else { Variable::Translation };
+        let missing = u32::try_from(self.missing()).unwrap_or(0);
+        let mut idle: Vec<Idle> = (0..missing)
+            .zip(0..)
+            .map(|(number, k)| Idle {
+                behind: (first + k.min(rotations)) % total,
+                variable: kind(k),
+                choice: choice * missing + number,
+            })
+            .collect();
+        idle.sort_by_key(|idle| idle.behind);
+        Self { idle, ..self.clone() }
+    }
+
+    /// What each of the six unknowns does and which joint variable it is, in loop order; none for idle unknowns.
+    fn order(&self) -> [(Variable, Option<usize>); 6] {
+        let behind = |k: usize| self.idle.iter().filter(move |idle| idle.behind == k).map(|idle| (idle.variable, None));
+        let joint = |k: usize| std::iter::once((self.variables[k], Some(k)));
+        let order: Vec<_> = (0..self.variables.len()).flat_map(|k| joint(k).chain(behind(k))).collect();
+        // The loop begins behind the locked variable and runs round to the one before it.
+        let start = order.iter().position(|(_, k)| k.is_some() && *k == self.locked).map_or(0, |at| at + 1);
+        std::array::from_fn(|k| order[(start + k) % order.len()])
+    }
+
+    /// Which joint variable each of the six unknowns is, in loop order; none for idle unknowns.
+    #[must_use]
+    pub fn joint_variables(&self) -> [Option<usize>; 6] {
+        self.order().map(|(_, joint)| joint)
+    }
+
+    /// What each of the six unknowns does, in loop order.
+    #[must_use]
+    pub fn loop_kinds(&self) -> [Variable; 6] {
+        self.order().map(|(kind, _)| kind)
     }
 
     /// Which unknown of the loop is the first of the three rotations of a ball, if there is one.
@@ -150,12 +235,11 @@ impl Layout {
     /// The joint variables in joint order from the six unknowns in loop order and the locked value.
     #[must_use]
     pub fn assemble<T: Copy>(&self, unknowns: &[T; 6], locked_value: T) -> Vec<T> {
-        let Some(locked) = self.locked else { return unknowns.to_vec() };
-        // The loop begins behind the locked variable and runs round to the one before it.
-        let total = self.variables.len();
-        let mut q = vec![locked_value; total];
-        for (k, value) in unknowns.iter().enumerate() {
-            q[(locked + 1 + k) % total] = *value;
+        let mut q = vec![locked_value; self.variables.len()];
+        for (value, index) in unknowns.iter().zip(self.joint_variables()) {
+            if let Some(index) = index {
+                q[index] = *value;
+            }
         }
         q
     }
@@ -165,15 +249,13 @@ impl Layout {
     #[must_use]
     pub fn unknowns(&self, q: &[f64]) -> Option<[f64; 6]> {
         let total = self.variables.len();
-        match self.locked {
-            None => q.try_into().ok(),
-            Some(locked) if q.len() == total => Some(std::array::from_fn(|k| q[(locked + 1 + k) % total])),
-            Some(locked) if q.len() + 1 == total => Some(std::array::from_fn(|k| {
-                let index = (locked + 1 + k) % total;
-                q[if index > locked { index - 1 } else { index }]
-            })),
-            Some(_) => None,
-        }
+        let without = match self.locked {
+            Some(locked) if q.len() + 1 == total => Some(locked),
+            _ if q.len() == total => None,
+            _ => return None,
+        };
+        let value = |index: usize| q[if without.is_some_and(|locked| index > locked) { index - 1 } else { index }];
+        Some(self.joint_variables().map(|index| index.map_or(0.0, value)))
     }
 }
 
@@ -206,31 +288,30 @@ impl Chain {
     /// # Errors
     /// As [`Chain::open_loop`].
     pub fn try_open_loop<R: Ring>(&self, layout: &Layout) -> Result<Option<OpenLoop<R>>, Error> {
-        let Some(steps) = self.steps::<R>() else { return Ok(None) };
-        // Collect the unknowns with the constants between them; `constants[k]` stands before unknown k.
-        let mut unknowns = Vec::new();
-        let mut constants = vec![Motion::identity()];
-        for step in steps {
-            match step {
-                Step::Constant(motion) => {
-                    let last = constants.len() - 1;
-                    constants[last] = constants[last].then_after(&motion);
-                }
-                Step::Unknown(variable) => {
-                    unknowns.push(variable);
-                    constants.push(Motion::identity());
-                }
-            }
-        }
+        self.open_loop_over(layout, &Numbers)
+    }
+
+    /// As [`Chain::try_open_loop`], with these constants of the joints.
+    ///
+    /// # Errors
+    /// As [`Chain::open_loop`].
+    pub fn open_loop_over<R: Ring>(
+        &self,
+        layout: &Layout,
+        parameters: &impl Parameters<R>,
+    ) -> Result<Option<OpenLoop<R>>, Error> {
+        // `constants[k]` stands before unknown k.
+        let Some((mut unknowns, mut constants)) = self.separated(parameters) else { return Ok(None) };
+        let Some(locked) = self.fill_up(layout, &mut unknowns, &mut constants) else { return Ok(None) };
         let total = unknowns.len();
-        let expected = if layout.locked.is_some() { 7 } else { 6 };
+        let expected = if locked.is_some() { 7 } else { 6 };
         if total != expected {
             return Err(Error::Unsupported(format!(
-                "{total} joint variables: solved are arms with 6 and loops with 7 (one of them given)"
+                "{total} joint variables, {expected} expected: an overconstrained loop is solved and swept only"
             )));
         }
         // An arm's gap stands behind its last constant, a loop's at its locked variable.
-        let open = match layout.locked {
+        let open = match locked {
             None => OpenLoop {
                 variables: std::array::from_fn(|k| unknowns[k]),
                 constants: std::array::from_fn(|k| constants[k + 1].clone()),
@@ -252,13 +333,90 @@ impl Chain {
         Ok(Some(open))
     }
 
+    /// What each joint variable does, in joint order, and the constant motions between them: motion k stands before
+    /// variable k, and the last one behind them all. `None` for an unlucky prime.
+    #[must_use]
+    pub fn unknowns_and_constants<R: Ring>(&self) -> Option<(Vec<Variable>, Vec<Motion<R>>)> {
+        self.separated(&Numbers)
+    }
+
+    fn separated<R: Ring>(&self, parameters: &impl Parameters<R>) -> Option<(Vec<Variable>, Vec<Motion<R>>)> {
+        let mut unknowns = Vec::new();
+        let mut constants = vec![Motion::identity()];
+        for step in self.steps(parameters)? {
+            match step {
+                Step::Constant(motion) => {
+                    let last = constants.len() - 1;
+                    constants[last] = constants[last].then_after(&motion);
+                }
+                Step::Unknown(variable) => {
+                    unknowns.push(variable);
+                    constants.push(Motion::identity());
+                }
+            }
+        }
+        Some((unknowns, constants))
+    }
+
+    /// Puts the idle unknowns of a layout among the unknowns of a chain, and returns which of all is the locked one;
+    /// `None` for an unlucky prime.
+    fn fill_up<R: Ring>(
+        &self,
+        layout: &Layout,
+        unknowns: &mut Vec<Variable>,
+        constants: &mut Vec<Motion<R>>,
+    ) -> Option<Option<usize>> {
+        if layout.idle.is_empty() {
+            return Some(layout.locked);
+        }
+        let unit = self.unit();
+        for idle in layout.idle.iter().rev() {
+            let frame = idle.frame(&unit).map(R::from_rational)?;
+            let at = idle.behind + 1;
+            let behind = std::mem::replace(&mut constants[at], frame.inverse());
+            constants[at] = constants[at].then_after(&behind);
+            constants.insert(at, frame);
+            unknowns.insert(at, idle.variable);
+        }
+        let before = |locked: usize| layout.idle.iter().filter(|idle| idle.behind < locked).count();
+        Some(layout.locked.map(|locked| locked + before(locked)))
+    }
+
+    /// The power of two nearest to the mean length of the links, 1 without lengths.
+    #[must_use]
+    pub fn unit(&self) -> Rational {
+        let square = |lengths: &[&Number]| lengths.iter().map(|x| x.to_f64().powi(2)).sum::<f64>();
+        let squares: Vec<f64> = match &self.geometry {
+            Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
+                joints.iter().map(|j| square(&[&j.a, &j.d])).collect()
+            }
+            Geometry::Screws { joints, .. } => joints.iter().map(|j| square(&j.point.each_ref())).collect(),
+        };
+        let mean = (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt();
+        let unit = if mean.is_normal() { mean.log2().round().exp2() } else { 1.0 };
+        Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
+    }
+
     /// The loop of a chain with two balls, its locked variable filled by this motion.
     ///
     /// # Errors
     /// Unless there is exactly one more unknown; and for an unlucky prime.
     pub fn coupled_loop<R: Ring>(&self, layout: &Layout, filling: &Motion<R>) -> Result<Coupled<R>, Error> {
+        self.coupled_loop_over(layout, filling, &Numbers)
+    }
+
+    /// As [`Chain::coupled_loop`], with these constants of the joints.
+    ///
+    /// # Errors
+    /// As [`Chain::coupled_loop`].
+    pub fn coupled_loop_over<R: Ring>(
+        &self,
+        layout: &Layout,
+        filling: &Motion<R>,
+        parameters: &impl Parameters<R>,
+    ) -> Result<Coupled<R>, Error> {
         let unlucky = || Error::Unsupported("the geometry has no image in this ring (unlucky prime)".into());
-        let steps = self.steps::<R>().ok_or_else(unlucky)?;
+        let steps = self.steps(parameters).ok_or_else(unlucky)?;
         let balls = [layout.ball, layout.second_ball];
         // Index of the first variable and the constant behind each ball and unknown; what stands before the first of
         // them comes last.
@@ -302,21 +460,40 @@ impl Chain {
         Ok(Coupled { variable: layout.variables[v], link, before, behind, indices: [x, y, v] })
     }
 
+    /// The unknowns of a chain read as a loop, each with the constant behind it; what stands before the first one comes
+    /// last. `None` for an unlucky prime, and without unknowns.
+    pub fn cycle<R: Ring>(&self, parameters: &impl Parameters<R>) -> Option<Vec<(Variable, Motion<R>)>> {
+        let mut start = Motion::identity();
+        let mut cycle: Vec<(Variable, Motion<R>)> = Vec::new();
+        for step in self.steps(parameters)? {
+            match step {
+                Step::Unknown(variable) => cycle.push((variable, Motion::identity())),
+                Step::Constant(motion) => {
+                    let last = cycle.last_mut().map_or(&mut start, |(_, constant)| constant);
+                    *last = last.then_after(&motion);
+                }
+            }
+        }
+        let (_, last) = cycle.last_mut()?;
+        *last = last.then_after(&start);
+        Some(cycle)
+    }
+
     /// Everything from base to tool in order; `None` for an unlucky prime.
-    fn steps<R: Ring>(&self) -> Option<Vec<Step<R>>> {
+    fn steps<R: Ring>(&self, parameters: &impl Parameters<R>) -> Option<Vec<Step<R>>> {
         let image = |m: &Motion<Rational>| m.map(R::from_rational);
         let mut steps = vec![Step::Constant(image(&self.base.exact)?)];
         match &self.geometry {
             Geometry::Dh(joints) => {
-                for joint in joints {
-                    joint_steps(joint, &mut steps)?;
-                    steps.push(Step::Constant(link(&joint.a, &joint.alpha)?));
+                for (at, joint) in joints.iter().enumerate() {
+                    joint_steps(at, joint, parameters, &mut steps)?;
+                    steps.push(Step::Constant(link(at, joint, parameters)?));
                 }
             }
             Geometry::ModifiedDh(joints) => {
-                for joint in joints {
-                    steps.push(Step::Constant(link(&joint.a, &joint.alpha)?));
-                    joint_steps(joint, &mut steps)?;
+                for (at, joint) in joints.iter().enumerate() {
+                    steps.push(Step::Constant(link(at, joint, parameters)?));
+                    joint_steps(at, joint, parameters, &mut steps)?;
                 }
             }
             Geometry::Screws { joints, home } => {
@@ -339,7 +516,7 @@ impl Chain {
     pub fn forward<R: Ring>(&self, joint_motions: &[Motion<R>]) -> Option<Motion<R>> {
         let mut motions = joint_motions.iter();
         let mut pose = Motion::identity();
-        for step in self.steps::<R>()? {
+        for step in self.steps(&Numbers)? {
             match step {
                 Step::Constant(motion) => pose = pose.then_after(&motion),
                 Step::Unknown(_) => pose = pose.then_after(motions.next()?),
@@ -350,13 +527,24 @@ impl Chain {
 }
 
 /// The unknowns of one joint and its own constants (offsets).
-fn joint_steps<R: Ring>(joint: &Joint, steps: &mut Vec<Step<R>>) -> Option<()> {
+fn joint_steps<R: Ring>(
+    at: usize,
+    joint: &Joint,
+    parameters: &impl Parameters<R>,
+    steps: &mut Vec<Step<R>>,
+) -> Option<()> {
     screw_steps(joint.kind, steps);
-    let (cos, sin) = R::cos_sin(&joint.theta0)?;
+    let (cos, sin) = parameters.angle(at, Parameter::Angle, &joint.theta0)?;
     let mut offset = Motion::rotation_z(cos, sin);
-    offset.translation[2] = R::from_number(&joint.d)?;
+    offset.translation[2] = parameters.length(at, Parameter::Offset, &joint.d)?;
     steps.push(Step::Constant(offset));
     Some(())
+}
+
+/// The link of a DH joint.
+fn link<R: Ring>(at: usize, joint: &Joint, parameters: &impl Parameters<R>) -> Option<Motion<R>> {
+    let length = parameters.length(at, Parameter::Length, &joint.a)?;
+    Some(Motion::link(length, parameters.angle(at, Parameter::Twist, &joint.alpha)?))
 }
 
 /// The unknowns of a joint.

@@ -1,6 +1,7 @@
 //! A loop followed through its input: velocities, accelerations and the points of its curve.
 
 use super::FullMode;
+use super::short_loop::filled_up;
 use super::single_loop::locked_variable;
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::{Error, Result};
@@ -38,8 +39,8 @@ impl InputCurve {
             return Err(Error::Invalid(message));
         };
         let locked = locked_variable(chain, case)?
-            .ok_or_else(|| Error::Invalid("found a pose, expected an input of a loop".to_owned()))?;
-        let layout = Layout::of(chain, Some(locked))?;
+            .ok_or_else(|| Error::Invalid("found no input, expected an input of a loop".to_owned()))?;
+        let layout = filled_up(chain, Layout::of(chain, Some(locked))?)?;
         let input = layout.variables[locked];
         let curve = Curve::new(&chain.open_loop(&layout)?, input);
         Ok(Self { layout, curve })

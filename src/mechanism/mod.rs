@@ -2,6 +2,7 @@
 
 mod input_curve;
 mod platform;
+mod short_loop;
 mod single_loop;
 
 pub use input_curve::{Derivatives, InputCurve};
@@ -13,9 +14,10 @@ use crate::kinematics::velocity::Velocity;
 use crate::verdict::Verdict;
 use num_complex::Complex;
 use platform::PreparedPlatform;
-pub(crate) use platform::over as platform_over;
+pub use platform::over as platform_over;
+use short_loop::ShortLoop;
 use single_loop::SingleLoop;
-pub(crate) use single_loop::closed_loop;
+pub use single_loop::{closed_loop, coupled_loop, locked_variable};
 
 /// One solution as a user reads it.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,6 +84,7 @@ pub struct Mechanism(Solver);
 /// Who solves it.
 enum Solver {
     SingleLoop(Box<SingleLoop>),
+    ShortLoop(Box<ShortLoop>),
     Platform(Box<PreparedPlatform>),
 }
 
@@ -92,6 +95,9 @@ impl Mechanism {
     /// [`crate::error::Error::Unsupported`] for joints other than R, P and C, and for too many translations.
     pub fn prepare(entry: &Entry) -> Result<Self> {
         Ok(Self(match &entry.design {
+            Design::Loop(chain) if short_loop::is_short(entry, chain)? => {
+                Solver::ShortLoop(Box::new(ShortLoop::prepare(entry, chain)?))
+            }
             Design::Arm(chain) | Design::Loop(chain) => {
                 Solver::SingleLoop(Box::new(SingleLoop::prepare(entry, chain)?))
             }
@@ -112,6 +118,7 @@ impl Mechanism {
     ) -> Result<Solution> {
         match &self.0 {
             Solver::SingleLoop(solver) => solver.solve(case, roots, workspace, assembly),
+            Solver::ShortLoop(solver) => solver.solve(case, roots, workspace, assembly),
             Solver::Platform(solver) => solver.solve(case, roots, workspace),
         }
     }

@@ -11,7 +11,7 @@ use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
-use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Layout, OpenLoop, Variable, angle_motion, distance_motion};
 use crate::kinematics::motion::Motion;
 use crate::verdict::{Bound, Status, verdict};
 use num_complex::Complex;
@@ -189,7 +189,7 @@ impl SingleLoop {
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {
             let q = prepared.layout.assemble(&mode.unknowns, locked_value);
-            self.full_mode(mode, q, &prepared.layout.variables)
+            full_mode(mode, q, &prepared.layout.variables, &self.limits)
         });
         Ok(Solution {
             verdict,
@@ -199,20 +199,6 @@ impl SingleLoop {
             solve_us,
             platform: None,
         })
-    }
-
-    fn full_mode(&self, mode: &Mode, q: Vec<Complex<f64>>, variables: &[Variable]) -> FullMode {
-        FullMode {
-            real: mode.real,
-            multiplicity: mode.multiplicity,
-            residual: mode.residual,
-            condition: mode.condition,
-            certified: mode.certificate.is_some(),
-            radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius),
-            within_limits: (mode.real && !self.limits.is_empty()).then(|| within_limits(&q, variables, &self.limits)),
-            q,
-            platform: None,
-        }
     }
 
     /// Solves a loop with two balls.
@@ -244,7 +230,7 @@ impl SingleLoop {
                 q[at..at + 3].copy_from_slice(&angles);
             }
             q[coupled.indices[2]] = mode.unknowns[5];
-            self.full_mode(mode, q, &layout.variables)
+            full_mode(mode, q, &layout.variables, &self.limits)
         });
         Ok(Solution {
             verdict,
@@ -257,16 +243,31 @@ impl SingleLoop {
     }
 }
 
+/// A mode as a user reads it.
+pub(super) fn full_mode(mode: &Mode, q: Vec<Complex<f64>>, variables: &[Variable], limits: &[[f64; 2]]) -> FullMode {
+    FullMode {
+        real: mode.real,
+        multiplicity: mode.multiplicity,
+        residual: mode.residual,
+        condition: mode.condition,
+        certified: mode.certificate.is_some(),
+        radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius),
+        within_limits: (mode.real && !limits.is_empty()).then(|| within_limits(&q, variables, limits)),
+        q,
+        platform: None,
+    }
+}
+
 fn layout_rotations(open: &OpenLoop<f64>) -> usize {
     open.variables.iter().filter(|v| **v == Variable::Rotation).count()
 }
 
 /// The loop of one case over a ring, and the order of its variables; `None` for an unlucky prime.
-pub(crate) fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<(Layout, ClosedLoop<R>)>> {
+///
+/// # Errors
+/// For chains that are not solved, and for a case without pose and input.
+pub fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<(Layout, ClosedLoop<R>)>> {
     let layout = Layout::of(chain, locked_variable(chain, case)?)?;
-    if layout.second_ball.is_some() {
-        return Err(Error::Unsupported("derivations of loops with two S joints, which are only solved".to_owned()));
-    }
     let open: Option<OpenLoop<R>> = chain.try_open_loop(&layout)?;
     Ok(match (open, filling(case)) {
         (Some(open), Ok(filling)) => Some((layout, open.close(&filling))),
@@ -274,12 +275,30 @@ pub(crate) fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<
     })
 }
 
-/// The variable that the input of a loop locks; `None` at the pose of an arm.
-pub(super) fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
+/// The loop of two balls of one case over a ring; `None` for chains without two balls.
+///
+/// # Errors
+/// As [`closed_loop`], and for an unlucky prime.
+pub fn coupled_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<Coupled<R>>> {
+    let layout = Layout::of(chain, locked_variable(chain, case)?)?;
+    if layout.second_ball.is_none() {
+        return Ok(None);
+    }
+    chain.coupled_loop(&layout, &filling(case)?).map(Some)
+}
+
+/// The variable that the input of a loop locks; `None` at the pose of an arm, and for a loop without input.
+///
+/// # Errors
+/// For several given variables, and for a joint that has none of the kind.
+pub fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
     if case.pose.is_some() {
         return Ok(None);
     }
     let [input] = case.input.as_slice() else {
+        if case.input.is_empty() {
+            return Ok(None);
+        }
         return Err(Error::Unsupported(format!(
             "{} given joint variables: a loop of seven variables takes one",
             case.input.len()
@@ -293,8 +312,11 @@ pub(super) fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize
     variable.map(Some).ok_or_else(|| Error::Invalid(format!("joint {} has no such variable", input.joint)))
 }
 
-/// What fills the gap of the loop: the inverse of an arm's pose, a loop's locked joint.
-fn filling<R: Ring>(case: &Case) -> Result<Motion<R>> {
+/// What fills the gap of the loop: the inverse of an arm's pose, a loop's locked joint; nothing without input.
+pub(super) fn filling<R: Ring>(case: &Case) -> Result<Motion<R>> {
+    if case.pose.is_none() && case.input.is_empty() {
+        return Ok(Motion::identity());
+    }
     let motion = case.pose.as_ref().and_then(|pose| pose.exact.inverse().map(R::from_rational));
     let motion = motion.or_else(|| {
         case.input.first().and_then(|input| match &input.value {
@@ -305,7 +327,7 @@ fn filling<R: Ring>(case: &Case) -> Result<Motion<R>> {
     motion.ok_or_else(|| Error::Invalid("a case without pose and input".to_owned()))
 }
 
-fn locked_value(case: &Case) -> f64 {
+pub(super) fn locked_value(case: &Case) -> f64 {
     case.input.first().map_or(0.0, |input| match &input.value {
         InputValue::Angle(angle) => wrapped(angle.radians()),
         InputValue::Distance(distance) => distance.to_f64(),

@@ -12,5 +12,6 @@ pub mod polynomial_roots;
 pub mod pose;
 pub mod scalar;
 pub mod separated;
+pub mod simultaneous;
 pub mod singular;
 pub mod spectrum;

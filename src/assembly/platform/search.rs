@@ -10,7 +10,7 @@ use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certi
 use crate::closure::study::{Four, Leg};
 use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
 use crate::solve::pose::{
-    Eight, PolishedPose, complex, equations, follow, normalised, patch, polish, polish_extended, refine, wide,
+    Eight, PolishedPose, complex, equations, normalised, patch, polish, polish_extended, refine, wide,
 };
 use crate::solve::scalar::{Extended, Scalar, narrowed};
 use crate::solve::spectrum::Spectrum;
@@ -19,7 +19,7 @@ use num_complex::Complex;
 /// |Im| / (1 + |lambda|) below which an eigenvalue may belong to a real pose: double ones split by 1e-8 and more.
 const NEAR_REAL: f64 = 1e-4;
 /// Imaginary parts below this are rounding of a real pose.
-const REAL_PART: f64 = 1e-7;
+pub const REAL_PART: f64 = 1e-7;
 /// |N| (with x of hermitian norm 1) below which an eigenvalue that leads to no regular pose is taken to be one without
 /// a pose.
 const NULL: f64 = 1e-6;
@@ -48,7 +48,7 @@ pub struct Found {
     residual: f64,
     condition: f64,
     /// How many eigenvalues of the border basis followed last lead to it.
-    eigenvalues: usize,
+    pub eigenvalues: usize,
     /// The last one of them.
     last: usize,
 }
@@ -68,8 +68,6 @@ pub struct Source<'a> {
     pub setting: &'a Setting<f64>,
     /// The border basis.
     pub basis: &'a BorderBasis<f64>,
-    /// Platforms on the way from this one to the one wanted, if they differ.
-    pub path: &'a [[Leg<f64>; 6]],
 }
 
 /// One set of leg lengths.
@@ -212,7 +210,7 @@ impl<'a> Search<'a> {
         let candidates = candidates(source.setting, &z);
         for (x, y) in &candidates.study[..candidates.count] {
             let start = source.chart.outward(x, y);
-            if let Some(polished) = self.polish(source.path, &start) {
+            if let Some(polished) = polish(self.legs, &start) {
                 self.admit(&polished, k);
                 outcome = Outcome::Pose;
             } else if let Some(free) = self.stray.iter_mut().find(|s| s.is_none()) {
@@ -243,7 +241,7 @@ impl<'a> Search<'a> {
             if near_real {
                 // Both ends of a pair that meets on the real axis.
                 for real in real_parts(&start) {
-                    if let Some(polished) = self.polish(source.path, &real) {
+                    if let Some(polished) = polish(self.legs, &real) {
                         self.admit(&polished, k);
                         outcome = Outcome::Pose;
                     }
@@ -252,9 +250,9 @@ impl<'a> Search<'a> {
                     continue;
                 }
             }
-            let polished = self.polish(source.path, &start).filter(|p| !near_null(p));
+            let polished = polish(self.legs, &start).filter(|p| !near_null(p));
             let Some(polished) = polished else {
-                if raw < NEARLY_NULL && !multiple && source.path.is_empty() && self.far_away(&start.map(wide)) {
+                if raw < NEARLY_NULL && !multiple && self.far_away(&start.map(wide)) {
                     outcome = Outcome::Pose;
                 }
                 continue;
@@ -272,11 +270,6 @@ impl<'a> Search<'a> {
             self.admit(&polished, k);
         }
         outcome
-    }
-
-    /// A solution near a point.
-    fn polish<S: Scalar>(&self, path: &[[Leg<f64>; 6]], start: &Eight<S>) -> Option<PolishedPose<S>> {
-        if path.is_empty() { polish(self.legs, start) } else { polish(self.legs, &follow(path, start)?) }
     }
 
     /// Solutions near points known in more digits; those that were found but not proved are proved.
@@ -338,7 +331,7 @@ impl<'a> Search<'a> {
     }
 
     /// Adds a polished solution to the list unless it is there.
-    fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>, eigenvalue: usize) {
+    pub fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>, eigenvalue: usize) {
         let mut study = complex(&polished.study);
         if let Some(at) = self.known(&study, S::REAL, REAL_PART) {
             self.count(at, eigenvalue);
@@ -405,7 +398,7 @@ impl<'a> Search<'a> {
 const ROUNDED: f64 = 1e-15;
 
 /// Whether a polished solution may belong to a family with `N = 0`.
-fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
+pub fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
     norm(&polished.study).norm() < DOUBTFUL && polished.step > NULL * DOUBTFUL
 }
 
@@ -445,7 +438,7 @@ fn rotation<S: Scalar>(
 }
 
 /// Three real points near a nearly real one: to both sides of it, and its real part.
-fn real_parts(v: &Eight<Complex<f64>>) -> [Eight<f64>; 3] {
+pub fn real_parts(v: &Eight<Complex<f64>>) -> [Eight<f64>; 3] {
     let best = (1..4).fold(0, |best, k| if v[k].norm_sqr() > v[best].norm_sqr() { k } else { best });
     let phase = v[best].conj() / v[best].norm();
     let turned = v.map(|z| z * phase);

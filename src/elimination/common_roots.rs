@@ -1,0 +1,77 @@
+//! How many solutions an overconstrained loop has: the roots that its closure polynomials have in common.
+//!
+//! A loop of fewer than six unknowns is given idle ones, and becomes one of six with a closure polynomial in the tangent
+//! of half of one of its own angles. Its solutions are those at which all idle unknowns are zero, wherever the idle axes
+//! lie; all other roots move with these axes. So the solutions are the common roots of the polynomials of two choices of
+//! axes in general position: no fewer than the solutions ever, and no more but for solutions that share a root and for
+//! accidents, of which the least number over all cuts is free if one cut is. Two polynomials without a common root
+//! modulo a prime have none over the rationals: such a loop does not close.
+
+use super::cut::{Cut, Hidden};
+use super::degree::{closure_polynomial, general_degree};
+use super::octic;
+use super::separated::offset;
+use super::spherical_four_bar::FourBar;
+use crate::algebra::ring::{Domain, Field};
+use crate::algebra::univariate::Univariate;
+use crate::kinematics::closed_loop::ClosedLoop;
+use crate::kinematics::link_form::LinkForm;
+
+/// An upper bound on the number of isolated solutions, with multiplicity, that two loops have in common whose unknowns
+/// are the same but for the axes of the idle ones. Once it is down to `enough` nothing smaller is looked for. `None`
+/// where no cut has a closure polynomial: solutions form families as a rule.
+#[must_use]
+pub fn common_roots<F: Field + Domain>(
+    one: &ClosedLoop<F>,
+    other: &ClosedLoop<F>,
+    is_idle: [bool; 6],
+    enough: usize,
+) -> Option<usize> {
+    let mut best = None;
+    let mut note = |first: &Univariate<F>, second: &Univariate<F>| {
+        let count = first.gcd(second).degree().unwrap_or(0);
+        best = Some(best.map_or(count, |b: usize| b.min(count)));
+        best <= Some(enough)
+    };
+    match general_degree(one.variables) {
+        Some(16) => {
+            for cut in Cut::ALL {
+                for (hidden, unknown) in [(Hidden::First, 0), (Hidden::Second, 1)] {
+                    if is_idle[cut.unknown_index(unknown)] {
+                        continue;
+                    }
+                    let both = [one, other].map(|closed| closure_polynomial(closed, cut, hidden));
+                    let [Some(first), Some(second)] = both else { continue };
+                    if note(&first.cofactor, &second.cofactor) {
+                        return best;
+                    }
+                }
+            }
+        }
+        Some(8) => {
+            let (one, other): (LinkForm<F, 4, 2>, LinkForm<F, 4, 2>) = (LinkForm::of(one)?, LinkForm::of(other)?);
+            for base in 0..4 {
+                for (hidden, unknown) in [(Hidden::First, base), (Hidden::Second, (base + 1) % 4)] {
+                    if is_idle[one.rotations[unknown]] {
+                        continue;
+                    }
+                    let both = [&one, &other].map(|form| octic_of(form, base, hidden));
+                    let [Some(first), Some(second)] = both else { continue };
+                    if note(&first, &second) {
+                        return best;
+                    }
+                }
+            }
+        }
+        _ => {}
+    }
+    best
+}
+
+/// The closure polynomial of four rotations without the roots that belong to no angle; `None` where it vanishes.
+fn octic_of<F: Field + Domain>(form: &LinkForm<F, 4, 2>, base: usize, hidden: Hidden) -> Option<Univariate<F>> {
+    let polynomial = octic::closure_polynomial(&FourBar::new(form, base)?.equations(), hidden, &offset());
+    polynomial.degree()?;
+    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
+    Some(polynomial.remove_factor(&circle).1)
+}

@@ -1,0 +1,430 @@
+//! Loops with fewer than six unknowns: overconstrained mechanisms and structures.
+
+use super::single_loop::{filling, full_mode, locked_value, locked_variable};
+use super::{FullMode, Solution};
+
+use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
+use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, wrapped};
+use crate::catalogue::entry::{Case, Entry, Input, InputValue};
+use crate::elimination::common_roots::common_roots;
+use crate::error::{Error, Result};
+use crate::kinematics::chain::{Chain, JointKind};
+use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
+use crate::kinematics::motion::Motion;
+use crate::solve::newton::{Six, closure};
+use crate::verdict::{Status, Verdict};
+use nalgebra::{SMatrix, SVector};
+use num_complex::Complex;
+use rug::Rational;
+use std::cmp::Ordering;
+use std::time::Instant;
+
+/// The field of exact counts.
+type Mod = ModP<PRIME_61>;
+
+/// Idle unknowns up to this, in radians and lengths over the mean link, may be rounding of zero; how many of them are,
+/// the exact count says.
+const NEARLY_ZERO: f64 = 1e-6;
+/// Idle unknowns up to this are zero where the data of the mechanism were rounded.
+const ZERO: f64 = 1e-11;
+/// How many choices of idle axes are tried before a search is given up.
+const CHOICES: u32 = 2;
+/// At how many places each joint of a loop without input is held, to find out whether the others follow.
+const PLACES: i32 = 3;
+/// Steps of the least-squares polishing.
+const POLISHINGS: usize = 4;
+/// Singular values below this part of the largest count as zero there.
+const RANK: f64 = 1e-9;
+
+/// One choice of idle unknowns, prepared.
+struct Rung {
+    layout: Layout,
+    solver: Solver,
+    /// The loop with lengths over the mean link.
+    open: OpenLoop<f64>,
+}
+
+/// One choice of the locked variable.
+struct Prepared {
+    /// Without idle unknowns.
+    layout: Layout,
+    rungs: Vec<Rung>,
+    prepare_us: f64,
+}
+
+/// A chain with too few unknowns, prepared for all its cases.
+pub(super) struct ShortLoop {
+    chain: Chain,
+    limits: Vec<[f64; 2]>,
+    is_rounded: bool,
+    prepared: Vec<Prepared>,
+}
+
+/// What may be a solution.
+#[derive(Clone)]
+struct Candidate {
+    mode: Mode,
+    /// The joint variables in joint order.
+    q: Vec<Complex<f64>>,
+    /// The largest of its idle unknowns, in radians and lengths over the mean link.
+    idle: f64,
+}
+
+/// A verdict, and what it is about.
+type Answer = (Verdict, Vec<FullMode>);
+
+/// Whether a loop has fewer than six unknowns.
+pub(super) fn is_short(entry: &Entry, chain: &Chain) -> Result<bool> {
+    let given = entry.cases.first().map_or(0, |case| case.input.len());
+    Ok(Layout::of(chain, None)?.variables.len() < 6 + given)
+}
+
+/// The layout with idle unknowns by which a loop is followed: with rotations only, which stay independent of the joints
+/// where those are parallel to a plane.
+///
+/// # Errors
+/// [`Error::Unsupported`] for S joints, and where no choice of idle unknowns serves.
+pub(super) fn filled_up(chain: &Chain, layout: Layout) -> Result<Layout> {
+    if layout.missing() == 0 {
+        return Ok(layout);
+    }
+    let last = rungs(chain, &layout)?.into_iter().next_back();
+    Ok(last.map_or(layout, |rung| rung.layout))
+}
+
+/// The choices of idle unknowns by which a loop can be solved: as many translations as leave the six unknowns
+/// independent in general position, which is simplest, then rotations only.
+fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
+    if layout.ball.is_some() {
+        let message = "an overconstrained loop with an S joint; solved are overconstrained loops of R, P and C joints";
+        return Err(Error::Unsupported(message.to_owned()));
+    }
+    let unit = chain.unit().to_f64();
+    let over = |motion: &Motion<f64>| Motion { translation: motion.translation.map(|x| x / unit), ..motion.clone() };
+    let mut rungs = Vec::new();
+    for rotations in 0..=layout.missing() {
+        if !rungs.is_empty() && rotations < layout.missing() {
+            continue;
+        }
+        for choice in 0..CHOICES {
+            let layout = layout.with_idle(rotations, choice);
+            let open: OpenLoop<f64> = chain.open_loop(&layout)?;
+            let solver = Solver::prepare(&open);
+            if solver.is_out_of_reach() || solver.structural_rank() < 6 {
+                break;
+            }
+            let open = OpenLoop {
+                variables: open.variables,
+                constants: open.constants.each_ref().map(over),
+                before_gap: over(&open.before_gap),
+                after_gap: over(&open.after_gap),
+            };
+            rungs.push(Rung { layout, solver, open });
+        }
+    }
+    if rungs.is_empty() {
+        let message = "the joints of this loop are dependent in every position, so that part of it moves by itself";
+        return Err(Error::Unsupported(message.to_owned()));
+    }
+    Ok(rungs)
+}
+
+impl ShortLoop {
+    /// Prepares the chain of an entry for all its cases.
+    pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
+        let mut prepared: Vec<Prepared> = Vec::new();
+        for case in &entry.cases {
+            let locked = locked_variable(chain, case)?;
+            if prepared.iter().any(|p| p.layout.locked == locked) {
+                continue;
+            }
+            let layout = Layout::of(chain, locked)?;
+            let start = Instant::now();
+            let rungs = rungs(chain, &layout)?;
+            prepared.push(Prepared { layout, rungs, prepare_us: start.elapsed().as_secs_f64() * 1e6 });
+        }
+        Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), is_rounded: entry.rounded, prepared })
+    }
+
+    /// Solves one case.
+    pub(super) fn solve(
+        &self,
+        case: &Case,
+        roots: Roots,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> Result<Solution> {
+        let locked = locked_variable(&self.chain, case)?;
+        let prepared = self.prepared.iter().find(|p| p.layout.locked == locked);
+        let prepared =
+            prepared.ok_or_else(|| Error::Invalid("the case locks a joint that was not prepared".to_owned()))?;
+        let start = Instant::now();
+        let moving = if locked.is_none() { self.motion(workspace, assembly)? } else { None };
+        let (verdict, modes) = match moving {
+            Some(answer) => answer,
+            None => self.isolated(prepared, case, roots, workspace, assembly)?,
+        };
+        Ok(Solution {
+            verdict,
+            modes,
+            warnings: case.warnings.clone(),
+            prepare_us: prepared.prepare_us,
+            solve_us: start.elapsed().as_secs_f64() * 1e6,
+            platform: None,
+        })
+    }
+
+    /// Whether a loop without input moves, and how; `None` where it has isolated modes only.
+    fn motion(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> Result<Option<Answer>> {
+        let variables = Layout::of(&self.chain, None)?.variables;
+        let mut complex: Option<(usize, usize)> = None;
+        for locked in 0..variables.len() {
+            let layout = Layout::of(&self.chain, Some(locked))?;
+            // A joint without which the others are dependent cannot be held to find the motion.
+            let Ok(rungs) = rungs(&self.chain, &layout) else { continue };
+            let joint = self.joint_of(locked);
+            let prepared = Prepared { layout, rungs, prepare_us: 0.0 };
+            for number in 0..PLACES {
+                let case = self.held(joint, variables[locked], number);
+                let (verdict, _) = self.isolated(&prepared, &case, Roots::All, workspace, assembly)?;
+                if verdict.real == 0 && verdict.self_motion == 0 {
+                    if verdict.complex > 0 {
+                        complex = Some((joint, verdict.complex));
+                    }
+                    continue;
+                }
+                let dimension = 1 + verdict.self_motion;
+                let reason = format!(
+                    "solutions form a self-motion of dimension {dimension}: joint {joint} can be held at will, here at \
+                     {} with {} real solutions",
+                    locked_value(&case),
+                    verdict.real
+                );
+                return Ok(Some((outcome(Status::SelfMotion, dimension, reason), Vec::new())));
+            }
+        }
+        Ok(complex.map(|(joint, solutions)| {
+            let reason = format!(
+                "not proved: with joint {joint} held there are {solutions} complex solutions, so that the complex \
+                 solutions form curves, but no real ones were found"
+            );
+            (outcome(Status::Incomplete, 0, reason), Vec::new())
+        }))
+    }
+
+    /// The number of the joint that a variable belongs to.
+    fn joint_of(&self, variable: usize) -> usize {
+        let kinds = self.chain.joint_kinds();
+        let ends = kinds.iter().scan(0, |end, kind| {
+            *end += if *kind == JointKind::Cylindrical { 2 } else { 1 };
+            Some(*end)
+        });
+        1 + ends.take_while(|end| *end <= variable).count()
+    }
+
+    /// The loop held at one of its joint variables, at a place in general position.
+    fn held(&self, joint: usize, variable: Variable, number: i32) -> Case {
+        let tangent = Rational::from((7 + 24 * number, 11 - 16 * number));
+        let value = match variable {
+            Variable::Rotation => InputValue::Angle(Angle::from_half_tangent(HalfTangent::Finite(tangent))),
+            Variable::Translation => InputValue::Distance(Number::exact(tangent * self.chain.unit())),
+        };
+        Case::given(Input { joint, value }, 0)
+    }
+
+    /// The isolated solutions of one case.
+    fn isolated(
+        &self,
+        prepared: &Prepared,
+        case: &Case,
+        roots: Roots,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> Result<Answer> {
+        let mut best: Vec<Candidate> = Vec::new();
+        let mut count: Option<usize> = None;
+        let mut self_motion = 0;
+        let mut tight: Vec<Candidate> = Vec::new();
+        let total = |list: &[Candidate]| list.iter().map(|c| c.mode.multiplicity.max(1)).sum::<usize>();
+        for rung in &prepared.rungs {
+            let mut found = self.candidates(rung, case, roots, workspace, assembly)?;
+            count = count.or_else(|| self.count(rung, case, total(&found)));
+            self_motion = assembly.self_motion;
+            if tight.is_empty() {
+                tight = found.iter().filter(|candidate| candidate.idle < ZERO).cloned().collect();
+            }
+            // Idle translations let solutions coincide that are simple; idle rotations do not.
+            found.truncate(count.map_or(found.len(), |count| fitting(&found, count)));
+            if total(&found) > total(&best) {
+                best = found;
+            }
+            if roots == Roots::Real || count == Some(total(&best)) {
+                break;
+            }
+        }
+        if count.is_none() && self_motion > 0 {
+            let reason = format!("solutions form a self-motion of dimension {self_motion}");
+            return Ok((outcome(Status::SelfMotion, self_motion, reason), Vec::new()));
+        }
+        let doubt = self.is_rounded && count == Some(0) && !tight.is_empty();
+        if doubt {
+            best = tight;
+        } else if count.is_none() {
+            best.retain(|candidate| candidate.idle < ZERO);
+        }
+        let verdict = self.verdict(&best, if doubt { None } else { count }, roots);
+        let proved = matches!(verdict.status, Status::Complete | Status::Unreachable);
+        best.sort_by(|a, b| b.mode.real.cmp(&a.mode.real).then_with(|| in_order(&a.q, &b.q)));
+        let modes = best.into_iter().map(|Candidate { mode, q, .. }| FullMode {
+            certified: proved && mode.certificate.is_some(),
+            ..full_mode(&mode, q, &prepared.layout.variables, &self.limits)
+        });
+        Ok((verdict, modes.collect()))
+    }
+
+    /// What nearly closes the loop, by the size of its idle unknowns.
+    fn candidates(
+        &self,
+        rung: &Rung,
+        case: &Case,
+        roots: Roots,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> Result<Vec<Candidate>> {
+        let Rung { layout, solver, open } = rung;
+        let filling: Motion<f64> = filling(case)?;
+        let mut gap = solver.gap(&filling);
+        if gap.is_rough() {
+            let open: OpenLoop<Rational> = self.chain.open_loop(layout)?;
+            let [.., last] = open.close(&super::single_loop::filling(case)?).constants;
+            gap = last.map(|x| Some(nearest_f64(x))).map_or(gap, |last| solver.exact_gap(&last));
+        }
+        solver.solve_up_to(&gap, roots, &|| usize::MAX, workspace, assembly);
+        let unit = self.chain.unit().to_f64();
+        let filling = Motion { translation: filling.translation.map(|x| x / unit), ..filling };
+        let closed = open.close(&filling);
+        let is_idle = layout.joint_variables().map(|joint| joint.is_none());
+        let locked = Complex::from(locked_value(case));
+        let units = closed.variables.map(|kind| if kind == Variable::Rotation { 1.0 } else { unit });
+        let mut candidates: Vec<Candidate> = Vec::new();
+        for mode in &assembly.modes {
+            let own = std::array::from_fn(|k| mode.unknowns[k] / units[k]);
+            let idle = (0..6).filter(|&k| is_idle[k]).map(|k| own[k].norm()).fold(0.0, f64::max);
+            if idle < NEARLY_ZERO {
+                let (unknowns, residual) = closer(&closed, &own, is_idle, mode.real);
+                let q = layout.assemble(&std::array::from_fn(|k| unknowns[k] * units[k]), locked);
+                candidates.push(Candidate { q, mode: Mode { residual, ..mode.clone() }, idle });
+            }
+        }
+        candidates.sort_by(|a, b| a.idle.total_cmp(&b.idle));
+        Ok(candidates)
+    }
+
+    /// How many solutions there are, exactly: at most this many, by the common roots of two choices of idle unknowns.
+    fn count(&self, rung: &Rung, case: &Case, enough: usize) -> Option<usize> {
+        let plain = Layout { idle: Vec::new(), ..rung.layout.clone() };
+        let variables = rung.layout.loop_kinds();
+        let rotations = variables.iter().filter(|kind| **kind == Variable::Rotation).count();
+        let idle = rung.layout.idle.iter().filter(|idle| idle.variable == Variable::Rotation).count();
+        // Three rotations close by themselves, wherever idle translations point.
+        let idle = (idle + usize::from(rotations == 3)).min(plain.missing());
+        let closed = |choice| -> Option<ClosedLoop<Mod>> {
+            let layout = plain.with_idle(idle, choice);
+            Some(self.chain.try_open_loop::<Mod>(&layout).ok()??.close(&filling(case).ok()?))
+        };
+        let is_idle = plain.with_idle(idle, 0).joint_variables().map(|joint| joint.is_none());
+        common_roots(&closed(CHOICES)?, &closed(CHOICES + 1)?, is_idle, enough)
+    }
+
+    fn verdict(&self, found: &[Candidate], count: Option<usize>, roots: Roots) -> Verdict {
+        let total: usize = found.iter().map(|c| c.mode.multiplicity.max(1)).sum();
+        let real = found.iter().filter(|c| c.mode.real).map(|c| c.mode.multiplicity.max(1)).sum();
+        let certified = found.iter().filter(|c| c.mode.certificate.is_some()).count();
+        let (status, reason) = match count {
+            Some(0) => (
+                Status::Unreachable,
+                "no solution: the closure polynomials for two choices of idle unknowns have no common root".to_owned(),
+            ),
+            Some(count) if count == total => {
+                let status = if real == 0 { Status::Unreachable } else { Status::Complete };
+                let all = if total == 1 { "the only common root" } else { "all common roots" };
+                let reason = format!(
+                    "{total} of {count}: {all} of the closure polynomials for two choices of idle unknowns in place of \
+                     the missing ones (modulo 2^61 - 1)"
+                );
+                (status, reason)
+            }
+            Some(count) => {
+                let only = if roots == Roots::Real { "; only real roots were looked for" } else { "" };
+                (Status::Incomplete, format!("not proved: found {total} of up to {count} solutions{only}"))
+            }
+            None if self.is_rounded && total > 0 => (
+                Status::Incomplete,
+                format!(
+                    "not proved: {total} solutions close to rounding, but an overconstrained loop moves with exact data \
+                     only, and these were rounded"
+                ),
+            ),
+            None => (Status::Incomplete, "not proved: the solutions could not be counted exactly".to_owned()),
+        };
+        let certified = if status == Status::Incomplete { 0 } else { certified };
+        Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }
+    }
+}
+
+/// The unknowns nearby that close the loop best with all idle ones at zero, by least squares, and the residual there.
+fn closer(
+    closed: &ClosedLoop<f64>,
+    unknowns: &Six<Complex<f64>>,
+    is_idle: [bool; 6],
+    real: bool,
+) -> (Six<Complex<f64>>, f64) {
+    let mut at: Six<Complex<f64>> = std::array::from_fn(|k| if is_idle[k] { Complex::ZERO } else { unknowns[k] });
+    let size = |at: &Six<Complex<f64>>| {
+        let here = closure(closed, at);
+        (here.defect / here.growth(real), here)
+    };
+    let (mut defect, mut here) = size(&at);
+    for _ in 0..POLISHINGS {
+        let matrix =
+            SMatrix::<Complex<f64>, 6, 6>::from_fn(|i, j| if is_idle[j] { Complex::ZERO } else { here.jacobian[i][j] });
+        let svd = matrix.svd(true, true);
+        let Ok(step) = svd.solve(&SVector::from(here.residual), RANK * svd.singular_values.max()) else { break };
+        let next = std::array::from_fn(|k| {
+            let moved = at[k] - step[k];
+            if real { Complex::from(moved.re) } else { moved }
+        });
+        let (smaller, there) = size(&next);
+        if !(smaller < defect) {
+            break;
+        }
+        (at, defect, here) = (next, smaller, there);
+    }
+    for (x, kind) in at.iter_mut().zip(closed.variables) {
+        if kind == Variable::Rotation {
+            x.re = wrapped(x.re);
+        }
+    }
+    (at, defect)
+}
+
+/// The order of solutions in a list.
+fn in_order(a: &[Complex<f64>], b: &[Complex<f64>]) -> Ordering {
+    let key = |q: &[Complex<f64>]| q.iter().map(|z| (z.re, z.im)).collect::<Vec<_>>();
+    key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)
+}
+
+/// How many of the candidates, best first, make up this number of solutions.
+fn fitting(candidates: &[Candidate], count: usize) -> usize {
+    let sums = candidates.iter().scan(0, |sum, candidate| {
+        *sum += candidate.mode.multiplicity.max(1);
+        Some(*sum)
+    });
+    sums.take_while(|sum| *sum <= count).count()
+}
+
+/// A verdict without solutions.
+fn outcome(status: Status, self_motion: usize, reason: String) -> Verdict {
+    Verdict { status, complex: 0, real: 0, at_infinity: 0, self_motion, certified: 0, reason }
+}
