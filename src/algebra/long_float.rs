@@ -4,10 +4,10 @@ use super::ring::{Field, Ring};
 use rug::{Integer, Rational, integer::Order};
 use std::cmp::Ordering;
 
-/// Words of a mantissa, the least significant one first.
-const LIMBS: usize = 6;
 /// Bits of a mantissa.
-const BITS: u32 = 64 * LIMBS as u32;
+const BITS: u32 = 384;
+/// Its words, the least significant one first.
+const LIMBS: usize = 6;
 
 type Mantissa = [u64; LIMBS];
 /// A mantissa with a word of guard bits below.

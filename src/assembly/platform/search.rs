@@ -281,7 +281,8 @@ impl<'a> Search<'a> {
             return;
         }
         // All of them are proved: the others are none.
-        let proved: usize = self.found.iter().filter(|f| f.certificate.is_some()).map(|f| if f.real { 1 } else { 2 }).sum();
+        let proved: usize =
+            self.found.iter().filter(|f| f.certificate.is_some()).map(|f| if f.real { 1 } else { 2 }).sum();
         if self.expected == Some(proved) {
             self.found.retain(|found| found.certificate.is_some());
         }
