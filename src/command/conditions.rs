@@ -17,7 +17,9 @@ pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
     match ansatz.joints.len() {
         4 => {}
         5 | 6 => return super::conditions_search::run(options, &ansatz),
-        count => return Err(Error::Unsupported(format!("conditions of a loop of {count} joints: only of 4 to 6")).into()),
+        count => {
+            return Err(Error::Unsupported(format!("conditions of a loop of {count} joints: only of 4 to 6")).into());
+        }
     }
     let theorem = derive();
     let decision = decide(&theorem, &ansatz)?;

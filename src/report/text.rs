@@ -59,7 +59,9 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
             };
             let found = match (found, kind) {
                 // A pose out of reach is known to be one without any root.
-                (0, Kind::Arm | Kind::Loop) if verdict.reason.starts_with("out of reach") => "at most 16 roots".to_owned(),
+                (0, Kind::Arm | Kind::Loop) if verdict.reason.starts_with("out of reach") => {
+                    "at most 16 roots".to_owned()
+                }
                 (0, _) => "0 roots".to_owned(),
                 _ => format!("{found} roots, {}", certified(solution)),
             };
