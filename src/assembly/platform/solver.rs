@@ -4,9 +4,11 @@ use super::homotopy::{End, Homotopy};
 use super::mode::{PlatformAssembly, PlatformMode, Route};
 use super::prepared::{Chart, Frame};
 use super::reflection::Reflection;
+use super::rescue::starts;
 use super::search::{Found, Search, Source, real_parts};
 use super::self_motion::self_motion;
 use super::triangle::TriangleRoute;
+use crate::algebra::number::nearest_f64;
 use crate::assembly::Roots;
 use crate::certify::pose::Curvature;
 use crate::closure::study::Leg;
@@ -16,6 +18,7 @@ use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
 use crate::solve::spectrum::Spectrum;
 use num_complex::Complex;
+use rug::Rational;
 
 /// Homotopies from different general platforms, at most.
 const MOST_RUNS: usize = 2;
@@ -97,6 +100,41 @@ impl PlatformSolver {
         self.solve_up_to(legs_squared, roots, None, workspace, assembly);
     }
 
+    /// The legs in the frame of polishing.
+    fn legs(&self, legs_squared: &[f64; 6]) -> [Leg<f64>; 6] {
+        let unit = self.frame.scale * self.frame.scale;
+        let mut legs = self.frame.legs.clone();
+        for (leg, square) in legs.iter_mut().zip(legs_squared) {
+            leg.square = square / unit;
+        }
+        legs
+    }
+
+    /// Looks again for what is missing of the list solved last in this workspace, in numbers of 384 bits: `platform` and
+    /// `legs_squared` are the same ones exactly, `expected` the number of its poses.
+    pub fn rescue(
+        &self,
+        platform: &Platform<Rational>,
+        legs_squared: &[Rational; 6],
+        expected: usize,
+        workspace: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) {
+        let legs = self.legs(&legs_squared.each_ref().map(nearest_f64));
+        let curvature = Curvature::new(&legs);
+        let proved = |assembly: &PlatformAssembly| assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
+        let before = proved(assembly);
+        let mut search = Search::going_on(&legs, &curvature, Roots::All, Some(expected), &mut workspace.found);
+        search.proved_near(&starts(platform, legs_squared, &self.frame));
+        assembly.modes.clear();
+        search.tell(&self.frame, assembly);
+        assembly.unresolved = search.unresolved();
+        assembly.rescued = proved(assembly).saturating_sub(before);
+        if let Some(reflection) = &self.reflection {
+            reflection.mark(&mut assembly.modes);
+        }
+    }
+
     /// As [`PlatformSolver::solve`]; where the number of poses is known (see
     /// [`platform_degree`](crate::elimination::platform_degree::platform_degree)), special geometries are searched until
     /// all of them are found, and not longer.
@@ -113,12 +151,9 @@ impl PlatformSolver {
         assembly.lost_rank = None;
         assembly.rank = self.charts[0].directions.rank;
         assembly.self_motion = 0;
-        let unit = self.frame.scale * self.frame.scale;
-        let squares = legs_squared.map(|s| s / unit);
-        let mut legs = self.frame.legs.clone();
-        for (leg, square) in legs.iter_mut().zip(squares) {
-            leg.square = square;
-        }
+        assembly.rescued = 0;
+        let legs = self.legs(legs_squared);
+        let squares = legs.each_ref().map(|leg| leg.square);
         let curvature = Curvature::new(&legs);
         let PlatformWorkspace { basis, spectrum, found, general } = workspace;
         let mut search = Search::new(&legs, &curvature, roots, expected, found);
