@@ -188,7 +188,7 @@ pub struct SweepOptions {
     /// file]
     #[arg(long, value_name = "JOINT")]
     pub joint: Option<String>,
-    /// Where the input begins: "-180 deg", "pi/3", "20 mm"; plain numbers are radians or metres
+    /// Where the input begins: "-180 deg", "pi/3", "20 mm"; plain numbers are in the units of the file
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub from: String,
     /// Where it ends; a full turn joins up
@@ -203,6 +203,9 @@ pub struct SweepOptions {
     /// One JSON document
     #[arg(long)]
     pub json: bool,
+    /// Also a picture of all branches of every joint against the input
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,

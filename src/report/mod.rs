@@ -1,5 +1,6 @@
 //! What a reader sees: the verdict in one line, tables, normalised models, JSON.
 
+pub mod curves;
 pub mod derivation;
 pub mod derivatives;
 pub mod json;

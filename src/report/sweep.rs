@@ -55,7 +55,7 @@ fn shown(x: f64, variable: Variable) -> String {
 }
 
 /// The name of the input, and its unit.
-fn input_name(entry: &Entry, swept: Swept) -> (String, &'static str) {
+pub(super) fn input_name(entry: &Entry, swept: Swept) -> (String, &'static str) {
     let names = entry.chain().map(variables).unwrap_or_default();
     let is_input =
         |(name, variable): &&(String, Variable)| *variable == swept.variable && name[1..].parse() == Ok(swept.joint);
