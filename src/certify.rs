@@ -18,16 +18,15 @@
 //! proof covers the mechanism as given and not only as stored.
 
 pub mod pose;
+mod refined;
 
-use crate::algebra::double_double::DoubleDouble;
-use crate::algebra::ring::Ring;
+pub use refined::{Refined, exponential, exponential_pair, from_pairs, refined_certificate, small_turn};
+
 use crate::elimination::cut::Cut;
-use crate::kinematics::closed_loop::{ClosedLoop, Variable};
-use crate::kinematics::motion::{Motion, cross};
-use crate::solve::dense::{inverse, norm, times};
-use crate::solve::newton::{Closure, Six, closure, closure_at, coordinates, product, reach};
+use crate::kinematics::closed_loop::ClosedLoop;
+use crate::solve::dense::{inverse, times};
+use crate::solve::newton::{Closure, Six, closure};
 use crate::solve::scalar::{Number, Scalar};
-use num_complex::Complex;
 
 /// What was proved of a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,11 +40,6 @@ pub struct Certificate {
 /// Roundings per step of the product: cosine and sine (2), their use (4), the product (6), all with room for complex
 /// products (a factor of sqrt 8 on each operation), and the stored constant (32).
 const ROUNDINGS: f64 = 70.0;
-/// Roundings in a stored constant.
-const CONSTANT_ROUNDINGS: f64 = 8.0;
-/// A solution that the rounding of the constants may have moved farther than this, over its longest translation, is not
-/// proved at all.
-const MOST_DRIFT: f64 = 1e-6;
 /// Margin on bounds that are themselves computed in f64.
 const MARGIN: f64 = 1.01;
 
@@ -167,192 +161,4 @@ pub fn certificate_in_any_frame<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &
         let here = closure(&rotated, &std::array::from_fn(|j| unknowns[(k + j) % 6]));
         certificate(&here, &inverse(&here.jacobian)?)
     })
-}
-
-type Quad = Complex<DoubleDouble>;
-
-fn quad(z: Complex<f64>) -> Quad {
-    Complex { re: DoubleDouble::from(z.re), im: DoubleDouble::from(z.im) }
-}
-
-/// `e^(iq)` of an angle known in f64: any number but 0 is an exact angle in this form, and no cosine is needed in
-/// double-double precision.
-#[must_use]
-pub fn exponential(angle: Complex<f64>) -> Complex<DoubleDouble> {
-    // From cosine and sine it would cancel for large imaginary parts.
-    let (sin, cos) = angle.re.sin_cos();
-    quad(Complex::new(cos, sin) * (-angle.im).exp())
-}
-
-/// Cosine and sine of an angle q given as `w = e^(iq)`; `None` for 0.
-#[must_use]
-pub fn exponential_pair(w: Complex<DoubleDouble>) -> Option<(Complex<DoubleDouble>, Complex<DoubleDouble>)> {
-    let back = crate::algebra::ring::Field::inverse(&w)?;
-    // sin = (w - 1/w) / (2i)
-    let difference = w.sub(&back).halved();
-    Some((w.add(&back).halved(), Complex { re: difference.im, im: difference.re.neg() }))
-}
-
-/// `e^(id)` to order 5: good enough for a Newton step, after which w is as exact an angle as before.
-#[must_use]
-pub fn small_turn(d: Complex<DoubleDouble>) -> Complex<DoubleDouble> {
-    let turn = d.mul(&Complex { re: DoubleDouble::zero(), im: DoubleDouble::one() });
-    let mut factor = Quad::one();
-    for k in (1..=5).rev() {
-        let term = turn.mul(&factor).times(DoubleDouble::from(1.0 / f64::from(k)));
-        factor = Quad::one().add(&term);
-    }
-    factor
-}
-
-/// A solution refined and proved in double-double arithmetic.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Refined {
-    /// The unknowns, rounded from that precision.
-    pub unknowns: Six<Complex<f64>>,
-    /// Whether the solution is proved to be real: conjugation maps the ball of the proof into one three times as large,
-    /// and a single solution there is its own conjugate.
-    pub real: bool,
-    /// The proof.
-    pub certificate: Certificate,
-}
-
-/// A proof in double-double arithmetic, for solutions that f64 cannot prove: badly conditioned ones, and those with
-/// large imaginary parts.
-///
-/// The proof is of the loop whose constants are the rigid motions nearest to the stored ones. How far the rounding of
-/// those constants can have moved the solution is added to the radius, to first order; where that is no small amount
-/// the solution is not proved.
-#[must_use]
-pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>) -> Option<Refined> {
-    let variables = closed.variables;
-    let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
-    let mut state: Six<Quad> = std::array::from_fn(|j| match variables[j] {
-        Variable::Rotation => exponential(unknowns[j]),
-        Variable::Translation => quad(unknowns[j]),
-    });
-    let reach = reach(&variables, unknowns);
-    let mut before = f64::INFINITY;
-    for round in 0..12 {
-        let mut pairs = [(Quad::zero(), Quad::zero()); 6];
-        for j in 0..6 {
-            pairs[j] = match variables[j] {
-                Variable::Rotation => exponential_pair(state[j])?,
-                Variable::Translation => (state[j], Quad::zero()),
-            };
-        }
-        let here = closure_at::<Quad>(&precise, &pairs);
-        let jacobian = here.jacobian.map(|row| row.map(|x| Complex::new(x.re.to_f64(), x.im.to_f64())));
-        let inverse = inverse(&jacobian)?.map(|row| row.map(quad));
-        let step = times(&inverse, &here.residual);
-        let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max) / reach;
-        // Newton's method has to converge from where it starts, not to wander.
-        let stalls = !(size < 0.5 * before);
-        if !(size < 0.3) || (stalls && size > 1e-12) {
-            return None;
-        }
-        if size < 1e-26 || stalls || round == 11 {
-            let proof = certificate(&here, &inverse).or_else(|| in_any_frame(&precise, &pairs, reach))?;
-            let refined: Six<Complex<f64>> = std::array::from_fn(|j| {
-                let z = Complex::new(state[j].re.to_f64(), state[j].im.to_f64());
-                match variables[j] {
-                    Variable::Rotation => Complex::new(z.arg(), -z.norm().ln()),
-                    Variable::Translation => z,
-                }
-            });
-            // The reported unknowns are those of the proof, rounded.
-            let largest = refined.iter().map(|x| x.bound()).fold(1.0, f64::max);
-            let rounding = 4.0 * f64::EPSILON * largest;
-            let drift = drift(closed, &refined);
-            let certificate = Certificate { radius: proof.radius + rounding + drift, ..proof };
-            // Judged by the solution itself, not by what its rounding left of it.
-            let imaginary = (0..6).map(|j| imaginary(variables[j], state[j])).fold(0.0, f64::max);
-            let real = imaginary <= proof.radius && 3.0 * proof.radius <= proof.isolation;
-            let unknowns = if real { refined.map(|z| z.re.into()) } else { refined };
-            return (drift < MOST_DRIFT * reach).then_some(Refined { unknowns, real, certificate });
-        }
-        before = size;
-        for j in 0..6 {
-            let d = step[j].neg();
-            match variables[j] {
-                Variable::Rotation => state[j] = state[j].mul(&small_turn(d)),
-                Variable::Translation => state[j] = state[j].add(&d),
-            }
-        }
-    }
-    None
-}
-
-/// [`certificate`] in double-double arithmetic with the loop opened in turn behind each of its joints,
-/// and translations measured by the reach of the loop.
-fn in_any_frame(closed: &ClosedLoop<DoubleDouble>, pairs: &[(Quad, Quad); 6], reach: f64) -> Option<Certificate> {
-    (0..6).find_map(|k| {
-        let rotated = Cut { rotation: k, reversed: false }.of(closed);
-        let here = closure_at::<Quad>(&rotated, &std::array::from_fn(|j| pairs[(k + j) % 6]));
-        let jacobian = here.jacobian.map(|row| row.map(|x| Complex::new(x.re.to_f64(), x.im.to_f64())));
-        let weights = rotated.variables.map(|v| if v == Variable::Translation { reach } else { 1.0 });
-        weighted_certificate(&here, &inverse(&jacobian)?.map(|row| row.map(quad)), &weights)
-    })
-}
-
-/// The size of the imaginary part of an unknown, an angle q given as e^(iq); near 0 to double-double precision.
-fn imaginary(variable: Variable, state: Quad) -> f64 {
-    match variable {
-        Variable::Rotation => {
-            let square = state.re.mul(&state.re).add(&state.im.mul(&state.im));
-            let off = square.sub(&DoubleDouble::one()).to_f64();
-            0.5 * off.ln_1p().abs()
-        }
-        Variable::Translation => state.im.to_f64().abs(),
-    }
-}
-
-/// How far the rounding of the constants can have moved a solution, to first order. A constant off by a twist x, a few
-/// roundings in size, moves the unknowns by `J^-1 Ad_j x` with the frame of its step.
-fn drift(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>) -> f64 {
-    let pairs: Six<(Complex<f64>, Complex<f64>)> =
-        std::array::from_fn(|j| coordinates(closed.variables[j], unknowns[j]));
-    let Some(inverse) = inverse(&closure_at(closed, &pairs).jacobian) else { return f64::INFINITY };
-    let mut sum = 0.0;
-    for count in 1..=6 {
-        let frame: Motion<Complex<f64>> = product(closed, &pairs, count);
-        let mut moved = [[Complex::new(0.0, 0.0); 6]; 6];
-        for axis in 0..3 {
-            // A turn about this axis of the frame, and a shift along it.
-            let direction: [Complex<f64>; 3] = std::array::from_fn(|i| frame.rotation[i][axis]);
-            let moment = cross(&frame.translation, &direction);
-            for (row, from) in moved.iter_mut().zip(&inverse) {
-                for i in 0..3 {
-                    row[axis] += from[i] * direction[i] + from[3 + i] * moment[i];
-                    row[3 + axis] += from[3 + i] * direction[i];
-                }
-            }
-        }
-        let length = closed.constants[count - 1].translation.iter().map(|x| x.abs()).fold(1.0, f64::max);
-        sum += norm(&moved) * length;
-    }
-    CONSTANT_ROUNDINGS * f64::UNIT_ROUNDOFF * sum
-}
-
-/// The rigid motion nearest to a stored one: two steps of Newton's iteration for the polar factor.
-fn rigid(stored: &Motion<f64>) -> Motion<DoubleDouble> {
-    let mut rotation = stored.rotation.map(|row| row.map(DoubleDouble::from));
-    for _ in 0..2 {
-        // R (3 I - R^T R) / 2
-        let gram = |i: usize, j: usize| {
-            (0..3).fold(DoubleDouble::zero(), |sum, k| sum.add(&rotation[k][i].mul(&rotation[k][j])))
-        };
-        let factor: [[DoubleDouble; 3]; 3] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                let three = DoubleDouble::from(if i == j { 3.0 } else { 0.0 });
-                three.sub(&gram(i, j)).halved()
-            })
-        });
-        rotation = rotation.map(|row| times_row(&row, &factor));
-    }
-    Motion { rotation, translation: stored.translation.map(DoubleDouble::from) }
-}
-
-fn times_row(row: &[DoubleDouble; 3], matrix: &[[DoubleDouble; 3]; 3]) -> [DoubleDouble; 3] {
-    std::array::from_fn(|j| (0..3).fold(DoubleDouble::zero(), |sum, k| sum.add(&row[k].mul(&matrix[k][j]))))
 }

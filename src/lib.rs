@@ -28,6 +28,12 @@ pub mod derivation;
 
 pub mod sweep;
 
+pub mod mobility;
+
+pub mod factoring;
+
+pub mod conditions;
+
 pub mod benchmark;
 
 pub mod claims;

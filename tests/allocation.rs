@@ -117,6 +117,24 @@ fn solving_a_platform_for_leg_after_leg_allocates_nothing() {
 }
 
 #[test]
+fn special_platforms_allocate_no_more() {
+    let mut random = ChaCha8Rng::seed_from_u64(9);
+    let (mut workspace, mut assembly) = (PlatformWorkspace::default(), PlatformAssembly::default());
+    let base: [[f64; 3]; 6] = std::array::from_fn(|_| std::array::from_fn(|_| random.random_range(-1.0..1.0)));
+    // The plate similar to the base: a homotopy; plate points that coincide in pairs: two resultants.
+    let paired: [[f64; 3]; 6] = std::array::from_fn(|k| base[k / 2]);
+    for (trial, plate) in [base.map(|p| p.map(|x| 0.75 * x)), paired].into_iter().enumerate() {
+        let solver = PlatformSolver::prepare(&Platform { base, plate });
+        for round in 0..3 {
+            let legs = std::array::from_fn(|_| random.random_range(1.0..4.0));
+            let before = requests();
+            solver.solve(&legs, if round == 2 { Roots::Real } else { Roots::All }, &mut workspace, &mut assembly);
+            assert!(requests() == before || (trial, round) == (0, 0), "platform {trial}, legs {round}");
+        }
+    }
+}
+
+#[test]
 fn no_chain_allocates_once_the_list_of_modes_has_its_size() {
     for (index, (name, count)) in CHAINS.into_iter().enumerate() {
         let drawn = sample(Set::Chain(index), 5, 0).unwrap();

@@ -119,6 +119,16 @@ fn the_document_follows_its_schema() {
             &["derive", "rsrc", "--json"],
             &["derive", "bricard_line_symmetric", "--json"],
             &["derive", "platform/hexapod", "--json"],
+            &["derive", "crcrr_4_angle", "--symbolic", "--json"],
+        ],
+    );
+    follows(
+        "mobility.schema.json",
+        &[
+            &["mobility", "bennett_a", "--json"],
+            &["mobility", "bennett_broken", "--json"],
+            &["mobility", "rscr", "--json"],
+            &["mobility", "planar_4r", "--json"],
         ],
     );
     follows(
@@ -128,6 +138,7 @@ fn the_document_follows_its_schema() {
             &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
         ],
     );
+    follows("conditions.schema.json", &[&["conditions", "4R", "--json"], &["conditions", "bennett", "--json"]]);
 }
 
 fn follows(schema: &str, runs: &[&[&str]]) {
@@ -336,6 +347,11 @@ fn bad_platforms_exit_with_1() {
     let cases = [
         ("five.toml", good.replacen("    [6, 6, 1],\n", "", 1), "5 points"),
         ("nan.toml", good.replacen("[6, 6, 1]", "[nan, 6, 1]", 1), "nan"),
+        ("seven.toml", good.replacen("    [6, 6, 1],\n", "    [6, 6, 1],\n    [1, 2, 3],\n", 1), "7 points"),
+        ("longer.toml", good.replacen("[253, ", "[253, 253, ", 1), "7 values"),
+        ("nan_leg.toml", good.replacen("[253, ", "[nan, ", 1), "not a finite number"),
+        ("infinite.toml", good.replacen("[6, 6, 1]", "[inf, 6, 1]", 1), "not a finite number"),
+        ("legless.toml", good.replacen("legs_squared", "# legs_squared", 1), "no legs"),
         ("negative.toml", good.replacen("[253, ", "[-253, ", 1), "negative"),
         ("short.toml", good.replacen("[253, ", "[", 1), "5 values"),
         ("truncated.toml", good[..good.len() / 3].to_owned(), "expected"),
@@ -348,6 +364,41 @@ fn bad_platforms_exit_with_1() {
             assert!(run.err.contains(name) && run.err.contains(word), "{name}: {}", run.err);
         }
     }
+}
+
+#[test]
+fn degenerate_platforms_are_named() {
+    let with = |base: &str, plate: &str| {
+        format!("[mechanism]\nkind = \"platform\"\nbase = {base}\nplate = {plate}\nlegs = [3, 3, 3, 3, 3, 3]\n")
+    };
+    let round = "[[2, 0, 0], [1, 2, 0], [-1, 2, 1], [-2, 0, 0], [-1, -2, 0], [1, -2, 2]]";
+    let line = "[[0, 0, 0], [1, 1, 2], [2, 2, 4], [3, 3, 6], [4, 4, 8], [5, 5, 10]]";
+    let point = "[[1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3]]";
+    let twice = "[[2, 0, 0], [2, 0, 0], [-1, 2, 1], [-2, 0, 0], [-1, -2, 0], [1, -2, 2]]";
+    for (name, text, message) in [
+        ("line_base.toml", with(line, round), ":3: found all points of `base` on one line"),
+        ("line_plate.toml", with(round, line), ":4: found all points of `plate` on one line"),
+        ("point.toml", with(round, point), ":4: found six equal points in `plate`"),
+        ("twice.toml", with(twice, twice), "found legs 1 and 2 between the same two points"),
+    ] {
+        let path = file(&format!("platforms/{name}"), text);
+        for verb in ["solve", "derive", "show"] {
+            let run = run(&[verb, &path]);
+            assert!(run.code == 1 && run.err.contains(name) && run.err.contains(message), "{name}: {}", run.err);
+        }
+    }
+}
+
+#[test]
+fn legs_that_cannot_reach_are_an_answer_with_a_reason() {
+    let said = |legs: &str| {
+        let run = run(&["solve", "dietmaier_40real", "--legs", legs]);
+        (run.code, run.out + &run.err)
+    };
+    let (code, text) = said("0.01, 0.01, 0.01, 0.01, 0.01, 0.01");
+    assert!(code == 3 && text.contains("no pose is real: legs 1 and 2 are too short"), "{code} {text}");
+    let (code, text) = said("1, 9, 1, 1, 1, 1");
+    assert!(code == 3 && text.contains("no pose is real: leg 2 is too long beside leg 1"), "{code} {text}");
 }
 
 #[test]

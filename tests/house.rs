@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, each importing earlier ones only.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 19] = [
     "error",
     "algebra",
     "kinematics",
@@ -20,6 +20,9 @@ const LAYERS: [&str; 16] = [
     "mechanism",
     "derivation",
     "sweep",
+    "mobility",
+    "factoring",
+    "conditions",
     "benchmark",
     "claims",
     "report",

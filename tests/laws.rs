@@ -19,6 +19,8 @@ mod polynomials;
 mod resultants;
 #[path = "laws/roots.rs"]
 mod roots;
+#[path = "laws/screw_system.rs"]
+mod screw_system;
 #[path = "laws/series.rs"]
 mod series;
 #[path = "laws/texts.rs"]

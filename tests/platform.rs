@@ -11,3 +11,5 @@ mod exact;
 mod poses;
 #[path = "platform/template.rs"]
 mod template;
+#[path = "platform/triangle.rs"]
+mod triangle;

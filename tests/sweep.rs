@@ -306,6 +306,38 @@ fn help_and_completions_know_sweep() {
     assert!(printed(&["completions", "bash"]).contains("sweep"));
 }
 
+/// Two circuits, each within one step: no input of the sweep has a real mode.
+#[test]
+fn circuits_within_one_step_are_found() {
+    let degrees = |x: f64| x.to_radians();
+    let found = swept("cprprr_5_angle", 5, Variable::Rotation, [degrees(-80.0), degrees(130.0)], 3);
+    assert!(found.samples.iter().all(|sample| sample.modes.is_empty()));
+    let inputs: Vec<f64> = found.limits.iter().map(|limit| limit.input.to_degrees()).collect();
+    let expected = [-75.8711, -15.8067, 62.9112, 122.9757];
+    assert_eq!(inputs.len(), 4, "{inputs:?}");
+    assert!(inputs.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-4), "{inputs:?}");
+    assert_eq!(found.branches.iter().map(|branch| branch.circuit).max(), Some(2));
+    assert_eq!(found.unresolved(), 0);
+}
+
+/// A picture has a panel for every joint but the input, every limit position in each, and no number that is none.
+#[test]
+fn a_picture_shows_every_joint_and_every_limit_position() {
+    let program = env!("CARGO_BIN_EXE_looproot");
+    let run = |options: &[&str]| -> Output {
+        let range = ["sweep", "cprprr_5_angle", "--from", "-180 deg", "--to", "180 deg", "--steps", "90"];
+        Command::new(program).args(range).args(options).output().unwrap()
+    };
+    let picture = String::from_utf8(run(&["--svg"]).stdout).unwrap();
+    assert!(picture.starts_with("<svg ") && picture.ends_with("</svg>\n"));
+    for name in ["q1 [deg]", "d1 [m]", "q2 [m]", "q3 [deg]", "q4 [m]", "q6 [deg]"] {
+        assert_eq!(picture.matches(&format!(">{name}<")).count(), 1, "{name}");
+    }
+    assert_eq!(picture.matches("<circle").count(), 6 * 4);
+    assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    assert_eq!(run(&["--svg", "--csv"]).status.code(), Some(1));
+}
+
 #[test]
 fn overconstrained_loops_keep_closed_through_a_full_turn() {
     let names = ["bennett_a", "goldberg_a", "myard_a", "bricard_line_symmetric_a", "bricard_trihedral_a", "rrcrp_a"];

@@ -7,6 +7,7 @@ mod limits;
 mod mode;
 pub mod platform;
 mod prepared;
+mod rescue;
 mod search;
 mod shifted;
 mod solver;

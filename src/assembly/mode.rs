@@ -70,6 +70,8 @@ pub struct Assembly {
     pub clean: bool,
     /// How many pencils were solved.
     pub tries: usize,
+    /// How many modes were found or proved in numbers of 384 bits only.
+    pub rescued: usize,
 }
 
 impl Assembly {
@@ -83,6 +85,33 @@ impl Assembly {
     #[must_use]
     pub fn real(&self) -> usize {
         self.modes.iter().filter(|m| m.real).map(|m| m.multiplicity.max(1)).sum()
+    }
+
+    /// Takes in modes proved in more digits: those not known are added, and where all of the `expected` ones are proved
+    /// then, what could not be proved is left out as none.
+    pub(super) fn complete_with(&mut self, modes: Vec<Mode>, variables: &[Variable; 6], expected: usize) {
+        let radius = |mode: &Mode| mode.certificate.map_or(0.0, |c| c.radius);
+        let proved = |modes: &[Mode]| modes.iter().filter(|m| m.certificate.is_some()).count();
+        let before = proved(&self.modes);
+        let mut all = modes;
+        for mode in self.modes.drain(..) {
+            let same = |other: &&mut Mode| {
+                let room = radius(other) + radius(&mode);
+                distance(variables, &other.unknowns, &mode.unknowns) <= room
+            };
+            match all.iter_mut().find(same) {
+                // What f64 proves already stays as it is.
+                Some(other) if mode.certificate.is_some() && mode.real == other.real => *other = mode,
+                Some(_) => {}
+                None => all.push(mode),
+            }
+        }
+        if proved(&all) >= expected {
+            all.retain(|mode| mode.certificate.is_some());
+            self.self_motion = 0;
+        }
+        self.rescued = proved(&all).saturating_sub(before);
+        self.modes = all;
     }
 }
 

@@ -16,7 +16,7 @@ use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
-use crate::solve::kernel::{double_angle, kernel};
+use crate::solve::kernel::{SHARED, at_root, double_angle, kernel};
 use crate::solve::newton::{Closure, Polished, Six, approach, closure, polish, reach};
 use crate::solve::scalar::Scalar;
 use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
@@ -214,8 +214,7 @@ impl Search<'_> {
 
     /// Everything one root of the pencil leads to.
     fn one_root<S: Scalar>(&mut self, cut: Cut, view: &CutView<S>, shifted: &Shifted, x: S) -> RootOutcome {
-        let at = shifted.pencil.at_root(x);
-        let kernel = kernel(&at);
+        let kernel = kernel(&at_root(&shifted.pencil, x), SHARED);
         let mut outcome = RootOutcome {
             settled: false,
             unresolved: false,
@@ -418,7 +417,7 @@ impl Search<'_> {
 
     /// A solution proved in double-double arithmetic from a start nearby, real if its imaginary parts vanish.
     fn proved_mode(&self, start: &Six<Complex<f64>>) -> Option<Mode> {
-        let Refined { mut unknowns, real, certificate } = refined_certificate(self.closed, start)?;
+        let Refined { mut unknowns, real, certificate, .. } = refined_certificate(self.closed, start)?;
         for (z, variable) in unknowns.iter_mut().zip(self.closed.variables) {
             if variable == Variable::Rotation {
                 z.re = wrapped(z.re);

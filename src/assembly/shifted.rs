@@ -4,7 +4,6 @@ use super::limits;
 use crate::elimination::cut::Hidden;
 use crate::elimination::pencil::{Bilinear, Pencil, Square, offset, pencil};
 use crate::solve::dense;
-use crate::solve::scalar::Scalar;
 use std::f64::consts::TAU;
 
 /// The pencil of a cut with its hidden unknown turned by an offset, its leading matrix factored.
@@ -45,19 +44,5 @@ impl Shifted {
         let [a0, a1, _] = &self.pencil.coefficients;
         let divided = |a: &[[f64; 8]; 8]| dense::solve(&self.factors, &self.order, a);
         (self.quality > limits::LEADING).then(|| (divided(a0), divided(a1)))
-    }
-}
-
-impl Pencil<f64> {
-    /// The pencil at a root, divided by `1 + |x|^2` so that large roots do not overflow.
-    pub(super) fn at_root<S: Scalar>(&self, x: S) -> [[S; 8]; 8] {
-        let scale = 1.0 / (1.0 + x.to_complex().norm_sqr());
-        let (square, linear) = (x.mul(&x).times(scale), x.times(scale));
-        let [a0, a1, a2] = &self.coefficients;
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                square.times(a2[i][j]).add(&linear.times(a1[i][j])).add(&S::from_f64(scale * a0[i][j]))
-            })
-        })
     }
 }

@@ -4,8 +4,11 @@ use super::limits;
 use super::mode::{Assembly, Mode, Roots};
 use super::platform::{PlatformAssembly, PlatformWorkspace};
 use super::prepared::PreparedCut;
+use super::rescue::rescue;
 use super::search::{AS_IT_IS, Search};
 use super::shifted::Shifted;
+use crate::algebra::long_float::LongFloat;
+use crate::algebra::ring::Ring;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::degree::general_degree;
@@ -226,7 +229,7 @@ impl Solver {
         assembly: &mut Assembly,
     ) {
         assembly.modes.clear();
-        (assembly.self_motion, assembly.clean, assembly.tries) = (0, false, 0);
+        (assembly.self_motion, assembly.clean, assembly.tries, assembly.rescued) = (0, false, 0, 0);
         let closed = self.close(gap);
         let eigen = &mut workspace.eigen;
         Search {
@@ -240,18 +243,42 @@ impl Solver {
             assembly,
         }
         .run(most);
+        self.finish(assembly);
+    }
+
+    /// Looks again for what is missing of a list, in numbers of 384 bits: `exact` is the same loop, its gap filled, from
+    /// exact data, and `expected` the number of its solutions.
+    pub fn rescue(&self, exact: &ClosedLoop<LongFloat>, expected: usize, assembly: &mut Assembly) {
+        let unit = LongFloat::from(1.0 / self.scale);
+        let constants = exact
+            .constants
+            .each_ref()
+            .map(|motion| Motion { translation: motion.translation.map(|x| x.mul(&unit)), ..motion.clone() });
+        let scaled = ClosedLoop { variables: exact.variables, constants };
+        self.scale_translations(assembly, 1.0 / self.scale);
+        let modes = rescue(&scaled, self.ball, expected);
+        assembly.complete_with(modes, &self.open.variables, expected);
+        self.finish(assembly);
+    }
+
+    fn scale_translations(&self, assembly: &mut Assembly, factor: f64) {
+        for mode in &mut assembly.modes {
+            for (value, variable) in mode.unknowns.iter_mut().zip(self.open.variables) {
+                if variable == Variable::Translation {
+                    *value *= factor;
+                }
+            }
+        }
+    }
+
+    /// Puts the modes in order, in the unit of the mechanism.
+    fn finish(&self, assembly: &mut Assembly) {
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
                 let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));
                 key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal)
             })
         });
-        for mode in &mut assembly.modes {
-            for (value, variable) in mode.unknowns.iter_mut().zip(self.open.variables) {
-                if variable == Variable::Translation {
-                    *value *= self.scale;
-                }
-            }
-        }
+        self.scale_translations(assembly, self.scale);
     }
 }

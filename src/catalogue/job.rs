@@ -93,7 +93,7 @@ fn is_short(design: &Design) -> bool {
     kinds(chain).iter().map(|kind| variables(*kind).len()).sum::<usize>() < 7
 }
 
-fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
+pub(super) fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
     let table = scope.table(node, "`units`", &["length", "angle"])?;
     if let Some(length) = table.get("length") {
         let unit = scope.word(length, "length", &["m", "cm", "mm"])?;
@@ -106,7 +106,7 @@ fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
     Ok(())
 }
 
-fn source(scope: &Scope<'_>, node: &Node) -> Result<Source> {
+pub(super) fn source(scope: &Scope<'_>, node: &Node) -> Result<Source> {
     let table = scope.table(node, "`source`", &["key", "where"])?;
     let key = scope.text(scope.need(&table, "key")?, "key")?.to_owned();
     let place = table.get("where").map(|node| scope.text(node, "where").map(str::to_owned)).transpose()?;
@@ -177,11 +177,13 @@ pub(super) fn expected(
 ) -> Result<Expected> {
     let mut expected = Expected::default();
     if let Some(node) = table.get("expected") {
-        let claims = scope.table(node, "[expected]", &["complex", "real", "dimension"])?;
+        let claims = scope.table(node, "[expected]", &["complex", "real", "dimension", "mobility", "screw_rank"])?;
         let count = |key: &str| claims.get(key).map(|node| scope.count(node, key)).transpose();
         expected.complex = count("complex")?;
         expected.real = count("real")?;
         expected.dimension = count("dimension")?;
+        expected.mobility = count("mobility")?;
+        expected.screw_rank = count("screw_rank")?;
         if let (Some(real), Some(complex)) = (expected.real, expected.complex)
             && real > complex
         {

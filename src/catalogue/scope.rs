@@ -180,7 +180,7 @@ impl<'a> Scope<'a> {
         Ok(placement)
     }
 
-    fn note(&self, exact: bool) {
+    pub(super) fn note(&self, exact: bool) {
         if !exact {
             self.rounded.set(true);
         }

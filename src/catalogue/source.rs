@@ -1,9 +1,10 @@
 //! Where the text of a mechanism comes from: a file, standard input, the library.
 
+use super::ansatz::Ansatz;
 use super::entry::Entry;
 use super::library;
 use super::options::Options;
-use super::text::{Format, LARGEST, load_text, sniffed, too_large};
+use super::text::{Any, Format, LARGEST, ansatz_from_text, any_from_text, load_text, sniffed, too_large};
 use crate::error::{Error, Result};
 use std::io::Read;
 use std::path::Path;
@@ -14,22 +15,55 @@ use std::path::Path;
 /// [`Error::Io`] for what cannot be read at all, [`Error::UnknownEntry`] for a name that is neither file nor entry,
 /// [`Error::File`] with file and line for what the text says, [`Error::Unsupported`] for kinds not solved yet.
 pub fn load(name: &str, options: &Options) -> Result<Entry> {
+    match text_of(name, library::has(name))? {
+        Some((text, path, format)) => load_text(&text, path, format, options),
+        None if library::has(name) => library::builtin(name, options),
+        None => Err(Error::UnknownEntry { name: name.to_owned(), near: library::similar(name) }),
+    }
+}
+
+/// Reads the mechanism of any kind named on a command line: a file, `-` for standard input, or one of the library.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_any(name: &str, options: &Options) -> Result<Any> {
+    match text_of(name, library::has_any(name))? {
+        Some((text, path, format)) => any_from_text(&text, path, format, options),
+        None => library::builtin_any(name, options),
+    }
+}
+
+/// Reads the loop with symbols named on a command line: a file, `-` for standard input, or one of the library.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_ansatz(name: &str, options: &Options) -> Result<Ansatz> {
+    let built_in = library::builtin_ansatz(name, options);
+    match (text_of(name, built_in.is_some())?, built_in) {
+        (Some((text, path, format)), _) => ansatz_from_text(&text, path, format, options),
+        (None, Some(found)) => found,
+        (None, None) => Err(Error::UnknownEntry { name: name.to_owned(), near: library::similar_ansatz(name) }),
+    }
+}
+
+/// The text of a file or of standard input, the name that errors give it, and its format; `None` where there is none of
+/// this name.
+fn text_of(name: &str, is_built_in: bool) -> Result<Option<(String, &str, Format)>> {
     let unreadable = |message: String| Error::Io { path: name.to_owned(), message };
     if name == "-" {
         let bytes = bounded(std::io::stdin().lock(), name)?;
         let text = utf8(bytes, name)?;
-        return load_text(&text, "standard input", sniffed(&text), options);
+        let format = sniffed(&text);
+        return Ok(Some((text, "standard input", format)));
     }
     let path = Path::new(name);
     let metadata = match std::fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() && !library::has(name) => {
+        Ok(metadata) if metadata.is_dir() && !is_built_in => {
             return Err(unreadable("found a directory, expected a file".to_owned()));
         }
         Ok(metadata) if !metadata.is_dir() => metadata,
-        _ if library::has(name) => return library::builtin(name, options),
-        Err(fault) if fault.kind() == std::io::ErrorKind::NotFound => {
-            return Err(Error::UnknownEntry { name: name.to_owned(), near: library::similar(name) });
-        }
+        _ if is_built_in => return Ok(None),
+        Err(fault) if fault.kind() == std::io::ErrorKind::NotFound => return Ok(None),
         Err(fault) => return Err(unreadable(fault.to_string())),
         Ok(_) => return Err(unreadable("found a directory, expected a file".to_owned())),
     };
@@ -46,7 +80,7 @@ pub fn load(name: &str, options: &Options) -> Result<Entry> {
         Some("urdf" | "xml") => Format::Urdf,
         _ => sniffed(&text),
     };
-    load_text(&text, name, format, options)
+    Ok(Some((text, name, format)))
 }
 
 fn bounded(reader: impl Read, name: &str) -> Result<Vec<u8>> {

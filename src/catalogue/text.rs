@@ -1,6 +1,10 @@
 //! From the text of a mechanism to its entry: which reader it goes to.
 
+use super::ansatz::{Ansatz, ansatz};
 use super::entry::Entry;
+use super::framework::{FrameworkFile, framework};
+use super::motion::{MotionFile, motion};
+use super::node::{Node, Value};
 use super::options::Options;
 use super::scope::Scope;
 use super::{dh_table, job, node, urdf};
@@ -29,6 +33,85 @@ pub enum Format {
 /// # Errors
 /// [`Error::File`] with file and line for what the text says, [`Error::Unsupported`] for kinds not solved yet.
 pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Entry> {
+    let (text, name, mut scope) = prepared(text, path, options)?;
+    match format {
+        Format::Toml => job::entry(&mut scope, &node::from_toml(text, path)?, &name),
+        Format::Json => job::entry(&mut scope, &node::from_json(text, path)?, &name),
+        Format::Csv => dh_table::entry(&scope, text, &name),
+        Format::Urdf => urdf::entry(&scope, text, &name, options),
+    }
+}
+
+/// A mechanism file of any kind.
+#[derive(Clone, Debug)]
+pub enum Any {
+    /// An arm, a loop or a platform.
+    Entry(Box<Entry>),
+    /// Bars and bodies.
+    Framework(Box<FrameworkFile>),
+    /// A rational motion.
+    Motion(Box<MotionFile>),
+}
+
+/// Reads a mechanism of any kind from text; `path` is the name that errors give.
+///
+/// # Errors
+/// As [`load_text`].
+pub fn any_from_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Any> {
+    let (text, name, mut scope) = prepared(text, path, options)?;
+    let root = match format {
+        Format::Toml => node::from_toml(text, path)?,
+        Format::Json => node::from_json(text, path)?,
+        Format::Csv | Format::Urdf => {
+            return load_text(text, path, format, options).map(|entry| Any::Entry(Box::new(entry)));
+        }
+    };
+    Ok(match kind(&root) {
+        Some("framework") => Any::Framework(Box::new(framework(&mut scope, &root, &name)?)),
+        Some("motion") => Any::Motion(Box::new(motion(&mut scope, &root, &name)?)),
+        _ => Any::Entry(Box::new(job::entry(&mut scope, &root, &name)?)),
+    })
+}
+
+/// The kind that a file names, if it is one.
+fn kind(root: &Node) -> Option<&str> {
+    let field = |node: &'_ Node, key: &str| match &node.value {
+        Value::Table(fields) => fields.iter().position(|field| field.key == key),
+        _ => None,
+    };
+    let Value::Table(fields) = &root.value else { return None };
+    let mechanism = &fields[field(root, "mechanism")?].node;
+    let Value::Table(fields) = &mechanism.value else { return None };
+    match &fields[field(mechanism, "kind")?].node.value {
+        Value::Text(text) => Some(text),
+        _ => None,
+    }
+}
+
+/// Reads a loop with symbols for parameters from text; `path` is the name that errors give.
+///
+/// # Errors
+/// [`Error::File`] with file and line for what the text says, [`Error::Unsupported`] for loops that are beyond this.
+pub fn ansatz_from_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Ansatz> {
+    let (text, name, mut scope) = prepared(text, path, options)?;
+    let root = match format {
+        Format::Toml => node::from_toml(text, path)?,
+        Format::Json => node::from_json(text, path)?,
+        Format::Csv | Format::Urdf => {
+            return Err(Error::Unsupported(format!("{path}: conditions are read from TOML or JSON only")));
+        }
+    };
+    ansatz(&mut scope, &root, &name)
+}
+
+/// Whether a text in TOML is an ansatz and no mechanism: whether it has symbols.
+#[must_use]
+pub fn is_ansatz(text: &str) -> bool {
+    text.lines().any(|line| line.trim_start().starts_with("[symbols]"))
+}
+
+/// The text without byte-order mark, the name of the mechanism and what its reader carries along.
+fn prepared<'a>(text: &'a str, path: &'a str, options: &Options) -> Result<(&'a str, String, Scope<'a>)> {
     if !(1..=MOST_DIGITS).contains(&options.digits) {
         return Err(Error::Invalid(format!("found {} digits, expected 1 to {MOST_DIGITS}", options.digits)));
     }
@@ -45,13 +128,7 @@ pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> R
     }
     let name = Path::new(path).file_stem().map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned());
     let reading = Reading { digits: options.digits, ..Reading::default() };
-    let mut scope = Scope::new(path, reading);
-    match format {
-        Format::Toml => job::entry(&mut scope, &node::from_toml(text, path)?, &name),
-        Format::Json => job::entry(&mut scope, &node::from_json(text, path)?, &name),
-        Format::Csv => dh_table::entry(&scope, text, &name),
-        Format::Urdf => urdf::entry(&scope, text, &name, options),
-    }
+    Ok((text, name, Scope::new(path, reading)))
 }
 
 /// The format that the beginning of a text shows.

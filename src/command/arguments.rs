@@ -29,6 +29,12 @@ pub enum Verb {
     Derive(DeriveOptions),
     /// Run the input of a loop through a range: branches, limit positions
     Sweep(SweepOptions),
+    /// Decide whether a loop moves, with proof
+    Mobility(MobilityOptions),
+    /// Factor a rational motion and close loops of its factorisations
+    Factor(FactorOptions),
+    /// Derive for which parameters a closed chain of revolute joints moves
+    Conditions(ConditionsOptions),
     /// List the built-in library
     List(ListOptions),
     /// Print a mechanism as it was understood
@@ -156,11 +162,26 @@ pub struct SolveOptions {
 #[derive(Args)]
 pub struct DeriveOptions {
     /// A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input; of several
-    /// poses or inputs the first one, unless one is asked for
-    pub mechanism: String,
+    /// poses or inputs the first one, unless one is asked for; with --bless files and folders
+    #[arg(required = true, value_name = "MECHANISM")]
+    pub mechanisms: Vec<String>,
     /// One JSON document
     #[arg(long)]
     pub json: bool,
+    /// Keep link parameters and the input as symbols: all that are neither zero nor a right angle, or those named, as
+    /// a1,alpha2,d3,theta4
+    #[arg(
+        long,
+        value_name = "NAMES",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        conflicts_with = "explain"
+    )]
+    pub symbolic: Option<String>,
+    /// Write the equations, where they fit two pages, to name.eqs beside every name.toml
+    #[arg(long, conflicts_with_all = ["json", "format", "explain", "symbolic", "output"])]
+    pub bless: bool,
     /// The equations in half-angle form (of a platform: in Study's parameters) and the closure polynomial as a file for
     /// another program
     #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]
@@ -168,6 +189,10 @@ pub struct DeriveOptions {
     /// The whole derivation in Markdown with LaTeX formulas
     #[arg(long, conflicts_with_all = ["json", "format"])]
     pub explain: bool,
+    /// Loops of four R or C joints: the spherical closure equation and, over dual numbers, the spatial one; of a file, or with
+    /// all parameters symbols: rccc, ccrr, 4r, hooke
+    #[arg(long, conflicts_with_all = ["explain", "symbolic", "bless", "pose", "input", "joints", "legs", "at"])]
+    pub transference: bool,
     /// Print the verdict only
     #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
     pub quiet: bool,
@@ -188,7 +213,7 @@ pub struct SweepOptions {
     /// file]
     #[arg(long, value_name = "JOINT")]
     pub joint: Option<String>,
-    /// Where the input begins: "-180 deg", "pi/3", "20 mm"; plain numbers are in the units of the file
+    /// Where the input begins: "-180 deg", "pi/3", "20 mm"; plain numbers are radians or metres
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub from: String,
     /// Where it ends; a full turn joins up
@@ -198,19 +223,46 @@ pub struct SweepOptions {
     #[arg(long, value_name = "N", default_value = "360", value_parser = steps)]
     pub steps: usize,
     /// CSV: one row for every branch and step, radians and metres
-    #[arg(long, conflicts_with = "json")]
+    #[arg(long, conflicts_with_all = ["json", "svg"])]
     pub csv: bool,
+    /// A picture: every joint variable against the input
+    #[arg(long, conflicts_with = "json")]
+    pub svg: bool,
     /// One JSON document
     #[arg(long)]
     pub json: bool,
-    /// Also a picture of all branches of every joint against the input
-    #[arg(long, value_name = "FILE")]
-    pub svg: Option<PathBuf>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
     /// Print the verdict only
     #[arg(short, long)]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// `looproot conditions`
+#[derive(Args)]
+pub struct ConditionsOptions {
+    /// 4R (all parameters symbols), a file of a loop with symbols or numbers, the name of a built-in one, or - for standard
+    /// input
+    pub mechanism: String,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// The conditions of one family as a file for another program
+    #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]
+    pub format: Option<Format>,
+    /// Which family: a part of its name, such as "spherical" [default: the first one]
+    #[arg(long, value_name = "NAME", requires = "format")]
+    pub family: Option<String>,
+    /// The whole derivation in Markdown with LaTeX formulas
+    #[arg(long, conflicts_with_all = ["json", "format"])]
+    pub explain: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
     pub quiet: bool,
     #[command(flatten)]
     pub read: ReadOptions,
@@ -225,6 +277,57 @@ fn steps(text: &str) -> Result<usize, String> {
         Ok(steps @ 1..=MOST) => Ok(steps),
         _ => Err(format!("expected 1 to {MOST}")),
     }
+}
+
+/// `looproot mobility`
+#[derive(Args)]
+pub struct MobilityOptions {
+    /// A file of a loop or a framework, the name of a built-in entry, or - for standard input; inputs of the file are not
+    /// looked at
+    pub mechanism: String,
+    /// Frameworks: how many steps of the motion are followed in f64
+    #[arg(long, value_name = "N", default_value = "60", value_parser = steps)]
+    pub steps: usize,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// `looproot factor`
+#[derive(Args)]
+pub struct FactorOptions {
+    /// A file of a rational motion (kind "motion"), the name of a built-in one, or - for standard input
+    pub mechanism: String,
+    /// The two factorisations that close the loop, counted from 1: 1,6 [default: the first pair with the most joints]
+    #[arg(long, value_name = "I,J", value_parser = pair)]
+    pub pair: Option<(usize, usize)>,
+    /// The loop as a mechanism file
+    #[arg(long, conflicts_with_all = ["json", "quiet"])]
+    pub toml: bool,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// Two numbers counted from 1, as counted from 0.
+fn pair(text: &str) -> Result<(usize, usize), String> {
+    let number = |text: &str| text.trim().parse::<usize>().ok()?.checked_sub(1);
+    let numbers = text.split_once(',').and_then(|(i, j)| Some((number(i)?, number(j)?)));
+    numbers.ok_or_else(|| "expected two numbers from 1, such as 1,6".to_owned())
 }
 
 /// `looproot list`
@@ -279,6 +382,8 @@ pub struct BenchOptions {
 pub enum Measure {
     /// Solutions found, lost, spurious, duplicated against planted configurations
     Accuracy(AccuracyOptions),
+    /// Overconstrained loops with a small error in one link: none of them may be called mobile
+    Mobility(DisturbOptions),
     /// Times on one core beside faer's eigenvalues of one 16 x 16 or 40 x 40 matrix
     Speed(SpeedOptions),
 }
@@ -299,6 +404,26 @@ pub struct AccuracyOptions {
     /// Look for real solutions only
     #[arg(long)]
     pub real: bool,
+    /// A JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+/// `looproot bench mobility`
+#[derive(Args)]
+pub struct DisturbOptions {
+    /// A mobile loop of up to six variables of the built-in library; all of them if none is given
+    #[arg(long, value_name = "NAME")]
+    pub entry: Option<String>,
+    /// Number of disturbed loops of each
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub count: u64,
+    /// Seed of the draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
     /// A JSON document
     #[arg(long)]
     pub json: bool,

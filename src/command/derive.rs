@@ -1,34 +1,64 @@
 //! `looproot derive`
 
 use super::arguments::DeriveOptions;
+use super::bless;
 use super::exit::{Exit, Fault};
 use super::output::Output;
 use super::wanted::wanted;
 use looproot::catalogue::load;
-use looproot::derivation::{Derivation, derive};
+use looproot::derivation::{Derivation, derive, derive_symbolic};
+use looproot::error::Error;
 use looproot::report::derivation::{json, markdown, system, text, verdict};
+use looproot::report::symbolic;
 use std::io::Write;
 
 /// Derives closure equations and closure polynomial of the case asked for, else of the first one.
 pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
-    let mut entry = load(&options.mechanism, &options.read.options())?;
-    let index = wanted(&options.asked, &options.mechanism, &mut entry)?.start;
-    let derivation = derive(&entry, &entry.cases[index])?;
-    let written = if options.json {
-        format!("{}\n", json(&entry, index + 1, &derivation))
-    } else if let Some(format) = options.format {
-        system(&derivation, format)?
-    } else if options.explain {
-        markdown(&entry, index + 1, &derivation)?
-    } else if options.quiet {
-        verdict(&derivation) + "\n"
-    } else {
-        text(&derivation)
+    if options.bless {
+        return bless::run(&options.mechanisms, options.quiet);
+    }
+    let [mechanism] = options.mechanisms.as_slice() else {
+        let message = format!("found {} mechanisms, expected one, or --bless", options.mechanisms.len());
+        return Err(Error::Invalid(message).into());
     };
-    let mut output = Output::open(&options.output, &options.mechanism)?;
+    if options.transference {
+        return super::transference::run(options, mechanism);
+    }
+    let mut entry = load(mechanism, &options.read.options())?;
+    let index = wanted(&options.asked, mechanism, &mut entry)?.start;
+    let case = &entry.cases[index];
+    let (written, exit) = if let Some(list) = &options.symbolic {
+        let names: Vec<String> = list.split(',').map(|name| name.trim().to_owned()).filter(|n| !n.is_empty()).collect();
+        let derivation = derive_symbolic(&entry, case, &names)?;
+        let written = if options.json {
+            format!("{}\n", symbolic::json(&entry, index + 1, &derivation))
+        } else if let Some(format) = options.format {
+            symbolic::system(&derivation, format)?
+        } else if options.quiet {
+            symbolic::verdict(&derivation) + "\n"
+        } else {
+            symbolic::text(&derivation)
+        };
+        (written, Exit::Complete)
+    } else {
+        let derivation = derive(&entry, case)?;
+        let written = if options.json {
+            format!("{}\n", json(&entry, index + 1, &derivation))
+        } else if let Some(format) = options.format {
+            system(&derivation, format)?
+        } else if options.explain {
+            markdown(&entry, index + 1, &derivation)?
+        } else if options.quiet {
+            verdict(&derivation) + "\n"
+        } else {
+            text(&derivation)
+        };
+        (written, exit(&derivation))
+    };
+    let mut output = Output::open(&options.output, mechanism)?;
     output.writer.write_all(written.as_bytes())?;
     output.writer.flush()?;
-    Ok(exit(&derivation))
+    Ok(exit)
 }
 
 /// Without a polynomial nothing is proved; without a real root nothing is reached.

@@ -1,6 +1,6 @@
 //! `looproot sweep`
 
-use super::arguments::{Colour, OutputOptions, SweepOptions};
+use super::arguments::SweepOptions;
 use super::exit::{Exit, Fault};
 use super::output::{Output, pool};
 use super::solve::stop_on_interrupt;
@@ -11,7 +11,7 @@ use looproot::catalogue::load;
 use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::closed_loop::Variable;
-use looproot::report::curves;
+use looproot::report::picture::svg;
 use looproot::report::sweep::{self as report, Swept};
 use looproot::sweep::{Range, Sweep, sweep};
 use looproot::verdict::Status;
@@ -50,12 +50,6 @@ pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
     let pool = pool(options.threads)?;
     let found = pool.install(|| sweep(&entry, swept.joint, swept.variable, range, running, || progress.inc(1)))?;
     progress.finish_and_clear();
-    if let Some(path) = &options.svg {
-        let picture = OutputOptions { output: Some(path.clone()), color: Colour::Never };
-        let mut picture = Output::open(&picture, &options.mechanism)?;
-        picture.writer.write_all(curves::svg(&entry, swept, &found).as_bytes())?;
-        picture.writer.flush()?;
-    }
     write(options, &entry, swept, &found, output)?;
     Ok(exit(&found))
 }
@@ -64,6 +58,8 @@ fn write(options: &SweepOptions, entry: &Entry, swept: Swept, found: &Sweep, mut
     let out = &mut output.writer;
     if options.json {
         writeln!(out, "{}", report::json(entry, swept, found))?;
+    } else if options.svg {
+        write!(out, "{}", svg(entry, swept, found))?;
     } else if options.csv {
         write!(out, "{}", report::csv(entry, found))?;
     } else if options.quiet {

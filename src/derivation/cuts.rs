@@ -26,7 +26,7 @@ const TURNING: [&str; 4] = ["n'", "r", "r x n'", "(r.r) n' - 2 (n'.r) r"];
 
 /// The first cut that leaves the fewest roots, distinct if possible. The first one of all is taken at once where it
 /// leaves 16 distinct ones, as in general.
-fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
+pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
     let mut best = None;
     for cut in Cut::ALL {
         for hidden in [Hidden::First, Hidden::Second] {
@@ -52,20 +52,26 @@ pub(super) fn eliminate(exact: &Exact) -> Eliminated {
         (None, Some(&cut)) => (cut, Hidden::First),
         (None, None) => {
             let step = "Every cut of the loop loses equations.".to_owned();
-            return Eliminated { equations: Vec::new(), steps: vec![step], polynomial: None, per_root: 1 };
+            return Eliminated {
+                equations: Vec::new(),
+                steps: vec![step],
+                polynomial: None,
+                removed: Vec::new(),
+                per_root: 1,
+            };
         }
     };
     let view = cut.of(&exact.closed);
     let mut equations = listed(&exact.symbols, cut, &view);
     let Some(form) = half_angle_form(&view) else {
-        return Eliminated { equations, steps: Vec::new(), polynomial: None, per_root: 1 };
+        return Eliminated { equations, steps: Vec::new(), polynomial: None, removed: Vec::new(), per_root: 1 };
     };
     let rows = bilinear(&before_second_link(&form, &view.constants[1]), &view);
     equations.extend(reduced(&exact.symbols, cut, &rows));
     let kept = cut.unknown_index(usize::from(hidden == Hidden::Second));
     let determinant = determinant(cut, hidden, &rows);
     let polynomial = (!determinant.is_zero()).then_some((kept, determinant, Meaning::HalfTangent { degree: 16 }));
-    Eliminated { equations, steps: steps(&exact.symbols, cut, hidden), polynomial, per_root: 1 }
+    Eliminated { equations, steps: steps(&exact.symbols, cut, hidden), polynomial, removed: Vec::new(), per_root: 1 }
 }
 
 /// The determinant of the pencil, in the half-angle tangent of the joint itself.

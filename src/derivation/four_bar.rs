@@ -2,12 +2,14 @@
 
 use super::Equation;
 use super::chain::{Eliminated, Exact, Mod};
-use super::polynomial::Meaning;
-use super::symbols::bilinear_form;
+use super::equation::primitive;
+use super::polynomial::{Meaning, Removed};
+use super::symbols::{Symbols, bilinear_form};
+use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::elimination::cut::Hidden;
-use crate::elimination::octic::closure_polynomial;
+use crate::elimination::octic::{closure_polynomial, false_roots};
 use crate::elimination::separated::offset;
 use crate::elimination::spherical_four_bar::FourBar;
 use crate::kinematics::link_form::LinkForm;
@@ -16,14 +18,13 @@ use rug::Rational;
 /// How good a polynomial is: the number of roots that may be solutions, then whether some coincide. Less is better.
 pub(super) fn quality<F: Field + Domain>(polynomial: &Univariate<F>) -> Option<(usize, bool)> {
     polynomial.degree()?;
-    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
-    let rest = polynomial.remove_factor(&circle).1;
+    let rest = polynomial.remove_factor(&circle()).1;
     let multiple = rest.gcd(&rest.derivative()).degree() > Some(0);
     Some((rest.degree().unwrap_or(0), multiple))
 }
 
 /// The link from which to look, and the angle to keep: the first that leaves the fewest roots, distinct if possible.
-fn choice(form: &LinkForm<Mod, 4, 2>) -> Option<(usize, Hidden)> {
+pub(super) fn choice(form: &LinkForm<Mod, 4, 2>) -> Option<(usize, Hidden)> {
     let mut best = None;
     for base in 0..4 {
         let Some(bar) = FourBar::new(form, base) else { continue };
@@ -73,15 +74,45 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
              N3^2 = 0, a polynomial of degree 8 or less in {}.",
             symbols.label(gone), symbols.name(kept)
         ),
-        "Every solution is a root; a root at which u and v are parallel need not be one. The other rotations and the two \
-         translations follow rationally."
+        "Every solution is a root. Roots at which u and v are parallel without closing the loop, and those at which the other \
+         half-angle tangent would be i, are no solutions and are divided out. The other rotations and the two translations \
+         follow rationally."
             .to_owned(),
     ];
-    let polynomial = if degenerate && exact.modular.is_some() {
-        None
-    } else {
-        let polynomial = closure_polynomial(&equations, hidden, &[1, 1, 0].map(Rational::from));
-        (!polynomial.is_zero()).then_some((kept, polynomial, Meaning::HalfTangent { degree: 8 }))
+    let mut eliminated =
+        Eliminated { equations: listed.collect(), steps, polynomial: None, removed: Vec::new(), per_root: 1 };
+    if !(degenerate && exact.modular.is_some()) {
+        let origin = [1, 1, 0].map(Rational::from);
+        let polynomial = closure_polynomial(&equations, hidden, &origin);
+        if !polynomial.is_zero() {
+            let rest = polynomial.remove_factor(&circle()).1;
+            let lost = false_roots(&bar, &equations, hidden, &origin, &rest);
+            let all = lost.imaginary.mul(&lost.parallel);
+            let degree = 8 - all.degree().unwrap_or(0) - lost.parallel_at_pi;
+            eliminated.polynomial = Some((kept, polynomial.div_exact(&all), Meaning::HalfTangent { degree }));
+            let imaginary = format!("joint {} would have the half-angle tangent i or -i there", symbols.label(gone));
+            let parallel = "the translations are parallel there and do not close the loop";
+            eliminated.removed = removed(kept, &lost.imaginary, 0, &imaginary);
+            eliminated.removed.extend(removed(kept, &lost.parallel, lost.parallel_at_pi, parallel));
+        }
+    }
+    Some(eliminated)
+}
+
+/// `1 + x^2`
+fn circle<F: Field>() -> Univariate<F> {
+    Univariate::new(vec![F::one(), F::zero(), F::one()])
+}
+
+/// A factor of false roots, divided into square-free ones, and the false roots at infinity.
+pub(super) fn removed(kept: usize, factor: &Univariate<Rational>, at_pi: usize, reason: &str) -> Vec<Removed> {
+    let square_free = |(factor, multiplicity): (Univariate<Rational>, usize)| {
+        let factor = Polynomial::from_univariate(Symbols::variable(kept), &factor);
+        Removed { factor: Some(primitive(&factor)), multiplicity, reason: reason.to_owned() }
     };
-    Some(Eliminated { equations: listed.collect(), steps, polynomial, per_root: 1 })
+    let mut removed: Vec<Removed> = factor.square_free_decomposition().into_iter().map(square_free).collect();
+    if at_pi > 0 {
+        removed.push(Removed { factor: None, multiplicity: at_pi, reason: reason.to_owned() });
+    }
+    removed
 }

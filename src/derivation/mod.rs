@@ -9,17 +9,24 @@ mod equation;
 mod four_bar;
 mod platform;
 mod polynomial;
+mod pose;
+mod symbolic;
 mod symbols;
+pub mod transference;
 mod triangle;
 mod two_sides;
 
 pub use equation::Equation;
-pub use polynomial::{ClosurePolynomial, Root};
+pub use polynomial::{ClosurePolynomial, Removed, Root};
+pub use pose::RootPose;
+pub use symbolic::{Displayed, Quotient, Symbolic, SymbolicPolynomial, derive_symbolic};
 
+use crate::algebra::number::Number;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::Names;
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
+use crate::kinematics::platform::Platform;
 use rug::Rational;
 
 /// The derivation of one case of a mechanism file.
@@ -54,6 +61,14 @@ impl Derivation {
         system.extend(polynomial.filter(|polynomial| !system.contains(polynomial)));
         system
     }
+}
+
+/// The closure equations of a platform alone, with the names of their variables.
+///
+/// # Errors
+/// [`crate::error::Error::Invalid`] for a case without legs.
+pub fn platform_equations(geometry: &Platform<Number>, case: &Case) -> Result<(Names, Vec<Equation>)> {
+    platform::equations_of(geometry, case)
 }
 
 /// Derives the closure equations and the closure polynomial of one case.

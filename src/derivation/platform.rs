@@ -1,6 +1,8 @@
-//! Platforms: the legs and the Study condition, and the polynomial of a quotient of coordinates of the rotation.
+//! Platforms: the legs and the Study condition, and the polynomial of a quotient of coordinates of the rotation, or of a
+//! coordinate of a point in which two legs meet.
 
 use super::polynomial::{ClosurePolynomial, Meaning};
+use super::pose::lift;
 use super::{Derivation, Equation};
 use crate::algebra::number::Number;
 use crate::algebra::polynomial::Polynomial;
@@ -9,17 +11,106 @@ use crate::algebra::text::Names;
 use crate::catalogue::entry::Case;
 use crate::closure::study::{Leg, scalar};
 use crate::elimination::platform_degree::{PlatformDegree, platform_degree};
-use crate::elimination::platform_polynomial::{Coordinate, multiple_platform_polynomial, platform_polynomial};
+use crate::elimination::platform_polynomial::{
+    Coordinate, PlatformPolynomial, multiple_platform_polynomial, platform_polynomial,
+};
+use crate::elimination::triangle_platform::{Pairs, Triangle, TrianglePolynomial, triangle_polynomial};
 use crate::error::{Error, Result};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
 use crate::mechanism::platform_over;
-use rug::Rational;
+use rug::{Integer, Rational};
 
-/// Variables 0 to 3 are x, 4 to 7 are y.
-const NAMES: [&str; 9] = ["x0", "x1", "x2", "x3", "y0", "y1", "y2", "y3", "k"];
+/// Variables 0 to 3 are x, 4 to 7 are y; the last ones, of a triangle, the coordinates of its corners on their circles.
+const NAMES: [&str; 15] = ["x0", "x1", "x2", "x3", "y0", "y1", "y2", "y3", "k", "a1", "b1", "a2", "b2", "a3", "b3"];
 /// The variable of the polynomial.
 const QUOTIENT: usize = 8;
+/// The first of the coordinates on circles.
+const ON_CIRCLE: usize = 9;
+
+/// What the polynomial is in.
+enum Found {
+    /// A quotient of coordinates of the rotation.
+    Quotient(PlatformPolynomial),
+    /// A coordinate of a point in which two legs meet.
+    Corner(TrianglePolynomial),
+}
+
+impl Found {
+    fn of(platform: &Platform<Rational>, squares: &[Rational; 6], poses: Option<usize>) -> Option<Self> {
+        let triangle = poses.and_then(|poses| triangle_polynomial(platform, squares, poses)).map(Self::Corner);
+        triangle
+            .or_else(|| platform_polynomial(platform, squares).map(Self::Quotient))
+            .or_else(|| multiple_platform_polynomial(platform, squares).map(Self::Quotient))
+    }
+
+    fn coefficients(&self) -> &[Integer] {
+        match self {
+            Self::Quotient(found) => &found.coefficients,
+            Self::Corner(found) => &found.coefficients,
+        }
+    }
+
+    fn per_root(&self) -> usize {
+        match self {
+            Self::Quotient(_) => 1,
+            Self::Corner(found) => found.per_root,
+        }
+    }
+
+    fn step(&self) -> String {
+        match self {
+            Self::Quotient(found) => format!(
+                "Multiplication by k = {} in the quotient algebra, without the components with x.x = 0, is a matrix of size {}; \
+                 its characteristic polynomial from {} primes, confirmed by one more, is the closure polynomial.",
+                words(&found.coordinate),
+                found.coefficients.len() - 1,
+                found.primes
+            ),
+            Self::Corner(found) => {
+                let [one, two, three] = found.pairs.legs.map(|[i, j]| format!("{} and {}", i + 1, j + 1));
+                let (body, other) = if found.pairs.at_base { ("base", "plate") } else { ("plate", "base") };
+                let [g, h, l] = &found.direction;
+                let mirrored = if found.per_root == 2 {
+                    format!(
+                        "; it is even in the distance of P from the plane of the {other}, so that two poses, mirror images, \
+                         belong to a root"
+                    )
+                } else {
+                    String::new()
+                };
+                format!(
+                    "Legs {one}, {two}, {three} meet in points of the {body}, each of which moves on a circle about the line \
+                     through the other ends, P = c + a u + b v; the three sides of the triangle are bilinear in \
+                     (1, a, b) of two corners. Two resultants, by the second and the third corner, leave a form of \
+                     degree 8 on the circle of the first one, P; its resultant with the circle is the closure polynomial in \
+                     k = ({g}, {h}, {l}).P, in the frame of the {other}{mirrored}."
+                )
+            }
+        }
+    }
+
+    /// The variable at a pose, as a fraction.
+    fn fraction<R: Ring>(&self, platform: &Platform<Rational>, x: &Quaternion<R>, y: &Quaternion<R>) -> [R; 2] {
+        match self {
+            Self::Quotient(found) => found.coordinate.fraction(x),
+            Self::Corner(found) => {
+                let points = if found.pairs.at_base { &platform.base } else { &platform.plate };
+                let point = points[found.pairs.legs[0][0]].each_ref();
+                let point = point.map(|c| R::from_rational(c).unwrap_or_else(R::zero));
+                [found.scaled_coordinate(x, y, &point), x.norm()]
+            }
+        }
+    }
+}
+
+/// `k below - above` for the variable as a fraction.
+fn definition(found: &Found, platform: &Platform<Rational>) -> Polynomial<Rational> {
+    let [x0, x1, x2, x3, y0, y1, y2, y3]: [Polynomial<Rational>; 8] = std::array::from_fn(Polynomial::variable);
+    let (x, y) = (Quaternion { scalar: x0, vector: [x1, x2, x3] }, Quaternion { scalar: y0, vector: [y1, y2, y3] });
+    let [above, below] = found.fraction(platform, &x, &y);
+    Polynomial::variable(QUOTIENT).mul(&below).sub(&above)
+}
 
 /// The derivation of one set of legs.
 pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivation> {
@@ -29,35 +120,47 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
     let platform: Platform<Rational> = platform_over(geometry).ok_or_else(missing)?;
     let degree = platform_degree(&platform, &squares);
     let isolated = !matches!(degree, Some(PlatformDegree::Infinite | PlatformDegree::Finite { poses: 0, .. }));
-    let simple = || platform_polynomial(&platform, &squares);
-    let found = if isolated { simple().or_else(|| multiple_platform_polynomial(&platform, &squares)) } else { None };
+    let poses = match degree {
+        Some(PlatformDegree::Finite { poses, .. }) => Some(poses),
+        Some(PlatformDegree::Infinite) | None => None,
+    };
+    let found = if isolated { Found::of(&platform, &squares, poses) } else { None };
     let mut steps = vec![
         "A pose is x, the quaternion of the rotation, and y = p x with the position p: with a, b the points of a leg of length \
          L, w = y + x b - a x is the leg times x, w.w = L^2 x.x for each of six legs, and x.y = 0 (Study)."
             .to_owned(),
-        "Linear in u = (x.x) (p.p, p, R^T p), the legs are K u = c(x) with a constant 6 x 7 matrix K and quadratic forms c; a \
-         graded border basis of the ideal, modulo primes, has blocks of 27 x 31 at most and a quotient algebra of dimension 40 \
-         at most."
-            .to_owned(),
     ];
-    let (mut polynomial, mut without, mut definition) = (None, None, None);
-    if let Some(found) = found {
-        steps.push(format!(
-            "Multiplication by k = {} in the quotient algebra, without the components with x.x = 0, is a matrix of size {}; its \
-             characteristic polynomial from {} primes, confirmed by one more, is the closure polynomial.",
-            words(&found.coordinate),
-            found.coefficients.len() - 1,
-            found.primes
-        ));
-        let analysed = ClosurePolynomial::of(QUOTIENT, found.coefficients, Meaning::Plain)?;
-        if analysed.as_ref().is_some_and(|polynomial| polynomial.distinct() < polynomial.degree()) {
+    if !matches!(found, Some(Found::Corner(_))) {
+        steps.push(
+            "Linear in u = (x.x) (p.p, p, R^T p), the legs are K u = c(x) with a constant 6 x 7 matrix K and quadratic forms c; \
+             a graded border basis of the ideal, modulo primes, has blocks of 27 x 31 at most and a quotient algebra of \
+             dimension 40 at most."
+                .to_owned(),
+        );
+    }
+    let mut equations = equations(&platform, &squares);
+    if let Some(Found::Corner(found)) = &found {
+        equations.extend(triangle_equations(&platform, &squares, &found.pairs));
+    }
+    let (mut polynomial, mut without, mut defined, mut warnings) = (None, None, None, Vec::new());
+    if let Some(found) = &found {
+        steps.push(found.step());
+        polynomial = ClosurePolynomial::of(QUOTIENT, found.coefficients().to_vec(), Meaning::Plain, Vec::new())?;
+        if let Some(polynomial) = &mut polynomial {
+            if polynomial.distinct() < polynomial.degree() {
+                steps.push(
+                    "Multiple roots are poses that coincide, or different ones of the same rotation: k tells those not apart."
+                        .to_owned(),
+                );
+            }
+            warnings = lift(&platform, &squares, poses, polynomial, |x, y| found.fraction::<Rational>(&platform, x, y));
             steps.push(
-                "Multiple roots are poses that coincide, or different ones of the same rotation: k tells those not apart."
+                "The poses at the real roots are those of the numeric solution at which k is the root, refined with exact \
+                 residuals."
                     .to_owned(),
             );
         }
-        definition = Some(super::equation::primitive(&quotient(&found.coordinate)));
-        polynomial = analysed;
+        defined = Some(super::equation::primitive(&definition(found, &platform)));
     } else {
         without = Some(match degree {
             Some(PlatformDegree::Infinite) => "the poses are not isolated: a self-motion, real or complex".to_owned(),
@@ -70,14 +173,23 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
     }
     Ok(Derivation {
         names: Names::given(NAMES)?,
-        equations: equations(&platform, &squares),
+        equations,
         steps,
         polynomial,
         without,
-        per_root: 1,
-        definition,
-        warnings: Vec::new(),
+        per_root: found.as_ref().map_or(1, Found::per_root),
+        definition: defined,
+        warnings,
     })
+}
+
+/// The equations of one set of legs alone, with the names of their variables.
+pub(super) fn equations_of(geometry: &Platform<Number>, case: &Case) -> Result<(Names, Vec<Equation>)> {
+    let missing = || Error::Invalid("a case of a platform without legs".to_owned());
+    let squares = case.legs_squared.as_ref().ok_or_else(missing)?;
+    let squares = squares.each_ref().map(|square| square.rational().clone());
+    let platform: Platform<Rational> = platform_over(geometry).ok_or_else(missing)?;
+    Ok((Names::given(NAMES)?, equations(&platform, &squares)))
 }
 
 fn equations(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Vec<Equation> {
@@ -95,15 +207,28 @@ fn equations(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Vec<Equa
     legs.chain([both("Study x.y".to_owned(), &scalar(&x, &y))]).collect()
 }
 
-/// `k z_0 - weights.(z_1, z_2, z_3)` with `z = turn^-1 x`, times a number.
-fn quotient(coordinate: &Coordinate) -> Polynomial<Rational> {
-    let [w, i, j, k] = coordinate.turn.map(Polynomial::<Rational>::from_integer);
-    let [x0, x1, x2, x3]: [Polynomial<Rational>; 4] = std::array::from_fn(Polynomial::variable);
-    let turn = Quaternion { scalar: w, vector: [i, j, k] };
-    let z = turn.conjugate().mul(&Quaternion { scalar: x0, vector: [x1, x2, x3] });
-    let weighted = z.vector.iter().zip(coordinate.weights);
-    let weighted = weighted.fold(Polynomial::zero(), |sum, (z, w)| sum.add(&z.mul(&Polynomial::from_integer(w))));
-    Polynomial::variable(QUOTIENT).mul(&z.scalar).sub(&weighted)
+/// The circles of the corners and the sides of the triangle, in the coordinates of each corner on its circle.
+fn triangle_equations(platform: &Platform<Rational>, squares: &[Rational; 6], pairs: &Pairs) -> Vec<Equation> {
+    let Some(triangle) = Triangle::new(platform, squares, pairs) else { return Vec::new() };
+    let corner = |n: usize| -> [Polynomial<Rational>; 3] {
+        [Polynomial::one(), Polynomial::variable(ON_CIRCLE + 2 * n), Polynomial::variable(ON_CIRCLE + 2 * n + 1)]
+    };
+    let circles = (0..3).map(|n| {
+        let [_, a, b] = corner(n);
+        let circle = &triangle.circles[n];
+        let form = a.mul(&a).scale(&circle.squares[0]).add(&b.mul(&b).scale(&circle.squares[1]));
+        let [i, j] = pairs.legs[n].map(|leg| leg + 1);
+        let name = format!("circle of corner {}, legs {i} and {j}", n + 1);
+        Equation::listed(name, &form.sub(&Polynomial::constant(circle.radius_square.clone())))
+    });
+    let sides = [(0, 1), (1, 2), (2, 0)].into_iter().map(|(i, j)| {
+        let form = triangle.side(i, j);
+        let (one, two) = (corner(i), corner(j));
+        let terms = (0..9).map(|k| one[k / 3].mul(&two[k % 3]).scale(&form[k / 3][k % 3]));
+        let sum = terms.fold(Polynomial::zero(), |sum, term| sum.add(&term));
+        Equation::listed(format!("side of corners {} and {}", i + 1, j + 1), &sum)
+    });
+    circles.chain(sides).collect()
 }
 
 /// The quotient in words: `(x1 - 2 x2 + 3 x3)/x0`.

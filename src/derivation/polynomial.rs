@@ -1,5 +1,6 @@
 //! A closure polynomial over the integers, with all that can be proved of its roots.
 
+use super::pose::RootPose;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::real_roots::RealRoot;
 use crate::algebra::univariate::Univariate;
@@ -13,14 +14,25 @@ pub struct ClosurePolynomial {
     pub variable: usize,
     /// Integers without common factor, constant term first, the last one positive.
     pub coefficients: Univariate<Integer>,
-    /// The power k of the factor `(1 + t^2)^k` that was divided out: no angle has the half-angle tangent i.
-    pub circle: usize,
+    /// What was divided out.
+    pub removed: Vec<Removed>,
     /// How many roots are at infinity, where the angle is pi.
     pub at_pi: usize,
     /// Degree and multiplicity of the square-free factors.
     pub factors: Vec<(usize, usize)>,
     /// The distinct finite real roots, isolated.
     pub roots: Vec<Root>,
+}
+
+/// A factor of an elimination's result whose roots belong to no solution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Removed {
+    /// The factor, square-free, integers without common factor; `None` for roots at infinity.
+    pub factor: Option<Polynomial<Rational>>,
+    /// How often it was divided out.
+    pub multiplicity: usize,
+    /// Why its roots belong to no solution.
+    pub reason: String,
 }
 
 /// A real root.
@@ -32,11 +44,13 @@ pub struct Root {
     pub exact: Option<Rational>,
     /// How often it counts.
     pub multiplicity: usize,
+    /// The real poses at it, of a platform.
+    pub poses: Vec<RootPose>,
 }
 
 impl Root {
     fn of(mut root: RealRoot) -> Self {
-        Self { value: root.to_f64(), exact: root.exact(), multiplicity: root.multiplicity() }
+        Self { value: root.to_f64(), exact: root.exact(), multiplicity: root.multiplicity(), poses: Vec::new() }
     }
 }
 
@@ -50,19 +64,29 @@ pub(super) enum Meaning {
 }
 
 impl ClosurePolynomial {
-    /// The polynomial without factors `1 + t^2`; `None` for zero.
+    /// The polynomial without factors `1 + t^2`; `None` for zero. Other factors are `removed` already.
     ///
     /// # Errors
     /// Where isolation and Sturm's theorem disagree on the number of real roots, which neither can be wrong about.
-    pub(super) fn of(variable: usize, integers: Vec<Integer>, meaning: Meaning) -> Result<Option<Self>> {
+    pub(super) fn of(
+        variable: usize,
+        integers: Vec<Integer>,
+        meaning: Meaning,
+        mut removed: Vec<Removed>,
+    ) -> Result<Option<Self>> {
         let mut coefficients = Univariate::new(integers);
         let Some(degree) = coefficients.degree() else { return Ok(None) };
-        let mut circle = 0;
         let mut at_pi = 0;
         if let Meaning::HalfTangent { degree: full } = meaning {
             let factor = Univariate::new([1, 0, 1].map(Integer::from).to_vec());
+            let mut multiplicity = 0;
             while let Some(quotient) = coefficients.quotient(&factor) {
-                (coefficients, circle) = (quotient, circle + 1);
+                (coefficients, multiplicity) = (quotient, multiplicity + 1);
+            }
+            if multiplicity > 0 {
+                let factor = Some(over_rationals(variable, &factor));
+                let reason = "no angle has the half-angle tangent i".to_owned();
+                removed.insert(0, Removed { factor, multiplicity, reason });
             }
             at_pi = full.saturating_sub(degree);
         }
@@ -78,7 +102,7 @@ impl ClosurePolynomial {
             let isolated = roots.len();
             return Err(Error::Invalid(format!("{isolated} real roots isolated, {counted} by Sturm's theorem")));
         }
-        Ok(Some(Self { variable, coefficients, circle, at_pi, factors, roots }))
+        Ok(Some(Self { variable, coefficients, removed, at_pi, factors, roots }))
     }
 
     /// The degree.
@@ -93,10 +117,28 @@ impl ClosurePolynomial {
         self.factors.iter().map(|(degree, _)| degree).sum()
     }
 
+    /// The sign of the discriminant, 0 with multiple roots: square-free polynomials of degree n with r real roots have
+    /// the sign `(-1)^((n - r)/2)`. `None` for constants.
+    #[must_use]
+    pub fn discriminant_sign(&self) -> Option<i32> {
+        if self.degree() == 0 {
+            return None;
+        }
+        if self.distinct() < self.degree() {
+            return Some(0);
+        }
+        let pairs = (self.degree() - self.roots.len()) / 2;
+        Some(if pairs.is_multiple_of(2) { 1 } else { -1 })
+    }
+
     /// As a polynomial in its variable.
     #[must_use]
     pub fn to_polynomial(&self) -> Polynomial<Rational> {
-        let image: Vec<Rational> = self.coefficients.coefficients().iter().map(Rational::from).collect();
-        Polynomial::from_univariate(self.variable, &Univariate::new(image))
+        over_rationals(self.variable, &self.coefficients)
     }
+}
+
+fn over_rationals(variable: usize, coefficients: &Univariate<Integer>) -> Polynomial<Rational> {
+    let image: Vec<Rational> = coefficients.coefficients().iter().map(Rational::from).collect();
+    Polynomial::from_univariate(variable, &Univariate::new(image))
 }

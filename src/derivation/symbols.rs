@@ -12,8 +12,8 @@ use rug::Rational;
 /// Cosine, sine and half-angle tangent of every unknown rotation, every unknown translation, in loop order.
 #[derive(Clone, Debug)]
 pub(super) struct Symbols {
-    kinds: [Variable; 6],
-    labels: [String; 6],
+    kinds: Vec<Variable>,
+    labels: Vec<String>,
 }
 
 impl Symbols {
@@ -22,29 +22,43 @@ impl Symbols {
         let total = layout.variables.len();
         let joints = joint_labels(chain);
         let first = layout.locked.map_or(0, |locked| locked + 1);
-        let labels = std::array::from_fn(|k| joints.get((first + k) % total.max(1)).cloned().unwrap_or_default());
-        Self { kinds, labels }
+        let labels = (0..6).map(|k| joints.get((first + k) % total.max(1)).cloned().unwrap_or_default());
+        Self { kinds: kinds.to_vec(), labels: labels.collect() }
+    }
+
+    /// A single unknown, given by its index among the joint variables.
+    pub fn single(chain: &Chain, index: usize, kind: Variable) -> Self {
+        Self { kinds: vec![kind], labels: vec![joint_labels(chain).get(index).cloned().unwrap_or_default()] }
     }
 
     /// The number of the joint of an unknown, with that of the turn for a ball.
     pub fn label(&self, unknown: usize) -> &str {
-        &self.labels[unknown % 6]
+        &self.labels[unknown % self.labels.len()]
+    }
+
+    /// Rotations only, one for each label.
+    pub fn rotations(labels: Vec<String>) -> Self {
+        Self { kinds: vec![Variable::Rotation; labels.len()], labels }
+    }
+
+    /// How many unknowns there are; each has three variables.
+    pub fn len(&self) -> usize {
+        self.kinds.len()
     }
 
     /// The names of all variables.
     pub fn names(&self) -> Result<Names> {
-        let names = (0..6).flat_map(|k| {
-            let last = if self.kinds[k] == Variable::Rotation { "t" } else { "d" };
-            ["c", "s", last].map(|letter| format!("{letter}{}", self.labels[k]))
-        });
-        // A translation has neither cosine nor sine: a name that its own joint's rotation does not have.
-        let mut list: Vec<String> = names.collect();
-        for k in (0..6).filter(|&k| self.kinds[k] == Variable::Translation) {
-            for name in &mut list[3 * k..3 * k + 2] {
-                name.push_str("_0");
-            }
-        }
-        Names::given(list)
+        Names::given(self.list())
+    }
+
+    /// Cosine, sine and half-angle tangent of each unknown rotation. A translation has neither cosine nor sine: it has
+    /// names there that its own joint's rotation does not have.
+    pub fn list(&self) -> Vec<String> {
+        let of_one = |(kind, label): (&Variable, &String)| match kind {
+            Variable::Rotation => ["c", "s", "t"].map(|letter| format!("{letter}{label}")),
+            Variable::Translation => [format!("c{label}_0"), format!("s{label}_0"), format!("d{label}")],
+        };
+        self.kinds.iter().zip(&self.labels).flat_map(of_one).collect()
     }
 
     /// The variable of the half-angle tangent or of the distance.
@@ -54,7 +68,7 @@ impl Symbols {
 
     /// The name of that variable.
     pub fn name(&self, unknown: usize) -> String {
-        let letter = if self.kinds[unknown % 6] == Variable::Rotation { 't' } else { 'd' };
+        let letter = if self.kinds[unknown % self.kinds.len()] == Variable::Rotation { 't' } else { 'd' };
         format!("{letter}{}", self.label(unknown))
     }
 
@@ -88,7 +102,7 @@ pub(super) fn half_angles(polynomial: &Polynomial<Rational>) -> Polynomial<Ratio
 }
 
 /// Per joint variable the number of its joint; the turns of a ball are told apart.
-fn joint_labels(chain: &Chain) -> Vec<String> {
+pub(super) fn joint_labels(chain: &Chain) -> Vec<String> {
     use crate::kinematics::chain::JointKind;
     let mut labels = Vec::new();
     for (number, kind) in (1..).zip(chain.joint_kinds()) {

@@ -3,14 +3,15 @@
 use super::Equation;
 use super::chain::{Eliminated, Exact};
 use super::polynomial::Meaning;
-use super::symbols::combination;
+use super::symbols::{Symbols, combination};
 use super::triangle::of_row;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 use crate::elimination::opposite_axes::OppositeAxes;
 use crate::elimination::point_reach::Reach;
 use crate::elimination::separated::{Plan, Separated, powers, quartic};
-use crate::kinematics::closed_loop::Variable;
+use crate::elimination::spherical_pair;
+use crate::kinematics::closed_loop::{Coupled, Variable};
 use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
 
@@ -38,6 +39,44 @@ pub(super) fn ball(exact: &Exact, ball: usize) -> Eliminated {
     steps.append(&mut eliminated.steps);
     steps.push(format!("Joint {} and the rotation of the ball follow rationally.", label(second)));
     Eliminated { steps, ..eliminated }
+}
+
+/// Two balls: their centres keep their distance.
+pub(super) fn coupled(symbols: &Symbols, labels: &[String], coupled: &Coupled<Rational>) -> Eliminated {
+    let ball = |k: usize| labels[coupled.indices[k]].split('_').next().unwrap_or_default().to_owned();
+    let equation = spherical_pair::equation(coupled);
+    let polynomial = combination(equation.iter().zip(&symbols.monomials(0, false)));
+    let name = format!("centres of balls {} and {} r.r", ball(0), ball(1));
+    let meaning = match coupled.variable {
+        Variable::Rotation => Meaning::HalfTangent { degree: 2 },
+        Variable::Translation => Meaning::Plain,
+    };
+    let steps = vec![
+        format!(
+            "The link between balls {} and {} keeps the distance of their centres; joint {} carries one of them: one equation \
+             in its unknown, of degree 2 in {}.",
+            ball(0),
+            ball(1),
+            symbols.label(0),
+            symbols.name(0)
+        ),
+        "The rotations of both balls follow, but for the spin of the link about the line of their centres, which is free."
+            .to_owned(),
+    ];
+    Eliminated {
+        equations: vec![Equation::used(name, &polynomial)],
+        steps,
+        polynomial: Some((0, of_row(coupled.variable, &equation), meaning)),
+        removed: Vec::new(),
+        per_root: 1,
+    }
+}
+
+/// Whether the translations run along two opposite axes, and both equations are needed for either unknown.
+pub(super) fn is_opposite(exact: &Exact) -> bool {
+    let form: Option<LinkForm<Rational, 4, 2>> = LinkForm::of(&exact.closed);
+    let plan = |form: &LinkForm<_, 4, 2>| Some(OppositeAxes::of(form, 0.0)?.equations(form).plan(0.0));
+    matches!(form.as_ref().and_then(plan), Some(Plan::Together { .. }))
 }
 
 /// Translations along two opposite axes; `None` where they run otherwise, or the polynomial vanishes.
@@ -108,5 +147,5 @@ fn solve(exact: &Exact, equations: &Separated<Rational>, unknowns: [usize; 2], n
         Variable::Translation => Meaning::Plain,
     };
     let polynomial = Some((unknowns[side], polynomial, meaning));
-    Eliminated { equations: listed.collect(), steps: vec![step], polynomial, per_root }
+    Eliminated { equations: listed.collect(), steps: vec![step], polynomial, removed: Vec::new(), per_root }
 }

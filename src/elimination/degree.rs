@@ -10,13 +10,13 @@
 //! \[SommeseWampler2005\]
 
 use super::cut::{Cut, Hidden};
-use super::pencil::{before_second_link, bilinear, offset, pencil};
+use super::pencil::{Pencil, before_second_link, bilinear, offset, pencil};
 use super::rearranged::{Rearranged, rearranged};
 use super::{octic, spherical_triangle};
 use crate::algebra::determinant::by_interpolation;
 use crate::algebra::ring::{Domain, Field};
 use crate::algebra::univariate::Univariate;
-use crate::closure::half_angle::half_angle_form;
+use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::link_form::LinkForm;
 use crate::kinematics::motion::Motion;
@@ -61,14 +61,20 @@ pub fn half_tangent_pair<F: Field>(t: &F) -> Option<(F, F)> {
     Some((F::one().sub(&square).mul(&scale), t.add(t).mul(&scale)))
 }
 
-/// The closure polynomial of a loop as one cut and one hidden unknown give it; `None` where the cut is degenerate or
-/// the determinant vanishes identically.
+/// The pencil of one cut, its hidden angle turned by the offset of [`half_tangent_pair`] at 3/7.
+#[derive(Clone, Debug)]
+pub struct TurnedPencil<F> {
+    /// The loop as the cut reads it.
+    pub view: ClosedLoop<F>,
+    /// What the elimination leaves of its equations.
+    pub form: HalfAngleForm<F>,
+    /// The pencil.
+    pub pencil: Pencil<F>,
+}
+
+/// The pencil of a loop as one cut and one hidden unknown give it; `None` where the cut is degenerate.
 #[must_use]
-pub fn closure_polynomial<F: Field + Domain>(
-    closed: &ClosedLoop<F>,
-    cut: Cut,
-    hidden: Hidden,
-) -> Option<ClosurePolynomial<F>> {
+pub fn turned_pencil<F: Field>(closed: &ClosedLoop<F>, cut: Cut, hidden: Hidden) -> Option<TurnedPencil<F>> {
     if !cut.fits(closed.variables) {
         return None;
     }
@@ -78,7 +84,19 @@ pub fn closure_polynomial<F: Field + Domain>(
     let t = F::from_integer(3).mul(&F::from_integer(7).inverse()?);
     let (cos, sin) = half_tangent_pair(&t)?;
     let equations = offset(&bilinear(&rows, &view), hidden, &cos, &sin);
-    let polynomial = by_interpolation(&pencil(&equations, hidden).coefficients);
+    Some(TurnedPencil { pencil: pencil(&equations, hidden), view, form })
+}
+
+/// The closure polynomial of a loop as one cut and one hidden unknown give it; `None` where the cut is degenerate or
+/// the determinant vanishes identically.
+#[must_use]
+pub fn closure_polynomial<F: Field + Domain>(
+    closed: &ClosedLoop<F>,
+    cut: Cut,
+    hidden: Hidden,
+) -> Option<ClosurePolynomial<F>> {
+    let TurnedPencil { pencil, .. } = turned_pencil(closed, cut, hidden)?;
+    let polynomial = by_interpolation(&pencil.coefficients);
     polynomial.degree()?;
     let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
     let (spurious, cofactor) = polynomial.remove_factor(&circle);

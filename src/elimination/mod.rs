@@ -17,3 +17,4 @@ pub mod separated;
 pub mod spherical_four_bar;
 pub mod spherical_pair;
 pub mod spherical_triangle;
+pub mod triangle_platform;

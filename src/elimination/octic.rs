@@ -17,7 +17,7 @@ use crate::kinematics::link_form::LinkForm;
 
 /// A form by the powers of the hidden half tangent, over (1, cos, sin) of the other angle; the hidden angle is counted from
 /// `origin`.
-fn by_hidden<F: Field>(form: &Form<F>, hidden: Hidden, origin: &[F; 3]) -> [Univariate<F>; 3] {
+fn by_hidden<F: Ring>(form: &Form<F>, hidden: Hidden, origin: &[F; 3]) -> [Univariate<F>; 3] {
     let angle = powers(Variable::Rotation, origin).map(|row| Univariate::new(row.to_vec()));
     std::array::from_fn(|k| {
         angle.iter().enumerate().fold(Univariate::zero(), |sum, (l, part)| {
@@ -27,17 +27,86 @@ fn by_hidden<F: Field>(form: &Form<F>, hidden: Hidden, origin: &[F; 3]) -> [Univ
     })
 }
 
-/// `N1^2 + N2^2 - N3^2`
-fn eliminant<F: Field>(f: &[Univariate<F>; 3], g: &[Univariate<F>; 3]) -> Univariate<F> {
+/// N: cosine and sine of the other angle times a common factor, and that factor.
+fn normal<F: Ring>(f: &[Univariate<F>; 3], g: &[Univariate<F>; 3]) -> [Univariate<F>; 3] {
     let minor = |i: usize, j: usize| f[i].mul(&g[j]).sub(&f[j].mul(&g[i]));
-    let (n1, n2, n3) = (minor(2, 0), minor(0, 1), minor(1, 2));
+    [minor(2, 0), minor(0, 1), minor(1, 2)]
+}
+
+/// `N1^2 + N2^2 - N3^2`
+fn eliminant<F: Ring>(f: &[Univariate<F>; 3], g: &[Univariate<F>; 3]) -> Univariate<F> {
+    let [n1, n2, n3] = normal(f, g);
     n1.mul(&n1).add(&n2.mul(&n2)).sub(&n3.mul(&n3))
+}
+
+/// Roots of a closure polynomial of degree 8 that belong to no solution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FalseRoots<F> {
+    /// Where the other half tangent would be i or -i, which belongs to no angle.
+    pub imaginary: Univariate<F>,
+    /// Where the two translations are parallel and do not close the loop.
+    pub parallel: Univariate<F>,
+    /// How many roots of the second sort are at infinity, where the hidden angle is pi.
+    pub parallel_at_pi: usize,
+}
+
+/// The false roots of a closure polynomial, a divisor of [`closure_polynomial`] without factors `1 + x^2`: divided out
+/// with their whole multiplicity. A root at which the translations are parallel and the loop closes nevertheless, a
+/// self-motion, is left alone; and where both values of the other angle belong to a root, it is false only with both.
+#[must_use]
+pub fn false_roots<F: Field + Domain>(
+    bar: &FourBar<'_, F>,
+    equations: &Equations<F>,
+    hidden: Hidden,
+    origin: &[F; 3],
+    polynomial: &Univariate<F>,
+) -> FalseRoots<F> {
+    let view = |form: &Form<F>| by_hidden(form, hidden, origin);
+    let (f, g) = (view(&equations.f), view(&equations.g));
+    let normal = normal(&f, &g);
+    // Where N vanishes the other angle has two values, or any.
+    let several = normal[0].gcd(&normal[1]).gcd(&normal[2]);
+    let without = |factor: Univariate<F>| factor.div_exact(&factor.part_with_roots_of(&several));
+    // Common roots of A + i B of both rows: the other half tangent is i there, or -i.
+    let pair = |x: &[Univariate<F>; 3], y: &[Univariate<F>; 3]| x[1].mul(&y[1]).add(&x[2].mul(&y[2]));
+    let crossed = f[1].mul(&g[2]).sub(&f[2].mul(&g[1]));
+    let condition = pair(&f, &f).gcd(&pair(&g, &g)).gcd(&pair(&f, &g)).gcd(&crossed);
+    let imaginary = without(polynomial.part_with_roots_of(&condition));
+    let rest = polynomial.div_exact(&imaginary);
+    // Three coordinates of u x v, and of u x s, at the other angle that belongs to a root.
+    let unit = |i: usize| -> [F; 3] { std::array::from_fn(|k| if k == i { F::one() } else { F::zero() }) };
+    let at_root = |form: &Form<F>| {
+        let [one, cos, sin] = view(form);
+        one.mul(&normal[2]).add(&cos.mul(&normal[0])).add(&sin.mul(&normal[1]))
+    };
+    let forms = |form: &dyn Fn(&[F; 3]) -> Form<F>| [0, 1, 2].map(|i| form(&unit(i)));
+    let directions = forms(&|x| bar.coplanarity(bar.base, x));
+    let gaps = forms(&|x| bar.gap(bar.base, x));
+    let common = |list: &[Univariate<F>]| list.iter().fold(Univariate::zero(), |g: Univariate<F>, p| g.gcd(p));
+    let (crossing, gap) = (directions.each_ref().map(at_root), gaps.each_ref().map(at_root));
+    let single = without(rest.part_with_roots_of(&common(&crossing)));
+    let single = single.div_exact(&single.part_with_roots_of(&common(&gap)));
+    // Where N vanishes: rows proportional to that of f are zero at both its roots.
+    let rows: Vec<Univariate<F>> = directions.iter().flat_map(|form| self::normal(&view(form), &f)).collect();
+    let gap_rows = gaps.each_ref().map(|form| eliminant(&f, &view(form)));
+    let double = rest.part_with_roots_of(&several).part_with_roots_of(&common(&rows));
+    let double =
+        [common(&f), common(&gap_rows)].iter().fold(double, |left, p| left.div_exact(&left.part_with_roots_of(p)));
+    // The same at infinity, by leading coefficients.
+    let vanish = |list: &[Univariate<F>], degree: usize| list.iter().all(|p| p.degree() < Some(degree));
+    let lost = 8_usize.saturating_sub(closure_polynomial(equations, hidden, origin).degree().unwrap_or(8));
+    let is_false = if vanish(&normal, 4) {
+        vanish(&rows, 4) && !vanish(&f, 2) && !vanish(&gap_rows, 8)
+    } else {
+        vanish(&crossing, 6) && !vanish(&gap, 6)
+    };
+    FalseRoots { imaginary, parallel: single.mul(&double), parallel_at_pi: if is_false { lost } else { 0 } }
 }
 
 /// The closure polynomial of degree 8 in the tangent of half the hidden angle, counted from an angle given as
 /// (1, cos, sin) or a multiple of that.
 #[must_use]
-pub fn closure_polynomial<F: Field>(equations: &Equations<F>, hidden: Hidden, origin: &[F; 3]) -> Univariate<F> {
+pub fn closure_polynomial<F: Ring>(equations: &Equations<F>, hidden: Hidden, origin: &[F; 3]) -> Univariate<F> {
     eliminant(&by_hidden(&equations.f, hidden, origin), &by_hidden(&equations.g, hidden, origin))
 }
 

@@ -5,7 +5,7 @@
 //! and of k.
 
 use super::separated::Separated;
-use crate::algebra::ring::Field;
+use crate::algebra::ring::{Field, Ring};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::link_form::{LinkForm, product, turned};
 use crate::kinematics::motion::{Vector, cross};
@@ -39,18 +39,18 @@ impl OppositeAxes {
 
     /// `(1, cos, sin)` of the rotation behind axis `axis`: the cosine between that axis and the one two behind it, and
     /// the moment.
-    fn functional<F: Field>(form: &LinkForm<F, 4, 2>, axis: usize) -> [[F; 3]; 2] {
+    fn functional<R: Ring>(form: &LinkForm<R, 4, 2>, axis: usize) -> [[R; 3]; 2] {
         let (here, next) = (&form.links[axis % 4], &form.links[(axis + 1) % 4]);
-        let z: Vector<F> = [F::zero(), F::zero(), F::one()];
+        let z: Vector<R> = [R::zero(), R::zero(), R::one()];
         // The first axis and its moment behind its link, the second one and its moment before the rotation.
-        let back = |v: &Vector<F>| -> Vector<F> {
-            std::array::from_fn(|j| (0..3).fold(F::zero(), |sum, i| sum.add(&here.rotation[i][j].mul(&v[i]))))
+        let back = |v: &Vector<R>| -> Vector<R> {
+            std::array::from_fn(|j| (0..3).fold(R::zero(), |sum, i| sum.add(&here.rotation[i][j].mul(&v[i]))))
         };
         let (n, moment) = (back(&z), back(&cross(&here.translation, &z)));
-        let m: Vector<F> = std::array::from_fn(|i| next.rotation[i][2].clone());
+        let m: Vector<R> = std::array::from_fn(|i| next.rotation[i][2].clone());
         let second = cross(&m, &next.translation);
         // x . Rz(q) y over (1, cos, sin)
-        let turning = |x: &Vector<F>, y: &Vector<F>| -> [F; 3] {
+        let turning = |x: &Vector<R>, y: &Vector<R>| -> [R; 3] {
             [x[2].mul(&y[2]), x[0].mul(&y[0]).add(&x[1].mul(&y[1])), x[1].mul(&y[0]).sub(&x[0].mul(&y[1]))]
         };
         let (one, two) = (turning(&moment, &m), turning(&n, &second));
@@ -59,7 +59,7 @@ impl OppositeAxes {
 
     /// The two equations; the sides are the rotations behind the first axis and behind the second one.
     #[must_use]
-    pub fn equations<F: Field>(&self, form: &LinkForm<F, 4, 2>) -> Separated<F> {
+    pub fn equations<R: Ring>(&self, form: &LinkForm<R, 4, 2>) -> Separated<R> {
         let [cosine, moment] = Self::functional(form, self.first);
         let [other_cosine, other_moment] = Self::functional(form, self.first + 2);
         Separated { kinds: [Variable::Rotation; 2], rows: [[cosine, other_cosine], [moment, other_moment]] }

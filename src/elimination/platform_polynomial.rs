@@ -7,6 +7,7 @@ use super::border::{Arithmetic, BorderBasis, DIMENSION};
 use super::characteristic::characteristic_polynomial;
 use super::platform_degree::{general_products, modular_setting, regular_part, row_times, special_products};
 use crate::algebra::modp::{Modulus, primes};
+use crate::algebra::ring::Ring;
 use crate::closure::study::{LinearLegs, linear_legs};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
@@ -49,10 +50,19 @@ impl Coordinate {
     /// The value of the coordinate at a rotation, a quaternion (w, x, y, z) of any length.
     #[must_use]
     pub fn at(&self, x: &[Complex<f64>; 4]) -> Complex<f64> {
-        let [w, i, j, k] = self.turn.map(|c| Complex::from(f64::from(c)));
-        let inverse = Quaternion { scalar: w, vector: [-i, -j, -k] };
-        let z = inverse.mul(&Quaternion { scalar: x[0], vector: [x[1], x[2], x[3]] });
-        z.vector.iter().zip(self.weights).map(|(z, w)| z * f64::from(w)).sum::<Complex<f64>>() / z.scalar
+        let [w, i, j, k] = *x;
+        let [above, below] = self.fraction(&Quaternion { scalar: w, vector: [i, j, k] });
+        above / below
+    }
+
+    /// Numerator and denominator of the coordinate at a rotation of any length, over any ring.
+    #[must_use]
+    pub fn fraction<R: Ring>(&self, x: &Quaternion<R>) -> [R; 2] {
+        let [w, i, j, k] = self.turn.map(R::from_integer);
+        let z = Quaternion { scalar: w, vector: [i, j, k] }.conjugate().mul(x);
+        let weighted = z.vector.iter().zip(self.weights);
+        let above = weighted.fold(R::zero(), |sum, (z, w)| sum.add(&z.mul(&R::from_integer(w))));
+        [above, z.scalar]
     }
 
     /// The platform with its base turned, `a -> turn^-1 a`.

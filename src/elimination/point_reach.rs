@@ -66,7 +66,7 @@ fn side<R: Ring>(variable: Variable, p: &Vector<R>, reversed: bool, link: &Motio
     (carried, square)
 }
 
-impl<F: Field> Reach<F> {
+impl<F: Ring> Reach<F> {
     /// The centre of the ball whose three rotations are the unknowns `ball`, `ball + 1`, `ball + 2` of a loop.
     #[must_use]
     pub fn of(closed: &ClosedLoop<F>, ball: usize) -> Self {
@@ -84,7 +84,9 @@ impl<F: Field> Reach<F> {
         };
         Self { variables, sides: [near, far], equations: Separated { kinds: [variables[2], variables[0]], rows } }
     }
+}
 
+impl<F: Field> Reach<F> {
     /// V2 from the monomials of V3 and V1, as the pair with which it enters a motion: cosine and sine, or the distance
     /// and 0. `None` where the centre lies on the axis of V2.
     #[must_use]

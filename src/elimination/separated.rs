@@ -38,13 +38,29 @@ pub enum Plan<R> {
     },
 }
 
-impl<F: Field> Separated<F> {
+impl<R: Ring> Separated<R> {
     /// The determinant by which the monomials of a side are solved for.
-    fn determinant(&self, side: usize) -> F {
+    fn determinant(&self, side: usize) -> R {
         let [one, two] = [&self.rows[0][side], &self.rows[1][side]];
         one[1].mul(&two[2]).sub(&one[2].mul(&two[1]))
     }
 
+    /// The monomials of a side as combinations of those of the other one, all times the determinant: without division.
+    #[must_use]
+    pub fn solved(&self, side: usize) -> [[R; 3]; 3] {
+        let hidden = 1 - side;
+        // rows[e][side] . m = rows[e][hidden] . m'
+        let [one, two] = [&self.rows[0], &self.rows[1]];
+        let value = |row: &[[R; 3]; 2], k: usize| {
+            if k == 0 { row[hidden][0].sub(&row[side][0]) } else { row[hidden][k].clone() }
+        };
+        let first = |k: usize| value(one, k).mul(&two[side][2]).sub(&value(two, k).mul(&one[side][2]));
+        let second = |k: usize| value(two, k).mul(&one[side][1]).sub(&value(one, k).mul(&two[side][1]));
+        [[self.determinant(side), R::zero(), R::zero()], std::array::from_fn(first), std::array::from_fn(second)]
+    }
+}
+
+impl<F: Field> Separated<F> {
     /// How to solve the two equations; determinants no larger than `tolerance` (0 in exact fields) are zero.
     #[must_use]
     pub fn plan(&self, tolerance: f64) -> Plan<F> {
@@ -53,20 +69,8 @@ impl<F: Field> Separated<F> {
         let invertible = determinants[solved].pivot_size() > tolerance;
         if let Some(inverse) = determinants[solved].inverse().filter(|_| invertible) {
             let hidden = 1 - solved;
-            // rows[e][solved] . m = rows[e][hidden] . m'
-            let [one, two] = [&self.rows[0], &self.rows[1]];
-            let value = |row: &[[F; 3]; 2], k: usize| {
-                if k == 0 { row[hidden][0].sub(&row[solved][0]) } else { row[hidden][k].clone() }
-            };
-            let first = |k: usize| value(one, k).mul(&two[solved][2]).sub(&value(two, k).mul(&one[solved][2]));
-            let second = |k: usize| value(two, k).mul(&one[solved][1]).sub(&value(one, k).mul(&two[solved][1]));
-            let mut unit: [F; 3] = std::array::from_fn(|_| F::zero());
-            unit[0] = F::one();
-            let other = [
-                unit,
-                std::array::from_fn(|k| first(k).mul(&inverse)),
-                std::array::from_fn(|k| second(k).mul(&inverse)),
-            ];
+            let [_, first, second] = self.solved(solved).map(|row| row.map(|x| x.mul(&inverse)));
+            let other = [[F::one(), F::zero(), F::zero()], first, second];
             return Plan::Together { hidden, other };
         }
         // Rows are dependent in both: the smaller one takes the second side out of the other.
@@ -82,11 +86,13 @@ impl<F: Field> Separated<F> {
         equation[0] = equation[0].sub(&rest[0]);
         Plan::Apart { first: 1 - gone, equation, then: [keep[1 - gone].clone(), keep[gone].clone()] }
     }
+}
 
+impl<R: Ring> Separated<R> {
     /// `q . q - 1` of the pair (cos, sin) or `d d - d^2`, as a form in the monomials of the hidden variable.
     #[must_use]
-    pub fn conic(&self, hidden: usize, other: &[[F; 3]; 3]) -> [[F; 3]; 3] {
-        let product = |x: &[F; 3], y: &[F; 3], i: usize, j: usize| x[i].mul(&y[j]);
+    pub fn conic(&self, hidden: usize, other: &[[R; 3]; 3]) -> [[R; 3]; 3] {
+        let product = |x: &[R; 3], y: &[R; 3], i: usize, j: usize| x[i].mul(&y[j]);
         std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 let [one, first, second] = other;

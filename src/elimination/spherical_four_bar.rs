@@ -73,6 +73,44 @@ fn outer<R: Ring>(a: &[R; 3], b: &[R; 3]) -> Form<R> {
     std::array::from_fn(|i| std::array::from_fn(|j| a[i].mul(&b[j])))
 }
 
+/// A vector that does not turn.
+fn still<R: Ring>(x: &Vector<R>) -> Turning<R> {
+    let zero = || std::array::from_fn(|_| R::zero());
+    [x.clone(), zero(), zero()]
+}
+
+/// `Rz(-q) r^T x` over (1, cos q, sin q).
+fn behind<R: Ring>(r: &[[R; 3]; 3], x: &Vector<R>) -> Turning<R> {
+    let y: Vector<R> = std::array::from_fn(|j| (0..3).fold(R::zero(), |sum, i| sum.add(&r[i][j].mul(&x[i]))));
+    let [y1, y2, y3] = y;
+    let nought = R::zero;
+    [[nought(), nought(), y3], [y1.clone(), y2.clone(), nought()], [y2, y1.neg(), nought()]]
+}
+
+/// `r Rz(q) x` over (1, cos q, sin q).
+fn ahead<R: Ring>(r: &[[R; 3]; 3], x: &Vector<R>) -> Turning<R> {
+    let column = |j: usize| -> Vector<R> { std::array::from_fn(|i| r[i][j].clone()) };
+    let scale = |v: Vector<R>, k: &R| v.map(|y| y.mul(k));
+    let plus = |v: Vector<R>, w: Vector<R>| -> Vector<R> { std::array::from_fn(|i| v[i].add(&w[i])) };
+    [
+        scale(column(2), &x[2]),
+        plus(scale(column(0), &x[0]), scale(column(1), &x[1])),
+        plus(scale(column(1), &x[0]), scale(column(0), &x[1].neg())),
+    ]
+}
+
+/// The spherical four-bar f from the rotations of links a - 1, a, a + 1 and a + 2. Over dual numbers its dual part is
+/// the moment of the same two axes. \[Wittenburg2016\]
+#[must_use]
+pub fn four_bar<R: Ring>([before, base, after, opposite]: [&[[R; 3]; 3]; 4]) -> Form<R> {
+    let minus = [R::zero(), R::zero(), R::one()];
+    let plus: Vector<R> = std::array::from_fn(|i| after[i][2].clone());
+    let (minus, plus) = (behind(before, &minus), ahead(base, &plus));
+    let mut f: Form<R> = std::array::from_fn(|k| std::array::from_fn(|l| dot(&minus[k], &plus[l])));
+    f[0][0] = f[0][0].sub(&opposite[2][2]);
+    f
+}
+
 impl<'a, F: Field> FourBar<'a, F> {
     /// The loop seen from link a; `None` where the axes of the opposite link are parallel.
     #[must_use]
@@ -89,33 +127,12 @@ impl<'a, F: Field> FourBar<'a, F> {
 
     /// A vector of link a - 1 or a in link a, over (1, cos a, sin a).
     fn behind(&self, place: Place, x: &Vector<F>) -> Turning<F> {
-        let zero = || std::array::from_fn(|_| F::zero());
-        if place == 1 {
-            return [x.clone(), zero(), zero()];
-        }
-        // Rz(-q) R^T x
-        let r = self.link(0);
-        let y: Vector<F> = std::array::from_fn(|j| (0..3).fold(F::zero(), |sum, i| sum.add(&r[i][j].mul(&x[i]))));
-        let [y1, y2, y3] = y;
-        let nought = F::zero;
-        [[nought(), nought(), y3], [y1.clone(), y2.clone(), nought()], [y2, y1.neg(), nought()]]
+        if place == 1 { still(x) } else { behind(self.link(0), x) }
     }
 
     /// A vector of link a or a + 1 in link a, over (1, cos b, sin b).
     fn ahead(&self, place: Place, x: &Vector<F>) -> Turning<F> {
-        let zero = || std::array::from_fn(|_| F::zero());
-        if place == 1 {
-            return [x.clone(), zero(), zero()];
-        }
-        // R Rz(q) x
-        let column = |j: usize| -> Vector<F> { std::array::from_fn(|i| self.link(1)[i][j].clone()) };
-        let scale = |v: Vector<F>, k: &F| v.map(|y| y.mul(k));
-        let plus = |v: Vector<F>, w: Vector<F>| -> Vector<F> { std::array::from_fn(|i| v[i].add(&w[i])) };
-        [
-            scale(column(2), &x[2]),
-            plus(scale(column(0), &x[0]), scale(column(1), &x[1])),
-            plus(scale(column(1), &x[0]), scale(column(0), &x[1].neg())),
-        ]
+        if place == 1 { still(x) } else { ahead(self.link(1), x) }
     }
 
     /// The scalar product of two vectors of links a - 1, a and a + 1.
@@ -241,8 +258,7 @@ impl<'a, F: Field> FourBar<'a, F> {
     /// The closure equations.
     #[must_use]
     pub fn equations(&self) -> Equations<F> {
-        let mut f = self.near_dot((0, &self.minus), (2, &self.plus));
-        f[0][0] = f[0][0].sub(&self.opposite[2]);
+        let f = four_bar(std::array::from_fn(|place| self.link(place)));
         let mut g = zero_form();
         for link in 0..4 {
             let term = self.coplanarity(link, &self.form.links[link].translation);

@@ -6,7 +6,7 @@
 
 use super::chain::{Chain, Geometry, Joint, JointKind, ScrewJoint};
 use super::idle::Idle;
-use super::motion::{Motion, dot, link};
+use super::motion::{Motion, dot};
 use crate::algebra::number::{Angle, Number};
 use crate::algebra::ring::Ring;
 use crate::error::Error;
@@ -73,6 +73,40 @@ pub struct Coupled<R> {
     pub behind: Motion<R>,
     /// Indices of the first variables of the two balls, and of V, in joint order.
     pub indices: [usize; 3],
+}
+
+/// A constant of a DH joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// Link length a.
+    Length,
+    /// Link twist alpha.
+    Twist,
+    /// d, the offset along the axis.
+    Offset,
+    /// theta, the constant angle about the axis.
+    Angle,
+}
+
+/// What the constants of DH joints, counted from 0, are in a ring.
+pub trait Parameters<R: Ring> {
+    /// Cosine and sine of an angle; `None` for an unlucky prime.
+    fn angle(&self, joint: usize, parameter: Parameter, value: &Angle) -> Option<(R, R)>;
+    /// A length; `None` for an unlucky prime.
+    fn length(&self, joint: usize, parameter: Parameter, value: &Number) -> Option<R>;
+}
+
+/// The constants are the numbers of the file.
+#[derive(Clone, Copy, Debug)]
+pub struct Numbers;
+
+impl<R: Ring> Parameters<R> for Numbers {
+    fn angle(&self, _joint: usize, _parameter: Parameter, value: &Angle) -> Option<(R, R)> {
+        R::cos_sin(value)
+    }
+    fn length(&self, _joint: usize, _parameter: Parameter, value: &Number) -> Option<R> {
+        R::from_number(value)
+    }
 }
 
 /// One motion of a chain on the way from base to tool.
@@ -254,22 +288,20 @@ impl Chain {
     /// # Errors
     /// As [`Chain::open_loop`].
     pub fn try_open_loop<R: Ring>(&self, layout: &Layout) -> Result<Option<OpenLoop<R>>, Error> {
-        let Some(steps) = self.steps::<R>() else { return Ok(None) };
-        // Collect the unknowns with the constants between them; `constants[k]` stands before unknown k.
-        let mut unknowns = Vec::new();
-        let mut constants = vec![Motion::identity()];
-        for step in steps {
-            match step {
-                Step::Constant(motion) => {
-                    let last = constants.len() - 1;
-                    constants[last] = constants[last].then_after(&motion);
-                }
-                Step::Unknown(variable) => {
-                    unknowns.push(variable);
-                    constants.push(Motion::identity());
-                }
-            }
-        }
+        self.open_loop_over(layout, &Numbers)
+    }
+
+    /// As [`Chain::try_open_loop`], with these constants of the joints.
+    ///
+    /// # Errors
+    /// As [`Chain::open_loop`].
+    pub fn open_loop_over<R: Ring>(
+        &self,
+        layout: &Layout,
+        parameters: &impl Parameters<R>,
+    ) -> Result<Option<OpenLoop<R>>, Error> {
+        // `constants[k]` stands before unknown k.
+        let Some((mut unknowns, mut constants)) = self.separated(parameters) else { return Ok(None) };
         if self.fill_up(layout, &mut unknowns, &mut constants).is_none() {
             return Ok(None);
         }
@@ -304,6 +336,31 @@ impl Chain {
             }
         };
         Ok(Some(open))
+    }
+
+    /// What each joint variable does, in joint order, and the constant motions between them: motion k stands before
+    /// variable k, and the last one behind them all. `None` for an unlucky prime.
+    #[must_use]
+    pub fn unknowns_and_constants<R: Ring>(&self) -> Option<(Vec<Variable>, Vec<Motion<R>>)> {
+        self.separated(&Numbers)
+    }
+
+    fn separated<R: Ring>(&self, parameters: &impl Parameters<R>) -> Option<(Vec<Variable>, Vec<Motion<R>>)> {
+        let mut unknowns = Vec::new();
+        let mut constants = vec![Motion::identity()];
+        for step in self.steps(parameters)? {
+            match step {
+                Step::Constant(motion) => {
+                    let last = constants.len() - 1;
+                    constants[last] = constants[last].then_after(&motion);
+                }
+                Step::Unknown(variable) => {
+                    unknowns.push(variable);
+                    constants.push(Motion::identity());
+                }
+            }
+        }
+        Some((unknowns, constants))
     }
 
     /// Puts the idle unknowns of a layout among the unknowns of a chain; `None` for an unlucky prime.
@@ -348,8 +405,21 @@ impl Chain {
     /// # Errors
     /// Unless there is exactly one more unknown; and for an unlucky prime.
     pub fn coupled_loop<R: Ring>(&self, layout: &Layout, filling: &Motion<R>) -> Result<Coupled<R>, Error> {
+        self.coupled_loop_over(layout, filling, &Numbers)
+    }
+
+    /// As [`Chain::coupled_loop`], with these constants of the joints.
+    ///
+    /// # Errors
+    /// As [`Chain::coupled_loop`].
+    pub fn coupled_loop_over<R: Ring>(
+        &self,
+        layout: &Layout,
+        filling: &Motion<R>,
+        parameters: &impl Parameters<R>,
+    ) -> Result<Coupled<R>, Error> {
         let unlucky = || Error::Unsupported("the geometry has no image in this ring (unlucky prime)".into());
-        let steps = self.steps::<R>().ok_or_else(unlucky)?;
+        let steps = self.steps(parameters).ok_or_else(unlucky)?;
         let balls = [layout.ball, layout.second_ball];
         // Index of the first variable and the constant behind each ball and unknown; what stands before the first of
         // them comes last.
@@ -393,21 +463,40 @@ impl Chain {
         Ok(Coupled { variable: layout.variables[v], link, before, behind, indices: [x, y, v] })
     }
 
+    /// The unknowns of a chain read as a loop, each with the constant behind it; what stands before the first one comes
+    /// last. `None` for an unlucky prime, and without unknowns.
+    pub fn cycle<R: Ring>(&self, parameters: &impl Parameters<R>) -> Option<Vec<(Variable, Motion<R>)>> {
+        let mut start = Motion::identity();
+        let mut cycle: Vec<(Variable, Motion<R>)> = Vec::new();
+        for step in self.steps(parameters)? {
+            match step {
+                Step::Unknown(variable) => cycle.push((variable, Motion::identity())),
+                Step::Constant(motion) => {
+                    let last = cycle.last_mut().map_or(&mut start, |(_, constant)| constant);
+                    *last = last.then_after(&motion);
+                }
+            }
+        }
+        let (_, last) = cycle.last_mut()?;
+        *last = last.then_after(&start);
+        Some(cycle)
+    }
+
     /// Everything from base to tool in order; `None` for an unlucky prime.
-    fn steps<R: Ring>(&self) -> Option<Vec<Step<R>>> {
+    fn steps<R: Ring>(&self, parameters: &impl Parameters<R>) -> Option<Vec<Step<R>>> {
         let image = |m: &Motion<Rational>| m.map(R::from_rational);
         let mut steps = vec![Step::Constant(image(&self.base.exact)?)];
         match &self.geometry {
             Geometry::Dh(joints) => {
-                for joint in joints {
-                    joint_steps(joint, &mut steps)?;
-                    steps.push(Step::Constant(link(&joint.a, &joint.alpha)?));
+                for (at, joint) in joints.iter().enumerate() {
+                    joint_steps(at, joint, parameters, &mut steps)?;
+                    steps.push(Step::Constant(link(at, joint, parameters)?));
                 }
             }
             Geometry::ModifiedDh(joints) => {
-                for joint in joints {
-                    steps.push(Step::Constant(link(&joint.a, &joint.alpha)?));
-                    joint_steps(joint, &mut steps)?;
+                for (at, joint) in joints.iter().enumerate() {
+                    steps.push(Step::Constant(link(at, joint, parameters)?));
+                    joint_steps(at, joint, parameters, &mut steps)?;
                 }
             }
             Geometry::Screws { joints, home } => {
@@ -430,7 +519,7 @@ impl Chain {
     pub fn forward<R: Ring>(&self, joint_motions: &[Motion<R>]) -> Option<Motion<R>> {
         let mut motions = joint_motions.iter();
         let mut pose = Motion::identity();
-        for step in self.steps::<R>()? {
+        for step in self.steps(&Numbers)? {
             match step {
                 Step::Constant(motion) => pose = pose.then_after(&motion),
                 Step::Unknown(_) => pose = pose.then_after(motions.next()?),
@@ -441,13 +530,24 @@ impl Chain {
 }
 
 /// The unknowns of one joint and its own constants (offsets).
-fn joint_steps<R: Ring>(joint: &Joint, steps: &mut Vec<Step<R>>) -> Option<()> {
+fn joint_steps<R: Ring>(
+    at: usize,
+    joint: &Joint,
+    parameters: &impl Parameters<R>,
+    steps: &mut Vec<Step<R>>,
+) -> Option<()> {
     screw_steps(joint.kind, steps);
-    let (cos, sin) = R::cos_sin(&joint.theta0)?;
+    let (cos, sin) = parameters.angle(at, Parameter::Angle, &joint.theta0)?;
     let mut offset = Motion::rotation_z(cos, sin);
-    offset.translation[2] = R::from_number(&joint.d)?;
+    offset.translation[2] = parameters.length(at, Parameter::Offset, &joint.d)?;
     steps.push(Step::Constant(offset));
     Some(())
+}
+
+/// The link of a DH joint.
+fn link<R: Ring>(at: usize, joint: &Joint, parameters: &impl Parameters<R>) -> Option<Motion<R>> {
+    let length = parameters.length(at, Parameter::Length, &joint.a)?;
+    Some(Motion::link(length, parameters.angle(at, Parameter::Twist, &joint.alpha)?))
 }
 
 /// The unknowns of a joint.

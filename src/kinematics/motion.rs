@@ -60,6 +60,12 @@ impl<R: Ring> Motion<R> {
         m
     }
 
+    /// `Tx(a) Rx(alpha)` with the given length, and cosine and sine of the twist.
+    #[must_use]
+    pub fn link(a: R, (cos, sin): (R, R)) -> Self {
+        Self { translation: [a, R::zero(), R::zero()], ..Self::rotation_x(cos, sin) }
+    }
+
     /// A pure translation.
     #[must_use]
     pub fn translation(vector: Vector<R>) -> Self {
@@ -121,8 +127,5 @@ impl<R: Ring> Motion<R> {
 /// The link motion `Tx(a) Rx(alpha)` of the Denavit-Hartenberg forms. `None` for an unlucky prime.
 #[must_use]
 pub fn link<R: Ring>(a: &crate::algebra::number::Number, alpha: &Angle) -> Option<Motion<R>> {
-    let (cos, sin) = R::cos_sin(alpha)?;
-    let mut m = Motion::rotation_x(cos, sin);
-    m.translation[0] = R::from_number(a)?;
-    Some(m)
+    Some(Motion::link(R::from_number(a)?, R::cos_sin(alpha)?))
 }

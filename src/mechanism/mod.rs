@@ -14,10 +14,10 @@ use crate::kinematics::velocity::Velocity;
 use crate::verdict::Verdict;
 use num_complex::Complex;
 use platform::PreparedPlatform;
-pub(crate) use platform::over as platform_over;
+pub use platform::over as platform_over;
 use short_loop::ShortLoop;
 use single_loop::SingleLoop;
-pub(crate) use single_loop::closed_loop;
+pub use single_loop::{closed_loop, coupled_loop, locked_variable};
 
 /// One solution as a user reads it.
 #[derive(Clone, Debug, PartialEq)]

@@ -25,7 +25,8 @@ pub(super) struct PreparedPlatform {
 }
 
 /// The points over a ring; `None` for an unlucky prime.
-pub(crate) fn over<R: Ring>(geometry: &Platform<Number>) -> Option<Platform<R>> {
+#[must_use]
+pub fn over<R: Ring>(geometry: &Platform<Number>) -> Option<Platform<R>> {
     let points = |points: &[[Number; 3]; 6]| -> Option<[[R; 3]; 6]> {
         let images: Option<Vec<[R; 3]>> =
             points.iter().map(|[x, y, z]| Some([R::from_number(x)?, R::from_number(y)?, R::from_number(z)?])).collect();
@@ -98,13 +99,15 @@ impl PreparedPlatform {
         let study: Vec<_> = assembly.modes.iter().map(|mode| self.solver.study(mode)).collect();
         let verdict = platform_verdict(assembly, &study, roots, exact);
         let modes = assembly.modes.iter().map(|mode| self.full(mode));
+        let legs = squares.map(f64::sqrt);
+        let short = platform::out_of_reach(self.solver.platform(), &legs).map(|why| format!("no pose is real: {why}"));
         Ok(Solution {
             verdict,
             modes: modes.collect(),
-            warnings: case.warnings.clone(),
+            warnings: case.warnings.iter().cloned().chain(short).collect(),
             prepare_us: self.prepare_us,
             solve_us,
-            platform: Some(PlatformAnswer { legs: squares.map(f64::sqrt), route: assembly.route.to_string() }),
+            platform: Some(PlatformAnswer { legs, route: assembly.route.to_string() }),
         })
     }
 

@@ -1,6 +1,7 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
 use super::{FullMode, Solution};
+use crate::algebra::long_float::LongFloat;
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
@@ -10,9 +11,9 @@ use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
-use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Layout, OpenLoop, Variable, angle_motion, distance_motion};
 use crate::kinematics::motion::Motion;
-use crate::verdict::{Bound, verdict};
+use crate::verdict::{Bound, Status, verdict};
 use num_complex::Complex;
 use rug::Rational;
 use std::f64::consts::TAU;
@@ -146,23 +147,45 @@ impl SingleLoop {
         let most = || prepared.bound(&self.chain).count;
         let start = Instant::now();
         solver.solve_up_to(&gap, roots, &most, workspace, assembly);
-        let solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let verdict = verdict(
-            assembly,
-            roots,
-            solver.structural_rank(),
-            prepared.general(),
-            || {
-                // The exact count costs more than a search for real roots, and rarely helps one.
-                let skip = roots == Roots::Real && !solver.is_special();
-                if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
-            },
-            || {
-                let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
-                Some(bound_from(prepared.degree(&closed, None)?, "at this pose"))
-            },
-            solver.too_far(&gap),
-        );
+        let mut solve_us = start.elapsed().as_secs_f64() * 1e6;
+        let count_here = || {
+            let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
+            Some(bound_from(prepared.degree(&closed, None)?, "at this pose"))
+        };
+        let judge = |assembly: &Assembly| {
+            verdict(
+                assembly,
+                roots,
+                solver.structural_rank(),
+                prepared.general(),
+                || {
+                    // The exact count costs more than a search for real roots, and rarely helps one.
+                    let skip = roots == Roots::Real && !solver.is_special();
+                    if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
+                },
+                count_here,
+                solver.too_far(&gap),
+            )
+        };
+        let mut verdict = judge(assembly);
+        let expected = match verdict.status {
+            _ if roots == Roots::Real || solver.structural_rank() < 6 => None,
+            Status::Incomplete => {
+                let everywhere = prepared.bound(&self.chain).count;
+                Some(count_here().map_or(everywhere, |here| here.count.min(everywhere)))
+            }
+            // The exact count of three rotations knows of every self-motion: what f64 took for one is none.
+            Status::SelfMotion if prepared.general() == 2 => count_here().map(|here| here.count),
+            _ => None,
+        };
+        let open = || self.chain.try_open_loop::<LongFloat>(&prepared.layout).ok().flatten();
+        if let Some(expected) = expected
+            && let (Some(open), Ok(filling)) = (open(), filling(case))
+        {
+            solver.rescue(&open.close(&filling), expected, assembly);
+            verdict = judge(assembly);
+            solve_us = start.elapsed().as_secs_f64() * 1e6;
+        }
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {
             let q = prepared.layout.assemble(&mode.unknowns, locked_value);
@@ -240,11 +263,11 @@ fn layout_rotations(open: &OpenLoop<f64>) -> usize {
 }
 
 /// The loop of one case over a ring, and the order of its variables; `None` for an unlucky prime.
-pub(crate) fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<(Layout, ClosedLoop<R>)>> {
+///
+/// # Errors
+/// For chains that are not solved, and for a case without pose and input.
+pub fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<(Layout, ClosedLoop<R>)>> {
     let layout = Layout::of(chain, locked_variable(chain, case)?)?;
-    if layout.second_ball.is_some() {
-        return Err(Error::Unsupported("derivations of loops with two S joints, which are only solved".to_owned()));
-    }
     let open: Option<OpenLoop<R>> = chain.try_open_loop(&layout)?;
     Ok(match (open, filling(case)) {
         (Some(open), Ok(filling)) => Some((layout, open.close(&filling))),
@@ -252,8 +275,23 @@ pub(crate) fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<
     })
 }
 
+/// The loop of two balls of one case over a ring; `None` for chains without two balls.
+///
+/// # Errors
+/// As [`closed_loop`], and for an unlucky prime.
+pub fn coupled_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<Coupled<R>>> {
+    let layout = Layout::of(chain, locked_variable(chain, case)?)?;
+    if layout.second_ball.is_none() {
+        return Ok(None);
+    }
+    chain.coupled_loop(&layout, &filling(case)?).map(Some)
+}
+
 /// The variable that the input of a loop locks; `None` at the pose of an arm, and for a loop without input.
-pub(super) fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
+///
+/// # Errors
+/// For several given variables, and for a joint that has none of the kind.
+pub fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
     if case.pose.is_some() {
         return Ok(None);
     }

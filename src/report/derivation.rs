@@ -1,14 +1,18 @@
 //! Derivations: the verdict first, then equations, steps and polynomial; as text, JSON and Markdown.
 
 use super::json::{kind, number};
+use super::number::digits;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::{Entry, Kind};
-use crate::derivation::{ClosurePolynomial, Derivation, Root};
+use crate::derivation::{ClosurePolynomial, Derivation, Removed, Root, RootPose};
 use crate::error::Result;
 use rug::Rational;
 use serde_json::{Value, json};
 use std::fmt::Write;
+
+/// Longer factors are told by their degree in a verdict.
+const LONGEST_FACTOR: usize = 40;
 
 /// The name of the polynomial's variable.
 fn variable<'d>(derivation: &'d Derivation, polynomial: &ClosurePolynomial) -> &'d str {
@@ -34,22 +38,41 @@ pub fn verdict(derivation: &Derivation) -> String {
     if derivation.per_root > 1 {
         text.push_str(&format!(", up to {} solutions at each", derivation.per_root));
     }
-    if let Some(factor) = removed(name, polynomial) {
-        text.push_str(&format!(", removed {factor}"));
+    if !polynomial.removed.is_empty() {
+        let factors: Vec<String> = polynomial.removed.iter().map(|one| removed(one, &derivation.names, name)).collect();
+        text.push_str(&format!(", removed {}", factors.join(" ")));
     }
     text
 }
 
-fn removed(name: &str, polynomial: &ClosurePolynomial) -> Option<String> {
-    match polynomial.circle {
-        0 => None,
-        1 => Some(format!("1 + {name}^2")),
-        k => Some(format!("(1 + {name}^2)^{k}")),
+/// `(t3^2 + 1)^4`, or what there is to say of a long factor and of roots at infinity.
+fn removed(removed: &Removed, names: &Names, variable: &str) -> String {
+    let power = if removed.multiplicity > 1 { format!("^{}", removed.multiplicity) } else { String::new() };
+    match &removed.factor {
+        None if removed.multiplicity == 1 => format!("a root at {variable} = inf"),
+        None => format!("{} roots at {variable} = inf", removed.multiplicity),
+        Some(factor) => {
+            let text = plain(factor, names);
+            if text.len() <= LONGEST_FACTOR {
+                return format!("({text}){power}");
+            }
+            format!("(degree {}){power}", factor.total_degree().unwrap_or(0))
+        }
     }
 }
 
-/// `degree 12; degree 2, twice`
+/// `square-free, discriminant positive`; `square-free factors (degree 12)^1 (degree 2)^2, discriminant 0`
 fn factors(polynomial: &ClosurePolynomial) -> String {
+    let sign = match polynomial.discriminant_sign() {
+        None => "",
+        Some(1) => ", discriminant positive",
+        Some(0) => ", discriminant 0",
+        Some(_) => ", discriminant negative",
+    };
+    decomposition(polynomial) + sign
+}
+
+fn decomposition(polynomial: &ClosurePolynomial) -> String {
     match polynomial.factors.as_slice() {
         [(_, 1)] | [] => "square-free".to_owned(),
         several => {
@@ -59,9 +82,30 @@ fn factors(polynomial: &ClosurePolynomial) -> String {
     }
 }
 
+/// A line for each factor that was divided out, and why.
+fn divided_out(derivation: &Derivation, polynomial: &ClosurePolynomial) -> Vec<String> {
+    let name = variable(derivation, polynomial);
+    let line = |one: &Removed| {
+        let long = one.factor.as_ref().map(|factor| plain(factor, &derivation.names));
+        let text = match long {
+            Some(text) if one.multiplicity > 1 => format!("({text})^{}", one.multiplicity),
+            Some(text) => text,
+            None => removed(one, &derivation.names, name),
+        };
+        format!("{text}: {}", one.reason)
+    };
+    polynomial.removed.iter().map(line).collect()
+}
+
 fn root(root: &Root) -> String {
     let value = root.exact.as_ref().map_or_else(|| format!("{:?}", root.value), ToString::to_string);
     if root.multiplicity > 1 { format!("{value} (multiplicity {})", root.multiplicity) } else { value }
+}
+
+/// A pose in 15 digits: `quaternion (1, 0, 0, 0), position (0, 0, 0.5)`.
+fn pose(pose: &RootPose) -> String {
+    let list = |numbers: &[f64]| numbers.iter().map(|x| digits(*x)).collect::<Vec<_>>().join(", ");
+    format!("quaternion ({}), position ({})", list(&pose.quaternion), list(&pose.position))
 }
 
 fn plain(polynomial: &Polynomial<Rational>, names: &Names) -> String {
@@ -89,11 +133,20 @@ pub fn text(derivation: &Derivation) -> String {
     if let Some(polynomial) = &derivation.polynomial {
         let _ = writeln!(text, "\nClosure polynomial, {}", factors(polynomial));
         let _ = writeln!(text, "  {}", plain(&polynomial.to_polynomial(), names));
+        if !polynomial.removed.is_empty() {
+            text.push_str("\nDivided out\n");
+        }
+        for line in divided_out(derivation, polynomial) {
+            let _ = writeln!(text, "  {line}");
+        }
         if !polynomial.roots.is_empty() {
             let name = variable(derivation, polynomial);
             let _ = writeln!(text, "\nReal roots, isolated and counted by Sturm's theorem");
             for real in &polynomial.roots {
                 let _ = writeln!(text, "  {name} = {}", root(real));
+                for pose in &real.poses {
+                    let _ = writeln!(text, "    {}", self::pose(pose));
+                }
             }
         }
     }
@@ -142,16 +195,23 @@ pub fn json(entry: &Entry, case: usize, derivation: &Derivation) -> Value {
         document["solutions_per_root"] = json!(derivation.per_root);
         document["at_pi"] = json!(polynomial.at_pi);
         document["polynomial"] = json!({ "variable": name, "coefficients": coefficients });
-        if polynomial.circle > 0 {
-            let factor = json!({ "factor": format!("1 + {name}^2"), "multiplicity": polynomial.circle });
-            document["removed_factors"] = json!([factor]);
-        }
+        let factor = |one: &Removed| {
+            let text = one.factor.as_ref().map_or_else(|| format!("{name} = inf"), |factor| plain(factor, names));
+            json!({ "factor": text, "multiplicity": one.multiplicity, "reason": one.reason })
+        };
+        document["removed_factors"] = polynomial.removed.iter().map(factor).collect();
+        document["discriminant_sign"] = json!(polynomial.discriminant_sign());
         let factor =
             |(degree, multiplicity): &(usize, usize)| json!({ "degree": degree, "multiplicity": multiplicity });
         document["square_free"] = polynomial.factors.iter().map(factor).collect();
         let root = |root: &Root| {
             let exact = root.exact.as_ref().map(ToString::to_string);
-            json!({ "value": number(root.value), "exact": exact, "multiplicity": root.multiplicity })
+            let mut object = json!({ "value": number(root.value), "exact": exact, "multiplicity": root.multiplicity });
+            if entry.kind() == Kind::Platform {
+                let pose = |pose: &RootPose| json!({ "quaternion": pose.quaternion, "position": pose.position });
+                object["poses"] = root.poses.iter().map(pose).collect();
+            }
+            object
         };
         document["roots"] = polynomial.roots.iter().map(root).collect();
     }
@@ -163,11 +223,14 @@ pub fn json(entry: &Entry, case: usize, derivation: &Derivation) -> Value {
 /// # Errors
 /// Where the language has no way to say it.
 pub fn system(derivation: &Derivation, format: Format) -> Result<String> {
-    let polynomials = derivation.system();
-    let used: Vec<usize> = (0..derivation.names.list().len())
-        .filter(|&variable| polynomials.iter().any(|p| p.degree(variable) > 0))
-        .collect();
-    let names = Names::given(used.iter().map(|&variable| &derivation.names.list()[variable]))?;
+    file(&derivation.system(), &derivation.names, format)
+}
+
+/// Polynomials in the language of another program, over the variables that occur.
+pub(super) fn file(polynomials: &[Polynomial<Rational>], names: &Names, format: Format) -> Result<String> {
+    let used: Vec<usize> =
+        (0..names.list().len()).filter(|&variable| polynomials.iter().any(|p| p.degree(variable) > 0)).collect();
+    let names = Names::given(used.iter().map(|&variable| &names.list()[variable]))?;
     let compact = |polynomial: &Polynomial<Rational>| {
         Polynomial::from_terms(polynomial.terms().map(|(exponents, c)| {
             let exponent = |variable: &usize| exponents.get(*variable).copied().unwrap_or(0);
@@ -222,11 +285,20 @@ pub fn markdown(entry: &Entry, case: usize, derivation: &Derivation) -> Result<S
             let _ = write!(text, "Its variable is defined by\n\n{}\n", display(definition)?);
         }
         text.push_str(&display(&polynomial.to_polynomial())?);
+        if !polynomial.removed.is_empty() {
+            text.push_str("\nDivided out:\n\n");
+        }
+        for line in divided_out(derivation, polynomial) {
+            let _ = writeln!(text, "- {line}");
+        }
         if !polynomial.roots.is_empty() {
             let name = variable(derivation, polynomial);
             text.push_str("\nReal roots, isolated by Descartes' rule and counted by Sturm's theorem:\n\n");
             for real in &polynomial.roots {
                 let _ = writeln!(text, "- {name} = {}", root(real));
+                for pose in &real.poses {
+                    let _ = writeln!(text, "  - {}", self::pose(pose));
+                }
             }
         }
     }

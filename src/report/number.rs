@@ -53,6 +53,14 @@ pub fn short(x: f64, decimals: usize) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
+/// A number in at most 15 digits: `0.1`, `-1.25e-7`.
+#[must_use]
+pub fn digits(x: f64) -> String {
+    let shortened = format!("{x:.14e}").parse::<f64>().unwrap_or(x);
+    let text = format!("{shortened:?}");
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+}
+
 /// `1 pose`, `2 poses`.
 #[must_use]
 pub fn counted(count: usize, noun: &str) -> String {
@@ -82,6 +90,14 @@ mod tests {
         assert_eq!(duration(46.0), "0.046 ms");
         assert_eq!(duration(460.0), "0.46 ms");
         assert_eq!(duration(1_234_567.0), "1.2 s");
+    }
+
+    #[test]
+    fn fifteen_digits_are_enough() {
+        assert_eq!(digits(0.1 + 0.2), "0.3");
+        assert_eq!(digits(-2.0), "-2");
+        assert_eq!(digits(1.0 / 3.0), "0.333333333333333");
+        assert_eq!(digits(1.25e-7), "1.25e-7");
     }
 
     #[test]

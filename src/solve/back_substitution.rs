@@ -2,8 +2,8 @@
 
 use super::eigen::eigenvalues;
 use super::kernel::{Kernel, double_angle, unknowns};
-use super::newton::{Six, product, turn};
-use super::scalar::Scalar;
+use super::newton::{Six, product};
+use super::scalar::{Number, Scalar};
 use crate::closure::half_angle::HalfAngleForm;
 use crate::closure::woernle_lee::{FIXED, MarkedLine, TURNING_X, TURNING_Y, act, z_axis};
 use crate::elimination::cut::Hidden;
@@ -15,11 +15,11 @@ use num_complex::Complex;
 pub const MOST: usize = 16;
 
 /// A cut with what back-substitution needs of it, its constants in the number type of the roots.
-pub struct CutView<'a, S> {
+pub struct CutView<'a, S: Number> {
     /// The loop as the cut reads it.
-    pub cut: &'a ClosedLoop<f64>,
+    pub cut: &'a ClosedLoop<S::Real>,
     /// Its elimination.
-    pub form: &'a HalfAngleForm<f64>,
+    pub form: &'a HalfAngleForm<S::Real>,
     /// Which unknown is the eigenvalue.
     pub hidden: Hidden,
     inverses: [Motion<S>; 5],
@@ -65,7 +65,7 @@ impl<S: Scalar> Candidates<S> {
 }
 
 /// `T(V^-1) v` at cosine and sine of a rotation.
-fn unwind<S: Scalar>(v: &MarkedLine<S>, (cos, sin): (S, S)) -> MarkedLine<S> {
+fn unwind<S: Number>(v: &MarkedLine<S>, (cos, sin): (S, S)) -> MarkedLine<S> {
     let mut w = *v;
     for (x, y) in TURNING_X.into_iter().zip(TURNING_Y) {
         w[x] = cos.mul(&v[x]).add(&sin.mul(&v[y]));
@@ -74,19 +74,19 @@ fn unwind<S: Scalar>(v: &MarkedLine<S>, (cos, sin): (S, S)) -> MarkedLine<S> {
     w
 }
 
-fn apply<S: Scalar>(row: &MarkedLine<f64>, v: &MarkedLine<S>) -> S {
+fn apply<S: Number>(row: &MarkedLine<S::Real>, v: &MarkedLine<S>) -> S {
     row.iter().zip(v).fold(S::zero(), |sum, (r, x)| sum.add(&x.times(*r)))
 }
 
-impl<'a, S: Scalar> CutView<'a, S> {
+impl<'a, S: Number> CutView<'a, S> {
     /// Prepares back-substitution for one cut.
     #[must_use]
-    pub fn new(cut: &'a ClosedLoop<f64>, form: &'a HalfAngleForm<f64>, hidden: Hidden) -> Self {
+    pub fn new(cut: &'a ClosedLoop<S::Real>, form: &'a HalfAngleForm<S::Real>, hidden: Hidden) -> Self {
         let inverse = |k: usize| {
             let back = cut.constants[k].inverse();
             Motion {
-                rotation: back.rotation.map(|row| row.map(S::from_f64)),
-                translation: back.translation.map(S::from_f64),
+                rotation: back.rotation.map(|row| row.map(S::from_real)),
+                translation: back.translation.map(S::from_real),
             }
         };
         let inverses = std::array::from_fn(inverse);
@@ -104,15 +104,42 @@ impl<'a, S: Scalar> CutView<'a, S> {
         (pairs, act(&self.inverses[1], &unwind(&one, pairs[1])))
     }
 
+    /// The pairs with which the unknowns of a root enter the motions, where one solution belongs to it.
+    #[must_use]
+    pub fn pairs_of(&self, hidden: (S, S), vector: &[S; 8]) -> Option<[(S, S); 6]> {
+        let (other, third) = unknowns(vector)?;
+        let (pairs, u) = self.behind_two(hidden, other);
+        self.all_pairs(pairs, third, &u)
+    }
+
+    /// Unknowns 4, 5 and 6 from the first three.
+    fn all_pairs(&self, pairs: [(S, S); 2], third: (S, S), u: &MarkedLine<S>) -> Option<[(S, S); 6]> {
+        let r = act(&self.inverses[2], &unwind(u, third));
+        let last = &self.form.last_monomials;
+        let pair = |index: usize, k: usize| match self.cut.variables[index] {
+            Variable::Rotation => normalised(apply(&last[k], &r), apply(&last[k + 1], &r)),
+            Variable::Translation => Some((apply(&last[k], &r), S::zero())),
+        };
+        let fifth = pair(4, 0)?;
+        let fourth = pair(3, 2)?;
+        let values = [pairs[0], pairs[1], third, fourth, fifth];
+        let frame: Motion<S> = product(self.cut, &values, 5);
+        // V6 = (G6 V1 G1 ... V5 G5)^-1, a rotation about z.
+        let g = &self.cut.constants[5].rotation;
+        let entry = |i: usize, j: usize| (0..3).fold(S::zero(), |sum, k| sum.add(&frame.rotation[k][j].times(g[i][k])));
+        let (cos, sin) = (entry(0, 0).add(&entry(1, 1)), entry(0, 1).sub(&entry(1, 0)));
+        let sixth = normalised(cos.halved(), sin.halved())?;
+        Some([values[0], values[1], values[2], values[3], values[4], sixth])
+    }
+}
+
+impl<S: Scalar> CutView<'_, S> {
     /// All candidates of a root, given as cosine and sine of the hidden unknown and the kernel of the pencil there.
     #[must_use]
     pub fn candidates(&self, hidden: (S, S), kernel: &Kernel<S>) -> Candidates<S> {
         let mut found = Candidates::none();
         if kernel.dimension == 1 {
-            if let Some((other, third)) = unknowns(&kernel.basis[0]) {
-                let (pairs, u) = self.behind_two(hidden, other);
-                found.extend(self.complete(pairs, third, &u));
-            }
+            found.extend(self.pairs_of(hidden, &kernel.basis[0]).map(|pairs| self.angles(&pairs)));
             return found;
         }
         // Several solutions share the hidden unknown: separate the other one inside the kernel.
@@ -140,6 +167,17 @@ impl<'a, S: Scalar> CutView<'a, S> {
             }
         }
         found
+    }
+
+    fn complete(&self, pairs: [(S, S); 2], third: (S, S), u: &MarkedLine<S>) -> Option<Six<S>> {
+        Some(self.angles(&self.all_pairs(pairs, third, u)?))
+    }
+
+    fn angles(&self, pairs: &[(S, S); 6]) -> Six<S> {
+        std::array::from_fn(|j| match self.cut.variables[j] {
+            Variable::Rotation => S::angle_of(pairs[j].0, pairs[j].1),
+            Variable::Translation => pairs[j].0,
+        })
     }
 
     /// Unknown 3 from the six equations free of unknowns 4 to 6: `A_c c3 + A_s s3 = rhs`.
@@ -199,31 +237,6 @@ impl<'a, S: Scalar> CutView<'a, S> {
         });
         Third::Values(both)
     }
-
-    /// Unknowns 4, 5 and 6 from the first three.
-    fn complete(&self, pairs: [(S, S); 2], third: (S, S), u: &MarkedLine<S>) -> Option<Six<S>> {
-        let r = act(&self.inverses[2], &unwind(u, third));
-        let last = &self.form.last_monomials;
-        let pair = |index: usize, k: usize| match self.cut.variables[index] {
-            Variable::Rotation => normalised(apply(&last[k], &r), apply(&last[k + 1], &r)),
-            Variable::Translation => Some((apply(&last[k], &r), S::zero())),
-        };
-        let fifth = pair(4, 0)?;
-        let fourth = pair(3, 2)?;
-        let values = [pairs[0], pairs[1], third, fourth, fifth];
-        let mut frame: Motion<S> = product(self.cut, &values, 5);
-        // V6 = (G6 V1 G1 ... V5 G5)^-1, a rotation about z.
-        let g = &self.cut.constants[5].rotation;
-        let entry = |i: usize, j: usize| (0..3).fold(S::zero(), |sum, k| sum.add(&frame.rotation[k][j].times(g[i][k])));
-        let (cos, sin) = (entry(0, 0).add(&entry(1, 1)), entry(0, 1).sub(&entry(1, 0)));
-        let sixth = normalised(cos.times(0.5), sin.times(0.5))?;
-        turn(&mut frame, self.cut.variables[5], sixth);
-        let all = [values[0], values[1], values[2], values[3], values[4], sixth];
-        Some(std::array::from_fn(|j| match self.cut.variables[j] {
-            Variable::Rotation => S::angle_of(all[j].0, all[j].1),
-            Variable::Translation => all[j].0,
-        }))
-    }
 }
 
 /// What the equations say of unknown 3.
@@ -235,10 +248,10 @@ enum Third<S> {
 }
 
 /// (cos, sin) scaled to `cos^2 + sin^2 = 1`; `None` for what is no angle at all.
-fn normalised<S: Scalar>(cos: S, sin: S) -> Option<(S, S)> {
+fn normalised<S: Number>(cos: S, sin: S) -> Option<(S, S)> {
     let norm = cos.mul(&cos).add(&sin.mul(&sin)).root();
     let size = cos.size().max(sin.size());
-    (norm.size() > 1e-6 * size && size.is_finite()).then(|| (cos.over(norm), sin.over(norm)))
+    (norm.size() > 1e2 * S::UNIT_ROUNDOFF.sqrt() * size && size.is_finite()).then(|| (cos.over(norm), sin.over(norm)))
 }
 
 /// The values of the other unknown for which the kernel holds a vector of the right shape: rows 0-2, 4-6 of the basis

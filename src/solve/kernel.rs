@@ -1,10 +1,11 @@
 //! Null vectors of the pencil at a root, and the unknowns they hold.
 
-use super::scalar::Scalar;
-use crate::elimination::pencil::Square;
+use super::scalar::Number;
+use crate::algebra::ring::Ring;
+use crate::elimination::pencil::{Pencil, Square};
 
-/// Pivots below this part of the largest one count as zero: a kernel of more than one dimension.
-const SHARED: f64 = 1e-7;
+/// Pivots below this part of the largest one count as zero in f64: a kernel of more than one dimension.
+pub const SHARED: f64 = 1e-7;
 
 /// The kernel of an 8 x 8 matrix that is singular to rounding.
 #[derive(Clone, Debug)]
@@ -17,9 +18,26 @@ pub struct Kernel<S> {
     pub separation: f64,
 }
 
-/// The kernel by elimination with complete pivoting; the smallest pivot always counts as zero.
+/// A pencil at a root, divided by `1 + |x|^2` so that large roots do not overflow.
 #[must_use]
-pub fn kernel<S: Scalar>(matrix: &Square<S, 8>) -> Kernel<S> {
+pub fn at_root<S: Number>(pencil: &Pencil<S::Real>, x: S) -> Square<S, 8> {
+    let scale = (1.0 / (1.0 + x.square_size())).into();
+    let (square, linear) = (x.mul(&x).times(scale), x.times(scale));
+    let [a0, a1, a2] = &pencil.coefficients;
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            square.times(a2[i][j]).add(&linear.times(a1[i][j])).add(&S::from_real(scale.mul(&a0[i][j])))
+        })
+    })
+}
+
+/// Roundings that may separate what is zero from zero.
+const ROUNDINGS: f64 = 1e4;
+
+/// The kernel by elimination with complete pivoting; the smallest pivot always counts as zero, and those below the part
+/// `shared` of the largest one.
+#[must_use]
+pub fn kernel<S: Number>(matrix: &Square<S, 8>, shared: f64) -> Kernel<S> {
     let mut a = *matrix;
     let mut columns: [usize; 8] = std::array::from_fn(|j| j);
     let mut pivots = [0.0; 8];
@@ -48,7 +66,7 @@ pub fn kernel<S: Scalar>(matrix: &Square<S, 8>) -> Kernel<S> {
         }
     }
     let separation = if pivots[0] > 0.0 { pivots[6] / pivots[0] } else { 0.0 };
-    let rank = (0..7).take_while(|&k| pivots[k] > SHARED * pivots[0]).count();
+    let rank = (0..7).take_while(|&k| pivots[k] > shared * pivots[0]).count();
     let dimension = 8 - rank;
     let mut basis = [[S::zero(); 8]; 8];
     for (b, vector) in basis.iter_mut().take(dimension).enumerate() {
@@ -71,7 +89,7 @@ pub fn kernel<S: Scalar>(matrix: &Square<S, 8>) -> Kernel<S> {
     Kernel { basis, dimension, separation }
 }
 
-fn orthonormalise<S: Scalar>(rows: &mut [[S; 8]]) {
+fn orthonormalise<S: Number>(rows: &mut [[S; 8]]) {
     for i in 0..rows.len() {
         let (done, rest) = rows.split_at_mut(i);
         let row = &mut rest[0];
@@ -82,9 +100,9 @@ fn orthonormalise<S: Scalar>(rows: &mut [[S; 8]]) {
                     *x = x.sub(&dot.mul(y));
                 }
             }
-            let square: f64 = row.iter().map(|x| x.to_complex().norm_sqr()).sum();
+            let square: f64 = row.iter().map(|x| x.square_size()).sum();
             for x in row.iter_mut() {
-                *x = x.times(1.0 / square.sqrt().max(f64::MIN_POSITIVE));
+                *x = x.times((1.0 / square.sqrt().max(f64::MIN_POSITIVE)).into());
             }
         }
     }
@@ -93,10 +111,10 @@ fn orthonormalise<S: Scalar>(rows: &mut [[S; 8]]) {
 /// Cosine and sine of an angle from its half-angle pair `tan(q/2) = sin_half / cos_half`; `None` near tan = +-i, where
 /// no finite angle is.
 #[must_use]
-pub fn double_angle<S: Scalar>(cos_half: S, sin_half: S) -> Option<(S, S)> {
+pub fn double_angle<S: Number>(cos_half: S, sin_half: S) -> Option<(S, S)> {
     let (cc, ss) = (cos_half.mul(&cos_half), sin_half.mul(&sin_half));
     let norm = cc.add(&ss);
-    if !(norm.size() > 1e-12 * (cc.size() + ss.size())) {
+    if !(norm.size() > ROUNDINGS * S::UNIT_ROUNDOFF * (cc.size() + ss.size())) {
         return None;
     }
     let product = cos_half.mul(&sin_half);
@@ -107,8 +125,8 @@ pub fn double_angle<S: Scalar>(cos_half: S, sin_half: S) -> Option<(S, S)> {
 ///
 /// Ratios of neighbouring entries, taken where they are largest: infinite half-angle tangents are no exception.
 #[must_use]
-pub fn unknowns<S: Scalar>(y: &[S; 8]) -> Option<((S, S), (S, S))> {
-    let square = |part: &[S]| -> f64 { part.iter().map(|x| x.to_complex().norm_sqr()).sum() };
+pub fn unknowns<S: Number>(y: &[S; 8]) -> Option<((S, S), (S, S))> {
+    let square = |part: &[S]| -> f64 { part.iter().map(|x| x.square_size()).sum() };
     let b = if square(&y[..4]) >= square(&y[4..]) { &y[..4] } else { &y[4..] };
     let other = if b[0].size() >= b[3].size() { double_angle(b[0], b[1]) } else { double_angle(b[2], b[3]) }?;
     let i = (0..4).max_by(|&i, &j| square(&[y[i], y[i + 4]]).total_cmp(&square(&[y[j], y[j + 4]])))?;

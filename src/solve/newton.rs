@@ -109,7 +109,7 @@ pub fn coordinates<S: Scalar>(variable: Variable, value: S) -> (S, S) {
 
 /// The product of the first `count` steps of the loop.
 #[must_use]
-pub fn product<S: Scalar>(closed: &ClosedLoop<f64>, values: &[(S, S)], count: usize) -> Motion<S> {
+pub fn product<S: Number>(closed: &ClosedLoop<S::Real>, values: &[(S, S)], count: usize) -> Motion<S> {
     let mut frame = Motion::identity();
     for j in 0..count {
         turn(&mut frame, closed.variables[j], values[j]);

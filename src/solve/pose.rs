@@ -17,10 +17,6 @@ const SETTLED: f64 = 1e-14;
 /// A step of this size that no longer shrinks is rounding, magnified by a nearly singular Jacobian, where the equations
 /// hold as below.
 const ROUNDING: f64 = 1e-5;
-/// A step of this size is enough on the way from platform to platform.
-const CARRIED: f64 = 1e-7;
-/// A step of this size there leads to another solution.
-const STRAY: f64 = 0.3;
 /// A refined step of this size is the last.
 const REFINED: f64 = 1e-18;
 /// Relative residual of a solution polished as far as rounding allows, as a rule.
@@ -177,33 +173,6 @@ pub fn polish<S: Scalar>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Polis
 #[must_use]
 pub fn complex<S: Scalar>(v: &Eight<S>) -> Eight<Complex<f64>> {
     v.map(Scalar::to_complex)
-}
-
-/// Carries a solution from platform to platform, each a little nearer to the one wanted; `None` where it gets lost.
-#[must_use]
-pub fn follow<S: Scalar>(path: &[[Leg<f64>; 6]], start: &Eight<S>) -> Option<Eight<S>> {
-    let mut v = normalised(start)?;
-    for (stage, legs) in path.iter().enumerate() {
-        let mut before = f64::INFINITY;
-        for step_number in 0..MOST_STEPS {
-            let here = equations(legs, &v, &patch(&v));
-            let step = solve_one(&here.jacobian, &here.values)?;
-            let reach = v.iter().map(|x| x.size()).fold(1.0, f64::max);
-            let size = step.iter().map(|x| x.size()).fold(0.0, f64::max);
-            if !(size < STRAY * reach) || (step_number > 3 && !(size < before)) || (stage > 0 && !size.is_finite()) {
-                return None;
-            }
-            for (x, s) in v.iter_mut().zip(&step) {
-                *x = x.sub(s);
-            }
-            v = normalised(&v)?;
-            if size < CARRIED * reach {
-                break;
-            }
-            before = size;
-        }
-    }
-    Some(v)
 }
 
 /// Newton steps in numbers of twice the precision from a polished point, with the inverse known there: the point they

@@ -1,13 +1,15 @@
-//! The number types roots live in: f64 for real ones, complex f64 for all of them, complex double-double for proofs.
+//! The number types roots live in: f64 for real ones, complex f64 for all of them, complex numbers of more digits for
+//! proofs and for roots that f64 does not reach.
 
 use crate::algebra::double_double::DoubleDouble;
+use crate::algebra::long_float::LongFloat;
 use crate::algebra::ring::{Field, Ring};
 use num_complex::Complex;
 
 /// What linear algebra and error bounds need of a numeric field.
 pub trait Number: Field + Copy {
     /// The type of the constants it is multiplied by.
-    type Real: Field + Copy;
+    type Real: Field + Copy + From<f64>;
     /// Bound on the relative error of one real operation.
     const UNIT_ROUNDOFF: f64;
     /// `self * x`.
@@ -20,6 +22,39 @@ pub trait Number: Field + Copy {
     fn size(self) -> f64;
     /// An upper bound of the absolute value: |re| + |im|.
     fn bound(self) -> f64;
+    /// The square of the absolute value.
+    fn square_size(self) -> f64;
+    /// A square root; of a negative real zero.
+    #[must_use]
+    fn root(self) -> Self;
+    /// `self / other`; zero where that does not exist in numbers without infinity.
+    #[must_use]
+    fn over(self, other: Self) -> Self;
+    /// The complex conjugate.
+    #[must_use]
+    fn conjugate(self) -> Self;
+    /// A number of the type of the constants.
+    fn from_real(x: Self::Real) -> Self;
+}
+
+/// Real numbers of more digits than f64 has.
+pub trait Extended: Number<Real = Self> + From<f64> {
+    /// The nearest f64, or one beside it.
+    fn to_f64(self) -> f64;
+    /// How often Newton's method doubles the digits of f64 until all are right.
+    const DOUBLINGS: u32;
+}
+
+/// A complex number of as many digits, exactly.
+#[must_use]
+pub fn extended<R: Extended>(z: Complex<f64>) -> Complex<R> {
+    Complex::new(z.re.into(), z.im.into())
+}
+
+/// The nearest complex f64, or one beside it.
+#[must_use]
+pub fn narrowed<R: Extended>(z: Complex<R>) -> Complex<f64> {
+    Complex::new(z.re.to_f64(), z.im.to_f64())
 }
 
 /// What finding roots needs on top.
@@ -34,17 +69,8 @@ pub trait Scalar: Number<Real = f64> {
     fn to_complex(self) -> Complex<f64>;
     /// Cosine and sine.
     fn cos_sin_of(self) -> (Self, Self);
-    /// A square root; of a negative real zero.
-    #[must_use]
-    fn root(self) -> Self;
     /// The angle of a pair (cos, sin), normalised or not.
     fn angle_of(cos: Self, sin: Self) -> Self;
-    /// `self / other`
-    #[must_use]
-    fn over(self, other: Self) -> Self;
-    /// The complex conjugate.
-    #[must_use]
-    fn conjugate(self) -> Self;
 }
 
 impl Number for f64 {
@@ -65,6 +91,25 @@ impl Number for f64 {
     #[inline(always)]
     fn bound(self) -> f64 {
         self.abs()
+    }
+    #[inline(always)]
+    fn square_size(self) -> f64 {
+        self * self
+    }
+    fn root(self) -> Self {
+        self.max(0.0).sqrt()
+    }
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        self / other
+    }
+    #[inline(always)]
+    fn conjugate(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn from_real(x: f64) -> Self {
+        x
     }
 }
 
@@ -87,39 +132,119 @@ impl Number for Complex<f64> {
     fn bound(self) -> f64 {
         self.re.abs() + self.im.abs()
     }
+    #[inline(always)]
+    fn square_size(self) -> f64 {
+        self.norm_sqr()
+    }
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        self / other
+    }
+    #[inline(always)]
+    fn conjugate(self) -> Self {
+        self.conj()
+    }
+    #[inline(always)]
+    fn from_real(x: f64) -> Self {
+        Complex::new(x, 0.0)
+    }
 }
 
-impl Number for DoubleDouble {
-    type Real = DoubleDouble;
-    const UNIT_ROUNDOFF: f64 = DoubleDouble::UNIT_ROUNDOFF;
-    fn times(self, x: DoubleDouble) -> Self {
-        self.mul(&x)
+impl Extended for DoubleDouble {
+    fn to_f64(self) -> f64 {
+        Self::to_f64(self)
     }
-    fn halved(self) -> Self {
-        self.mul(&DoubleDouble::from(0.5))
-    }
-    fn size(self) -> f64 {
-        self.to_f64().abs()
-    }
-    fn bound(self) -> f64 {
-        self.to_f64().abs()
-    }
+    const DOUBLINGS: u32 = 1;
 }
 
-impl Number for Complex<DoubleDouble> {
-    type Real = DoubleDouble;
-    const UNIT_ROUNDOFF: f64 = DoubleDouble::UNIT_ROUNDOFF;
-    fn times(self, x: DoubleDouble) -> Self {
+impl Extended for LongFloat {
+    fn to_f64(self) -> f64 {
+        Self::to_f64(self)
+    }
+    const DOUBLINGS: u32 = 3;
+}
+
+/// What numbers of more digits have in common, their unit roundoff and their halves apart.
+macro_rules! extended_number {
+    ($real:ty, $halved:expr) => {
+        impl Number for $real {
+            type Real = Self;
+            const UNIT_ROUNDOFF: f64 = <$real>::UNIT_ROUNDOFF;
+            fn times(self, x: Self) -> Self {
+                self.mul(&x)
+            }
+            fn halved(self) -> Self {
+                $halved(self)
+            }
+            fn size(self) -> f64 {
+                self.to_f64().abs()
+            }
+            fn bound(self) -> f64 {
+                self.to_f64().abs()
+            }
+            fn square_size(self) -> f64 {
+                self.to_f64().powi(2)
+            }
+            fn root(self) -> Self {
+                let start = self.to_f64().max(0.0).sqrt();
+                let usable = start > 0.0 && start.is_finite();
+                if usable { improved_root(self, start.into(), Self::DOUBLINGS) } else { Self::zero() }
+            }
+            fn over(self, other: Self) -> Self {
+                other.inverse().map_or_else(Self::zero, |inverse| self.mul(&inverse))
+            }
+            fn conjugate(self) -> Self {
+                self
+            }
+            fn from_real(x: Self) -> Self {
+                x
+            }
+        }
+    };
+}
+
+extended_number!(DoubleDouble, |x: DoubleDouble| x.mul(&DoubleDouble::from(0.5)));
+extended_number!(LongFloat, |x: LongFloat| x.shifted(-1));
+
+/// Newton's method for a square root: every step doubles the digits.
+fn improved_root<S: Number>(of: S, start: S, doublings: u32) -> S {
+    (0..doublings).fold(start, |root, _| root.add(&of.over(root)).halved())
+}
+
+impl<R: Extended> Number for Complex<R> {
+    type Real = R;
+    const UNIT_ROUNDOFF: f64 = R::UNIT_ROUNDOFF;
+    fn times(self, x: R) -> Self {
         Complex::new(self.re.mul(&x), self.im.mul(&x))
     }
     fn halved(self) -> Self {
-        self.times(DoubleDouble::from(0.5))
+        Complex::new(self.re.halved(), self.im.halved())
     }
     fn size(self) -> f64 {
         self.re.to_f64().abs().max(self.im.to_f64().abs())
     }
     fn bound(self) -> f64 {
         self.re.to_f64().abs() + self.im.to_f64().abs()
+    }
+    fn square_size(self) -> f64 {
+        narrowed(self).norm_sqr()
+    }
+    fn root(self) -> Self {
+        let start = narrowed(self).sqrt();
+        let usable = start.norm_sqr() > 0.0 && start.is_finite();
+        if usable { improved_root(self, extended(start), R::DOUBLINGS) } else { Self::zero() }
+    }
+    fn over(self, other: Self) -> Self {
+        other.inverse().map_or_else(Self::zero, |inverse| self.mul(&inverse))
+    }
+    fn conjugate(self) -> Self {
+        Complex::new(self.re, self.im.neg())
+    }
+    fn from_real(x: R) -> Self {
+        Complex::new(x, R::zero())
     }
 }
 
@@ -142,20 +267,9 @@ impl Scalar for f64 {
         let (sin, cos) = self.sin_cos();
         (cos, sin)
     }
-    fn root(self) -> Self {
-        self.max(0.0).sqrt()
-    }
     #[inline(always)]
     fn angle_of(cos: Self, sin: Self) -> Self {
         sin.atan2(cos)
-    }
-    #[inline(always)]
-    fn over(self, other: Self) -> Self {
-        self / other
-    }
-    #[inline(always)]
-    fn conjugate(self) -> Self {
-        self
     }
 }
 
@@ -183,9 +297,6 @@ impl Scalar for Complex<f64> {
         let sinh = if self.im.abs() < 0.25 { self.im.sinh() } else { 0.5 * (grown - shrunk) };
         (Complex::new(cos * cosh, -sin * sinh), Complex::new(sin * cosh, cos * sinh))
     }
-    fn root(self) -> Self {
-        self.sqrt()
-    }
     fn angle_of(cos: Self, sin: Self) -> Self {
         // e^(i q) = (cos + i sin) / norm; the larger of e^(i q), e^(-i q) keeps its digits.
         let i = Complex::new(0.0, 1.0);
@@ -195,14 +306,6 @@ impl Scalar for Complex<f64> {
         } else {
             i * (minus / (plus * minus).sqrt_towards_one()).ln()
         }
-    }
-    #[inline(always)]
-    fn over(self, other: Self) -> Self {
-        self / other
-    }
-    #[inline(always)]
-    fn conjugate(self) -> Self {
-        self.conj()
     }
 }
 

@@ -3,10 +3,11 @@
 //! The list of modes of each step comes from the solver, with its verdict. Between two steps every mode is followed
 //! along the curve of the loop, forwards from one and backwards from the other, round limit positions where the input
 //! turns back. Both ways must agree with each other and with the two lists; where they do not, the step is halved, and
-//! what still does not add up is said to be unresolved.
+//! what still does not add up is said to be unresolved. Complex modes show where a circuit may lie within a step.
 
 mod branch;
 mod bridge;
+mod hidden;
 mod sample;
 mod track;
 
@@ -150,15 +151,17 @@ fn connect(swept: &Swept<'_>, range: Range, samples: &[Sample], is_full_turn: bo
     };
     let nodes: Result<Vec<Vec<(Sample, usize)>>> =
         samples.par_iter().enumerate().map_init(memory, |memory, item| stand_ins(memory, item)).collect();
-    let nodes: Vec<(Sample, usize)> = nodes?.into_iter().flatten().collect();
-    let pairs: Vec<&[(Sample, usize)]> = nodes.windows(2).collect();
-    let between = |memory: &mut (Workspace, Assembly), pair: &&[(Sample, usize)]| {
+    let nodes: Vec<(Sample, Option<usize>)> =
+        nodes?.into_iter().flatten().map(|(sample, step)| (sample, Some(step))).collect();
+    let nodes = with_hidden(swept, nodes)?;
+    let pairs: Vec<&[(Sample, Option<usize>)]> = nodes.windows(2).collect();
+    let between = |memory: &mut (Workspace, Assembly), pair: &&[(Sample, Option<usize>)]| {
         bridges(swept, &pair[0].0, &pair[1].0, 0, memory)
     };
     let found: Result<Vec<(Vec<Sample>, Vec<Bridge>)>> = pairs.par_iter().map_init(memory, between).collect();
     let mut web = Web::new(is_full_turn);
     for ((sample, step), (middle, bridges)) in nodes.iter().zip(found?) {
-        web.add(sample.clone(), Some(*step));
+        web.add(sample.clone(), *step);
         for sample in middle {
             web.add(sample, None);
         }
@@ -167,7 +170,7 @@ fn connect(swept: &Swept<'_>, range: Range, samples: &[Sample], is_full_turn: bo
         }
     }
     if let Some((sample, step)) = nodes.last() {
-        web.add(sample.clone(), Some(*step));
+        web.add(sample.clone(), *step);
     }
     if let (true, Some((first, _)), Some((last, _))) = (is_full_turn, nodes.first(), nodes.last()) {
         let (middle, bridges) = closing(swept, first, last, range)?;
@@ -179,6 +182,22 @@ fn connect(swept: &Swept<'_>, range: Range, samples: &[Sample], is_full_turn: bo
         }
     }
     Ok(web)
+}
+
+/// The samples with those between them that show a circuit which none of them shows.
+fn with_hidden(swept: &Swept<'_>, nodes: Vec<(Sample, Option<usize>)>) -> Result<Vec<(Sample, Option<usize>)>> {
+    let memory = || (Workspace::default(), Assembly::default());
+    let (samples, steps): (Vec<Sample>, Vec<Option<usize>>) = nodes.into_iter().unzip();
+    let spans: Vec<usize> = (1..samples.len()).collect();
+    let look = |memory: &mut (Workspace, Assembly), end: &usize| hidden::between(swept, &samples, end - 1, memory);
+    let found: Result<Vec<Vec<Sample>>> = spans.par_iter().map_init(memory, look).collect();
+    let mut all = Vec::new();
+    // Nothing stands before the first sample.
+    for ((sample, step), hidden) in samples.iter().zip(steps).zip(std::iter::once(Vec::new()).chain(found?)) {
+        all.extend(hidden.into_iter().map(|sample| (sample, None)));
+        all.push((sample.clone(), step));
+    }
+    Ok(all)
 }
 
 /// The bridge from the end of a full turn to its beginning.

@@ -8,6 +8,7 @@ use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{InputCurve, Mechanism};
 use crate::solve::curve::{INPUT, Point};
 use crate::verdict::Status;
+use num_complex::Complex;
 
 /// What was found at one input.
 #[derive(Clone, Debug)]
@@ -24,6 +25,17 @@ pub struct Sample {
     pub(super) is_regular: bool,
     /// The modes as points of the curve.
     pub(super) points: Vec<Point>,
+    /// The complex modes, one of each conjugate pair.
+    pub(super) pairs: Vec<Pair>,
+}
+
+/// Two conjugate complex modes as the curve sees them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    /// Their real part.
+    pub centre: Point,
+    /// The sum of the squares of their imaginary parts.
+    pub spread: f64,
 }
 
 impl Sample {
@@ -67,8 +79,15 @@ impl Swept<'_> {
             point[INPUT] = input / unit;
             point
         };
-        let points = modes.iter().map(point).collect();
+        let points = modes.iter().map(&point).collect();
+        let pair = |q: &Vec<Complex<f64>>| {
+            let upper = q.iter().map(|z| z.im).find(|im| *im != 0.0).is_some_and(|im| im > 0.0);
+            let part = |of: fn(&Complex<f64>) -> f64| q.iter().map(of).collect::<Vec<f64>>();
+            let spread = self.curve.point(&part(|z| z.im))[..INPUT].iter().map(|im| im * im).sum();
+            upper.then(|| Pair { centre: point(&part(|z| z.re)), spread })
+        };
+        let pairs = solution.modes.iter().filter(|mode| !mode.real).filter_map(|mode| pair(&mode.q)).collect();
         let (status, reason) = (solution.verdict.status, solution.verdict.reason);
-        Ok(Sample { input, status, reason, modes, is_regular, points })
+        Ok(Sample { input, status, reason, modes, is_regular, points, pairs })
     }
 }

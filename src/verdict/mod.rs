@@ -93,6 +93,9 @@ pub fn verdict(
     } else {
         count(assembly, roots, general, geometry, pose)
     };
+    if assembly.rescued > 0 {
+        judged.reason += &format!("; {} of them found or proved in 384-bit arithmetic only", assembly.rescued);
+    }
     if let (Some((gap, links)), Status::Incomplete, 0) = (too_far, judged.status, assembly.real()) {
         judged.status = Status::Unreachable;
         judged.reason = format!("out of reach: {gap:.4e} has to be bridged by links of {links:.4e} together");

@@ -41,7 +41,7 @@ fn merged(points: &mut [[Rational; 3]; 6], pairs: &[(usize, usize)]) {
 #[test]
 fn special_geometries_have_fewer_poses_and_all_are_found() {
     type Make = fn(&mut Platform<Rational>);
-    let classes: [(&str, usize, Make); 6] = [
+    let classes: [(&str, usize, Make); 8] = [
         ("5-4, curves with N = 0", 16, |p| {
             merged(&mut p.base, &[(0, 1)]);
             merged(&mut p.plate, &[(2, 3), (4, 5)]);
@@ -50,6 +50,10 @@ fn special_geometries_have_fewer_poses_and_all_are_found() {
         ("3-6", 16, |p| merged(&mut p.base, &[(0, 1), (2, 3), (4, 5)])),
         ("similar", 24, |p| p.plate = p.base.clone().map(|a| a.map(|x| x * Rational::from((2, 3))))),
         ("mirrored", 24, |p| p.plate = p.base.clone().map(|[x, y, z]| [x, y, -z])),
+        ("congruent", 24, |p| p.plate = p.base.clone()),
+        ("affine", 32, |p| {
+            p.plate = p.base.clone().map(|[x, y, z]| [y.clone() * 2 + &x, y - &z * Rational::from(3), x + z]);
+        }),
         ("similar and plane", 16, |p| {
             p.base.iter_mut().for_each(|a| a[2] = Rational::new());
             p.plate = p.base.clone().map(|a| a.map(|x| x * Rational::from((2, 3))));

@@ -46,7 +46,7 @@ fn the_answers_say_which_way_they_were_found() {
     };
     assert_eq!(route("dietmaier40"), Route::BorderBasis { directions: 1 });
     assert_eq!(route("planar_both_0"), Route::BorderBasis { directions: 2 });
-    assert!(matches!(route("affine_0"), Route::Perturbed { .. }));
+    assert!(matches!(route("affine_0"), Route::Homotopy { .. }));
 }
 
 #[test]

@@ -202,7 +202,8 @@ fn the_quartics_of_the_rotation_have_the_same_solutions() {
         (platform, legs)
     };
     let published = case("gen66_4");
-    for (platform, legs) in [planted(1), planted(2), (published.platform, published.legs)] {
+    let random = (1..=4).map(planted);
+    for (platform, legs) in random.chain([(published.platform, published.legs)]) {
         let platform = platform.map(|x| Some(nearest_f64(x))).unwrap();
         let (platform, squares) = turned(&platform, &legs.each_ref().map(nearest_f64));
         let mut assembly = PlatformAssembly::default();

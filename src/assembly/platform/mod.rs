@@ -1,12 +1,17 @@
 //! All poses of a Stewart platform with legs of given lengths.
 
+mod arrival;
 mod candidate;
+mod homotopy;
 mod mode;
 mod prepared;
+mod reach;
 mod reflection;
 mod search;
 mod self_motion;
 mod solver;
+mod triangle;
 
 pub use mode::{PlatformAssembly, PlatformMode, Route};
+pub use reach::out_of_reach;
 pub use solver::{PlatformSolver, PlatformWorkspace};

@@ -42,10 +42,15 @@ pub enum Route {
         /// 1, and one more for every weak direction of the legs' matrix K.
         directions: usize,
     },
-    /// The border basis of a platform moved by 1e-5, its solutions carried back: the border basis of the platform itself
-    /// lost rank.
-    Perturbed {
-        /// How many perturbed platforms were solved.
+    /// The two resultants of a triangle hung on six legs that meet in pairs.
+    Triangle {
+        /// Whether they meet at the base, not at the plate.
+        at_base: bool,
+    },
+    /// A parameter homotopy from general platforms: the border basis of the platform itself lost rank, or poses that are
+    /// known to exist were not found with it.
+    Homotopy {
+        /// How many general platforms were started from.
         runs: usize,
     },
 }
@@ -62,10 +67,16 @@ impl fmt::Display for Route {
                 "border basis of dimension 40 with {} weak directions of the legs' matrix K as unknowns",
                 directions - 1
             ),
-            Self::Perturbed { runs } => write!(
+            Self::Triangle { at_base } => write!(
                 f,
-                "border bases of {runs} platforms moved by 1e-5, carried back (special geometry: the border basis of the \
-                 platform itself loses rank)"
+                "two resultants of degree 16 (the legs meet in pairs at the {}: a triangle whose corners move on circles)",
+                if *at_base { "base" } else { "plate" }
+            ),
+            Self::Homotopy { runs } => write!(
+                f,
+                "parameter homotopy, 40 paths from a general platform to this one, {runs} {} (special geometry: the border \
+                 basis of the platform itself does not do)",
+                if *runs == 1 { "time" } else { "times" }
             ),
         }
     }

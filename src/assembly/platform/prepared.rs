@@ -15,12 +15,8 @@ const TURNS: [[[f64; 4]; 2]; 2] = [
     [[-0.391, 0.587, 0.283, 0.651], [0.702, -0.219, 0.485, -0.474]],
 ];
 
-/// How far points are moved at first, in units of the size of the platform.
-const PERTURBATION: f64 = 1e-3;
-/// From platform to platform the points come nearer by this factor.
-const NEARER: f64 = 0.2;
-/// So many platforms lead to the one wanted.
-pub const STAGES: usize = 4;
+/// How far points are moved for a general platform, in units of the size of the platform.
+const MOVED: f64 = 0.5;
 
 /// A platform in lengths of its own size, its points turned, ready for border bases.
 #[derive(Clone, Debug)]
@@ -140,21 +136,18 @@ impl Frame {
         Self { scale, origins, platform, legs }
     }
 
-    /// Platforms nearer and nearer to this one, the points of the plate moved: `run` numbers the ways to move them.
-    pub fn perturbed(&self, run: usize) -> [Platform<f64>; STAGES] {
+    /// A general platform not far from this one: `run` numbers the ways to move the points.
+    pub fn general(&self, run: usize) -> Platform<f64> {
         let size = size(&self.platform);
-        std::array::from_fn(|stage| {
-            let mut platform = self.platform.clone();
-            for (i, point) in platform.plate.iter_mut().enumerate() {
-                for (k, x) in point.iter_mut().enumerate() {
-                    // Multiples of square roots of primes, modulo 1: an even spread, the same every time.
-                    let root = [2.0_f64, 3.0, 5.0][k].sqrt();
-                    let offset = 2.0 * ((i + 6 * run + 1) as f64 * root).fract() - 1.0;
-                    *x += PERTURBATION * NEARER.powi(i32::try_from(stage).unwrap_or(0)) * size * offset;
-                }
+        let mut platform = self.platform.clone();
+        for (i, point) in platform.base.iter_mut().chain(&mut platform.plate).enumerate() {
+            for (k, x) in point.iter_mut().enumerate() {
+                // Multiples of square roots of primes, modulo 1: an even spread, the same every time.
+                let root = [2.0_f64, 3.0, 5.0][k].sqrt();
+                *x += MOVED * size * (2.0 * ((i + 12 * run + 1) as f64 * root).fract() - 1.0);
             }
-            platform
-        })
+        }
+        platform
     }
 
     /// The translation of a pose in the unit and about the origin of the platform as given.

@@ -11,7 +11,7 @@ use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certi
 use crate::closure::study::{Four, Leg};
 use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
 use crate::solve::pose::{
-    Eight, PolishedPose, complex, equations, follow, normalised, patch, polish, polish_wide, refine, wide,
+    Eight, PolishedPose, complex, equations, normalised, patch, polish, polish_wide, refine, wide,
 };
 use crate::solve::scalar::Scalar;
 use crate::solve::spectrum::Spectrum;
@@ -20,7 +20,7 @@ use num_complex::Complex;
 /// |Im| / (1 + |lambda|) below which an eigenvalue may belong to a real pose: double ones split by 1e-8 and more.
 const NEAR_REAL: f64 = 1e-4;
 /// Imaginary parts below this are rounding of a real pose.
-const REAL_PART: f64 = 1e-7;
+pub const REAL_PART: f64 = 1e-7;
 /// |N| (with x of hermitian norm 1) below which an eigenvalue that leads to no regular pose is taken to be one without
 /// a pose.
 const NULL: f64 = 1e-6;
@@ -49,7 +49,7 @@ pub struct Found {
     residual: f64,
     condition: f64,
     /// How many eigenvalues of the border basis followed last lead to it.
-    eigenvalues: usize,
+    pub eigenvalues: usize,
     /// The last one of them.
     last: usize,
 }
@@ -69,8 +69,6 @@ pub struct Source<'a> {
     pub setting: &'a Setting<f64>,
     /// The border basis.
     pub basis: &'a BorderBasis<f64>,
-    /// Platforms on the way from this one to the one wanted, if they differ.
-    pub path: &'a [[Leg<f64>; 6]],
 }
 
 /// One set of leg lengths.
@@ -202,7 +200,7 @@ impl<'a> Search<'a> {
         let candidates = candidates(source.setting, &z);
         for (x, y) in &candidates.study[..candidates.count] {
             let start = source.chart.outward(x, y);
-            if let Some(polished) = self.polish(source.path, &start) {
+            if let Some(polished) = polish(self.legs, &start) {
                 self.admit(&polished, k);
                 outcome = Outcome::Pose;
             } else if let Some(free) = self.stray.iter_mut().find(|s| s.is_none()) {
@@ -233,7 +231,7 @@ impl<'a> Search<'a> {
             if near_real {
                 // Both ends of a pair that meets on the real axis.
                 for real in real_parts(&start) {
-                    if let Some(polished) = self.polish(source.path, &real) {
+                    if let Some(polished) = polish(self.legs, &real) {
                         self.admit(&polished, k);
                         outcome = Outcome::Pose;
                     }
@@ -242,9 +240,9 @@ impl<'a> Search<'a> {
                     continue;
                 }
             }
-            let polished = self.polish(source.path, &start).filter(|p| !near_null(p));
+            let polished = polish(self.legs, &start).filter(|p| !near_null(p));
             let Some(polished) = polished else {
-                if raw < NEARLY_NULL && !multiple && source.path.is_empty() && self.far_away(&start) {
+                if raw < NEARLY_NULL && !multiple && self.far_away(&start) {
                     outcome = Outcome::Pose;
                 }
                 continue;
@@ -262,11 +260,6 @@ impl<'a> Search<'a> {
             self.admit(&polished, k);
         }
         outcome
-    }
-
-    /// A solution near a point.
-    fn polish<S: Scalar>(&self, path: &[[Leg<f64>; 6]], start: &Eight<S>) -> Option<PolishedPose<S>> {
-        if path.is_empty() { polish(self.legs, start) } else { polish(self.legs, &follow(path, start)?) }
     }
 
     /// A pose so far away that it needs twice the digits; whether there is one, proved.
@@ -309,7 +302,7 @@ impl<'a> Search<'a> {
     }
 
     /// Adds a polished solution to the list unless it is there.
-    fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>, eigenvalue: usize) {
+    pub fn admit<S: Scalar>(&mut self, polished: &PolishedPose<S>, eigenvalue: usize) {
         let mut study = complex(&polished.study);
         if let Some(at) = self.known(&study, S::REAL, REAL_PART) {
             self.count(at, eigenvalue);
@@ -376,7 +369,7 @@ impl<'a> Search<'a> {
 const ROUNDED: f64 = 1e-15;
 
 /// Whether a polished solution may belong to a family with `N = 0`.
-fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
+pub fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
     norm(&polished.study).norm() < DOUBTFUL && polished.step > NULL * DOUBTFUL
 }
 
@@ -420,7 +413,7 @@ fn rotation<S: Scalar>(
 }
 
 /// Three real points near a nearly real one: to both sides of it, and its real part.
-fn real_parts(v: &Eight<Complex<f64>>) -> [Eight<f64>; 3] {
+pub fn real_parts(v: &Eight<Complex<f64>>) -> [Eight<f64>; 3] {
     let best = (1..4).fold(0, |best, k| if v[k].norm_sqr() > v[best].norm_sqr() { k } else { best });
     let phase = v[best].conj() / v[best].norm();
     let turned = v.map(|z| z * phase);

@@ -1,9 +1,12 @@
 //! A platform prepared once and solved for one set of leg lengths after the other.
 
+use super::homotopy::{End, Homotopy};
 use super::mode::{PlatformAssembly, PlatformMode, Route};
-use super::prepared::{Chart, Frame, STAGES};
+use super::prepared::{Chart, Frame};
 use super::reflection::Reflection;
-use super::search::{Found, Search, Source};
+use super::search::{Found, Search, Source, real_parts};
+use super::self_motion::self_motion;
+use super::triangle::TriangleRoute;
 use crate::assembly::Roots;
 use crate::certify::pose::Curvature;
 use crate::closure::study::Leg;
@@ -14,8 +17,8 @@ use crate::solve::eigen::Method;
 use crate::solve::spectrum::Spectrum;
 use num_complex::Complex;
 
-/// Platforms moved a little that are solved for one whose border basis loses rank, at most.
-const MOST_RUNS: usize = 8;
+/// Homotopies from different general platforms, at most.
+const MOST_RUNS: usize = 2;
 
 /// So many times more are where it is known that poses are missing.
 const PATIENCE: usize = 4;
@@ -27,6 +30,7 @@ pub struct PlatformSolver {
     frame: Frame,
     charts: [Chart; 2],
     reflection: Option<Reflection>,
+    triangle: Option<TriangleRoute>,
 }
 
 /// Scratch memory, reused from call to call: one for every thread.
@@ -34,6 +38,8 @@ pub struct PlatformWorkspace {
     basis: BorderBasis<f64>,
     spectrum: Spectrum<DIMENSION>,
     found: Vec<Found>,
+    /// Of the general platform at which a homotopy starts.
+    general: Vec<Found>,
 }
 
 impl Default for PlatformWorkspace {
@@ -42,6 +48,7 @@ impl Default for PlatformWorkspace {
             basis: BorderBasis::new(&Reals),
             spectrum: Spectrum::default(),
             found: Vec::with_capacity(2 * DIMENSION),
+            general: Vec::with_capacity(2 * DIMENSION),
         }
     }
 }
@@ -52,7 +59,8 @@ impl PlatformSolver {
     pub fn prepare(platform: &Platform<f64>) -> Self {
         let frame = Frame::new(platform);
         let charts = std::array::from_fn(|choice| Chart::new(&frame.platform, choice));
-        Self { platform: platform.clone(), frame, charts, reflection: Reflection::of(platform) }
+        let (reflection, triangle) = (Reflection::of(platform), TriangleRoute::of(&frame.platform));
+        Self { platform: platform.clone(), frame, charts, reflection, triangle }
     }
 
     /// The geometry as given.
@@ -112,53 +120,38 @@ impl PlatformSolver {
             leg.square = square;
         }
         let curvature = Curvature::new(&legs);
-        let mut search = Search::new(&legs, &curvature, roots, expected, &mut workspace.found);
-        let mut solve = |chart: &Chart, path: &[[Leg<f64>; 6]], search: &mut Search| {
-            let setting = chart.with_legs(&squares);
-            if let Err(lost) = workspace.basis.build(&Reals, &setting) {
-                return Err(lost.degree);
-            }
-            let near = !self.charts.iter().any(|own| std::ptr::eq(own, chart));
-            for method in [Method::Francis, Method::Faer] {
-                if !workspace.spectrum.decompose(method, &workspace.basis.products[0]) {
-                    continue;
-                }
-                let source = Source { chart, setting: &setting, basis: &workspace.basis, path };
-                search.all_eigenvalues(&source, &mut workspace.spectrum);
-                if search.is_done() || near {
-                    break;
-                }
-            }
-            Ok(setting.count)
-        };
+        let PlatformWorkspace { basis, spectrum, found, general } = workspace;
+        let mut search = Search::new(&legs, &curvature, roots, expected, found);
+        if let Some(triangle) = &self.triangle
+            && triangle.solve(&self.frame.platform, &squares, &mut search)
+            && search.is_done()
+        {
+            assembly.route = Route::Triangle { at_base: triangle.at_base() };
+        }
         for chart in &self.charts {
-            match solve(chart, &[], &mut search) {
+            if assembly.route != Route::None && search.is_done() {
+                break;
+            }
+            match by_border_basis(chart, &squares, basis, spectrum, &mut search) {
                 Ok(directions) => assembly.route = Route::BorderBasis { directions },
                 Err(degree) => assembly.lost_rank = Some(degree),
             }
-            if search.is_done() {
-                break;
-            }
         }
         if assembly.route == Route::None || search.lacks_known_poses() {
-            // One border basis after the other, until three in a row bring nothing new.
-            let mut unchanged = 0;
-            let mut runs = 0;
             let most = if expected.is_some() { PATIENCE * MOST_RUNS } else { MOST_RUNS };
-            while runs < most && (unchanged < 3 || search.lacks_known_poses()) && !search.has_all_known_poses() {
-                let before = search.found.len();
-                let platforms = self.frame.perturbed(runs / 2);
-                let path = platforms
-                    .each_ref()
-                    .map(|p| std::array::from_fn(|i| Leg::new(&p.base[i], &p.plate[i], squares[i])));
-                // In turn: a platform so near that its solutions lead to those wanted at once, and one farther away.
-                let (start, path) =
-                    if runs % 2 == 0 { (&platforms[STAGES - 1], &[][..]) } else { (&platforms[0], &path[..]) };
-                let solved = solve(&Chart::new(start, runs / 2 % 2), path, &mut search);
-                unchanged = if solved.is_ok() && search.found.len() == before { unchanged + 1 } else { 0 };
+            let mut runs = 0;
+            while runs < most && (runs == 0 || !search.is_done()) && !search.has_all_known_poses() {
+                let start = self.frame.general(runs);
+                let begin = std::array::from_fn(|i| Leg::new(&start.base[i], &start.plate[i], squares[i]));
+                let curvature = Curvature::new(&begin);
+                let mut first = Search::new(&begin, &curvature, Roots::All, None, general);
                 runs += 1;
+                if by_border_basis(&Chart::new(&start, 0), &squares, basis, spectrum, &mut first).is_ok() {
+                    let bend = Complex::from_polar(1.0, BENDS[(runs - 1) % BENDS.len()]);
+                    by_homotopy(&Homotopy { target: &legs, start: &begin, bend }, first.found, &mut search);
+                }
             }
-            assembly.route = Route::Perturbed { runs };
+            assembly.route = Route::Homotopy { runs };
             assembly.self_motion = search.self_motion();
         }
         assembly.null = search.null;
@@ -168,4 +161,53 @@ impl PlatformSolver {
             reflection.mark(&mut assembly.modes);
         }
     }
+}
+
+/// Angles by which the arcs of homotopies are bent, one after the other: none near 0 or pi, where arcs are straight or far.
+const BENDS: [f64; 8] = [0.73, -1.31, 1.87, -0.52, 1.13, -2.05, 0.41, -0.94];
+
+/// Follows all eigenvalues of a border basis: the number of unknowns beside the rotation, or the degree in which it lost
+/// rank.
+fn by_border_basis(
+    chart: &Chart,
+    squares: &[f64; 6],
+    basis: &mut BorderBasis<f64>,
+    spectrum: &mut Spectrum<DIMENSION>,
+    search: &mut Search,
+) -> Result<usize, usize> {
+    let setting = chart.with_legs(squares);
+    basis.build(&Reals, &setting).map_err(|lost| lost.degree)?;
+    for method in [Method::Francis, Method::Faer] {
+        if !spectrum.decompose(method, &basis.products[0]) {
+            continue;
+        }
+        search.all_eigenvalues(&Source { chart, setting: &setting, basis }, spectrum);
+        if search.is_done() {
+            break;
+        }
+    }
+    Ok(setting.count)
+}
+
+/// Carries all solutions of a general platform to the one that is searched.
+fn by_homotopy(homotopy: &Homotopy, general: &[Found], search: &mut Search) {
+    search.begin(0);
+    for (index, found) in general.iter().enumerate() {
+        let conjugate = (!found.real).then(|| found.study.map(|z| z.conj()));
+        for (side, start) in [Some(found.study), conjugate].into_iter().flatten().enumerate() {
+            match homotopy.carry(&start) {
+                // Solutions on a curve are none to be listed, but a real one may pass near.
+                End::Singular(point) if self_motion(homotopy.target, &point) > 0 => {
+                    search.lost += 1;
+                    search.keep_stray(&real_parts(&point)[2]);
+                }
+                End::Regular(point) | End::Singular(point) => {
+                    search.arrive(&point, 2 * index + side);
+                }
+                End::Null => search.null += 1,
+                End::Lost => search.lost += 1,
+            }
+        }
+    }
+    search.end();
 }

@@ -1,0 +1,307 @@
+//! Floating-point numbers of 384 bits that are copied like machine numbers: for what 31 digits do not reach.
+
+use super::ring::{Field, Ring};
+use rug::{Integer, Rational, integer::Order};
+use std::cmp::Ordering;
+
+/// Words of a mantissa, the least significant one first.
+const LIMBS: usize = 6;
+/// Bits of a mantissa.
+const BITS: u32 = 64 * LIMBS as u32;
+
+type Mantissa = [u64; LIMBS];
+/// A mantissa with a word of guard bits below.
+type Guarded = [u64; LIMBS + 1];
+
+/// `+-0.m 2^e` with the highest bit of m set, or zero. Results are cut off, not rounded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LongFloat {
+    limbs: Mantissa,
+    exponent: i32,
+    negative: bool,
+}
+
+impl LongFloat {
+    /// Bound on the relative error of one operation, with room for the last steps of an inverse.
+    pub const UNIT_ROUNDOFF: f64 = power_of_half(BITS - 4);
+
+    const ZERO: Self = Self { limbs: [0; LIMBS], exponent: 0, negative: false };
+
+    /// The nearest f64, or one beside it; 0 and infinity for what is too small or too large.
+    #[must_use]
+    pub fn to_f64(self) -> f64 {
+        let size = scaled(self.limbs[LIMBS - 1] as f64, self.exponent.saturating_sub(64));
+        if self.negative { -size } else { size }
+    }
+
+    /// `self 2^k`, exactly.
+    #[must_use]
+    pub fn shifted(self, k: i32) -> Self {
+        if self.is_zero() { self } else { Self { exponent: self.exponent + k, ..self } }
+    }
+
+    /// The sum of two numbers of one sign, the first one not the smaller in exponent.
+    fn plus(&self, other: &Self) -> Self {
+        let (a, b) = (guarded(&self.limbs, 0), guarded(&other.limbs, self.exponent.abs_diff(other.exponent)));
+        let mut sum = [0; LIMBS + 1];
+        let mut carry = false;
+        for ((s, x), y) in sum.iter_mut().zip(a).zip(b) {
+            let (partial, first) = x.overflowing_add(y);
+            let (total, second) = partial.overflowing_add(u64::from(carry));
+            (*s, carry) = (total, first || second);
+        }
+        let mut limbs: Mantissa = std::array::from_fn(|k| sum[k + 1]);
+        let mut exponent = self.exponent;
+        if carry {
+            for k in 0..LIMBS {
+                let above = if k + 1 < LIMBS { limbs[k + 1] } else { 1 };
+                limbs[k] = limbs[k] >> 1 | above << 63;
+            }
+            exponent += 1;
+        }
+        Self { limbs, exponent, negative: self.negative }
+    }
+
+    /// The difference of the absolute values, with the sign of the first; that one is not the smaller in exponent.
+    fn minus(&self, other: &Self) -> Self {
+        let (mut a, mut b) = (guarded(&self.limbs, 0), guarded(&other.limbs, self.exponent.abs_diff(other.exponent)));
+        let mut negative = self.negative;
+        match a.iter().rev().cmp(b.iter().rev()) {
+            Ordering::Equal => return Self::ZERO,
+            Ordering::Less => {
+                std::mem::swap(&mut a, &mut b);
+                negative = !negative;
+            }
+            Ordering::Greater => {}
+        }
+        let mut rest = [0; LIMBS + 1];
+        let mut borrow = false;
+        for ((r, x), y) in rest.iter_mut().zip(a).zip(b) {
+            let (partial, first) = x.overflowing_sub(y);
+            let (total, second) = partial.overflowing_sub(u64::from(borrow));
+            (*r, borrow) = (total, first || second);
+        }
+        let words = rest.iter().rev().take_while(|x| **x == 0).count();
+        let bits = rest[LIMBS - words].leading_zeros();
+        let limb = |k: usize| if k >= words { rest[k - words] } else { 0 };
+        let limbs = std::array::from_fn(|k| match bits {
+            0 => limb(k + 1),
+            _ => limb(k + 1) << bits | limb(k) >> (64 - bits),
+        });
+        let places = 64 * i32::try_from(words).unwrap_or(0) + i32::try_from(bits).unwrap_or(0);
+        Self { limbs, exponent: self.exponent - places, negative }
+    }
+}
+
+/// `2^-k`
+const fn power_of_half(k: u32) -> f64 {
+    let (mut value, mut left) = (1.0, k);
+    while left > 0 {
+        value *= 0.5;
+        left -= 1;
+    }
+    value
+}
+
+/// `x 2^k`
+fn scaled(x: f64, k: i32) -> f64 {
+    // In two steps: the power alone may be out of range where the product is not.
+    let half = (k / 2).clamp(-1100, 1100);
+    let rest = (k - k / 2).clamp(-1100, 1100);
+    x * f64::from(half).exp2() * f64::from(rest).exp2()
+}
+
+/// A mantissa moved down by so many places.
+fn guarded(limbs: &Mantissa, places: u32) -> Guarded {
+    if places > BITS + 64 {
+        return [0; LIMBS + 1];
+    }
+    let (words, bits) = ((places / 64) as usize, places % 64);
+    let limb = |k: usize| if (1..=LIMBS).contains(&k) { limbs[k - 1] } else { 0 };
+    std::array::from_fn(|k| match bits {
+        0 => limb(k + words),
+        _ => limb(k + words) >> bits | limb(k + words + 1) << (64 - bits),
+    })
+}
+
+impl From<f64> for LongFloat {
+    /// The number itself.
+    ///
+    /// # Panics
+    /// For NaN and infinities, which no number here is.
+    fn from(x: f64) -> Self {
+        assert!(x.is_finite(), "a finite number was promised");
+        if x == 0.0 {
+            return Self::ZERO;
+        }
+        // Subnormal numbers first become ordinary ones.
+        let (x, down) = if x.abs() < f64::MIN_POSITIVE { (x * 2.0_f64.powi(64), 64) } else { (x, 0) };
+        let bits = x.to_bits();
+        let exponent = i32::try_from(bits >> 52 & 0x7ff).unwrap_or(0) - 1022 - down;
+        let mut limbs = [0; LIMBS];
+        limbs[LIMBS - 1] = 1 << 63 | bits << 11;
+        Self { limbs, exponent, negative: x < 0.0 }
+    }
+}
+
+impl Ring for LongFloat {
+    fn zero() -> Self {
+        Self::ZERO
+    }
+    fn one() -> Self {
+        Self::from(1.0)
+    }
+    fn add(&self, other: &Self) -> Self {
+        if self.is_zero() {
+            return *other;
+        }
+        if other.is_zero() {
+            return *self;
+        }
+        let (large, small) = if self.exponent >= other.exponent { (self, other) } else { (other, self) };
+        if large.negative == small.negative { large.plus(small) } else { large.minus(small) }
+    }
+    fn sub(&self, other: &Self) -> Self {
+        self.add(&other.neg())
+    }
+    fn mul(&self, other: &Self) -> Self {
+        if self.is_zero() || other.is_zero() {
+            return Self::ZERO;
+        }
+        let mut product = [0_u64; 2 * LIMBS];
+        for (i, &a) in self.limbs.iter().enumerate() {
+            let mut carry = 0_u128;
+            for (j, &b) in other.limbs.iter().enumerate() {
+                let sum = u128::from(a) * u128::from(b) + u128::from(product[i + j]) + carry;
+                product[i + j] = low_word(sum);
+                carry = sum >> 64;
+            }
+            product[i + LIMBS] = low_word(carry);
+        }
+        let mut exponent = self.exponent + other.exponent;
+        let full = product[2 * LIMBS - 1] >> 63 == 1;
+        let limbs = std::array::from_fn(|k| {
+            let here = product[LIMBS + k];
+            if full { here } else { here << 1 | product[LIMBS + k - 1] >> 63 }
+        });
+        if !full {
+            exponent -= 1;
+        }
+        Self { limbs, exponent, negative: self.negative != other.negative }
+    }
+    fn neg(&self) -> Self {
+        if self.is_zero() { *self } else { Self { negative: !self.negative, ..*self } }
+    }
+    fn is_zero(&self) -> bool {
+        self.limbs[LIMBS - 1] == 0
+    }
+    fn from_rational(q: &Rational) -> Option<Self> {
+        if q.is_zero() {
+            return Some(Self::ZERO);
+        }
+        let length = |n: &Integer| i32::try_from(n.significant_bits()).ok();
+        let (top, bottom) = (length(q.numer())?, length(q.denom())?);
+        let bits = i32::try_from(BITS).ok()?;
+        // The quotient gets the bits of a mantissa, or one more.
+        let shift = bits + 1 + bottom - top;
+        let size = Integer::from(q.numer().abs_ref()) << shift.max(0);
+        let quotient = size / (q.denom().clone() << (-shift).max(0));
+        let excess = length(&quotient)? - bits;
+        let mut limbs = [0; LIMBS];
+        (quotient >> excess).write_digits(&mut limbs, Order::Lsf);
+        Some(Self { limbs, exponent: bits + excess - shift, negative: q.is_negative() })
+    }
+    fn from_integer(n: i32) -> Self {
+        Self::from(f64::from(n))
+    }
+}
+
+/// The lower half.
+fn low_word(x: u128) -> u64 {
+    u64::try_from(x & u128::from(u64::MAX)).unwrap_or(0)
+}
+
+impl Field for LongFloat {
+    fn inverse(&self) -> Option<Self> {
+        if self.is_zero() {
+            return None;
+        }
+        // Newton's method from the f64 inverse of the mantissa: 53 digits are doubled three times.
+        let mantissa = Self { exponent: 0, ..*self };
+        let mut x = Self::from(1.0 / mantissa.to_f64());
+        for _ in 0..3 {
+            let error = Self::one().sub(&mantissa.mul(&x));
+            x = x.add(&x.mul(&error));
+        }
+        Some(x.shifted(-self.exponent))
+    }
+    fn pivot_size(&self) -> f64 {
+        self.to_f64().abs()
+    }
+    const PIVOT_ZERO: f64 = 1e-105;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn exact(x: LongFloat) -> Rational {
+        let mantissa = Integer::from_digits(&x.limbs, Order::Lsf);
+        let places = x.exponent - i32::try_from(BITS).unwrap();
+        let value = if places < 0 {
+            Rational::from((mantissa, Integer::from(1) << places.unsigned_abs()))
+        } else {
+            Rational::from(mantissa << places.unsigned_abs())
+        };
+        if x.negative { -value } else { value }
+    }
+
+    fn close(x: LongFloat, wanted: &Rational) -> bool {
+        let limit = Rational::from_f64(LongFloat::UNIT_ROUNDOFF).unwrap() * Rational::from(wanted.abs_ref());
+        (exact(x) - wanted).abs() <= limit
+    }
+
+    fn number() -> impl Strategy<Value = Rational> {
+        (any::<i128>(), any::<i128>(), 1..=i64::MAX, -200..200_i32).prop_map(|(a, b, c, k)| {
+            let numerator = Integer::from(a) * Integer::from(b | 1) * Integer::from(a ^ b);
+            let value = Rational::from((numerator, Integer::from(c)));
+            if k < 0 { value >> k.unsigned_abs() } else { value << k.unsigned_abs() }
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn every_operation_is_right_to_the_bound(a in number(), b in number()) {
+            let [x, y] = [&a, &b].map(|q| LongFloat::from_rational(q).unwrap());
+            prop_assert!(close(x, &a) && close(y, &b));
+            // Operands are exact from here on.
+            let (a, b) = (exact(x), exact(y));
+            prop_assert!(close(x.add(&y), &Rational::from(&a + &b)));
+            prop_assert!(close(x.sub(&y), &Rational::from(&a - &b)));
+            prop_assert!(close(x.mul(&y), &Rational::from(&a * &b)));
+            // Nearly equal numbers, whose leading bits cancel.
+            let near = LongFloat::from_rational(&(Rational::from(1) + (a.clone() >> 520_u32))).unwrap();
+            prop_assert!(close(near.sub(&LongFloat::one()), &(exact(near) - Rational::from(1))));
+            if let Some(inverse) = x.inverse() {
+                prop_assert!(close(inverse, &a.recip()));
+            }
+        }
+
+        #[test]
+        fn machine_numbers_come_and_go_unchanged(x in any::<f64>().prop_filter("finite", |x| x.is_finite())) {
+            let long = LongFloat::from(x);
+            prop_assert_eq!(&exact(long), &Rational::from_f64(x).unwrap());
+            // Subnormal numbers lose digits on the way back.
+            prop_assert!(long.to_f64() == x || x.abs() < f64::MIN_POSITIVE);
+        }
+    }
+
+    #[test]
+    fn zero_is_zero() {
+        let zero = LongFloat::zero();
+        assert!(zero.is_zero() && zero.neg() == zero && zero.inverse().is_none() && zero.to_f64() == 0.0);
+        assert_eq!(LongFloat::one().sub(&LongFloat::one()), zero);
+        assert_eq!(LongFloat::from_rational(&Rational::new()), Some(zero));
+    }
+}

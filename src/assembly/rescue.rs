@@ -1,0 +1,320 @@
+//! The list of a loop again from its exact constants, in numbers of 384 bits: for solutions that f64 does not reach.
+//!
+//! Nearly special geometry has solutions almost at infinity: angles with large imaginary parts, translations of enormous
+//! length. In f64 they are lost in rounding; here the same eliminations lead to the same closure polynomial in numbers of
+//! which there are enough digits, all of its roots are found, and each is followed back to all six unknowns, polished and
+//! proved.
+
+use super::ball::canonical;
+use super::mode::{Hits, Mode, distance, wrapped};
+use crate::algebra::determinant::determinant;
+use crate::algebra::long_float::LongFloat;
+use crate::algebra::ring::{Field, Ring};
+use crate::algebra::univariate::Univariate;
+use crate::certify::{Refined, exponential, exponential_pair, from_pairs};
+use crate::elimination::cut::{Cut, Hidden};
+use crate::elimination::degree::{TurnedPencil, general_degree, turned_pencil};
+use crate::elimination::octic;
+use crate::elimination::opposite_axes::OppositeAxes;
+use crate::elimination::point_reach::Reach;
+use crate::elimination::rearranged::rearranged;
+use crate::elimination::separated::{self, Plan, Separated, powers};
+use crate::elimination::spherical_four_bar::FourBar;
+use crate::elimination::spherical_triangle::{Triangle, triangle};
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::link_form::{LinkForm, product, turned};
+use crate::kinematics::motion::Motion;
+use crate::solve::back_substitution::CutView;
+use crate::solve::kernel::{at_root, kernel};
+use crate::solve::newton::{Six, closure_at};
+use crate::solve::polynomial_roots::polynomial_roots;
+use crate::solve::scalar::{Number, extended};
+use num_complex::Complex;
+
+type Long = Complex<LongFloat>;
+/// What enters the motions of a loop, unknown by unknown: cosine and sine, or a distance and 0.
+type Pairs = [(Long, Long); 6];
+
+/// Closure polynomials that are tried at most: of other cuts, or in other angles.
+const MOST_TRIES: usize = 6;
+/// Imaginary parts below this are rounding of a real root.
+const REAL: f64 = 1e-60;
+
+/// Finds and proves the solutions of a loop with exact constants, lengths over the scale of the solver. Returns the
+/// modes, conjugates included, of the first closure polynomial that leads to `expected` of them, or else the most.
+pub(super) fn rescue(exact: &ClosedLoop<LongFloat>, ball: Option<usize>, expected: usize) -> Vec<Mode> {
+    let mut best = Vec::new();
+    let mut tries = 0;
+    let mut take = |candidates: Vec<Pairs>| {
+        let modes = modes(exact, ball, &candidates);
+        if modes.len() > best.len() {
+            best = modes;
+        }
+        tries += 1;
+        best.len() >= expected || tries >= MOST_TRIES
+    };
+    match (ball, general_degree(exact.variables)) {
+        (Some(ball), _) => _ = take(centre(exact, ball).unwrap_or_default()),
+        (None, Some(2)) => _ = take(spherical_triangle(exact).unwrap_or_default()),
+        (None, Some(8)) => four_bars(exact, &mut take),
+        _ => cuts(exact, &mut take),
+    }
+    best
+}
+
+/// A loop over complex numbers.
+fn complex(closed: &ClosedLoop<LongFloat>) -> ClosedLoop<Long> {
+    let lift = |motion: &Motion<LongFloat>| Motion {
+        rotation: motion.rotation.map(|row| row.map(Long::from_real)),
+        translation: motion.translation.map(Long::from_real),
+    };
+    ClosedLoop { variables: closed.variables, constants: closed.constants.each_ref().map(lift) }
+}
+
+/// The roots on and above the real axis: the others are their conjugates.
+fn upper_roots(polynomial: &Univariate<LongFloat>) -> Option<Vec<Long>> {
+    let roots = polynomial_roots(polynomial)?.into_iter().filter_map(|root| {
+        let real = root.im.size() <= REAL * (1.0 + root.size());
+        let kept = if real { Complex::new(root.re, LongFloat::zero()) } else { root };
+        (real || root.im.to_f64() > 0.0).then_some(kept)
+    });
+    Some(roots.collect())
+}
+
+/// The monomials of a variable at a root: (1, cos, sin) of an angle counted from the offset, (1, d, d^2) of a distance.
+/// `None` at a half tangent of +-i.
+fn monomials(variable: Variable, root: &Long) -> Option<[Long; 3]> {
+    let powers = powers::<LongFloat>(variable, &separated::offset());
+    let at =
+        |row: &[LongFloat; 3]| row.iter().rev().fold(Long::zero(), |sum, c| sum.mul(root).add(&Long::from_real(*c)));
+    let [one, first, second] = powers.each_ref().map(at);
+    let inverse = one.inverse()?;
+    Some([Long::one(), first.mul(&inverse), second.mul(&inverse)])
+}
+
+/// `row . monomials`
+fn weighted(row: &[LongFloat; 3], monomials: &[Long; 3]) -> Long {
+    row.iter().zip(monomials).fold(Long::zero(), |sum, (c, m)| sum.add(&m.times(*c)))
+}
+
+/// Both sides of two separated equations at their solutions.
+fn both_sides(equations: &Separated<LongFloat>) -> Option<Vec<[[Long; 3]; 2]>> {
+    let Plan::Together { hidden, other } = equations.plan(LongFloat::PIVOT_ZERO) else { return None };
+    let polynomial = separated::closure_polynomial(equations, hidden, &other);
+    let sides = upper_roots(&polynomial)?.into_iter().filter_map(|root| {
+        let known = monomials(equations.kinds[hidden], &root)?;
+        let other = other.each_ref().map(|row| weighted(row, &known));
+        Some(if hidden == 0 { [known, other] } else { [other, known] })
+    });
+    Some(sides.collect())
+}
+
+/// The rotations of a loop in link form, and its translations.
+fn in_link_form<const RHO: usize, const TAU: usize>(
+    form: &LinkForm<Long, RHO, TAU>,
+    rotations: &[(Long, Long); RHO],
+) -> Option<Pairs> {
+    let values = form.slides_at(rotations).values?;
+    let mut pairs = [(Long::zero(), Long::zero()); 6];
+    for (&unknown, pair) in form.rotations.iter().zip(rotations) {
+        pairs[unknown] = *pair;
+    }
+    for (slide, value) in form.slides.iter().zip(values) {
+        pairs[slide.unknown].0 = value;
+    }
+    Some(pairs)
+}
+
+/// Three rotations.
+fn spherical_triangle(exact: &ClosedLoop<LongFloat>) -> Option<Vec<Pairs>> {
+    let (form, lifted) = (LinkForm::<_, 3, 3>::of(exact)?, LinkForm::of(&complex(exact))?);
+    let real = triangle(&form);
+    let powers = powers(Variable::Rotation, &separated::offset());
+    let coefficient = |l: usize| (0..3).fold(LongFloat::zero(), |sum, k| sum.add(&real.equation[k].mul(&powers[k][l])));
+    let polynomial = Univariate::new((0..3).map(coefficient).collect());
+    let triangle = Triangle { dropped: real.dropped, equation: real.equation.map(Long::from_real) };
+    let candidates = upper_roots(&polynomial)?.into_iter().filter_map(|root| {
+        let [_, cos, sin] = monomials(Variable::Rotation, &root)?;
+        in_link_form(&lifted, &triangle.rotations(&lifted, &(cos, sin))?)
+    });
+    Some(candidates.collect())
+}
+
+/// Four rotations.
+fn four_bars(exact: &ClosedLoop<LongFloat>, take: &mut impl FnMut(Vec<Pairs>) -> bool) {
+    let (Some(form), Some(lifted)) = (LinkForm::<_, 4, 2>::of(exact), LinkForm::<_, 4, 2>::of(&complex(exact))) else {
+        return;
+    };
+    if let Some(axes) = OppositeAxes::of(&form, LongFloat::PIVOT_ZERO)
+        && let Some(sides) = both_sides(&axes.equations(&form))
+    {
+        let candidates = sides.iter().filter_map(|[[_, c, s], [_, c2, s2]]| {
+            in_link_form(&lifted, &axes.rotations(&lifted, &(*c, *s), &(*c2, *s2))?)
+        });
+        if take(candidates.collect()) {
+            return;
+        }
+    }
+    let mut bases = [0, 1, 2, 3];
+    let twist = |base: usize| form.twist(base + 2).0.to_f64();
+    bases.sort_by(|&a, &b| twist(b).total_cmp(&twist(a)));
+    for base in bases {
+        let (Some(bar), Some(complex_bar)) = (FourBar::new(&form, base), FourBar::new(&lifted, base)) else { continue };
+        let equations = bar.equations();
+        for hidden in [Hidden::First, Hidden::Second] {
+            let polynomial = octic::closure_polynomial(&equations, hidden, &separated::offset());
+            let Some(roots) = upper_roots(&polynomial) else { continue };
+            let candidates = roots.iter().filter_map(|root| {
+                let known = monomials(Variable::Rotation, root)?;
+                let row = |form: &[[LongFloat; 3]; 3]| -> [Long; 3] {
+                    std::array::from_fn(|l| {
+                        let at = |k: usize| if hidden == Hidden::First { form[k][l] } else { form[l][k] };
+                        weighted(&std::array::from_fn(at), &known)
+                    })
+                };
+                let (f, g) = (row(&equations.f), row(&equations.g));
+                let minor = |i: usize, j: usize| f[i].mul(&g[j]).sub(&f[j].mul(&g[i]));
+                let inverse = minor(1, 2).inverse()?;
+                let other = (minor(2, 0).mul(&inverse), minor(0, 1).mul(&inverse));
+                let known = (known[1], known[2]);
+                let (a, b) = if hidden == Hidden::First { (known, other) } else { (other, known) };
+                in_link_form(&lifted, &complex_bar.rotations(&a, &b))
+            });
+            if take(candidates.collect()) {
+                return;
+            }
+        }
+    }
+}
+
+/// Five or six rotations: cut after cut, the loop as it is first.
+fn cuts(exact: &ClosedLoop<LongFloat>, take: &mut impl FnMut(Vec<Pairs>) -> bool) {
+    let as_it_is = (exact.clone(), [0, 1, 2, 3, 4, 5], false);
+    let moved = rearranged(exact, LongFloat::PIVOT_ZERO).into_iter().map(|m| (m.closed, m.order, m.flipped));
+    for (closed, order, flipped) in std::iter::once(as_it_is).chain(moved) {
+        for cut in Cut::ALL {
+            for hidden in [Hidden::First, Hidden::Second] {
+                let Some(candidates) = one_cut(&closed, cut, hidden) else { continue };
+                let candidates = candidates.into_iter().map(|of_cut| {
+                    let mut pairs = [(Long::zero(), Long::zero()); 6];
+                    for (j, (first, second)) in of_cut.into_iter().enumerate() {
+                        let index = cut.unknown_index(j);
+                        pairs[order[index]] = match closed.variables[index] {
+                            Variable::Rotation if cut.reversed => (first, second.neg()),
+                            Variable::Translation if cut.reversed != flipped => (first.neg(), second),
+                            _ => (first, second),
+                        };
+                    }
+                    pairs
+                });
+                if take(candidates.collect()) {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// The candidates of one cut, its unknowns in the order of the cut.
+fn one_cut(closed: &ClosedLoop<LongFloat>, cut: Cut, hidden: Hidden) -> Option<Vec<Pairs>> {
+    let TurnedPencil { view, form, pencil } = turned_pencil(closed, cut, hidden)?;
+    let value = |k: i32| {
+        let x = LongFloat::from_integer(k - 8);
+        let [a0, a1, a2] = &pencil.coefficients;
+        let at = |i: usize, j: usize| a2[i][j].mul(&x).add(&a1[i][j]).mul(&x).add(&a0[i][j]);
+        let matrix: [[LongFloat; 8]; 8] = std::array::from_fn(|i| std::array::from_fn(|j| at(i, j)));
+        (x, determinant(&matrix))
+    };
+    let polynomial = Univariate::interpolate(&(0..=16).map(value).collect::<Vec<_>>());
+    let back = CutView::<Long>::new(&view, &form, hidden);
+    let candidates = upper_roots(&polynomial)?.into_iter().filter_map(|root| {
+        let [_, cos, sin] = monomials(Variable::Rotation, &root)?;
+        back.pairs_of((cos, sin), &kernel(&at_root(&pencil, root), 0.0).basis[0])
+    });
+    Some(candidates.collect())
+}
+
+/// A ball: its centre, and what is left of the rotation.
+fn centre(exact: &ClosedLoop<LongFloat>, ball: usize) -> Option<Vec<Pairs>> {
+    let lifted = complex(exact);
+    let (reach, complex_reach) = (Reach::of(exact, ball), Reach::of(&lifted, ball));
+    let sides = both_sides(&reach.equations)?;
+    let pair = |variable: Variable, m: &[Long; 3]| match variable {
+        Variable::Rotation => (m[1], m[2]),
+        Variable::Translation => (m[1], Long::zero()),
+    };
+    let candidates = sides.iter().filter_map(|sides| {
+        let middle = complex_reach.middle(sides.each_ref())?;
+        let [first, second, third] = reach.variables;
+        let others = [(first, pair(first, &sides[1])), (second, middle), (third, pair(third, &sides[0]))];
+        let mut pairs = [(Long::zero(), Long::zero()); 6];
+        let constant = |k: usize| &lifted.constants[(ball + k) % 6].rotation;
+        let mut rest = *constant(2);
+        for (k, (variable, pair)) in others.into_iter().enumerate() {
+            if variable == Variable::Rotation {
+                rest = turned(&rest, &pair);
+            }
+            rest = product(&rest, constant(3 + k));
+            pairs[(ball + 3 + k) % 6] = pair;
+        }
+        // Rz(a) Rx(b) Rz(c) is the inverse.
+        let r = |i: usize, j: usize| rest[j][i];
+        let sin = r(0, 2).mul(&r(0, 2)).add(&r(1, 2).mul(&r(1, 2))).root();
+        let inverse = sin.inverse()?;
+        pairs[ball % 6] = (r(1, 2).neg().mul(&inverse), r(0, 2).mul(&inverse));
+        pairs[(ball + 1) % 6] = (r(2, 2), sin);
+        pairs[(ball + 2) % 6] = (r(2, 1).mul(&inverse), r(2, 0).mul(&inverse));
+        Some(pairs)
+    });
+    Some(candidates.collect())
+}
+
+/// The residual of unknowns rounded to f64, see [`Mode::residual`]. f64 itself would add errors of its own.
+fn residual(exact: &ClosedLoop<LongFloat>, unknowns: &Six<Complex<f64>>, real: bool) -> f64 {
+    let mut pairs = [(Long::zero(), Long::zero()); 6];
+    for (j, pair) in pairs.iter_mut().enumerate() {
+        *pair = match exact.variables[j] {
+            Variable::Translation => (extended(unknowns[j]), Long::zero()),
+            Variable::Rotation => exponential_pair(exponential(unknowns[j])).unwrap_or(*pair),
+        };
+    }
+    let here = closure_at::<Long>(exact, &pairs);
+    here.defect / here.growth(real)
+}
+
+/// The modes that are proved among candidates, every one once, conjugates included.
+fn modes(exact: &ClosedLoop<LongFloat>, ball: Option<usize>, candidates: &[Pairs]) -> Vec<Mode> {
+    let mut modes: Vec<Mode> = Vec::new();
+    for Refined { unknowns, real, certificate, condition } in candidates.iter().filter_map(|p| from_pairs(exact, p)) {
+        let mut add = |mut unknowns: Six<Complex<f64>>| {
+            for (z, variable) in unknowns.iter_mut().zip(exact.variables) {
+                if variable == Variable::Rotation {
+                    z.re = wrapped(z.re);
+                }
+            }
+            if let Some(ball) = ball {
+                canonical(&mut unknowns, ball);
+            }
+            let apart = |other: &Mode| {
+                let radius = other.certificate.map_or(f64::INFINITY, |c| c.radius) + certificate.radius;
+                distance(&exact.variables, &other.unknowns, &unknowns) > radius
+            };
+            if modes.iter().all(apart) {
+                modes.push(Mode {
+                    unknowns,
+                    real,
+                    multiplicity: 1,
+                    residual: residual(exact, &unknowns, real),
+                    condition,
+                    certificate: Some(certificate),
+                    hits: Hits::first(usize::MAX),
+                });
+            }
+        };
+        add(unknowns);
+        if !real {
+            add(unknowns.map(|z| z.conj()));
+        }
+    }
+    modes
+}

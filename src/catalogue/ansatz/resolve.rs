@@ -1,0 +1,274 @@
+//! Relations solved: which symbols they give by the others, whether they contradict one another, whether any real
+//! numbers satisfy them.
+
+use super::{Ansatz, Meaning, Relation, Symbols, Twist};
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::{Field, Ring};
+use crate::algebra::trigonometric::{Pair, half_tangents};
+use crate::catalogue::scope::Scope;
+use crate::error::{Error, Result};
+use rug::Rational;
+
+/// Half-angle tangents at which the linear system for the lengths is looked at: any set will do that is not special.
+const TANGENTS: [[i32; 2]; 12] = [
+    [3, 7],
+    [5, 13],
+    [11, 17],
+    [19, 23],
+    [7, 29],
+    [31, 37],
+    [13, 41],
+    [43, 47],
+    [17, 53],
+    [59, 61],
+    [23, 67],
+    [71, 73],
+];
+
+impl Ansatz {
+    /// The polynomials of the relations that are about lengths, or about functions of angles.
+    pub(super) fn polynomials(&self) -> impl Iterator<Item = &Polynomial<Rational>> {
+        self.relations.iter().filter_map(|relation| match &relation.meaning {
+            Meaning::Polynomial(polynomial) => Some(polynomial),
+            Meaning::Angle(_) => None,
+        })
+    }
+
+    /// Whether a relation is linear in the lengths.
+    pub(super) fn is_linear(&self, relation: &Polynomial<Rational>) -> bool {
+        let lengths = 3 * self.symbols.angles.len();
+        relation.terms().all(|(exponents, _)| exponents.iter().skip(lengths).sum::<u32>() <= 1)
+    }
+
+    /// Solves the relations for as many symbols as they give.
+    ///
+    /// # Errors
+    /// The line and what it contradicts, or what about it cannot be solved.
+    pub(super) fn resolve(&mut self) -> std::result::Result<(), (usize, Error)> {
+        self.resolve_angles()?;
+        self.resolve_lengths()?;
+        self.empty = self.relations.iter().find_map(|relation| self.without_real_solution(relation));
+        Ok(())
+    }
+
+    fn resolve_angles(&mut self) -> std::result::Result<(), (usize, Error)> {
+        let count = self.symbols.angles.len();
+        self.angles = (0..count).map(|k| Twist::symbol(k, count)).collect();
+        let mut given = Vec::new();
+        for relation in &self.relations {
+            let Meaning::Angle(angle) = &relation.meaning else { continue };
+            let rest = angle.in_terms_of(&self.angles);
+            if rest.is_constant() {
+                if rest.constant != (Rational::from(1), Rational::new()) {
+                    let message = format!("found `{}`, which contradicts the relations before it", relation.text);
+                    return Err((relation.line, Error::Invalid(message)));
+                }
+                continue;
+            }
+            // The symbol that stands first in the relation, where a unit stands before it.
+            let place = |k: &usize| relation.text.find(&self.symbols.angles[*k]).unwrap_or(usize::MAX);
+            let pivot = (0..count).filter(|&k| rest.multiples[k].abs() == 1).min_by_key(place);
+            let Some(pivot) = pivot else {
+                let message = format!(
+                    "`{}` is an equation for multiples of angles with several solutions: write one of these",
+                    relation.text
+                );
+                return Err((relation.line, Error::Unsupported(message)));
+            };
+            let sign = -rest.multiples[pivot];
+            let mut value = Twist::sum([(sign, &rest)], count);
+            value.multiples[pivot] = 0;
+            let mut replacement: Vec<Twist> = (0..count).map(|k| Twist::symbol(k, count)).collect();
+            replacement[pivot] = value;
+            for angle in &mut self.angles {
+                *angle = angle.in_terms_of(&replacement);
+            }
+            given.push(pivot);
+        }
+        self.free_angles = (0..count).filter(|k| !given.contains(k)).collect();
+        Ok(())
+    }
+
+    /// The values of cosine, sine and half-angle tangent of all angles at chosen free ones.
+    fn sample(&self, shift: usize) -> Vec<(usize, Polynomial<Rational>)> {
+        let mut known = vec![(Rational::from(1), Rational::new()); self.symbols.angles.len()];
+        for (n, &angle) in self.free_angles.iter().enumerate() {
+            let [p, q] = TANGENTS[(n + shift) % TANGENTS.len()];
+            let t = Rational::from((p + i32::try_from(n / TANGENTS.len()).unwrap_or(0), q));
+            let square = Rational::from(t.square_ref());
+            let norm = Rational::from(&square + 1);
+            known[angle] = ((1 - square) / &norm, Rational::from(&t * 2) / &norm);
+        }
+        let mut values = Vec::new();
+        for (k, angle) in self.angles.iter().enumerate() {
+            let Some((cos, sin)) = angle.cos_sin(&known) else { continue };
+            let tangent = Rational::from(&cos + 1).inverse().map(|inverse| Ring::mul(&inverse, &sin));
+            values.push((Symbols::cos(k), Polynomial::constant(cos)));
+            values.push((Symbols::sin(k), Polynomial::constant(sin)));
+            values.push((Symbols::tan_half(k), Polynomial::constant(tangent.unwrap_or_default())));
+        }
+        values
+    }
+
+    fn resolve_lengths(&mut self) -> std::result::Result<(), (usize, Error)> {
+        let count = self.symbols.lengths.len();
+        let variable = |k: usize| self.symbols.length(k);
+        let mut given: Option<Vec<usize>> = None;
+        for shift in 0..2 {
+            let values = self.sample(shift);
+            let mut rows: Vec<(Vec<Rational>, &Relation)> = Vec::new();
+            for relation in &self.relations {
+                let Meaning::Polynomial(polynomial) = &relation.meaning else { continue };
+                let at = polynomial.substitute_all(&values);
+                // Of higher degree: a condition that members satisfy or not.
+                if !self.is_linear(polynomial) {
+                    continue;
+                }
+                let coefficient = |k: usize| at.derivative(variable(k)).to_constant().unwrap_or_default();
+                let mut row: Vec<Rational> = (0..count).map(coefficient).collect();
+                let zeros: Vec<_> = (0..count).map(|k| (variable(k), Polynomial::zero())).collect();
+                row.push(at.substitute_all(&zeros).to_constant().unwrap_or_default());
+                rows.push((row, relation));
+            }
+            let found = self.pivots(rows)?;
+            if let Some(before) = given.take().filter(|before| *before != found) {
+                // A special place: take what both have in common to be on the safe side.
+                given = Some(before.into_iter().filter(|k| found.contains(k)).collect());
+            } else {
+                given = Some(found);
+            }
+        }
+        self.given_lengths = given.unwrap_or_default();
+        self.given_lengths.sort_unstable();
+        Ok(())
+    }
+
+    /// Which lengths a linear system gives by the others: the first of each relation, never one that is sought.
+    fn pivots(&self, mut rows: Vec<(Vec<Rational>, &Relation)>) -> std::result::Result<Vec<usize>, (usize, Error)> {
+        let count = self.symbols.lengths.len();
+        let mut given = Vec::new();
+        for index in 0..rows.len() {
+            let (row, relation) = rows[index].clone();
+            let place = |k: &usize| {
+                let name = &self.symbols.lengths[*k];
+                (self.unknown.contains(k), relation.text.find(name.as_str()).unwrap_or(usize::MAX))
+            };
+            let Some(pivot) = (0..count).filter(|&k| !Ring::is_zero(&row[k])).min_by_key(place) else {
+                if Ring::is_zero(&row[count]) {
+                    continue;
+                }
+                if !relation_has_length(relation, &self.symbols) && !self.free_angles.is_empty() {
+                    // A condition on angles only: members satisfy it or not.
+                    continue;
+                }
+                let general = if self.polynomials().any(|p| (0..3 * self.symbols.angles.len()).any(|k| p.degree(k) > 0))
+                {
+                    " for general values of the angles: no lengths satisfy all of them"
+                } else {
+                    ""
+                };
+                let message = format!("found `{}`, which contradicts the relations before it{general}", relation.text);
+                return Err((relation.line, Error::Invalid(message)));
+            };
+            if self.unknown.contains(&pivot) {
+                let name = &self.symbols.lengths[pivot];
+                let message = format!(
+                    "found `{}`, which gives a value to `{name}`: it contradicts `unknown`, expected `{name}` to be free",
+                    relation.text
+                );
+                return Err((relation.line, Error::Invalid(message)));
+            }
+            let inverse = row[pivot].inverse().expect("a pivot is not zero");
+            for (other, _) in &mut rows[index + 1..] {
+                let factor = Ring::mul(&other[pivot], &inverse);
+                for (x, y) in other.iter_mut().zip(&row) {
+                    *x = Ring::sub(x, &Ring::mul(&factor, y));
+                }
+            }
+            given.push(pivot);
+        }
+        Ok(given)
+    }
+
+    /// Why a relation has no real solution, where that is seen: a polynomial in one variable without real root, or a sum of
+    /// even terms of one sign with a constant.
+    fn without_real_solution(&self, relation: &Relation) -> Option<String> {
+        let Meaning::Polynomial(polynomial) = &relation.meaning else { return None };
+        let names = self.symbols.names().list();
+        let used: Vec<usize> = (0..names.len()).filter(|&k| polynomial.degree(k) > 0).collect();
+        let first = polynomial.coefficients().first()?;
+        let of_one_sign =
+            polynomial.terms().all(|(exponents, c)| c.cmp0() == first.cmp0() && exponents.iter().all(|e| e % 2 == 0));
+        let has_constant = polynomial.terms().any(|(exponents, _)| exponents.iter().all(|&e| e == 0));
+        let say = |why: &str| Some(format!("`{}` (line {}) has no real solution: {why}", relation.text, relation.line));
+        if of_one_sign && has_constant && !used.is_empty() {
+            return say("a sum of even powers of one sign and a constant of the same sign does not vanish");
+        }
+        let angle = used.first()? / 3;
+        let is_angle = angle < self.symbols.angles.len();
+        let (univariate, what, at_pi) = if is_angle && used.iter().all(|&k| k / 3 == angle) {
+            let pair = Pair { cos: Symbols::cos(angle), sin: Symbols::sin(angle) };
+            if polynomial.degree(Symbols::tan_half(angle)) > 0 {
+                if used.len() > 1 {
+                    return None;
+                }
+                (polynomial.to_univariate(Symbols::tan_half(angle))?, "tangent of half the angle", false)
+            } else {
+                let form = half_tangents(polynomial, &[(pair, Symbols::tan_half(angle))]);
+                let variable = Symbols::tan_half(angle);
+                let at_pi = form.polynomial.degree(variable) < 2 * form.powers[0];
+                (form.polynomial.to_univariate(variable)?, "tangent of half the angle", at_pi)
+            }
+        } else if let [variable] = used.as_slice() {
+            (polynomial.to_univariate(*variable)?, "length", false)
+        } else {
+            return None;
+        };
+        let roots = crate::algebra::univariate::Univariate::new(univariate.primitive_integers()).distinct_real_roots();
+        if roots > 0 || at_pi || univariate.is_zero() {
+            return None;
+        }
+        say(&format!("the polynomial in the {what}, of degree {}, has no real root", univariate.degree().unwrap_or(0)))
+    }
+}
+
+/// Whether a length is in a relation as it is written.
+fn relation_has_length(relation: &Relation, symbols: &Symbols) -> bool {
+    let Meaning::Polynomial(polynomial) = &relation.meaning else { return false };
+    (0..symbols.lengths.len()).any(|k| polynomial.degree(symbols.length(k)) > 0)
+}
+
+/// The relation `left = right` (or `expression`, meant to vanish) between symbols.
+pub(super) fn relation(text: &str, line: usize, symbols: &Symbols, scope: &Scope<'_>) -> Result<Relation> {
+    use super::expression::{bare_words, polynomial, twist};
+    let (left, right) = text.split_once('=').unwrap_or((text, "0"));
+    if right.contains('=') || left.trim().is_empty() || right.trim().is_empty() {
+        return Err(Error::Invalid(format!("found `{text}`, expected one equation `left = right`")));
+    }
+    let bare = bare_words(text)?;
+    let is_angle = bare.iter().any(|word| symbols.angles.contains(word));
+    if let (true, Some(length)) = (is_angle, bare.iter().find(|word| symbols.lengths.contains(word))) {
+        return Err(Error::Invalid(format!(
+            "found the length `{length}` in a relation of angles, expected cos(...), sin(...) or tan_half(...) of these"
+        )));
+    }
+    let meaning = if is_angle {
+        let (left, exact) = twist(left, symbols, &scope.reading)?;
+        let (right, also) = twist(right, symbols, &scope.reading)?;
+        scope.note(exact && also);
+        Meaning::Angle(Twist::sum([(1, &left), (-1, &right)], symbols.angles.len()))
+    } else {
+        let column = left.chars().count() + 1;
+        // Places in the right side are counted in the whole relation.
+        let right = format!("{}{right}", " ".repeat(column));
+        let difference = polynomial(left, symbols)?.sub(&polynomial(&right, symbols)?);
+        if difference.is_zero() {
+            return Err(Error::Invalid(format!("found `{text}`, which says nothing, expected a relation")));
+        }
+        if difference.to_constant().is_some() {
+            return Err(Error::Invalid(format!("found `{text}`, which contradicts itself")));
+        }
+        Meaning::Polynomial(difference)
+    };
+    Ok(Relation { text: text.trim().to_owned(), line, meaning })
+}

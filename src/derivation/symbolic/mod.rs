@@ -1,0 +1,191 @@
+//! Derivations that keep link parameters as symbols: the same closure equations and eliminations over a ring of
+//! polynomials.
+
+mod parts;
+mod routes;
+mod size;
+mod table;
+
+use super::chain::{Exact, eliminate, exact};
+use super::symbols::{Symbols, joint_labels};
+use super::two_sides;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::Ring;
+use crate::algebra::text::Names;
+use crate::catalogue::entry::{Case, Design, Entry};
+use crate::elimination::degree::general_degree;
+use crate::error::{Error, Result};
+use crate::kinematics::chain::{Chain, JointKind};
+use crate::mechanism::coupled_loop;
+use parts::Parts;
+use routes::Outcome;
+use rug::Rational;
+use table::Table;
+
+/// A polynomial with symbols in its coefficients.
+#[derive(Clone, Debug)]
+pub struct Displayed {
+    /// What it is.
+    pub name: String,
+    /// Over unknowns and symbols.
+    pub polynomial: Polynomial<Rational>,
+    /// The same over the unknowns and the names of sub-expressions.
+    pub compact: Polynomial<Rational>,
+}
+
+/// A variable that is a quotient.
+#[derive(Clone, Debug)]
+pub struct Quotient {
+    /// The variable.
+    pub variable: usize,
+    /// Over unknowns and symbols.
+    pub numerator: Polynomial<Rational>,
+    /// Likewise.
+    pub denominator: Polynomial<Rational>,
+}
+
+/// The closure polynomial in its variable.
+#[derive(Clone, Debug)]
+pub struct SymbolicPolynomial {
+    /// A half-angle tangent or a distance.
+    pub variable: usize,
+    /// The polynomial.
+    pub displayed: Displayed,
+}
+
+/// A derivation with symbols for link parameters.
+#[derive(Clone, Debug)]
+pub struct Symbolic {
+    /// The names of unknowns, symbols and sub-expressions.
+    pub names: Names,
+    /// The parameters that are symbols: `alpha1` has the variables `ca1` and `sa1`.
+    pub symbols: Vec<String>,
+    /// The parameters that keep the numbers of the file: `d4 = 0`.
+    pub numbers: Vec<String>,
+    /// The closure equations.
+    pub equations: Vec<Displayed>,
+    /// How they lead to the polynomial.
+    pub steps: Vec<String>,
+    /// The closure polynomial; none where two equations in two unknowns are all there is.
+    pub polynomial: Option<SymbolicPolynomial>,
+    /// Named sub-expressions over the symbols.
+    pub parts: Vec<(String, Polynomial<Rational>)>,
+    /// Translations in terms of unknowns and symbols.
+    pub translations: Vec<Quotient>,
+    /// With what the result was compared, after putting in the numbers of the file; it was equal.
+    pub compared: String,
+}
+
+/// Derives one case with symbols for its link parameters and its input: for the parameters named, or for all that are
+/// neither zero nor a right angle in the file.
+///
+/// # Errors
+/// [`Error::Unsupported`], with an estimate of the size, for loops whose polynomial is too large for symbols, and
+/// for mechanisms without DH parameters; [`Error::Invalid`] for an unknown parameter.
+pub fn derive_symbolic(entry: &Entry, case: &Case, wanted: &[String]) -> Result<Symbolic> {
+    let (Design::Arm(chain) | Design::Loop(chain)) = &entry.design else {
+        let message = "symbols for platforms: their closure polynomial, of degree 40 with 6 lengths and 36 coordinates, is \
+                       computed for numbers only";
+        return Err(Error::Unsupported(message.to_owned()));
+    };
+    let is_pair = chain.joint_kinds() == [JointKind::Revolute; 4];
+    let (symbols, numeric) = if is_pair { (four_rotations(chain), None) } else { numeric(chain, case)? };
+    let unknowns = 3 * symbols.len();
+    let table = Table::of(chain, case, wanted, unknowns, !is_pair)?;
+    let outcome = match &numeric {
+        None => routes::pair(chain, &table, &symbols)?,
+        Some(numeric) => routes::route(chain, case, &table, &symbols, numeric)?,
+    };
+    finished(&table, &symbols, outcome)
+}
+
+/// The numbers of a case: what symbols are compared with.
+enum Numeric {
+    /// Two balls.
+    Coupled(super::chain::Eliminated),
+    /// Any other loop.
+    Single(Box<Exact>, super::chain::Eliminated),
+}
+
+fn numeric(chain: &Chain, case: &Case) -> Result<(Symbols, Option<Numeric>)> {
+    if let Some(coupled) = coupled_loop::<Rational>(chain, case)? {
+        let symbols = Symbols::single(chain, coupled.indices[2], coupled.variable);
+        let eliminated = two_sides::coupled(&symbols, &joint_labels(chain), &coupled);
+        return Ok((symbols, Some(Numeric::Coupled(eliminated))));
+    }
+    let exact = exact(chain, case)?;
+    let special =
+        exact.ball.is_some() || general_degree(exact.closed.variables) == Some(2) || two_sides::is_opposite(&exact);
+    if !special {
+        return Err(size::too_large(chain, case, &exact));
+    }
+    let eliminated = eliminate(&exact)?;
+    Ok((exact.symbols.clone(), Some(Numeric::Single(Box::new(exact), eliminated))))
+}
+
+/// The unknowns of a loop of four revolutes.
+fn four_rotations(chain: &Chain) -> Symbols {
+    Symbols::rotations(joint_labels(chain))
+}
+
+/// Compares with the numbers, and gives names to coefficients.
+fn finished(table: &Table<'_>, symbols: &Symbols, outcome: Outcome) -> Result<Symbolic> {
+    let unknowns = 3 * symbols.len();
+    let values: Vec<(usize, Polynomial<Rational>)> =
+        table.values().into_iter().map(|(variable, value)| (variable, Polynomial::constant(value))).collect();
+    for (symbolic, number) in &outcome.compare {
+        let at = symbolic.substitute_all(&values);
+        let equal = match (at.is_zero(), number.is_zero()) {
+            (false, false) => super::equation::primitive(&at) == super::equation::primitive(number),
+            (left, right) => left == right,
+        };
+        if !equal {
+            let message = "the polynomial with symbols does not become that of the numbers: a fault of this program";
+            return Err(Error::Invalid(message.to_owned()));
+        }
+    }
+    let mut parts = Parts::new(unknowns + table.names.len());
+    let mut equations = Vec::new();
+    for (name, polynomial) in outcome.equations {
+        let compact = parts.compact(&polynomial, unknowns);
+        equations.push(Displayed { name, polynomial, compact });
+    }
+    let polynomial = outcome.polynomial.map(|(variable, polynomial, over_names)| {
+        let compact = match over_names {
+            Some(over_names) => over_names(&mut parts),
+            None => parts.compact(&polynomial, unknowns),
+        };
+        (variable, Displayed { name: "closure polynomial".to_owned(), polynomial, compact })
+    });
+    // Names of sub-expressions come first, so that they stand before the powers that they multiply.
+    let count = parts.list.len();
+    let all = unknowns + table.names.len() + count;
+    let moved = |polynomial: &Polynomial<Rational>| {
+        Polynomial::from_terms(polynomial.terms().map(|(mut exponents, c)| {
+            exponents.resize(all, 0);
+            exponents.rotate_right(count);
+            (exponents, c.clone())
+        }))
+    };
+    let displayed = |one: &Displayed| {
+        let (polynomial, compact) = (moved(&one.polynomial), moved(&one.compact));
+        Displayed { name: one.name.clone(), polynomial, compact }
+    };
+    let names = parts.list.iter().map(|(name, _)| name.clone()).chain(symbols.list());
+    let quotient = |one: &Quotient| {
+        let (numerator, denominator) = (moved(&one.numerator), moved(&one.denominator));
+        Quotient { variable: one.variable + count, numerator, denominator }
+    };
+    Ok(Symbolic {
+        names: Names::given(names.chain(table.names.iter().cloned()))?,
+        symbols: table.symbols.iter().map(|symbol| symbol.name.clone()).collect(),
+        numbers: table.numbers.clone(),
+        equations: equations.iter().map(displayed).collect(),
+        steps: outcome.steps,
+        polynomial: polynomial
+            .map(|(variable, one)| SymbolicPolynomial { variable: variable + count, displayed: displayed(&one) }),
+        translations: outcome.translations.iter().map(quotient).collect(),
+        parts: parts.list.iter().map(|(name, part)| (name.clone(), moved(part))).collect(),
+        compared: outcome.compared,
+    })
+}

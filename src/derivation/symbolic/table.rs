@@ -1,0 +1,225 @@
+//! The parameters of a loop as symbols.
+
+use crate::algebra::dual::Dual;
+use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::{Ring, exact_cos_sin};
+use crate::algebra::trigonometric::{Pair, Trigonometric};
+use crate::catalogue::entry::{Case, Input, InputValue};
+use crate::error::{Error, Result};
+use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind};
+use crate::kinematics::closed_loop::{Parameter, Parameters};
+use crate::kinematics::motion::Motion;
+use rug::Rational;
+
+/// The ring of derivations with symbols: polynomials in lengths, cosines and sines.
+pub(super) type Symbol = Trigonometric<Rational>;
+
+/// What a parameter is in the file.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    Angle(Angle),
+    Length(Number),
+}
+
+/// A parameter that is a symbol; an angle has two variables, cosine and sine.
+#[derive(Clone, Debug)]
+pub(super) struct Kept {
+    /// Counted from 0; none for the input.
+    pub place: Option<(usize, Parameter)>,
+    pub name: String,
+    pub variable: usize,
+    pub value: Value,
+}
+
+/// All parameters of a case.
+pub(super) struct Table<'c> {
+    case: &'c Case,
+    pub symbols: Vec<Kept>,
+    /// The others, as `alpha3 = pi/2`, but for offsets of variables that are 0.
+    pub numbers: Vec<String>,
+    /// The names of the variables, the first one being that of `first`.
+    pub names: Vec<String>,
+}
+
+/// Right angles, 0 and pi: cosine and sine are 0, 1 or -1.
+fn is_right(angle: &Angle) -> bool {
+    match angle.half_tangent() {
+        HalfTangent::Infinite => true,
+        HalfTangent::Finite(t) => t.is_zero() || *t == 1 || *t == -1,
+    }
+}
+
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Length(length) => length.rational().to_string(),
+        Value::Angle(angle) => match angle.half_tangent() {
+            HalfTangent::Infinite => "pi".to_owned(),
+            HalfTangent::Finite(t) if t.is_zero() => "0".to_owned(),
+            HalfTangent::Finite(t) if *t == 1 => "pi/2".to_owned(),
+            HalfTangent::Finite(t) if *t == -1 => "-pi/2".to_owned(),
+            HalfTangent::Finite(t) => format!("2 atan({t})"),
+        },
+    }
+}
+
+impl<'c> Table<'c> {
+    /// The parameters of a chain given by DH parameters: those `wanted`, else all but zeros and right angles, and the
+    /// input. Their variables are numbered from `first`.
+    pub fn of(chain: &Chain, case: &'c Case, wanted: &[String], first: usize, with_input: bool) -> Result<Self> {
+        let (Geometry::Dh(joints) | Geometry::ModifiedDh(joints)) = &chain.geometry else {
+            let message = "symbols for screw axes: only loops with DH parameters have parameters to keep as symbols";
+            return Err(Error::Unsupported(message.to_owned()));
+        };
+        let mut table = Self { case, symbols: Vec::new(), numbers: Vec::new(), names: Vec::new() };
+        let mut known = Vec::new();
+        let mut next = first;
+        for (place, name, letters, value) in all(joints, case.input.first().filter(|_| with_input)) {
+            let special = match &value {
+                Value::Angle(angle) => place.is_some() && is_right(angle),
+                Value::Length(length) => place.is_some() && length.rational().is_zero(),
+            };
+            let zero = shown(&value) == "0";
+            let symbol = if wanted.is_empty() { !special } else { wanted.contains(&name) };
+            known.push(name.clone());
+            if symbol {
+                let count = letters.len();
+                table.names.extend(letters);
+                table.symbols.push(Kept { place, name, variable: next, value });
+                next += count;
+            } else if !(zero && (matches!(place, Some((_, Parameter::Angle))) || name.starts_with("d0"))) {
+                table.numbers.push(format!("{name} = {}", shown(&value)));
+            }
+        }
+        if let Some(unknown) = wanted.iter().find(|name| !known.contains(name)) {
+            let message = format!("found the symbol {unknown}, expected some of {}", known.join(", "));
+            return Err(Error::Invalid(message));
+        }
+        Ok(table)
+    }
+
+    fn find(&self, place: Option<(usize, Parameter)>) -> Option<&Kept> {
+        self.symbols.iter().find(|symbol| symbol.place == place)
+    }
+
+    fn angle_at(&self, place: Option<(usize, Parameter)>, value: &Angle) -> Option<(Symbol, Symbol)> {
+        match self.find(place) {
+            Some(symbol) => {
+                let pair = Pair { cos: symbol.variable, sin: symbol.variable + 1 };
+                Some((Trigonometric::cos(pair), Trigonometric::sin(pair)))
+            }
+            None => Symbol::cos_sin(value),
+        }
+    }
+
+    fn length_at(&self, place: Option<(usize, Parameter)>, value: &Number) -> Option<Symbol> {
+        match self.find(place) {
+            Some(symbol) => Some(Trigonometric::new(&Polynomial::variable(symbol.variable), &[])),
+            None => Symbol::from_number(value),
+        }
+    }
+
+    /// What fills the gap: the input, or the inverse of a pose.
+    pub fn filling(&self) -> Result<Motion<Symbol>> {
+        if let Some(pose) = &self.case.pose {
+            let image = pose.exact.inverse().map(Symbol::from_rational);
+            return image.ok_or_else(|| Error::Invalid("the pose has no image".to_owned()));
+        }
+        let motion = self.case.input.first().and_then(|input| match &input.value {
+            InputValue::Angle(angle) => {
+                let (cos, sin) = self.angle_at(None, angle)?;
+                Some(Motion::rotation_z(cos, sin))
+            }
+            InputValue::Distance(distance) => Some(Motion::translation_z(self.length_at(None, distance)?)),
+        });
+        motion.ok_or_else(|| Error::Invalid("a case without pose and input".to_owned()))
+    }
+
+    /// Every variable with its value in the file.
+    pub fn values(&self) -> Vec<(usize, Rational)> {
+        let value = |symbol: &Kept| match &symbol.value {
+            Value::Length(length) => vec![(symbol.variable, length.rational().clone())],
+            Value::Angle(angle) => {
+                let (cos, sin) = exact_cos_sin(angle);
+                vec![(symbol.variable, cos), (symbol.variable + 1, sin)]
+            }
+        };
+        self.symbols.iter().flat_map(value).collect()
+    }
+}
+
+/// A parameter in order: where it stands, its name, the names of its variables, its value.
+type Entry = (Option<(usize, Parameter)>, String, Vec<String>, Value);
+
+/// Every parameter that a loop has: link by link, then the input.
+fn all(joints: &[Joint], input: Option<&Input>) -> Vec<Entry> {
+    let mut list: Vec<Entry> = Vec::new();
+    for (at, joint) in joints.iter().enumerate() {
+        let n = at + 1;
+        let mut angle = |parameter, name: String, letters: [String; 2], value: &Angle| {
+            list.push((Some((at, parameter)), name, letters.to_vec(), Value::Angle(value.clone())));
+        };
+        angle(Parameter::Twist, format!("alpha{n}"), [format!("ca{n}"), format!("sa{n}")], &joint.alpha);
+        match joint.kind {
+            JointKind::Prismatic => {
+                angle(Parameter::Angle, format!("theta{n}"), [format!("c{n}"), format!("s{n}")], &joint.theta0);
+            }
+            JointKind::Spherical => {}
+            _ => {
+                let letters = [format!("c0_{n}"), format!("s0_{n}")];
+                angle(Parameter::Angle, format!("theta0_{n}"), letters, &joint.theta0);
+            }
+        }
+        let mut length = |parameter, name: String, value: &Number| {
+            list.push((Some((at, parameter)), name.clone(), vec![name], Value::Length(value.clone())));
+        };
+        length(Parameter::Length, format!("a{n}"), &joint.a);
+        let offset = matches!(joint.kind, JointKind::Prismatic | JointKind::Cylindrical);
+        length(Parameter::Offset, format!("{}{n}", if offset { "d0_" } else { "d" }), &joint.d);
+    }
+    if let Some(input) = input {
+        let n = input.joint;
+        match &input.value {
+            InputValue::Angle(angle) => {
+                let letters = vec![format!("c{n}"), format!("s{n}")];
+                list.push((None, format!("theta{n}"), letters, Value::Angle(angle.clone())));
+            }
+            InputValue::Distance(distance) => {
+                let name = format!("d{n}");
+                list.push((None, name.clone(), vec![name], Value::Length(distance.clone())));
+            }
+        }
+    }
+    list
+}
+
+impl Parameters<Symbol> for Table<'_> {
+    fn angle(&self, joint: usize, parameter: Parameter, value: &Angle) -> Option<(Symbol, Symbol)> {
+        self.angle_at(Some((joint, parameter)), value)
+    }
+    fn length(&self, joint: usize, parameter: Parameter, value: &Number) -> Option<Symbol> {
+        self.length_at(Some((joint, parameter)), value)
+    }
+}
+
+/// The same loop by the principle of transference: every angle `alpha + eps a` or `theta + eps d`, all axes through one
+/// point.
+pub(super) struct Transferred<'t, P> {
+    pub joints: &'t [Joint],
+    pub parameters: &'t P,
+}
+
+impl<R: Ring, P: Parameters<R>> Parameters<Dual<R>> for Transferred<'_, P> {
+    fn angle(&self, joint: usize, parameter: Parameter, value: &Angle) -> Option<(Dual<R>, Dual<R>)> {
+        let numbers = &self.joints[joint];
+        let (along, number) = match parameter {
+            Parameter::Twist => (Parameter::Length, &numbers.a),
+            _ => (Parameter::Offset, &numbers.d),
+        };
+        let (cos, sin) = self.parameters.angle(joint, parameter, value)?;
+        Some(Dual::angle(cos, sin, &self.parameters.length(joint, along, number)?))
+    }
+    fn length(&self, _joint: usize, _parameter: Parameter, _value: &Number) -> Option<Dual<R>> {
+        Some(Dual::zero())
+    }
+}

@@ -1,0 +1,115 @@
+//! What is answered when it is asked whether a mechanism moves.
+
+use super::order::Local;
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::screw_system::Screw;
+
+/// How an answer is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Proof {
+    /// By exact arithmetic and the theorems of docs/mobility.md, or by certified solutions.
+    Exact,
+    /// Data that are rounded themselves: the loop closes to rounding through the whole range of its input.
+    CertifiedSweep,
+    /// Not at all.
+    None,
+}
+
+impl Proof {
+    /// The words of reports.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::CertifiedSweep => "certified sweep",
+            Self::None => "none",
+        }
+    }
+}
+
+/// One joint variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JointVariable {
+    /// Its joint, from 1.
+    pub joint: usize,
+    /// What it does.
+    pub variable: Variable,
+}
+
+/// A real configuration, and the motion through it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Configuration {
+    /// The joint variables in joint order: angles in (-pi, pi], distances.
+    pub q: Vec<f64>,
+    /// Degree of the number field in which the configuration was found; 1 for a rational one, 0 for one known in floating
+    /// point only.
+    pub degree: usize,
+    /// Rank of the joint screws.
+    pub rank: usize,
+    /// What the configurations near this one form.
+    pub local: Local,
+    /// Which joint variables move along the curve or in the manifold.
+    pub moving: Vec<bool>,
+    /// What the axes have in common, in words.
+    pub system: String,
+    /// A basis of the screws reciprocal to all joints: of the wrenches that the loop can hold in itself, its redundant
+    /// constraints.
+    pub redundant: Vec<Screw<f64>>,
+}
+
+impl Configuration {
+    /// The dimension of the motion through this configuration; `None` where that is not decided.
+    #[must_use]
+    pub fn dimension(&self) -> Option<usize> {
+        match self.local {
+            Local::Manifold { dimension } => Some(dimension),
+            Local::Curve => Some(1),
+            Local::Isolated { .. } => Some(0),
+            Local::Open | Local::Deficient => None,
+        }
+    }
+}
+
+/// The joint variables that were held to find the configurations, with their values.
+pub type Held = Vec<(usize, f64)>;
+
+/// Whether and how a loop moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mobility {
+    /// The joint variables.
+    pub variables: Vec<JointVariable>,
+    /// The dimension of the largest motion found: 0 when the loop is immobile, `None` when that is not decided.
+    pub mobility: Option<usize>,
+    /// How that is known.
+    pub proof: Proof,
+    /// The order to which an immobile loop is shaky: the multiplicity of its configuration, 2 or more.
+    pub shaky: Option<usize>,
+    /// What was held.
+    pub held: Held,
+    /// The real configurations there; of an immobile loop all of them. Every one of a mobile loop lies on a branch.
+    pub configurations: Vec<Configuration>,
+    /// How many configurations there are, complex ones included.
+    pub complex: usize,
+    /// Why.
+    pub reason: String,
+}
+
+impl Mobility {
+    /// Gruebler's count of a single loop: the freedoms of its joints less six.
+    #[must_use]
+    pub fn gruebler(&self) -> i64 {
+        i64::try_from(self.variables.len()).map_or(i64::MAX, |freedoms| freedoms - 6)
+    }
+
+    /// The rank of the joint screws along the motion: the largest found, as every rank but that of special configurations.
+    #[must_use]
+    pub fn screw_rank(&self) -> Option<usize> {
+        self.configurations.iter().map(|configuration| configuration.rank).max()
+    }
+
+    /// The number of real branches through what is held; 0 of an immobile loop.
+    #[must_use]
+    pub fn branches(&self) -> usize {
+        self.configurations.iter().filter(|configuration| configuration.dimension() > Some(0)).count()
+    }
+}

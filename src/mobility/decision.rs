@@ -1,0 +1,394 @@
+//! Whether the loop of an entry moves.
+
+use super::answer::{Configuration, JointVariable, Mobility, Proof};
+use super::linkage::{JointValue, Linkage};
+use super::order::{Germ, Local, MOST_SOLUTIONS};
+use super::positions::Conjugates;
+use super::rounded::{Closing, closing};
+use super::search::{Outcome, Search, at, decide, is_proved_immobile, search};
+use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::assembly::{Assembly, Roots, Workspace};
+use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue};
+use crate::error::{Error, Result};
+use crate::kinematics::chain::{Chain, JointKind, Placement};
+use crate::kinematics::closed_loop::{Layout, Variable};
+use crate::mechanism::{FullMode, Mechanism, Solution};
+use crate::verdict::Status;
+use rug::{Float, Rational};
+
+/// Tangents of half the angles at which a joint of a loop of seven variables or more is held.
+const TANGENTS: [(i32, i32); 6] = [(1, 2), (-1, 3), (4, 3), (-7, 3), (-5, 7), (8, 3)];
+/// Theorem 4 in words.
+const NO_CURVE: &str = "no curve of configurations: held at some value of any one of its joints, the loop has no configuration, \
+                        nor a limit of any";
+/// Decimal digits in which a singular solution known in floating point is compared with simple rationals.
+const SIMPLE: u32 = 6;
+
+/// Decides whether the loop of an entry moves; inputs of the file are not looked at.
+///
+/// # Errors
+/// [`Error::Invalid`] for arms and platforms, [`Error::Unsupported`] for joints other than R, P, C and S, and for more
+/// than eight joint variables.
+///
+/// # Example
+/// ```
+/// use looproot::{catalogue, mobility};
+/// let entry = catalogue::builtin("bennett_a", &Default::default())?;
+/// let answer = mobility::mobility(&entry)?;
+/// assert_eq!((answer.mobility, answer.gruebler(), answer.screw_rank()), (Some(1), -2, Some(3)));
+/// # Ok::<(), looproot::error::Error>(())
+/// ```
+pub fn mobility(entry: &Entry) -> Result<Mobility> {
+    let Design::Loop(chain) = &entry.design else {
+        let what = if matches!(entry.design, Design::Arm(_)) { "an arm" } else { "a platform" };
+        return Err(Error::Invalid(format!("found {what}, expected a loop")));
+    };
+    let subject = Subject { entry, chain, linkage: Linkage::of(chain)?, variables: variables(chain) };
+    if subject.variables.len() > 6 { subject.free() } else { subject.overconstrained() }
+}
+
+/// The joint variables of a chain in joint order.
+fn variables(chain: &Chain) -> Vec<JointVariable> {
+    let of_joint = |(k, kind): (usize, JointKind)| {
+        let variables: &[Variable] = match kind {
+            JointKind::Prismatic => &[Variable::Translation],
+            JointKind::Cylindrical => &[Variable::Rotation, Variable::Translation],
+            JointKind::Spherical => &[Variable::Rotation; 3],
+            _ => &[Variable::Rotation],
+        };
+        variables.iter().map(move |variable| JointVariable { joint: k + 1, variable: *variable })
+    };
+    chain.joint_kinds().into_iter().enumerate().flat_map(of_joint).collect()
+}
+
+/// A loop in question.
+struct Subject<'a> {
+    entry: &'a Entry,
+    chain: &'a Chain,
+    linkage: Linkage<Rational>,
+    variables: Vec<JointVariable>,
+}
+
+impl Subject<'_> {
+    /// An answer without configurations.
+    fn answer(&self, mobility: Option<usize>, proof: Proof, reason: String) -> Mobility {
+        Mobility {
+            variables: self.variables.clone(),
+            mobility,
+            proof,
+            shaky: None,
+            held: Vec::new(),
+            configurations: Vec::new(),
+            complex: 0,
+            reason,
+        }
+    }
+
+    /// Loops of up to six variables, which in general do not move.
+    fn overconstrained(&self) -> Result<Mobility> {
+        let answer = self.exactly()?;
+        if !self.entry.rounded || answer.mobility > Some(0) {
+            return Ok(answer);
+        }
+        if let Some(closing) = closing(self.entry, &self.variables)? {
+            return Ok(self.swept(closing));
+        }
+        let reason = format!("{}; numbers of the file were rounded, which may have stopped a motion", answer.reason);
+        Ok(Mobility { reason, ..answer })
+    }
+
+    /// A loop that closes to rounding.
+    fn swept(&self, closing: Closing) -> Mobility {
+        let configurations: Vec<Configuration> =
+            closing.modes.iter().map(|mode| Configuration { local: Local::Curve, ..self.measured(mode) }).collect();
+        let reason = format!(
+            "numbers of the file were rounded, and exactly rounded numbers do not move; as given, the loop closes with \
+             residuals up to {:.1e} at {} of {} inputs of joint {} round the circle, one behind the other",
+            closing.residual, closing.inputs.0, closing.inputs.1, self.variables[closing.held.0].joint
+        );
+        let complex = configurations.len();
+        Mobility {
+            held: vec![closing.held],
+            configurations,
+            complex,
+            ..self.answer(Some(1), Proof::CertifiedSweep, reason)
+        }
+    }
+
+    /// The same by exact arithmetic alone.
+    fn exactly(&self) -> Result<Mobility> {
+        match search(&self.linkage) {
+            Outcome::Mobile(found) => Ok(self.mobile(found)),
+            Outcome::Complex(found) => {
+                let reason = format!(
+                    "complex mobility; no real configuration found: with {} held there are {} complex solutions on \
+                     curves, none of them real at the values tried",
+                    self.held(&found),
+                    found.complex
+                );
+                Ok(Mobility { held: found.held, complex: found.complex, ..self.answer(None, Proof::None, reason) })
+            }
+            Outcome::Nothing if self.variables.len() < 6 => Ok(self.immobile()),
+            Outcome::Nothing => self.structure(),
+        }
+    }
+
+    /// The names of the joint variables held.
+    fn held(&self, found: &Search) -> String {
+        let name = |(k, value): &(usize, f64)| {
+            let JointVariable { joint, variable } = self.variables[*k];
+            match variable {
+                Variable::Rotation => format!("joint {joint} at {:.6} deg", value.to_degrees()),
+                Variable::Translation => format!("joint {joint} at distance {value:.6}"),
+            }
+        };
+        found.held.iter().map(name).collect::<Vec<_>>().join(", ")
+    }
+
+    fn mobile(&self, found: Search) -> Mobility {
+        let moving: Vec<&Configuration> = found.configurations.iter().filter(|c| c.dimension() > Some(0)).collect();
+        let dimension = moving.iter().filter_map(|c| c.dimension()).max().unwrap_or(0);
+        let first = moving.first();
+        let still = first.map_or(0, |c| c.moving.iter().filter(|moves| !**moves).count());
+        let degree = first.map_or(1, |c| c.degree);
+        let rank = first.map_or(0, |c| c.rank);
+        let place = if degree == 1 {
+            "a rational configuration".to_owned()
+        } else {
+            format!("a configuration over a number field of degree {degree}")
+        };
+        let why = match first.map(|c| &c.local) {
+            Some(Local::Manifold { .. }) => format!(
+                "at {place} the joint screws span the Lie algebra of a group of motions, of dimension {rank}, so that \
+                 {} variables less {rank} equations move (theorem 1)",
+                self.variables.len()
+            ),
+            _ => format!(
+                "at {place} the joint screws have rank {rank} and the reduced closure equations vanish beyond the order \
+                 that an isolated solution can have (theorem 2)"
+            ),
+        };
+        let idle = if still > 0 { format!("; {still} joint variables stand still") } else { String::new() };
+        let reason = format!("{why}; {} held{idle}", self.held(&found));
+        Mobility {
+            held: found.held,
+            configurations: found.configurations,
+            complex: found.complex,
+            ..self.answer(Some(dimension), Proof::Exact, reason)
+        }
+    }
+
+    /// Loops of up to five variables in which no curve was found: all their configurations.
+    fn immobile(&self) -> Mobility {
+        let Some(found) = at(&self.linkage, &[]) else {
+            let reason = "no motion was found, and the configurations could not be separated".to_owned();
+            return self.answer(None, Proof::None, reason);
+        };
+        let complex: usize = found.iter().map(Conjugates::count).sum();
+        let Search { configurations, .. } = decide(&self.linkage, &[], &found);
+        let real = configurations.len();
+        let shaky = configurations.iter().filter_map(order).max().filter(|order| *order > 1);
+        if configurations.iter().any(|c| c.dimension() != Some(0)) {
+            let reason =
+                "no motion was found through any value of a joint, and a configuration is not decided".to_owned();
+            return Mobility { configurations, complex, ..self.answer(None, Proof::None, reason) };
+        }
+        let reason = match (complex, real) {
+            (0, _) => "no configuration: the closure equations have no solution, real or complex".to_owned(),
+            (_, 0) => format!("no real configuration: {complex} complex ones, all of them isolated"),
+            _ => {
+                format!("{real} real of {complex} complex configurations, all of them isolated{}", order_clause(shaky))
+            }
+        };
+        Mobility { shaky, configurations, complex, ..self.answer(Some(0), Proof::Exact, reason) }
+    }
+
+    /// Loops of six variables in which no curve was found.
+    fn structure(&self) -> Result<Mobility> {
+        // A loop is an arm that holds its own base.
+        let mut arm = self.entry.clone();
+        arm.design = Design::Arm(self.chain.clone());
+        let solution = solve(&arm, Case::at(Placement::identity(), 0))?;
+        let verdict = &solution.verdict;
+        let is_complete = matches!(verdict.status, Status::Complete | Status::Unreachable);
+        // As many isolated configurations as there can be leave none for a curve.
+        if !(is_complete && verdict.certified == MOST_SOLUTIONS) && !is_proved_immobile(&self.linkage) {
+            let reason = format!("no motion was found through any value of a joint; {}", verdict.reason);
+            return Ok(self.answer(None, Proof::None, reason));
+        }
+        if !is_complete {
+            let reason = format!("{NO_CURVE}; the isolated ones: {}", verdict.reason);
+            return Ok(self.answer(Some(0), Proof::Exact, reason));
+        }
+        let mut configurations = Vec::new();
+        for mode in solution.modes.iter().filter(|mode| mode.real) {
+            configurations.push(self.singular(mode).unwrap_or_else(|| self.measured(mode)));
+        }
+        let shaky = configurations.iter().filter_map(order).max().filter(|order| *order > 1);
+        let (complex, real) = (verdict.complex, configurations.len());
+        let what = match (complex, real) {
+            (0, _) => "no configuration".to_owned(),
+            (_, 0) => format!("no real configuration, {complex} complex ones"),
+            _ => format!("{real} isolated real configurations{}", order_clause(shaky)),
+        };
+        let curves = if verdict.certified == MOST_SOLUTIONS { "as many as there can be" } else { NO_CURVE };
+        let reason = format!("{what}: {}; {curves}", verdict.reason);
+        Ok(Mobility { shaky, configurations, complex, ..self.answer(Some(0), Proof::Exact, reason) })
+    }
+
+    /// The exact configuration near a multiple solution, if one of its joints stands at a simple value.
+    fn singular(&self, mode: &FullMode) -> Option<Configuration> {
+        if mode.certified {
+            return None;
+        }
+        let unit = self.linkage.unit();
+        for (k, z) in mode.q.iter().enumerate() {
+            let half = z.re / 2.0;
+            let value = match self.variables[k].variable {
+                Variable::Rotation => half.tan(),
+                Variable::Translation => half,
+            };
+            let tangent = if value.abs() < 1e-6 * unit.to_f64() {
+                Rational::new()
+            } else {
+                Number::near(&Float::with_val(53, value), SIMPLE)
+            };
+            let held = [(k, tangent)];
+            let Some(found) = at(&self.linkage, &held) else { continue };
+            let close = |c: &Configuration| c.q.iter().zip(&mode.q).all(|(a, b)| ((a - b.re) / 2.0).sin().abs() < 1e-4);
+            if let Some(found) = decide(&self.linkage, &held, &found).configurations.into_iter().find(close) {
+                return Some(found);
+            }
+        }
+        None
+    }
+
+    /// A configuration as it is in floating point.
+    fn measured(&self, mode: &FullMode) -> Configuration {
+        let value = |(z, variable): (&num_complex::Complex<f64>, &JointVariable)| -> JointValue<f64> {
+            match variable.variable {
+                Variable::Rotation => [(z.re / 2.0).cos(), (z.re / 2.0).sin()],
+                Variable::Translation => [1.0, z.re / 2.0],
+            }
+        };
+        let values: Vec<JointValue<f64>> = mode.q.iter().zip(&self.variables).map(value).collect();
+        let linkage: Option<Linkage<f64>> = self.linkage.map();
+        let germ = linkage.map(|linkage| Germ::of(&linkage.at(&values)));
+        let system = germ.as_ref().map(Germ::system);
+        let freedom = system.as_ref().map(crate::kinematics::screw_system::ScrewSystem::loop_freedom);
+        let n = self.variables.len();
+        let rank = freedom.as_ref().map_or(0, |freedom| freedom.order);
+        // Certified solutions of six equations in six unknowns are regular: rank 6.
+        let local = match (mode.certified, n) {
+            (true, 6) => Local::Isolated { order: 1 },
+            (true, _) => Local::Manifold { dimension: n - 6 },
+            (false, _) if mode.multiplicity > 0 => Local::Isolated { order: mode.multiplicity },
+            _ => Local::Deficient,
+        };
+        let moves = |k: usize| freedom.as_ref().is_some_and(|freedom| !freedom.locked.contains(&k));
+        Configuration {
+            q: mode.q.iter().map(|z| z.re).collect(),
+            degree: 0,
+            rank,
+            local,
+            moving: (0..n).map(moves).collect(),
+            system: system.as_ref().map(crate::kinematics::screw_system::ScrewSystem::description).unwrap_or_default(),
+            redundant: freedom.map(|freedom| freedom.redundant.basis()).unwrap_or_default(),
+        }
+    }
+
+    /// Loops of seven variables and more, which in general move.
+    fn free(&self) -> Result<Mobility> {
+        let n = self.variables.len();
+        if let Outcome::Mobile(found) = search_group(&self.linkage) {
+            return Ok(self.mobile(found));
+        }
+        let layout = Layout::of(self.chain, None)?;
+        if n > 7 && layout.second_ball.is_none() {
+            return Err(Error::Unsupported(format!(
+                "{n} joint variables: whether a loop moves is decided for up to seven, and for two S joints with two more \
+                 variables"
+            )));
+        }
+        let mut last = None;
+        for (k, JointVariable { joint, variable }) in self.variables.iter().copied().enumerate() {
+            if matches!(self.chain.joint_kinds()[joint - 1], JointKind::Spherical) {
+                continue;
+            }
+            for tangent in TANGENTS.map(Rational::from) {
+                let (value, held) = match variable {
+                    Variable::Rotation => {
+                        let angle = Angle::from_half_tangent(HalfTangent::Finite(tangent));
+                        let radians = angle.radians();
+                        (InputValue::Angle(angle), radians)
+                    }
+                    Variable::Translation => {
+                        let distance = Number::exact(tangent * 2 * self.linkage.unit());
+                        let length = distance.to_f64();
+                        (InputValue::Distance(distance), length)
+                    }
+                };
+                let solution = solve(self.entry, Case::given(Input { joint, value }, 0))?;
+                let certified: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real && m.certified).collect();
+                if !certified.is_empty() {
+                    let configurations: Vec<Configuration> = certified.into_iter().map(|m| self.measured(m)).collect();
+                    let found = Search { held: vec![(k, held)], configurations, complex: solution.verdict.complex };
+                    return Ok(self.certified(found));
+                }
+                last = Some(solution);
+            }
+        }
+        let reason = last.map_or_else(|| "no joint to hold".to_owned(), |solution: Solution| solution.verdict.reason);
+        let reason = format!("no regular real configuration was found at the values tried; the last one: {reason}");
+        Ok(self.answer(None, Proof::None, reason))
+    }
+
+    /// Certified regular configurations of a loop with more variables than equations.
+    fn certified(&self, found: Search) -> Mobility {
+        let n = self.variables.len();
+        let idle = if n == 8 {
+            "; one of the two freedoms is the spin of the link between the two S joints about the line of their centres"
+        } else {
+            ""
+        };
+        let reason = format!(
+            "{n} joint variables, six independent equations at a certified regular configuration, with {} held (theorem \
+             1){idle}",
+            self.held(&found)
+        );
+        Mobility {
+            held: found.held,
+            configurations: found.configurations,
+            complex: found.complex,
+            ..self.answer(Some(n - 6), Proof::Exact, reason)
+        }
+    }
+}
+
+/// The motion of loops of many variables whose links move in a group, which no six equations bind.
+fn search_group(linkage: &Linkage<Rational>) -> Outcome {
+    let is_group = |outcome: &Outcome| {
+        let manifold = |c: &Configuration| matches!(c.local, Local::Manifold { .. }) && c.rank < 6;
+        matches!(outcome, Outcome::Mobile(found) if found.configurations.iter().any(manifold))
+    };
+    Some(search(linkage)).filter(is_group).unwrap_or(Outcome::Nothing)
+}
+
+/// The multiplicity of an isolated configuration.
+fn order(configuration: &Configuration) -> Option<usize> {
+    match configuration.local {
+        Local::Isolated { order } => Some(order),
+        _ => None,
+    }
+}
+
+fn order_clause(shaky: Option<usize>) -> String {
+    shaky.map_or_else(String::new, |order| format!("; shaky of order {order}: infinitesimally mobile only"))
+}
+
+/// Solves one case of a mechanism.
+fn solve(entry: &Entry, case: Case) -> Result<Solution> {
+    let entry = Entry { cases: vec![case], ..entry.clone() };
+    let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+    Mechanism::prepare(&entry)?.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly)
+}

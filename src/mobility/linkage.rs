@@ -1,0 +1,258 @@
+//! A closed chain of any number of joint variables over a field, and its positions.
+
+use crate::algebra::ring::{Field, Ring};
+use crate::error::{Error, Result};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::{Layout, Variable};
+use crate::kinematics::dual_quaternion::DualQuaternion;
+use crate::kinematics::motion::Motion;
+use rug::{Integer, Rational};
+
+/// Study's parameters `x0..x3, y0..y3` of a motion up to a factor.
+pub(super) type Study<R> = [R; 8];
+
+/// The value of a joint variable as a ratio `c : s`. A rotation is `c + s k`, its angle twice that of tangent s/c, so that
+/// the angle pi is no exception; a translation is `c + s eps k`, by the distance `2 s/c`.
+pub type JointValue<F> = [F; 2];
+
+/// A closed chain `V_1 L_1 V_2 L_2 ... V_n L_n = 1` of joint variables V and constant links L, as dual quaternions up to
+/// factors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linkage<F> {
+    /// What each joint variable does, in loop order.
+    pub variables: Vec<Variable>,
+    /// The link behind each joint variable.
+    pub links: Vec<DualQuaternion<F>>,
+}
+
+/// A chain in one of its positions: the joint values have become part of the links, so that every joint stands at 0.
+#[derive(Clone, Debug)]
+pub struct Position<F> {
+    pub(super) variables: Vec<Variable>,
+    pub(super) links: Vec<Study<F>>,
+}
+
+impl Linkage<Rational> {
+    /// The loop of a mechanism file, exactly, with all its joint variables: a C joint has two and an S joint three.
+    ///
+    /// # Errors
+    /// For joints other than R, P, C and S, and for a third S joint.
+    pub fn of(chain: &Chain) -> Result<Self> {
+        let layout = Layout::of(chain, None)?;
+        let (_, mut motions) = chain
+            .unknowns_and_constants::<Rational>()
+            .ok_or_else(|| Error::Unsupported("a constant of the loop without a rational value".to_owned()))?;
+        // What stands before the first variable comes behind the last one: conjugation.
+        let first = motions.remove(0);
+        if let Some(last) = motions.last_mut() {
+            *last = last.then_after(&first);
+        }
+        let links = motions.iter().map(|motion| primitive(&dual_quaternion(motion))).collect();
+        Ok(Self { variables: layout.variables, links })
+    }
+
+    /// A length of the size of the links: the power of two nearest to their mean, 1 without lengths.
+    #[must_use]
+    pub fn unit(&self) -> Rational {
+        let length = |link: &DualQuaternion<Rational>| {
+            let motion = link.to_motion()?;
+            Some(motion.translation.iter().map(|x| x.to_f64().powi(2)).sum::<f64>())
+        };
+        let squares: f64 = self.links.iter().filter_map(length).sum();
+        let mean = (squares / self.links.len().max(1) as f64).sqrt();
+        let unit = if mean.is_normal() { mean.log2().round().exp2() } else { 1.0 };
+        Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
+    }
+
+    /// The chain with a motion added behind one of its links, as a link made with an error.
+    ///
+    /// # Panics
+    /// When there is no such link.
+    #[must_use]
+    pub fn with_error(&self, link: usize, motion: &DualQuaternion<Rational>) -> Self {
+        let mut other = self.clone();
+        other.links[link] = primitive(&other.links[link].mul(motion));
+        other
+    }
+
+    /// The same chain over another field; `None` for an unlucky prime.
+    #[must_use]
+    pub fn map<F: Field>(&self) -> Option<Linkage<F>> {
+        let image = |link: &DualQuaternion<Rational>| -> Option<DualQuaternion<F>> {
+            let (x, y) = link.study();
+            let four = |v: &[Rational; 4]| -> Option<[F; 4]> {
+                let images: Option<Vec<F>> = v.iter().map(F::from_rational).collect();
+                images?.try_into().ok()
+            };
+            Some(DualQuaternion::from_study(&four(&x)?, &four(&y)?))
+        };
+        let links: Option<Vec<_>> = self.links.iter().map(image).collect();
+        Some(Linkage { variables: self.variables.clone(), links: links? })
+    }
+}
+
+impl<F: Field> Linkage<F> {
+    /// The chain in which some joint variables are rigid, at these values: their place in the list of variables, and the
+    /// value.
+    ///
+    /// # Panics
+    /// When no joint variable is left.
+    #[must_use]
+    pub fn locked(&self, at: &[(usize, JointValue<F>)]) -> Self {
+        let mut whole: Vec<JointValue<F>> = vec![[F::one(), F::zero()]; self.variables.len()];
+        for (k, value) in at {
+            whole[*k] = value.clone();
+        }
+        let mut position = self.at(&whole);
+        let mut rigid: Vec<usize> = at.iter().map(|(k, _)| *k).collect();
+        rigid.sort_unstable();
+        for k in rigid.into_iter().rev() {
+            position = position.without(k);
+        }
+        let link = |[a, b, c, d, e, f, g, h]: Study<F>| DualQuaternion::from_study(&[a, b, c, d], &[e, f, g, h]);
+        Self { variables: position.variables, links: position.links.into_iter().map(link).collect() }
+    }
+
+    /// The chain with its joints at these values, which need not close.
+    ///
+    /// # Panics
+    /// Unless there is one value for every joint variable.
+    #[must_use]
+    pub fn at(&self, values: &[JointValue<F>]) -> Position<F> {
+        assert_eq!(values.len(), self.variables.len(), "one value for every joint variable");
+        let links = self.links.iter().zip(&self.variables).zip(values).map(|((link, variable), value)| {
+            let (x, y) = link.study();
+            let [a, b, c, d] = x;
+            let [e, f, g, h] = y;
+            times(&joint(*variable, value), &[a, b, c, d, e, f, g, h])
+        });
+        Position { variables: self.variables.clone(), links: links.collect() }
+    }
+}
+
+impl<F: Field> Position<F> {
+    /// Whether the chain closes here: all but the scalar of the product vanish, and the scalar does not.
+    #[must_use]
+    pub fn closes(&self) -> bool {
+        let product = self.links.iter().fold(one(), |product, link| times(&product, link));
+        is_unit(&product[0]) && !product[1..].iter().any(is_unit)
+    }
+
+    /// The chain in which joint variable `k` is rigid.
+    ///
+    /// # Panics
+    /// When there is no joint variable `k`, or no other one.
+    #[must_use]
+    pub fn without(&self, k: usize) -> Self {
+        let (mut variables, mut links) = (self.variables.clone(), self.links.clone());
+        variables.remove(k);
+        let link = links.remove(k);
+        if k == 0 {
+            // In front of the first variable: to the end, by conjugation.
+            let last = links.last_mut().expect("another joint variable");
+            *last = times(last, &link);
+        } else {
+            links[k - 1] = times(&links[k - 1], &link);
+        }
+        Self { variables, links }
+    }
+}
+
+/// Whether this is no zero. Over algebraic numbers what is zero at some roots only makes itself known by the attempt to
+/// invert it.
+pub(super) fn is_unit<F: Field>(x: &F) -> bool {
+    !x.is_zero() && x.inverse().is_some()
+}
+
+/// The dual quaternion 1.
+pub(super) fn one<R: Ring>() -> Study<R> {
+    std::array::from_fn(|i| if i == 0 { R::one() } else { R::zero() })
+}
+
+/// `V(c : s)`.
+pub(super) fn joint<R: Ring>(variable: Variable, value: &JointValue<R>) -> Study<R> {
+    let mut study: Study<R> = std::array::from_fn(|_| R::zero());
+    study[0] = value[0].clone();
+    study[axis(variable)] = value[1].clone();
+    study
+}
+
+/// Where the unit along the axis of a joint stands: k or eps k.
+fn axis(variable: Variable) -> usize {
+    match variable {
+        Variable::Rotation => 3,
+        Variable::Translation => 7,
+    }
+}
+
+/// `a b`.
+pub(super) fn times<R: Ring>(a: &Study<R>, b: &Study<R>) -> Study<R> {
+    // i j = k and so on: the product of units u and v is `sign` times unit `u ^ v`.
+    const SIGN: [[bool; 4]; 4] =
+        [[true, true, true, true], [true, false, true, false], [true, false, false, true], [true, true, false, false]];
+    let mut product: Study<R> = std::array::from_fn(|_| R::zero());
+    for (u, x) in a.iter().enumerate() {
+        if x.is_zero() {
+            continue;
+        }
+        let minus = x.neg();
+        // The square of eps is 0.
+        for (v, y) in b.iter().enumerate().take(if u < 4 { 8 } else { 4 }) {
+            let to = ((u | v) & 4) | ((u ^ v) & 3);
+            product[to].add_product(if SIGN[u & 3][v & 3] { x } else { &minus }, y);
+        }
+    }
+    product
+}
+
+/// `a e` with the unit e along the axis of a joint, k or eps k.
+pub(super) fn times_axis<R: Ring>(a: &Study<R>, variable: Variable) -> Study<R> {
+    let turned = |b: usize| [a[b + 3].neg(), a[b + 2].clone(), a[b + 1].neg(), a[b].clone()];
+    let [w, x, y, z] = turned(0);
+    match variable {
+        Variable::Rotation => {
+            let [s, t, u, v] = turned(4);
+            [w, x, y, z, s, t, u, v]
+        }
+        Variable::Translation => [R::zero(), R::zero(), R::zero(), R::zero(), w, x, y, z],
+    }
+}
+
+/// The dual quaternion of a motion, up to a factor; rational for rational motions.
+pub(super) fn dual_quaternion<F: Field>(motion: &Motion<F>) -> DualQuaternion<F> {
+    let r = &motion.rotation;
+    let two = F::from_integer(2);
+    let sum = |i: usize, j: usize| r[i][j].add(&r[j][i]);
+    let difference = |i: usize, j: usize| r[i][j].sub(&r[j][i]);
+    let diagonal = |signs: [i32; 3]| (0..3).fold(F::one(), |sum, i| sum.add(&r[i][i].mul(&F::from_integer(signs[i]))));
+    // The rows of 4 q q^T: each is a multiple of the quaternion, and one of them at least is not 0.
+    let table = [
+        [diagonal([1, 1, 1]), difference(2, 1), difference(0, 2), difference(1, 0)],
+        [difference(2, 1), diagonal([1, -1, -1]), sum(0, 1), sum(0, 2)],
+        [difference(0, 2), sum(0, 1), diagonal([-1, 1, -1]), sum(1, 2)],
+        [difference(1, 0), sum(0, 2), sum(1, 2), diagonal([-1, -1, 1])],
+    ];
+    let mut best = 0;
+    for k in 1..4 {
+        if table[k][k].pivot_size() > table[best][best].pivot_size() {
+            best = k;
+        }
+    }
+    let [w, i, j, k] = table[best].each_ref().map(|c| c.mul(&two));
+    let zero = [F::zero(), F::zero(), F::zero(), F::zero()];
+    let rotation = DualQuaternion::from_study(&[w, i, j, k], &zero);
+    DualQuaternion::translation(&motion.translation).mul(&rotation)
+}
+
+/// The multiple with integers without common factor for coordinates.
+fn primitive(q: &DualQuaternion<Rational>) -> DualQuaternion<Rational> {
+    let (x, y) = q.study();
+    let (mut content, mut denominator) = (Integer::new(), Integer::from(1));
+    for c in x.iter().chain(&y) {
+        content.gcd_mut(c.numer());
+        denominator.lcm_mut(c.denom());
+    }
+    let scale = Rational::from((denominator, content));
+    let scaled = |v: &[Rational; 4]| v.each_ref().map(|c| Rational::from(c * &scale));
+    DualQuaternion::from_study(&scaled(&x), &scaled(&y))
+}

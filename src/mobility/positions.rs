@@ -1,0 +1,388 @@
+//! All positions of a chain of up to five joint variables, exactly: rational, or over algebraic numbers.
+//!
+//! One variable is hidden and the chain is cut into two sides of at most two further variables each. The dual quaternions
+//! of a side are linear in the products of its half-angle pairs, so that a position is a pair of vectors (v, w) in the
+//! kernel of a matrix of eight rows and at most eight columns, linear in the tangent t of the hidden half-angle. Its
+//! determinant is a polynomial of degree at most 4 in t, and over each of its roots linear algebra gives the rest.
+
+use super::linkage::{JointValue, Linkage, Study, is_unit, one, times, times_axis};
+use crate::algebra::determinant;
+use crate::algebra::echelon::Echelon;
+use crate::algebra::modp::{ModP, PRIME_61, PRIME_62};
+use crate::algebra::number_field::{Algebraic, NumberField};
+use crate::algebra::real_roots::RealRoot;
+use crate::algebra::ring::{Field, Ring};
+use crate::algebra::univariate::Univariate;
+use rug::Rational;
+use std::sync::Arc;
+
+/// Positions that are conjugate: the same expressions in the roots of one polynomial.
+#[derive(Clone, Debug)]
+pub struct Conjugates {
+    /// The polynomial of t; `None` for a rational position.
+    pub polynomial: Option<Univariate<Rational>>,
+    /// The field of t, likewise.
+    pub field: Option<Arc<NumberField>>,
+    /// The real roots; of a rational position none is needed.
+    pub roots: Vec<RealRoot>,
+    /// The values of all joint variables.
+    pub values: Vec<JointValue<Algebraic>>,
+}
+
+/// The positions of a chain.
+#[derive(Clone, Debug)]
+pub enum Positions {
+    /// All of them, and they are finitely many.
+    Finite {
+        /// The positions.
+        found: Vec<Conjugates>,
+        /// Whether the equations have no other solution: none at infinity, none of a dual quaternion without a motion.
+        /// Limits of positions are solutions, too.
+        is_proper: bool,
+    },
+    /// No cut of the chain separates them: they may form a curve.
+    Unknown,
+}
+
+impl Conjugates {
+    /// How many positions there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.polynomial.as_ref().and_then(Univariate::degree).unwrap_or(1)
+    }
+
+    /// How many of them are real.
+    #[must_use]
+    pub fn real(&self) -> usize {
+        if self.polynomial.is_none() { 1 } else { self.roots.len() }
+    }
+
+    /// At least so many of them are conjugate over the rationals, and share all algebraic properties: the least degree of an
+    /// irreducible factor, or a bound of it.
+    #[must_use]
+    pub fn fewest_conjugates(&self) -> usize {
+        let Some(polynomial) = &self.polynomial else { return 1 };
+        // Rational roots stand for themselves elsewhere, or cost only the bound.
+        if polynomial.real_roots().iter_mut().any(|root| root.rational().is_some()) {
+            return 1;
+        }
+        let degree = self.count();
+        let stays_whole = degree <= 3
+            || is_irreducible::<PRIME_61>(polynomial)
+            || is_irreducible::<PRIME_62>(polynomial)
+            || is_irreducible::<1_000_000_007>(polynomial)
+            || is_irreducible::<998_244_353>(polynomial)
+            || is_irreducible::<104_729>(polynomial)
+            || is_irreducible::<7919>(polynomial);
+        if stays_whole { degree } else { 2 }
+    }
+
+    /// The same at the roots of a factor of the polynomial only.
+    fn over(&self, factor: &Univariate<Rational>) -> Option<Self> {
+        let field = NumberField::new(factor);
+        let image = |x: &Algebraic| x.over(&field);
+        let values = self.values.iter().map(|[c, s]| [image(c), image(s)]).collect();
+        Some(Self { roots: factor.real_roots(), polynomial: Some(factor.clone()), field: Some(field), values })
+    }
+
+    /// What `compute` finds at these positions: once for all of them where it never meets a number that is zero at some of
+    /// them only, else for every part by itself.
+    pub fn each<T>(&self, compute: impl Fn(&Self) -> T) -> Vec<(Self, T)> {
+        let mut open = vec![self.clone()];
+        let mut found = Vec::new();
+        while let Some(part) = open.pop() {
+            let result = compute(&part);
+            let split = part.field.as_ref().and_then(|field| field.split().cloned());
+            match (split, &part.polynomial) {
+                (Some(factor), Some(polynomial)) => {
+                    let cofactor = polynomial.div_rem(&factor).0;
+                    open.extend([factor, cofactor].iter().filter_map(|f| part.over(f)));
+                }
+                _ => found.push((part, result)),
+            }
+        }
+        found
+    }
+}
+
+/// All positions of a chain.
+///
+/// # Panics
+/// When there are more than five joint variables, or none.
+#[must_use]
+pub fn positions(linkage: &Linkage<Rational>) -> Positions {
+    let n = linkage.variables.len();
+    assert!((1..=5).contains(&n), "one to five joint variables");
+    for first in 0..n {
+        for hidden in 0..=(n - 1).div_ceil(2) {
+            if let Some(finite) = Cut::of(linkage, first, hidden).solve() {
+                return finite;
+            }
+        }
+    }
+    Positions::Unknown
+}
+
+/// Whether some cut of a chain shows that it has no positions, and no limits of positions of chains nearby.
+///
+/// # Panics
+/// When there are more than five joint variables, or none.
+#[must_use]
+pub fn is_properly_open(linkage: &Linkage<Rational>) -> bool {
+    let n = linkage.variables.len();
+    assert!((1..=5).contains(&n), "one to five joint variables");
+    let cuts = (0..n).flat_map(|first| (0..=(n - 1).div_ceil(2)).map(move |hidden| (first, hidden)));
+    cuts.map(|(first, hidden)| Cut::of(linkage, first, hidden).solve())
+        .any(|found| matches!(found, Some(Positions::Finite { found, is_proper: true }) if found.is_empty()))
+}
+
+/// A chain cut into two sides, with one hidden variable.
+struct Cut<'a> {
+    linkage: &'a Linkage<Rational>,
+    /// The variables in loop order from the cut.
+    order: Vec<usize>,
+    /// Place of the hidden one in this order; it belongs to the first side.
+    hidden: usize,
+    /// Number of variables of the first side.
+    first_side: usize,
+    /// The matrix without t, and the factor of t.
+    matrix: [Vec<Vec<Rational>>; 2],
+}
+
+/// The product of a side in which every variable is the first or the second unit of its pair, by the bits of `choice`.
+fn side(linkage: &Linkage<Rational>, variables: &[usize], choice: usize) -> Study<Rational> {
+    variables.iter().enumerate().fold(one(), |product, (bit, k)| {
+        let factor = if choice >> bit & 1 == 0 { product } else { times_axis(&product, linkage.variables[*k]) };
+        let (x, y) = linkage.links[*k].study();
+        let ([a, b, c, d], [e, f, g, h]) = (x, y);
+        times(&factor, &[a, b, c, d, e, f, g, h])
+    })
+}
+
+impl<'a> Cut<'a> {
+    fn of(linkage: &'a Linkage<Rational>, first: usize, hidden: usize) -> Self {
+        let n = linkage.variables.len();
+        let order: Vec<usize> = (0..n).map(|k| (first + k) % n).collect();
+        let first_side = (n - 1).div_ceil(2) + 1;
+        let (left, right) = order.split_at(first_side);
+        let mut columns: [Vec<Study<Rational>>; 2] = [Vec::new(), Vec::new()];
+        for power in 0..2 {
+            for bits in 0..1_usize << (first_side - 1) {
+                // The bits above the hidden place move up by one.
+                let low = bits & ((1 << hidden) - 1);
+                let choice = (bits - low) << 1 | power << hidden | low;
+                columns[power].push(side(linkage, left, choice));
+            }
+            for bits in 0..1_usize << right.len() {
+                let mut column = side(linkage, right, bits);
+                for i in [1, 2, 3, 5, 6, 7] {
+                    column[i] = column[i].neg();
+                }
+                // The second side is free of the hidden variable.
+                columns[power].push(if power == 0 { column } else { std::array::from_fn(|_| Rational::new()) });
+            }
+        }
+        let matrix = columns.map(|columns| (0..8).map(|i| columns.iter().map(|c| c[i].clone()).collect()).collect());
+        Self { linkage, order, hidden, first_side, matrix }
+    }
+
+    /// All positions, if this cut finds them.
+    fn solve(&self) -> Option<Positions> {
+        let determinant = self.determinant();
+        determinant.degree()?;
+        let mut list = List::default();
+        // The half-turn, where t is infinite.
+        list.add(self.position(&[Algebraic::zero(), Algebraic::one()]), None)?;
+        let circle = Univariate::new([1, 0, 1].map(Rational::from).to_vec());
+        let (spurious, mut polynomial) = determinant.square_free_part().remove_factor(&circle);
+        if spurious > 0 {
+            // No angle has the tangent i, but limits may.
+            let field = NumberField::new(&circle);
+            let here = self.position(&[Algebraic::one(), field.root()]);
+            list.is_improper |= !matches!(here, Here::Nothing) || field.split().is_some();
+        }
+        let mut open = Vec::new();
+        if polynomial.degree() > Some(0) {
+            for mut root in polynomial.real_roots() {
+                if let Some(t) = root.rational() {
+                    let linear = Univariate::new(vec![Rational::from(-&t), Rational::from(1)]);
+                    polynomial = polynomial.div_rem(&linear).0;
+                    list.add(self.position(&[Algebraic::one(), Algebraic::from_rational(&t)?]), None)?;
+                }
+            }
+            open.push(polynomial);
+        }
+        while let Some(polynomial) = open.pop() {
+            if polynomial.degree() < Some(1) {
+                continue;
+            }
+            let field = NumberField::new(&polynomial);
+            let position = self.position(&[Algebraic::one(), field.root()]);
+            if let Some(factor) = field.split() {
+                open.extend([polynomial.div_rem(factor).0, factor.clone()]);
+            } else {
+                list.add(position, Some((polynomial, field)))?;
+            }
+        }
+        Some(Positions::Finite { found: list.found, is_proper: !list.is_improper })
+    }
+
+    /// A polynomial that vanishes wherever the columns are dependent; zero if the cut separates nothing.
+    fn determinant(&self) -> Univariate<Rational> {
+        let columns = self.matrix[0][0].len();
+        if columns == 8 {
+            return determinant::modular(&self.matrix);
+        }
+        // Of more rows than columns two mixtures; what is foreign to the one is not to the other.
+        let mixture = |seed: i64| {
+            let weight = |i: usize, j: usize| {
+                let n = seed * (i as i64 + 2) * (i as i64 + 3 * j as i64 + 1) % 211;
+                Rational::from(n - 105)
+            };
+            let mixed: Vec<Vec<Vec<Rational>>> = self
+                .matrix
+                .iter()
+                .map(|m| {
+                    let row = |i: usize| {
+                        let entry = |c: usize| (0..8).fold(Rational::new(), |sum, j| sum + weight(i, j) * &m[j][c]);
+                        (0..columns).map(entry).collect()
+                    };
+                    (0..columns).map(row).collect()
+                })
+                .collect();
+            determinant::modular(&mixed)
+        };
+        mixture(7919).gcd(&mixture(104_729))
+    }
+
+    /// What there is at one value of the hidden variable.
+    fn position(&self, t: &JointValue<Algebraic>) -> Here {
+        let columns = self.matrix[0][0].len();
+        let left = 1 << (self.first_side - 1);
+        let entry = |i: usize, j: usize| -> Option<Algebraic> {
+            let constant = Algebraic::from_rational(&self.matrix[0][i][j])?;
+            if j >= left {
+                return Some(constant);
+            }
+            let mut sum = constant.mul(&t[0]);
+            sum.add_product(&Algebraic::from_rational(&self.matrix[1][i][j])?, &t[1]);
+            Some(sum)
+        };
+        let rows: Option<Vec<Vec<Algebraic>>> = (0..8).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect();
+        let Some(rows) = rows else { return Here::Undecided };
+        let kernel = Echelon::of(rows, columns).null_space();
+        let vector = match kernel.as_slice() {
+            [] => return Here::Nothing,
+            [vector] => vector,
+            _ => return Here::Undecided,
+        };
+        let (v, w) = match (factors(&vector[..left]), factors(&vector[left..])) {
+            (Side::Pairs(v), Side::Pairs(w)) => (v, w),
+            (Side::General, _) | (_, Side::General) => return Here::Nothing,
+            _ => return Here::Improper,
+        };
+        let mut values = vec![[Algebraic::one(), Algebraic::zero()]; self.order.len()];
+        let mut rest = v.into_iter().chain(w);
+        for (place, k) in self.order.iter().enumerate() {
+            let value = if place == self.hidden { Some(t.clone()) } else { rest.next() };
+            let Some(value) = value else { return Here::Undecided };
+            values[*k] = value;
+        }
+        // A translation by an infinite distance, or a rotation by an angle of tangent i, is no motion: it does not close.
+        match self.linkage.map::<Algebraic>() {
+            Some(linkage) if linkage.at(&values).closes() => Here::Position(values),
+            _ => Here::Improper,
+        }
+    }
+}
+
+/// What a cut has at one value of its hidden variable.
+enum Here {
+    /// No solution.
+    Nothing,
+    /// A solution that is no position.
+    Improper,
+    /// A position.
+    Position(Vec<JointValue<Algebraic>>),
+    /// More solutions than one, perhaps.
+    Undecided,
+}
+
+/// What a cut has found so far.
+#[derive(Default)]
+struct List {
+    found: Vec<Conjugates>,
+    is_improper: bool,
+}
+
+impl List {
+    /// Takes note of what there is at a value of the hidden variable, rational or a root of a polynomial; `None` if that is
+    /// not decided.
+    fn add(&mut self, here: Here, over: Option<(Univariate<Rational>, Arc<NumberField>)>) -> Option<()> {
+        match here {
+            Here::Undecided => return None,
+            Here::Nothing => {}
+            Here::Improper => self.is_improper = true,
+            Here::Position(values) => {
+                let roots = over.as_ref().map(|(polynomial, _)| polynomial.real_roots()).unwrap_or_default();
+                let (polynomial, field) = over.unzip();
+                self.found.push(Conjugates { polynomial, field, roots, values });
+            }
+        }
+        Some(())
+    }
+}
+
+/// Whether a polynomial is irreducible modulo a prime, and hence over the rationals: no factor of it divides `x^(p^k) - x`
+/// for k up to half its degree.
+fn is_irreducible<const P: u64>(polynomial: &Univariate<Rational>) -> bool {
+    let Some(f) = polynomial.map(ModP::<P>::from_rational) else { return false };
+    if f.degree() != polynomial.degree() {
+        return false;
+    }
+    let mut power = Univariate::x();
+    for _ in 0..f.degree().unwrap_or(0) / 2 {
+        let base = power;
+        power = Univariate::one();
+        for bit in (0..u64::BITS - P.leading_zeros()).rev() {
+            power = power.mul(&power).div_rem(&f).1;
+            if P >> bit & 1 == 1 {
+                power = power.mul(&base).div_rem(&f).1;
+            }
+        }
+        if f.gcd(&power.sub(&Univariate::x())).degree() != Some(0) {
+            return false;
+        }
+    }
+    true
+}
+
+/// What one side of a vector of the kernel is.
+enum Side {
+    /// Zero.
+    Zero,
+    /// The tensor product of these pairs, the first one running fastest.
+    Pairs(Vec<JointValue<Algebraic>>),
+    /// No tensor product.
+    General,
+}
+
+/// The pairs whose tensor product a vector is.
+fn factors(vector: &[Algebraic]) -> Side {
+    let Some(best) = vector.iter().position(is_unit) else { return Side::Zero };
+    if let [a, b, c, d] = vector
+        && is_unit(&a.mul(d).sub(&b.mul(c)))
+    {
+        return Side::General;
+    }
+    let size = vector.len().trailing_zeros();
+    let pairs = (0..size).map(|bit| {
+        let mask = 1 << bit;
+        let (c, s) = (&vector[best & !mask], &vector[best | mask]);
+        match c.inverse() {
+            Some(inverse) => [Algebraic::one(), s.mul(&inverse)],
+            None => [Algebraic::zero(), Algebraic::one()],
+        }
+    });
+    Side::Pairs(pairs.collect())
+}

@@ -1,0 +1,241 @@
+//! Configurations of a loop with some joints held, and what they prove.
+
+use super::answer::{Configuration, Held};
+use super::linkage::{JointValue, Linkage, is_unit};
+use super::order::{Germ, Local};
+use super::positions::{Conjugates, Positions, is_properly_open, positions};
+use crate::algebra::number_field::Algebraic;
+use crate::algebra::ring::Ring;
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::screw_system::{Screw, ScrewSystem};
+use rug::{Float, Rational};
+
+/// Tangents of half the angles at which joints are held, one after the other: no special ones, with few digits, and all
+/// round the circle.
+const TANGENTS: [(i32, i32); 24] = [
+    (1, 2),
+    (-1, 3),
+    (4, 3),
+    (-7, 3),
+    (-5, 7),
+    (8, 3),
+    (2, 9),
+    (-6, 1),
+    (3, 4),
+    (-1, 9),
+    (11, 2),
+    (-10, 7),
+    (5, 14),
+    (-1, 2),
+    (17, 16),
+    (-19, 5),
+    (1, 16),
+    (-2, 9),
+    (13, 1),
+    (-13, 14),
+    (5, 8),
+    (-20, 1),
+    (12, 7),
+    (-3, 5),
+];
+/// Bits in which real configurations are evaluated before they are rounded.
+const BITS: u32 = 256;
+
+/// What holding joints showed.
+pub(super) struct Search {
+    /// The joint variables held, and their values.
+    pub held: Held,
+    /// Real configurations that move.
+    pub configurations: Vec<Configuration>,
+    /// How many configurations there are, complex ones included.
+    pub complex: usize,
+}
+
+/// The outcome of a search.
+pub(super) enum Outcome {
+    /// Real configurations with a motion through each of them.
+    Mobile(Search),
+    /// Configurations that move, none of them real where it was looked.
+    Complex(Search),
+    /// No motion was found.
+    Nothing,
+}
+
+/// Whether a chain of up to six joint variables moves, by proof: `None` where neither a real motion was found nor its absence
+/// proved.
+///
+/// # Source
+/// docs/mobility.md, theorems 1, 2 and 4.
+#[must_use]
+pub fn moves(linkage: &Linkage<Rational>) -> Option<bool> {
+    if is_proved_immobile(linkage) {
+        return Some(false);
+    }
+    matches!(search(linkage), Outcome::Mobile(_)).then_some(true)
+}
+
+/// Looks for a motion: holds as few joints as leave finitely many configurations, and decides what passes through those.
+pub(super) fn search(linkage: &Linkage<Rational>) -> Outcome {
+    let n = linkage.variables.len();
+    let mut complex = None;
+    for count in n.saturating_sub(5).max(1)..n {
+        let mut is_free = false;
+        for start in 0..n {
+            for shift in 0..TANGENTS.len() {
+                let held: Vec<(usize, Rational)> =
+                    (0..count).map(|k| ((start + k) % n, tangent(linkage, (start + k) % n, shift + k))).collect();
+                let Some(found) = at(linkage, &held) else {
+                    is_free = true;
+                    break;
+                };
+                if found.is_empty() {
+                    break;
+                }
+                let search = decide(linkage, &held, &found);
+                if search.configurations.iter().any(|c| c.dimension() > Some(0)) {
+                    return Outcome::Mobile(search);
+                }
+                if search.configurations.is_empty() && complex.is_none() && some_move(linkage, &held, &found) {
+                    complex = Some(search);
+                }
+            }
+        }
+        if !is_free {
+            break;
+        }
+    }
+    complex.map_or(Outcome::Nothing, Outcome::Complex)
+}
+
+/// Half the angle's tangent, or half the distance, at which a joint variable is held.
+fn tangent(linkage: &Linkage<Rational>, k: usize, shift: usize) -> Rational {
+    let tangent = Rational::from(TANGENTS[shift % TANGENTS.len()]);
+    match linkage.variables[k] {
+        Variable::Rotation => tangent,
+        Variable::Translation => tangent * linkage.unit(),
+    }
+}
+
+/// All configurations with joints held; `None` where they are not finitely many, or were not found.
+pub(super) fn at(linkage: &Linkage<Rational>, held: &[(usize, Rational)]) -> Option<Vec<Conjugates>> {
+    let pairs: Vec<(usize, JointValue<Rational>)> =
+        held.iter().map(|(k, tangent)| (*k, [Rational::from(1), tangent.clone()])).collect();
+    match positions(&linkage.locked(&pairs)) {
+        Positions::Finite { found, .. } => Some(found),
+        Positions::Unknown => None,
+    }
+}
+
+/// Whether it is proved that no joint variable moves along any curve of configurations: each one is held at a value at
+/// which the closure equations have no solution at all, not even a limit of configurations.
+pub(super) fn is_proved_immobile(linkage: &Linkage<Rational>) -> bool {
+    let n = linkage.variables.len();
+    let stands_still = |k: usize| {
+        let value = [Rational::from(1), tangent(linkage, k, k)];
+        is_properly_open(&linkage.locked(&[(k, value)]))
+    };
+    (2..=6).contains(&n) && (0..n).all(stands_still)
+}
+
+/// The values of all joint variables, with those held among them.
+fn with_held(held: &[(usize, Rational)], conjugates: &Conjugates) -> Option<Vec<JointValue<Algebraic>>> {
+    let n = held.len() + conjugates.values.len();
+    let mut rest = conjugates.values.iter();
+    (0..n)
+        .map(|k| match held.iter().find(|(at, _)| *at == k) {
+            Some((_, tangent)) => Some([Algebraic::one(), Algebraic::from_rational(tangent)?]),
+            None => rest.next().cloned(),
+        })
+        .collect()
+}
+
+/// What is known of conjugate configurations, exactly.
+struct Known {
+    values: Vec<JointValue<Algebraic>>,
+    germ: Germ<Algebraic>,
+    moving: Vec<bool>,
+    system: String,
+    redundant: Vec<Screw<Algebraic>>,
+}
+
+impl Known {
+    fn of(linkage: &Linkage<Rational>, held: &[(usize, Rational)], conjugates: &Conjugates) -> Option<Self> {
+        let values = with_held(held, conjugates)?;
+        let germ = Germ::of_conjugates(&linkage.map()?.at(&values), conjugates.fewest_conjugates());
+        let system: ScrewSystem<Algebraic> = germ.system();
+        let freedom = system.loop_freedom();
+        let moving = match germ.local {
+            Local::Curve => germ.series.iter().map(|series| series.iter().any(is_unit)).collect(),
+            _ => (0..values.len()).map(|k| freedom.rates.iter().any(|rate| is_unit(&rate[k]))).collect(),
+        };
+        let (description, redundant) = (system.description(), freedom.redundant.basis());
+        // Asked here, so that a pitch that vanishes at some roots only tells them apart.
+        for screw in &redundant {
+            let _ = screw.pitch().map(|pitch| is_unit(&pitch));
+        }
+        Some(Self { values, germ, moving, system: description, redundant })
+    }
+
+    /// The same in floating point, at one value of the root.
+    fn configuration(&self, variables: &[Variable], degree: usize, root: &Float) -> Configuration {
+        let value = |x: &Algebraic| x.at(root).to_f64();
+        let joint = |(variable, [c, s]): (&Variable, &JointValue<Algebraic>)| match variable {
+            Variable::Rotation => {
+                let (c, s) = (c.at(root), s.at(root));
+                // Of (c : s) and (-c : -s) the one within half a turn.
+                let angle = if c < 0 { Float::with_val(BITS, -s).atan2(&-c) } else { s.atan2(&c) };
+                2.0 * angle.to_f64()
+            }
+            Variable::Translation => 2.0 * Float::with_val(BITS, s.at(root) / c.at(root)).to_f64(),
+        };
+        let screw = |screw: &Screw<Algebraic>| Screw {
+            direction: screw.direction.each_ref().map(value),
+            moment: screw.moment.each_ref().map(value),
+        };
+        Configuration {
+            q: variables.iter().zip(&self.values).map(joint).collect(),
+            degree,
+            rank: self.germ.rank,
+            local: self.germ.local.clone(),
+            moving: self.moving.clone(),
+            system: self.system.clone(),
+            redundant: self.redundant.iter().map(screw).collect(),
+        }
+    }
+}
+
+/// What the real ones of these configurations are.
+pub(super) fn decide(linkage: &Linkage<Rational>, held: &[(usize, Rational)], found: &[Conjugates]) -> Search {
+    let mut configurations = Vec::new();
+    for conjugates in found.iter().filter(|conjugates| conjugates.real() > 0) {
+        for (part, known) in conjugates.each(|part| Known::of(linkage, held, part)) {
+            let Some(known) = known else { continue };
+            let degree = part.count();
+            let here = |root: &Float| known.configuration(&linkage.variables, degree, root);
+            if part.polynomial.is_none() {
+                configurations.push(here(&Float::new(BITS)));
+            }
+            for mut root in part.roots {
+                root.refine(&Rational::from((1, rug::Integer::from(1) << BITS)));
+                let (low, high) = root.bounds();
+                configurations.push(here(&Float::with_val(BITS, (low + high) / 2)));
+            }
+        }
+    }
+    configurations
+        .sort_by(|a, b| a.q.iter().map(|x| x.abs()).sum::<f64>().total_cmp(&b.q.iter().map(|x| x.abs()).sum()));
+    let value = |(k, tangent): &(usize, Rational)| {
+        let t = Float::with_val(BITS, tangent);
+        (*k, 2.0 * if linkage.variables[*k] == Variable::Rotation { t.atan().to_f64() } else { t.to_f64() })
+    };
+    let complex = found.iter().map(Conjugates::count).sum();
+    Search { held: held.iter().map(value).collect(), configurations, complex }
+}
+
+/// Whether some complex configuration moves.
+fn some_move(linkage: &Linkage<Rational>, held: &[(usize, Rational)], found: &[Conjugates]) -> bool {
+    found
+        .iter()
+        .flat_map(|conjugates| conjugates.each(|part| Known::of(linkage, held, part)))
+        .any(|(_, known)| known.is_some_and(|known| matches!(known.germ.local, Local::Curve | Local::Manifold { .. })))
+}

@@ -1,0 +1,145 @@
+//! Derivations with symbols, as text and JSON.
+
+use super::derivation::file;
+use super::json::kind;
+use super::number::counted;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::text::{Format, Names};
+use crate::catalogue::entry::Entry;
+use crate::derivation::{Quotient, Symbolic};
+use crate::error::Result;
+use rug::Rational;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// `degree 2 in t3, 20 terms in 8 symbols; at the numbers of the file equal to the closure polynomial derived from them`
+#[must_use]
+pub fn verdict(symbolic: &Symbolic) -> String {
+    let symbols = counted(symbolic.symbols.len(), "symbol");
+    let what = match &symbolic.polynomial {
+        Some(polynomial) => {
+            let expanded = &polynomial.displayed.polynomial;
+            let name = &symbolic.names.list()[polynomial.variable];
+            format!("degree {} in {name}, {}", expanded.degree(polynomial.variable), counted(expanded.len(), "term"))
+        }
+        None => counted(symbolic.equations.len(), "equation"),
+    };
+    format!("{what} in {symbols}; at the numbers of the file equal to {}", symbolic.compared)
+}
+
+fn plain(polynomial: &Polynomial<Rational>, names: &Names) -> String {
+    Format::Text.polynomial(polynomial, names)
+}
+
+/// `d1 = -(...)/(...)`
+fn quotient(quotient: &Quotient, names: &Names) -> String {
+    let [above, below] = [&quotient.numerator, &quotient.denominator].map(|p| plain(p, names));
+    format!("{} = ({above})/({below})", names.list()[quotient.variable])
+}
+
+/// Everything for a reader, large polynomials by names for their coefficients.
+#[must_use]
+pub fn text(symbolic: &Symbolic) -> String {
+    let names = &symbolic.names;
+    let mut text = verdict(symbolic) + "\n\nSymbols (c and s: cosine and sine; ca, sa: those of alpha)\n";
+    let _ = writeln!(text, "  {}", symbolic.symbols.join(", "));
+    if !symbolic.numbers.is_empty() {
+        let _ = writeln!(text, "  numbers of the file: {}", symbolic.numbers.join(", "));
+    }
+    text.push_str("\nClosure equations (= 0)\n");
+    for equation in &symbolic.equations {
+        let terms = counted(equation.polynomial.len(), "term");
+        let _ = writeln!(text, "{}, {terms}:\n  {}", equation.name, plain(&equation.compact, names));
+    }
+    text.push_str("\nElimination\n");
+    for (number, step) in (1..).zip(&symbolic.steps) {
+        let _ = writeln!(text, "{number}. {step}");
+    }
+    if let Some(polynomial) = &symbolic.polynomial {
+        let displayed = &polynomial.displayed;
+        let _ = writeln!(text, "\nClosure polynomial, {} expanded", counted(displayed.polynomial.len(), "term"));
+        if displayed.compact.len() <= MOST_TERMS {
+            let _ = writeln!(text, "  {}", plain(&displayed.compact, names));
+        } else {
+            let _ = writeln!(text, "  {} in the names below: --format text", counted(displayed.compact.len(), "term"));
+        }
+    }
+    if !symbolic.translations.is_empty() {
+        text.push_str("\nTranslations\n");
+    }
+    for translation in &symbolic.translations {
+        let _ = writeln!(text, "  {}", quotient(translation, names));
+    }
+    let shown: Vec<_> = symbolic.parts.iter().filter(|(_, part)| part.len() <= MOST_TERMS).collect();
+    if !shown.is_empty() {
+        text.push_str("\nwhere\n");
+    }
+    for (name, part) in shown {
+        let _ = writeln!(text, "  {name} = {}", plain(part, names));
+    }
+    let long = symbolic.parts.iter().filter(|(_, part)| part.len() > MOST_TERMS);
+    for (name, part) in long {
+        let _ = writeln!(text, "  {name}: {}, in --json and --format", counted(part.len(), "term"));
+    }
+    text
+}
+
+/// Longer polynomials are not for readers.
+const MOST_TERMS: usize = 120;
+
+/// The document that equations/derivation.schema.json describes; `case` is the number of the case in the file.
+#[must_use]
+pub fn json(entry: &Entry, case: usize, symbolic: &Symbolic) -> Value {
+    let names = &symbolic.names;
+    let text = |polynomial: &Polynomial<Rational>| plain(polynomial, names);
+    let equations = symbolic.equations.iter().map(|equation| {
+        json!({ "name": equation.name, "text": text(&equation.polynomial), "compact": text(&equation.compact) })
+    });
+    let translations = symbolic.translations.iter().map(|one| {
+        let name = &names.list()[one.variable];
+        json!({ "variable": name, "numerator": text(&one.numerator), "denominator": text(&one.denominator) })
+    });
+    let mut document = json!({
+        "title": entry.title,
+        "kind": kind(entry.kind()),
+        "case": case,
+        "verdict": verdict(symbolic),
+        "symbols": symbolic.symbols,
+        "numbers": symbolic.numbers,
+        "unknowns": [],
+        "degree": null,
+        "real_roots": null,
+        "polynomial": null,
+        "removed_factors": [],
+        "equations": equations.collect::<Vec<_>>(),
+        "where": symbolic.parts.iter().map(|(name, part)| json!({ "name": name, "text": text(part) })).collect::<Vec<_>>(),
+        "translations": translations.collect::<Vec<_>>(),
+        "steps": symbolic.steps,
+        "warnings": [],
+    });
+    if let Some(polynomial) = &symbolic.polynomial {
+        let (name, expanded) = (&names.list()[polynomial.variable], &polynomial.displayed.polynomial);
+        let coefficients: Vec<String> = expanded.coefficients_in(polynomial.variable).iter().map(text).collect();
+        document["unknowns"] = json!([name]);
+        document["degree"] = json!(expanded.degree(polynomial.variable));
+        document["terms"] = json!(expanded.len());
+        document["polynomial"] = json!({
+            "variable": name,
+            "coefficients": coefficients,
+            "compact": text(&polynomial.displayed.compact),
+        });
+    }
+    document
+}
+
+/// The closure polynomial, or the equations where there is none, in the language of another program.
+///
+/// # Errors
+/// Where the language has no way to say it.
+pub fn system(symbolic: &Symbolic, format: Format) -> Result<String> {
+    let polynomials: Vec<Polynomial<Rational>> = match &symbolic.polynomial {
+        Some(polynomial) => vec![polynomial.displayed.polynomial.clone()],
+        None => symbolic.equations.iter().map(|equation| equation.polynomial.clone()).collect(),
+    };
+    file(&polynomials, &symbolic.names, format)
+}

@@ -1,0 +1,137 @@
+//! All complex roots of a polynomial at once, in as many digits as its coefficients have.
+//!
+//! Newton's correction N = p/p' at every approximation x_k, with the other approximations divided out of p:
+//! `x_k -= N / (1 - N sum_j 1/(x_k - x_j))`. It converges with order three to simple roots. \[Aberth1973\]
+
+use super::scalar::{Extended, Number, extended, narrowed};
+use crate::algebra::ring::{Field, Ring};
+use crate::algebra::univariate::Univariate;
+use num_complex::Complex;
+use std::f64::consts::TAU;
+
+/// Rounds without a root that settles after which none will: multiple roots come nearer by a constant factor only.
+const PATIENCE: usize = 60;
+/// Leading coefficients below this part of the largest one are none.
+const LEADING: f64 = 1e-90;
+
+/// The simple roots of a polynomial with real coefficients; those at infinity and multiple ones, which do not settle, are
+/// left out. `None` for zero.
+#[must_use]
+pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<Complex<R>>> {
+    let coefficients = polynomial.coefficients();
+    let sizes: Vec<f64> = coefficients.iter().map(|c| c.to_f64().abs()).collect();
+    let largest = sizes.iter().copied().fold(0.0, f64::max);
+    let degree = sizes.iter().rposition(|size| *size > LEADING * largest)?;
+    let coefficients = &coefficients[..=degree];
+    // A circle about the origin whose radius is the mean of the roots; turned, so that no two approximations are
+    // conjugate and stay so.
+    let first = sizes.iter().position(|size| *size > 0.0).unwrap_or(0);
+    let radius = (sizes[first] / sizes[degree]).powf(1.0 / (degree - first).max(1) as f64);
+    if !(radius > 0.0 && radius.is_finite()) {
+        return (degree == 0).then(Vec::new);
+    }
+    let start = |k: usize| Complex::from_polar(radius, TAU * (k as f64 + 0.3) / degree as f64 + 0.4);
+    let mut roots: Vec<Complex<R>> = (0..degree).map(|k| extended(start(k))).collect();
+    // Corrections of this relative size are rounding.
+    let settled = R::UNIT_ROUNDOFF.powf(0.75);
+    let mut open = vec![true; degree];
+    let mut idle = 0;
+    while idle < PATIENCE && open.contains(&true) {
+        idle += 1;
+        for k in 0..degree {
+            if !open[k] {
+                continue;
+            }
+            let x = roots[k];
+            let (value, slope) = value_and_slope(coefficients, &x);
+            if value.is_zero() {
+                open[k] = false;
+                idle = 0;
+                continue;
+            }
+            let Some(newton) = slope.inverse().map(|inverse| value.mul(&inverse)) else {
+                // At a zero of the derivative: anywhere else.
+                roots[k] = x.add(&extended(Complex::new(1e-3 * radius, 2e-3 * radius)));
+                continue;
+            };
+            let repelled = (0..degree).filter(|j| *j != k).fold(Complex::new(0.0, 0.0), |sum, j| {
+                let gap = narrowed(x.sub(&roots[j]));
+                if gap.norm_sqr() > 0.0 { sum + gap.inv() } else { sum }
+            });
+            let factor = (1.0 - narrowed(newton) * repelled).inv();
+            let factor = if factor.is_finite() { factor } else { Complex::new(1.0, 0.0) };
+            let correction = newton.mul(&extended(factor));
+            roots[k] = x.sub(&correction);
+            if correction.size() <= settled * roots[k].size() {
+                open[k] = false;
+                idle = 0;
+            }
+        }
+    }
+    Some(roots.into_iter().zip(open).filter(|(_, open)| !open).map(|(root, _)| root).collect())
+}
+
+/// A real polynomial and its derivative at a point.
+fn value_and_slope<R: Extended>(coefficients: &[R], x: &Complex<R>) -> (Complex<R>, Complex<R>) {
+    let mut value = Complex::zero();
+    let mut slope = Complex::zero();
+    for c in coefficients.iter().rev() {
+        slope = slope.mul(x).add(&value);
+        value = value.mul(x).add(&Complex::from_real(*c));
+    }
+    (value, slope)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::long_float::LongFloat;
+    use rug::Rational;
+
+    fn long(numerator: i64, denominator: u64) -> LongFloat {
+        LongFloat::from_rational(&Rational::from((numerator, denominator))).unwrap()
+    }
+
+    #[test]
+    fn roots_that_f64_cannot_tell_apart_are_told() {
+        // (x - 1)(x - 1 - 10^-12)(x - 1 - 2 10^-12)(x^2 + 1/9)(x - 10^9)
+        let near = 1_000_000_000_000_u64;
+        let mut polynomial = Univariate::new(vec![long(1, 9), LongFloat::zero(), LongFloat::one()]);
+        for k in 0..3 {
+            let root = long(near.cast_signed() + k, near);
+            polynomial = polynomial.mul(&Univariate::new(vec![root.neg(), LongFloat::one()]));
+        }
+        polynomial = polynomial.mul(&Univariate::new(vec![long(-1_000_000_000, 1), LongFloat::one()]));
+        let roots = polynomial_roots(&polynomial).unwrap();
+        assert_eq!(roots.len(), 6);
+        let expected = [
+            Complex::new(long(near.cast_signed(), near), LongFloat::zero()),
+            Complex::new(long(near.cast_signed() + 1, near), LongFloat::zero()),
+            Complex::new(long(near.cast_signed() + 2, near), LongFloat::zero()),
+            Complex::new(LongFloat::zero(), long(1, 3)),
+            Complex::new(LongFloat::zero(), long(-1, 3)),
+            Complex::new(long(1_000_000_000, 1), LongFloat::zero()),
+        ];
+        for wanted in expected {
+            assert!(roots.iter().any(|root| root.sub(&wanted).size() < 1e-60), "{:?}", narrowed(wanted));
+        }
+    }
+
+    #[test]
+    fn multiple_roots_are_left_out() {
+        // (x^2 + 1)^3 (x - 2) (2 x + 1)
+        let mut polynomial = Univariate::new([-2, -3, 2].map(|c| long(c, 1)).to_vec());
+        for _ in 0..3 {
+            polynomial = polynomial.mul(&Univariate::new([1, 0, 1].map(|c| long(c, 1)).to_vec()));
+        }
+        let mut roots: Vec<f64> = polynomial_roots(&polynomial).unwrap().into_iter().map(|z| narrowed(z).re).collect();
+        roots.sort_by(f64::total_cmp);
+        assert_eq!(roots, [-0.5, 2.0]);
+    }
+
+    #[test]
+    fn constants_and_zero_have_no_roots() {
+        assert_eq!(polynomial_roots(&Univariate::constant(long(1, 3))), Some(Vec::new()));
+        assert_eq!(polynomial_roots(&Univariate::<LongFloat>::zero()), None);
+    }
+}
