@@ -280,7 +280,7 @@ proptest! {
         let product = Rational::from(&u * &v);
         prop_assume!(u.clone().abs() != v.clone().abs() && product.clone().abs() != 1);
         let sine = |t: &Rational| t / (Rational::from(t * t) + 1);
-        let first = sine(&u) * &b;
+        let first: Rational = sine(&u) * &b;
         let second: Rational = sine(&v) * &b;
         let second = if minus { -second } else { second };
         let mut values = [
