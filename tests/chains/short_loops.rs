@@ -69,8 +69,8 @@ fn a_bennett_loop_folds_where_idle_translations_see_a_double_root() {
 
 #[test]
 fn rounded_data_close_but_prove_nothing() {
-    let links = "{ type = \"R\", a = \"sin(40 deg)\", alpha = \"40 deg\", d = 0 },\n\
-                 { type = \"R\", a = \"sin(70 deg)\", alpha = \"70 deg\", d = 0 },\n";
+    let links = "{ type = \"R\", a = \"sin(2*pi/9)\", alpha = \"2*pi/9\", d = 0 },\n\
+                 { type = \"R\", a = \"sin(7*pi/18)\", alpha = \"7*pi/18\", d = 0 },\n";
     let entry = read(&bennett(&links.repeat(2), "[[input]]\njoint = 1\nangle = 1\n")).unwrap();
     let found = solve(&entry, 0);
     assert_eq!((found.verdict.status, found.verdict.real, found.verdict.certified), (Status::Incomplete, 1, 0));
