@@ -9,6 +9,7 @@ pub mod conditions;
 pub mod conditions_search;
 pub mod derive;
 pub mod exit;
+pub mod factor;
 pub mod list;
 pub mod mobility;
 pub mod output;
