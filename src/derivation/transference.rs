@@ -176,9 +176,9 @@ pub struct Transfer {
     pub title: String,
     /// The names of all variables.
     pub names: Names,
-    /// The spherical equation, up to a positive factor.
+    /// The spherical equation.
     pub f: Polynomial<Rational>,
-    /// The part with eps, times the same factor.
+    /// The part with eps.
     pub g: Polynomial<Rational>,
     /// The offsets that g gives, each as a name, numerator and denominator.
     pub offsets: Vec<(String, Polynomial<Rational>, Polynomial<Rational>)>,
