@@ -124,9 +124,9 @@ fn a_thousand_perturbations_stop_every_motion() {
         if file.squares.is_some() || file.dimension != Some(1) {
             continue;
         }
-        let moving = (0..1000).filter(|k| {
+        let moving = (0..1000_u32).filter(|k| {
             let noise: Vec<i32> = (0..101).map(|_| random.random_range(-99..=99)).collect();
-            let scale = 10_i64.pow(5 + (k % 7) as u32);
+            let scale = 10_i64.pow(5 + k % 7);
             perturbed(&file, &noise, scale).verdict != Verdict::Rigid
         });
         assert_eq!(moving.count(), 0, "{name}");
