@@ -48,7 +48,9 @@ fn every_framework_is_as_it_claims_and_keeps_its_lengths() {
         match answer.verdict {
             Verdict::Mobile => {
                 let flex = answer.flex.unwrap();
-                assert!(flex.positions.len() == 61 && flex.residual <= 1e-13, "{name}: {:e}", flex.residual);
+                // Some come to an end of their motion, a flat position.
+                let steps = flex.positions.len() - 1;
+                assert!(steps >= 15 && flex.residual <= 1e-13, "{name}: {steps} {:e}", flex.residual);
                 assert!(flex.freedom == (1, 1) && flex.change > 0.05, "{name}: {}", flex.change);
             }
             Verdict::Rigid | Verdict::Shaky(_) => assert!(answer.flex.is_none_or(|flex| flex.change < 1e-3), "{name}"),
