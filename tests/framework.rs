@@ -48,7 +48,9 @@ fn every_framework_is_as_it_claims_and_keeps_its_lengths() {
         match answer.verdict {
             Verdict::Mobile => {
                 let flex = answer.flex.unwrap();
-                assert!(flex.positions.len() == 61 && flex.residual <= 1e-13, "{name}: {:e}", flex.residual);
+                // Some come to an end of their motion, a flat position.
+                let steps = flex.positions.len() - 1;
+                assert!(steps >= 15 && flex.residual <= 1e-13, "{name}: {steps} {:e}", flex.residual);
                 assert!(flex.freedom == (1, 1) && flex.change > 0.05, "{name}: {}", flex.change);
             }
             Verdict::Rigid | Verdict::Shaky(_) => assert!(answer.flex.is_none_or(|flex| flex.change < 1e-3), "{name}"),
@@ -124,9 +126,9 @@ fn a_thousand_perturbations_stop_every_motion() {
         if file.squares.is_some() || file.dimension != Some(1) {
             continue;
         }
-        let moving = (0..1000).filter(|k| {
+        let moving = (0..1000_u32).filter(|k| {
             let noise: Vec<i32> = (0..101).map(|_| random.random_range(-99..=99)).collect();
-            let scale = 10_i64.pow(5 + (k % 7) as u32);
+            let scale = 10_i64.pow(5 + k % 7);
             perturbed(&file, &noise, scale).verdict != Verdict::Rigid
         });
         assert_eq!(moving.count(), 0, "{name}");

@@ -1,6 +1,7 @@
 //! Rational motions: factorisations multiply back, loops close, Bennett is recognised.
 #![allow(clippy::unwrap_used)]
 
+use looproot::algebra::ring::Ring;
 use looproot::algebra::univariate::Univariate;
 use looproot::catalogue::{Any, Format, MotionFile, Options, any_from_text, builtin_any};
 use looproot::factoring::{Factored, factor};
@@ -82,7 +83,6 @@ fn a_wrong_factor_does_not_close() {
 #[test]
 fn quadratic_factors_are_found_exactly() {
     let quadratic = |p: &str, q: &str| Univariate::new(vec![rational(q), rational(p), Q::from(1)]);
-    use looproot::algebra::ring::Ring;
     let factors =
         [quadratic("0", "1"), quadratic("-2/3", "100/7"), quadratic("12345/6789", "98765432/10"), quadratic("0", "1")];
     let product = factors.iter().fold(Univariate::one(), |p: Univariate<Q>, f| p.mul(f));
