@@ -30,6 +30,8 @@ pub mod sweep;
 
 pub mod mobility;
 
+pub mod conditions;
+
 pub mod benchmark;
 
 pub mod claims;

@@ -7,6 +7,8 @@ mod arms;
 mod degenerate;
 #[path = "accuracy/platforms.rs"]
 mod platforms;
+#[path = "accuracy/rescued.rs"]
+mod rescued;
 #[path = "accuracy/verdicts.rs"]
 mod verdicts;
 
@@ -45,8 +47,11 @@ fn nothing_is_lost_near_singular_poses() {
 }
 
 #[test]
-fn calibrated_arms_lose_nothing() {
-    faultless(Set::Calibrated, 200, Roots::All);
+fn calibrated_arms_are_all_complete() {
+    let counts = faultless(Set::Calibrated, 60, Roots::All);
+    let words: usize = ["complete", "unreachable"].iter().filter_map(|word| counts.verdicts.get(word)).sum();
+    assert_eq!(words, 60, "\n{counts}");
+    faultless(Set::Calibrated, 200, Roots::Real);
 }
 
 #[test]

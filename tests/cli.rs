@@ -119,6 +119,7 @@ fn the_document_follows_its_schema() {
             &["derive", "rsrc", "--json"],
             &["derive", "bricard_line_symmetric", "--json"],
             &["derive", "platform/hexapod", "--json"],
+            &["derive", "crcrr_4_angle", "--symbolic", "--json"],
         ],
     );
     follows(

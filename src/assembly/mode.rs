@@ -86,22 +86,20 @@ impl Assembly {
     pub fn real(&self) -> usize {
         self.modes.iter().filter(|m| m.real).map(|m| m.multiplicity.max(1)).sum()
     }
-}
 
-impl Assembly {
-    /// Takes in the modes of a rescue: those not known are added, and where all of the `expected` ones are proved then,
-    /// what could not be proved is left out as none. Returns how many were added or proved.
-    pub(super) fn complete_with(&mut self, modes: Vec<Mode>, variables: &[Variable; 6], expected: usize) -> usize {
+    /// Takes in modes proved in more digits: those not known are added, and where all of the `expected` ones are proved
+    /// then, what could not be proved is left out as none.
+    pub(super) fn complete_with(&mut self, modes: Vec<Mode>, variables: &[Variable; 6], expected: usize) {
         let radius = |mode: &Mode| mode.certificate.map_or(0.0, |c| c.radius);
         let proved = |modes: &[Mode]| modes.iter().filter(|m| m.certificate.is_some()).count();
         let before = proved(&self.modes);
         let mut all = modes;
         for mode in self.modes.drain(..) {
-            let new = |other: &Mode| {
+            let same = |other: &&mut Mode| {
                 let room = radius(other) + radius(&mode);
-                distance(variables, &other.unknowns, &mode.unknowns) > room
+                distance(variables, &other.unknowns, &mode.unknowns) <= room
             };
-            match all.iter_mut().find(|other| !new(other)) {
+            match all.iter_mut().find(same) {
                 // What f64 proves already stays as it is.
                 Some(other) if mode.certificate.is_some() && mode.real == other.real => *other = mode,
                 Some(_) => {}
@@ -110,9 +108,10 @@ impl Assembly {
         }
         if proved(&all) >= expected {
             all.retain(|mode| mode.certificate.is_some());
+            self.self_motion = 0;
         }
+        self.rescued = proved(&all).saturating_sub(before);
         self.modes = all;
-        proved(&self.modes).saturating_sub(before)
     }
 }
 

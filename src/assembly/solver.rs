@@ -257,7 +257,7 @@ impl Solver {
         let scaled = ClosedLoop { variables: exact.variables, constants };
         self.scale_translations(assembly, 1.0 / self.scale);
         let modes = rescue(&scaled, self.ball, expected);
-        assembly.rescued = assembly.complete_with(modes, &self.open.variables, expected);
+        assembly.complete_with(modes, &self.open.variables, expected);
         self.finish(assembly);
     }
 

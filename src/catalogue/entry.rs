@@ -1,6 +1,6 @@
 //! What a mechanism file says.
 
-use crate::algebra::number::{Angle, Number};
+use crate::algebra::number::{Angle, Number, Reading};
 use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::platform::Platform;
 
@@ -161,6 +161,8 @@ pub struct Entry {
     pub cases: Vec<Case>,
     /// Whether some number of the file had to be replaced by a nearby rational for exact work.
     pub rounded: bool,
+    /// How numbers without a unit are read in the file.
+    pub reading: Reading,
 }
 
 impl Entry {

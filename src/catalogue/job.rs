@@ -40,7 +40,8 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
         }
         first.expected = top;
     }
-    Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, cases, rounded: scope.is_rounded() })
+    let (rounded, reading) = (scope.is_rounded(), scope.reading.clone());
+    Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, cases, rounded, reading })
 }
 
 /// The poses of an arm, the inputs of a loop, the legs of a platform: one at least, or a loop that needs no input.

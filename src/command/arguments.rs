@@ -29,6 +29,10 @@ pub enum Verb {
     Derive(DeriveOptions),
     /// Run the input of a loop through a range: branches, limit positions
     Sweep(SweepOptions),
+    /// Decide whether a loop moves, with proof
+    Mobility(MobilityOptions),
+    /// Derive for which parameters a closed chain of revolute joints moves
+    Conditions(ConditionsOptions),
     /// List the built-in library
     List(ListOptions),
     /// Print a mechanism as it was understood
@@ -233,6 +237,33 @@ pub struct SweepOptions {
     pub output: OutputOptions,
 }
 
+/// `looproot conditions`
+#[derive(Args)]
+pub struct ConditionsOptions {
+    /// 4R (all parameters symbols), a file of a loop with symbols or numbers, the name of a built-in one, or - for standard
+    /// input
+    pub mechanism: String,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// The conditions of one family as a file for another program
+    #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]
+    pub format: Option<Format>,
+    /// Which family: a part of its name, such as "spherical" [default: the first one]
+    #[arg(long, value_name = "NAME", requires = "format")]
+    pub family: Option<String>,
+    /// The whole derivation in Markdown with LaTeX formulas
+    #[arg(long, conflicts_with_all = ["json", "format"])]
+    pub explain: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
 /// A number of steps.
 fn steps(text: &str) -> Result<usize, String> {
     const MOST: usize = 100_000;
@@ -240,6 +271,23 @@ fn steps(text: &str) -> Result<usize, String> {
         Ok(steps @ 1..=MOST) => Ok(steps),
         _ => Err(format!("expected 1 to {MOST}")),
     }
+}
+
+/// `looproot mobility`
+#[derive(Args)]
+pub struct MobilityOptions {
+    /// A file of a loop, the name of a built-in entry, or - for standard input; inputs of the file are not looked at
+    pub mechanism: String,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
 }
 
 /// `looproot list`

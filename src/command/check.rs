@@ -3,7 +3,7 @@
 use super::arguments::CheckOptions;
 use super::exit::{Exit, Fault, complain};
 use super::output::{pool, print};
-use looproot::catalogue::{Options, builtin, builtin_names, load};
+use looproot::catalogue::{Options, builtin, builtin_names, is_ansatz, load};
 use looproot::claims::{Judgement, Sort, judge};
 use looproot::error::Error;
 use looproot::report::number::{counted, duration};
@@ -81,7 +81,11 @@ fn collect(folder: &Path, files: &mut Vec<String>) -> Result<(), Error> {
         if path.is_dir() && !path.is_symlink() {
             collect(&path, files)?;
         } else if path.is_file() && path.extension().is_some_and(|extension| extension == "toml") {
-            files.push(path.display().to_string());
+            // Loops with symbols make no claims: they are questions. What cannot be read is told like any other file.
+            let asks = std::fs::read_to_string(&path).is_ok_and(|text| is_ansatz(&text));
+            if !asks {
+                files.push(path.display().to_string());
+            }
         }
     }
     Ok(())

@@ -216,8 +216,12 @@ const NONE: u32 = u32::MAX;
 impl Index {
     fn of(keys: Vec<u64>) -> Self {
         let bits = (2 * keys.len()).next_power_of_two().trailing_zeros().max(1);
-        let mut index =
-            Self { buckets: vec![NONE; 1 << bits], previous: Vec::with_capacity(keys.len()), keys: Vec::new(), shift: 64 - bits };
+        let mut index = Self {
+            buckets: vec![NONE; 1 << bits],
+            previous: Vec::with_capacity(keys.len()),
+            keys: Vec::new(),
+            shift: 64 - bits,
+        };
         for (&key, entry) in keys.iter().zip(0..) {
             let bucket = index.bucket(key);
             index.previous.push(std::mem::replace(&mut index.buckets[bucket], entry));

@@ -9,8 +9,8 @@
 use super::finite_field::{Turn, half_tangent_turn, square_root, turn};
 use super::lift;
 use super::spherical::{Directions, Triad, triad};
-use crate::algebra::modp::ModP;
 use crate::algebra::echelon::Echelon;
+use crate::algebra::modp::ModP;
 use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::ansatz::Link;
@@ -249,7 +249,11 @@ pub fn search<const P: u64>(links: &[Link<ModP<P>>]) -> Vec<Curve<ModP<P>>> {
     let candidates: Vec<(Tie, u64)> = Tie::all().flat_map(|tie| (1..P).map(move |k| (tie, k))).collect();
     let search = |&(tie, k): &(Tie, u64)| {
         let constant = ModP::new(k);
-        if character_is_constant(links, tie, constant) { curves(links, tie, &constant, &tangents, |x| square_root(*x)) } else { Vec::new() }
+        if character_is_constant(links, tie, constant) {
+            curves(links, tie, &constant, &tangents, |x| square_root(*x))
+        } else {
+            Vec::new()
+        }
     };
     candidates.par_iter().flat_map_iter(search).collect()
 }
@@ -275,14 +279,13 @@ const LIFTED_FROM: [u64; 3] = [479, 491, 499];
 #[must_use]
 pub fn rational_curves(twists: &[Rational]) -> Vec<Curve<Rational>> {
     assert_eq!(twists.len(), 5, "five joints");
-    let mod_primes = || {
-        Some([residues::<479>(twists)?, residues::<491>(twists)?, residues::<499>(twists)?])
-    };
+    let mod_primes = || Some([residues::<479>(twists)?, residues::<491>(twists)?, residues::<499>(twists)?]);
     let (Some(found), Some(links)) = (mod_primes(), spherical_links(twists)) else { return Vec::new() };
     let tangents: Vec<Rational> = (1..2 * POINTS).map(|x| Rational::from((x, 3))).collect();
     let mut lifted = Vec::new();
     for tie in Tie::all() {
-        let [first, second, third] = found.each_ref().map(|list| list.iter().filter(|(at, _)| *at == tie).map(|(_, k)| *k));
+        let [first, second, third] =
+            found.each_ref().map(|list| list.iter().filter(|(at, _)| *at == tie).map(|(_, k)| *k));
         for a in first {
             for b in second.clone() {
                 for c in third.clone() {

@@ -7,7 +7,7 @@
 
 use super::configurations::configurations;
 use super::curve_ansatz::canonical;
-use super::finite_field::{over_prime, random_unit};
+use super::finite_field::random_unit;
 use super::lift;
 use crate::algebra::echelon::Echelon;
 use crate::algebra::modp::ModP;
@@ -75,10 +75,10 @@ impl Trial {
     }
 }
 
-/// The primes of sweeps for one unknown; two, so that coefficients up to some dozens come back.
-const PRIMES: [u64; 2] = [59, 67];
-/// The primes of sweeps for two unknowns.
-const PRIMES_OF_TWO: [u64; 2] = [31, 43];
+/// The fit over one prime field. Fields are larger where there is one unknown to run through them; two of them, so that
+/// coefficients up to some dozens come back.
+type Fit = fn(&Ansatz, &[Polynomial<Rational>], u64) -> Result<(Evidence, Vec<Vec<u64>>)>;
+
 /// The prime of the trial.
 const TRIAL: u64 = 103;
 /// Members more than terms, so that a relation among them is no accident.
@@ -95,9 +95,9 @@ const TRIALS: usize = 12;
 /// # Errors
 /// [`Error::Unsupported`] unless there are one or two unknown lengths and four to six joints.
 pub fn sweep(ansatz: &Ansatz, seed: u64) -> Result<Sweep> {
-    let primes = match ansatz.unknown.len() {
-        1 => PRIMES,
-        2 => PRIMES_OF_TWO,
+    let fits: [Fit; 2] = match ansatz.unknown.len() {
+        1 => [fit::<59>, fit::<67>],
+        2 => [fit::<31>, fit::<43>],
         n => return Err(Error::Unsupported(format!("a sweep over {n} unknown lengths, expected one or two"))),
     };
     if !(4..=6).contains(&ansatz.joints.len()) {
@@ -107,10 +107,10 @@ pub fn sweep(ansatz: &Ansatz, seed: u64) -> Result<Sweep> {
     for terms in term_lists(ansatz) {
         let mut evidence = Vec::new();
         let mut spaces = Vec::new();
-        for prime in primes {
-            let (found, space) = over_prime!(prime, P => fit::<P>(ansatz, &terms, seed))??;
+        for fit in fits {
+            let (found, space) = fit(ansatz, &terms, seed)?;
             let empty = space.is_empty();
-            spaces.push((prime, space));
+            spaces.push((found.prime, space));
             evidence.push(found);
             if empty {
                 break;
@@ -119,7 +119,7 @@ pub fn sweep(ansatz: &Ansatz, seed: u64) -> Result<Sweep> {
         let relations = lifted(&spaces, &terms);
         let sweep = Sweep { evidence, relations, terms: terms.len(), trial: None };
         if !sweep.relations.is_empty() {
-            let trial = over_prime!(TRIAL, P => trial::<P>(ansatz, &sweep.relations, seed))??;
+            let trial = trial::<TRIAL>(ansatz, &sweep.relations, seed)?;
             return Ok(Sweep { trial: Some(trial), ..sweep });
         }
         let members = sweep.evidence.iter().map(|evidence| evidence.members).max().unwrap_or(0);
@@ -169,11 +169,7 @@ fn draw<const P: u64>(ansatz: &Ansatz, rng: &mut ChaCha8Rng) -> Draw<ModP<P>> {
 }
 
 /// The values of all symbols of the members of a draw that move, for all values of the unknown.
-fn mobile<const P: u64>(
-    members: &Members<'_, ModP<P>>,
-    places: &[usize],
-    draw: &Draw<ModP<P>>,
-) -> Vec<Vec<ModP<P>>> {
+fn mobile<const P: u64>(members: &Members<'_, ModP<P>>, places: &[usize], draw: &Draw<ModP<P>>) -> Vec<Vec<ModP<P>>> {
     let choices = P.pow(u32::try_from(places.len()).unwrap_or(u32::MAX));
     let member = |choice: u64| {
         let mut lengths = draw.lengths.clone();
@@ -195,11 +191,7 @@ fn moves<const P: u64>(members: &Members<'_, ModP<P>>, values: &[ModP<P>]) -> bo
 }
 
 /// The relations among the terms over one prime field.
-fn fit<const P: u64>(
-    ansatz: &Ansatz,
-    terms: &[Polynomial<Rational>],
-    seed: u64,
-) -> Result<(Evidence, Vec<Vec<u64>>)> {
+fn fit<const P: u64>(ansatz: &Ansatz, terms: &[Polynomial<Rational>], seed: u64) -> Result<(Evidence, Vec<Vec<u64>>)> {
     let unlucky = || Error::Unsupported(format!("a number of the ansatz that is a fraction modulo {P}"));
     let members = ansatz.over::<ModP<P>>().ok_or_else(unlucky)?;
     let places = unknown_places(ansatz);
@@ -217,7 +209,7 @@ fn fit<const P: u64>(
         }));
         typical = usual(&draws);
         let kept = draws.iter().filter(|found| typical > 0 && found.len() == typical).count();
-        if typical > 0 && kept >= wanted || draws.len() >= wanted && typical == 0 {
+        if kept * typical >= wanted || draws.len() >= wanted && typical == 0 {
             break;
         }
     }
@@ -262,9 +254,8 @@ fn null_space<const P: u64>(rows: &[Vec<ModP<P>>], columns: usize) -> Vec<Vec<Mo
         let subset = chosen.into_iter().map(|i| rows[i].clone()).collect();
         let space = Echelon::of(subset, columns).null_space();
         let [vector] = space.as_slice() else { continue };
-        let agrees = |row: &&Vec<ModP<P>>| {
-            row.iter().zip(vector).fold(ModP::zero(), |sum, (x, y)| sum.add(&x.mul(y))).is_zero()
-        };
+        let agrees =
+            |row: &&Vec<ModP<P>>| row.iter().zip(vector).fold(ModP::zero(), |sum, (x, y)| sum.add(&x.mul(y))).is_zero();
         if 10 * rows.iter().filter(agrees).count() >= 9 * rows.len() {
             return canonical(space);
         }
@@ -283,9 +274,10 @@ fn lifted(spaces: &[(u64, Vec<Vec<u64>>)], terms: &[Polynomial<Rational>]) -> Ve
             spaces.iter().map(|(prime, space)| (*prime, space[number].clone())).collect();
         let coefficients = lift::vector(&residues)?;
         let denominator = coefficients.iter().fold(Integer::from(1), |lcm, c| lcm.lcm(c.denom()));
-        let sum = terms.iter().zip(&coefficients).fold(Polynomial::zero(), |sum, (term, c)| {
-            sum.add(&term.scale(&Rational::from(c * &denominator)))
-        });
+        let sum = terms
+            .iter()
+            .zip(&coefficients)
+            .fold(Polynomial::zero(), |sum, (term, c)| sum.add(&term.scale(&Rational::from(c * &denominator))));
         Some(sum)
     };
     (0..count).map(relation).collect::<Option<_>>().unwrap_or_default()
@@ -303,7 +295,9 @@ fn trial<const P: u64>(ansatz: &Ansatz, relations: &[Polynomial<Rational>], seed
         let draw = draw::<P>(ansatz, &mut rng);
         let mut trial = Trial { prime: P, on: 0, mobile_on: 0, off: 0, mobile_off: 0 };
         let mut lengths = draw.lengths;
-        for choice in 0..P.pow(u32::try_from(places.len()).unwrap_or(u32::MAX)) {
+        let choices = P.pow(u32::try_from(places.len()).unwrap_or(u32::MAX));
+        let off = OFF * (choices / P).max(1);
+        for choice in 0..choices {
             let mut rest = choice;
             for &place in &places {
                 lengths[place] = ModP::new(rest % P);
@@ -312,7 +306,7 @@ fn trial<const P: u64>(ansatz: &Ansatz, relations: &[Polynomial<Rational>], seed
             let Some(values) = members.values(&draw.tangents, &lengths) else { continue };
             let on = images.iter().all(|relation| relation.evaluate(&values).is_zero());
             // Off the relations a few are enough.
-            if !on && rng.random_range(0..OFF * P.pow(places.len() as u32 - 1)) != 0 {
+            if !on && rng.random_range(0..off) != 0 {
                 continue;
             }
             let moves = usize::from(moves(&members, &values));

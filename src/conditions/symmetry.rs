@@ -6,8 +6,8 @@
 
 use super::finite_field::{Turn, all_turns, random_unit, turn};
 use super::spherical::Directions;
-use crate::algebra::modp::ModP;
 use crate::algebra::echelon::Echelon;
+use crate::algebra::modp::ModP;
 use crate::algebra::ring::Ring;
 use crate::catalogue::ansatz::Link;
 use crate::kinematics::dual_quaternion::Quaternion;
@@ -62,7 +62,12 @@ pub struct Signs {
 impl Signs {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
-        (0..16_u8).map(|bits| Self { angle: bits & 8 != 0, twist: bits & 4 != 0, length: bits & 2 != 0, offset: bits & 1 != 0 })
+        (0..16_u8).map(|bits| Self {
+            angle: bits & 8 != 0,
+            twist: bits & 4 != 0,
+            length: bits & 2 != 0,
+            offset: bits & 1 != 0,
+        })
     }
 }
 
@@ -113,8 +118,10 @@ const FEW: usize = 6;
 pub fn slices<const P: u64>(joints: usize, seed: u64) -> Vec<SymmetricSlice> {
     use rayon::prelude::*;
     assert!((4..=6).contains(&joints), "four to six joints");
-    let all: Vec<(Involution, Signs)> =
-        involutions(joints).into_iter().flat_map(|involution| Signs::all().map(move |signs| (involution.clone(), signs))).collect();
+    let all: Vec<(Involution, Signs)> = involutions(joints)
+        .into_iter()
+        .flat_map(|involution| Signs::all().map(move |signs| (involution.clone(), signs)))
+        .collect();
     let study = |(number, (involution, signs)): (usize, (Involution, Signs))| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed.wrapping_add(number as u64));
         Pattern::random::<P>(involution, signs, &mut rng).study(&mut rng)
@@ -221,7 +228,9 @@ impl<const P: u64> Pattern<P> {
             let image = self.involution.joints[k];
             let sign = Self::sign(self.signs.angle);
             let own = &directions.axes[k];
-            (0..3).map(|i| if image == k { own[i] } else { own[i].add(&sign.mul(&directions.axes[image][i])) }).collect()
+            (0..3)
+                .map(|i| if image == k { own[i] } else { own[i].add(&sign.mul(&directions.axes[image][i])) })
+                .collect()
         };
         let velocities: Vec<Vec<ModP<P>>> = self.orbits.iter().map(velocity).collect();
         let rank = |rows: &[Vec<ModP<P>>]| Echelon::of(rows.to_vec(), 3).rank();
@@ -236,7 +245,7 @@ impl<const P: u64> Pattern<P> {
     fn positions(&self, rng: &mut ChaCha8Rng) -> Vec<Vec<Turn<ModP<P>>>> {
         let all = all_turns::<P>();
         let zero = ModP::zero();
-        let half_turns = all.iter().map(|turn| half_turn(turn)).collect::<Vec<_>>();
+        let half_turns = all.iter().map(half_turn).collect::<Vec<_>>();
         let links = self.links.iter().map(|link| {
             let (c, s) = half_turn(&(link.cos, link.sin));
             Quaternion { scalar: c, vector: [s, zero, zero] }

@@ -3,9 +3,11 @@
 pub mod chain;
 pub mod closed_loop;
 pub mod dual_quaternion;
+pub mod framework;
 pub mod idle;
 pub mod link_form;
 pub mod motion;
+pub mod motion_polynomial;
 pub mod placement;
 pub mod platform;
 pub mod screw_system;

@@ -168,17 +168,23 @@ impl SingleLoop {
             )
         };
         let mut verdict = judge(assembly);
-        if roots == Roots::All && verdict.status == Status::Incomplete && solver.structural_rank() == 6 {
-            // What f64 does not reach, the exact data do.
-            let start = Instant::now();
-            let here = count_here().map_or(prepared.general(), |bound| bound.count);
-            let expected = here.min(prepared.bound(&self.chain).count);
-            let open: Option<OpenLoop<LongFloat>> = self.chain.try_open_loop(&prepared.layout)?;
-            if let (Some(open), Ok(filling)) = (open, filling(case)) {
-                solver.rescue(&open.close(&filling), expected, assembly);
-                verdict = judge(assembly);
+        let expected = match verdict.status {
+            _ if roots == Roots::Real || solver.structural_rank() < 6 => None,
+            Status::Incomplete => {
+                let everywhere = prepared.bound(&self.chain).count;
+                Some(count_here().map_or(everywhere, |here| here.count.min(everywhere)))
             }
-            solve_us += start.elapsed().as_secs_f64() * 1e6;
+            // The exact count of three rotations knows of every self-motion: what f64 took for one is none.
+            Status::SelfMotion if prepared.general() == 2 => count_here().map(|here| here.count),
+            _ => None,
+        };
+        let open = || self.chain.try_open_loop::<LongFloat>(&prepared.layout).ok().flatten();
+        if let Some(expected) = expected
+            && let (Some(open), Ok(filling)) = (open(), filling(case))
+        {
+            solver.rescue(&open.close(&filling), expected, assembly);
+            verdict = judge(assembly);
+            solve_us = start.elapsed().as_secs_f64() * 1e6;
         }
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {

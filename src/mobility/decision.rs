@@ -4,7 +4,7 @@ use super::answer::{Configuration, JointVariable, Mobility, Proof};
 use super::linkage::{JointValue, Linkage};
 use super::order::{Germ, Local};
 use super::positions::Conjugates;
-use super::search::{Outcome, Search, at, decide, search};
+use super::search::{Outcome, Search, at, decide, is_proved_immobile, search};
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue};
@@ -176,6 +176,14 @@ impl Subject<'_> {
         let solution = solve(&arm, Case::at(Placement::identity(), 0))?;
         let verdict = &solution.verdict;
         if !matches!(verdict.status, Status::Complete | Status::Unreachable) {
+            if is_proved_immobile(&self.linkage) {
+                let reason = format!(
+                    "no curve of configurations: held at some value of any one of its joints, the loop has no configuration, \
+                     nor a limit of any; the isolated ones: {}",
+                    verdict.reason
+                );
+                return Ok(self.answer(Some(0), Proof::Exact, reason));
+            }
             let reason = format!("no motion was found through any value of a joint; {}", verdict.reason);
             return Ok(self.answer(None, Proof::None, reason));
         }

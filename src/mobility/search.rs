@@ -3,15 +3,41 @@
 use super::answer::{Configuration, Held};
 use super::linkage::{JointValue, Linkage, is_unit};
 use super::order::{Germ, Local};
-use super::positions::{Conjugates, Positions, positions};
+use super::positions::{Conjugates, Positions, is_properly_open, positions};
 use crate::algebra::number_field::Algebraic;
 use crate::algebra::ring::Ring;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screw_system::{Screw, ScrewSystem};
 use rug::{Float, Rational};
 
-/// Tangents of half the angles at which joints are held, one after the other: no special ones, with few digits.
-const TANGENTS: [(i32, i32); 8] = [(1, 2), (-1, 3), (4, 3), (-7, 3), (-5, 7), (8, 3), (2, 9), (-6, 1)];
+/// Tangents of half the angles at which joints are held, one after the other: no special ones, with few digits, and all
+/// round the circle.
+const TANGENTS: [(i32, i32); 24] = [
+    (1, 2),
+    (-1, 3),
+    (4, 3),
+    (-7, 3),
+    (-5, 7),
+    (8, 3),
+    (2, 9),
+    (-6, 1),
+    (3, 4),
+    (-1, 9),
+    (11, 2),
+    (-10, 7),
+    (5, 14),
+    (-1, 2),
+    (17, 16),
+    (-19, 5),
+    (1, 16),
+    (-2, 9),
+    (13, 1),
+    (-13, 14),
+    (5, 8),
+    (-20, 1),
+    (12, 7),
+    (-3, 5),
+];
 /// Bits in which real configurations are evaluated before they are rounded.
 const BITS: u32 = 256;
 
@@ -82,9 +108,20 @@ pub(super) fn at(linkage: &Linkage<Rational>, held: &[(usize, Rational)]) -> Opt
     let pairs: Vec<(usize, JointValue<Rational>)> =
         held.iter().map(|(k, tangent)| (*k, [Rational::from(1), tangent.clone()])).collect();
     match positions(&linkage.locked(&pairs)) {
-        Positions::Finite(found) => Some(found),
+        Positions::Finite { found, .. } => Some(found),
         Positions::Unknown => None,
     }
+}
+
+/// Whether it is proved that no joint variable moves along any curve of configurations: each one is held at a value at
+/// which the closure equations have no solution at all, not even a limit of configurations.
+pub(super) fn is_proved_immobile(linkage: &Linkage<Rational>) -> bool {
+    let n = linkage.variables.len();
+    let stands_still = |k: usize| {
+        let value = [Rational::from(1), tangent(linkage, k, k)];
+        is_properly_open(&linkage.locked(&[(k, value)]))
+    };
+    (2..=6).contains(&n) && (0..n).all(stands_still)
 }
 
 /// The values of all joint variables, with those held among them.

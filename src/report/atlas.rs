@@ -22,16 +22,16 @@ pub fn atlas(entry: &Entry) -> Result<Option<String>> {
     let case = entry.cases.first().ok_or_else(|| Error::Invalid("a file without a case".to_owned()))?;
     let line = |polynomial: &Polynomial<Rational>, names: &Names| Format::Text.polynomial(polynomial, names);
     let mut text =
-        format!("# {}: closure equations (= 0) of its first case, written by looproot derive --bless\n", entry.title);
-    let (equations, names, polynomial) = match &entry.design {
-        Design::Platform(geometry) => {
-            let (names, equations) = platform_equations(geometry, case)?;
-            (equations, names, None)
-        }
-        _ => {
-            let derivation = derive(entry, case)?;
-            (derivation.equations, derivation.names, derivation.polynomial)
-        }
+        format!("# {}\n# Closure equations (= 0) of the first case, written by looproot derive --bless\n", entry.title);
+    if entry.rounded {
+        text.push_str("# Numbers without rational value or half-angle tangent are replaced by rationals nearby\n");
+    }
+    let (equations, names, polynomial) = if let Design::Platform(geometry) = &entry.design {
+        let (names, equations) = platform_equations(geometry, case)?;
+        (equations, names, None)
+    } else {
+        let derivation = derive(entry, case)?;
+        (derivation.equations, derivation.names, derivation.polynomial)
     };
     for equation in &equations {
         let _ = write!(text, "\n{}\n  {}\n", equation.name, line(&equation.polynomial, &names));

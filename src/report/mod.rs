@@ -1,9 +1,12 @@
 //! What a reader sees: the verdict in one line, tables, normalised models, JSON.
 
 pub mod atlas;
+pub mod conditions;
+pub mod conditions_search;
 pub mod derivation;
 pub mod derivatives;
 pub mod json;
+pub mod mobility;
 pub mod model;
 pub mod number;
 pub mod picture;

@@ -3,7 +3,7 @@
 use super::prepared::norm;
 use crate::closure::study::Leg;
 use crate::solve::pose::{Eight, equations, normalised, patch};
-use crate::solve::scalar::Scalar;
+use crate::solve::scalar::{Number, Scalar};
 use nalgebra::{ComplexField, SMatrix, SVector};
 
 /// Singular values below this part of the largest one count as zero.
@@ -50,7 +50,7 @@ fn corank<S: Numeric>(legs: &[Leg<f64>; 6], v: &Eight<S>) -> (usize, Eight<S>) {
     (
         count,
         svd.v_t.map_or([<S as Scalar>::from_f64(0.0); 8], |v| {
-            std::array::from_fn(|j| ComplexField::conjugate(v[(smallest, j)]))
+            std::array::from_fn(|j| Number::conjugate(v[(smallest, j)]))
         }),
     )
 }

@@ -5,6 +5,9 @@ use crate::algebra::ring::Ring;
 use crate::derivation::equation::primitive;
 use rug::Rational;
 
+/// Exponents and coefficient.
+type Term = (Vec<u32>, Rational);
+
 /// Named sub-expressions: A, B, C and so on.
 pub(super) struct Parts {
     /// The variable of the first of them.
@@ -37,7 +40,7 @@ impl Parts {
 
     /// A polynomial whose first variables are unknowns, with names for its coefficients in them.
     pub fn compact(&mut self, polynomial: &Polynomial<Rational>, unknowns: usize) -> Polynomial<Rational> {
-        let mut collected: Vec<(Vec<u32>, Vec<(Vec<u32>, Rational)>)> = Vec::new();
+        let mut collected: Vec<(Vec<u32>, Vec<Term>)> = Vec::new();
         // Terms with the same powers of the unknowns follow one another.
         for (mut exponents, c) in polynomial.terms() {
             exponents.resize(exponents.len().max(unknowns), 0);

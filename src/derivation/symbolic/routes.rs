@@ -10,6 +10,7 @@ use crate::algebra::trigonometric::{Pair, half_tangents};
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::Case;
 use crate::derivation::chain::{Eliminated, Exact};
+use crate::derivation::equation::primitive;
 use crate::derivation::symbolic::Quotient;
 use crate::derivation::symbols::Symbols;
 use crate::derivation::triangle::of_row;
@@ -45,7 +46,8 @@ pub(super) struct Outcome {
     pub compared: String,
 }
 
-fn constant_free(symbol: &Symbol) -> Polynomial<Rational> {
+/// An element of the ring as a polynomial.
+fn expanded(symbol: &Symbol) -> Polynomial<Rational> {
     symbol.polynomial().clone()
 }
 
@@ -111,12 +113,13 @@ fn one_row(
     row: &[Symbol; 3],
     eliminated: &Eliminated,
 ) -> Result<Outcome> {
-    let row = row.each_ref().map(constant_free);
-    let monomials = symbols.monomials(unknown, false);
-    let equation = sum(&row, &monomials);
+    let row = row.each_ref().map(expanded);
+    let equation = sum(&row, &symbols.monomials(unknown, false));
     let variable = Symbols::variable(unknown);
     let polynomial = in_variable(variable, &of_row(kind, &row));
-    finish(variable, vec![equation], polynomial, None, eliminated)
+    let over_names: OverNames =
+        Box::new(move |parts| in_variable(variable, &of_row(kind, &row.each_ref().map(|c| parts.name(c)))));
+    finish(variable, &[equation], &polynomial, over_names, eliminated)
 }
 
 fn sum(row: &[Polynomial<Rational>; 3], monomials: &[Polynomial<Rational>; 3]) -> Polynomial<Rational> {
@@ -144,7 +147,7 @@ fn two_rows(
     };
     // All constants on the first side, so that each has one name.
     let rows = equations.rows.each_ref().map(|row| {
-        let [mut left, mut right] = row.each_ref().map(|side| side.each_ref().map(constant_free));
+        let [mut left, mut right] = row.each_ref().map(|side| side.each_ref().map(expanded));
         left[0] = left[0].sub(&right[0]);
         right[0] = Polynomial::zero();
         [left, right]
@@ -154,21 +157,31 @@ fn two_rows(
         left.sub(&right)
     });
     let variable = Symbols::variable(unknowns[hidden]);
-    let polynomial = Univariate::new(closure(equations, hidden).coefficients().iter().map(constant_free).collect());
-    let (kinds, listed) = (equations.kinds, listed.collect());
+    let polynomial = Univariate::new(closure(equations, hidden).coefficients().iter().map(expanded).collect());
+    let (kinds, listed) = (equations.kinds, listed.collect::<Vec<_>>());
     let over_names: OverNames = Box::new(move |parts| {
         let rows = rows.each_ref().map(|row| row.each_ref().map(|side| side.each_ref().map(|c| parts.name(c))));
         in_variable(variable, &closure(&Separated { kinds, rows }, hidden))
     });
-    finish(variable, listed, in_variable(variable, &polynomial), Some(over_names), eliminated)
+    finish(variable, &listed, &in_variable(variable, &polynomial), over_names, eliminated)
+}
+
+/// The primitive multiple with positive leading coefficient, and the factor.
+fn canonical(polynomial: &Polynomial<Rational>) -> (Polynomial<Rational>, Rational) {
+    let primitive = primitive(polynomial);
+    let factor = match (primitive.coefficients().first(), polynomial.coefficients().first()) {
+        (Some(own), Some(given)) => Rational::from(own / given),
+        _ => Rational::from(1),
+    };
+    (primitive, factor)
 }
 
 /// With the names and steps of the derivation from numbers, and its polynomial to compare with.
 fn finish(
     variable: usize,
-    equations: Vec<Polynomial<Rational>>,
-    polynomial: Polynomial<Rational>,
-    over_names: Option<OverNames>,
+    equations: &[Polynomial<Rational>],
+    polynomial: &Polynomial<Rational>,
+    over_names: OverNames,
     eliminated: &Eliminated,
 ) -> Result<Outcome> {
     let number = match &eliminated.polynomial {
@@ -180,12 +193,15 @@ fn finish(
             "the closure polynomial vanishes whatever the symbols are: a self-motion, or no isolated solution";
         return Err(Error::Unsupported(message.to_owned()));
     }
+    let (polynomial, factor) = canonical(polynomial);
+    let over_names: OverNames = Box::new(move |parts| over_names(parts).scale(&factor));
     let names = eliminated.equations.iter().map(|equation| equation.name.clone());
+    let equations = equations.iter().map(|equation| canonical(equation).0);
     Ok(Outcome {
         equations: names.zip(equations).collect(),
         steps: eliminated.steps.clone(),
         compare: vec![(polynomial.clone(), number)],
-        polynomial: Some((variable, polynomial, over_names)),
+        polynomial: Some((variable, polynomial, Some(over_names))),
         translations: Vec::new(),
         compared: "the closure polynomial derived from the numbers".to_owned(),
     })
@@ -222,8 +238,8 @@ fn three_translations(outcome: &mut Outcome, symbols: &Symbols, form: &LinkForm<
         let at = (dropped + 2) % 3;
         let unknown = form.rotations[at];
         let [one, cos, sin] = symbols.monomials(unknown, false);
-        let [e0, e1, e2] = row.each_ref().map(|x| constant_free(&x.epsilon));
-        let [v0, v1, v2] = row.each_ref().map(|x| constant_free(&x.value));
+        let [e0, e1, e2] = row.each_ref().map(|x| expanded(&x.epsilon));
+        let [v0, v1, v2] = row.each_ref().map(|x| expanded(&x.value));
         let denominator = v2.mul(&cos).sub(&v1.mul(&sin));
         if denominator.is_zero() {
             continue;
@@ -232,7 +248,7 @@ fn three_translations(outcome: &mut Outcome, symbols: &Symbols, form: &LinkForm<
         if !used.is_empty() {
             let label = |k: usize| symbols.label(form.rotations[(dropped + k) % 3]);
             let name = format!("spherical triangle {}-{} n.n'", label(1), label(3));
-            outcome.equations.push((name, sum(&[v0, v1, v2], &monomials)));
+            outcome.equations.push((name, primitive(&sum(&[v0, v1, v2], &monomials))));
         }
         used.push(symbols.label(unknown).to_owned());
         let numerator = sum(&[e0, e1, e2], &monomials).neg();
@@ -272,8 +288,8 @@ pub(super) fn pair(chain: &Chain, table: &Table<'_>, symbols: &Symbols) -> Resul
     let bilinear = |form: &[[Polynomial<Rational>; 3]; 3]| {
         (0..3).fold(Polynomial::zero(), |total, i| total.add(&a[i].mul(&sum(&form[i], &b))))
     };
-    let expanded = with_symbols.each_ref().map(|form| {
-        half_tangents(&bilinear(&form.each_ref().map(|row| row.each_ref().map(constant_free))), &angles).polynomial
+    let equations = with_symbols.each_ref().map(|form| {
+        half_tangents(&bilinear(&form.each_ref().map(|row| row.each_ref().map(expanded))), &angles).polynomial
     });
     let plain = numbers.each_ref().map(|form| {
         let form = form.each_ref().map(|row| row.each_ref().map(|c| Polynomial::constant(c.clone())));
@@ -281,12 +297,12 @@ pub(super) fn pair(chain: &Chain, table: &Table<'_>, symbols: &Symbols) -> Resul
     });
     // The powers of 1 + t^2 are those of the symbols, so that both can be compared.
     let mut compare = Vec::new();
-    for (symbolic, number) in expanded.iter().zip(&plain) {
+    for (symbolic, number) in equations.iter().zip(&plain) {
         if !symbolic.is_zero() && number.powers == [1, 1] {
             compare.push((symbolic.clone(), number.polynomial.clone()));
         }
     }
-    if expanded[0].is_zero() {
+    if equations[0].is_zero() {
         let message = "four parallel axes: a planar loop has no spherical four-bar";
         return Err(Error::Unsupported(message.to_owned()));
     }
@@ -315,14 +331,14 @@ pub(super) fn pair(chain: &Chain, table: &Table<'_>, symbols: &Symbols) -> Resul
         ),
     ];
     let variable = Symbols::variable(3);
-    let polynomial = (!expanded[1].is_zero()).then(|| {
+    let polynomial = (!equations[1].is_zero()).then(|| {
         let polynomial = eliminant(&with_symbols);
-        let list = polynomial.coefficients().iter().map(constant_free).collect();
+        let list = polynomial.coefficients().iter().map(expanded).collect();
         let polynomial = in_variable(variable, &Univariate::new(list));
         compare.push((polynomial.clone(), Polynomial::from_univariate(variable, &eliminant(&numbers))));
-        polynomial
+        primitive(&polynomial)
     });
-    let equations = names.into_iter().zip(expanded).filter(|(_, equation)| !equation.is_zero());
+    let equations = names.into_iter().zip(equations.iter().map(primitive)).filter(|(_, equation)| !equation.is_zero());
     Ok(Outcome {
         equations: equations.collect(),
         steps,

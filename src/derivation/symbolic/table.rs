@@ -36,7 +36,7 @@ pub(super) struct Kept {
 pub(super) struct Table<'c> {
     case: &'c Case,
     pub symbols: Vec<Kept>,
-    /// The others, as `alpha3 = pi/2`, but for angles and offsets about joint axes that are 0.
+    /// The others, as `alpha3 = pi/2`, but for offsets of variables that are 0.
     pub numbers: Vec<String>,
     /// The names of the variables, the first one being that of `first`.
     pub names: Vec<String>,
@@ -87,7 +87,7 @@ impl<'c> Table<'c> {
                 table.names.extend(letters);
                 table.symbols.push(Kept { place, name, variable: next, value });
                 next += count;
-            } else if !(zero && matches!(place, Some((_, Parameter::Angle)))) {
+            } else if !(zero && (matches!(place, Some((_, Parameter::Angle))) || name.starts_with("d0"))) {
                 table.numbers.push(format!("{name} = {}", shown(&value)));
             }
         }

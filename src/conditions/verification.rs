@@ -1,0 +1,236 @@
+//! From a relation that a sweep found to what can be said for certain: a member with an exact position that is proved
+//! mobile, and closed positions that all satisfy the relation.
+
+use super::curve_ansatz::rational_square_root;
+use super::finite_field::{Turn, half_tangent_turn, square_root};
+use super::spherical::{Directions, closed_by, triad};
+use crate::algebra::echelon::Echelon;
+use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::{Field, Ring};
+use crate::catalogue::ansatz::{Ansatz, Link, Members};
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::dual_quaternion::DualQuaternion;
+use crate::mobility::{Germ, Linkage};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rug::Rational;
+
+/// What the positions near one position of a loop form, as power series.
+#[must_use]
+pub fn germ<F: Field>(links: &[Link<F>], turns: &[Turn<F>]) -> Germ<F> {
+    // Cosine and sine of half the angle, up to a factor.
+    let half = |cos: &F, sin: &F| {
+        let cos = cos.add(&F::one());
+        if cos.is_zero() { [F::zero(), F::one()] } else { [cos, sin.clone()] }
+    };
+    let link = |link: &Link<F>| {
+        let [c, s] = half(&link.cos, &link.sin);
+        let translation = DualQuaternion::translation(&[link.a.clone(), F::zero(), link.d.clone()]);
+        translation.mul(&DualQuaternion::rotation_x(c, s))
+    };
+    let linkage = Linkage { variables: vec![Variable::Rotation; links.len()], links: links.iter().map(link).collect() };
+    let values: Vec<[F; 2]> = turns.iter().map(|(cos, sin)| half(cos, sin)).collect();
+    Germ::of(&linkage.at(&values))
+}
+
+/// Closed positions of random members of an ansatz, looked at for a relation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Closed {
+    /// Closed positions found.
+    pub positions: usize,
+    /// How many belong to members that satisfy the relations.
+    pub satisfied: usize,
+}
+
+/// Random closed positions over the field of `2^61 - 1` elements: do their members satisfy the relations?
+///
+/// The six closure equations of a 6R loop leave of the positions and an ansatz of N parameters together a set every part
+/// of which has dimension N at least. If all its members satisfy a relation, they are of dimension N - 1 at most, and every
+/// closed position belongs to positions of dimension 1 at least: mobility follows from closure. A position is drawn with
+/// three rotations and all twists at random, and lengths at random among those that close there.
+///
+/// The relation is a polynomial of a degree below 200 at points of a variety parametrised by the draws, so if it did not
+/// vanish on it, one draw would say so but for a probability below `2^-50`.
+///
+/// # Panics
+/// Unless there are six joints.
+#[must_use]
+pub fn closed_positions(
+    ansatz: &Ansatz,
+    relations: &[Polynomial<Rational>],
+    draws: usize,
+    seed: u64,
+) -> Option<Closed> {
+    assert_eq!(ansatz.joints.len(), 6, "six joints");
+    let members = ansatz.over::<ModP<PRIME_61>>()?;
+    let images: Vec<Polynomial<ModP<PRIME_61>>> =
+        relations.iter().map(|relation| relation.map(ModP::from_rational)).collect::<Option<_>>()?;
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut closed = Closed { positions: 0, satisfied: 0 };
+    for _ in 0..8 * draws {
+        if closed.positions == draws {
+            break;
+        }
+        let mut random = || ModP::<PRIME_61>::new(rng.random_range(1..PRIME_61));
+        let tangents: Vec<_> = ansatz.free_angles().iter().map(|_| random()).collect();
+        let three = [random(), random(), random()];
+        let weights: Vec<_> = ansatz.free_lengths().iter().map(|_| random()).collect();
+        let Some((values, _)) = closing_member(&members, ansatz, &tangents, &three, &weights, |x| square_root(*x))
+        else {
+            continue;
+        };
+        closed.positions += 1;
+        closed.satisfied += usize::from(images.iter().all(|relation| relation.evaluate(&values).is_zero()));
+    }
+    Some(closed)
+}
+
+/// The joints whose rotations are chosen, and those that follow.
+const CHOSEN: [usize; 3] = [0, 1, 3];
+const FOLLOWING: [usize; 3] = [2, 4, 5];
+
+/// A member of given twists that closes in a position with given half-angle tangents of three joints, its free lengths
+/// combined with the given weights from those that close: the values of its symbols, and its rotations. `None` where there
+/// is none over the field.
+fn closing_member<F: Field>(
+    members: &Members<'_, F>,
+    ansatz: &Ansatz,
+    tangents: &[F],
+    chosen: &[F; 3],
+    weights: &[F],
+    root: impl Fn(&F) -> Option<F>,
+) -> Option<(Vec<F>, Vec<Turn<F>>)> {
+    let count = ansatz.free_lengths().len();
+    let at = |lengths: &[F]| members.values(tangents, lengths);
+    let mut turns = vec![(F::one(), F::zero()); 6];
+    for (joint, t) in CHOSEN.into_iter().zip(chosen) {
+        turns[joint] = half_tangent_turn(t)?;
+    }
+    let zero = vec![F::zero(); count];
+    let origin = members.links(&at(&zero)?)?;
+    let turns = closed_by(&origin, &turns, FOLLOWING, root).pop()?;
+    let directions = Directions::of(&origin, &turns);
+    let translation = |lengths: &[F]| {
+        let links = members.links(&at(lengths)?)?;
+        let own: Vec<F> =
+            links.iter().map(|link| link.a.clone()).chain(links.iter().map(|link| link.d.clone())).collect();
+        Some(directions.translation(&own))
+    };
+    // Linear in the lengths, up to a constant: one column for every length, the last for the constant.
+    let constant = translation(&zero)?;
+    let mut columns = Vec::new();
+    for k in 0..count {
+        let mut unit = zero.clone();
+        unit[k] = F::one();
+        let column = translation(&unit)?;
+        columns.push(std::array::from_fn::<_, 3, _>(|i| column[i].sub(&constant[i])));
+    }
+    columns.push(constant);
+    let rows: Vec<Vec<F>> = (0..3).map(|i| columns.iter().map(|column| column[i].clone()).collect()).collect();
+    let mut lengths = vec![F::zero(); count + 1];
+    for (vector, weight) in Echelon::of(rows, count + 1).null_space().iter().zip(weights) {
+        for (total, x) in lengths.iter_mut().zip(vector) {
+            total.add_product(weight, x);
+        }
+    }
+    let scale = lengths.pop()?;
+    if lengths.iter().all(F::is_zero) {
+        return None;
+    }
+    if columns[count].iter().any(|c| !c.is_zero()) {
+        let inverse = scale.inverse()?;
+        for length in &mut lengths {
+            *length = length.mul(&inverse);
+        }
+    }
+    let values = at(&lengths)?;
+    Some((values, turns))
+}
+
+/// A member over the rationals with an exact position.
+#[derive(Clone, Debug)]
+pub struct RationalMember {
+    /// The loop.
+    pub links: Vec<Link<Rational>>,
+    /// The rotations of its joints.
+    pub turns: Vec<Turn<Rational>>,
+    /// What the positions near that one form.
+    pub germ: Germ<Rational>,
+}
+
+/// Half-angle tangents of the exact search, small so that a discriminant is a square now and then, and no two of them of
+/// equal or opposite angles, or of angles that are so but for a half-turn.
+const TANGENTS: [(i32, i32); 10] = [(1, 2), (1, 3), (2, 3), (1, 4), (3, 4), (1, 5), (2, 5), (3, 5), (4, 5), (1, 7)];
+
+/// The rotations are taken from so many of these.
+const ROTATIONS: usize = 3;
+
+/// A member of an ansatz of a 6R loop that satisfies the relations, with an exact position, both over the rationals; `None`
+/// where the search finds none in so many draws.
+///
+/// Twists and three rotations are drawn; where the discriminant of the other three is the square of a rational number, the
+/// position is exact, and lengths that close in it are the solutions of linear equations.
+///
+/// # Panics
+/// Unless there are six joints.
+#[must_use]
+pub fn rational_member(
+    ansatz: &Ansatz,
+    relations: &[Polynomial<Rational>],
+    draws: usize,
+    seed: u64,
+) -> Option<RationalMember> {
+    assert_eq!(ansatz.joints.len(), 6, "six joints");
+    let members = ansatz.over::<Rational>()?;
+    let modular = ansatz.over::<ModP<PRIME_61>>()?;
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut order = ChaCha8Rng::seed_from_u64(seed.wrapping_add(1));
+    let free = ansatz.free_lengths().len();
+    for _ in 0..draws {
+        let mut random = |place: usize| {
+            let tangent = Rational::from(TANGENTS[place]);
+            let tangent = if rng.random() { tangent } else { tangent.recip() };
+            if rng.random() { tangent } else { -tangent }
+        };
+        // Different twists, so that the member is no special one.
+        let places = rand::seq::index::sample(&mut order, TANGENTS.len(), TANGENTS.len()).into_vec();
+        let tangents: Vec<_> = (0..ansatz.free_angles().len()).map(|k| random(places[k % TANGENTS.len()])).collect();
+        let chosen = [0, 1, 2].map(|k| random(places[TANGENTS.len() - 1 - k] % ROTATIONS));
+        if !may_be_square(&modular, free, &tangents, &chosen) {
+            continue;
+        }
+        let weights: Vec<_> = (0..free).map(|_| Rational::from(rng.random_range(1..9))).collect();
+        let found = closing_member(&members, ansatz, &tangents, &chosen, &weights, rational_square_root);
+        let Some((values, turns)) = found else { continue };
+        if relations.iter().any(|relation| !relation.evaluate(&values).is_zero()) {
+            continue;
+        }
+        let Some(links) = members.links(&values) else { continue };
+        let germ = germ(&links, &turns);
+        if germ.rank == 5 {
+            return Some(RationalMember { links, turns, germ });
+        }
+    }
+    None
+}
+
+/// Whether the discriminant is a square modulo a prime, as it is if it is one: half of the rest is told apart without
+/// large numbers.
+fn may_be_square(
+    members: &Members<'_, ModP<PRIME_61>>,
+    free: usize,
+    tangents: &[Rational],
+    chosen: &[Rational; 3],
+) -> bool {
+    let image = |list: &[Rational]| list.iter().map(ModP::from_rational).collect::<Option<Vec<_>>>();
+    let discriminant = || {
+        let links = members.links(&members.values(&image(tangents)?, &vec![ModP::zero(); free])?)?;
+        let mut turns = vec![(ModP::one(), ModP::zero()); 6];
+        for (joint, t) in CHOSEN.into_iter().zip(image(chosen)?) {
+            turns[joint] = half_tangent_turn(&t)?;
+        }
+        Some(triad(&links, &turns, FOLLOWING).discriminant())
+    };
+    discriminant().is_some_and(|d| square_root(d).is_some())
+}

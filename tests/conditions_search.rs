@@ -1,0 +1,307 @@
+//! The search for conditions of 5R and 6R loops: what the literature knows is found, from the ansatz alone, and nothing
+//! else is called mobile.
+#![allow(clippy::unwrap_used)]
+
+use looproot::algebra::modp::ModP;
+use looproot::algebra::polynomial::Polynomial;
+use looproot::algebra::ring::Ring;
+use looproot::algebra::text::Format;
+use looproot::catalogue::ansatz::{Ansatz, Link, Symbols};
+use looproot::catalogue::{Format as FileFormat, ansatz_from_text, load_ansatz};
+use looproot::conditions::configurations::{configurations, link_motion};
+use looproot::conditions::curve_ansatz::{Relation, rational_curves, spherical_links};
+use looproot::conditions::finite_field::{all_turns, random_unit, turn};
+use looproot::conditions::identity;
+use looproot::conditions::multiplier::multiplier;
+use looproot::conditions::spherical::Directions;
+use looproot::conditions::sweep::sweep;
+use looproot::conditions::symmetry::{Slice, slices};
+use looproot::conditions::verification::{closed_positions, germ, rational_member};
+use looproot::kinematics::motion::Motion;
+use looproot::mobility::Local;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rug::Rational;
+
+fn builtin(name: &str) -> Ansatz {
+    load_ansatz(name, &Default::default()).unwrap()
+}
+
+fn rational(text: &str) -> Rational {
+    text.parse().unwrap()
+}
+
+/// A loop given by length, half-angle tangent of the twist and offset of each link.
+fn member<const P: u64>(links: &[(&str, &str, &str)]) -> Vec<Link<ModP<P>>> {
+    let image = |text: &str| ModP::from_rational(&rational(text)).unwrap();
+    let link = |(a, t, d): &(&str, &str, &str)| {
+        let (cos, sin) = turn(image(t));
+        Link { cos, sin, a: image(a), d: image(d) }
+    };
+    links.iter().map(link).collect()
+}
+
+const BENNETT: [(&str, &str, &str); 4] = [("4", "1/2", "0"), ("3", "1/3", "0"), ("4", "1/2", "0"), ("3", "1/3", "0")];
+
+const GOLDBERG: [(&str, &str, &str); 5] =
+    [("91/17", "7/11", "0"), ("4", "1/2", "0"), ("40/17", "1/4", "0"), ("3", "1/3", "0"), ("4", "1/2", "0")];
+
+const DIETMAIER: [(&str, &str, &str); 6] = [
+    ("24/13", "2/3", "-1/4"),
+    ("8/5", "1/2", "0"),
+    ("3/2", "3/5", "-1/4"),
+    ("15744/13585", "1/3", "3/4"),
+    ("5120/2717", "4/5", "0"),
+    ("3/2", "3/5", "3/4"),
+];
+
+#[test]
+fn mobile_loops_have_a_family_of_configurations_and_broken_ones_do_not() {
+    for loop_ in [&BENNETT[..], &GOLDBERG, &DIETMAIER] {
+        let mut links = member::<43>(loop_);
+        let found = configurations(&links, 1000);
+        assert!(found.complete && found.all_move(), "{:?}", found.values());
+        for turns in &found.turns {
+            let all = all_turns::<43>();
+            let product = turns.iter().zip(&links).fold(Motion::identity(), |product, (&number, link)| {
+                let (cos, sin) = all[usize::from(number)];
+                product.then_after(&Motion::rotation_z(cos, sin)).then_after(&link_motion(link))
+            });
+            assert_eq!(product, Motion::identity());
+        }
+        links[0].d = links[0].d.add(&ModP::one());
+        assert!(!configurations(&links, 1000).are_a_family());
+    }
+}
+
+#[test]
+fn meeting_in_the_middle_finds_what_looking_through_all_rotations_does() {
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let all = all_turns::<23>();
+    for case in 0..6 {
+        let mut links = member::<23>(&BENNETT);
+        if case > 0 {
+            for link in &mut links {
+                (link.cos, link.sin) = turn(random_unit(&mut rng));
+                (link.a, link.d) = (random_unit(&mut rng), random_unit(&mut rng));
+            }
+        }
+        if case > 3 {
+            // A planar loop, whose axes are parallel.
+            for link in &mut links {
+                (link.cos, link.sin, link.d) = (ModP::one(), ModP::zero(), ModP::zero());
+            }
+        }
+        let motions: Vec<Motion<ModP<23>>> = links.iter().map(link_motion).collect();
+        let at =
+            |joint: usize, number: usize| Motion::rotation_z(all[number].0, all[number].1).then_after(&motions[joint]);
+        let mut expected = Vec::new();
+        for (i, j) in (0..24).flat_map(|i| (0..24).map(move |j| (i, j))) {
+            let front = at(0, i).then_after(&at(1, j));
+            for k in 0..24 {
+                let back = front.then_after(&at(2, k)).inverse().then_after(&motions[3].inverse());
+                for l in 0..24 {
+                    if back == Motion::rotation_z(all[l].0, all[l].1) {
+                        expected.push([i, j, k, l].map(|n| u16::try_from(n).unwrap()).to_vec());
+                    }
+                }
+            }
+        }
+        let mut found = configurations(&links, usize::MAX).turns;
+        found.sort();
+        assert_eq!(found, expected, "case {case}");
+    }
+}
+
+#[test]
+fn planted_configurations_of_six_joints_are_found() {
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    let ansatz = Ansatz::general(6);
+    for _ in 0..4 {
+        let found = rational_member(&ansatz, &[], 20_000, rand::Rng::random(&mut rng)).map(|member| member.links);
+        let image = |x: &Rational| ModP::<499>::from_rational(x);
+        let Some(links) = found else { continue };
+        let links: Option<Vec<_>> = links
+            .iter()
+            .map(|l| Some(Link { cos: image(&l.cos)?, sin: image(&l.sin)?, a: image(&l.a)?, d: image(&l.d)? }))
+            .collect();
+        if let Some(links) = links {
+            assert!(!configurations(&links, 100).turns.is_empty());
+        }
+    }
+}
+
+#[test]
+fn symmetric_families_are_those_of_bricard_and_each_is_proved() {
+    let found = slices::<23>(6, 7);
+    assert_eq!(found.len(), 48);
+    let mobile: Vec<_> = found.iter().filter(|slice| slice.slice == Slice::Mobile).collect();
+    let named = |name: &str| mobile.iter().filter(|slice| slice.involution.name == name).count();
+    assert_eq!((mobile.len(), named("half-turn"), named("mirror through two joints")), (6, 4, 2));
+    for slice in &mobile {
+        assert_eq!((slice.dimension, slice.conditions), (2, 1));
+        assert!(identity::proof(slice).is_some());
+        if slice.involution.name == "half-turn" {
+            assert_eq!(slice.lengths, 6);
+        } else {
+            // One of lengths and twists changes sign in the mirror, offsets do.
+            assert!(slice.lengths == 5 && slice.signs.offset && slice.signs.twist != slice.signs.length);
+        }
+    }
+    let folded: Vec<_> = found.iter().filter(|slice| slice.slice == Slice::Folded).collect();
+    assert_eq!(folded.len(), 2);
+    for slice in folded {
+        let signs = slice.signs;
+        assert!(signs.angle && signs.twist && signs.length && signs.offset && slice.conditions == 0);
+    }
+}
+
+#[test]
+fn loops_of_four_and_five_joints_move_by_symmetry_only_folded() {
+    for joints in [4, 5] {
+        let found = slices::<23>(joints, 3);
+        assert!(found.iter().all(|slice| slice.slice != Slice::Mobile));
+        assert!(found.iter().any(|slice| slice.slice == Slice::Folded));
+    }
+}
+
+#[test]
+fn goldberg_loops_follow_from_their_twists() {
+    let twists: Vec<Rational> = GOLDBERG.iter().map(|(_, t, _)| rational(t)).collect();
+    let curves = rational_curves(&twists);
+    let zero = "0, 0, 0, 0, 0".to_owned();
+    let shape = |lengths: &[Rational]| {
+        let list = |part: &[Rational]| part.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        (list(&lengths[..5]), list(&lengths[5..]))
+    };
+    let proper: Vec<_> = curves.iter().filter(|curve| curve.is_proper()).collect();
+    let ratios = |lengths: [&str; 5]| {
+        let all = lengths.map(rational);
+        let scaled: Vec<Rational> = all.iter().map(|a| Rational::from(a / &all[0])).collect();
+        (scaled.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "), zero.clone())
+    };
+    // (b + c, a, c, b, a) and (b - c, a, -c, b, a).
+    for expected in [["91/17", "4", "40/17", "3", "4"], ["11/17", "4", "-40/17", "3", "4"]] {
+        let expected = ratios(expected);
+        let own: Vec<_> =
+            proper.iter().filter(|curve| curve.lengths.len() == 1 && shape(&curve.lengths[0]) == expected).collect();
+        assert!(own.len() > 1, "{expected:?}");
+        for curve in own {
+            let mut links = spherical_links(&twists).unwrap();
+            for (k, link) in links.iter_mut().enumerate() {
+                (link.a, link.d) = (curve.lengths[0][k].clone(), curve.lengths[0][5 + k].clone());
+            }
+            assert_eq!(germ(&links, &curve.points[2]).local, Local::Curve);
+            links[0].a += 1;
+            assert_eq!(germ(&links, &curve.points[2]).local, Local::Open);
+        }
+    }
+    // The ties of neighbouring joints 2 and 3 are those of the Bennett loop of twists alpha and gamma.
+    let (a, c) = (rational("1/2"), rational("1/4"));
+    let sine = -Rational::from(&a + &c) / Rational::from(&a - &c);
+    let product = Rational::from(&a * &c);
+    let cosine = Rational::from(1 - &product) / Rational::from(1 + &product);
+    let tied = |constant: &Rational| {
+        proper.iter().any(|curve| {
+            let tie = curve.tie;
+            (tie.first, tie.second, tie.relation) == (1, 2, Relation::Product) && curve.constant == *constant
+        })
+    };
+    assert!(tied(&sine) && tied(&cosine));
+    // The other curves are Bennett loops with a joint that does not move.
+    assert!(curves.iter().filter(|curve| !curve.is_proper()).all(|curve| curve.moving.contains(&false)));
+}
+
+#[test]
+fn random_twists_of_five_joints_close_on_no_curve() {
+    for twists in [["3/5", "2/7", "5/3", "4/7", "1/6"], ["3/5", "2/7", "11/3", "4/7", "7/6"]] {
+        assert!(rational_curves(&twists.map(rational)).is_empty());
+    }
+}
+
+/// `variable` of an ansatz by its name.
+fn variable(ansatz: &Ansatz, name: &str) -> Polynomial<Rational> {
+    Polynomial::variable(ansatz.symbols.names().index(name).unwrap())
+}
+
+#[test]
+fn the_cosine_relation_of_dietmaier_is_found_and_proved() {
+    let ansatz = builtin("dietmaier_6r");
+    let found = sweep(&ansatz, 1).unwrap();
+    let [relation] = found.relations.as_slice() else { panic!("{found:?}") };
+    let text = Format::Text.polynomial(relation, ansatz.symbols.names());
+    let [b, other] = ["b", "b'"].map(|name| variable(&ansatz, name));
+    let cos = |k: usize| Polynomial::<Rational>::variable(Symbols::cos(k));
+    let expected = b.mul(&cos(0).add(&cos(1))).sub(&other.mul(&cos(3).add(&cos(4))));
+    assert!(*relation == expected || *relation == expected.neg(), "{text}");
+    assert!(found.trial.unwrap().agrees());
+    let proof = multiplier(&ansatz, relation, 1).unwrap();
+    // (z1 + z3) x (z4 + z6)
+    let one = Rational::from(1);
+    let pairs = [(0, 3), (0, 5), (2, 3), (2, 5)].map(|(i, j)| (i, j, one.clone()));
+    assert_eq!(proof.terms, pairs);
+    // A relation with one sign wrong has no proof, and closed positions do not satisfy it.
+    let wrong = b.mul(&cos(0).add(&cos(1))).sub(&other.mul(&cos(3).sub(&cos(4))));
+    assert_eq!(multiplier(&ansatz, &wrong, 1), None);
+    let closed = |relation: &Polynomial<Rational>| closed_positions(&ansatz, &[relation.clone()], 20, 2).unwrap();
+    assert_eq!((closed(relation).positions, closed(relation).satisfied), (20, 20));
+    assert_eq!((closed(&wrong).positions, closed(&wrong).satisfied), (20, 0));
+    let member = rational_member(&ansatz, &[relation.clone()], 60_000, 1).unwrap();
+    assert_eq!((member.germ.local, member.germ.rank), (Local::Curve, 5));
+    let mut broken = member.links.clone();
+    broken[0].a += 1;
+    assert_eq!(germ(&broken, &member.turns).local, Local::Open);
+}
+
+#[test]
+fn the_length_relation_of_the_trihedral_loop_is_found() {
+    let ansatz = builtin("trihedral_6r");
+    let found = sweep(&ansatz, 1).unwrap();
+    let [relation] = found.relations.as_slice() else { panic!("{found:?}") };
+    let square = |k: usize| variable(&ansatz, &format!("a{k}")).pow(2);
+    let expected =
+        (1..=6).fold(Polynomial::zero(), |sum, k| if k % 2 == 1 { sum.add(&square(k)) } else { sum.sub(&square(k)) });
+    assert!(*relation == expected || *relation == expected.neg());
+    assert!(found.trial.unwrap().agrees());
+    let closed = closed_positions(&ansatz, &found.relations, 20, 2).unwrap();
+    assert_eq!((closed.positions, closed.satisfied), (20, 20));
+    let member = rational_member(&ansatz, &found.relations, 60_000, 1).unwrap();
+    assert_eq!(member.germ.local, Local::Curve);
+}
+
+#[test]
+fn an_ansatz_that_does_not_move_yields_no_condition() {
+    let text = r#"
+        title = "Two Bennett proportions alone"
+        [symbols]
+        angles = ["p", "q", "r", "s", "t", "u"]
+        lengths = ["b", "a3", "a4", "a5", "a6"]
+        [mechanism]
+        kind = "loop"
+        convention = "dh"
+        joints = [
+            { type = "R", a = "b*sin(p)", alpha = "p", d = 1 },
+            { type = "R", a = "b*sin(q)", alpha = "q", d = 0 },
+            { type = "R", a = "a3", alpha = "r", d = 2 },
+            { type = "R", a = "a4", alpha = "s", d = 3 },
+            { type = "R", a = "a5", alpha = "t", d = 1 },
+            { type = "R", a = "a6", alpha = "u", d = 5 },
+        ]
+        [ansatz]
+        unknown = ["a6"]
+        fit = [["a3", "a6"], ["1", "cos(r)", "cos(u)"]]
+    "#;
+    let ansatz = ansatz_from_text(text, "rigid.toml", FileFormat::Toml, &Default::default()).unwrap();
+    let found = sweep(&ansatz, 1).unwrap();
+    assert!(found.relations.is_empty() && found.trial.is_none());
+}
+
+#[test]
+fn members_of_the_symmetric_families_are_proved_mobile_and_general_loops_isolated() {
+    for name in ["line_symmetric_6r", "plane_symmetric_6r"] {
+        let member = rational_member(&builtin(name), &[], 60_000, 1).unwrap();
+        assert_eq!(member.germ.local, Local::Curve, "{name}");
+        let directions = Directions::of(&member.links, &member.turns);
+        assert!(directions.closes());
+    }
+}

@@ -1,0 +1,176 @@
+//! Derivations with symbols: what they say of the numbers, and of solutions.
+
+use crate::{entry, named, real, run, solved};
+use looproot::algebra::number::{Angle, HalfTangent, Number};
+use looproot::algebra::polynomial::Polynomial;
+use looproot::catalogue::entry::{Design, Entry};
+use looproot::derivation::{Symbolic, derive_symbolic};
+use looproot::kinematics::chain::{Chain, Geometry, Joint, JointKind};
+use rug::Rational;
+use std::collections::BTreeMap;
+
+fn symbolic(entry: &Entry) -> Symbolic {
+    derive_symbolic(entry, &entry.cases[0], &[]).unwrap()
+}
+
+/// Values of the symbols for the joints of a chain, by the names of their variables.
+fn parameters(chain: &Chain) -> BTreeMap<String, f64> {
+    let (Geometry::Dh(joints) | Geometry::ModifiedDh(joints)) = &chain.geometry else { panic!("DH parameters") };
+    let mut values = BTreeMap::new();
+    for (n, joint) in (1..).zip(joints) {
+        let (cos, sin) = joint.alpha.cos_sin_f64();
+        values.insert(format!("ca{n}"), cos);
+        values.insert(format!("sa{n}"), sin);
+        values.insert(format!("a{n}"), joint.a.to_f64());
+        values.insert(format!("d{n}"), joint.d.to_f64());
+        if joint.kind == JointKind::Prismatic {
+            let (cos, sin) = joint.theta0.cos_sin_f64();
+            values.insert(format!("c{n}"), cos);
+            values.insert(format!("s{n}"), sin);
+        }
+    }
+    values
+}
+
+/// Value and the sum of the sizes of all terms.
+fn value(polynomial: &Polynomial<Rational>, names: &[String], values: &BTreeMap<String, f64>) -> (f64, f64) {
+    polynomial.terms().fold((0.0, 0.0), |(sum, size), (exponents, c)| {
+        let powers = names.iter().zip(exponents).filter(|(_, e)| *e > 0);
+        let term = powers.fold(c.to_f64(), |term, (name, e)| term * values[name].powi(i32::try_from(e).unwrap()));
+        (sum + term, size + term.abs())
+    })
+}
+
+/// Equations and polynomial vanish at every real solution, translations are the solution's, and the names stand for
+/// what they name.
+fn assert_true_at_solutions(path: &str) -> Symbolic {
+    let entry = entry(path);
+    let (derived, chain) = (symbolic(&entry), entry.chain().unwrap());
+    let names = derived.names.list();
+    let mut modes = 0;
+    for mode in real(&solved(&entry)) {
+        modes += 1;
+        let q: Vec<f64> = mode.q.iter().map(|z| z.re).collect();
+        let mut values = parameters(chain);
+        values.extend(named(chain, &q));
+        for (name, part) in &derived.parts {
+            let (value, _) = value(part, names, &values);
+            values.insert(name.clone(), value);
+        }
+        let displayed = derived.equations.iter().chain(derived.polynomial.iter().map(|p| &p.displayed));
+        for one in displayed {
+            for form in [&one.polynomial, &one.compact] {
+                let (zero, size) = value(form, names, &values);
+                assert!(zero.abs() < 1e-9 * size, "{path}, {}: {zero:e} of {size:e}", one.name);
+            }
+        }
+        for translation in &derived.translations {
+            let [above, below] = [&translation.numerator, &translation.denominator].map(|p| value(p, names, &values).0);
+            let (found, expected) = (above / below, values[&names[translation.variable]]);
+            assert!((found - expected).abs() < 1e-9 * (1.0 + expected.abs()), "{path}: {found} {expected}");
+        }
+        // Elsewhere the polynomial is the same in names as in symbols.
+        if let Some(polynomial) = &derived.polynomial {
+            values.insert(names[polynomial.variable].clone(), 0.37);
+            let (expanded, size) = value(&polynomial.displayed.polynomial, names, &values);
+            let (compact, _) = value(&polynomial.displayed.compact, names, &values);
+            assert!((expanded - compact).abs() < 1e-9 * size && expanded.abs() > 1e-9 * size, "{path}");
+        }
+    }
+    assert!(modes > 0, "{path}");
+    derived
+}
+
+#[test]
+fn an_rccc_loop_has_one_quadratic_and_three_translations() {
+    let derived = assert_true_at_solutions("loop/cccr_4_angle.toml");
+    assert_eq!((derived.equations.len(), derived.translations.len()), (3, 3));
+    let polynomial = derived.polynomial.unwrap();
+    assert_eq!((polynomial.displayed.polynomial.degree(polynomial.variable), derived.symbols.len()), (2, 10));
+    assert_eq!(polynomial.displayed.polynomial.len(), 11);
+    // Its other loops with three rotations have the polynomial without the translations.
+    for path in ["loop/cccr_1_angle.toml", "loop/cpcrr_4_angle.toml", "loop/ppprrrr_4_angle.toml"] {
+        assert!(assert_true_at_solutions(path).translations.is_empty(), "{path}");
+    }
+}
+
+#[test]
+fn an_rcrcr_loop_has_a_quartic() {
+    let derived = assert_true_at_solutions("loop/crcrr_4_angle.toml");
+    let polynomial = derived.polynomial.unwrap();
+    let expanded = &polynomial.displayed.polynomial;
+    assert_eq!((expanded.degree(polynomial.variable), expanded.len(), derived.parts.len()), (4, 4665, 6));
+    assert_eq!(derived.equations.iter().map(|e| e.polynomial.len()).collect::<Vec<_>>(), [7, 25]);
+}
+
+#[test]
+fn loops_with_balls_have_a_quadratic_or_a_quartic() {
+    for (path, degree) in [("loop/rssr.toml", 2), ("loop/rscr.toml", 4), ("loop/rsrc.toml", 4), ("loop/rrsrr.toml", 4)]
+    {
+        let polynomial = assert_true_at_solutions(path).polynomial.unwrap();
+        assert_eq!(polynomial.displayed.polynomial.degree(polynomial.variable), degree, "{path}");
+    }
+}
+
+/// A loop of four revolutes: half-angle tangents of the twists, lengths and offsets.
+fn four_revolutes(twists: [(i32, i32); 4], lengths: [i32; 4], offsets: [i32; 4]) -> Entry {
+    let number = |n: i32| Number::exact(Rational::from(n));
+    let joint = |k: usize| Joint {
+        kind: JointKind::Revolute,
+        a: number(lengths[k]),
+        alpha: Angle::from_half_tangent(HalfTangent::Finite(Rational::from(twists[k]))),
+        d: number(offsets[k]),
+        theta0: Angle::zero(),
+        pitch: None,
+    };
+    let mut entry = entry("loop/cccr_4_angle.toml");
+    let chain = Chain { geometry: Geometry::Dh((0..4).map(joint).collect()), ..entry.chain().unwrap().clone() };
+    entry.design = Design::Loop(chain);
+    entry
+}
+
+#[test]
+fn bennett_s_loop_is_a_pair_of_equations() {
+    let general = symbolic(&four_revolutes([(1, 2), (1, 3), (2, 5), (3, 4)], [4, 3, 2, 1], [1, 2, 3, 4]));
+    let [f, g] = general.equations.as_slice() else { panic!("two equations") };
+    // A x^2 y^2 + B x^2 + C y^2 + D x y + E, and the dual part with all nine monomials.
+    assert_eq!((f.compact.len(), g.compact.len()), (5, 9));
+    let polynomial = general.polynomial.unwrap();
+    assert_eq!(polynomial.displayed.polynomial.degree(polynomial.variable), 8);
+    // At the conditions a1 = a3, a2 = a4, a1/sin alpha1 = a2/sin alpha2, d = 0 both have a factor in common: x y = 5.
+    let bennett = four_revolutes([(1, 2), (1, 3), (1, 2), (1, 3)], [4, 3, 4, 3], [0; 4]);
+    let derived = symbolic(&bennett);
+    let names = derived.names.list();
+    let values = parameters(bennett.chain().unwrap());
+    for x in [0.3, -1.7, 2.9] {
+        let mut values = values.clone();
+        values.insert("t4".to_owned(), x);
+        for y in [5.0 / x, 1.0 + 5.0 / x] {
+            values.insert("t1".to_owned(), y);
+            let at = derived.equations.iter().map(|equation| value(&equation.polynomial, names, &values));
+            let zero = at.map(|(sum, size)| sum.abs() < 1e-12 * size).collect::<Vec<_>>();
+            assert!(if (x * y - 5.0).abs() < 1e-9 { zero == [true, true] } else { zero.contains(&false) }, "{x} {y}");
+        }
+        let (sum, size) = value(&derived.polynomial.as_ref().unwrap().displayed.polynomial, names, &values);
+        assert!(sum.abs() < 1e-9 * size, "the eliminant vanishes for every input: {sum:e} of {size:e}");
+    }
+    // Without lengths only the spherical four-bar is left.
+    let spherical = symbolic(&four_revolutes([(1, 2), (1, 3), (2, 5), (3, 4)], [0; 4], [0; 4]));
+    assert!(spherical.polynomial.is_none() && spherical.equations.len() == 1);
+}
+
+#[test]
+fn symbols_can_be_chosen_and_refused() {
+    let verdict = |arguments: &[&str]| run(&[&["derive", "-q"], arguments].concat());
+    let (code, out, err) = verdict(&["cccr_4_angle", "--symbolic=a1,alpha2"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(out.starts_with("degree 2 in t3, 7 terms in 2 symbols"), "{out}");
+    let (code, _, err) = verdict(&["cccr_4_angle", "--symbolic=a9"]);
+    assert!(code == 1 && err.contains("a9") && err.contains("alpha1"), "{err}");
+    let (code, out, err) = verdict(&["prrprrr_6_angle", "--symbolic"]);
+    assert!(code == 4 && out.is_empty() && err.contains("10^12 terms"), "{err}");
+    let (code, _, err) = verdict(&["hexapod", "--symbolic"]);
+    assert!(code == 4 && err.contains("platforms"), "{err}");
+    let (code, out, _) = run(&["derive", "rssr", "--symbolic", "--format", "singular"]);
+    assert!(code == 0 && out.contains("poly f1 = ") && out.contains("t4^2"), "{out}");
+}
