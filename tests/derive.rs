@@ -18,7 +18,6 @@ use looproot::elimination::degree::degree;
 use looproot::elimination::triangle_platform::{Triangle, pairs};
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::dual_quaternion::Quaternion;
-use looproot::kinematics::platform::Platform;
 use looproot::mechanism::{FullMode, Mechanism, Solution, closed_loop};
 use looproot::report::derivation::{markdown, verdict};
 use looproot::verdict::Status;
@@ -153,8 +152,7 @@ fn arms_of_the_library_are_derived_as_they_are_solved() {
 /// Which legs meet at the plate, and the triangle they carry.
 fn triangle(design: &Design, case: &Case) -> Option<([[usize; 2]; 3], Triangle<Rational>)> {
     let Design::Platform(platform) = design else { return None };
-    use looproot::kinematics::platform::Platform;
-    use looproot::mechanism::{FullMode, Mechanism, Solution, closed_loop};
+    let platform = looproot::mechanism::platform_over::<Rational>(platform)?;
     let squares = case.legs_squared.as_ref()?.each_ref().map(|square| square.rational().clone());
     let pairs = pairs(&platform)?;
     Some((pairs.legs, Triangle::new(&platform, &squares, &pairs)?))
