@@ -174,8 +174,9 @@ impl PlatformSolver {
         }
         if assembly.route == Route::None || search.lacks_known_poses() {
             let most = if expected.is_some() { PATIENCE * MOST_RUNS } else { MOST_RUNS };
-            let mut runs = 0;
-            while runs < most && (runs == 0 || !search.is_done()) && !search.has_all_known_poses() {
+            let (mut runs, mut unchanged) = (0, 0);
+            while runs < most && unchanged < 2 && (runs == 0 || !search.is_done()) && !search.has_all_known_poses() {
+                let before = search.found.len();
                 let start = self.frame.general(runs);
                 let begin = std::array::from_fn(|i| Leg::new(&start.base[i], &start.plate[i], squares[i]));
                 let curvature = Curvature::new(&begin);
@@ -185,6 +186,7 @@ impl PlatformSolver {
                     let bend = Complex::from_polar(1.0, BENDS[(runs - 1) % BENDS.len()]);
                     by_homotopy(&Homotopy { target: &legs, start: &begin, bend }, first.found, &mut search);
                 }
+                unchanged = if search.found.len() == before { unchanged + 1 } else { 0 };
             }
             assembly.route = Route::Homotopy { runs };
             assembly.self_motion = search.self_motion();
@@ -236,9 +238,10 @@ fn by_homotopy(homotopy: &Homotopy, general: &[Found], search: &mut Search) {
                     search.lost += 1;
                     search.keep_stray(&real_parts(&point)[2]);
                 }
-                End::Regular(point) | End::Singular(point) => {
+                End::Regular(point) => {
                     search.arrive(&point, 2 * index + side);
                 }
+                End::Singular(point) => search.arrive_singular(&point, 2 * index + side),
                 End::Null => search.null += 1,
                 End::Lost => search.lost += 1,
             }
