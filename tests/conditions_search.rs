@@ -12,6 +12,7 @@ use looproot::conditions::configurations::{configurations, link_motion};
 use looproot::conditions::curve_ansatz::{Relation, rational_curves, spherical_links};
 use looproot::conditions::finite_field::{all_turns, random_unit, turn};
 use looproot::conditions::identity;
+use looproot::conditions::implication::{Implication, implication};
 use looproot::conditions::multiplier::multiplier;
 use looproot::conditions::spherical::Directions;
 use looproot::conditions::sweep::sweep;
@@ -269,6 +270,8 @@ fn the_length_relation_of_the_trihedral_loop_is_found() {
     assert_eq!((closed.positions, closed.satisfied), (20, 20));
     let member = rational_member(&ansatz, &found.relations, 60_000, 1).unwrap();
     assert_eq!(member.germ.local, Local::Curve);
+    assert_eq!(implication(&ansatz, relation), Some(Implication { joint: 0 }));
+    assert_eq!(implication(&ansatz, &relation.add(&square(1))), None);
 }
 
 #[test]
@@ -330,8 +333,13 @@ fn the_verb_says_what_is_proved() {
 
     let (code, out, _) = conditions(&["trihedral_6r", "--json"], "");
     let document: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert_eq!((code, &document["proved"]), (2, &false.into()));
-    assert!(document["verdict"].as_str().unwrap().contains("probability of error <= 2^-50, a member proved"), "{out}");
+    assert_eq!((code, &document["proved"]), (0, &true.into()));
+    assert!(
+        document["verdict"]
+            .as_str()
+            .unwrap()
+            .ends_with("proved for all parameters, a member proved over the rationals")
+    );
     assert_eq!(document["relations"].as_array().unwrap().len(), 1);
 
     let (code, out, _) = conditions(&["goldberg_5r"], "");
