@@ -2,6 +2,7 @@
 //! else is called mobile.
 #![allow(clippy::unwrap_used)]
 
+use looproot::algebra::echelon::Echelon;
 use looproot::algebra::modp::ModP;
 use looproot::algebra::polynomial::Polynomial;
 use looproot::algebra::ring::Ring;
@@ -10,11 +11,11 @@ use looproot::catalogue::ansatz::{Ansatz, Link, Symbols};
 use looproot::catalogue::{Format as FileFormat, ansatz_from_text, load_ansatz};
 use looproot::conditions::configurations::{configurations, link_motion};
 use looproot::conditions::curve_ansatz::{Relation, rational_curves, spherical_links};
-use looproot::conditions::finite_field::{all_turns, random_unit, turn};
+use looproot::conditions::finite_field::{all_turns, random_unit, square_root, turn, turn_number};
 use looproot::conditions::identity;
 use looproot::conditions::implication::{Implication, implication};
 use looproot::conditions::multiplier::multiplier;
-use looproot::conditions::spherical::Directions;
+use looproot::conditions::spherical::{Directions, closed_by};
 use looproot::conditions::sweep::sweep;
 use looproot::conditions::symmetry::{Slice, slices};
 use looproot::conditions::verification::{closed_positions, germ, rational_member};
@@ -119,18 +120,24 @@ fn meeting_in_the_middle_finds_what_looking_through_all_rotations_does() {
 #[test]
 fn planted_configurations_of_six_joints_are_found() {
     let mut rng = ChaCha8Rng::seed_from_u64(8);
-    let ansatz = Ansatz::general(6);
-    for _ in 0..4 {
-        let found = rational_member(&ansatz, &[], 20_000, rand::Rng::random(&mut rng)).map(|member| member.links);
-        let image = |x: &Rational| ModP::<499>::from_rational(x);
-        let Some(links) = found else { continue };
-        let links: Option<Vec<_>> = links
-            .iter()
-            .map(|l| Some(Link { cos: image(&l.cos)?, sin: image(&l.sin)?, a: image(&l.a)?, d: image(&l.d)? }))
-            .collect();
-        if let Some(links) = links {
-            assert!(!configurations(&links, 100).turns.is_empty());
+    let mut planted = 0;
+    while planted < 5 {
+        let spherical: Vec<ModP<43>> = (0..6).map(|_| random_unit(&mut rng)).collect();
+        let mut links = spherical_links(&spherical).unwrap();
+        let chosen: Vec<_> = (0..6).map(|_| turn(random_unit::<43>(&mut rng))).collect();
+        let Some(turns) = closed_by(&links, &chosen, [1, 3, 4], |x| square_root(*x)).pop() else { continue };
+        let equations = Directions::of(&links, &turns).equations().to_vec();
+        let mut lengths = vec![ModP::zero(); 12];
+        for vector in Echelon::of(equations, 12).null_space() {
+            let weight: ModP<43> = random_unit(&mut rng);
+            lengths.iter_mut().zip(&vector).for_each(|(total, x)| total.add_product(&weight, x));
         }
+        for (k, link) in links.iter_mut().enumerate() {
+            (link.a, link.d) = (lengths[k], lengths[6 + k]);
+        }
+        let numbers: Vec<u16> = turns.iter().map(turn_number).collect();
+        assert!(configurations(&links, 1000).turns.contains(&numbers));
+        planted += 1;
     }
 }
 
