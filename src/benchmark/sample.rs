@@ -1,6 +1,6 @@
 //! Random arms with a planted configuration, the same ones for the same seed.
 
-use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::algebra::number::{Angle, HalfTangent, Number, Reading};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
@@ -174,6 +174,7 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
             limits: Vec::new(),
             cases: vec![case],
             rounded: true,
+            reading: Reading::default(),
         };
         return Ok(Sample { entry, chain, planted, variables, regularity });
     }

@@ -37,6 +37,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str) -> Result<Entry> 
         limits: Vec::new(),
         cases: Vec::new(),
         rounded: scope.is_rounded(),
+        reading: scope.reading.clone(),
     })
 }
 

@@ -1,6 +1,6 @@
 //! What a mechanism file says.
 
-use crate::algebra::number::{Angle, Number};
+use crate::algebra::number::{Angle, Number, Reading};
 use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::platform::Platform;
 
@@ -127,6 +127,10 @@ pub struct Expected {
     pub real: Option<usize>,
     /// Dimension of the solution set.
     pub dimension: Option<usize>,
+    /// Dimension of the motion of a loop, whatever its inputs are.
+    pub mobility: Option<usize>,
+    /// Rank of the joint screws along that motion.
+    pub screw_rank: Option<usize>,
     /// Solutions that must be among those found.
     pub solutions: Vec<Claim>,
 }
@@ -161,6 +165,8 @@ pub struct Entry {
     pub cases: Vec<Case>,
     /// Whether some number of the file had to be replaced by a nearby rational for exact work.
     pub rounded: bool,
+    /// How numbers without a unit are read in the file.
+    pub reading: Reading,
 }
 
 impl Entry {

@@ -40,7 +40,8 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
         }
         first.expected = top;
     }
-    Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, cases, rounded: scope.is_rounded() })
+    let (rounded, reading) = (scope.is_rounded(), scope.reading.clone());
+    Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, cases, rounded, reading })
 }
 
 /// The poses of an arm, the inputs of a loop, the legs of a platform: one at least, or a loop that needs no input.
@@ -176,11 +177,13 @@ pub(super) fn expected(
 ) -> Result<Expected> {
     let mut expected = Expected::default();
     if let Some(node) = table.get("expected") {
-        let claims = scope.table(node, "[expected]", &["complex", "real", "dimension"])?;
+        let claims = scope.table(node, "[expected]", &["complex", "real", "dimension", "mobility", "screw_rank"])?;
         let count = |key: &str| claims.get(key).map(|node| scope.count(node, key)).transpose();
         expected.complex = count("complex")?;
         expected.real = count("real")?;
         expected.dimension = count("dimension")?;
+        expected.mobility = count("mobility")?;
+        expected.screw_rank = count("screw_rank")?;
         if let (Some(real), Some(complex)) = (expected.real, expected.complex)
             && real > complex
         {

@@ -62,6 +62,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
         limits,
         cases: Vec::new(),
         rounded: scope.is_rounded(),
+        reading: scope.reading.clone(),
     })
 }
 

@@ -26,7 +26,8 @@ pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
         return Err(Error::Invalid(format!("found {what}, expected a loop, which has an input to sweep")).into());
     };
     let swept = swept(options, &entry, chain)?;
-    let [from, to] = [("--from", &options.from), ("--to", &options.to)].map(|(name, text)| end(name, text, swept));
+    let ends = [("--from", &options.from), ("--to", &options.to)];
+    let [from, to] = ends.map(|(name, text)| end(name, text, swept, &entry.reading));
     let (from, to) = (from?, to?);
     if from == to {
         let message = format!("found --from and --to both {}, expected a range", options.from);
@@ -110,12 +111,11 @@ fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, 
     Ok(Swept { joint, variable })
 }
 
-/// An end of the range.
-fn end(name: &str, text: &str, swept: Swept) -> Result<f64, Error> {
-    let reading = Reading::default();
+/// An end of the range; a number without a unit has that of the file.
+fn end(name: &str, text: &str, swept: Swept, reading: &Reading) -> Result<f64, Error> {
     let value = match swept.variable {
-        Variable::Rotation => Angle::parse(text, &reading).map(|angle| angle.radians()),
-        Variable::Translation => Number::parse(text, Quantity::Length, &reading).map(|length| length.to_f64()),
+        Variable::Rotation => Angle::parse(text, reading).map(|angle| angle.radians()),
+        Variable::Translation => Number::parse(text, Quantity::Length, reading).map(|length| length.to_f64()),
     };
     value.map_err(|error| match error {
         Error::Invalid(message) => Error::Invalid(format!("{name}: {message}")),

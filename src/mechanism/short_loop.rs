@@ -62,6 +62,7 @@ pub(super) struct ShortLoop {
 }
 
 /// What may be a solution.
+#[derive(Clone)]
 struct Candidate {
     mode: Mode,
     /// The joint variables in joint order.
@@ -242,28 +243,36 @@ impl ShortLoop {
         assembly: &mut Assembly,
     ) -> Result<Answer> {
         let mut best: Vec<Candidate> = Vec::new();
-        let mut count: Option<Option<usize>> = None;
+        let mut count: Option<usize> = None;
+        let mut self_motion = 0;
+        let mut tight: Vec<Candidate> = Vec::new();
+        let total = |list: &[Candidate]| list.iter().map(|c| c.mode.multiplicity.max(1)).sum::<usize>();
         for rung in &prepared.rungs {
-            let found = self.candidates(rung, case, roots, workspace, assembly)?;
-            let total = |list: &[Candidate]| list.iter().map(|c| c.mode.multiplicity.max(1)).sum::<usize>();
-            let exact = *count.get_or_insert_with(|| self.count(rung, case, total(&found)));
-            if exact.is_none() && assembly.self_motion > 0 {
-                let dimension = assembly.self_motion;
-                let reason = format!("solutions form a self-motion of dimension {dimension}");
-                return Ok((outcome(Status::SelfMotion, dimension, reason), Vec::new()));
+            let mut found = self.candidates(rung, case, roots, workspace, assembly)?;
+            count = count.or_else(|| self.count(rung, case, total(&found)));
+            self_motion = assembly.self_motion;
+            if tight.is_empty() {
+                tight = found.iter().filter(|candidate| candidate.idle < ZERO).cloned().collect();
             }
-            if best.is_empty() || total(&found) > total(&best) {
+            // Idle translations let solutions coincide that are simple; idle rotations do not.
+            found.truncate(count.map_or(found.len(), |count| fitting(&found, count)));
+            if total(&found) > total(&best) {
                 best = found;
             }
-            if roots == Roots::Real || exact.is_some_and(|exact| total(&best) >= exact) {
+            if roots == Roots::Real || count == Some(total(&best)) {
                 break;
             }
         }
-        let count = count.flatten();
-        let tight = best.iter().filter(|candidate| candidate.idle < ZERO).count();
-        let doubt = self.is_rounded && count.is_some_and(|count| tight > count);
-        let kept = if doubt || count.is_none() { tight } else { fitting(&best, count.unwrap_or(0)) };
-        best.truncate(kept);
+        if count.is_none() && self_motion > 0 {
+            let reason = format!("solutions form a self-motion of dimension {self_motion}");
+            return Ok((outcome(Status::SelfMotion, self_motion, reason), Vec::new()));
+        }
+        let doubt = self.is_rounded && count == Some(0) && !tight.is_empty();
+        if doubt {
+            best = tight;
+        } else if count.is_none() {
+            best.retain(|candidate| candidate.idle < ZERO);
+        }
         let verdict = self.verdict(&best, if doubt { None } else { count }, roots);
         let proved = matches!(verdict.status, Status::Complete | Status::Unreachable);
         best.sort_by(|a, b| b.mode.real.cmp(&a.mode.real).then_with(|| in_order(&a.q, &b.q)));
@@ -341,8 +350,8 @@ impl ShortLoop {
                 let status = if real == 0 { Status::Unreachable } else { Status::Complete };
                 let all = if total == 1 { "the only common root" } else { "all common roots" };
                 let reason = format!(
-                    "{total} of {count}: {all} of the closure polynomials for two choices of idle unknowns, which this \
-                     overconstrained loop was given (modulo 2^61 - 1)"
+                    "{total} of {count}: {all} of the closure polynomials for two choices of idle unknowns in place of \
+                     the missing ones (modulo 2^61 - 1)"
                 );
                 (status, reason)
             }

@@ -13,7 +13,6 @@ use crate::algebra::number_field::{Algebraic, NumberField};
 use crate::algebra::real_roots::RealRoot;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
-use crate::kinematics::closed_loop::Variable;
 use rug::Rational;
 use std::sync::Arc;
 
@@ -34,7 +33,13 @@ pub struct Conjugates {
 #[derive(Clone, Debug)]
 pub enum Positions {
     /// All of them, and they are finitely many.
-    Finite(Vec<Conjugates>),
+    Finite {
+        /// The positions.
+        found: Vec<Conjugates>,
+        /// Whether the equations have no other solution: none at infinity, none of a dual quaternion without a motion.
+        /// Limits of positions are solutions, too.
+        is_proper: bool,
+    },
     /// No cut of the chain separates them: they may form a curve.
     Unknown,
 }
@@ -110,12 +115,25 @@ pub fn positions(linkage: &Linkage<Rational>) -> Positions {
     assert!((1..=5).contains(&n), "one to five joint variables");
     for first in 0..n {
         for hidden in 0..=(n - 1).div_ceil(2) {
-            if let Some(found) = Cut::of(linkage, first, hidden).solve() {
-                return Positions::Finite(found);
+            if let Some(finite) = Cut::of(linkage, first, hidden).solve() {
+                return finite;
             }
         }
     }
     Positions::Unknown
+}
+
+/// Whether some cut of a chain shows that it has no positions, and no limits of positions of chains nearby.
+///
+/// # Panics
+/// When there are more than five joint variables, or none.
+#[must_use]
+pub fn is_properly_open(linkage: &Linkage<Rational>) -> bool {
+    let n = linkage.variables.len();
+    assert!((1..=5).contains(&n), "one to five joint variables");
+    let cuts = (0..n).flat_map(|first| (0..=(n - 1).div_ceil(2)).map(move |hidden| (first, hidden)));
+    cuts.map(|(first, hidden)| Cut::of(linkage, first, hidden).solve())
+        .any(|found| matches!(found, Some(Positions::Finite { found, is_proper: true }) if found.is_empty()))
 }
 
 /// A chain cut into two sides, with one hidden variable.
@@ -169,18 +187,19 @@ impl<'a> Cut<'a> {
     }
 
     /// All positions, if this cut finds them.
-    fn solve(&self) -> Option<Vec<Conjugates>> {
+    fn solve(&self) -> Option<Positions> {
         let determinant = self.determinant();
         determinant.degree()?;
-        let mut polynomial = determinant.square_free_part();
-        if self.linkage.variables[self.order[self.hidden]] == Variable::Rotation {
-            // No angle has this tangent.
-            polynomial = polynomial.remove_factor(&Univariate::new([1, 0, 1].map(Rational::from).to_vec())).1;
-        }
-        let mut found = Vec::new();
+        let mut list = List::default();
         // The half-turn, where t is infinite.
-        if let Some(values) = self.position(&[Algebraic::zero(), Algebraic::one()])? {
-            found.push(Conjugates { polynomial: None, field: None, roots: Vec::new(), values });
+        list.add(self.position(&[Algebraic::zero(), Algebraic::one()]), None)?;
+        let circle = Univariate::new([1, 0, 1].map(Rational::from).to_vec());
+        let (spurious, mut polynomial) = determinant.square_free_part().remove_factor(&circle);
+        if spurious > 0 {
+            // No angle has the tangent i, but limits may.
+            let field = NumberField::new(&circle);
+            let here = self.position(&[Algebraic::one(), field.root()]);
+            list.is_improper |= !matches!(here, Here::Nothing) || field.split().is_some();
         }
         let mut open = Vec::new();
         if polynomial.degree() > Some(0) {
@@ -188,10 +207,7 @@ impl<'a> Cut<'a> {
                 if let Some(t) = root.rational() {
                     let linear = Univariate::new(vec![Rational::from(-&t), Rational::from(1)]);
                     polynomial = polynomial.div_rem(&linear).0;
-                    let t = Algebraic::from_rational(&t)?;
-                    if let Some(values) = self.position(&[Algebraic::one(), t])? {
-                        found.push(Conjugates { polynomial: None, field: None, roots: Vec::new(), values });
-                    }
+                    list.add(self.position(&[Algebraic::one(), Algebraic::from_rational(&t)?]), None)?;
                 }
             }
             open.push(polynomial);
@@ -204,12 +220,11 @@ impl<'a> Cut<'a> {
             let position = self.position(&[Algebraic::one(), field.root()]);
             if let Some(factor) = field.split() {
                 open.extend([polynomial.div_rem(factor).0, factor.clone()]);
-            } else if let Some(values) = position? {
-                let roots = polynomial.real_roots();
-                found.push(Conjugates { polynomial: Some(polynomial), field: Some(field), roots, values });
+            } else {
+                list.add(position, Some((polynomial, field)))?;
             }
         }
-        Some(found)
+        Some(Positions::Finite { found: list.found, is_proper: !list.is_improper })
     }
 
     /// A polynomial that vanishes wherever the columns are dependent; zero if the cut separates nothing.
@@ -240,10 +255,8 @@ impl<'a> Cut<'a> {
         mixture(7919).gcd(&mixture(104_729))
     }
 
-    /// The position at one value of the hidden variable; `Some(None)` where there is none, `None` where the columns are
-    /// too dependent to tell.
-    #[expect(clippy::option_option, reason = "undecided is not the same as none")]
-    fn position(&self, t: &JointValue<Algebraic>) -> Option<Option<Vec<JointValue<Algebraic>>>> {
+    /// What there is at one value of the hidden variable.
+    fn position(&self, t: &JointValue<Algebraic>) -> Here {
         let columns = self.matrix[0][0].len();
         let left = 1 << (self.first_side - 1);
         let entry = |i: usize, j: usize| -> Option<Algebraic> {
@@ -256,19 +269,67 @@ impl<'a> Cut<'a> {
             Some(sum)
         };
         let rows: Option<Vec<Vec<Algebraic>>> = (0..8).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect();
-        let kernel = Echelon::of(rows?, columns).null_space();
-        let [vector] = kernel.as_slice() else { return kernel.is_empty().then_some(None) };
-        let (Some(v), Some(w)) = (factors(&vector[..left]), factors(&vector[left..])) else { return Some(None) };
-        let mut values = vec![[Algebraic::one(), Algebraic::zero()]; columns.max(self.order.len())];
-        values.truncate(self.order.len());
+        let Some(rows) = rows else { return Here::Undecided };
+        let kernel = Echelon::of(rows, columns).null_space();
+        let vector = match kernel.as_slice() {
+            [] => return Here::Nothing,
+            [vector] => vector,
+            _ => return Here::Undecided,
+        };
+        let (v, w) = match (factors(&vector[..left]), factors(&vector[left..])) {
+            (Side::Pairs(v), Side::Pairs(w)) => (v, w),
+            (Side::General, _) | (_, Side::General) => return Here::Nothing,
+            _ => return Here::Improper,
+        };
+        let mut values = vec![[Algebraic::one(), Algebraic::zero()]; self.order.len()];
         let mut rest = v.into_iter().chain(w);
         for (place, k) in self.order.iter().enumerate() {
-            let value = if place == self.hidden { t.clone() } else { rest.next()? };
+            let value = if place == self.hidden { Some(t.clone()) } else { rest.next() };
+            let Some(value) = value else { return Here::Undecided };
             values[*k] = value;
         }
         // A translation by an infinite distance, or a rotation by an angle of tangent i, is no motion: it does not close.
-        let closes = self.linkage.map::<Algebraic>()?.at(&values).closes();
-        Some(closes.then_some(values))
+        match self.linkage.map::<Algebraic>() {
+            Some(linkage) if linkage.at(&values).closes() => Here::Position(values),
+            _ => Here::Improper,
+        }
+    }
+}
+
+/// What a cut has at one value of its hidden variable.
+enum Here {
+    /// No solution.
+    Nothing,
+    /// A solution that is no position.
+    Improper,
+    /// A position.
+    Position(Vec<JointValue<Algebraic>>),
+    /// More solutions than one, perhaps.
+    Undecided,
+}
+
+/// What a cut has found so far.
+#[derive(Default)]
+struct List {
+    found: Vec<Conjugates>,
+    is_improper: bool,
+}
+
+impl List {
+    /// Takes note of what there is at a value of the hidden variable, rational or a root of a polynomial; `None` if that is
+    /// not decided.
+    fn add(&mut self, here: Here, over: Option<(Univariate<Rational>, Arc<NumberField>)>) -> Option<()> {
+        match here {
+            Here::Undecided => return None,
+            Here::Nothing => {}
+            Here::Improper => self.is_improper = true,
+            Here::Position(values) => {
+                let roots = over.as_ref().map(|(polynomial, _)| polynomial.real_roots()).unwrap_or_default();
+                let (polynomial, field) = over.unzip();
+                self.found.push(Conjugates { polynomial, field, roots, values });
+            }
+        }
+        Some(())
     }
 }
 
@@ -296,25 +357,32 @@ fn is_irreducible<const P: u64>(polynomial: &Univariate<Rational>) -> bool {
     true
 }
 
-/// The pairs whose tensor product a vector is, the first pair running fastest; `None` if it is none.
-fn factors(vector: &[Algebraic]) -> Option<Vec<JointValue<Algebraic>>> {
-    let best = vector.iter().position(is_unit)?;
+/// What one side of a vector of the kernel is.
+enum Side {
+    /// Zero.
+    Zero,
+    /// The tensor product of these pairs, the first one running fastest.
+    Pairs(Vec<JointValue<Algebraic>>),
+    /// No tensor product.
+    General,
+}
+
+/// The pairs whose tensor product a vector is.
+fn factors(vector: &[Algebraic]) -> Side {
+    let Some(best) = vector.iter().position(is_unit) else { return Side::Zero };
+    if let [a, b, c, d] = vector
+        && is_unit(&a.mul(d).sub(&b.mul(c)))
+    {
+        return Side::General;
+    }
     let size = vector.len().trailing_zeros();
     let pairs = (0..size).map(|bit| {
         let mask = 1 << bit;
-        [vector[best & !mask].clone(), vector[best | mask].clone()]
-    });
-    let pairs: Vec<JointValue<Algebraic>> = pairs
-        .map(|[c, s]| match c.inverse() {
+        let (c, s) = (&vector[best & !mask], &vector[best | mask]);
+        match c.inverse() {
             Some(inverse) => [Algebraic::one(), s.mul(&inverse)],
-            None => [c, Algebraic::one()],
-        })
-        .collect();
-    if let [a, b] = pairs.as_slice() {
-        let minor = vector[0].mul(&vector[3]).sub(&vector[1].mul(&vector[2]));
-        if is_unit(&minor) || a.iter().all(Ring::is_zero) || b.iter().all(Ring::is_zero) {
-            return None;
+            None => [Algebraic::zero(), Algebraic::one()],
         }
-    }
-    Some(pairs)
+    });
+    Side::Pairs(pairs.collect())
 }

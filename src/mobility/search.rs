@@ -3,15 +3,41 @@
 use super::answer::{Configuration, Held};
 use super::linkage::{JointValue, Linkage, is_unit};
 use super::order::{Germ, Local};
-use super::positions::{Conjugates, Positions, positions};
+use super::positions::{Conjugates, Positions, is_properly_open, positions};
 use crate::algebra::number_field::Algebraic;
 use crate::algebra::ring::Ring;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screw_system::{Screw, ScrewSystem};
 use rug::{Float, Rational};
 
-/// Tangents of half the angles at which joints are held, one after the other: no special ones, with few digits.
-const TANGENTS: [(i32, i32); 8] = [(1, 2), (-1, 3), (4, 3), (-7, 3), (-5, 7), (8, 3), (2, 9), (-6, 1)];
+/// Tangents of half the angles at which joints are held, one after the other: no special ones, with few digits, and all
+/// round the circle.
+const TANGENTS: [(i32, i32); 24] = [
+    (1, 2),
+    (-1, 3),
+    (4, 3),
+    (-7, 3),
+    (-5, 7),
+    (8, 3),
+    (2, 9),
+    (-6, 1),
+    (3, 4),
+    (-1, 9),
+    (11, 2),
+    (-10, 7),
+    (5, 14),
+    (-1, 2),
+    (17, 16),
+    (-19, 5),
+    (1, 16),
+    (-2, 9),
+    (13, 1),
+    (-13, 14),
+    (5, 8),
+    (-20, 1),
+    (12, 7),
+    (-3, 5),
+];
 /// Bits in which real configurations are evaluated before they are rounded.
 const BITS: u32 = 256;
 
@@ -35,6 +61,19 @@ pub(super) enum Outcome {
     Nothing,
 }
 
+/// Whether a chain of up to six joint variables moves, by proof: `None` where neither a real motion was found nor its absence
+/// proved.
+///
+/// # Source
+/// docs/mobility.md, theorems 1, 2 and 4.
+#[must_use]
+pub fn moves(linkage: &Linkage<Rational>) -> Option<bool> {
+    if is_proved_immobile(linkage) {
+        return Some(false);
+    }
+    matches!(search(linkage), Outcome::Mobile(_)).then_some(true)
+}
+
 /// Looks for a motion: holds as few joints as leave finitely many configurations, and decides what passes through those.
 pub(super) fn search(linkage: &Linkage<Rational>) -> Outcome {
     let n = linkage.variables.len();
@@ -56,7 +95,7 @@ pub(super) fn search(linkage: &Linkage<Rational>) -> Outcome {
                 if search.configurations.iter().any(|c| c.dimension() > Some(0)) {
                     return Outcome::Mobile(search);
                 }
-                if search.configurations.is_empty() && complex.is_none() && moves(linkage, &held, &found) {
+                if search.configurations.is_empty() && complex.is_none() && some_move(linkage, &held, &found) {
                     complex = Some(search);
                 }
             }
@@ -82,9 +121,20 @@ pub(super) fn at(linkage: &Linkage<Rational>, held: &[(usize, Rational)]) -> Opt
     let pairs: Vec<(usize, JointValue<Rational>)> =
         held.iter().map(|(k, tangent)| (*k, [Rational::from(1), tangent.clone()])).collect();
     match positions(&linkage.locked(&pairs)) {
-        Positions::Finite(found) => Some(found),
+        Positions::Finite { found, .. } => Some(found),
         Positions::Unknown => None,
     }
+}
+
+/// Whether it is proved that no joint variable moves along any curve of configurations: each one is held at a value at
+/// which the closure equations have no solution at all, not even a limit of configurations.
+pub(super) fn is_proved_immobile(linkage: &Linkage<Rational>) -> bool {
+    let n = linkage.variables.len();
+    let stands_still = |k: usize| {
+        let value = [Rational::from(1), tangent(linkage, k, k)];
+        is_properly_open(&linkage.locked(&[(k, value)]))
+    };
+    (2..=6).contains(&n) && (0..n).all(stands_still)
 }
 
 /// The values of all joint variables, with those held among them.
@@ -183,7 +233,7 @@ pub(super) fn decide(linkage: &Linkage<Rational>, held: &[(usize, Rational)], fo
 }
 
 /// Whether some complex configuration moves.
-fn moves(linkage: &Linkage<Rational>, held: &[(usize, Rational)], found: &[Conjugates]) -> bool {
+fn some_move(linkage: &Linkage<Rational>, held: &[(usize, Rational)], found: &[Conjugates]) -> bool {
     found
         .iter()
         .flat_map(|conjugates| conjugates.each(|part| Known::of(linkage, held, part)))

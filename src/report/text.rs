@@ -59,8 +59,10 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
             };
             let found = match (found, kind) {
                 // A pose out of reach is known to be one without any root.
-                (0, Kind::Arm | Kind::Loop) => "at most 16 roots".to_owned(),
-                (0, Kind::Platform) => "0 roots".to_owned(),
+                (0, Kind::Arm | Kind::Loop) if verdict.reason.starts_with("out of reach") => {
+                    "at most 16 roots".to_owned()
+                }
+                (0, _) => "0 roots".to_owned(),
                 _ => format!("{found} roots, {}", certified(solution)),
             };
             format!("0 real of {found}: {what}, {}", measured(solution))

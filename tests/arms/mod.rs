@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::algebra::determinant::determinant;
-use looproot::algebra::number::{Angle, HalfTangent, Number};
+use looproot::algebra::number::{Angle, HalfTangent, Number, Reading};
 use looproot::algebra::ring::Ring;
 use looproot::assembly::{Assembly, Roots, Workspace};
 use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue};
@@ -175,6 +175,7 @@ pub fn entry(design: Design, cases: Vec<Case>) -> Entry {
         limits: Vec::new(),
         cases,
         rounded: false,
+        reading: Reading::default(),
     }
 }
 

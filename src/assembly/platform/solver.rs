@@ -147,7 +147,7 @@ impl PlatformSolver {
                 let mut first = Search::new(&begin, &curvature, Roots::All, None, general);
                 runs += 1;
                 if by_border_basis(&Chart::new(&start, 0), &squares, basis, spectrum, &mut first).is_ok() {
-                    let bend = Complex::from_polar(1.0, BEND * runs as f64);
+                    let bend = Complex::from_polar(1.0, BENDS[(runs - 1) % BENDS.len()]);
                     by_homotopy(&Homotopy { target: &legs, start: &begin, bend }, first.found, &mut search);
                 }
             }
@@ -163,8 +163,8 @@ impl PlatformSolver {
     }
 }
 
-/// Angle by which the arcs of homotopies are bent, one more than the other.
-const BEND: f64 = 0.73;
+/// Angles by which the arcs of homotopies are bent, one after the other: none near 0 or pi, where arcs are straight or far.
+const BENDS: [f64; 8] = [0.73, -1.31, 1.87, -0.52, 1.13, -2.05, 0.41, -0.94];
 
 /// Follows all eigenvalues of a border basis: the number of unknowns beside the rotation, or the degree in which it lost
 /// rank.
@@ -196,15 +196,12 @@ fn by_homotopy(homotopy: &Homotopy, general: &[Found], search: &mut Search) {
         let conjugate = (!found.real).then(|| found.study.map(|z| z.conj()));
         for (side, start) in [Some(found.study), conjugate].into_iter().flatten().enumerate() {
             match homotopy.carry(&start) {
-                End::Regular(point) => {
-                    search.arrive(&point, 2 * index + side);
-                }
                 // Solutions on a curve are none to be listed, but a real one may pass near.
                 End::Singular(point) if self_motion(homotopy.target, &point) > 0 => {
                     search.lost += 1;
                     search.keep_stray(&real_parts(&point)[2]);
                 }
-                End::Singular(point) => {
+                End::Regular(point) | End::Singular(point) => {
                     search.arrive(&point, 2 * index + side);
                 }
                 End::Null => search.null += 1,

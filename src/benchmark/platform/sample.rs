@@ -1,7 +1,7 @@
 //! Random platforms with a planted pose, the same ones for the same seed. All coordinates are multiples of 2^-20, so that
 //! special geometries are so exactly.
 
-use crate::algebra::number::Number;
+use crate::algebra::number::{Number, Reading};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
 use crate::kinematics::chain::Placement;
@@ -179,6 +179,7 @@ pub fn sample(set: PlatformSet, seed: u64, index: u64) -> Result<PlatformSample>
             limits: Vec::new(),
             cases: vec![case],
             rounded: false,
+            reading: Reading::default(),
         };
         return Ok(PlatformSample { entry, platform, planted, regularity });
     }

@@ -1,0 +1,178 @@
+//! Whether a loop moves, as text and JSON.
+
+use super::json::{kind, number};
+use super::number::{counted, short};
+use super::table::{Columns, paragraph};
+use super::text::variables;
+use crate::catalogue::entry::Entry;
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::motion::Vector;
+use crate::kinematics::screw_system::Screw;
+use crate::mobility::{Configuration, Local, Mobility};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// `mobile: mobility 1 (Gruebler's count -2), screw rank 3, 1 branch; proof: exact`
+#[must_use]
+pub fn verdict(answer: &Mobility) -> String {
+    let gruebler = answer.gruebler();
+    let mut text = match (answer.mobility, answer.shaky) {
+        (None, _) if answer.complex > 0 => {
+            format!("complex mobility; no real configuration found (Gruebler's count {gruebler})")
+        }
+        (None, _) => format!("not decided (Gruebler's count {gruebler})"),
+        (Some(0), Some(order)) => {
+            format!("shaky of order {order}: infinitesimally mobile only (Gruebler's count {gruebler})")
+        }
+        (Some(0), None) => {
+            let none = if !answer.configurations.is_empty() {
+                String::new()
+            } else if answer.complex == 0 {
+                ": no configuration".to_owned()
+            } else {
+                ": no real configuration".to_owned()
+            };
+            format!("immobile{none} (Gruebler's count {gruebler})")
+        }
+        (Some(mobility), _) => format!("mobile: mobility {mobility} (Gruebler's count {gruebler})"),
+    };
+    if let Some(rank) = answer.screw_rank() {
+        let _ = write!(text, ", screw rank {rank}");
+    }
+    match answer.branches() {
+        0 => {}
+        1 => text += ", 1 branch",
+        n => _ = write!(text, ", {n} branches"),
+    }
+    let _ = write!(text, "; proof: {}", answer.proof.word());
+    text
+}
+
+/// Verdict, reason, and a table of the configurations.
+#[must_use]
+pub fn text(entry: &Entry, answer: &Mobility) -> String {
+    let mut text = verdict(answer) + "\n";
+    paragraph(&mut text, &answer.reason);
+    let freedoms = answer.variables.len();
+    let _ = writeln!(text, "Gruebler: {} less 6 = {}", counted(freedoms, "joint freedom"), answer.gruebler());
+    let names: Vec<(String, Variable)> = entry.chain().map(variables).unwrap_or_default();
+    for (number, configuration) in answer.configurations.iter().enumerate() {
+        let Configuration { rank, .. } = configuration;
+        let deficit = 6 - rank;
+        let redundant = if deficit == 0 {
+            String::new()
+        } else {
+            format!(
+                ", degree of freedom {freedoms} - {rank} = {}, {}",
+                freedoms - rank,
+                counted(deficit, "redundant constraint")
+            )
+        };
+        let words = format!(
+            "\nconfiguration {} ({}): screw rank {rank}{redundant}; {}",
+            number + 1,
+            what(configuration),
+            configuration.system
+        );
+        text.push('\n');
+        paragraph(&mut text, &words);
+        for screw in &configuration.redundant {
+            let _ = writeln!(text, "  reciprocal screw: {}", described(screw));
+        }
+    }
+    if !answer.configurations.is_empty() {
+        text.push('\n');
+        let header: Vec<&str> = std::iter::once("nr").chain(names.iter().map(|(name, _)| name.as_str())).collect();
+        let mut table = Columns::new(&header, &[]);
+        for (k, configuration) in answer.configurations.iter().enumerate() {
+            let cells = configuration.q.iter().zip(&names).zip(&configuration.moving);
+            let cells = cells.map(|((q, (_, variable)), moves)| {
+                let shown = match variable {
+                    Variable::Rotation => short(q.to_degrees(), 4),
+                    Variable::Translation => short(*q, 6),
+                };
+                if *moves || configuration.dimension() == Some(0) { shown } else { format!("{shown} (still)") }
+            });
+            table.row(std::iter::once((k + 1).to_string()).chain(cells));
+        }
+        text += &table.text();
+        text += "angles in degrees, distances in metres\n";
+    }
+    text
+}
+
+/// What the configurations near one form.
+fn what(configuration: &Configuration) -> String {
+    match configuration.local {
+        Local::Open => "open".to_owned(),
+        Local::Manifold { dimension: 1 } | Local::Curve => "on a curve".to_owned(),
+        Local::Manifold { dimension } => format!("on a manifold of dimension {dimension}"),
+        Local::Isolated { order: 1 } => "isolated, regular".to_owned(),
+        Local::Isolated { order } => format!("isolated, shaky of order {order}"),
+        Local::Deficient => "not decided".to_owned(),
+    }
+}
+
+/// A screw by its pitch and its axis.
+fn described(screw: &Screw<f64>) -> String {
+    let vector = |v: &Vector<f64>| format!("({})", v.each_ref().map(|x| short(*x, 4)).join(", "));
+    let size = |v: &Vector<f64>| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    match (screw.pitch(), screw.foot()) {
+        (Some(pitch), Some(foot)) => {
+            let direction = screw.direction.map(|x| x / size(&screw.direction));
+            format!("pitch {}, axis through {} along {}", short(pitch, 6), vector(&foot), vector(&direction))
+        }
+        _ => format!("pitch infinite, along {}", vector(&screw.moment.map(|x| x / size(&screw.moment)))),
+    }
+}
+
+/// The document that equations/mobility.schema.json describes.
+#[must_use]
+pub fn json(entry: &Entry, answer: &Mobility) -> Value {
+    let names: Vec<String> =
+        entry.chain().map(variables).unwrap_or_default().into_iter().map(|(name, _)| name).collect();
+    let held = answer.held.iter().map(|(k, value)| json!({ "variable": names.get(*k), "value": number(*value) }));
+    json!({
+        "title": entry.title,
+        "kind": kind(entry.kind()),
+        "mobility": answer.mobility,
+        "gruebler": answer.gruebler(),
+        "screw_rank": answer.screw_rank(),
+        "proof": answer.proof.word(),
+        "shaky": answer.shaky.is_some(),
+        "order": answer.shaky,
+        "branches": answer.branches(),
+        "reason": answer.reason,
+        "freedoms": answer.variables.len(),
+        "complex": answer.complex,
+        "variables": names,
+        "held": held.collect::<Vec<_>>(),
+        "configurations": answer.configurations.iter().map(configuration).collect::<Vec<_>>(),
+    })
+}
+
+fn configuration(configuration: &Configuration) -> Value {
+    let order = match configuration.local {
+        Local::Isolated { order } => Some(order),
+        _ => None,
+    };
+    json!({
+        "q": configuration.q.iter().map(|x| number(*x)).collect::<Vec<_>>(),
+        "degree": (configuration.degree > 0).then_some(configuration.degree),
+        "rank": configuration.rank,
+        "dimension": configuration.dimension(),
+        "order": order,
+        "moving": configuration.moving,
+        "system": configuration.system,
+        "redundant": configuration.redundant.iter().map(screw).collect::<Vec<_>>(),
+    })
+}
+
+fn screw(screw: &Screw<f64>) -> Value {
+    json!({
+        "direction": screw.direction.map(number),
+        "moment": screw.moment.map(number),
+        "pitch": screw.pitch().map(number),
+        "foot": screw.foot().map(|foot| foot.map(number)),
+    })
+}

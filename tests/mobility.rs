@@ -1,0 +1,220 @@
+//! Does a closed chain move: the library, its negative controls, shaky loops, and the verb.
+#![allow(clippy::unwrap_used)]
+
+use looproot::algebra::number_field::NumberField;
+use looproot::algebra::ring::{Field, Ring};
+use looproot::algebra::univariate::Univariate;
+use looproot::benchmark::mobility::run as disturb;
+use looproot::catalogue::entry::Entry;
+use looproot::catalogue::{Format, Options, builtin, load_text};
+use looproot::kinematics::closed_loop::Variable;
+use looproot::kinematics::dual_quaternion::DualQuaternion;
+use looproot::mobility::{Germ, Linkage, Local, Mobility, Proof, mobility};
+use rug::Rational;
+use std::process::Command;
+
+fn answer(name: &str) -> Mobility {
+    mobility(&builtin(name, &Options::default()).unwrap()).unwrap()
+}
+
+fn entry(text: &str) -> Entry {
+    load_text(text, "test.toml", Format::Toml, &Options::default()).unwrap()
+}
+
+#[test]
+fn overconstrained_loops_are_proved_to_move() {
+    // Name, screw rank, real branches at the held value, complex configurations there.
+    let cases = [
+        ("bennett_a", 3, 1, 1),
+        ("goldberg_a", 4, 1, 1),
+        ("myard_a", 4, 2, 2),
+        ("bricard_line_symmetric_a", 5, 2, 2),
+        ("bricard_plane_symmetric_a", 5, 2, 4),
+        ("bricard_trihedral_a", 5, 2, 2),
+        ("wohlhart_hybrid_a", 5, 4, 4),
+        ("waldron_hybrid", 5, 1, 1),
+        ("double_goldberg", 5, 1, 1),
+        ("dietmaier_a", 5, 2, 4),
+        ("rrcrp_a", 5, 2, 2),
+        ("rrrrp_parallel_pairs", 4, 1, 1),
+        ("planar_4r", 3, 2, 2),
+    ];
+    for (name, rank, branches, complex) in cases {
+        let answer = answer(name);
+        assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::Exact), "{name}");
+        assert_eq!(answer.screw_rank(), Some(rank), "{name}");
+        assert_eq!((answer.branches(), answer.complex), (branches, complex), "{name}");
+        assert!(answer.configurations.iter().all(|c| c.redundant.len() == 6 - rank), "{name}");
+    }
+}
+
+#[test]
+fn broken_ones_are_refused() {
+    for name in ["bennett_broken", "dietmaier_broken", "bricard_trihedral_broken"] {
+        let answer = answer(name);
+        assert_eq!((answer.mobility, answer.proof, answer.shaky), (Some(0), Proof::Exact, None), "{name}");
+    }
+}
+
+#[test]
+fn loops_with_enough_freedoms_move_by_a_certified_configuration() {
+    for (name, freedoms) in [("cccr_1_angle", 1), ("rscr", 1), ("rssr", 2)] {
+        let answer = answer(name);
+        assert_eq!(
+            (answer.mobility, answer.screw_rank(), answer.proof),
+            (Some(freedoms), Some(6), Proof::Exact),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_small_error_in_any_link_stops_the_motion() {
+    for name in ["bennett_a", "myard_a", "bricard_line_symmetric_a", "dietmaier_a", "rrcrp_a", "planar_4r"] {
+        let linkage = Linkage::of(builtin(name, &Options::default()).unwrap().chain().unwrap()).unwrap();
+        let tally = disturb(&linkage, 6, 1, || true, || ());
+        assert_eq!((tally.count, tally.immobile, tally.mobile.len()), (6, 6, 0), "{name}");
+    }
+}
+
+/// Four revolutes of a loop, the lengths and twists of Bennett's loop with a factor on one length.
+fn bennett(length: &str) -> String {
+    format!(
+        r#"
+        [mechanism]
+        kind = "loop"
+        convention = "dh"
+        joints = [
+            {{ type = "R", a = {length}, tan_half_alpha = "1/2", d = 0 }},
+            {{ type = "R", a = 3, tan_half_alpha = "1/3", d = 0 }},
+            {{ type = "R", a = 4, tan_half_alpha = "1/2", d = 0 }},
+            {{ type = "R", a = 3, tan_half_alpha = "1/3", d = 0 }},
+        ]
+        [[input]]
+        joint = 1
+        tan_half = "1/2"
+        "#
+    )
+}
+
+#[test]
+fn the_least_change_of_a_length_stops_bennett() {
+    assert_eq!(mobility(&entry(&bennett("4"))).unwrap().mobility, Some(1));
+    let broken = mobility(&entry(&bennett("\"4000000001/1000000000\""))).unwrap();
+    assert_eq!((broken.mobility, broken.proof), (Some(0), Proof::Exact));
+    assert!(broken.configurations.is_empty());
+}
+
+#[test]
+fn rounded_numbers_are_swept_and_never_called_exact() {
+    // Bennett's condition a/sin alpha = const in numbers that are not rational.
+    let joint = |angle: u32, factor: &str| {
+        format!("{{ type = \"R\", a = \"{factor}sin({angle} deg)\", alpha = \"{angle} deg\", d = 0 }},")
+    };
+    let text = |factor: &str| {
+        let joints = [joint(40, factor), joint(70, ""), joint(40, ""), joint(70, "")].join("\n");
+        format!("[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [\n{joints}\n]\n")
+    };
+    let swept = mobility(&entry(&text(""))).unwrap();
+    assert_eq!((swept.mobility, swept.proof), (Some(1), Proof::CertifiedSweep), "{}", swept.reason);
+    assert_eq!(swept.screw_rank(), Some(3));
+    let broken = mobility(&entry(&text("1.000001*"))).unwrap();
+    assert_eq!((broken.mobility, broken.proof), (Some(0), Proof::Exact));
+}
+
+/// Six axes `direction, point` of the linear complex of the screw with pitch 1 about z: `d . (e_z x p + e_z) = 0`.
+const COMPLEX: &str = r#"
+    [mechanism]
+    kind = "loop"
+    convention = "screws"
+    joints = [
+        { type = "R", axis = [1, 0, 0], point = [0, 0, 0] },
+        { type = "R", axis = [0, 1, 0], point = [0, 0, 2] },
+        { type = "R", axis = [0, "3/5", "-4/5"], point = ["4/3", 0, 1] },
+        { type = "R", axis = ["3/5", 0, "4/5"], point = [0, "4/3", -1] },
+        { type = "R", axis = ["2/3", "-1/3", "2/3"], point = [0, 1, 3] },
+        { type = "R", axis = ["2/3", "2/3", "1/3"], point = [1, "3/2", -2] },
+    ]
+    [[input]]
+    joint = 1
+    tan_half = "1/2"
+"#;
+
+#[test]
+fn six_axes_of_a_linear_complex_are_shaky_only() {
+    let linkage = Linkage::of(entry(COMPLEX).chain().unwrap()).unwrap();
+    let home = linkage.at(&vec![[Rational::one(), Rational::zero()]; 6]);
+    let germ = Germ::of(&home);
+    assert_eq!((germ.local, germ.rank), (Local::Isolated { order: 2 }, 5));
+    let answer = mobility(&entry(COMPLEX)).unwrap();
+    assert_eq!((answer.mobility, answer.shaky, answer.proof), (Some(0), Some(2), Proof::Exact), "{}", answer.reason);
+}
+
+#[test]
+fn a_half_turn_is_a_position_like_any_other() {
+    // Bennett's loop with joint 1 at pi: tan(q3/2) infinite, q2 and q4 at 0 (K/x with x infinite).
+    let loop_4r = Linkage::of(entry(&bennett("4")).chain().unwrap()).unwrap();
+    let (one, zero) = (Rational::one, Rational::zero);
+    let folded = loop_4r.at(&[[zero(), one()], [one(), zero()], [zero(), one()], [one(), zero()]]);
+    assert!(folded.closes());
+    assert_eq!(Germ::of(&folded).local, Local::Curve);
+}
+
+#[test]
+fn translations_count_too() {
+    // Three parallel translations round a triangle and one more: two freedoms of the plane, held by nothing else.
+    let link = |t: i32| DualQuaternion::<Rational>::rotation_x(Rational::one(), Rational::from((t, 2)));
+    let variables = vec![Variable::Translation; 4];
+    let whole = (1..4).fold(DualQuaternion::identity(), |product, t| product.mul(&link(t)));
+    let links = vec![link(1), link(2), link(3), whole.conjugate()];
+    let linkage = Linkage { variables, links };
+    let germ = Germ::of(&linkage.at(&vec![[Rational::one(), Rational::zero()]; 4]));
+    assert_eq!((germ.local, germ.rank), (Local::Manifold { dimension: 2 }, 2));
+}
+
+#[test]
+fn numbers_of_a_field_have_inverses() {
+    // t^4 - 10 t^2 + 1, of the square roots of 2 and 3 together.
+    let modulus = Univariate::new([1, 0, -10, 0, 1].map(Rational::from).to_vec());
+    let field = NumberField::new(&modulus);
+    let t = field.root();
+    let x = t.mul(&t).mul(&t).add(&Ring::from_integer(7)).sub(&t);
+    let inverse = x.inverse().unwrap();
+    assert_eq!(x.mul(&inverse), Ring::one());
+    assert!(field.split().is_none());
+    // (t^3 - 9t)/2 is the square root of 2.
+    let half = Ring::from_rational(&Rational::from((1, 2))).unwrap();
+    let root = t.mul(&t).mul(&t).sub(&t.mul(&Ring::from_integer(9))).mul(&half);
+    assert_eq!(root.mul(&root), Ring::from_integer(2));
+}
+
+fn run(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_looproot")).args(arguments).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn the_verb_says_the_verdict_first() {
+    let (code, out, _) = run(&["mobility", "bennett_a"]);
+    assert_eq!(code, Some(0));
+    let verdict = "mobile: mobility 1 (Gruebler's count -2), screw rank 3, 1 branch; proof: exact";
+    assert_eq!(out.lines().next(), Some(verdict));
+    assert!(out.contains("degree of freedom 4 - 3 = 1, 3 redundant constraints"));
+    let (code, out, _) = run(&["mobility", "bennett_broken", "--quiet"]);
+    assert_eq!((code, out.as_str()), (Some(3), "immobile: no configuration (Gruebler's count -2); proof: exact\n"));
+    let (code, out, _) = run(&["mobility", "bennett_a", "--json"]);
+    let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((code, &document["mobility"], &document["proof"]), (Some(0), &1.into(), &"exact".into()));
+    assert_eq!(
+        (&document["gruebler"], &document["screw_rank"], &document["shaky"]),
+        (&(-2).into(), &3.into(), &false.into())
+    );
+}
+
+#[test]
+fn what_is_no_loop_is_refused() {
+    let (code, _, err) = run(&["mobility", "puma560"]);
+    assert_eq!(code, Some(1));
+    assert!(err.contains("found an arm, expected a loop"), "{err}");
+}
