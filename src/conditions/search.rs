@@ -23,6 +23,25 @@ pub struct MobileSlice {
     pub proof: Option<String>,
 }
 
+impl MobileSlice {
+    /// Whether a loop has this symmetry.
+    #[must_use]
+    pub fn contains(&self, links: &[Link<Rational>]) -> bool {
+        let (involution, signs) = (&self.slice.involution, self.slice.signs);
+        let maps = |negative: bool, from: &Rational, to: &Rational| {
+            if negative { Rational::from(-from) == *to } else { from == to }
+        };
+        let is_mapped = |(k, link): (usize, &Link<Rational>)| {
+            let (image, opposite) = (&links[involution.links[k]], &links[involution.joints[k]]);
+            link.cos == image.cos
+                && maps(signs.twist, &link.sin, &image.sin)
+                && maps(signs.length, &link.a, &image.a)
+                && maps(signs.offset, &link.d, &opposite.d)
+        };
+        links.len() == involution.links.len() && links.iter().enumerate().all(is_mapped)
+    }
+}
+
 /// A 5R loop on a curve with tied joints.
 #[derive(Clone, Debug)]
 pub struct CurveLoop {

@@ -208,7 +208,7 @@ pub fn rational_member(
         }
         let Some(links) = members.links(&values) else { continue };
         let germ = germ(&links, &turns);
-        if germ.rank == 5 {
+        if germ.rank >= 5 {
             return Some(RationalMember { links, turns, germ });
         }
     }

@@ -178,6 +178,14 @@ pub fn text(ansatz: &Ansatz, search: &Search) -> String {
     if let Some(member) = &search.member {
         text.push_str("\nRandom member that satisfies the relations\n");
         member_text(member, &mut text);
+        for mobile in search.mobile_slices.iter().filter(|mobile| mobile.contains(&member.links)) {
+            let _ = writeln!(
+                text,
+                "    one of the symmetric family `{}`: {}",
+                mobile.slice.involution.name,
+                pattern(mobile)
+            );
+        }
     }
     let _ = writeln!(
         text,
