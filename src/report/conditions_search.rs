@@ -61,7 +61,7 @@ pub fn verdict(ansatz: &Ansatz, search: &Search) -> String {
         }
         (None, None, Some(member)) => match member.germ.local {
             Local::Curve => "mobile, proved for a random member over the rationals".to_owned(),
-            _ => format!("a random member does not move from a random position: {}", local(&member.germ)),
+            _ => format!("no mobile member found: random members are {}", local(&member.germ)),
         },
         (None, None, None) => match proper_slices(search).count() {
             0 => "no symmetry found that moves for all lengths".to_owned(),
