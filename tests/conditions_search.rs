@@ -22,6 +22,8 @@ use looproot::mobility::Local;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rug::Rational;
+use std::io::Write;
+use std::process::{Command, Stdio};
 
 fn builtin(name: &str) -> Ansatz {
     load_ansatz(name, &Default::default()).unwrap()
@@ -304,4 +306,52 @@ fn members_of_the_symmetric_families_are_proved_mobile_and_general_loops_isolate
         let directions = Directions::of(&member.links, &member.turns);
         assert!(directions.closes());
     }
+}
+
+/// Exit code, what `looproot conditions` wrote, and its complaints.
+fn conditions(arguments: &[&str], input: &str) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_looproot"));
+    command.arg("conditions").args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn the_verb_says_what_is_proved() {
+    let (code, out, err) = conditions(&["dietmaier_6r"], "");
+    let verdict = out.lines().next().unwrap();
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(verdict.starts_with("mobile where ") && verdict.contains("= 0: proved for all parameters"), "{verdict}");
+    assert!(out.contains("w = z1 x z4 + z1 x z6 + z3 x z4 + z3 x z6"), "{out}");
+    assert!(out.contains("degenerate, folded back on itself") && out.contains("alpha4 = alpha1"), "{out}");
+
+    let (code, out, _) = conditions(&["trihedral_6r", "--json"], "");
+    let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((code, &document["proved"]), (2, &false.into()));
+    assert!(document["verdict"].as_str().unwrap().contains("probability of error <= 2^-50, a member proved"), "{out}");
+    assert_eq!(document["relations"].as_array().unwrap().len(), 1);
+
+    let (code, out, _) = conditions(&["goldberg_5r"], "");
+    assert_eq!(code, 0);
+    assert!(out.starts_with("4 mobile choices of lengths for example twists, 4 of them proved"), "{out}");
+    assert!(out.contains("degenerate, joint 4 locked"), "{out}");
+}
+
+#[test]
+fn what_cannot_be_searched_is_said() {
+    let joint = r#"{ type = "R", a = "a", alpha = "p", d = "d" }"#;
+    let file = |unknown: &str, joints: usize| {
+        format!(
+            "[symbols]\nangles = [\"p\"]\nlengths = [\"a\", \"d\", \"e\"]\n[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\n\
+             joints = [{}]\n[ansatz]\nunknown = [{unknown}]\n",
+            vec![joint; joints].join(", ")
+        )
+    };
+    let (code, _, err) = conditions(&["-"], &file("\"a\", \"d\", \"e\"", 6));
+    assert!(code == 4 && err.contains("3 unknown lengths"), "{err}");
+    let (code, _, err) = conditions(&["-"], &file("", 7));
+    assert!(code == 4 && err.contains("7 joints"), "{err}");
 }

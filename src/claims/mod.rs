@@ -1,9 +1,12 @@
 //! Are the claims of a mechanism file true: counts against what is found, solutions against the closure itself.
 
 mod joints;
+mod mobility;
+mod moving;
 mod poses;
 
 use crate::assembly::{Assembly, Roots, Workspace};
+use crate::catalogue::Any;
 use crate::catalogue::entry::{Case, Claim, Design, Entry};
 use crate::error::Result;
 use crate::mechanism::{FullMode, Mechanism, Solution};
@@ -20,6 +23,8 @@ pub enum Sort {
     Real,
     /// The dimension of the solution set.
     Dimension,
+    /// How a loop moves: dimension and screw rank.
+    Mobility,
     /// A listed solution closes the loop.
     Closes,
     /// A listed solution is among those found.
@@ -28,7 +33,7 @@ pub enum Sort {
 
 impl Sort {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Complex, Self::Real, Self::Dimension, Self::Closes, Self::Found];
+    pub const ALL: [Self; 6] = [Self::Complex, Self::Real, Self::Dimension, Self::Mobility, Self::Closes, Self::Found];
 
     /// A heading.
     #[must_use]
@@ -37,6 +42,7 @@ impl Sort {
             Self::Complex => "complex",
             Self::Real => "real",
             Self::Dimension => "dimension",
+            Self::Mobility => "mobility",
             Self::Closes => "closes",
             Self::Found => "found",
         }
@@ -85,6 +91,18 @@ impl Judgement {
     }
 }
 
+/// Judges the claims of a file of any kind.
+///
+/// # Errors
+/// As [`judge`]; and for a framework without a realisation.
+pub fn judge_any(any: &Any) -> Result<Judgement> {
+    match any {
+        Any::Entry(entry) => judge(entry),
+        Any::Framework(file) => moving::framework(file),
+        Any::Motion(file) => moving::motion(file),
+    }
+}
+
 /// Solves every case of an entry and judges its claims.
 ///
 /// # Errors
@@ -114,6 +132,7 @@ pub fn judge(entry: &Entry) -> Result<Judgement> {
         }
         let judge = Judge { ruler: &ruler, case, number: index + 1, solution: &solution };
         judge.counts(&mut judgement.findings);
+        judgement.findings.extend(mobility::findings(entry, case, index + 1));
         for claim in &case.expected.solutions {
             judge.solution(claim, &mut judgement.findings)?;
         }

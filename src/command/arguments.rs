@@ -31,6 +31,8 @@ pub enum Verb {
     Sweep(SweepOptions),
     /// Decide whether a loop moves, with proof
     Mobility(MobilityOptions),
+    /// Factor a rational motion and close loops of its factorisations
+    Factor(FactorOptions),
     /// Derive for which parameters a closed chain of revolute joints moves
     Conditions(ConditionsOptions),
     /// List the built-in library
@@ -187,6 +189,10 @@ pub struct DeriveOptions {
     /// The whole derivation in Markdown with LaTeX formulas
     #[arg(long, conflicts_with_all = ["json", "format"])]
     pub explain: bool,
+    /// Loops of four R or C joints: the spherical closure equation and, over dual numbers, the spatial one; of a file, or with
+    /// all parameters symbols: rccc, ccrr, 4r, hooke
+    #[arg(long, conflicts_with_all = ["explain", "symbolic", "bless", "pose", "input", "joints", "legs", "at"])]
+    pub transference: bool,
     /// Print the verdict only
     #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
     pub quiet: bool,
@@ -276,8 +282,12 @@ fn steps(text: &str) -> Result<usize, String> {
 /// `looproot mobility`
 #[derive(Args)]
 pub struct MobilityOptions {
-    /// A file of a loop, the name of a built-in entry, or - for standard input; inputs of the file are not looked at
+    /// A file of a loop or a framework, the name of a built-in entry, or - for standard input; inputs of the file are not
+    /// looked at
     pub mechanism: String,
+    /// Frameworks: how many steps of the motion are followed in f64
+    #[arg(long, value_name = "N", default_value = "60", value_parser = steps)]
+    pub steps: usize,
     /// One JSON document
     #[arg(long)]
     pub json: bool,
@@ -288,6 +298,36 @@ pub struct MobilityOptions {
     pub read: ReadOptions,
     #[command(flatten)]
     pub output: OutputOptions,
+}
+
+/// `looproot factor`
+#[derive(Args)]
+pub struct FactorOptions {
+    /// A file of a rational motion (kind "motion"), the name of a built-in one, or - for standard input
+    pub mechanism: String,
+    /// The two factorisations that close the loop, counted from 1: 1,6 [default: the first pair with the most joints]
+    #[arg(long, value_name = "I,J", value_parser = pair)]
+    pub pair: Option<(usize, usize)>,
+    /// The loop as a mechanism file
+    #[arg(long, conflicts_with_all = ["json", "quiet"])]
+    pub toml: bool,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// Two numbers counted from 1, as counted from 0.
+fn pair(text: &str) -> Result<(usize, usize), String> {
+    let number = |text: &str| text.trim().parse::<usize>().ok()?.checked_sub(1);
+    let numbers = text.split_once(',').and_then(|(i, j)| Some((number(i)?, number(j)?)));
+    numbers.ok_or_else(|| "expected two numbers from 1, such as 1,6".to_owned())
 }
 
 /// `looproot list`
@@ -342,6 +382,8 @@ pub struct BenchOptions {
 pub enum Measure {
     /// Solutions found, lost, spurious, duplicated against planted configurations
     Accuracy(AccuracyOptions),
+    /// Overconstrained loops with a small error in one link: none of them may be called mobile
+    Mobility(DisturbOptions),
     /// Times on one core beside faer's eigenvalues of one 16 x 16 or 40 x 40 matrix
     Speed(SpeedOptions),
 }
@@ -362,6 +404,26 @@ pub struct AccuracyOptions {
     /// Look for real solutions only
     #[arg(long)]
     pub real: bool,
+    /// A JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+/// `looproot bench mobility`
+#[derive(Args)]
+pub struct DisturbOptions {
+    /// A mobile loop of up to six variables of the built-in library; all of them if none is given
+    #[arg(long, value_name = "NAME")]
+    pub entry: Option<String>,
+    /// Number of disturbed loops of each
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub count: u64,
+    /// Seed of the draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
     /// A JSON document
     #[arg(long)]
     pub json: bool,

@@ -156,7 +156,8 @@ fn bennett_s_loop_is_a_pair_of_equations() {
     }
     // Without lengths only the spherical four-bar is left.
     let spherical = symbolic(&four_revolutes([(1, 2), (1, 3), (2, 5), (3, 4)], [0; 4], [0; 4]));
-    assert!(spherical.polynomial.is_none() && spherical.equations.len() == 1);
+    assert!(spherical.polynomial.is_none() && spherical.steps.len() == 2);
+    assert_eq!(spherical.equations.iter().map(|e| e.polynomial.len()).collect::<Vec<_>>(), [21]);
 }
 
 #[test]
