@@ -123,12 +123,22 @@ fn the_document_follows_its_schema() {
         ],
     );
     follows(
+        "mobility.schema.json",
+        &[
+            &["mobility", "bennett_a", "--json"],
+            &["mobility", "bennett_broken", "--json"],
+            &["mobility", "rscr", "--json"],
+            &["mobility", "planar_4r", "--json"],
+        ],
+    );
+    follows(
         "sweep.schema.json",
         &[
             &["sweep", "cccr_1_angle", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
             &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
         ],
     );
+    follows("conditions.schema.json", &[&["conditions", "4R", "--json"], &["conditions", "bennett", "--json"]]);
 }
 
 fn follows(schema: &str, runs: &[&[&str]]) {

@@ -5,5 +5,7 @@
 mod ansatz;
 #[path = "conditions/four_bar.rs"]
 mod four_bar;
+#[path = "conditions/transference.rs"]
+mod transference;
 #[path = "conditions/verb.rs"]
 mod verb;

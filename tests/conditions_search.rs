@@ -2,18 +2,21 @@
 //! else is called mobile.
 #![allow(clippy::unwrap_used)]
 
+use looproot::algebra::echelon::Echelon;
 use looproot::algebra::modp::ModP;
 use looproot::algebra::polynomial::Polynomial;
 use looproot::algebra::ring::Ring;
 use looproot::algebra::text::Format;
 use looproot::catalogue::ansatz::{Ansatz, Link, Symbols};
-use looproot::catalogue::{Format as FileFormat, ansatz_from_text, load_ansatz};
+use looproot::catalogue::{Format as FileFormat, Options, ansatz_from_text, load_ansatz};
 use looproot::conditions::configurations::{configurations, link_motion};
 use looproot::conditions::curve_ansatz::{Relation, rational_curves, spherical_links};
-use looproot::conditions::finite_field::{all_turns, random_unit, turn};
+use looproot::conditions::finite_field::{all_turns, random_unit, square_root, turn, turn_number};
 use looproot::conditions::identity;
+use looproot::conditions::implication::{Implication, implication};
 use looproot::conditions::multiplier::multiplier;
-use looproot::conditions::spherical::Directions;
+use looproot::conditions::search::search;
+use looproot::conditions::spherical::{Directions, closed_by};
 use looproot::conditions::sweep::sweep;
 use looproot::conditions::symmetry::{Slice, slices};
 use looproot::conditions::verification::{closed_positions, germ, rational_member};
@@ -22,9 +25,11 @@ use looproot::mobility::Local;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rug::Rational;
+use std::io::Write;
+use std::process::{Command, Stdio};
 
 fn builtin(name: &str) -> Ansatz {
-    load_ansatz(name, &Default::default()).unwrap()
+    load_ansatz(name, &Options::default()).unwrap()
 }
 
 fn rational(text: &str) -> Rational {
@@ -116,18 +121,24 @@ fn meeting_in_the_middle_finds_what_looking_through_all_rotations_does() {
 #[test]
 fn planted_configurations_of_six_joints_are_found() {
     let mut rng = ChaCha8Rng::seed_from_u64(8);
-    let ansatz = Ansatz::general(6);
-    for _ in 0..4 {
-        let found = rational_member(&ansatz, &[], 20_000, rand::Rng::random(&mut rng)).map(|member| member.links);
-        let image = |x: &Rational| ModP::<499>::from_rational(x);
-        let Some(links) = found else { continue };
-        let links: Option<Vec<_>> = links
-            .iter()
-            .map(|l| Some(Link { cos: image(&l.cos)?, sin: image(&l.sin)?, a: image(&l.a)?, d: image(&l.d)? }))
-            .collect();
-        if let Some(links) = links {
-            assert!(!configurations(&links, 100).turns.is_empty());
+    let mut planted = 0;
+    while planted < 5 {
+        let spherical: Vec<ModP<43>> = (0..6).map(|_| random_unit(&mut rng)).collect();
+        let mut links = spherical_links(&spherical).unwrap();
+        let chosen: Vec<_> = (0..6).map(|_| turn(random_unit::<43>(&mut rng))).collect();
+        let Some(turns) = closed_by(&links, &chosen, [1, 3, 4], |x| square_root(*x)).pop() else { continue };
+        let equations = Directions::of(&links, &turns).equations().to_vec();
+        let mut lengths = [ModP::zero(); 12];
+        for vector in Echelon::of(equations, 12).null_space() {
+            let weight: ModP<43> = random_unit(&mut rng);
+            lengths.iter_mut().zip(&vector).for_each(|(total, x)| total.add_product(&weight, x));
         }
+        for (k, link) in links.iter_mut().enumerate() {
+            (link.a, link.d) = (lengths[k], lengths[6 + k]);
+        }
+        let numbers: Vec<u16> = turns.iter().map(turn_number).collect();
+        assert!(configurations(&links, 1000).turns.contains(&numbers));
+        planted += 1;
     }
 }
 
@@ -243,10 +254,11 @@ fn the_cosine_relation_of_dietmaier_is_found_and_proved() {
     // A relation with one sign wrong has no proof, and closed positions do not satisfy it.
     let wrong = b.mul(&cos(0).add(&cos(1))).sub(&other.mul(&cos(3).sub(&cos(4))));
     assert_eq!(multiplier(&ansatz, &wrong, 1), None);
-    let closed = |relation: &Polynomial<Rational>| closed_positions(&ansatz, &[relation.clone()], 20, 2).unwrap();
+    let closed =
+        |relation: &Polynomial<Rational>| closed_positions(&ansatz, std::slice::from_ref(relation), 20, 2).unwrap();
     assert_eq!((closed(relation).positions, closed(relation).satisfied), (20, 20));
     assert_eq!((closed(&wrong).positions, closed(&wrong).satisfied), (20, 0));
-    let member = rational_member(&ansatz, &[relation.clone()], 60_000, 1).unwrap();
+    let member = rational_member(&ansatz, std::slice::from_ref(relation), 60_000, 1).unwrap();
     assert_eq!((member.germ.local, member.germ.rank), (Local::Curve, 5));
     let mut broken = member.links.clone();
     broken[0].a += 1;
@@ -267,6 +279,8 @@ fn the_length_relation_of_the_trihedral_loop_is_found() {
     assert_eq!((closed.positions, closed.satisfied), (20, 20));
     let member = rational_member(&ansatz, &found.relations, 60_000, 1).unwrap();
     assert_eq!(member.germ.local, Local::Curve);
+    assert_eq!(implication(&ansatz, relation), Some(Implication { joint: 0 }));
+    assert_eq!(implication(&ansatz, &relation.add(&square(1))), None);
 }
 
 #[test]
@@ -291,17 +305,75 @@ fn an_ansatz_that_does_not_move_yields_no_condition() {
         unknown = ["a6"]
         fit = [["a3", "a6"], ["1", "cos(r)", "cos(u)"]]
     "#;
-    let ansatz = ansatz_from_text(text, "rigid.toml", FileFormat::Toml, &Default::default()).unwrap();
+    let ansatz = ansatz_from_text(text, "rigid.toml", FileFormat::Toml, &Options::default()).unwrap();
     let found = sweep(&ansatz, 1).unwrap();
     assert!(found.relations.is_empty() && found.trial.is_none());
 }
 
 #[test]
 fn members_of_the_symmetric_families_are_proved_mobile_and_general_loops_isolated() {
-    for name in ["line_symmetric_6r", "plane_symmetric_6r"] {
-        let member = rational_member(&builtin(name), &[], 60_000, 1).unwrap();
+    for (name, symmetry) in [("line_symmetric_6r", "half-turn"), ("plane_symmetric_6r", "mirror through two joints")] {
+        let found = search(&builtin(name), 1).unwrap();
+        let member = found.member.as_ref().unwrap();
         assert_eq!(member.germ.local, Local::Curve, "{name}");
-        let directions = Directions::of(&member.links, &member.turns);
-        assert!(directions.closes());
+        assert!(Directions::of(&member.links, &member.turns).closes());
+        let own: Vec<_> = found.mobile_slices.iter().filter(|mobile| mobile.contains(&member.links)).collect();
+        assert_eq!(own.len(), 1, "{name}");
+        assert!(own[0].proof.is_some() && own[0].slice.involution.name == symmetry);
     }
+    let member = rational_member(&Ansatz::general(6), &[], 60_000, 1).unwrap();
+    assert_ne!(member.germ.local, Local::Curve);
+}
+
+/// Exit code, what `looproot conditions` wrote, and its complaints.
+fn conditions(arguments: &[&str], input: &str) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_looproot"));
+    command.arg("conditions").args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn the_verb_says_what_is_proved() {
+    let (code, out, err) = conditions(&["dietmaier_6r"], "");
+    let verdict = out.lines().next().unwrap();
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(verdict.starts_with("mobile where ") && verdict.contains("= 0: proved for all parameters"), "{verdict}");
+    assert!(out.contains("w = z1 x z4 + z1 x z6 + z3 x z4 + z3 x z6"), "{out}");
+    assert!(out.contains("degenerate, folded back on itself") && out.contains("alpha4 = alpha1"), "{out}");
+
+    let (code, out, _) = conditions(&["trihedral_6r", "--json"], "");
+    let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((code, &document["proved"]), (0, &true.into()));
+    assert!(
+        document["verdict"]
+            .as_str()
+            .unwrap()
+            .ends_with("proved for all parameters, a member proved over the rationals")
+    );
+    assert_eq!(document["relations"].as_array().unwrap().len(), 1);
+
+    let (code, out, _) = conditions(&["goldberg_5r"], "");
+    assert_eq!(code, 0);
+    assert!(out.starts_with("4 mobile choices of lengths for example twists, 4 of them proved"), "{out}");
+    assert!(out.contains("degenerate, joint 4 locked"), "{out}");
+}
+
+#[test]
+fn what_cannot_be_searched_is_said() {
+    let joint = r#"{ type = "R", a = "a", alpha = "p", d = "d" }"#;
+    let file = |unknown: &str, joints: usize| {
+        format!(
+            "[symbols]\nangles = [\"p\"]\nlengths = [\"a\", \"d\", \"e\"]\n[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\n\
+             joints = [{}]\n[ansatz]\nunknown = [{unknown}]\n",
+            vec![joint; joints].join(", ")
+        )
+    };
+    let (code, _, err) = conditions(&["-"], &file("\"a\", \"d\", \"e\"", 6));
+    assert!(code == 4 && err.contains("3 unknown lengths"), "{err}");
+    let (code, _, err) = conditions(&["-"], &file("", 7));
+    assert!(code == 4 && err.contains("7 joints"), "{err}");
 }

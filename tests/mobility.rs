@@ -4,6 +4,7 @@
 use looproot::algebra::number_field::NumberField;
 use looproot::algebra::ring::{Field, Ring};
 use looproot::algebra::univariate::Univariate;
+use looproot::benchmark::mobility::run as disturb;
 use looproot::catalogue::entry::Entry;
 use looproot::catalogue::{Format, Options, builtin, load_text};
 use looproot::kinematics::closed_loop::Variable;
@@ -67,6 +68,15 @@ fn loops_with_enough_freedoms_move_by_a_certified_configuration() {
     }
 }
 
+#[test]
+fn a_small_error_in_any_link_stops_the_motion() {
+    for name in ["bennett_a", "myard_a", "bricard_line_symmetric_a", "dietmaier_a", "rrcrp_a", "planar_4r"] {
+        let linkage = Linkage::of(builtin(name, &Options::default()).unwrap().chain().unwrap()).unwrap();
+        let tally = disturb(&linkage, 6, 1, || true, || ());
+        assert_eq!((tally.count, tally.immobile, tally.mobile.len()), (6, 6, 0), "{name}");
+    }
+}
+
 /// Four revolutes of a loop, the lengths and twists of Bennett's loop with a factor on one length.
 fn bennett(length: &str) -> String {
     format!(
@@ -93,6 +103,23 @@ fn the_least_change_of_a_length_stops_bennett() {
     let broken = mobility(&entry(&bennett("\"4000000001/1000000000\""))).unwrap();
     assert_eq!((broken.mobility, broken.proof), (Some(0), Proof::Exact));
     assert!(broken.configurations.is_empty());
+}
+
+#[test]
+fn rounded_numbers_are_swept_and_never_called_exact() {
+    // Bennett's condition a/sin alpha = const in numbers that are not rational.
+    let joint = |angle: u32, factor: &str| {
+        format!("{{ type = \"R\", a = \"{factor}sin({angle} deg)\", alpha = \"{angle} deg\", d = 0 }},")
+    };
+    let text = |factor: &str| {
+        let joints = [joint(40, factor), joint(70, ""), joint(40, ""), joint(70, "")].join("\n");
+        format!("[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [\n{joints}\n]\n")
+    };
+    let swept = mobility(&entry(&text(""))).unwrap();
+    assert_eq!((swept.mobility, swept.proof), (Some(1), Proof::CertifiedSweep), "{}", swept.reason);
+    assert_eq!(swept.screw_rank(), Some(3));
+    let broken = mobility(&entry(&text("1.000001*"))).unwrap();
+    assert_eq!((broken.mobility, broken.proof), (Some(0), Proof::Exact));
 }
 
 /// Six axes `direction, point` of the linear complex of the screw with pitch 1 about z: `d . (e_z x p + e_z) = 0`.

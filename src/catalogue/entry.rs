@@ -127,6 +127,10 @@ pub struct Expected {
     pub real: Option<usize>,
     /// Dimension of the solution set.
     pub dimension: Option<usize>,
+    /// Dimension of the motion of a loop, whatever its inputs are.
+    pub mobility: Option<usize>,
+    /// Rank of the joint screws along that motion.
+    pub screw_rank: Option<usize>,
     /// Solutions that must be among those found.
     pub solutions: Vec<Claim>,
 }

@@ -177,11 +177,13 @@ pub(super) fn expected(
 ) -> Result<Expected> {
     let mut expected = Expected::default();
     if let Some(node) = table.get("expected") {
-        let claims = scope.table(node, "[expected]", &["complex", "real", "dimension"])?;
+        let claims = scope.table(node, "[expected]", &["complex", "real", "dimension", "mobility", "screw_rank"])?;
         let count = |key: &str| claims.get(key).map(|node| scope.count(node, key)).transpose();
         expected.complex = count("complex")?;
         expected.real = count("real")?;
         expected.dimension = count("dimension")?;
+        expected.mobility = count("mobility")?;
+        expected.screw_rank = count("screw_rank")?;
         if let (Some(real), Some(complex)) = (expected.real, expected.complex)
             && real > complex
         {

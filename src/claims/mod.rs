@@ -1,6 +1,7 @@
 //! Are the claims of a mechanism file true: counts against what is found, solutions against the closure itself.
 
 mod joints;
+mod mobility;
 mod moving;
 mod poses;
 
@@ -22,6 +23,8 @@ pub enum Sort {
     Real,
     /// The dimension of the solution set.
     Dimension,
+    /// How a loop moves: dimension and screw rank.
+    Mobility,
     /// A listed solution closes the loop.
     Closes,
     /// A listed solution is among those found.
@@ -30,7 +33,7 @@ pub enum Sort {
 
 impl Sort {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Complex, Self::Real, Self::Dimension, Self::Closes, Self::Found];
+    pub const ALL: [Self; 6] = [Self::Complex, Self::Real, Self::Dimension, Self::Mobility, Self::Closes, Self::Found];
 
     /// A heading.
     #[must_use]
@@ -39,6 +42,7 @@ impl Sort {
             Self::Complex => "complex",
             Self::Real => "real",
             Self::Dimension => "dimension",
+            Self::Mobility => "mobility",
             Self::Closes => "closes",
             Self::Found => "found",
         }
@@ -128,6 +132,7 @@ pub fn judge(entry: &Entry) -> Result<Judgement> {
         }
         let judge = Judge { ruler: &ruler, case, number: index + 1, solution: &solution };
         judge.counts(&mut judgement.findings);
+        judgement.findings.extend(mobility::findings(entry, case, index + 1));
         for claim in &case.expected.solutions {
             judge.solution(claim, &mut judgement.findings)?;
         }

@@ -189,6 +189,10 @@ pub struct DeriveOptions {
     /// The whole derivation in Markdown with LaTeX formulas
     #[arg(long, conflicts_with_all = ["json", "format"])]
     pub explain: bool,
+    /// Loops of four R or C joints: the spherical closure equation and, over dual numbers, the spatial one; of a file, or with
+    /// all parameters symbols: rccc, ccrr, 4r, hooke
+    #[arg(long, conflicts_with_all = ["explain", "symbolic", "bless", "pose", "input", "joints", "legs", "at"])]
+    pub transference: bool,
     /// Print the verdict only
     #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
     pub quiet: bool,
@@ -378,6 +382,8 @@ pub struct BenchOptions {
 pub enum Measure {
     /// Solutions found, lost, spurious, duplicated against planted configurations
     Accuracy(AccuracyOptions),
+    /// Overconstrained loops with a small error in one link: none of them may be called mobile
+    Mobility(DisturbOptions),
     /// Times on one core beside faer's eigenvalues of one 16 x 16 or 40 x 40 matrix
     Speed(SpeedOptions),
 }
@@ -398,6 +404,26 @@ pub struct AccuracyOptions {
     /// Look for real solutions only
     #[arg(long)]
     pub real: bool,
+    /// A JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+/// `looproot bench mobility`
+#[derive(Args)]
+pub struct DisturbOptions {
+    /// A mobile loop of up to six variables of the built-in library; all of them if none is given
+    #[arg(long, value_name = "NAME")]
+    pub entry: Option<String>,
+    /// Number of disturbed loops of each
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub count: u64,
+    /// Seed of the draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
     /// A JSON document
     #[arg(long)]
     pub json: bool,

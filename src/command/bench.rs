@@ -1,25 +1,34 @@
 //! `looproot bench`
 
-use super::arguments::{AccuracyOptions, BenchOptions, Measure, SpeedOptions};
+use super::arguments::{AccuracyOptions, BenchOptions, DisturbOptions, Measure, SpeedOptions};
 use super::exit::{Exit, Fault};
 use super::output::{pool, print};
 use super::solve::stop_on_interrupt;
 use indicatif::{ProgressBar, ProgressStyle};
 use looproot::assembly::Roots;
 use looproot::benchmark::accuracy::{self, Counts, Job, quantiles};
+use looproot::benchmark::mobility as disturbed;
 use looproot::benchmark::platform;
 use looproot::benchmark::platform::accuracy::PlatformJob;
 use looproot::benchmark::platform::sample::PlatformSet;
 use looproot::benchmark::sample::{CHAINS, Set};
 use looproot::benchmark::speed;
+use looproot::catalogue::entry::Kind;
+use looproot::catalogue::{Options, builtin, builtin_names};
 use looproot::error::Error;
+use looproot::mobility::{Linkage, moves};
+use looproot::report::number::duration;
+use looproot::report::table::Columns;
+use rug::Rational;
 use serde_json::json;
 use std::sync::atomic::Ordering;
+use std::time::Instant;
 
 /// Measures accuracy or speed.
 pub fn run(options: &BenchOptions) -> Result<Exit, Fault> {
     match &options.measure {
         Measure::Accuracy(options) => measure_accuracy(options),
+        Measure::Mobility(options) => measure_mobility(options),
         Measure::Speed(options) => measure_speed(options),
     }
 }
@@ -104,6 +113,52 @@ fn document(counts: &Counts, set: &str, options: &AccuracyOptions) -> serde_json
         "residual": spread(&counts.residuals), "distance": spread(&counts.errors),
         "real": histogram(&counts.real), "complex": histogram(&counts.complex),
     })
+}
+
+/// The mobile loops of up to six variables that are asked for.
+fn mobile(options: &DisturbOptions) -> Result<Vec<(String, Linkage<Rational>)>, Error> {
+    let names = options.entry.as_ref().map_or_else(builtin_names, |name| vec![name.clone()]);
+    let mut found = Vec::new();
+    for name in names {
+        let entry = builtin(&name, &Options::default())?;
+        let chain = entry.chain().filter(|_| entry.kind() == Kind::Loop);
+        let Some(linkage) = chain.and_then(|chain| Linkage::of(chain).ok()) else { continue };
+        if linkage.variables.len() <= 6 && moves(&linkage) == Some(true) {
+            found.push((name, linkage));
+        }
+    }
+    if found.is_empty() {
+        return Err(Error::Invalid("found no mobile loop of up to six variables, expected one".to_owned()));
+    }
+    Ok(found)
+}
+
+fn measure_mobility(options: &DisturbOptions) -> Result<Exit, Fault> {
+    let pool = pool(options.threads)?;
+    let loops = mobile(options)?;
+    let stop = stop_on_interrupt();
+    let bar = ProgressBar::new(options.count * loops.len() as u64);
+    let running = || !stop.load(Ordering::Relaxed);
+    let mut table = Columns::new(&["loop", "disturbed", "immobile", "undecided", "mobile", "each"], &["loop"]);
+    let mut documents = Vec::new();
+    let mut none_moves = true;
+    for (name, linkage) in &loops {
+        let start = Instant::now();
+        let tally = pool.install(|| disturbed::run(linkage, options.count, options.seed, running, || bar.inc(1)));
+        let each = start.elapsed().as_secs_f64() * 1e6 / tally.count.max(1) as f64;
+        none_moves &= tally.mobile.is_empty();
+        let counts = [tally.count, tally.immobile, tally.undecided, tally.mobile.len()].map(|n| n.to_string());
+        table.row(std::iter::once(name.clone()).chain(counts).chain([duration(each)]));
+        documents.push(json!({
+            "loop": name, "disturbed": tally.count, "immobile": tally.immobile, "undecided": tally.undecided,
+            "mobile": tally.mobile,
+        }));
+    }
+    bar.finish_and_clear();
+    let foot = format!("errors of 1e-3 to 1e-9 in one link, seed {}\n", options.seed);
+    print(&if options.json { format!("{}\n", json!(documents)) } else { table.text() + &foot })?;
+    let exit = if none_moves { Exit::Complete } else { Exit::NotProved };
+    Ok(if running() { exit } else { Exit::Interrupted })
 }
 
 fn measure_speed(options: &SpeedOptions) -> Result<Exit, Fault> {

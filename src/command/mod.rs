@@ -17,4 +17,5 @@ pub mod poly;
 pub mod show;
 pub mod solve;
 pub mod sweep;
+pub mod transference;
 pub mod wanted;

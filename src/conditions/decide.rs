@@ -354,7 +354,18 @@ fn planar(setting: &Setting, families: &mut Vec<Family>) {
     // The sines are set aside as factors that do not vanish: put them in as they are.
     let possible = sines.iter().all(|sine| sine.numerator().to_constant().is_none());
     if possible {
-        let conditions = sines.iter().map(|sine| sine.numerator().primitive_part().square_free_part()).collect();
+        let mut conditions: Vec<Poly> =
+            sines.iter().map(|sine| sine.numerator().primitive_part().square_free_part()).collect();
+        // Tangents that vanish are angles of 0, which turn no axis round.
+        let zeros: Vec<(usize, Poly)> = conditions
+            .iter()
+            .filter_map(|p| (0..p.variables()).find(|&k| *p == Poly::variable(k)))
+            .map(|k| (k, Poly::zero()))
+            .collect();
+        if zeros.len() == conditions.len() {
+            let sum = along.numerator().substitute_all(&zeros).primitive_part();
+            conditions.extend(Some(sum).filter(|sum| !sum.is_zero()));
+        }
         let note = "twists 0 (or pi), and the sum of the offsets, each in the direction of its axis, is 0".to_owned();
         families.push(Family { class: Class::Planar, name, conditions, note: Some(note) });
     }

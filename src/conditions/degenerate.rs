@@ -70,7 +70,7 @@ pub(super) fn zero_twists(pair: &SpatialPair<Poly>, steps: &mut Vec<Step>) {
     // Three twists zero: f does not depend on the angles, and leaves the fourth twist zero as well.
     let flat =
         (0..3).filter(|&k| k != 1).chain([3]).fold(pair.f.clone(), |f, k| f.substitute(Variables::twist(k), &zero));
-    let circles = |p: &Poly| p.mul(&p).add(&Poly::one());
+    let circles = |p: &Poly| p.mul(p).add(&Poly::one());
     let fourth = v(Variables::twist(1));
     let expected = fourth.mul(&fourth).mul(&circles(&x)).mul(&circles(&y)).scale(&Int::from_integer(2));
     let planar = (0..4).fold(pair.g.clone(), |g, k| g.substitute(Variables::twist(k), &zero));

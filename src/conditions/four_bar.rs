@@ -293,7 +293,7 @@ fn reducible(pair: &SpatialPair<Poly>, mut twists: Vec<TwistFamily>, steps: &mut
                     isogram &= vector[4].is_zero() && vector[5].is_zero() && solved == Variables::Y;
                     let (rest, never) = rank_drops(&rows, vector, family);
                     isogram &= never;
-                    exceptional.extend(rest);
+                    exceptional.extend(rest.iter().map(|factor| plain(factor, &tangents())));
                     let lengths = std::array::from_fn(|k| vector[k].clone());
                     let nought = || (Poly::zero(), Poly::one());
                     bennett.push(Bennett {
@@ -323,15 +323,18 @@ fn reducible(pair: &SpatialPair<Poly>, mut twists: Vec<TwistFamily>, steps: &mut
             own.into_iter().chain(names)
         })
         .collect();
+    exceptional.sort_unstable();
     exceptional.dedup();
     steps.push(Step {
         title: "Isograms".to_owned(),
-        text: "On each of the two components of an isogram, y = K/x or y = K x, g = 0 is 5 linear equations in (a1, a2, a3, a4, d1, d4) \
-               with a null space of dimension 1 over the rational functions in the two free tangents: Bennett's lengths, d1 = d4 = 0. The \
-               maximal minors are the null vector times one polynomial, whose factors besides t_k and 1 + t_k^2 are t_i - t_j, t_i + t_j \
-               or t_i t_j - 1, t_i t_j + 1: there K is 0 or infinite, and the component falls apart into folds. Everywhere else the rank is \
-               5. (The first two families: both pairs of opposite twists equal.)"
-            .to_owned(),
+        text: format!(
+            "On each of the two components of an isogram, y = K/x or y = K x, g = 0 is 5 linear equations in (a1, a2, a3, a4, d1, d4) \
+             with a null space of dimension 1 over the rational functions in the two free tangents: Bennett's lengths, d1 = d4 = 0; the \
+             same from joint 3 on, d2 = d3 = 0. The maximal minors are the null vector, which is never zero, times one polynomial, whose \
+             factors besides t_k and 1 + t_k^2 are, over all families, {}: where one of them vanishes K is 0 or infinite, and the \
+             component falls apart into folds. Everywhere else the rank is 5. (Below the first two: opposite twists equal.)",
+            exceptional.join(", ")
+        ),
         formulas: shown,
         holds: isogram && bennett.len() == 16,
     });

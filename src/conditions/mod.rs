@@ -9,6 +9,7 @@ mod degenerate;
 pub mod finite_field;
 pub mod four_bar;
 pub mod identity;
+pub mod implication;
 pub mod lift;
 pub mod multiplier;
 pub mod null_space;

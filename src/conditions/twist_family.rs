@@ -53,7 +53,7 @@ pub struct TwistFamily {
 #[must_use]
 pub fn families(e: Signs, other: Signs) -> Option<[TwistFamily; 2]> {
     let halves: [Signs; 2] =
-        [std::array::from_fn(|k| (e[k] + other[k]) / 2), std::array::from_fn(|k| (e[k] - other[k]) / 2)];
+        [std::array::from_fn(|k| i32::midpoint(e[k], other[k])), std::array::from_fn(|k| (e[k] - other[k]) / 2)];
     let support = |half: &Signs| (0..4).filter(|&k| half[k] != 0).collect::<Vec<_>>();
     let pairs = halves.map(|half| (support(&half), half));
     if pairs.iter().any(|(support, _)| support.len() != 2) {

@@ -62,7 +62,8 @@ impl Found {
         match self {
             Self::Quotient(found) => format!(
                 "Multiplication by k = {} in the quotient algebra, without the components with x.x = 0, is a matrix of size {}; \
-                 its characteristic polynomial from {} primes, confirmed by one more, is the closure polynomial.",
+                 its characteristic polynomial from {} primes is the closure polynomial. One more prime agrees in all \
+                 coefficients: no proof, but a probability of error below 2^-40.",
                 words(&found.coordinate),
                 found.coefficients.len() - 1,
                 found.primes

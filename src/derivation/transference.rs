@@ -8,10 +8,15 @@
 
 use crate::algebra::dual::Dual;
 use crate::algebra::int::Int;
+use crate::algebra::number::Angle;
 use crate::algebra::polynomial::Polynomial;
-use crate::algebra::ring::Ring;
+use crate::algebra::ring::{Ring, exact_cos_sin};
+use crate::algebra::text::Names;
 use crate::algebra::trigonometric::{Pair, Trigonometric, half_tangents};
+use crate::error::{Error, Result};
+use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind};
 use crate::kinematics::motion::{Motion, Vector, dot};
+use rug::Rational;
 
 /// Cosine and sine of an angle.
 pub type CosSin<R> = (R, R);
@@ -162,4 +167,142 @@ pub fn half_angle_pair(pair: &SpatialPair<Trigonometric<Int>>) -> SpatialPair<Po
         form.polynomial
     };
     SpatialPair { f: form(&pair.f), g: form(&pair.g) }
+}
+
+/// A loop of four joints before and behind the step from the sphere into space.
+#[derive(Clone, Debug)]
+pub struct Transfer {
+    /// What loop it is.
+    pub title: String,
+    /// The names of all variables.
+    pub names: Names,
+    /// The spherical equation.
+    pub f: Polynomial<Rational>,
+    /// The part with eps.
+    pub g: Polynomial<Rational>,
+    /// The offsets that g gives, each as a name, numerator and denominator.
+    pub offsets: Vec<(String, Polynomial<Rational>, Polynomial<Rational>)>,
+    /// What this means, a sentence each.
+    pub steps: Vec<String>,
+}
+
+/// The loops that have a name: their words on a command line.
+pub const NAMED: [&str; 4] = ["rccc", "ccrr", "4r", "hooke"];
+
+impl Transfer {
+    fn new(title: &str, names: Names, f: Polynomial<Rational>, g: Polynomial<Rational>, free: &[usize]) -> Self {
+        let given = |&variable: &usize| {
+            let slope = g.derivative(variable);
+            let rest = g.substitute(variable, &Polynomial::zero());
+            (!slope.is_zero()).then(|| (names.list()[variable].clone(), rest.neg(), slope))
+        };
+        let offsets = free.iter().filter_map(given).collect();
+        let steps = vec![
+            "The axes of joints 2 and 3 include the twist of link 2: z2.z3 = cos(alpha2), with z2 seen along link 1 and z3 along links 4 \
+             and 3, is the closure equation f of the spherical loop."
+                .to_owned(),
+            "The same equation over dual numbers, every twist alpha_k + eps a_k and every joint angle theta_k + eps d_k, is f + eps g: the \
+             spatial loop closes where f = 0 and g = 0."
+                .to_owned(),
+        ];
+        Self { title: title.to_owned(), names, f, g, offsets, steps }
+    }
+
+    /// A loop by its name, with every parameter a symbol; `None` for another name.
+    ///
+    /// # Errors
+    /// Never for the names that it has.
+    pub fn named(name: &str) -> Result<Option<Self>> {
+        let general = general_pair();
+        let rational = |p: &Trigonometric<Int>| {
+            p.polynomial().map(|c| Some(Rational::from(c.to_integer()))).unwrap_or_else(Polynomial::zero)
+        };
+        let (f, g) = (rational(&general.f), rational(&general.g));
+        let names = Names::given(Variables::TRIGONOMETRIC)?;
+        let fourth = Variables::offset(3);
+        let (title, free, last): (&str, &[usize], &str) = match name {
+            "rccc" => (
+                "RCCC: the spherical four-bar in space",
+                &[fourth],
+                "With theta1 and d1 given, f is a quadratic equation in tan(theta4/2), and g, linear in d4, gives that offset.",
+            ),
+            "ccrr" => (
+                "CCRR with both offsets given",
+                &[],
+                "With d1 and d4 given, f and g are two equations of degree 2 in each of tan(theta1/2), tan(theta4/2): eliminating one of \
+                 these leaves degree 8.",
+            ),
+            "4r" => (
+                "4R",
+                &[],
+                "With all offsets constant, f and g are two equations in two angles: in general no motion. `looproot conditions 4R` derives \
+                 when g vanishes on a component of f.",
+            ),
+            "hooke" => {
+                let mut right = Vec::new();
+                for k in 0..3 {
+                    right.push((Variables::angle(k).cos, Polynomial::zero()));
+                    right.push((Variables::angle(k).sin, Polynomial::one()));
+                }
+                let (f, g) = (f.substitute_all(&right), g.substitute_all(&right));
+                let mut transfer = Self::new("Hooke's joint, and the joint of skew axes", names, f, g, &[fourth]);
+                transfer.steps.push(
+                    "With right twists of links 1, 2 and 3 and the angle alpha4 between the shafts, f = 0 is tan(theta1) tan(theta4) = \
+                     cos(alpha4): Hooke's joint. With alpha4 + eps a4 the shafts are skew at the distance a4, and g gives the offset of \
+                     joint 4."
+                        .to_owned(),
+                );
+                return Ok(Some(transfer));
+            }
+            _ => return Ok(None),
+        };
+        let mut transfer = Self::new(title, names, f, g, free);
+        transfer.steps.push(last.to_owned());
+        Ok(Some(transfer))
+    }
+
+    /// The loop of a file: four joints of type R or C.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for other loops.
+    pub fn of(title: &str, chain: &Chain) -> Result<Self> {
+        type Symbol = Trigonometric<Rational>;
+        let unsupported = || {
+            let what = "transference of a loop other than four R or C joints in the convention \"dh\"";
+            Error::Unsupported(what.to_owned())
+        };
+        let Geometry::Dh(joints) = &chain.geometry else { return Err(unsupported()) };
+        let [first, second, third, fourth] = joints.as_slice() else { return Err(unsupported()) };
+        if !joints.iter().all(|joint| matches!(joint.kind, JointKind::Revolute | JointKind::Cylindrical)) {
+            return Err(unsupported());
+        }
+        let number = |q: Rational| Symbol::new(&Polynomial::constant(q), &[]);
+        let constant = |angle: &Angle| {
+            let (cos, sin) = exact_cos_sin(angle);
+            (number(cos), number(sin))
+        };
+        // Joint variables: cosine, sine and offset of joint 1, then of joint 4.
+        let angle = |at: usize, joint: &Joint| {
+            let pair = Pair { cos: at, sin: at + 1 };
+            let ((cos, sin), (c0, s0)) = ((Symbol::cos(pair), Symbol::sin(pair)), constant(&joint.theta0));
+            (cos.mul(&c0).sub(&sin.mul(&s0)), sin.mul(&c0).add(&cos.mul(&s0)))
+        };
+        let offset = |at: usize, joint: &Joint| {
+            let fixed = number(joint.d.rational().clone());
+            let is_free = joint.kind == JointKind::Cylindrical;
+            if is_free { fixed.add(&Symbol::new(&Polynomial::variable(at + 2), &[])) } else { fixed }
+        };
+        let links = [first, second, third, fourth];
+        let loop_of_four = SpatialFourBar {
+            twists: links.map(|joint| constant(&joint.alpha)),
+            lengths: links.map(|joint| number(joint.a.rational().clone())),
+            first: angle(0, first),
+            first_offset: offset(0, first),
+            fourth: angle(3, fourth),
+            fourth_offset: offset(3, fourth),
+        };
+        let SpatialPair { f, g } = loop_of_four.pair();
+        let names = Names::given(["c1", "s1", "d1", "c4", "s4", "d4"])?;
+        Ok(Self::new(title, names, f.polynomial().clone(), g.polynomial().clone(), &[2, 5]))
+    }
 }

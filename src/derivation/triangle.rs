@@ -40,8 +40,8 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
             label(3),
             label(2)
         ),
-        "The other two rotations are rational in it, and the three translations solve three linear equations; roots at which \
-         these are dependent without closing the loop are divided out."
+        "The other two rotations are rational in it, and the three translations solve three linear equations; a root at which \
+         these are dependent without closing the loop is no solution."
             .to_owned(),
         format!("In {} the equation is of degree 2.", exact.symbols.name(unknown)),
     ];

@@ -2,8 +2,9 @@
 
 use super::answer::{Configuration, JointVariable, Mobility, Proof};
 use super::linkage::{JointValue, Linkage};
-use super::order::{Germ, Local};
+use super::order::{Germ, Local, MOST_SOLUTIONS};
 use super::positions::Conjugates;
+use super::rounded::{Closing, closing};
 use super::search::{Outcome, Search, at, decide, is_proved_immobile, search};
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::assembly::{Assembly, Roots, Workspace};
@@ -17,6 +18,9 @@ use rug::{Float, Rational};
 
 /// Tangents of half the angles at which a joint of a loop of seven variables or more is held.
 const TANGENTS: [(i32, i32); 6] = [(1, 2), (-1, 3), (4, 3), (-7, 3), (-5, 7), (8, 3)];
+/// Theorem 4 in words.
+const NO_CURVE: &str = "no curve of configurations: held at some value of any one of its joints, the loop has no configuration, \
+                        nor a limit of any";
 /// Decimal digits in which a singular solution known in floating point is compared with simple rationals.
 const SIMPLE: u32 = 6;
 
@@ -82,6 +86,37 @@ impl Subject<'_> {
 
     /// Loops of up to six variables, which in general do not move.
     fn overconstrained(&self) -> Result<Mobility> {
+        let answer = self.exactly()?;
+        if !self.entry.rounded || answer.mobility > Some(0) {
+            return Ok(answer);
+        }
+        if let Some(closing) = closing(self.entry, &self.variables)? {
+            return Ok(self.swept(closing));
+        }
+        let reason = format!("{}; numbers of the file were rounded, which may have stopped a motion", answer.reason);
+        Ok(Mobility { reason, ..answer })
+    }
+
+    /// A loop that closes to rounding.
+    fn swept(&self, closing: Closing) -> Mobility {
+        let configurations: Vec<Configuration> =
+            closing.modes.iter().map(|mode| Configuration { local: Local::Curve, ..self.measured(mode) }).collect();
+        let reason = format!(
+            "numbers of the file were rounded, and exactly rounded numbers do not move; as given, the loop closes with \
+             residuals up to {:.1e} at {} of {} inputs of joint {} round the circle, one behind the other",
+            closing.residual, closing.inputs.0, closing.inputs.1, self.variables[closing.held.0].joint
+        );
+        let complex = configurations.len();
+        Mobility {
+            held: vec![closing.held],
+            configurations,
+            complex,
+            ..self.answer(Some(1), Proof::CertifiedSweep, reason)
+        }
+    }
+
+    /// The same by exact arithmetic alone.
+    fn exactly(&self) -> Result<Mobility> {
         match search(&self.linkage) {
             Outcome::Mobile(found) => Ok(self.mobile(found)),
             Outcome::Complex(found) => {
@@ -175,17 +210,15 @@ impl Subject<'_> {
         arm.design = Design::Arm(self.chain.clone());
         let solution = solve(&arm, Case::at(Placement::identity(), 0))?;
         let verdict = &solution.verdict;
-        if !matches!(verdict.status, Status::Complete | Status::Unreachable) {
-            if is_proved_immobile(&self.linkage) {
-                let reason = format!(
-                    "no curve of configurations: held at some value of any one of its joints, the loop has no configuration, \
-                     nor a limit of any; the isolated ones: {}",
-                    verdict.reason
-                );
-                return Ok(self.answer(Some(0), Proof::Exact, reason));
-            }
+        let is_complete = matches!(verdict.status, Status::Complete | Status::Unreachable);
+        // As many isolated configurations as there can be leave none for a curve.
+        if !(is_complete && verdict.certified == MOST_SOLUTIONS) && !is_proved_immobile(&self.linkage) {
             let reason = format!("no motion was found through any value of a joint; {}", verdict.reason);
             return Ok(self.answer(None, Proof::None, reason));
+        }
+        if !is_complete {
+            let reason = format!("{NO_CURVE}; the isolated ones: {}", verdict.reason);
+            return Ok(self.answer(Some(0), Proof::Exact, reason));
         }
         let mut configurations = Vec::new();
         for mode in solution.modes.iter().filter(|mode| mode.real) {
@@ -198,7 +231,8 @@ impl Subject<'_> {
             (_, 0) => format!("no real configuration, {complex} complex ones"),
             _ => format!("{real} isolated real configurations{}", order_clause(shaky)),
         };
-        let reason = format!("{what}: {}", verdict.reason);
+        let curves = if verdict.certified == MOST_SOLUTIONS { "as many as there can be" } else { NO_CURVE };
+        let reason = format!("{what}: {}; {curves}", verdict.reason);
         Ok(Mobility { shaky, configurations, complex, ..self.answer(Some(0), Proof::Exact, reason) })
     }
 

@@ -5,6 +5,7 @@ mod decision;
 pub mod linkage;
 pub mod order;
 mod positions;
+mod rounded;
 mod search;
 
 pub use answer::{Configuration, Held, JointVariable, Mobility, Proof};
@@ -12,3 +13,4 @@ pub use decision::mobility;
 pub use linkage::{JointValue, Linkage, Position};
 pub use order::{Germ, Local};
 pub use positions::{Conjugates, Positions, positions};
+pub use search::moves;

@@ -61,6 +61,19 @@ pub(super) enum Outcome {
     Nothing,
 }
 
+/// Whether a chain of up to six joint variables moves, by proof: `None` where neither a real motion was found nor its absence
+/// proved.
+///
+/// # Source
+/// docs/mobility.md, theorems 1, 2 and 4.
+#[must_use]
+pub fn moves(linkage: &Linkage<Rational>) -> Option<bool> {
+    if is_proved_immobile(linkage) {
+        return Some(false);
+    }
+    matches!(search(linkage), Outcome::Mobile(_)).then_some(true)
+}
+
 /// Looks for a motion: holds as few joints as leave finitely many configurations, and decides what passes through those.
 pub(super) fn search(linkage: &Linkage<Rational>) -> Outcome {
     let n = linkage.variables.len();
@@ -82,7 +95,7 @@ pub(super) fn search(linkage: &Linkage<Rational>) -> Outcome {
                 if search.configurations.iter().any(|c| c.dimension() > Some(0)) {
                     return Outcome::Mobile(search);
                 }
-                if search.configurations.is_empty() && complex.is_none() && moves(linkage, &held, &found) {
+                if search.configurations.is_empty() && complex.is_none() && some_move(linkage, &held, &found) {
                     complex = Some(search);
                 }
             }
@@ -220,7 +233,7 @@ pub(super) fn decide(linkage: &Linkage<Rational>, held: &[(usize, Rational)], fo
 }
 
 /// Whether some complex configuration moves.
-fn moves(linkage: &Linkage<Rational>, held: &[(usize, Rational)], found: &[Conjugates]) -> bool {
+fn some_move(linkage: &Linkage<Rational>, held: &[(usize, Rational)], found: &[Conjugates]) -> bool {
     found
         .iter()
         .flat_map(|conjugates| conjugates.each(|part| Known::of(linkage, held, part)))

@@ -218,7 +218,7 @@ pub fn markdown(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Resu
         } else {
             let polynomials: Vec<_> = family.conditions.iter().map(rational).collect();
             let lines = Format::Latex.system(&polynomials, &decision.names)?.replace("align*", "aligned");
-            let _ = writeln!(text, "All of these vanish:\n\n$$\n{}$$", lines);
+            let _ = writeln!(text, "All of these vanish:\n\n$$\n{lines}$$");
         }
         if let Some(note) = &family.note {
             let _ = writeln!(text, "\n`{note}`");

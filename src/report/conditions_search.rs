@@ -18,7 +18,7 @@ use std::fmt::Write;
 pub fn is_proved(search: &Search) -> bool {
     let member = |member: &Option<RationalMember>| member.as_ref().is_some_and(|m| m.germ.local == Local::Curve);
     match (&search.fitted, &search.curves) {
-        (Some(fitted), _) => fitted.multiplier.is_some(),
+        (Some(fitted), _) => fitted.is_proved(),
         (None, Some(curves)) => {
             let mut proper = curves.loops.iter().filter(|found| is_proper(found)).peekable();
             proper.peek().is_some() && proper.all(|found| found.germ.local == Local::Curve)
@@ -61,7 +61,7 @@ pub fn verdict(ansatz: &Ansatz, search: &Search) -> String {
         }
         (None, None, Some(member)) => match member.germ.local {
             Local::Curve => "mobile, proved for a random member over the rationals".to_owned(),
-            _ => format!("a random member does not move from a random position: {}", local(&member.germ)),
+            _ => format!("no mobile member found: random members are {}", local(&member.germ)),
         },
         (None, None, None) => match proper_slices(search).count() {
             0 => "no symmetry found that moves for all lengths".to_owned(),
@@ -85,7 +85,7 @@ fn fit_verdict(ansatz: &Ansatz, fitted: &Fitted) -> String {
     let implied = fitted.closed.filter(|closed| closed.positions > 0 && closed.satisfied == closed.positions);
     let proved_member = fitted.member.as_ref().is_some_and(|member| member.germ.local == Local::Curve);
     let member = if proved_member { ", a member proved over the rationals" } else { "" };
-    if fitted.multiplier.is_some() {
+    if fitted.is_proved() {
         return format!("mobile where {found}: proved for all parameters{member}");
     }
     if implied.is_some() {
@@ -178,6 +178,14 @@ pub fn text(ansatz: &Ansatz, search: &Search) -> String {
     if let Some(member) = &search.member {
         text.push_str("\nRandom member that satisfies the relations\n");
         member_text(member, &mut text);
+        for mobile in search.mobile_slices.iter().filter(|mobile| mobile.contains(&member.links)) {
+            let _ = writeln!(
+                text,
+                "    one of the symmetric family `{}`: {}",
+                mobile.slice.involution.name,
+                pattern(mobile)
+            );
+        }
     }
     let _ = writeln!(
         text,
@@ -264,6 +272,15 @@ fn fit_text(ansatz: &Ansatz, fitted: &Fitted, text: &mut String) {
             multiplier.size
         );
     }
+    if let Some(implication) = fitted.implication {
+        let (i, j) = (implication.joint + 1, implication.joint + 4);
+        let _ = writeln!(
+            text,
+            "  proof for all parameters: r^2 (z{i} . z{j}) - 2 (z{i} . r)(z{j} . r), r from axis {i} to axis {j}, is z{i} . z{j} times a \
+             number made of lengths on both sides of the loop, so that closure implies the relation where z{i} . z{j} is not 0: \
+             every such real closed position of screw rank 5 lies on a curve of positions"
+        );
+    }
     if let Some(member) = &fitted.member {
         text.push_str("  random member over the rationals\n");
         member_text(member, text);
@@ -344,7 +361,7 @@ fn evidence(fitted: &Fitted) -> Value {
         })),
         "closed_positions": fitted.closed.map(|closed| json!({ "found": closed.positions, "satisfied": closed.satisfied })),
         "member": fitted.member.as_ref().map(|member| local(&member.germ)),
-        "family_proof": fitted.multiplier.is_some(),
+        "family_proof": fitted.is_proved(),
     })
 }
 

@@ -16,3 +16,4 @@ pub mod sweep;
 pub mod symbolic;
 pub mod table;
 pub mod text;
+pub mod transference;

@@ -186,6 +186,25 @@ fn relations_of_an_ansatz_leave_what_is_left() {
 }
 
 #[test]
+fn loops_of_the_library_are_decided() {
+    let expected = [
+        ("bennett_a", &[Class::Bennett][..]),
+        ("bennett_b", &[Class::Bennett]),
+        ("bennett_c", &[Class::Bennett]),
+        ("bennett_broken", &[]),
+        ("planar_4r", &[Class::Planar]),
+    ];
+    for (name, classes_of_it) in expected {
+        let ansatz = load_ansatz(name, &Options::default()).unwrap();
+        let decision = decide(theorem(), &ansatz).unwrap();
+        assert_eq!(classes(&decision), classes_of_it, "{name}");
+        assert_ne!(decision.confirmed, Some(false), "{name}");
+    }
+    // Screw axes have no link parameters to be asked about.
+    assert_eq!(load_ansatz("motion_polynomial_4r", &Options::default()).unwrap_err().exit_code(), 4);
+}
+
+#[test]
 fn linear_conditions_at_numbers() {
     let ratio = |n: i32, d: i32| (Poly::constant(Int::from_integer(n)), Poly::constant(Int::from_integer(d)));
     let constant = |n: i32| Poly::constant(Int::from_integer(n));
@@ -261,9 +280,10 @@ proptest! {
         // Neither folded nor both right-angled, where other signs of the lengths are possible.
         let product = Rational::from(&u * &v);
         prop_assume!(u.clone().abs() != v.clone().abs() && product.clone().abs() != 1);
-        let sine = |t: &Rational| Rational::from(t / Rational::from(Rational::from(t * t) + 1));
-        let first = Rational::from(sine(&u) * &b);
-        let second = if minus { -Rational::from(sine(&v) * &b) } else { Rational::from(sine(&v) * &b) };
+        let sine = |t: &Rational| -> Rational { t / (Rational::from(t * t) + 1) };
+        let first: Rational = sine(&u) * &b;
+        let second: Rational = sine(&v) * &b;
+        let second = if minus { -second } else { second };
         let mut values = [
             [first.clone(), u.clone(), Rational::new()], [second.clone(), v.clone(), Rational::new()],
             [first, u, Rational::new()], [second, v, Rational::new()],

@@ -11,8 +11,12 @@ struct Run {
 }
 
 fn run(arguments: &[&str], input: &str) -> Run {
+    verb("conditions", arguments, input)
+}
+
+fn verb(verb: &str, arguments: &[&str], input: &str) -> Run {
     let mut command = Command::new(env!("CARGO_BIN_EXE_looproot"));
-    command.arg("conditions").args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.arg(verb).args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
     child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
     let output = child.wait_with_output().unwrap();
@@ -78,4 +82,17 @@ fn documents_and_other_languages() {
     assert_eq!(run(&["4R", "--format", "text", "--family", "cardan"], "").code, 1);
     let markdown = run(&["4R", "--explain"], "");
     assert!(markdown.code == 0 && markdown.out.starts_with("# General 4R loop\n") && markdown.out.contains("$$"));
+}
+
+#[test]
+fn transference_is_shown() {
+    let hooke = verb("derive", &["hooke", "--transference"], "");
+    assert_eq!(hooke.code, 0, "{}", hooke.err);
+    assert!(hooke.out.starts_with("spherical equation f of 2 terms"), "{}", hooke.out);
+    assert!(hooke.out.contains("\nd4 = ("));
+    let file = verb("derive", &["cccr_4_angle", "--transference", "--json"], "");
+    let document: Value = serde_json::from_str(&file.out).unwrap();
+    assert_eq!(document["offsets"][0]["name"], "d1");
+    assert_eq!(verb("derive", &["puma560", "--transference"], "").code, 4);
+    assert!(verb("derive", &["ccrr", "--transference", "--format", "maple"], "").out.contains("variables := "));
 }

@@ -311,7 +311,7 @@ pub(super) fn pair(chain: &Chain, table: &Table<'_>, symbols: &Symbols) -> Resul
         format!("spherical four-bar {}-{} n.n'", label(1), label(2)),
         format!("dual part {}-{} n.(r x n')", label(1), label(2)),
     ];
-    let steps = vec![
+    let mut steps = vec![
         format!(
             "The rotations close by themselves: the axes of joints {} and {} keep the angle of the link between them, f = 0 in \
              the angles of joints {} and {}.",
@@ -338,6 +338,9 @@ pub(super) fn pair(chain: &Chain, table: &Table<'_>, symbols: &Symbols) -> Resul
         compare.push((polynomial.clone(), Polynomial::from_univariate(variable, &eliminant(&numbers))));
         primitive(&polynomial)
     });
+    if polynomial.is_none() {
+        steps.pop();
+    }
     let equations = names.into_iter().zip(equations.iter().map(primitive)).filter(|(_, equation)| !equation.is_zero());
     Ok(Outcome {
         equations: equations.collect(),
