@@ -47,9 +47,20 @@ pub fn settled(framework: &Framework<f64>, squares: &[f64]) -> Option<Framework<
 /// motion to begin with. It ends early where Newton's method finds no further realisation.
 #[must_use]
 pub fn flex(start: &Framework<f64>, squares: &[f64], steps: usize) -> Option<Flex> {
+    let ahead = follow(start, squares, steps, 1.0)?;
+    if ahead.positions.len() > steps {
+        return Some(ahead);
+    }
+    // An end of the motion is near on this side.
+    let back = follow(start, squares, steps, -1.0)?;
+    Some(if back.positions.len() > ahead.positions.len() { back } else { ahead })
+}
+
+/// Follows a motion to one side.
+fn follow(start: &Framework<f64>, squares: &[f64], steps: usize, side: f64) -> Option<Flex> {
     let extent = extent(start);
     let (mut tangents, mut freedom) = tangent_space(start);
-    let mut tangent = tangents.first()?.clone();
+    let mut tangent = tangents.first()? * side;
     let mut flex = Flex {
         positions: vec![start.clone()],
         residual: residual(start, squares),
