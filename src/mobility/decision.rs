@@ -12,6 +12,7 @@ use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind, Placement};
 use crate::kinematics::closed_loop::{Layout, Variable};
+use crate::kinematics::screw_system::ScrewSystem;
 use crate::mechanism::{FullMode, Mechanism, Solution};
 use crate::verdict::Status;
 use rug::{Float, Rational};
@@ -212,13 +213,15 @@ impl Subject<'_> {
         let verdict = &solution.verdict;
         let is_complete = matches!(verdict.status, Status::Complete | Status::Unreachable);
         // As many isolated configurations as there can be leave none for a curve.
-        if !(is_complete && verdict.certified == MOST_SOLUTIONS) && !is_proved_immobile(&self.linkage) {
-            let reason = format!("no motion was found through any value of a joint; {}", verdict.reason);
-            return Ok(self.answer(None, Proof::None, reason));
-        }
+        let is_full = is_complete && verdict.certified == MOST_SOLUTIONS;
+        let proof = if is_full || is_proved_immobile(&self.linkage) { Proof::Exact } else { Proof::None };
         if !is_complete {
-            let reason = format!("{NO_CURVE}; the isolated ones: {}", verdict.reason);
-            return Ok(self.answer(Some(0), Proof::Exact, reason));
+            let (mobility, reason) = match proof {
+                Proof::None => (None, "no motion was found through any value of a joint"),
+                _ => (Some(0), NO_CURVE),
+            };
+            let reason = format!("{reason}; the isolated configurations: {}", verdict.reason);
+            return Ok(self.answer(mobility, proof, reason));
         }
         let mut configurations = Vec::new();
         for mode in solution.modes.iter().filter(|mode| mode.real) {
@@ -231,9 +234,13 @@ impl Subject<'_> {
             (_, 0) => format!("no real configuration, {complex} complex ones"),
             _ => format!("{real} isolated real configurations{}", order_clause(shaky)),
         };
-        let curves = if verdict.certified == MOST_SOLUTIONS { "as many as there can be" } else { NO_CURVE };
+        let curves = match proof {
+            Proof::None => "no motion was found through any value of a joint, but that there is none is not proved",
+            _ if is_full => "as many as there can be",
+            _ => NO_CURVE,
+        };
         let reason = format!("{what}: {}; {curves}", verdict.reason);
-        Ok(Mobility { shaky, configurations, complex, ..self.answer(Some(0), Proof::Exact, reason) })
+        Ok(Mobility { shaky, configurations, complex, ..self.answer(Some(0), proof, reason) })
     }
 
     /// The exact configuration near a multiple solution, if one of its joints stands at a simple value.
@@ -275,7 +282,7 @@ impl Subject<'_> {
         let linkage: Option<Linkage<f64>> = self.linkage.map();
         let germ = linkage.map(|linkage| Germ::of(&linkage.at(&values)));
         let system = germ.as_ref().map(Germ::system);
-        let freedom = system.as_ref().map(crate::kinematics::screw_system::ScrewSystem::loop_freedom);
+        let freedom = system.as_ref().map(ScrewSystem::loop_freedom);
         let n = self.variables.len();
         let rank = freedom.as_ref().map_or(0, |freedom| freedom.order);
         // Certified solutions of six equations in six unknowns are regular: rank 6.
@@ -292,7 +299,7 @@ impl Subject<'_> {
             rank,
             local,
             moving: (0..n).map(moves).collect(),
-            system: system.as_ref().map(crate::kinematics::screw_system::ScrewSystem::description).unwrap_or_default(),
+            system: system.as_ref().map(ScrewSystem::description).unwrap_or_default(),
             redundant: freedom.map(|freedom| freedom.redundant.basis()).unwrap_or_default(),
         }
     }
