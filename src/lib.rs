@@ -30,6 +30,8 @@ pub mod sweep;
 
 pub mod mobility;
 
+pub mod factoring;
+
 pub mod conditions;
 
 pub mod benchmark;

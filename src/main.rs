@@ -17,6 +17,8 @@ fn main() -> ExitCode {
         Verb::Derive(options) => command::derive::run(options),
         Verb::Sweep(options) => command::sweep::run(options),
         Verb::Mobility(options) => command::mobility::run(options),
+        Verb::Factor(options) => command::factor::run(options),
+        Verb::Conditions(options) => command::conditions::run(options),
         Verb::List(options) => command::list::run(options),
         Verb::Show(options) => command::show::run(options),
         Verb::Check(options) => command::check::run(options),

@@ -2,6 +2,9 @@
 //! isolated never called complete.
 #![allow(clippy::unwrap_used)]
 
+#[path = "chains/short_loops.rs"]
+mod short_loops;
+
 mod arms;
 
 use arms::{at_pose, closed_at, joint, pose, random, ratio, small};

@@ -138,6 +138,7 @@ fn the_document_follows_its_schema() {
             &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
         ],
     );
+    follows("conditions.schema.json", &[&["conditions", "4R", "--json"], &["conditions", "bennett", "--json"]]);
 }
 
 fn follows(schema: &str, runs: &[&[&str]]) {

@@ -7,14 +7,19 @@ mod atlas;
 mod symbolic;
 
 use looproot::algebra::modp::{ModP, PRIME_61};
+use looproot::algebra::number::Number;
 use looproot::algebra::polynomial::Polynomial;
 use looproot::algebra::resultant::sylvester;
 use looproot::assembly::{Assembly, Roots, Workspace};
-use looproot::catalogue::entry::Entry;
+use looproot::catalogue::entry::{Case, Design, Entry};
 use looproot::catalogue::{Options, load};
 use looproot::derivation::{ClosurePolynomial, Derivation, Removed, RootPose, derive};
 use looproot::elimination::degree::degree;
+use looproot::elimination::triangle_platform::{Triangle, pairs};
+use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, JointKind};
+use looproot::kinematics::closed_loop::Layout;
+use looproot::kinematics::dual_quaternion::Quaternion;
 use looproot::mechanism::{FullMode, Mechanism, Solution, closed_loop};
 use looproot::report::derivation::{markdown, verdict};
 use looproot::verdict::Status;
@@ -62,7 +67,7 @@ fn named(chain: &Chain, q: &[f64]) -> BTreeMap<String, f64> {
     values
 }
 
-/// The value over the sum of the sizes of all terms.
+/// The value over the sum of the sizes of all terms, which at the origin may all be rounding.
 fn relative(polynomial: &Polynomial<Rational>, names: &[String], values: &BTreeMap<String, f64>) -> f64 {
     let largest = polynomial.coefficients().iter().map(|c| c.clone().abs()).max().unwrap();
     let (mut sum, mut size) = (0.0, 0.0);
@@ -74,7 +79,7 @@ fn relative(polynomial: &Polynomial<Rational>, names: &[String], values: &BTreeM
         sum += term;
         size += term.abs();
     }
-    sum.abs() / size
+    sum.abs() / (size + 1e-6)
 }
 
 /// All equations, in both forms, at a solution; those in half-angle tangents only where no angle is pi.
@@ -109,7 +114,11 @@ fn real(solution: &Solution) -> impl Iterator<Item = &FullMode> {
 
 fn check(entry: &Entry) {
     let (name, chain) = (&entry.name, entry.chain().unwrap());
-    let derivation = derive(entry, &entry.cases[0]).unwrap();
+    let derivation = match derive(entry, &entry.cases[0]) {
+        // Loops of fewer unknowns are solved by other means.
+        Err(Error::Unsupported(_)) if Layout::of(chain, None).unwrap().variables.len() < 6 => return,
+        derivation => derivation.unwrap(),
+    };
     let solution = solved(entry);
     for mode in real(&solution) {
         let q: Vec<f64> = mode.q.iter().map(|z| z.re).collect();
@@ -146,6 +155,15 @@ fn arms_of_the_library_are_derived_as_they_are_solved() {
     folder("arm").iter().for_each(check);
 }
 
+/// Which legs meet at the plate, and the triangle they carry.
+fn triangle(design: &Design, case: &Case) -> Option<([[usize; 2]; 3], Triangle<Rational>)> {
+    let Design::Platform(platform) = design else { return None };
+    let platform = looproot::mechanism::platform_over::<Rational>(platform)?;
+    let squares = case.legs_squared.as_ref()?.each_ref().map(|square| square.rational().clone());
+    let pairs = pairs(&platform)?;
+    Some((pairs.legs, Triangle::new(&platform, &squares, &pairs)?))
+}
+
 #[test]
 fn platforms_are_derived_as_they_are_solved() {
     let paths = [
@@ -162,7 +180,9 @@ fn platforms_are_derived_as_they_are_solved() {
         let expected = solution.verdict.complex / per_root;
         assert_eq!((polynomial.degree(), polynomial.distinct()), (expected, expected), "{path}");
         assert_eq!(derivation.per_root, per_root, "{path}");
-        assert_eq!(derivation.equations.len(), 7);
+        let design = &entry.design;
+        let triangle = triangle(design, &entry.cases[0]);
+        assert_eq!(derivation.equations.len(), if triangle.is_some() { 13 } else { 7 }, "{path}");
         assert_eq!(derivation.warnings, entry.cases[0].warnings, "{path}");
         let poses: Vec<&RootPose> = polynomial.roots.iter().flat_map(|root| &root.poses).collect();
         assert_eq!(poses.len(), solution.verdict.real, "{path}");
@@ -184,6 +204,23 @@ fn platforms_are_derived_as_they_are_solved() {
             for n in 0..4 {
                 values.insert(format!("x{n}"), q[n]);
                 values.insert(format!("y{n}"), y[n]);
+            }
+            if let Some((legs, triangle)) = &triangle {
+                let Design::Platform(platform) = design else { panic!("{path}") };
+                let quaternion = Quaternion { scalar: w, vector: [i, j, k] };
+                let rotation = quaternion.scaled_rotation();
+                for ((n, [leg, _]), circle) in (1..).zip(legs).zip(&triangle.circles) {
+                    let plate = platform.plate[*leg].each_ref().map(Number::to_f64);
+                    let along = |arm: usize| -> f64 {
+                        let part = |m: usize| {
+                            let turned: f64 = (0..3).map(|c| rotation[m][c] * plate[c]).sum();
+                            (turned + q[4 + m] - circle.centre[m].to_f64()) * circle.arms[arm][m].to_f64()
+                        };
+                        (0..3).map(part).sum::<f64>() / circle.squares[arm].to_f64()
+                    };
+                    values.insert(format!("a{n}"), along(0));
+                    values.insert(format!("b{n}"), along(1));
+                }
             }
             // The definition of k is linear in it.
             let definition = derivation.definition.as_ref().unwrap();
@@ -277,11 +314,11 @@ fn special_loop(kinds: &str, number: u64) -> Entry {
 }
 
 #[test]
-fn false_roots_of_four_rotations_are_divided_out() {
+fn false_roots_of_three_and_four_rotations_are_divided_out() {
     // The count bounds the solutions by other means: other cuts, other conditions, modulo a prime.
-    let (mut compared, mut parallel) = (0, 0);
-    for kinds in ["PRPRRRR", "RPPRRRR", "PRRPRRR", "RCRPRR", "CPRRRR"] {
-        for number in 1..=16 {
+    let (mut compared, mut dependent) = (0, 0);
+    for kinds in ["PRPRRRR", "RPPRRRR", "PRRPRRR", "RCRPRR", "CPRRRR", "CCCR", "CPRCR", "PPRRPRR"] {
+        for number in 1..=12 {
             let entry = special_loop(kinds, number);
             let derivation = derive(&entry, &entry.cases[0]).unwrap();
             let (_, closed) = closed_loop::<ModP<PRIME_61>>(entry.chain().unwrap(), &entry.cases[0]).unwrap().unwrap();
@@ -291,10 +328,10 @@ fn false_roots_of_four_rotations_are_divided_out() {
             let removed: usize = polynomial.removed.iter().map(|one| one.multiplicity * degree_of(one)).sum();
             assert_eq!(removed, count.left_out, "{what}");
             compared += 1;
-            parallel += usize::from(polynomial.removed.iter().any(|one| one.reason.contains("parallel")));
+            dependent += usize::from(polynomial.removed.iter().any(|one| one.reason.contains("do not close")));
         }
     }
-    assert!(compared > 70 && parallel > 15, "{parallel} of {compared} with parallel translations");
+    assert!(compared > 70 && dependent > 10, "{dependent} of {compared} with dependent translations");
 }
 
 fn degree_of(removed: &Removed) -> usize {

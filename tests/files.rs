@@ -258,7 +258,7 @@ fn mistakes_are_named_with_their_line() {
 }
 
 #[test]
-fn loops_need_seven_variables_and_one_input() {
+fn loops_have_seven_variables_at_most() {
     let json = |from: &str, to: &str| {
         assert!(LOOP.contains(from), "{from}");
         let text = LOOP.replacen(from, to, 1);
@@ -266,8 +266,6 @@ fn loops_need_seven_variables_and_one_input() {
     };
     assert!(json("\"type\": \"R\", \"a\": 100", "\"type\": \"C\", \"a\": 100").contains("unknown key `d`"));
     assert!(json("\"a\": 1, \"alpha\": 20, \"d\": 1.5e1", "\"a\": 1").contains("test.json:12: found neither `alpha`"));
-    let immobile = json(",\n      { \"type\": \"R\", \"a\": 1, \"alpha\": 20, \"d\": 1.5e1 }", "");
-    assert!(immobile.contains("with 6 variables") && immobile.contains("mobility 0 by Gruebler's count (6 - 6)"));
     let loose =
         json("\"type\": \"R\", \"a\": 1, \"alpha\": 20, \"d\": 1.5e1", "\"type\": \"S\", \"a\": 1, \"alpha\": 20");
     assert!(loose.contains("mobility 3 by Gruebler's count (9 - 6): 2 freedoms too many for one input"), "{loose}");
@@ -434,7 +432,7 @@ fn every_entry_is_in_the_table_of_the_readme() {
         readme.lines().filter_map(|line| line.strip_prefix("| `")?.split_once("` | ")).map(|(name, _)| name).collect();
     let listed: Vec<&str> = listed
         .into_iter()
-        .filter(|name| ["arm/", "loop/", "platform/"].iter().any(|folder| name.starts_with(folder)))
+        .filter(|name| ["arm/", "loop/", "overconstrained/", "platform/"].iter().any(|folder| name.starts_with(folder)))
         .collect();
     assert_eq!(listed, builtin_names());
 }

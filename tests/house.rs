@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, each importing earlier ones only.
-const LAYERS: [&str; 18] = [
+const LAYERS: [&str; 19] = [
     "error",
     "algebra",
     "kinematics",
@@ -21,6 +21,7 @@ const LAYERS: [&str; 18] = [
     "derivation",
     "sweep",
     "mobility",
+    "factoring",
     "conditions",
     "benchmark",
     "claims",

@@ -5,6 +5,7 @@ use looproot::assembly::{Assembly, Roots, Workspace, wrapped};
 use looproot::catalogue::entry::Entry;
 use looproot::catalogue::{Options, load};
 use looproot::kinematics::closed_loop::Variable;
+use looproot::kinematics::motion::Motion;
 use looproot::mechanism::{Derivatives, InputCurve, Mechanism, Solution};
 use looproot::sweep::{End, Range, Sweep, case, sweep};
 use std::f64::consts::PI;
@@ -335,4 +336,31 @@ fn a_picture_shows_every_joint_and_every_limit_position() {
     assert_eq!(picture.matches("<circle").count(), 6 * 4);
     assert!(!picture.contains("NaN") && !picture.contains("inf"));
     assert_eq!(run(&["--svg", "--csv"]).status.code(), Some(1));
+}
+
+#[test]
+fn overconstrained_loops_keep_closed_through_a_full_turn() {
+    let names = ["bennett_a", "goldberg_a", "myard_a", "bricard_line_symmetric_a", "bricard_trihedral_a", "rrcrp_a"];
+    for (name, branches) in names.into_iter().zip([1, 1, 1, 2, 2, 2]) {
+        let found = swept(name, 1, Variable::Rotation, [0.0, 2.0 * PI], 36);
+        assert_eq!(found.branches.len(), branches, "{name}");
+        assert!(found.unresolved() == 0 && found.samples.iter().all(looproot::sweep::Sample::is_complete), "{name}");
+        let entry = entry(name);
+        let chain = entry.chain().unwrap();
+        let kinds = looproot::kinematics::closed_loop::Layout::of(chain, None).unwrap().variables;
+        for q in found.samples.iter().flat_map(|sample| &sample.modes) {
+            let motions = q.iter().zip(&kinds).map(|(x, kind)| match kind {
+                Variable::Rotation => Motion::rotation_z(x.cos(), x.sin()),
+                Variable::Translation => Motion::translation_z(*x),
+            });
+            let round = chain.forward(&motions.collect::<Vec<Motion<f64>>>()).unwrap();
+            let identity = Motion::<f64>::identity();
+            for i in 0..3 {
+                assert!(round.translation[i].abs() < 1e-13, "{name} {q:?}");
+                for j in 0..3 {
+                    assert!((round.rotation[i][j] - identity.rotation[i][j]).abs() < 1e-13, "{name} {q:?}");
+                }
+            }
+        }
+    }
 }

@@ -4,10 +4,10 @@ use super::ring::{Field, Ring};
 use rug::{Integer, Rational, integer::Order};
 use std::cmp::Ordering;
 
-/// Words of a mantissa, the least significant one first.
-const LIMBS: usize = 6;
 /// Bits of a mantissa.
-const BITS: u32 = 64 * LIMBS as u32;
+const BITS: u32 = 384;
+/// Its words, the least significant one first.
+const LIMBS: usize = 6;
 
 type Mantissa = [u64; LIMBS];
 /// A mantissa with a word of guard bits below.
@@ -32,6 +32,12 @@ impl LongFloat {
     pub fn to_f64(self) -> f64 {
         let size = scaled(self.limbs[LIMBS - 1] as f64, self.exponent.saturating_sub(64));
         if self.negative { -size } else { size }
+    }
+
+    /// The least k with `|self| < 2^k`; of zero the least there is.
+    #[must_use]
+    pub fn exponent(self) -> i32 {
+        if self.is_zero() { i32::MIN } else { self.exponent }
     }
 
     /// `self 2^k`, exactly.

@@ -209,6 +209,24 @@ impl<F: Field + Domain> Univariate<F> {
         factors
     }
 
+    /// The largest factor all of whose roots are roots of another polynomial, with their whole multiplicity here.
+    ///
+    /// # Panics
+    /// When the polynomial is zero.
+    #[must_use]
+    pub fn part_with_roots_of(&self, other: &Self) -> Self {
+        assert!(!self.is_zero(), "the zero polynomial has every root");
+        let (mut rest, mut part) = (self.clone(), Self::one());
+        loop {
+            let common = rest.gcd(other);
+            if common.degree().unwrap_or(0) == 0 {
+                return part;
+            }
+            rest = rest.div_exact(&common);
+            part = part.mul(&common);
+        }
+    }
+
     /// How often `factor` divides, and what is left; for instance the `(1 + x^2)^k` of a half-angle substitution.
     ///
     /// # Panics

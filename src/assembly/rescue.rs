@@ -11,7 +11,7 @@ use crate::algebra::determinant::determinant;
 use crate::algebra::long_float::LongFloat;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
-use crate::certify::{Refined, from_pairs};
+use crate::certify::{Refined, exponential, exponential_pair, from_pairs};
 use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::degree::{TurnedPencil, general_degree, turned_pencil};
 use crate::elimination::octic;
@@ -26,9 +26,9 @@ use crate::kinematics::link_form::{LinkForm, product, turned};
 use crate::kinematics::motion::Motion;
 use crate::solve::back_substitution::CutView;
 use crate::solve::kernel::{at_root, kernel};
-use crate::solve::newton::{Six, closure};
+use crate::solve::newton::{Six, closure_at};
 use crate::solve::polynomial_roots::polynomial_roots;
-use crate::solve::scalar::Number;
+use crate::solve::scalar::{Number, extended};
 use num_complex::Complex;
 
 type Long = Complex<LongFloat>;
@@ -269,13 +269,21 @@ fn centre(exact: &ClosedLoop<LongFloat>, ball: usize) -> Option<Vec<Pairs>> {
     Some(candidates.collect())
 }
 
+/// The residual of unknowns rounded to f64, see [`Mode::residual`]. f64 itself would add errors of its own.
+fn residual(exact: &ClosedLoop<LongFloat>, unknowns: &Six<Complex<f64>>, real: bool) -> f64 {
+    let mut pairs = [(Long::zero(), Long::zero()); 6];
+    for (j, pair) in pairs.iter_mut().enumerate() {
+        *pair = match exact.variables[j] {
+            Variable::Translation => (extended(unknowns[j]), Long::zero()),
+            Variable::Rotation => exponential_pair(exponential(unknowns[j])).unwrap_or(*pair),
+        };
+    }
+    let here = closure_at::<Long>(exact, &pairs);
+    here.defect / here.growth(real)
+}
+
 /// The modes that are proved among candidates, every one once, conjugates included.
 fn modes(exact: &ClosedLoop<LongFloat>, ball: Option<usize>, candidates: &[Pairs]) -> Vec<Mode> {
-    let constants = exact.constants.each_ref().map(|motion| Motion {
-        rotation: motion.rotation.map(|row| row.map(LongFloat::to_f64)),
-        translation: motion.translation.map(LongFloat::to_f64),
-    });
-    let rounded = ClosedLoop { variables: exact.variables, constants };
     let mut modes: Vec<Mode> = Vec::new();
     for Refined { unknowns, real, certificate, condition } in candidates.iter().filter_map(|p| from_pairs(exact, p)) {
         let mut add = |mut unknowns: Six<Complex<f64>>| {
@@ -292,12 +300,11 @@ fn modes(exact: &ClosedLoop<LongFloat>, ball: Option<usize>, candidates: &[Pairs
                 distance(&exact.variables, &other.unknowns, &unknowns) > radius
             };
             if modes.iter().all(apart) {
-                let here = closure(&rounded, &unknowns);
                 modes.push(Mode {
                     unknowns,
                     real,
                     multiplicity: 1,
-                    residual: here.defect / here.growth(real),
+                    residual: residual(exact, &unknowns, real),
                     condition,
                     certificate: Some(certificate),
                     hits: Hits::first(usize::MAX),

@@ -4,7 +4,7 @@ use super::ansatz::Ansatz;
 use super::entry::Entry;
 use super::options::Options;
 use super::scope::nearest;
-use super::text::{Format, ansatz_from_text, load_text};
+use super::text::{Any, Format, ansatz_from_text, any_from_text, load_text};
 use crate::error::{Error, Result};
 use include_dir::{Dir, DirEntry, include_dir};
 
@@ -13,10 +13,23 @@ static LIBRARY: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/equations");
 /// The folder of the loops with symbols, which are no mechanisms to be solved.
 const CONDITIONS: &str = "conditions/";
 
+/// The folders of frameworks and rational motions, which have no cases to be solved.
+const MOVING: [&str; 2] = ["framework/", "motion/"];
+
+/// The names of all built-in frameworks and rational motions, such as `framework/steffen`, in order.
+#[must_use]
+pub fn moving_names() -> Vec<String> {
+    all_names().into_iter().filter(|name| is_moving(name)).collect()
+}
+
+fn is_moving(name: &str) -> bool {
+    MOVING.iter().any(|folder| name.starts_with(folder))
+}
+
 /// The names of all built-in entries, such as `arm/puma560`, in order.
 #[must_use]
 pub fn builtin_names() -> Vec<String> {
-    all_names().into_iter().filter(|name| !name.starts_with(CONDITIONS)).collect()
+    all_names().into_iter().filter(|name| !name.starts_with(CONDITIONS) && !is_moving(name)).collect()
 }
 
 /// The names of all built-in loops with symbols, such as `conditions/bennett`, in order.
@@ -95,6 +108,28 @@ pub(super) fn builtin_ansatz(name: &str, options: &Options) -> Option<Result<Ans
 pub(super) fn similar_ansatz(name: &str) -> Vec<String> {
     let names = all_names();
     nearest(name, names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]))
+}
+
+/// The built-in framework, rational motion or entry of this name, with or without its folder.
+///
+/// # Errors
+/// [`Error::UnknownEntry`] with the names that come near.
+pub fn builtin_any(name: &str, options: &Options) -> Result<Any> {
+    let Some((full, text)) = find_any(name) else {
+        let names = all_names();
+        let words = names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]);
+        return Err(Error::UnknownEntry { name: name.to_owned(), near: nearest(name, words) });
+    };
+    any_from_text(text, &format!("equations/{full}.toml"), Format::Toml, options)
+}
+
+fn find_any(name: &str) -> Option<(String, &'static str)> {
+    find(name).or_else(|| find_in(moving_names(), name))
+}
+
+/// Whether the library has an entry, a framework or a rational motion of this name.
+pub(super) fn has_any(name: &str) -> bool {
+    find_any(name).is_some()
 }
 
 /// Whether the library has an entry of this name.

@@ -3,9 +3,12 @@
 pub mod ansatz;
 mod dh_table;
 pub mod entry;
+mod framework;
 mod geometry;
+mod heading;
 mod job;
 mod library;
+mod motion;
 mod node;
 mod options;
 mod platform;
@@ -14,7 +17,10 @@ mod source;
 mod text;
 mod urdf;
 
-pub use library::{ansatz_names, builtin, builtin_names, builtin_text, citation};
+pub use framework::FrameworkFile;
+pub use heading::Heading;
+pub use library::{ansatz_names, builtin, builtin_any, builtin_names, builtin_text, citation, moving_names};
+pub use motion::MotionFile;
 pub use options::Options;
-pub use source::{load, load_ansatz};
-pub use text::{Format, ansatz_from_text, is_ansatz, load_text};
+pub use source::{load, load_ansatz, load_any};
+pub use text::{Any, Format, ansatz_from_text, any_from_text, is_ansatz, load_text};

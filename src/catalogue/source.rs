@@ -4,7 +4,7 @@ use super::ansatz::Ansatz;
 use super::entry::Entry;
 use super::library;
 use super::options::Options;
-use super::text::{Format, LARGEST, ansatz_from_text, load_text, sniffed, too_large};
+use super::text::{Any, Format, LARGEST, ansatz_from_text, any_from_text, load_text, sniffed, too_large};
 use crate::error::{Error, Result};
 use std::io::Read;
 use std::path::Path;
@@ -19,6 +19,17 @@ pub fn load(name: &str, options: &Options) -> Result<Entry> {
         Some((text, path, format)) => load_text(&text, path, format, options),
         None if library::has(name) => library::builtin(name, options),
         None => Err(Error::UnknownEntry { name: name.to_owned(), near: library::similar(name) }),
+    }
+}
+
+/// Reads the mechanism of any kind named on a command line: a file, `-` for standard input, or one of the library.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_any(name: &str, options: &Options) -> Result<Any> {
+    match text_of(name, library::has_any(name))? {
+        Some((text, path, format)) => any_from_text(&text, path, format, options),
+        None => library::builtin_any(name, options),
     }
 }
 

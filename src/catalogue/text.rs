@@ -2,6 +2,9 @@
 
 use super::ansatz::{Ansatz, ansatz};
 use super::entry::Entry;
+use super::framework::{FrameworkFile, framework};
+use super::motion::{MotionFile, motion};
+use super::node::{Node, Value};
 use super::options::Options;
 use super::scope::Scope;
 use super::{dh_table, job, node, urdf};
@@ -36,6 +39,52 @@ pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> R
         Format::Json => job::entry(&mut scope, &node::from_json(text, path)?, &name),
         Format::Csv => dh_table::entry(&scope, text, &name),
         Format::Urdf => urdf::entry(&scope, text, &name, options),
+    }
+}
+
+/// A mechanism file of any kind.
+#[derive(Clone, Debug)]
+pub enum Any {
+    /// An arm, a loop or a platform.
+    Entry(Box<Entry>),
+    /// Bars and bodies.
+    Framework(Box<FrameworkFile>),
+    /// A rational motion.
+    Motion(Box<MotionFile>),
+}
+
+/// Reads a mechanism of any kind from text; `path` is the name that errors give.
+///
+/// # Errors
+/// As [`load_text`].
+pub fn any_from_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Any> {
+    let (text, name, mut scope) = prepared(text, path, options)?;
+    let root = match format {
+        Format::Toml => node::from_toml(text, path)?,
+        Format::Json => node::from_json(text, path)?,
+        Format::Csv | Format::Urdf => {
+            return load_text(text, path, format, options).map(|entry| Any::Entry(Box::new(entry)));
+        }
+    };
+    Ok(match kind(&root) {
+        Some("framework") => Any::Framework(Box::new(framework(&mut scope, &root, &name)?)),
+        Some("motion") => Any::Motion(Box::new(motion(&mut scope, &root, &name)?)),
+        _ => Any::Entry(Box::new(job::entry(&mut scope, &root, &name)?)),
+    })
+}
+
+/// The kind that a file names, if it is one.
+fn kind(root: &Node) -> Option<&str> {
+    let field = |node: &'_ Node, key: &str| match &node.value {
+        Value::Table(fields) => fields.iter().position(|field| field.key == key),
+        _ => None,
+    };
+    let Value::Table(fields) = &root.value else { return None };
+    let mechanism = &fields[field(root, "mechanism")?].node;
+    let Value::Table(fields) = &mechanism.value else { return None };
+    match &fields[field(mechanism, "kind")?].node.value {
+        Value::Text(text) => Some(text),
+        _ => None,
     }
 }
 

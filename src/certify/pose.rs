@@ -111,10 +111,11 @@ pub fn pose_certificate<S: Number>(
 
 /// Whether `N = x.x` differs from zero on the whole ball around a point.
 #[must_use]
-pub fn is_pose(v: &Eight<Complex<f64>>, radius: f64) -> bool {
+pub fn is_pose<S: Number>(v: &Eight<S>, radius: f64) -> bool {
     let sum: f64 = v[..4].iter().map(|x| x.bound()).sum();
-    let norm: Complex<f64> = v[..4].iter().map(|x| x * x).sum();
-    norm.norm() > 2.0 * radius * sum + 4.0 * radius * radius + 16.0 * f64::EPSILON * sum * sum
+    let norm = v[..4].iter().fold(S::zero(), |sum, x| sum.add(&x.mul(x)));
+    let rounding = 32.0 * S::UNIT_ROUNDOFF * sum * sum;
+    norm.square_size().sqrt() > 2.0 * radius * sum + 4.0 * radius * radius + rounding
 }
 
 /// Whether the points of two balls cannot belong to one solution: a minor of the two vectors is not zero.

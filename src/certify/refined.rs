@@ -21,6 +21,9 @@ const CONSTANT_ROUNDINGS: f64 = 8.0;
 const MOST_DRIFT: f64 = 1e-6;
 
 type Quad = Complex<DoubleDouble>;
+type Square<R> = [Six<Complex<R>>; 6];
+/// The closure at a point, the inverse of its Jacobian, and the product of that with the residual.
+type Step<R> = (Closure<Complex<R>>, Square<R>, Six<Complex<R>>);
 /// What enters the motions of a loop, unknown by unknown: cosine and sine, or a distance and 0.
 type Pairs<R> = [(Complex<R>, Complex<R>); 6];
 
@@ -109,12 +112,8 @@ impl<R: Extended> Approach<'_, R> {
         })
     }
 
-    /// A step from here, with the closure and the inverse of its Jacobian. The inverse is computed in `compute`.
-    fn newton(
-        &self,
-        pairs: &Pairs<R>,
-        invert: impl Fn(&[Six<Complex<R>>; 6]) -> Option<[Six<Complex<R>>; 6]>,
-    ) -> Option<(Closure<Complex<R>>, [Six<Complex<R>>; 6], Six<Complex<R>>)> {
+    /// The step from here, with the closure and the inverse of its Jacobian as `invert` computes it.
+    fn newton(&self, pairs: &Pairs<R>, invert: impl Fn(&Square<R>) -> Option<Square<R>>) -> Option<Step<R>> {
         let here = closure_at::<Complex<R>>(self.closed, pairs);
         let inverse = invert(&here.jacobian)?;
         let step = times(&inverse, &here.residual);
@@ -138,7 +137,7 @@ impl<R: Extended> Approach<'_, R> {
 }
 
 /// The inverse of a matrix, as good as f64 makes it.
-fn rough_inverse<R: Extended>(matrix: &[Six<Complex<R>>; 6]) -> Option<[Six<Complex<R>>; 6]> {
+fn rough_inverse<R: Extended>(matrix: &Square<R>) -> Option<Square<R>> {
     Some(inverse(&matrix.map(|row| row.map(narrowed)))?.map(|row| row.map(extended)))
 }
 

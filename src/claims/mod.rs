@@ -2,9 +2,11 @@
 
 mod joints;
 mod mobility;
+mod moving;
 mod poses;
 
 use crate::assembly::{Assembly, Roots, Workspace};
+use crate::catalogue::Any;
 use crate::catalogue::entry::{Case, Claim, Design, Entry};
 use crate::error::Result;
 use crate::mechanism::{FullMode, Mechanism, Solution};
@@ -86,6 +88,18 @@ impl Judgement {
     /// The claims that do not hold.
     pub fn failures(&self) -> impl Iterator<Item = &Finding> {
         self.findings.iter().filter(|finding| !finding.holds)
+    }
+}
+
+/// Judges the claims of a file of any kind.
+///
+/// # Errors
+/// As [`judge`]; and for a framework without a realisation.
+pub fn judge_any(any: &Any) -> Result<Judgement> {
+    match any {
+        Any::Entry(entry) => judge(entry),
+        Any::Framework(file) => moving::framework(file),
+        Any::Motion(file) => moving::motion(file),
     }
 }
 

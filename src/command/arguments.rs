@@ -31,6 +31,10 @@ pub enum Verb {
     Sweep(SweepOptions),
     /// Decide whether a loop moves, with proof
     Mobility(MobilityOptions),
+    /// Factor a rational motion and close loops of its factorisations
+    Factor(FactorOptions),
+    /// Derive for which parameters a closed chain of revolute joints moves
+    Conditions(ConditionsOptions),
     /// List the built-in library
     List(ListOptions),
     /// Print a mechanism as it was understood
@@ -185,6 +189,10 @@ pub struct DeriveOptions {
     /// The whole derivation in Markdown with LaTeX formulas
     #[arg(long, conflicts_with_all = ["json", "format"])]
     pub explain: bool,
+    /// Loops of four R or C joints: the spherical closure equation and, over dual numbers, the spatial one; of a file, or with
+    /// all parameters symbols: rccc, ccrr, 4r, hooke
+    #[arg(long, conflicts_with_all = ["explain", "symbolic", "bless", "pose", "input", "joints", "legs", "at"])]
+    pub transference: bool,
     /// Print the verdict only
     #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
     pub quiet: bool,
@@ -235,6 +243,33 @@ pub struct SweepOptions {
     pub output: OutputOptions,
 }
 
+/// `looproot conditions`
+#[derive(Args)]
+pub struct ConditionsOptions {
+    /// 4R (all parameters symbols), a file of a loop with symbols or numbers, the name of a built-in one, or - for standard
+    /// input
+    pub mechanism: String,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// The conditions of one family as a file for another program
+    #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]
+    pub format: Option<Format>,
+    /// Which family: a part of its name, such as "spherical" [default: the first one]
+    #[arg(long, value_name = "NAME", requires = "format")]
+    pub family: Option<String>,
+    /// The whole derivation in Markdown with LaTeX formulas
+    #[arg(long, conflicts_with_all = ["json", "format"])]
+    pub explain: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
 /// A number of steps.
 fn steps(text: &str) -> Result<usize, String> {
     const MOST: usize = 100_000;
@@ -247,8 +282,12 @@ fn steps(text: &str) -> Result<usize, String> {
 /// `looproot mobility`
 #[derive(Args)]
 pub struct MobilityOptions {
-    /// A file of a loop, the name of a built-in entry, or - for standard input; inputs of the file are not looked at
+    /// A file of a loop or a framework, the name of a built-in entry, or - for standard input; inputs of the file are not
+    /// looked at
     pub mechanism: String,
+    /// Frameworks: how many steps of the motion are followed in f64
+    #[arg(long, value_name = "N", default_value = "60", value_parser = steps)]
+    pub steps: usize,
     /// One JSON document
     #[arg(long)]
     pub json: bool,
@@ -259,6 +298,36 @@ pub struct MobilityOptions {
     pub read: ReadOptions,
     #[command(flatten)]
     pub output: OutputOptions,
+}
+
+/// `looproot factor`
+#[derive(Args)]
+pub struct FactorOptions {
+    /// A file of a rational motion (kind "motion"), the name of a built-in one, or - for standard input
+    pub mechanism: String,
+    /// The two factorisations that close the loop, counted from 1: 1,6 [default: the first pair with the most joints]
+    #[arg(long, value_name = "I,J", value_parser = pair)]
+    pub pair: Option<(usize, usize)>,
+    /// The loop as a mechanism file
+    #[arg(long, conflicts_with_all = ["json", "quiet"])]
+    pub toml: bool,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// Two numbers counted from 1, as counted from 0.
+fn pair(text: &str) -> Result<(usize, usize), String> {
+    let number = |text: &str| text.trim().parse::<usize>().ok()?.checked_sub(1);
+    let numbers = text.split_once(',').and_then(|(i, j)| Some((number(i)?, number(j)?)));
+    numbers.ok_or_else(|| "expected two numbers from 1, such as 1,6".to_owned())
 }
 
 /// `looproot list`

@@ -3,8 +3,8 @@
 use super::arguments::CheckOptions;
 use super::exit::{Exit, Fault, complain};
 use super::output::{pool, print};
-use looproot::catalogue::{Options, builtin, builtin_names, load};
-use looproot::claims::{Judgement, Sort, judge};
+use looproot::catalogue::{Options, builtin_any, builtin_names, is_ansatz, load_any, moving_names};
+use looproot::claims::{Judgement, Sort, judge_any};
 use looproot::error::Error;
 use looproot::report::number::{counted, duration};
 use looproot::report::table::Columns;
@@ -24,13 +24,13 @@ struct Checked {
 /// Solves everything named and compares it with its claims.
 pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
     let is_library = options.paths.is_empty();
-    let names = if is_library { builtin_names() } else { files(&options.paths)? };
+    let names = if is_library { [builtin_names(), moving_names()].concat() } else { files(&options.paths)? };
     let checked: Vec<Checked> = pool(options.threads)?.install(|| {
         let one = |name: &String| {
             let start = Instant::now();
             let reading = Options::default();
-            let entry = if is_library { builtin(name, &reading) } else { load(name, &reading) };
-            let outcome = entry.and_then(|entry| judge(&entry));
+            let any = if is_library { builtin_any(name, &reading) } else { load_any(name, &reading) };
+            let outcome = any.and_then(|any| judge_any(&any));
             Checked { name: name.clone(), outcome, microseconds: start.elapsed().as_secs_f64() * 1e6 }
         };
         names.par_iter().map(one).collect()
@@ -81,7 +81,11 @@ fn collect(folder: &Path, files: &mut Vec<String>) -> Result<(), Error> {
         if path.is_dir() && !path.is_symlink() {
             collect(&path, files)?;
         } else if path.is_file() && path.extension().is_some_and(|extension| extension == "toml") {
-            files.push(path.display().to_string());
+            // Loops with symbols make no claims: they are questions. What cannot be read is told like any other file.
+            let asks = std::fs::read_to_string(&path).is_ok_and(|text| is_ansatz(&text));
+            if !asks {
+                files.push(path.display().to_string());
+            }
         }
     }
     Ok(())

@@ -21,6 +21,9 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         let message = format!("found {} mechanisms, expected one, or --bless", options.mechanisms.len());
         return Err(Error::Invalid(message).into());
     };
+    if options.transference {
+        return super::transference::run(options, mechanism);
+    }
     let mut entry = load(mechanism, &options.read.options())?;
     let index = wanted(&options.asked, mechanism, &mut entry)?.start;
     let case = &entry.cases[index];

@@ -3,14 +3,24 @@
 use super::arguments::MobilityOptions;
 use super::exit::{Exit, Fault};
 use super::output::Output;
-use looproot::catalogue::load;
+use looproot::catalogue::{Any, FrameworkFile, load_any};
+use looproot::error::Error;
 use looproot::mobility::{Mobility, Proof, mobility};
+use looproot::report::framework as report;
 use looproot::report::mobility::{json, text, verdict};
 use std::io::Write;
 
 /// Decides whether a loop moves.
 pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
-    let entry = load(&options.mechanism, &options.read.options())?;
+    let entry = match load_any(&options.mechanism, &options.read.options())? {
+        Any::Entry(entry) => entry,
+        Any::Framework(file) => return of_framework(options, &file),
+        Any::Motion(_) => {
+            let message =
+                "found a rational motion, expected a loop or a framework; `looproot factor` makes loops of it";
+            return Err(Error::Invalid(message.to_owned()).into());
+        }
+    };
     let answer = mobility(&entry)?;
     let written = if options.json {
         format!("{:#}\n", json(&entry, &answer))
@@ -23,6 +33,22 @@ pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
     output.writer.write_all(written.as_bytes())?;
     output.writer.flush()?;
     Ok(exit(&answer))
+}
+
+/// Decides whether a framework moves.
+fn of_framework(options: &MobilityOptions, file: &FrameworkFile) -> Result<Exit, Fault> {
+    let answer = file.mobility(options.steps)?;
+    let written = if options.json {
+        format!("{:#}\n", report::json(file, &answer))
+    } else if options.quiet {
+        report::verdict(&answer) + "\n"
+    } else {
+        report::text(file, &answer)
+    };
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(if answer.is_proved() { Exit::Complete } else { Exit::NotProved })
 }
 
 /// Without a proof nothing is decided; a loop that closes nowhere has no real solution.

@@ -1,40 +1,15 @@
-//! The small prime fields in which searches run, and what they need beside the field operations.
+//! The prime fields in which searches run, and what they need beside the field operations.
+//!
+//! Their primes are 3 modulo 4: -1 is no square then, so that a vector of a plane has length 0 only when it is 0, and the
+//! half-angle tangents of the field and infinity are all its rotations.
 
 use crate::algebra::modp::ModP;
 use crate::algebra::ring::Ring;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 
-/// The primes of the searches, all of them 3 modulo 4: -1 is no square then, so that a vector of a plane has length 0
-/// only when it is 0, and the half-angle tangents of the field and infinity are all its rotations.
-pub const PRIMES: [u64; 9] = [23, 31, 43, 59, 67, 103, 479, 491, 499];
-
-/// Runs code generic over the prime for one of [`PRIMES`] known as a number only; an error for any other number.
-macro_rules! over_prime {
-    ($prime:expr, $p:ident => $body:expr) => {
-        over_prime!(@ $prime, $p => $body, [23 31 43 59 67 103 479 491 499])
-    };
-    (@ $prime:expr, $p:ident => $body:expr, [$($value:literal)*]) => {
-        match $prime {
-            $($value => {
-                const $p: u64 = $value;
-                Ok($body)
-            })*
-            other => Err(crate::error::Error::Invalid(format!(
-                "found the prime {other}, expected one of {:?}", crate::conditions::finite_field::PRIMES
-            ))),
-        }
-    };
-}
-pub(crate) use over_prime;
-
 /// Cosine and sine of an angle.
 pub type Turn<F> = (F, F);
-
-/// A random element of the field.
-pub fn random<const P: u64>(rng: &mut ChaCha8Rng) -> ModP<P> {
-    ModP::new(rng.random_range(0..P))
-}
 
 /// A random element of the field other than zero.
 pub fn random_unit<const P: u64>(rng: &mut ChaCha8Rng) -> ModP<P> {
@@ -111,12 +86,5 @@ mod tests {
         let roots = (1..43).filter(|&x| square_root::<43>(ModP::new(x)).is_some()).count();
         assert_eq!(roots, 21);
         assert_eq!(square_root::<43>(ModP::new(16)).map(|x| x.mul(&x).value()), Some(16));
-    }
-
-    #[test]
-    fn a_prime_off_the_list_is_an_error() {
-        let size = |p: u64| over_prime!(p, P => all_turns::<P>().len());
-        assert_eq!(size(103), Ok(104));
-        assert!(size(101).unwrap_err().to_string().contains("101"));
     }
 }

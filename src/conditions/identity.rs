@@ -17,7 +17,7 @@ type Symbol = Polynomial<Int>;
 #[must_use]
 pub fn square_identity() -> bool {
     let symbol = |k: usize| Symbol::variable(k);
-    let g = DualQuaternion::from_study(&std::array::from_fn(|k| symbol(k)), &std::array::from_fn(|k| symbol(4 + k)));
+    let g = DualQuaternion::from_study(&std::array::from_fn(symbol), &std::array::from_fn(|k| symbol(4 + k)));
     let twice = g.scalar.add(&g.scalar);
     let square = g.mul(&g);
     let scalar = square.scalar.sub(&twice.mul(&g.scalar)).add(&g.norm());

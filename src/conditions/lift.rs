@@ -15,7 +15,7 @@ pub fn rational(residues: &[(u64, u64)]) -> Option<Rational> {
     for &(residue, prime) in residues {
         let inverse = modulus.clone().invert(&Integer::from(prime)).expect("the primes are distinct");
         let step = (Integer::from(residue) - &value) * inverse;
-        value += &modulus * Integer::from(step.rem_euc(prime));
+        value += &modulus * step.rem_euc(prime);
         modulus *= prime;
     }
     let bound = Integer::from(&modulus / 2).sqrt();

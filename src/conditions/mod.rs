@@ -1,13 +1,23 @@
 //! For which parameters a closed chain moves: conditions derived symbolically, each step computed and checked.
 
+pub mod closure_identity;
+pub mod component;
 pub mod configurations;
 pub mod curve_ansatz;
+pub mod decide;
+mod degenerate;
 pub mod finite_field;
+pub mod four_bar;
 pub mod identity;
+pub mod implication;
 pub mod lift;
 pub mod multiplier;
+pub mod null_space;
+pub mod quotient;
 pub mod search;
 pub mod spherical;
+pub mod step;
 pub mod sweep;
 pub mod symmetry;
+pub mod twist_family;
 pub mod verification;

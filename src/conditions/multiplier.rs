@@ -3,9 +3,9 @@
 //! In a spherical configuration of a 6R loop with axes `z_i`, let `w = sum_ij omega_ij z_i x z_j` with numbers omega. If
 //! `w . t = 0` for the closing translation `t = sum_k a_k x_k + d_k z_k` of all members of the family, then of the three
 //! equations t = 0 two are left wherever w is not 0, for the three degrees of freedom of the spherical loop: every real
-//! closed position in which w is not 0, and in which the axes do not all lie in a plane, lies on a curve of positions.
+//! closed position of screw rank 5 in which w is not 0 and the axes span the space lies on a curve of positions.
 //! With `x_k = z_k x z_(k+1) / sin(alpha_k)` all products are polynomials in the cosines between axes and the triple
-//! products of axes, so that the identity is expanded for all parameters at once.
+//! products of axes, so that the identity is expanded for all parameters at once (docs/conditions_search.md).
 
 use super::curve_ansatz::canonical;
 use super::finite_field::{half_tangent_turn, square_root};

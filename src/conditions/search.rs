@@ -2,6 +2,7 @@
 
 use super::curve_ansatz::{Curve, rational_curves};
 use super::identity;
+use super::implication::{Implication, implication};
 use super::multiplier::{Multiplier, multiplier};
 use super::sweep::{Sweep, sweep};
 use super::symmetry::{Slice, SymmetricSlice, slices};
@@ -20,6 +21,25 @@ pub struct MobileSlice {
     pub slice: SymmetricSlice,
     /// Why it does so for all twists of its pattern too; `None` where random twists are all the evidence.
     pub proof: Option<String>,
+}
+
+impl MobileSlice {
+    /// Whether a loop has this symmetry.
+    #[must_use]
+    pub fn contains(&self, links: &[Link<Rational>]) -> bool {
+        let (involution, signs) = (&self.slice.involution, self.slice.signs);
+        let maps = |negative: bool, from: &Rational, to: &Rational| {
+            if negative { Rational::from(-from) == *to } else { from == to }
+        };
+        let is_mapped = |(k, link): (usize, &Link<Rational>)| {
+            let (image, opposite) = (&links[involution.links[k]], &links[involution.joints[k]]);
+            link.cos == image.cos
+                && maps(signs.twist, &link.sin, &image.sin)
+                && maps(signs.length, &link.a, &image.a)
+                && maps(signs.offset, &link.d, &opposite.d)
+        };
+        links.len() == involution.links.len() && links.iter().enumerate().all(is_mapped)
+    }
 }
 
 /// A 5R loop on a curve with tied joints.
@@ -53,8 +73,18 @@ pub struct Fitted {
     pub closed: Option<Closed>,
     /// A member over the rationals; for six joints.
     pub member: Option<RationalMember>,
-    /// A proof for the family.
+    /// A proof for the family by a multiplier.
     pub multiplier: Option<Multiplier>,
+    /// A proof for the family by an invariant.
+    pub implication: Option<Implication>,
+}
+
+impl Fitted {
+    /// Whether mobility is proved for all parameters.
+    #[must_use]
+    pub const fn is_proved(&self) -> bool {
+        self.multiplier.is_some() || self.implication.is_some()
+    }
 }
 
 /// What was tried and found.
@@ -102,13 +132,14 @@ pub fn search(ansatz: &Ansatz, seed: u64) -> Result<Search> {
 
 fn fitted(ansatz: &Ansatz, seed: u64) -> Result<Fitted> {
     let sweep = sweep(ansatz, seed)?;
-    let mut fitted = Fitted { sweep, closed: None, member: None, multiplier: None };
+    let mut fitted = Fitted { sweep, closed: None, member: None, multiplier: None, implication: None };
     let relations = &fitted.sweep.relations;
     if ansatz.joints.len() == 6 && !relations.is_empty() {
         fitted.closed = closed_positions(ansatz, relations, CLOSED, seed);
         fitted.member = rational_member(ansatz, relations, DRAWS, seed);
         if let [relation] = relations.as_slice() {
             fitted.multiplier = multiplier(ansatz, relation, seed);
+            fitted.implication = implication(ansatz, relation);
         }
     }
     Ok(fitted)

@@ -7,7 +7,7 @@
 
 use super::configurations::configurations;
 use super::curve_ansatz::canonical;
-use super::finite_field::{over_prime, random_unit};
+use super::finite_field::random_unit;
 use super::lift;
 use crate::algebra::echelon::Echelon;
 use crate::algebra::modp::ModP;
@@ -75,10 +75,10 @@ impl Trial {
     }
 }
 
-/// The primes of sweeps for one unknown; two, so that coefficients up to some dozens come back.
-const PRIMES: [u64; 2] = [59, 67];
-/// The primes of sweeps for two unknowns.
-const PRIMES_OF_TWO: [u64; 2] = [31, 43];
+/// The fit over one prime field. Fields are larger where there is one unknown to run through them; two of them, so that
+/// coefficients up to some dozens come back.
+type Fit = fn(&Ansatz, &[Polynomial<Rational>], u64) -> Result<(Evidence, Vec<Vec<u64>>)>;
+
 /// The prime of the trial.
 const TRIAL: u64 = 103;
 /// Members more than terms, so that a relation among them is no accident.
@@ -95,9 +95,9 @@ const TRIALS: usize = 12;
 /// # Errors
 /// [`Error::Unsupported`] unless there are one or two unknown lengths and four to six joints.
 pub fn sweep(ansatz: &Ansatz, seed: u64) -> Result<Sweep> {
-    let primes = match ansatz.unknown.len() {
-        1 => PRIMES,
-        2 => PRIMES_OF_TWO,
+    let fits: [Fit; 2] = match ansatz.unknown.len() {
+        1 => [fit::<59>, fit::<67>],
+        2 => [fit::<31>, fit::<43>],
         n => return Err(Error::Unsupported(format!("a sweep over {n} unknown lengths, expected one or two"))),
     };
     if !(4..=6).contains(&ansatz.joints.len()) {
@@ -107,10 +107,10 @@ pub fn sweep(ansatz: &Ansatz, seed: u64) -> Result<Sweep> {
     for terms in term_lists(ansatz) {
         let mut evidence = Vec::new();
         let mut spaces = Vec::new();
-        for prime in primes {
-            let (found, space) = over_prime!(prime, P => fit::<P>(ansatz, &terms, seed))??;
+        for fit in fits {
+            let (found, space) = fit(ansatz, &terms, seed)?;
             let empty = space.is_empty();
-            spaces.push((prime, space));
+            spaces.push((found.prime, space));
             evidence.push(found);
             if empty {
                 break;
@@ -119,7 +119,7 @@ pub fn sweep(ansatz: &Ansatz, seed: u64) -> Result<Sweep> {
         let relations = lifted(&spaces, &terms);
         let sweep = Sweep { evidence, relations, terms: terms.len(), trial: None };
         if !sweep.relations.is_empty() {
-            let trial = over_prime!(TRIAL, P => trial::<P>(ansatz, &sweep.relations, seed))??;
+            let trial = trial::<TRIAL>(ansatz, &sweep.relations, seed)?;
             return Ok(Sweep { trial: Some(trial), ..sweep });
         }
         let members = sweep.evidence.iter().map(|evidence| evidence.members).max().unwrap_or(0);

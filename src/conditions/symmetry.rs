@@ -245,7 +245,7 @@ impl<const P: u64> Pattern<P> {
     fn positions(&self, rng: &mut ChaCha8Rng) -> Vec<Vec<Turn<ModP<P>>>> {
         let all = all_turns::<P>();
         let zero = ModP::zero();
-        let half_turns = all.iter().map(|turn| half_turn(turn)).collect::<Vec<_>>();
+        let half_turns = all.iter().map(half_turn).collect::<Vec<_>>();
         let links = self.links.iter().map(|link| {
             let (c, s) = half_turn(&(link.cos, link.sin));
             Quaternion { scalar: c, vector: [s, zero, zero] }

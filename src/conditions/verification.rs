@@ -166,7 +166,11 @@ const TANGENTS: [(i32, i32); 10] = [(1, 2), (1, 3), (2, 3), (1, 4), (3, 4), (1, 
 /// The rotations are taken from so many of these.
 const ROTATIONS: usize = 3;
 
-/// A member of an ansatz of a 6R loop that satisfies the relations, with an exact position, both over the rationals; `None`
+/// So many positions of screw rank 6 are met before no other one is expected.
+const RIGID: usize = 60;
+
+/// A member of an ansatz of a 6R loop that satisfies the relations, with an exact position, both over the rationals: the
+/// first of screw rank 5, where there is none one of rank 6; `None`
 /// where the search finds none in so many draws.
 ///
 /// Twists and three rotations are drawn; where the discriminant of the other three is the square of a rational number, the
@@ -187,6 +191,7 @@ pub fn rational_member(
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut order = ChaCha8Rng::seed_from_u64(seed.wrapping_add(1));
     let free = ansatz.free_lengths().len();
+    let mut rigid = Vec::new();
     for _ in 0..draws {
         let mut random = |place: usize| {
             let tangent = Rational::from(TANGENTS[place]);
@@ -208,11 +213,16 @@ pub fn rational_member(
         }
         let Some(links) = members.links(&values) else { continue };
         let germ = germ(&links, &turns);
-        if germ.rank == 5 {
-            return Some(RationalMember { links, turns, germ });
+        match germ.rank {
+            5 => return Some(RationalMember { links, turns, germ }),
+            6 => rigid.push(RationalMember { links, turns, germ }),
+            _ => {}
+        }
+        if rigid.len() == RIGID {
+            break;
         }
     }
-    None
+    rigid.pop()
 }
 
 /// Whether the discriminant is a square modulo a prime, as it is if it is one: half of the rest is told apart without

@@ -9,7 +9,7 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::elimination::cut::Hidden;
-use crate::elimination::octic::{FalseRoots, closure_polynomial, false_roots};
+use crate::elimination::octic::{closure_polynomial, false_roots};
 use crate::elimination::separated::offset;
 use crate::elimination::spherical_four_bar::FourBar;
 use crate::kinematics::link_form::LinkForm;
@@ -90,7 +90,10 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
             let all = lost.imaginary.mul(&lost.parallel);
             let degree = 8 - all.degree().unwrap_or(0) - lost.parallel_at_pi;
             eliminated.polynomial = Some((kept, polynomial.div_exact(&all), Meaning::HalfTangent { degree }));
-            eliminated.removed = removed(kept, &lost, symbols.label(gone));
+            let imaginary = format!("joint {} would have the half-angle tangent i or -i there", symbols.label(gone));
+            let parallel = "the translations are parallel there and do not close the loop";
+            eliminated.removed = removed(kept, &lost.imaginary, 0, &imaginary);
+            eliminated.removed.extend(removed(kept, &lost.parallel, lost.parallel_at_pi, parallel));
         }
     }
     Some(eliminated)
@@ -101,19 +104,15 @@ fn circle<F: Field>() -> Univariate<F> {
     Univariate::new(vec![F::one(), F::zero(), F::one()])
 }
 
-/// The factors of false roots, each square-free.
-fn removed(kept: usize, lost: &FalseRoots<Rational>, gone: &str) -> Vec<Removed> {
-    let imaginary = format!("joint {gone} would have the half-angle tangent i or -i there");
-    let parallel = "the translations are parallel there and do not close the loop";
-    let mut removed = Vec::new();
-    for (factor, reason) in [(&lost.imaginary, imaginary.as_str()), (&lost.parallel, parallel)] {
-        for (factor, multiplicity) in factor.square_free_decomposition() {
-            let factor = Polynomial::from_univariate(Symbols::variable(kept), &factor);
-            removed.push(Removed { factor: Some(primitive(&factor)), multiplicity, reason: reason.to_owned() });
-        }
-    }
-    if lost.parallel_at_pi > 0 {
-        removed.push(Removed { factor: None, multiplicity: lost.parallel_at_pi, reason: parallel.to_owned() });
+/// A factor of false roots, divided into square-free ones, and the false roots at infinity.
+pub(super) fn removed(kept: usize, factor: &Univariate<Rational>, at_pi: usize, reason: &str) -> Vec<Removed> {
+    let square_free = |(factor, multiplicity): (Univariate<Rational>, usize)| {
+        let factor = Polynomial::from_univariate(Symbols::variable(kept), &factor);
+        Removed { factor: Some(primitive(&factor)), multiplicity, reason: reason.to_owned() }
+    };
+    let mut removed: Vec<Removed> = factor.square_free_decomposition().into_iter().map(square_free).collect();
+    if at_pi > 0 {
+        removed.push(Removed { factor: None, multiplicity: at_pi, reason: reason.to_owned() });
     }
     removed
 }

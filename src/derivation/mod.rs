@@ -12,6 +12,7 @@ mod polynomial;
 mod pose;
 mod symbolic;
 mod symbols;
+pub mod transference;
 mod triangle;
 mod two_sides;
 

@@ -14,17 +14,19 @@ use crate::elimination::platform_degree::{PlatformDegree, platform_degree};
 use crate::elimination::platform_polynomial::{
     Coordinate, PlatformPolynomial, multiple_platform_polynomial, platform_polynomial,
 };
-use crate::elimination::triangle_platform::{TrianglePolynomial, triangle_polynomial};
+use crate::elimination::triangle_platform::{Pairs, Triangle, TrianglePolynomial, triangle_polynomial};
 use crate::error::{Error, Result};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
 use crate::mechanism::platform_over;
 use rug::{Integer, Rational};
 
-/// Variables 0 to 3 are x, 4 to 7 are y.
-const NAMES: [&str; 9] = ["x0", "x1", "x2", "x3", "y0", "y1", "y2", "y3", "k"];
+/// Variables 0 to 3 are x, 4 to 7 are y; the last ones, of a triangle, the coordinates of its corners on their circles.
+const NAMES: [&str; 15] = ["x0", "x1", "x2", "x3", "y0", "y1", "y2", "y3", "k", "a1", "b1", "a2", "b2", "a3", "b3"];
 /// The variable of the polynomial.
 const QUOTIENT: usize = 8;
+/// The first of the coordinates on circles.
+const ON_CIRCLE: usize = 9;
 
 /// What the polynomial is in.
 enum Found {
@@ -60,7 +62,8 @@ impl Found {
         match self {
             Self::Quotient(found) => format!(
                 "Multiplication by k = {} in the quotient algebra, without the components with x.x = 0, is a matrix of size {}; \
-                 its characteristic polynomial from {} primes, confirmed by one more, is the closure polynomial.",
+                 its characteristic polynomial from {} primes is the closure polynomial. One more prime agrees in all \
+                 coefficients: no proof, but a probability of error below 2^-40.",
                 words(&found.coordinate),
                 found.coefficients.len() - 1,
                 found.primes
@@ -79,8 +82,8 @@ impl Found {
                 };
                 format!(
                     "Legs {one}, {two}, {three} meet in points of the {body}, each of which moves on a circle about the line \
-                     through the other ends, P = c + alpha u + beta v; the three sides of the triangle are bilinear in \
-                     (1, alpha, beta) of two corners. Two resultants, by the second and the third corner, leave a form of \
+                     through the other ends, P = c + a u + b v; the three sides of the triangle are bilinear in \
+                     (1, a, b) of two corners. Two resultants, by the second and the third corner, leave a form of \
                      degree 8 on the circle of the first one, P; its resultant with the circle is the closure polynomial in \
                      k = ({g}, {h}, {l}).P, in the frame of the {other}{mirrored}."
                 )
@@ -136,6 +139,10 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
                 .to_owned(),
         );
     }
+    let mut equations = equations(&platform, &squares);
+    if let Some(Found::Corner(found)) = &found {
+        equations.extend(triangle_equations(&platform, &squares, &found.pairs));
+    }
     let (mut polynomial, mut without, mut defined, mut warnings) = (None, None, None, Vec::new());
     if let Some(found) = &found {
         steps.push(found.step());
@@ -167,7 +174,7 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
     }
     Ok(Derivation {
         names: Names::given(NAMES)?,
-        equations: equations(&platform, &squares),
+        equations,
         steps,
         polynomial,
         without,
@@ -199,6 +206,30 @@ fn equations(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Vec<Equa
         both(format!("leg {} w.w - L^2 x.x", i + 1), &leg.quadric(&x, &y, times))
     });
     legs.chain([both("Study x.y".to_owned(), &scalar(&x, &y))]).collect()
+}
+
+/// The circles of the corners and the sides of the triangle, in the coordinates of each corner on its circle.
+fn triangle_equations(platform: &Platform<Rational>, squares: &[Rational; 6], pairs: &Pairs) -> Vec<Equation> {
+    let Some(triangle) = Triangle::new(platform, squares, pairs) else { return Vec::new() };
+    let corner = |n: usize| -> [Polynomial<Rational>; 3] {
+        [Polynomial::one(), Polynomial::variable(ON_CIRCLE + 2 * n), Polynomial::variable(ON_CIRCLE + 2 * n + 1)]
+    };
+    let circles = (0..3).map(|n| {
+        let [_, a, b] = corner(n);
+        let circle = &triangle.circles[n];
+        let form = a.mul(&a).scale(&circle.squares[0]).add(&b.mul(&b).scale(&circle.squares[1]));
+        let [i, j] = pairs.legs[n].map(|leg| leg + 1);
+        let name = format!("circle of corner {}, legs {i} and {j}", n + 1);
+        Equation::listed(name, &form.sub(&Polynomial::constant(circle.radius_square.clone())))
+    });
+    let sides = [(0, 1), (1, 2), (2, 0)].into_iter().map(|(i, j)| {
+        let form = triangle.side(i, j);
+        let (one, two) = (corner(i), corner(j));
+        let terms = (0..9).map(|k| one[k / 3].mul(&two[k % 3]).scale(&form[k / 3][k % 3]));
+        let sum = terms.fold(Polynomial::zero(), |sum, term| sum.add(&term));
+        Equation::listed(format!("side of corners {} and {}", i + 1, j + 1), &sum)
+    });
+    circles.chain(sides).collect()
 }
 
 /// The quotient in words: `(x1 - 2 x2 + 3 x3)/x0`.

@@ -2,12 +2,13 @@
 
 use super::Equation;
 use super::chain::{Eliminated, Exact};
+use super::four_bar::removed;
 use super::polynomial::Meaning;
 use super::symbols::combination;
-use crate::algebra::ring::Ring;
+use crate::algebra::ring::{Domain, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::elimination::separated::powers;
-use crate::elimination::spherical_triangle::triangle;
+use crate::elimination::spherical_triangle::{false_roots, triangle};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
@@ -26,7 +27,7 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
     let label = |k: usize| exact.symbols.label(form.rotations[(found.dropped + k) % 3]);
     let unknown = form.rotations[(found.dropped + 2) % 3];
     let monomials = exact.symbols.monomials(unknown, false);
-    let polynomial = combination(found.equation.iter().zip(&monomials));
+    let equation = combination(found.equation.iter().zip(&monomials));
     let name = format!("spherical triangle {}-{} n.n'", label(1), label(3));
     let steps = vec![
         format!(
@@ -39,15 +40,21 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
             label(3),
             label(2)
         ),
-        "The other two rotations are rational in it, and the three translations solve three linear equations."
+        "The other two rotations are rational in it, and the three translations solve three linear equations; a root at which \
+         these are dependent without closing the loop is no solution."
             .to_owned(),
         format!("In {} the equation is of degree 2.", exact.symbols.name(unknown)),
     ];
+    let all = of_row(Variable::Rotation, &found.equation);
+    let (lost, at_pi) = false_roots(&form, &found);
+    let reason = "the translations are dependent there and do not close the loop";
+    let degree = 2 - lost.degree().unwrap_or(0) - at_pi;
+    let polynomial = (unknown, if all.is_zero() { all } else { all.div_exact(&lost) }, Meaning::HalfTangent { degree });
     Some(Eliminated {
-        equations: vec![Equation::used(name, &polynomial)],
+        equations: vec![Equation::used(name, &equation)],
         steps,
-        polynomial: Some((unknown, of_row(Variable::Rotation, &found.equation), Meaning::HalfTangent { degree: 2 })),
-        removed: Vec::new(),
+        polynomial: Some(polynomial),
+        removed: removed(unknown, &lost, at_pi, reason),
         per_root: 1,
     })
 }

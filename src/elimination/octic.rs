@@ -50,19 +50,6 @@ pub struct FalseRoots<F> {
     pub parallel_at_pi: usize,
 }
 
-/// All factors of `polynomial` whose roots are among those of `condition`, with their multiplicity in `polynomial`.
-fn part<F: Field + Domain>(polynomial: &Univariate<F>, condition: &Univariate<F>) -> Univariate<F> {
-    let (mut rest, mut part) = (polynomial.clone(), Univariate::one());
-    loop {
-        let common = rest.gcd(condition);
-        if common.degree().unwrap_or(0) == 0 {
-            return part;
-        }
-        rest = rest.div_exact(&common);
-        part = part.mul(&common);
-    }
-}
-
 /// The false roots of a closure polynomial, a divisor of [`closure_polynomial`] without factors `1 + x^2`: divided out
 /// with their whole multiplicity. A root at which the translations are parallel and the loop closes nevertheless, a
 /// self-motion, is left alone; and where both values of the other angle belong to a root, it is false only with both.
@@ -79,12 +66,12 @@ pub fn false_roots<F: Field + Domain>(
     let normal = normal(&f, &g);
     // Where N vanishes the other angle has two values, or any.
     let several = normal[0].gcd(&normal[1]).gcd(&normal[2]);
-    let without = |factor: Univariate<F>| factor.div_exact(&part(&factor, &several));
+    let without = |factor: Univariate<F>| factor.div_exact(&factor.part_with_roots_of(&several));
     // Common roots of A + i B of both rows: the other half tangent is i there, or -i.
     let pair = |x: &[Univariate<F>; 3], y: &[Univariate<F>; 3]| x[1].mul(&y[1]).add(&x[2].mul(&y[2]));
     let crossed = f[1].mul(&g[2]).sub(&f[2].mul(&g[1]));
     let condition = pair(&f, &f).gcd(&pair(&g, &g)).gcd(&pair(&f, &g)).gcd(&crossed);
-    let imaginary = without(part(polynomial, &condition));
+    let imaginary = without(polynomial.part_with_roots_of(&condition));
     let rest = polynomial.div_exact(&imaginary);
     // Three coordinates of u x v, and of u x s, at the other angle that belongs to a root.
     let unit = |i: usize| -> [F; 3] { std::array::from_fn(|k| if k == i { F::one() } else { F::zero() }) };
@@ -97,13 +84,14 @@ pub fn false_roots<F: Field + Domain>(
     let gaps = forms(&|x| bar.gap(bar.base, x));
     let common = |list: &[Univariate<F>]| list.iter().fold(Univariate::zero(), |g: Univariate<F>, p| g.gcd(p));
     let (crossing, gap) = (directions.each_ref().map(at_root), gaps.each_ref().map(at_root));
-    let single = without(part(&rest, &common(&crossing)));
-    let single = single.div_exact(&part(&single, &common(&gap)));
+    let single = without(rest.part_with_roots_of(&common(&crossing)));
+    let single = single.div_exact(&single.part_with_roots_of(&common(&gap)));
     // Where N vanishes: rows proportional to that of f are zero at both its roots.
     let rows: Vec<Univariate<F>> = directions.iter().flat_map(|form| self::normal(&view(form), &f)).collect();
     let gap_rows = gaps.each_ref().map(|form| eliminant(&f, &view(form)));
-    let double = part(&part(&rest, &several), &common(&rows));
-    let double = [common(&f), common(&gap_rows)].iter().fold(double, |left, p| left.div_exact(&part(&left, p)));
+    let double = rest.part_with_roots_of(&several).part_with_roots_of(&common(&rows));
+    let double =
+        [common(&f), common(&gap_rows)].iter().fold(double, |left, p| left.div_exact(&left.part_with_roots_of(p)));
     // The same at infinity, by leading coefficients.
     let vanish = |list: &[Univariate<F>], degree: usize| list.iter().all(|p| p.degree() < Some(degree));
     let lost = 8_usize.saturating_sub(closure_polynomial(equations, hidden, origin).degree().unwrap_or(8));

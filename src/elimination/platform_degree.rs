@@ -6,6 +6,7 @@
 use super::border::{Arithmetic, BorderBasis, DIMENSION, MOST_DIRECTIONS, Setting, exact_directions};
 use super::graded_quotient::GradedQuotient;
 use crate::algebra::modp::{Modulus, primes};
+use crate::algebra::ring::Ring;
 use crate::closure::study::{Form, LinearLegs, linear_legs};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
@@ -66,7 +67,7 @@ pub fn modular_setting(
 }
 
 /// A platform with its base and plate turned by rotations that are no multiples of a right angle, exactly.
-fn turned(platform: &Platform<Rational>, choice: usize) -> Platform<Rational> {
+pub(super) fn turned(platform: &Platform<Rational>, choice: usize) -> Platform<Rational> {
     let turn = |points: &[[Rational; 3]; 6], q: [i32; 4]| {
         let [w, x, y, z] = q.map(Rational::from);
         let q = Quaternion { scalar: w, vector: [x, y, z] };
@@ -81,6 +82,14 @@ fn turned(platform: &Platform<Rational>, choice: usize) -> Platform<Rational> {
     };
     let [before, behind] = TURNS[choice];
     Platform { base: turn(&platform.base, before), plate: turn(&platform.plate, behind) }
+}
+
+/// The quaternions by which [`turned`] turns base and plate.
+pub(super) fn turns<R: Ring>(choice: usize) -> [Quaternion<R>; 2] {
+    TURNS[choice].map(|q| {
+        let [w, x, y, z] = q.map(R::from_integer);
+        Quaternion { scalar: w, vector: [x, y, z] }
+    })
 }
 
 /// Counts the poses of a platform with legs of these squared lengths, modulo a prime of 62 bits. `None` where the prime

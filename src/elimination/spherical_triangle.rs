@@ -5,8 +5,10 @@
 //! `(r1 q1 + r2 q2) cos + (r2 q1 - r1 q2) sin + r3 q3 - (R_m)_33 = 0`; the other angles and then the three translations
 //! are rational in it. Two roots, no other factor.
 
+use super::separated::{offset, powers};
 use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
+use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::link_form::{LinkForm, product, turned};
 use crate::kinematics::motion::{cross, dot};
 
@@ -63,6 +65,54 @@ fn following<R: Ring>(form: &LinkForm<R, 3, 3>, dropped: usize, known: &(R, R), 
     (m1.mul(t1).add(&m2.mul(t2)).mul(inverse), m1.mul(t2).sub(&m2.mul(t1)).mul(inverse))
 }
 
+/// The closure polynomial of three rotations, and what their translations need, in the half tangent x of the rotation of
+/// the equation.
+struct Conditions<F> {
+    /// The closure polynomial, of degree 2 in general.
+    roots: Univariate<F>,
+    /// The determinant of the directions of the translations, times powers of 1 + x^2, and its degree in general.
+    determinant: (Univariate<F>, usize),
+    /// What vanishes with it where dependent translations close the loop, each with its degree in general.
+    bridged: [(Univariate<F>, usize); 3],
+}
+
+/// The conditions with angles counted from `origin`; `None` where two axes are parallel, so that rotations are not
+/// determined.
+fn conditions<F: Field>(form: &LinkForm<F, 3, 3>, triangle: &Triangle<F>, origin: &[F; 3]) -> Option<Conditions<F>> {
+    let inverse = form.twist(triangle.dropped).0.inverse()?;
+    let lifted = form.map(|x: &F| Some(Univariate::constant(x.clone())))?;
+    // Cosine and sine times a number and 1 + x^2.
+    let [one, cos, sin] = powers(Variable::Rotation, origin).map(|row| Univariate::new(row.to_vec()));
+    let known = (cos, sin);
+    let [constant, first, second] = &triangle.equation;
+    let roots = one.scale(constant).add(&known.0.scale(first)).add(&known.1.scale(second));
+    let second = (triangle.dropped + 2) % 3;
+    // Directions of the translations in a frame before the known rotation, each times a power of `one`.
+    let next = following_scaled(&lifted, triangle.dropped, &known, &one, &Univariate::constant(inverse));
+    let mut directions = Vec::new();
+    for slide in &lifted.slides {
+        let u = &slide.direction;
+        let weigh = |m: [[Univariate<F>; 3]; 3]| m.map(|row| dot(&row, u));
+        let rotation = |pair| turning(pair, &one);
+        directions.push(if slide.link == second {
+            (weigh(rotation(&known)), 2)
+        } else if slide.link == triangle.dropped {
+            let behind = product(&rotation(&known), &lifted.links[second].rotation);
+            (weigh(product(&behind, &rotation(&next))), 4)
+        } else {
+            let link = &lifted.links[slide.link].rotation;
+            (std::array::from_fn(|i| dot(&std::array::from_fn(|k| link[k][i].clone()), u)), 0)
+        });
+    }
+    let [(u, i), (v, j), (w, k)] = [&directions[0], &directions[1], &directions[2]];
+    let determinant = (dot(&cross(u, v), w), i + j + k);
+    // What the translations have to bridge: s of the three links in the same frame, over a power of `one` in common.
+    let sum = links_sum(&lifted, triangle.dropped, &known, &next, &one);
+    let across = |x: &[Univariate<F>; 3], y: &[Univariate<F>; 3]| dot(&cross(x, y), &sum);
+    let bridged = [(across(v, w), j + k + 4), (across(w, u), k + i + 4), (across(u, v), i + j + 4)];
+    Some(Conditions { roots, determinant, bridged })
+}
+
 /// How many solutions a loop with three rotations has, exactly: the roots of its closure polynomial at which the three
 /// translations are independent. `None` where rotations or translations are not determined, so that solutions form
 /// families, if there are any.
@@ -73,35 +123,8 @@ pub fn count<F: Field + Domain>(form: &LinkForm<F, 3, 3>) -> Option<usize> {
     if cos.is_zero() && sin.is_zero() {
         return (!constant.is_zero()).then_some(0);
     }
-    let inverse = form.twist(triangle.dropped).0.inverse()?;
-    // The loop turned by a fixed angle, so that no root is at infinity; over 1 + x^2.
-    let lift = |x: &F| Some(Univariate::constant(x.clone()));
-    let lifted = form.map(lift)?;
-    let poly = |c: [i32; 3]| Univariate::new(c.map(F::from_integer).to_vec());
-    // cos and sin of q' + 2 atan(3/7), times 58 (1 + x^2).
-    let (one, known) = (poly([58, 0, 58]), (poly([40, -84, -40]), poly([42, 80, -42])));
-    let equation = |[k, c, s]: [&F; 3]| one.scale(k).add(&known.0.scale(c)).add(&known.1.scale(s));
-    let roots = equation([constant, cos, sin]);
-    let second = (triangle.dropped + 2) % 3;
-    // Directions of the translations in a frame before the known rotation, each times a power of `one`.
-    let next = following_scaled(&lifted, triangle.dropped, &known, &one, &Univariate::constant(inverse));
-    let mut directions = Vec::new();
-    for slide in &lifted.slides {
-        let u = &slide.direction;
-        let weigh = |m: [[Univariate<F>; 3]; 3]| m.map(|row| dot(&row, u));
-        let rotation = |pair| turning(pair, &one);
-        directions.push(if slide.link == second {
-            weigh(rotation(&known))
-        } else if slide.link == triangle.dropped {
-            let behind = product(&rotation(&known), &lifted.links[second].rotation);
-            weigh(product(&behind, &rotation(&next)))
-        } else {
-            let link = &lifted.links[slide.link].rotation;
-            std::array::from_fn(|i| dot(&std::array::from_fn(|k| link[k][i].clone()), u))
-        });
-    }
-    let [u, v, w] = [&directions[0], &directions[1], &directions[2]];
-    let determinant = dot(&cross(u, v), w);
+    // The loop turned by a fixed angle, so that no root is at infinity.
+    let Conditions { roots, determinant: (determinant, _), bridged } = conditions(form, &triangle, &offset())?;
     if determinant.is_zero() {
         return None;
     }
@@ -109,15 +132,34 @@ pub fn count<F: Field + Domain>(form: &LinkForm<F, 3, 3>) -> Option<usize> {
     if lost.degree() == Some(0) {
         return Some(2);
     }
-    // What the translations have to bridge: s of the three links in the same frame, over a power of `one` in common.
-    let sum = links_sum(&lifted, triangle.dropped, &known, &next, &one);
-    let bridged = [cross(v, w), cross(w, u), cross(u, v)].iter().fold(lost.clone(), |g, n| g.gcd(&dot(n, &sum)));
+    let bridged = bridged.iter().fold(lost.clone(), |g, (n, _)| g.gcd(n));
     if bridged.degree() > Some(0) {
         return None;
     }
     // A double root at which the translations are dependent is no isolated solution either.
     let double = roots.gcd(&roots.derivative()).degree() > Some(0);
     Some(if double { 0 } else { 2 - lost.degree().unwrap_or(0) })
+}
+
+/// The roots of the closure polynomial at which the translations are dependent and do not close the loop: a factor with
+/// their whole multiplicity, and how many are at infinity, where the angle is pi.
+#[must_use]
+pub fn false_roots<F: Field + Domain>(form: &LinkForm<F, 3, 3>, triangle: &Triangle<F>) -> (Univariate<F>, usize) {
+    let origin = [1, 1, 0].map(F::from_integer);
+    let none = (Univariate::one(), 0);
+    let Some(Conditions { roots, determinant: (determinant, full), bridged }) = conditions(form, triangle, &origin)
+    else {
+        return none;
+    };
+    if roots.is_zero() || determinant.is_zero() {
+        return none;
+    }
+    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
+    let dependent = roots.remove_factor(&circle).1.part_with_roots_of(&determinant);
+    let closing = bridged.iter().fold(Univariate::zero(), |g: Univariate<F>, (n, _)| g.gcd(n));
+    let factor = dependent.div_exact(&dependent.part_with_roots_of(&closing));
+    let at_infinity = determinant.degree() < Some(full) && bridged.iter().any(|(n, full)| n.degree() == Some(*full));
+    (factor, if at_infinity { 2 - roots.degree().unwrap_or(0) } else { 0 })
 }
 
 /// The sum of the links, turned into the frame before the known rotation and times `one` squared.

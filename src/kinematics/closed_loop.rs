@@ -302,7 +302,12 @@ impl Chain {
     ) -> Result<Option<OpenLoop<R>>, Error> {
         // `constants[k]` stands before unknown k.
         let Some((mut unknowns, mut constants)) = self.separated(parameters) else { return Ok(None) };
-        let Some(locked) = self.fill_up(layout, &mut unknowns, &mut constants) else { return Ok(None) };
+        if self.fill_up(layout, &mut unknowns, &mut constants).is_none() {
+            return Ok(None);
+        }
+        // Idle unknowns before the locked one move it.
+        let before = |locked: usize| layout.idle.iter().filter(|idle| idle.behind < locked).count();
+        let locked = layout.locked.map(|locked| locked + before(locked));
         let total = unknowns.len();
         let expected = if locked.is_some() { 7 } else { 6 };
         if total != expected {
@@ -358,16 +363,15 @@ impl Chain {
         Some((unknowns, constants))
     }
 
-    /// Puts the idle unknowns of a layout among the unknowns of a chain, and returns which of all is the locked one;
-    /// `None` for an unlucky prime.
+    /// Puts the idle unknowns of a layout among the unknowns of a chain; `None` for an unlucky prime.
     fn fill_up<R: Ring>(
         &self,
         layout: &Layout,
         unknowns: &mut Vec<Variable>,
         constants: &mut Vec<Motion<R>>,
-    ) -> Option<Option<usize>> {
+    ) -> Option<()> {
         if layout.idle.is_empty() {
-            return Some(layout.locked);
+            return Some(());
         }
         let unit = self.unit();
         for idle in layout.idle.iter().rev() {
@@ -378,8 +382,7 @@ impl Chain {
             constants.insert(at, frame);
             unknowns.insert(at, idle.variable);
         }
-        let before = |locked: usize| layout.idle.iter().filter(|idle| idle.behind < locked).count();
-        Some(layout.locked.map(|locked| locked + before(locked)))
+        Some(())
     }
 
     /// The power of two nearest to the mean length of the links, 1 without lengths.

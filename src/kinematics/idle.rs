@@ -38,7 +38,7 @@ impl Idle {
             let t = draw();
             let square = Rational::from(&t * &t);
             let scale = Rational::from(1 + &square).recip();
-            (Rational::from(1 - square) * &scale, t * 2 * scale)
+            ((1 - square) * &scale, t * 2 * scale)
         };
         let ((c1, s1), (c2, s2)) = (pair(), pair());
         let turn = Motion::rotation_z(c1, s1).then_after(&Motion::rotation_x(c2, s2));

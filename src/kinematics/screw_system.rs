@@ -334,7 +334,7 @@ impl ScrewSystem<f64> {
     /// Translations are divided out first: what is left is the part of the system whose moments are perpendicular to them.
     ///
     /// # Source
-    /// Ball 1900, A treatise on the theory of screws; \[Wittenburg2016, ch. 12\].
+    /// \[Ball1900\]; \[Wittenburg2016, ch. 12\].
     #[must_use]
     pub fn principal_screws(&self) -> (Vec<PrincipalScrew>, usize) {
         let basis = self.basis();

@@ -13,7 +13,7 @@ use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::platform::Platform;
 use crate::kinematics::velocity::velocity;
-use crate::verdict::platform_verdict;
+use crate::verdict::{Status, platform_verdict};
 use rug::Rational;
 use std::time::Instant;
 
@@ -95,9 +95,22 @@ impl PreparedPlatform {
             self.solver.solve_up_to(&squares, roots, Some(poses), memory, assembly);
             solve_us += start.elapsed().as_secs_f64() * 1e6;
         }
+        let judge = |assembly: &PlatformAssembly| {
+            let study: Vec<_> = assembly.modes.iter().map(|mode| self.solver.study(mode)).collect();
+            platform_verdict(assembly, &study, roots, exact)
+        };
         account_for_singular(assembly, exact);
-        let study: Vec<_> = assembly.modes.iter().map(|mode| self.solver.study(mode)).collect();
-        let verdict = platform_verdict(assembly, &study, roots, exact);
+        let mut verdict = judge(assembly);
+        if let (Status::Incomplete, Some(PlatformDegree::Finite { poses, .. })) = (verdict.status, exact)
+            && let Some(platform) = over(&self.geometry)
+        {
+            // What f64 does not reach, the exact data do.
+            let start = Instant::now();
+            self.solver.rescue(&platform, &rationals, poses, memory, assembly);
+            account_for_singular(assembly, exact);
+            verdict = judge(assembly);
+            solve_us += start.elapsed().as_secs_f64() * 1e6;
+        }
         let modes = assembly.modes.iter().map(|mode| self.full(mode));
         let legs = squares.map(f64::sqrt);
         let short = platform::out_of_reach(self.solver.platform(), &legs).map(|why| format!("no pose is real: {why}"));

@@ -1,7 +1,7 @@
 //! Poses of a platform in Study's parameters, polished on the six leg quadrics and the Study condition.
 
 use super::dense::{self, solve_one, times};
-use super::scalar::{Number, Scalar};
+use super::scalar::{Extended, Number, Scalar};
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::Ring;
 use crate::closure::study::{Four, Leg, scalar};
@@ -205,16 +205,17 @@ pub fn refine(
     None
 }
 
-/// A pose in numbers of twice the precision: the point, its equations, and the inverse of their Jacobian.
-pub type WidePose = (Eight<Wide>, Equations<Wide>, [Eight<Wide>; 8]);
+/// A pose in more digits: the point, its equations, and the inverse of their Jacobian.
+pub type ExtendedPose<R> = (Eight<Complex<R>>, Equations<Complex<R>>, [Eight<Complex<R>>; 8]);
 
-/// Newton's method in numbers of twice the precision all along, for poses very far away, where `N = x.x` is tiny; `None`
-/// where it does not settle.
+/// Newton's method in more digits all along, for poses very far away, where `N = x.x` is tiny; `None` where it does not
+/// settle.
 #[must_use]
-pub fn polish_wide(legs: &[Leg<f64>; 6], start: &Eight<Complex<f64>>) -> Option<WidePose> {
-    let start = normalised(start)?;
-    let mut point = start.map(wide);
-    let patch: Four<Wide> = std::array::from_fn(|k| wide(start[k].conj()));
+pub fn polish_extended<R: Extended>(legs: &[Leg<f64>; 6], start: &Eight<Complex<R>>) -> Option<ExtendedPose<R>> {
+    let length: f64 = start[..4].iter().map(|x| x.square_size()).sum();
+    let scale = R::from(1.0 / length.sqrt().max(f64::MIN_POSITIVE));
+    let mut point = start.map(|x| x.times(scale));
+    let patch: Four<Complex<R>> = std::array::from_fn(|k| point[k].conjugate());
     let mut before = f64::INFINITY;
     let mut growing = 0;
     for _ in 0..2 * MOST_STEPS {

@@ -26,7 +26,7 @@ pub fn platform_verdict(
         Some(PlatformDegree::Infinite) => assembly.self_motion.max(1),
         _ => assembly.self_motion,
     };
-    let judged = if dimension > 0 {
+    let mut judged = if dimension > 0 {
         let how = if assembly.self_motion > 0 { "" } else { ", real or complex, by an exact count (modulo a prime)" };
         let reason = format!(
             "poses form a self-motion of dimension {dimension}{how}; the isolated ones are listed, not proved complete"
@@ -37,6 +37,9 @@ pub fn platform_verdict(
     } else {
         count(assembly, roots, exact)
     };
+    if assembly.rescued > 0 {
+        judged.reason += &format!("; {} of them found or proved in 384-bit arithmetic only", assembly.rescued);
+    }
     Verdict {
         status: judged.status,
         complex: assembly.total(),

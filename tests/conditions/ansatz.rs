@@ -19,6 +19,8 @@ fn file(symbols: &str, joint: &str, relations: &str) -> String {
 const SYMBOLS: &str = "angles = [\"u\", \"v\"]\nlengths = [\"a\", \"b\", \"c'\"]";
 const JOINT: &str = "{ type = \"R\", a = \"a\", alpha = \"u\", d = 0 }";
 
+type Mod = ModP<PRIME_61>;
+
 fn read(text: &str) -> Result<Ansatz, Error> {
     ansatz_from_text(text, "x.toml", Format::Toml, &Options::default())
 }
@@ -54,7 +56,6 @@ fn members_satisfy_the_relations() {
     assert_eq!((links[0].a.clone(), links[0].d.clone()), (q(3, 1), q(-10, 1)));
     // pi - v + 2u = pi/2 + u
     assert_eq!((links[0].cos.clone(), links[0].sin.clone()), (q(-4, 5), q(3, 5)));
-    type Mod = ModP<PRIME_61>;
     let half = Mod::from_integer(2).inverse().unwrap();
     let modular = ansatz.over::<Mod>().unwrap().member(&[half], &[Mod::from_integer(10)]).unwrap();
     assert_eq!(modular[0].a, Mod::from_integer(3));

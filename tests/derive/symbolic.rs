@@ -4,6 +4,7 @@ use crate::{entry, named, real, run, solved};
 use looproot::algebra::number::{Angle, HalfTangent, Number};
 use looproot::algebra::polynomial::Polynomial;
 use looproot::catalogue::entry::{Design, Entry};
+use looproot::derivation::transference::SpatialFourBar;
 use looproot::derivation::{Symbolic, derive_symbolic};
 use looproot::kinematics::chain::{Chain, Geometry, Joint, JointKind};
 use rug::Rational;
@@ -156,7 +157,34 @@ fn bennett_s_loop_is_a_pair_of_equations() {
     }
     // Without lengths only the spherical four-bar is left.
     let spherical = symbolic(&four_revolutes([(1, 2), (1, 3), (2, 5), (3, 4)], [0; 4], [0; 4]));
-    assert!(spherical.polynomial.is_none() && spherical.equations.len() == 1);
+    assert!(spherical.polynomial.is_none() && spherical.steps.len() == 2);
+    assert_eq!(spherical.equations.iter().map(|e| e.polynomial.len()).collect::<Vec<_>>(), [21]);
+}
+
+/// The equations from a motion of the middle joints to both sides against those of the principle of transference alone.
+#[test]
+fn two_ways_to_the_pair_agree() {
+    let entry = four_revolutes([(1, 2), (1, 3), (2, 5), (3, 4)], [4, 3, 2, 1], [1, 2, 3, 4]);
+    let (derived, chain) = (symbolic(&entry), entry.chain().unwrap());
+    let values = parameters(chain);
+    let twists = [1, 2, 3, 4].map(|k| (values[&format!("ca{k}")], values[&format!("sa{k}")]));
+    let lengths = [1, 2, 3, 4].map(|k| values[&format!("a{k}")]);
+    let mut ratios = [Vec::new(), Vec::new()];
+    for (x, y) in [(0.3, 0.7), (-1.7, 0.2), (2.9, -1.1), (0.1, -5.0)] {
+        let angle = |t: f64| ((1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t));
+        let (first_offset, fourth_offset) = (values["d1"], values["d4"]);
+        let (first, fourth) = (angle(y), angle(x));
+        let pair = SpatialFourBar { twists, lengths, first, first_offset, fourth, fourth_offset }.pair();
+        let mut values = values.clone();
+        values.extend([("t4".to_owned(), x), ("t1".to_owned(), y)]);
+        for ((ratios, equation), expected) in ratios.iter_mut().zip(&derived.equations).zip([pair.f, pair.g]) {
+            let (found, _) = value(&equation.polynomial, derived.names.list(), &values);
+            ratios.push(found / ((1.0 + x * x) * (1.0 + y * y)) / expected);
+        }
+    }
+    for ratios in ratios {
+        assert!(ratios.iter().all(|ratio| (ratio / ratios[0] - 1.0).abs() < 1e-10), "{ratios:?}");
+    }
 }
 
 #[test]
@@ -164,7 +192,7 @@ fn symbols_can_be_chosen_and_refused() {
     let verdict = |arguments: &[&str]| run(&[&["derive", "-q"], arguments].concat());
     let (code, out, err) = verdict(&["cccr_4_angle", "--symbolic=a1,alpha2"]);
     assert_eq!((code, err.as_str()), (0, ""));
-    assert!(out.starts_with("degree 2 in t3, 5 terms in 2 symbols"), "{out}");
+    assert!(out.starts_with("degree 2 in t3, 7 terms in 2 symbols"), "{out}");
     let (code, _, err) = verdict(&["cccr_4_angle", "--symbolic=a9"]);
     assert!(code == 1 && err.contains("a9") && err.contains("alpha1"), "{err}");
     let (code, out, err) = verdict(&["prrprrr_6_angle", "--symbolic"]);

@@ -50,6 +50,22 @@ fn the_answers_say_which_way_they_were_found() {
 }
 
 #[test]
+fn paths_that_run_together_count_a_singular_pose() {
+    // The plate similar to the base and not turned against it: all legs meet in one point.
+    let mut platform = Draw::new(31).platform();
+    platform.plate = platform.base.clone().map(|a| a.map(|x| x * Rational::from((3, 2))));
+    let mut pose = Motion::<Rational>::identity();
+    pose.translation = [3, 4, 20].map(Rational::from);
+    let assembly = solved(&platform, &platform.legs_squared(&pose), Roots::All);
+    assert!(matches!(assembly.route, Route::Homotopy { .. }));
+    let singular: Vec<_> = assembly.modes.iter().filter(|mode| mode.certificate.is_none()).collect();
+    assert_eq!((assembly.total(), singular.len(), singular[0].multiplicity), (24, 1, 8));
+    for (found, planted) in singular[0].position.iter().zip([3.0, 4.0, 20.0]) {
+        assert!(singular[0].real && (found - planted).norm() < 1e-6, "{found}");
+    }
+}
+
+#[test]
 fn units_and_origins_change_nothing() {
     let case = case("gen66_3");
     let counts = |platform: &Platform<Rational>, legs: &[Rational; 6]| {

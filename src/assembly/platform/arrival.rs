@@ -1,9 +1,12 @@
 //! Solutions that come by other ways than eigenvalues: taken in one by one.
 
 use super::search::{REAL_PART, Search, near_null, real_parts};
+use super::self_motion::{Numeric, project};
 use crate::assembly::Roots;
 use crate::certify::pose::are_apart;
-use crate::solve::pose::{Eight, complex, polish};
+use crate::solve::dense::inverse;
+use crate::solve::pose::{Eight, PolishedPose, complex, equations, patch, polish};
+use crate::solve::scalar::Scalar;
 use num_complex::Complex;
 
 /// |Im| below which a solution may be a real one.
@@ -59,6 +62,30 @@ impl Search<'_> {
             }
         }
         arrived
+    }
+
+    /// Takes in the singular solution at which the path numbered `index` ends: as it is known there, for Newton's method would
+    /// lead away from it.
+    pub fn arrive_singular(&mut self, end: &Eight<Complex<f64>>, index: usize) {
+        let snapped = real_parts(end)[2];
+        let reach = end.iter().map(|z| z.norm()).fold(1.0, f64::max);
+        let imaginary = end.iter().zip(&snapped).map(|(z, r)| z.norm() - r.abs()).fold(0.0, f64::max);
+        let arrived = if imaginary < NEAR_REAL * reach {
+            self.keep_stray(&snapped);
+            self.admit_singular(&snapped, index)
+        } else {
+            self.roots == Roots::Real || self.admit_singular(end, index)
+        };
+        self.lost += usize::from(!arrived);
+    }
+
+    fn admit_singular<S: Numeric>(&mut self, end: &Eight<S>, index: usize) -> bool {
+        let Some(study) = project(self.legs, end) else { return false };
+        let equations = equations(self.legs, &study, &patch(&study));
+        let nothing = [[<S as Scalar>::from_f64(f64::INFINITY); 8]; 8];
+        let inverse = inverse(&equations.jacobian).unwrap_or(nothing);
+        self.admit(&PolishedPose { study, equations, inverse, step: 0.0 }, index);
+        true
     }
 
     /// Keeps a real rotation that led to no regular pose.

@@ -7,6 +7,7 @@ mod mode;
 mod prepared;
 mod reach;
 mod reflection;
+mod rescue;
 mod search;
 mod self_motion;
 mod solver;

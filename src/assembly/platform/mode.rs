@@ -100,6 +100,8 @@ pub struct PlatformAssembly {
     pub unresolved: usize,
     /// Dimension of the self-motion found, 0 if none was.
     pub self_motion: usize,
+    /// How many poses were found or proved in numbers of 384 bits only.
+    pub rescued: usize,
 }
 
 impl PlatformAssembly {

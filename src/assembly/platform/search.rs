@@ -4,16 +4,15 @@ use super::candidate::candidates;
 use super::mode::{PlatformAssembly, PlatformMode};
 use super::prepared::{Chart, Frame, norm};
 use super::self_motion::self_motion;
-use crate::algebra::double_double::DoubleDouble;
 use crate::assembly::Roots;
 use crate::certify::Certificate;
 use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certificate};
 use crate::closure::study::{Four, Leg};
 use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
 use crate::solve::pose::{
-    Eight, PolishedPose, complex, equations, normalised, patch, polish, polish_wide, refine, wide,
+    Eight, PolishedPose, complex, equations, normalised, patch, polish, polish_extended, refine, wide,
 };
-use crate::solve::scalar::Scalar;
+use crate::solve::scalar::{Extended, Scalar, narrowed};
 use crate::solve::spectrum::Spectrum;
 use num_complex::Complex;
 
@@ -113,6 +112,17 @@ impl<'a> Search<'a> {
         found: &'a mut Vec<Found>,
     ) -> Self {
         found.clear();
+        Self::going_on(legs, curvature, roots, expected, found)
+    }
+
+    /// The search with what is found already.
+    pub fn going_on(
+        legs: &'a [Leg<f64>; 6],
+        curvature: &'a Curvature,
+        roots: Roots,
+        expected: Option<usize>,
+        found: &'a mut Vec<Found>,
+    ) -> Self {
         Self {
             legs,
             curvature,
@@ -242,7 +252,7 @@ impl<'a> Search<'a> {
             }
             let polished = polish(self.legs, &start).filter(|p| !near_null(p));
             let Some(polished) = polished else {
-                if raw < NEARLY_NULL && !multiple && self.far_away(&start) {
+                if raw < NEARLY_NULL && !multiple && self.far_away(&start.map(wide)) {
                     outcome = Outcome::Pose;
                 }
                 continue;
@@ -262,26 +272,46 @@ impl<'a> Search<'a> {
         outcome
     }
 
-    /// A pose so far away that it needs twice the digits; whether there is one, proved.
-    fn far_away(&mut self, start: &Eight<Complex<f64>>) -> bool {
-        let Some((point, there, inverse)) = polish_wide(self.legs, start) else { return false };
-        let proof = pose_certificate(self.legs, self.curvature, &point, &there, &inverse);
-        let study = point.map(narrow);
-        let Some(certificate) = proof.filter(|c| holds(c, &study, false)).map(|c| rounded(c, &study)) else {
+    /// Solutions near points known in more digits; those that were found but not proved are proved.
+    pub fn proved_near<R: Extended>(&mut self, starts: &[Eight<Complex<R>>]) {
+        for start in starts {
+            self.far_away(start);
+        }
+        if self.lacks_known_poses() || self.expected.is_none() {
+            return;
+        }
+        // All of them are proved: the others are none.
+        let proved: usize =
+            self.found.iter().filter(|f| f.certificate.is_some()).map(|f| if f.real { 1 } else { 2 }).sum();
+        if self.expected == Some(proved) {
+            self.found.retain(|found| found.certificate.is_some());
+        }
+    }
+
+    /// A pose so far away that it needs more digits; whether there is one, proved.
+    fn far_away<R: Extended>(&mut self, start: &Eight<Complex<R>>) -> bool {
+        let Some((point, there, inverse)) = polish_extended(self.legs, start) else { return false };
+        let Some(proof) = pose_certificate(self.legs, self.curvature, &point, &there, &inverse) else { return false };
+        let study = point.map(narrowed);
+        let certificate = rounded(proof, &study);
+        if !is_pose(&point, proof.radius) || !is_complex(&study, certificate.radius) {
             return false;
+        }
+        let inverse = inverse.map(|row| row.map(narrowed));
+        let here = equations(self.legs, &study, &patch(&study));
+        let found = Found {
+            study,
+            real: false,
+            certificate: Some(certificate),
+            residual: here.residual(),
+            condition: here.condition(&inverse),
+            eigenvalues: 1,
+            last: usize::MAX,
         };
-        if self.known(&study, false, certificate.radius).is_none() {
-            let inverse = inverse.map(|row| row.map(narrow));
-            let here = equations(self.legs, &study, &patch(&study));
-            self.found.push(Found {
-                study,
-                real: false,
-                certificate: Some(certificate),
-                residual: here.residual(),
-                condition: here.condition(&inverse),
-                eigenvalues: 1,
-                last: usize::MAX,
-            });
+        match self.known(&study, false, certificate.radius) {
+            Some(at) if self.found[at].certificate.is_none() && !self.found[at].real => self.found[at] = found,
+            Some(_) => {}
+            None => self.found.push(found),
         }
         true
     }
@@ -317,7 +347,7 @@ impl<'a> Search<'a> {
             certificate = refine(legs, &study, &inverse).and_then(|(point, there)| {
                 let inverse = inverse.map(|row| row.map(wide));
                 let proof = pose_certificate(legs, curvature, &point, &there, &inverse)?;
-                study = point.map(narrow);
+                study = point.map(narrowed);
                 holds(&proof, &study, S::REAL).then(|| rounded(proof, &study))
             });
         }
@@ -371,10 +401,6 @@ const ROUNDED: f64 = 1e-15;
 /// Whether a polished solution may belong to a family with `N = 0`.
 pub fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
     norm(&polished.study).norm() < DOUBTFUL && polished.step > NULL * DOUBTFUL
-}
-
-fn narrow(z: Complex<DoubleDouble>) -> Complex<f64> {
-    Complex::new(z.re.to_f64(), z.im.to_f64())
 }
 
 /// A proof for a point that was rounded to f64 afterwards.

@@ -22,7 +22,7 @@ impl<S: Scalar + ComplexField<RealField = f64>> Numeric for S {}
 
 /// The pose near a point that solves the legs' equations as well as they can be solved, by Gauss-Newton steps; `None`
 /// where there is none.
-fn project<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Eight<S>> {
+pub fn project<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Eight<S>> {
     let mut v = normalised(start)?;
     for _ in 0..40 {
         let here = equations(legs, &v, &patch(&v));

@@ -4,9 +4,11 @@ use super::homotopy::{End, Homotopy};
 use super::mode::{PlatformAssembly, PlatformMode, Route};
 use super::prepared::{Chart, Frame};
 use super::reflection::Reflection;
+use super::rescue::starts;
 use super::search::{Found, Search, Source, real_parts};
 use super::self_motion::self_motion;
 use super::triangle::TriangleRoute;
+use crate::algebra::number::nearest_f64;
 use crate::assembly::Roots;
 use crate::certify::pose::Curvature;
 use crate::closure::study::Leg;
@@ -16,6 +18,7 @@ use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
 use crate::solve::spectrum::Spectrum;
 use num_complex::Complex;
+use rug::Rational;
 
 /// Homotopies from different general platforms, at most.
 const MOST_RUNS: usize = 2;
@@ -97,6 +100,41 @@ impl PlatformSolver {
         self.solve_up_to(legs_squared, roots, None, workspace, assembly);
     }
 
+    /// The legs in the frame of polishing.
+    fn legs(&self, legs_squared: &[f64; 6]) -> [Leg<f64>; 6] {
+        let unit = self.frame.scale * self.frame.scale;
+        let mut legs = self.frame.legs.clone();
+        for (leg, square) in legs.iter_mut().zip(legs_squared) {
+            leg.square = square / unit;
+        }
+        legs
+    }
+
+    /// Looks again for what is missing of the list solved last in this workspace, in numbers of 384 bits: `platform` and
+    /// `legs_squared` are the same ones exactly, `expected` the number of its poses.
+    pub fn rescue(
+        &self,
+        platform: &Platform<Rational>,
+        legs_squared: &[Rational; 6],
+        expected: usize,
+        workspace: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) {
+        let legs = self.legs(&legs_squared.each_ref().map(nearest_f64));
+        let curvature = Curvature::new(&legs);
+        let proved = |assembly: &PlatformAssembly| assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
+        let before = proved(assembly);
+        let mut search = Search::going_on(&legs, &curvature, Roots::All, Some(expected), &mut workspace.found);
+        search.proved_near(&starts(platform, legs_squared, &self.frame));
+        assembly.modes.clear();
+        search.tell(&self.frame, assembly);
+        assembly.unresolved = search.unresolved();
+        assembly.rescued = proved(assembly).saturating_sub(before);
+        if let Some(reflection) = &self.reflection {
+            reflection.mark(&mut assembly.modes);
+        }
+    }
+
     /// As [`PlatformSolver::solve`]; where the number of poses is known (see
     /// [`platform_degree`](crate::elimination::platform_degree::platform_degree)), special geometries are searched until
     /// all of them are found, and not longer.
@@ -113,12 +151,9 @@ impl PlatformSolver {
         assembly.lost_rank = None;
         assembly.rank = self.charts[0].directions.rank;
         assembly.self_motion = 0;
-        let unit = self.frame.scale * self.frame.scale;
-        let squares = legs_squared.map(|s| s / unit);
-        let mut legs = self.frame.legs.clone();
-        for (leg, square) in legs.iter_mut().zip(squares) {
-            leg.square = square;
-        }
+        assembly.rescued = 0;
+        let legs = self.legs(legs_squared);
+        let squares = legs.each_ref().map(|leg| leg.square);
         let curvature = Curvature::new(&legs);
         let PlatformWorkspace { basis, spectrum, found, general } = workspace;
         let mut search = Search::new(&legs, &curvature, roots, expected, found);
@@ -139,17 +174,19 @@ impl PlatformSolver {
         }
         if assembly.route == Route::None || search.lacks_known_poses() {
             let most = if expected.is_some() { PATIENCE * MOST_RUNS } else { MOST_RUNS };
-            let mut runs = 0;
-            while runs < most && (runs == 0 || !search.is_done()) && !search.has_all_known_poses() {
+            let (mut runs, mut unchanged) = (0, 0);
+            while runs < most && unchanged < 2 && (runs == 0 || !search.is_done()) && !search.has_all_known_poses() {
+                let before = search.found.len();
                 let start = self.frame.general(runs);
                 let begin = std::array::from_fn(|i| Leg::new(&start.base[i], &start.plate[i], squares[i]));
                 let curvature = Curvature::new(&begin);
                 let mut first = Search::new(&begin, &curvature, Roots::All, None, general);
                 runs += 1;
                 if by_border_basis(&Chart::new(&start, 0), &squares, basis, spectrum, &mut first).is_ok() {
-                    let bend = Complex::from_polar(1.0, BEND * runs as f64);
+                    let bend = Complex::from_polar(1.0, BENDS[(runs - 1) % BENDS.len()]);
                     by_homotopy(&Homotopy { target: &legs, start: &begin, bend }, first.found, &mut search);
                 }
+                unchanged = if search.found.len() == before { unchanged + 1 } else { 0 };
             }
             assembly.route = Route::Homotopy { runs };
             assembly.self_motion = search.self_motion();
@@ -163,8 +200,8 @@ impl PlatformSolver {
     }
 }
 
-/// Angle by which the arcs of homotopies are bent, one more than the other.
-const BEND: f64 = 0.73;
+/// Angles by which the arcs of homotopies are bent, one after the other: none near 0 or pi, where arcs are straight or far.
+const BENDS: [f64; 8] = [0.73, -1.31, 1.87, -0.52, 1.13, -2.05, 0.41, -0.94];
 
 /// Follows all eigenvalues of a border basis: the number of unknowns beside the rotation, or the degree in which it lost
 /// rank.
@@ -196,17 +233,15 @@ fn by_homotopy(homotopy: &Homotopy, general: &[Found], search: &mut Search) {
         let conjugate = (!found.real).then(|| found.study.map(|z| z.conj()));
         for (side, start) in [Some(found.study), conjugate].into_iter().flatten().enumerate() {
             match homotopy.carry(&start) {
-                End::Regular(point) => {
-                    search.arrive(&point, 2 * index + side);
-                }
                 // Solutions on a curve are none to be listed, but a real one may pass near.
                 End::Singular(point) if self_motion(homotopy.target, &point) > 0 => {
                     search.lost += 1;
                     search.keep_stray(&real_parts(&point)[2]);
                 }
-                End::Singular(point) => {
+                End::Regular(point) => {
                     search.arrive(&point, 2 * index + side);
                 }
+                End::Singular(point) => search.arrive_singular(&point, 2 * index + side),
                 End::Null => search.null += 1,
                 End::Lost => search.lost += 1,
             }

@@ -26,8 +26,8 @@ const VANISHING: f64 = 1e-10;
 /// A turn of the complex numbers after which no solution of a real mechanism is at infinity.
 const TURN: [Complex<f64>; 2] = [Complex::new(0.61, 0.27), Complex::new(-0.33, 0.67)];
 
-/// The circle in homogeneous coordinates of its points: `(2 x y, r (y^2 + x^2), -i r (y^2 - x^2))`, linear in neither, with
-/// (x, y) from one complex number s.
+/// The circle in homogeneous coordinates of its points, `(2 x y, r (y^2 + x^2), -i r (y^2 - x^2))`, with x and y linear in one
+/// complex number s.
 fn on_circle<S: Ring>(s: &S, radius: Complex<f64>, constant: impl Fn(Complex<f64>) -> S) -> [S; 3] {
     let [p, q] = TURN;
     let x = constant(p).add(&constant(q).mul(s));
@@ -132,7 +132,7 @@ impl TriangleRoute {
             }
             *corner = circle.point([&(alpha / one), &(beta / one)], |x| Complex::from(*x));
         }
-        let (x, y) = frame.study(&corners)?;
+        let [x, y] = frame.study(&corners)?;
         // With the legs meeting at the base this is the pose of the base as the plate sees it.
         let (x, y) = if self.pairs.at_base { (x.conjugate(), y.conjugate()) } else { (x, y) };
         let [x1, x2, x3] = x.vector;
@@ -161,7 +161,7 @@ impl Corners {
     }
 
     /// The motion that takes the points to others, as far as these are at the same distances; x of any length.
-    fn study(&self, [p, q, r]: &[Point; 3]) -> Option<(Quaternion<Complex<f64>>, Quaternion<Complex<f64>>)> {
+    fn study(&self, [p, q, r]: &[Point; 3]) -> Option<[Quaternion<Complex<f64>>; 2]> {
         let difference = |s: &Point| -> Point { std::array::from_fn(|k| s[k] - p[k]) };
         let (q, r) = (difference(q), difference(r));
         let images = [q, r, cross(&q, &r)];
@@ -191,6 +191,6 @@ impl Corners {
         let position: Point =
             std::array::from_fn(|i| p[i] - (0..3).map(|j| m(i, j) * self.origin[j]).sum::<Complex<f64>>());
         let y = Quaternion { scalar: Complex::from(0.0), vector: position }.mul(&x);
-        Some((x, y))
+        Some([x, y])
     }
 }

@@ -54,12 +54,40 @@ impl<F: Field> Members<'_, F> {
         self.links(&self.values(tangents, lengths)?)
     }
 
-    /// The values of all variables of [`Symbols`] for that member.
+    /// The same member, and the values of all relations that give no length: where they vanish, it is one.
+    ///
+    /// # Panics
+    /// When the number of values is wrong.
+    #[must_use]
+    pub fn with_residuals(&self, tangents: &[F], lengths: &[F]) -> Option<(Vec<Link<F>>, Vec<F>)> {
+        let (values, residuals) = self.solved(tangents, lengths)?;
+        Some((self.links(&values)?, residuals))
+    }
+
+    /// The values of all variables of [`Symbols`] for that member; `None` as for [`Self::member`].
     ///
     /// # Panics
     /// When the number of values is wrong.
     #[must_use]
     pub fn values(&self, tangents: &[F], lengths: &[F]) -> Option<Vec<F>> {
+        let (values, residuals) = self.solved(tangents, lengths)?;
+        residuals.iter().all(F::is_zero).then_some(values)
+    }
+
+    /// The loop for given values of all variables; `None` for an unlucky prime.
+    #[must_use]
+    pub fn links(&self, values: &[F]) -> Option<Vec<Link<F>>> {
+        let angle = |k: usize| (values[Symbols::cos(k)].clone(), values[Symbols::sin(k)].clone());
+        let angles: Vec<(F, F)> = (0..self.ansatz.symbols.angles.len()).map(angle).collect();
+        let links = self.joints.iter().enumerate().map(|(k, [a, d])| {
+            let (cos, sin) = self.ansatz.joints[k].alpha.cos_sin(&angles)?;
+            Some(Link { cos, sin, a: a.evaluate(values), d: d.evaluate(values) })
+        });
+        links.collect()
+    }
+
+    /// The values of all variables, and what is left of the relations that give no length.
+    fn solved(&self, tangents: &[F], lengths: &[F]) -> Option<(Vec<F>, Vec<F>)> {
         let (symbols, free) = (&self.ansatz.symbols, self.ansatz.free_lengths());
         assert_eq!(tangents.len(), self.ansatz.free_angles.len(), "one tangent for every free angle");
         assert_eq!(lengths.len(), free.len(), "one value for every free length");
@@ -85,28 +113,16 @@ impl<F: Field> Members<'_, F> {
         for (&length, value) in free.iter().zip(lengths) {
             values[symbols.length(length)] = value.clone();
         }
-        self.solve(&mut values)?;
-        Some(values)
-    }
-
-    /// The loop for given values of all variables; `None` for an unlucky prime.
-    #[must_use]
-    pub fn links(&self, values: &[F]) -> Option<Vec<Link<F>>> {
-        let angle = |k: usize| (values[Symbols::cos(k)].clone(), values[Symbols::sin(k)].clone());
-        let angles: Vec<(F, F)> = (0..self.ansatz.symbols.angles.len()).map(angle).collect();
-        let links = self.joints.iter().enumerate().map(|(k, [a, d])| {
-            let (cos, sin) = self.ansatz.joints[k].alpha.cos_sin(&angles)?;
-            Some(Link { cos, sin, a: a.evaluate(values), d: d.evaluate(values) })
-        });
-        links.collect()
+        let residuals = self.solve(&mut values)?;
+        Some((values, residuals))
     }
 
     fn uses(&self, variable: usize) -> bool {
         self.joints.iter().flatten().chain(&self.relations).chain(&self.others).any(|p| p.degree(variable) > 0)
     }
 
-    /// Solves the relations for the lengths that they give, and sees that all of them hold.
-    fn solve(&self, values: &mut [F]) -> Option<()> {
+    /// Solves the relations for the lengths that they give; what is left of the others.
+    fn solve(&self, values: &mut [F]) -> Option<Vec<F>> {
         let given: Vec<usize> = self.ansatz.given_lengths.iter().map(|&k| self.ansatz.symbols.length(k)).collect();
         // Each relation is linear in the lengths that relations give: its value with all of them 0 or one of them 1.
         let mut rows: Vec<Vec<F>> = Vec::new();
@@ -135,12 +151,10 @@ impl<F: Field> Members<'_, F> {
             }
             rows[column] = row;
         }
-        if rows[given.len()..].iter().any(|row| !row[given.len()].is_zero()) {
-            return None;
-        }
         for (row, &variable) in rows.iter().zip(&given) {
             values[variable] = row[given.len()].clone();
         }
-        self.others.iter().all(|other| other.evaluate(values).is_zero()).then_some(())
+        let rest = rows[given.len()..].iter().map(|row| row[given.len()].clone());
+        Some(rest.chain(self.others.iter().map(|other| other.evaluate(values))).collect())
     }
 }

@@ -155,20 +155,37 @@ fn finished(table: &Table<'_>, symbols: &Symbols, outcome: Outcome) -> Result<Sy
             Some(over_names) => over_names(&mut parts),
             None => parts.compact(&polynomial, unknowns),
         };
-        let displayed = Displayed { name: "closure polynomial".to_owned(), polynomial, compact };
-        SymbolicPolynomial { variable, displayed }
+        (variable, Displayed { name: "closure polynomial".to_owned(), polynomial, compact })
     });
-    let names = symbols.list().into_iter().chain(table.names.iter().cloned());
-    let names = Names::given(names.chain(parts.list.iter().map(|(name, _)| name.clone())))?;
+    // Names of sub-expressions come first, so that they stand before the powers that they multiply.
+    let count = parts.list.len();
+    let all = unknowns + table.names.len() + count;
+    let moved = |polynomial: &Polynomial<Rational>| {
+        Polynomial::from_terms(polynomial.terms().map(|(mut exponents, c)| {
+            exponents.resize(all, 0);
+            exponents.rotate_right(count);
+            (exponents, c.clone())
+        }))
+    };
+    let displayed = |one: &Displayed| {
+        let (polynomial, compact) = (moved(&one.polynomial), moved(&one.compact));
+        Displayed { name: one.name.clone(), polynomial, compact }
+    };
+    let names = parts.list.iter().map(|(name, _)| name.clone()).chain(symbols.list());
+    let quotient = |one: &Quotient| {
+        let (numerator, denominator) = (moved(&one.numerator), moved(&one.denominator));
+        Quotient { variable: one.variable + count, numerator, denominator }
+    };
     Ok(Symbolic {
-        names,
+        names: Names::given(names.chain(table.names.iter().cloned()))?,
         symbols: table.symbols.iter().map(|symbol| symbol.name.clone()).collect(),
         numbers: table.numbers.clone(),
-        equations,
+        equations: equations.iter().map(displayed).collect(),
         steps: outcome.steps,
-        polynomial,
-        parts: parts.list,
-        translations: outcome.translations,
+        polynomial: polynomial
+            .map(|(variable, one)| SymbolicPolynomial { variable: variable + count, displayed: displayed(&one) }),
+        translations: outcome.translations.iter().map(quotient).collect(),
+        parts: parts.list.iter().map(|(name, part)| (name.clone(), moved(part))).collect(),
         compared: outcome.compared,
     })
 }

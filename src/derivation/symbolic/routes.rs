@@ -114,11 +114,12 @@ fn one_row(
     eliminated: &Eliminated,
 ) -> Result<Outcome> {
     let row = row.each_ref().map(expanded);
-    let monomials = symbols.monomials(unknown, false);
-    let equation = sum(&row, &monomials);
+    let equation = sum(&row, &symbols.monomials(unknown, false));
     let variable = Symbols::variable(unknown);
     let polynomial = in_variable(variable, &of_row(kind, &row));
-    finish(variable, &[equation], &polynomial, None, eliminated)
+    let over_names: OverNames =
+        Box::new(move |parts| in_variable(variable, &of_row(kind, &row.each_ref().map(|c| parts.name(c)))));
+    finish(variable, &[equation], &polynomial, over_names, eliminated)
 }
 
 fn sum(row: &[Polynomial<Rational>; 3], monomials: &[Polynomial<Rational>; 3]) -> Polynomial<Rational> {
@@ -162,7 +163,7 @@ fn two_rows(
         let rows = rows.each_ref().map(|row| row.each_ref().map(|side| side.each_ref().map(|c| parts.name(c))));
         in_variable(variable, &closure(&Separated { kinds, rows }, hidden))
     });
-    finish(variable, &listed, &in_variable(variable, &polynomial), Some(over_names), eliminated)
+    finish(variable, &listed, &in_variable(variable, &polynomial), over_names, eliminated)
 }
 
 /// The primitive multiple with positive leading coefficient, and the factor.
@@ -180,7 +181,7 @@ fn finish(
     variable: usize,
     equations: &[Polynomial<Rational>],
     polynomial: &Polynomial<Rational>,
-    over_names: Option<OverNames>,
+    over_names: OverNames,
     eliminated: &Eliminated,
 ) -> Result<Outcome> {
     let number = match &eliminated.polynomial {
@@ -193,15 +194,14 @@ fn finish(
         return Err(Error::Unsupported(message.to_owned()));
     }
     let (polynomial, factor) = canonical(polynomial);
-    let over_names =
-        over_names.map(|over_names| -> OverNames { Box::new(move |parts| over_names(parts).scale(&factor)) });
+    let over_names: OverNames = Box::new(move |parts| over_names(parts).scale(&factor));
     let names = eliminated.equations.iter().map(|equation| equation.name.clone());
     let equations = equations.iter().map(|equation| canonical(equation).0);
     Ok(Outcome {
         equations: names.zip(equations).collect(),
         steps: eliminated.steps.clone(),
         compare: vec![(polynomial.clone(), number)],
-        polynomial: Some((variable, polynomial, over_names)),
+        polynomial: Some((variable, polynomial, Some(over_names))),
         translations: Vec::new(),
         compared: "the closure polynomial derived from the numbers".to_owned(),
     })
@@ -311,7 +311,7 @@ pub(super) fn pair(chain: &Chain, table: &Table<'_>, symbols: &Symbols) -> Resul
         format!("spherical four-bar {}-{} n.n'", label(1), label(2)),
         format!("dual part {}-{} n.(r x n')", label(1), label(2)),
     ];
-    let steps = vec![
+    let mut steps = vec![
         format!(
             "The rotations close by themselves: the axes of joints {} and {} keep the angle of the link between them, f = 0 in \
              the angles of joints {} and {}.",
@@ -338,6 +338,9 @@ pub(super) fn pair(chain: &Chain, table: &Table<'_>, symbols: &Symbols) -> Resul
         compare.push((polynomial.clone(), Polynomial::from_univariate(variable, &eliminant(&numbers))));
         primitive(&polynomial)
     });
+    if polynomial.is_none() {
+        steps.pop();
+    }
     let equations = names.into_iter().zip(equations.iter().map(primitive)).filter(|(_, equation)| !equation.is_zero());
     Ok(Outcome {
         equations: equations.collect(),

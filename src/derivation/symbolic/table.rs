@@ -174,7 +174,7 @@ fn all(joints: &[Joint], input: Option<&Input>) -> Vec<Entry> {
             list.push((Some((at, parameter)), name.clone(), vec![name], Value::Length(value.clone())));
         };
         length(Parameter::Length, format!("a{n}"), &joint.a);
-        let offset = matches!(joint.kind, JointKind::Prismatic | JointKind::Cylindrical | JointKind::Spherical);
+        let offset = matches!(joint.kind, JointKind::Prismatic | JointKind::Cylindrical);
         length(Parameter::Offset, format!("{}{n}", if offset { "d0_" } else { "d" }), &joint.d);
     }
     if let Some(input) = input {

@@ -1,8 +1,12 @@
-//! What a border basis asks of its numbers: f64, or residues modulo a prime that is known at run time only.
+//! What a border basis asks of its numbers: f64, numbers of 384 bits, or residues modulo a prime that is known at run
+//! time only.
 
 use super::echelon;
 use super::orthogonal;
+use super::pivoted;
+use crate::algebra::long_float::LongFloat;
 use crate::algebra::modp::Modulus;
+use crate::algebra::ring::Ring;
 
 /// Candidates for the basis of a level, at most: 27 products and 6 of two `tau`.
 pub const MOST_CANDIDATES: usize = 33;
@@ -125,6 +129,52 @@ impl Arithmetic for Reals {
     }
     fn solve(&self, relations: &mut Relations<f64>, rank: usize, split: &mut Split<f64>) -> Result<f64, usize> {
         orthogonal::solve(relations, rank, split)
+    }
+}
+
+/// The numbers of 384 bits. What is left of a sum in which all but the last bits cancel is zero.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LongReals;
+
+/// Leading bits that cancel only where nothing is left.
+const CANCELLED: i32 = 300;
+
+impl Arithmetic for LongReals {
+    type Element = LongFloat;
+    fn zero(&self) -> LongFloat {
+        LongFloat::zero()
+    }
+    fn one(&self) -> LongFloat {
+        LongFloat::one()
+    }
+    fn add(&self, a: LongFloat, b: LongFloat) -> LongFloat {
+        let sum = a.add(&b);
+        let largest = a.exponent().max(b.exponent());
+        if sum.exponent() < largest.saturating_sub(CANCELLED) { LongFloat::zero() } else { sum }
+    }
+    fn sub(&self, a: LongFloat, b: LongFloat) -> LongFloat {
+        self.add(a, b.neg())
+    }
+    fn mul(&self, a: LongFloat, b: LongFloat) -> LongFloat {
+        Ring::mul(&a, &b)
+    }
+    fn add_multiple(&self, target: &mut [LongFloat], factor: LongFloat, source: &[LongFloat]) {
+        if factor.is_zero() {
+            return;
+        }
+        for (t, s) in target.iter_mut().zip(source) {
+            if !s.is_zero() {
+                *t = self.add(*t, Ring::mul(&factor, s));
+            }
+        }
+    }
+    fn solve(
+        &self,
+        relations: &mut Relations<LongFloat>,
+        rank: usize,
+        split: &mut Split<LongFloat>,
+    ) -> Result<f64, usize> {
+        pivoted::solve(relations, rank, split)
     }
 }
 

@@ -5,16 +5,17 @@
 //! filtered by the degree, `z` of degree 1 and `tau` of degree 2; its levels have 1, 3, 7, 9, 9, 7, 3, 1 basis elements.
 //! The basis of a level is what the relations of that degree leave of the products of `z` with the level below.
 //!
-//! One code runs over f64, where every step is orthogonal, and modulo a prime.
+//! One code runs over f64, where every step is orthogonal, over numbers of 384 bits, and modulo a prime.
 
 mod arithmetic;
 mod basis;
 mod directions;
 mod echelon;
 mod orthogonal;
+mod pivoted;
 mod setting;
 
-pub use arithmetic::{Arithmetic, Reals, Relations, Split};
+pub use arithmetic::{Arithmetic, LongReals, Reals, Relations, Split};
 pub use basis::{BorderBasis, DIMENSION, LEVELS, LostRank};
 pub use directions::{Directions, MOST_DIRECTIONS, exact_directions, weak_directions};
 pub use setting::Setting;

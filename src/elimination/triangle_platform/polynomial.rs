@@ -125,7 +125,7 @@ fn direction(triangle: &Triangle<Rational>, slope: &Rational) -> Direction {
     });
     let denominator = weights.iter().fold(Integer::from(1), |lcm, w| lcm.lcm(w.denom()));
     let scaled = weights.each_ref().map(|w| Rational::from(w * &denominator).numer().clone());
-    let content = scaled.iter().fold(Integer::new(), |gcd, w| gcd.gcd(w));
+    let content = scaled.iter().fold(Integer::new(), Integer::gcd);
     let integers = scaled.map(|w| w.div_exact(&content));
     let shift = dot(&integers.each_ref().map(Rational::from), &circle.centre);
     Direction { integers, shift, factor: Rational::from((denominator, content)) }

@@ -47,9 +47,20 @@ pub fn settled(framework: &Framework<f64>, squares: &[f64]) -> Option<Framework<
 /// motion to begin with. It ends early where Newton's method finds no further realisation.
 #[must_use]
 pub fn flex(start: &Framework<f64>, squares: &[f64], steps: usize) -> Option<Flex> {
+    let ahead = follow(start, squares, steps, 1.0)?;
+    if ahead.positions.len() > steps {
+        return Some(ahead);
+    }
+    // An end of the motion is near on this side.
+    let back = follow(start, squares, steps, -1.0)?;
+    Some(if back.positions.len() > ahead.positions.len() { back } else { ahead })
+}
+
+/// Follows a motion to one side.
+fn follow(start: &Framework<f64>, squares: &[f64], steps: usize, side: f64) -> Option<Flex> {
     let extent = extent(start);
     let (mut tangents, mut freedom) = tangent_space(start);
-    let mut tangent = tangents.first()?.clone();
+    let mut tangent = tangents.first()? * side;
     let mut flex = Flex {
         positions: vec![start.clone()],
         residual: residual(start, squares),
@@ -142,9 +153,18 @@ fn matrix(framework: &Framework<f64>) -> DMatrix<f64> {
     matrix
 }
 
+/// Whether a decomposition of the matrix will come to an end.
+fn is_finite(matrix: &DMatrix<f64>) -> bool {
+    matrix.iter().all(|x| x.is_finite())
+}
+
 /// Orthonormal first-order motions that are not of the whole, and their number.
 fn tangent_space(framework: &Framework<f64>) -> (Vec<DVector<f64>>, usize) {
-    let svd = matrix(framework).svd(false, true);
+    let matrix = matrix(framework);
+    if !is_finite(&matrix) {
+        return (Vec::new(), 0);
+    }
+    let svd = matrix.svd(false, true);
     let largest = svd.singular_values.amax();
     let Some(v) = svd.v_t else { return (Vec::new(), 0) };
     let motions: Vec<DVector<f64>> = svd
@@ -164,6 +184,9 @@ fn corrected(framework: &Framework<f64>, squares: &[f64]) -> Option<Framework<f6
     let mut right = DVector::zeros(matrix.nrows());
     for (k, (found, wanted)) in framework.squares().iter().zip(squares).enumerate() {
         right[k] = (wanted - found) / (2.0 * found.sqrt());
+    }
+    if !is_finite(&matrix) || !right.iter().all(|x| x.is_finite()) {
+        return None;
     }
     let svd = matrix.svd(true, true);
     let least = MOTION * svd.singular_values.amax();

@@ -4,6 +4,7 @@ use super::Framework;
 use super::flex::{Flex, flex, settled};
 use super::octahedron::{Diagonal, Octahedron};
 use super::order::{Order, order};
+use super::parts::parts;
 use super::slice::{Slice, moving_slice};
 use crate::algebra::number::nearest_f64;
 use rug::Rational;
@@ -39,6 +40,8 @@ pub enum Proof {
     Octahedron([usize; 2]),
     /// No diagonal of an octahedron can change.
     NoDiagonal,
+    /// Octahedra that move about one edge, and bars: the edge first, then the vertices of each part.
+    Parts(Vec<Vec<usize>>),
     /// The lengths cannot be kept in this order.
     Order(usize),
     /// All lengths are kept through this order, which is greater than the multiplicity of any isolated realisation, at most the
@@ -66,6 +69,16 @@ pub struct Mobility {
 }
 
 impl Mobility {
+    /// Least and greatest dimension of the motions that the verdict leaves.
+    #[must_use]
+    pub fn freedom(&self) -> (usize, usize) {
+        match (&self.verdict, &self.proof) {
+            (Verdict::Rigid | Verdict::Shaky(_), _) => (0, 0),
+            (Verdict::Mobile, Proof::Slice(slice)) => (slice.mobility(), self.infinitesimal),
+            (Verdict::Mobile, _) => (1, self.infinitesimal.max(1)),
+        }
+    }
+
     /// Whether the verdict is proved.
     #[must_use]
     pub fn is_proved(&self) -> bool {
@@ -94,6 +107,8 @@ pub fn mobility(framework: &Framework<Rational>, steps: usize) -> Option<Mobilit
         (Verdict::Mobile, Proof::Slice(slice))
     } else if let Some(proved) = octahedron.as_ref().and_then(|o| of_octahedron(o, &float)) {
         proved
+    } else if let Some(parts) = parts(&float, &exact) {
+        (Verdict::Mobile, Proof::Parts(parts))
     } else {
         of_series(framework, octahedron.is_some(), found.flex.as_ref())
     };
@@ -105,8 +120,16 @@ pub fn mobility(framework: &Framework<Rational>, steps: usize) -> Option<Mobilit
 
 /// The mobility of a framework with given lengths near an approximate realisation; `None` where Newton's method finds no
 /// realisation with these lengths.
+///
+/// # Shape
+/// A square for every bar; they are as exact as `is_exact` says, and without that nothing is proved.
 #[must_use]
-pub fn mobility_with_lengths(start: &Framework<f64>, exact: &[Rational], steps: usize) -> Option<Mobility> {
+pub fn mobility_with_lengths(
+    start: &Framework<f64>,
+    exact: &[Rational],
+    is_exact: bool,
+    steps: usize,
+) -> Option<Mobility> {
     let squares: Vec<f64> = exact.iter().map(nearest_f64).collect();
     let here = settled(start, &squares)?;
     let (rank, rigid) = here.ranks();
@@ -117,10 +140,15 @@ pub fn mobility_with_lengths(start: &Framework<f64>, exact: &[Rational], steps: 
         found.flex = flex(&here, &squares, steps);
         found.verdict = seen(found.flex.as_ref());
     }
-    if let Some(octahedron) = Octahedron::of(&here, exact) {
-        if let Some((verdict, proof)) = of_octahedron(&octahedron, &here) {
-            (found.verdict, found.proof) = (verdict, proof);
-        }
+    if !is_exact {
+        return Some(found);
+    }
+    let proved = match Octahedron::of(&here, exact) {
+        Some(octahedron) => of_octahedron(&octahedron, &here),
+        None => parts(&here, exact).map(|parts| (Verdict::Mobile, Proof::Parts(parts))),
+    };
+    if let Some((verdict, proof)) = proved {
+        (found.verdict, found.proof) = (verdict, proof);
     }
     Some(found)
 }

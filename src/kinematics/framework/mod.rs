@@ -1,12 +1,14 @@
 //! Frameworks: bars between ball joints, rods and bodies with several joints, and whether they move.
 
 pub mod flex;
-pub mod mobility;
+mod mobility;
 pub mod octahedron;
 mod order;
+mod parts;
 mod slice;
 
-pub use mobility::{Mobility, Proof, Verdict, mobility};
+pub use mobility::{Mobility, Proof, Verdict, mobility, mobility_with_lengths};
+pub use slice::{Kind as SliceKind, Slice};
 
 use super::motion::{Vector, cross, dot};
 use crate::algebra::echelon::Echelon;
@@ -82,7 +84,6 @@ impl Framework<Rational> {
 }
 
 /// Vertices of a body that are affinely independent, at most four, and the others as combinations of them.
-#[expect(clippy::type_complexity, reason = "two lists, one of pairs")]
 fn split(vertices: &[Vector<Rational>], body: &[usize]) -> (Vec<usize>, Vec<(usize, Vec<Rational>)>) {
     let (mut base, mut dependent): (Vec<usize>, Vec<(usize, Vec<Rational>)>) = (Vec::new(), Vec::new());
     for &vertex in body {

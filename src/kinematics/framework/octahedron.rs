@@ -24,6 +24,8 @@ use crate::algebra::univariate::Univariate;
 use crate::kinematics::motion::{Vector, cross, dot};
 use rug::Rational;
 
+/// Realisations known in f64 are within this share of exact ones, by far.
+const NEAR: (u32, u32) = (1, 100_000_000);
 /// What must differ, differs by more than this: far above rounding.
 const DISTINCT: f64 = 1e-6;
 
@@ -69,9 +71,15 @@ impl Octahedron {
         }
         let &[a, b, c] = first.as_slice() else { return None };
         let vertices = [a, b, c, opposite(a)?, opposite(b)?, opposite(c)?];
-        let square =
-            |i: usize, j: usize| bar(vertices[i], vertices[j]).map_or_else(Rational::new, |k| squares[k].clone());
-        Some(Self { vertices, squares: std::array::from_fn(|i| std::array::from_fn(|j| square(i, j))) })
+        Some(Self::with(vertices, |i, j| bar(i, j).map_or_else(Rational::new, |k| squares[k].clone())))
+    }
+
+    /// The octahedron of these vertices, in the order A, B, C, A', B', C', with the squared distances of neighbours.
+    #[must_use]
+    pub fn with(vertices: [usize; 6], square: impl Fn(usize, usize) -> Rational) -> Self {
+        let entry =
+            |i: usize, j: usize| if i % 3 == j % 3 { Rational::new() } else { square(vertices[i], vertices[j]) };
+        Self { vertices, squares: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))) }
     }
 
     /// Whether the diagonal of `axis` and `axis + 3` changes in a motion of this realisation.
@@ -156,7 +164,7 @@ impl Condition {
     /// `W = (X^2 + V^2 - U^2) / 2X`: then `V^2 = W^2` and `U^2 = (X - W)^2` by the norm, and `X = (X - W) + W` is the one combination
     /// of signs for which the condition is an identity; signs of X - W and W at s name it.
     fn closes_near(&self, s: &Rational, first: bool, second: bool) -> bool {
-        let positive = |p: &Poly| p.eval(s) > 0;
+        let positive = |p: &Poly| is_positive_near(p, s);
         if *s <= 0 || !self.own.iter().chain(&self.sines).all(positive) {
             return false;
         }
@@ -182,4 +190,21 @@ impl Condition {
         let whole = value(&self.own[0]) * value(&self.own[2]) * value(&self.own[1]).powi(2);
         cosine * cosine < (1.0 - DISTINCT) * whole
     }
+}
+
+/// Whether a polynomial is positive wherever the argument is within a share [`NEAR`] of s: its constant Taylor coefficient there
+/// exceeds all others together.
+fn is_positive_near(p: &Poly, s: &Rational) -> bool {
+    let distance = s * Rational::from(NEAR);
+    let shifted = Poly::new(vec![s.clone(), Rational::from(1)]);
+    let taylor =
+        p.coefficients().iter().rev().fold(Poly::zero(), |sum, c| sum.mul(&shifted).add(&Poly::constant(c.clone())));
+    let Some((constant, others)) = taylor.coefficients().split_first() else { return false };
+    let mut power = Rational::from(1);
+    let mut rest = Rational::new();
+    for c in others {
+        power *= &distance;
+        rest += Rational::from(c * &power).abs();
+    }
+    *constant > rest
 }

@@ -12,9 +12,6 @@ use crate::algebra::echelon::Echelon;
 use crate::kinematics::motion::{Vector, dot};
 use rug::Rational;
 
-/// Isometries beyond this number are not listed: the vertices are a highly symmetric set, of which a part will do.
-const MOST_ISOMETRIES: usize = 48;
-
 /// What the realisations of a slice have in common.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -181,6 +178,7 @@ fn judge(framework: &Framework<Rational>, kind: Kind, basis: Vec<Vec<Rational>>)
 }
 
 /// The isometries of the set of vertices but the identity, as permutations with their matrices; none for vertices in a plane.
+/// A finite group of rational matrices has at most 48 elements in space.
 fn isometries(framework: &Framework<Rational>) -> Vec<(Vec<usize>, Matrix)> {
     let points = &framework.vertices;
     let count = points.len();
@@ -209,7 +207,6 @@ fn isometries(framework: &Framework<Rational>) -> Vec<(Vec<usize>, Matrix)> {
                     .collect();
                 if let Some(permutation) = permutation
                     && permutation.iter().enumerate().any(|(v, image)| v != *image)
-                    && found.len() < MOST_ISOMETRIES
                 {
                     found.push((permutation, matrix));
                 }

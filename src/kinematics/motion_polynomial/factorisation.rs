@@ -36,7 +36,7 @@ pub struct Factorisations<F> {
 ///
 /// # Errors
 /// For what is no motion at all.
-fn monic<F: Field>(polynomial: &MotionPolynomial<F>, negligible: f64) -> Result<MotionPolynomial<F>, Flaw> {
+pub fn monic<F: Field>(polynomial: &MotionPolynomial<F>) -> Result<MotionPolynomial<F>, Flaw> {
     let all = coefficients(polynomial);
     let leading = match all.as_slice() {
         [] | [_] => return Err(Flaw::Constant),
@@ -46,7 +46,7 @@ fn monic<F: Field>(polynomial: &MotionPolynomial<F>, negligible: f64) -> Result<
     let scaled = constant.mul(polynomial);
     let norm = scaled.norm();
     let size = |p: &Univariate<F>| p.coefficients().iter().map(Field::pivot_size).fold(0.0, f64::max);
-    if size(&norm.epsilon) > negligible * size(&norm.value) {
+    if size(&norm.epsilon) > F::PIVOT_ZERO * 1e4 * size(&norm.value) {
         return Err(Flaw::Study);
     }
     Ok(scaled)
@@ -97,8 +97,7 @@ pub fn factorisations<F: Field>(
     polynomial: &MotionPolynomial<F>,
     quadratics: &[Univariate<F>],
 ) -> Result<Factorisations<F>, Flaw> {
-    let negligible = F::PIVOT_ZERO * 1e4;
-    let monic = monic(polynomial, negligible)?;
+    let monic = monic(polynomial)?;
     let all = coefficients(&monic);
     assert_eq!(quadratics.len() + 1, all.len(), "one quadratic for every degree");
     let mut found = Factorisations { monic, quadratics: quadratics.to_vec(), list: Vec::new(), failed: 0, defect: 0.0 };

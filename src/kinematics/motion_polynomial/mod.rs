@@ -9,7 +9,7 @@ mod linkage;
 mod parameters;
 mod quadratic;
 
-pub use factorisation::{Factorisations, Flaw, factorisations};
+pub use factorisation::{Factorisations, Flaw, factorisations, monic};
 pub use linkage::{Joint, Linkage};
 pub use parameters::{LinkParameters, bennett_ratio};
 pub use quadratic::{numeric_quadratics, quadratic_factors};

@@ -128,7 +128,7 @@ fn link_squares(first: &Screw<Rational>, second: &Screw<Rational>) -> Option<([R
     let s = (Rational::from(&bu * &vv) - Rational::from(&bv * &uv)) / &gram;
     let r = (Rational::from(&bu * &uv) - Rational::from(&bv * &uu)) / &gram;
     let point = |p: &Vector<Rational>, s: &Rational, u: &Vector<Rational>| -> Vector<Rational> {
-        std::array::from_fn(|k| Rational::from(&p[k] + Rational::from(s * &u[k])))
+        std::array::from_fn(|k| &p[k] + Rational::from(s * &u[k]))
     };
     let feet = [point(&p, &s, u), point(&q, &r, v)];
     let gap: Vector<Rational> = std::array::from_fn(|k| Rational::from(&feet[1][k] - &feet[0][k]));
@@ -147,7 +147,7 @@ pub fn bennett_ratio(linkage: &Linkage<Rational>) -> Option<Rational> {
     let links: Vec<_> = (0..4).map(|k| link_squares(axis(k), axis(k + 1))).collect::<Option<_>>()?;
     let opposite_alike = links[0].0 == links[2].0 && links[1].0 == links[3].0;
     let no_offsets = (0..4).all(|k| links[k].1[1] == links[(k + 1) % 4].1[0]);
-    let ratio = |k: usize| Rational::from(&links[k].0[1] / Rational::from(1 - &links[k].0[0]));
+    let ratio = |k: usize| &links[k].0[1] / Rational::from(1 - &links[k].0[0]);
     let skew = links.iter().all(|(squares, _)| squares[1] != 0);
     (opposite_alike && no_offsets && skew && ratio(0) == ratio(1)).then(|| ratio(0))
 }

@@ -103,7 +103,7 @@ fn pairs(part: &Univariate<Rational>) -> Option<Vec<(f64, f64)>> {
 /// Newton's iteration on the remainder `r1 t + r0` of the division by `t^2 + p t + q` (Bairstow).
 fn refined(part: &Univariate<Rational>, p: f64, q: f64, bits: u32) -> Option<(Rational, Rational)> {
     let round = |x: Rational| {
-        let scaled = Rational::from(x << bits);
+        let scaled = x << bits;
         let (_, integer) = scaled.fract_round(Integer::new());
         Rational::from((integer, 1)) >> bits
     };
@@ -116,7 +116,7 @@ fn refined(part: &Univariate<Rational>, p: f64, q: f64, bits: u32) -> Option<(Ra
         let of = |r: &Univariate<Rational>, k: usize| r.coefficients().get(k).cloned().unwrap_or_default();
         // d(r1 t + r0)/dq = -(s1 t + s0), d/dp = -t (s1 t + s0) reduced.
         let (r0, r1, s0, s1) = (of(&first, 0), of(&first, 1), of(&second, 0), of(&second, 1));
-        let (a, b) = (Rational::from(&s0 - Rational::from(&p * &s1)), -Rational::from(&s1 * &q));
+        let (a, b) = (&s0 - Rational::from(&p * &s1), -Rational::from(&s1 * &q));
         // [a s1; b s0] (dp, dq) = (r1, r0)
         let determinant = Rational::from(&a * &s0) - Rational::from(&b * &s1);
         if determinant == 0 {

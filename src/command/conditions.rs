@@ -1,0 +1,62 @@
+//! `looproot conditions`
+
+use super::arguments::ConditionsOptions;
+use super::exit::{Exit, Fault};
+use super::output::Output;
+use looproot::catalogue::ansatz::Ansatz;
+use looproot::catalogue::load_ansatz;
+use looproot::conditions::decide::{Decision, decide};
+use looproot::conditions::four_bar::{FourBar, derive};
+use looproot::error::{Error, Result};
+use looproot::report::conditions::{json, markdown, system, text, verdict};
+use std::io::Write;
+
+/// Derives for which parameters a loop moves.
+pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
+    let ansatz = read(options)?;
+    match ansatz.joints.len() {
+        4 => {}
+        5 | 6 => return super::conditions_search::run(options, &ansatz),
+        count => {
+            return Err(Error::Unsupported(format!("conditions of a loop of {count} joints: only of 4 to 6")).into());
+        }
+    }
+    let theorem = derive();
+    let decision = decide(&theorem, &ansatz)?;
+    let written = if options.json {
+        format!("{}\n", json(&theorem, &ansatz, &decision))
+    } else if let Some(format) = options.format {
+        system(&decision, options.family.as_deref(), format)?
+    } else if options.explain {
+        markdown(&theorem, &ansatz, &decision)?
+    } else if options.quiet {
+        verdict(&theorem, &ansatz, &decision) + "\n"
+    } else {
+        text(&theorem, &ansatz, &decision)
+    };
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(exit(&theorem, &ansatz, &decision))
+}
+
+/// `4R`, `5R`, `6R`, or what the file says.
+fn read(options: &ConditionsOptions) -> Result<Ansatz> {
+    match options.mechanism.to_ascii_uppercase().as_str() {
+        "4R" => Ok(Ansatz::general(4)),
+        "5R" => Ok(Ansatz::general(5)),
+        "6R" => Ok(Ansatz::general(6)),
+        _ => load_ansatz(&options.mechanism, &options.read.options()),
+    }
+}
+
+/// Nothing that moves is an answer like no real solution.
+fn exit(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Exit {
+    if ansatz.empty().is_some() {
+        return Exit::Unreachable;
+    }
+    if !theorem.is_proved() || decision.confirmed == Some(false) {
+        return Exit::NotProved;
+    }
+    if decision.families.is_empty() { Exit::Unreachable } else { Exit::Complete }
+}

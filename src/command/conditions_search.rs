@@ -1,0 +1,44 @@
+//! `looproot conditions` for loops of five and six joints.
+
+use super::arguments::ConditionsOptions;
+use super::exit::{Exit, Fault};
+use super::output::Output;
+use indicatif::{ProgressBar, ProgressDrawTarget};
+use looproot::catalogue::ansatz::Ansatz;
+use looproot::conditions::search::search;
+use looproot::report::conditions_search::{is_proved, json, system, text, verdict};
+use std::io::Write;
+use std::time::Duration;
+
+/// The seed of all random choices: the same question has the same answer.
+const SEED: u64 = 1;
+
+/// Searches for conditions under which a loop moves.
+pub fn run(options: &ConditionsOptions, ansatz: &Ansatz) -> Result<Exit, Fault> {
+    // Seen on a terminal only.
+    let progress = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+    progress.set_message("searching");
+    progress.enable_steady_tick(Duration::from_millis(200));
+    let found = search(ansatz, SEED);
+    progress.finish_and_clear();
+    let found = found?;
+    let written = if options.json {
+        format!("{}\n", json(ansatz, &found))
+    } else if let Some(format) = options.format {
+        system(ansatz, &found, format)?
+    } else if options.quiet {
+        verdict(ansatz, &found) + "\n"
+    } else {
+        text(ansatz, &found)
+    };
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(if ansatz.empty().is_some() {
+        Exit::Unreachable
+    } else if is_proved(&found) {
+        Exit::Complete
+    } else {
+        Exit::NotProved
+    })
+}

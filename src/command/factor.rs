@@ -1,0 +1,37 @@
+//! `looproot factor`
+
+use super::arguments::FactorOptions;
+use super::exit::{Exit, Fault};
+use super::output::Output;
+use looproot::catalogue::{Any, load_any};
+use looproot::error::Error;
+use looproot::factoring::{Factored, factor};
+use looproot::report::motion::{json, text, toml, verdict};
+use std::io::Write;
+
+/// Factors a rational motion and prints the loop of two factorisations.
+pub fn run(options: &FactorOptions) -> Result<Exit, Fault> {
+    let Any::Motion(file) = load_any(&options.mechanism, &options.read.options())? else {
+        let message = format!("{}: found no motion, expected a [mechanism] of kind \"motion\"", options.mechanism);
+        return Err(Error::Invalid(message).into());
+    };
+    let factored = factor(&file);
+    let closed = factored.closed_loop(options.pair)?;
+    let written = match (&closed, options.toml) {
+        (Some(closed), true) => toml(&file, closed),
+        (None, true) => {
+            let message = format!("no loop to print: {}", verdict(&factored, None));
+            return Err(Error::Unsupported(message).into());
+        }
+        (_, false) if options.json => format!("{:#}\n", json(&file, &factored, closed.as_ref())),
+        (_, false) if options.quiet => verdict(&factored, closed.as_ref()) + "\n",
+        (_, false) => text(&factored, closed.as_ref()),
+    };
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(match factored {
+        Factored::Exact(_) => Exit::Complete,
+        Factored::Float(_) | Factored::None(_) => Exit::NotProved,
+    })
+}

@@ -1,0 +1,36 @@
+//! `looproot derive --transference`
+
+use super::arguments::DeriveOptions;
+use super::exit::{Exit, Fault};
+use super::output::Output;
+use looproot::catalogue::load;
+use looproot::derivation::transference::{NAMED, Transfer};
+use looproot::error::Error;
+use looproot::report::transference::{json, system, text, verdict};
+use std::io::Write;
+
+/// Derives the spherical and the spatial closure equation of a loop of four joints.
+pub fn run(options: &DeriveOptions, mechanism: &str) -> Result<Exit, Fault> {
+    let transfer = match Transfer::named(&mechanism.to_ascii_lowercase())? {
+        Some(transfer) => transfer,
+        None => {
+            let entry = load(mechanism, &options.read.options())?;
+            let expected = NAMED.join(", ");
+            let other = || Error::Unsupported(format!("transference of what is no loop; expected one, or {expected}"));
+            Transfer::of(&entry.title, entry.chain().ok_or_else(other)?)?
+        }
+    };
+    let written = if options.json {
+        format!("{}\n", json(&transfer))
+    } else if let Some(format) = options.format {
+        system(&transfer, format)?
+    } else if options.quiet {
+        verdict(&transfer) + "\n"
+    } else {
+        text(&transfer)
+    };
+    let mut output = Output::open(&options.output, mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(Exit::Complete)
+}

@@ -1,0 +1,448 @@
+//! What the theorem on four joints says of a loop with its own symbols, or with numbers.
+
+use super::closure_identity::{Member, closes};
+use super::component::{Coefficients, Component};
+use super::four_bar::{Bennett, FourBar, LENGTHS, conditions};
+use super::null_space::null_space;
+use super::quotient::Quotient;
+use super::step::quotient_text;
+use super::twist_family::{Ratio, with_tangents};
+use crate::algebra::factors::remove_factors;
+use crate::algebra::int::Int;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::{Field, Ring};
+use crate::algebra::text::Names;
+use crate::algebra::univariate::Univariate;
+use crate::catalogue::ansatz::{Ansatz, Link};
+use crate::derivation::transference::Variables;
+use crate::error::{Error, Result};
+
+type Poly = Polynomial<Int>;
+
+/// A kind of loop that moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// Bennett's loop.
+    Bennett,
+    /// All axes through one point.
+    Spherical,
+    /// All axes parallel.
+    Planar,
+    /// Two axes coincide, and only the joints on them move.
+    Coincident,
+}
+
+/// A family of loops that move.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// Its kind.
+    pub class: Class,
+    /// A few words.
+    pub name: String,
+    /// The polynomials that vanish; none where every loop asked about is of the family.
+    pub conditions: Vec<Poly>,
+    /// What the conditions do not say.
+    pub note: Option<String>,
+}
+
+/// All families of an ansatz.
+#[derive(Clone, Debug)]
+pub struct Decision {
+    /// The names of the variables of all conditions.
+    pub names: Names,
+    /// The families, those whose joints all move first.
+    pub families: Vec<Family>,
+    /// The links whose twist is taken to be no multiple of pi, counted from 1; the others' is one always.
+    pub oblique: Vec<usize>,
+    /// Whether the loop has numbers only.
+    pub is_numeric: bool,
+    /// Whether the linear conditions at the numbers themselves have the same solutions; `None` where they were not set up.
+    pub confirmed: Option<bool>,
+}
+
+/// The ansatz as one mechanism over the rational functions of its free symbols.
+struct Setting {
+    names: Names,
+    links: Vec<Link<Quotient>>,
+    residuals: Vec<Poly>,
+    /// Factors that are not zero for real loops with the twists meant.
+    harmless: Vec<Poly>,
+    is_numeric: bool,
+}
+
+impl Setting {
+    fn of(ansatz: &Ansatz) -> Result<Self> {
+        let (angles, lengths) = (ansatz.free_angles(), ansatz.free_lengths());
+        let tangents = angles.iter().map(|&k| match ansatz.symbols.angles[k].strip_prefix("alpha") {
+            Some(number) => format!("t{number}"),
+            None => format!("tan_half_{}", ansatz.symbols.angles[k]),
+        });
+        let named = tangents.chain(lengths.iter().map(|&k| ansatz.symbols.lengths[k].clone()));
+        let names = Names::given(named)?;
+        let symbols: Vec<Quotient> = (0..names.list().len()).map(Quotient::variable).collect();
+        let (tangents, values) = symbols.split_at(angles.len());
+        let found = ansatz.over::<Quotient>().and_then(|members| members.with_residuals(tangents, values));
+        let Some((links, residuals)) = found else {
+            return Err(Error::Unsupported("the relations cannot be solved for the lengths in general".to_owned()));
+        };
+        let circles = tangents.iter().map(|t| t.mul(t).add(&Quotient::one()).numerator().clone());
+        let sines = links.iter().map(|link| link.sin.numerator().clone());
+        let harmless = circles.chain(sines).filter(|p| p.to_constant().is_none()).collect();
+        let residuals = residuals.iter().filter(|q| !q.is_zero()).map(|q| q.numerator().clone()).collect();
+        Ok(Self { is_numeric: names.list().is_empty(), names, links, residuals, harmless })
+    }
+
+    /// A condition without factors that do not vanish; `None` where it cannot be satisfied by real numbers.
+    fn condition(&self, value: &Quotient) -> Option<Poly> {
+        let rest = remove_factors(value.numerator(), &self.harmless).rest.primitive_part();
+        if rest.is_zero() {
+            return Some(rest);
+        }
+        let rest = rest.square_free_part();
+        let used: Vec<usize> = (0..rest.variables()).filter(|&k| rest.degree(k) > 0).collect();
+        match used.as_slice() {
+            [] => None,
+            [variable] => {
+                let integers = rest.to_univariate(*variable)?.coefficients().iter().map(Int::to_integer).collect();
+                (Univariate::new(integers).distinct_real_roots() > 0).then_some(rest)
+            }
+            _ => Some(rest),
+        }
+    }
+
+    /// The conditions as polynomials in the symbols, each once; `None` where they cannot be satisfied together with the
+    /// relations of the ansatz.
+    fn conditions(&self, values: impl IntoIterator<Item = Quotient>) -> Option<Vec<Poly>> {
+        let own = self.residuals.iter().cloned().map(Quotient::from);
+        let mut found: Vec<Poly> = Vec::new();
+        for value in values.into_iter().chain(own) {
+            let condition = self.condition(&value)?;
+            if !condition.is_zero() && !found.contains(&condition) {
+                found.push(condition);
+            }
+        }
+        // Two that vanish have a sum and a difference that vanish.
+        for (k, p) in found.iter().enumerate() {
+            for q in &found[..k] {
+                self.condition(&Quotient::from(p.add(q)))?;
+                self.condition(&Quotient::from(p.sub(q)))?;
+            }
+        }
+        // Conditions that are single symbols simplify the others.
+        loop {
+            let zeros: Vec<(usize, Poly)> = found
+                .iter()
+                .filter_map(|p| (0..p.variables()).find(|&k| *p == Poly::variable(k)))
+                .map(|k| (k, Poly::zero()))
+                .collect();
+            let mut next: Vec<Poly> = zeros.iter().map(|(k, _)| Poly::variable(*k)).collect();
+            for p in &found {
+                let value = self.condition(&Quotient::from(p.substitute_all(&zeros)))?;
+                if !value.is_zero() && !next.contains(&value) {
+                    next.push(value);
+                }
+            }
+            if next.len() == found.len() && next.iter().all(|p| found.contains(p)) {
+                return Some(found);
+            }
+            found = next;
+        }
+    }
+}
+
+/// All families of a loop of four joints with these symbols.
+///
+/// # Errors
+/// Where the relations cannot be solved in general.
+pub fn decide(theorem: &FourBar, ansatz: &Ansatz) -> Result<Decision> {
+    let setting = Setting::of(ansatz)?;
+    let parallel: Vec<usize> = (0..4).filter(|&k| setting.links[k].sin.is_zero()).collect();
+    let oblique: Vec<usize> = (1..=4).filter(|k| !parallel.contains(&(k - 1))).collect();
+    let mut families = Vec::new();
+    let mut confirmed = None;
+    if parallel.is_empty() {
+        confirmed = oblique_families(theorem, &setting, &mut families);
+    }
+    planar(&setting, &mut families);
+    neighbours(&setting, &mut families);
+    if parallel.len() >= 2 && parallel.len() < 4 {
+        let note = "neighbouring parallel links move also where the planar triangle of their axes has a side 0 and two equal ones";
+        for family in families.iter_mut().filter(|family| family.class == Class::Coincident) {
+            let more = family.note.take().map_or_else(String::new, |own| own + "; ");
+            family.note = Some(more + note);
+        }
+    }
+    let Setting { names, is_numeric, .. } = setting;
+    Ok(Decision { names, families, oblique, is_numeric, confirmed })
+}
+
+/// The values of the twelve parameters of the theorem, by its variables; no twist is a multiple of pi.
+fn values(links: &[Link<Quotient>]) -> Option<Vec<Quotient>> {
+    let mut values = vec![Quotient::zero(); Variables::X];
+    for (k, link) in links.iter().enumerate() {
+        values[Variables::twist(k)] = link.sin.mul(&Quotient::one().add(&link.cos).inverse()?);
+        values[Variables::length(k)] = link.a.clone();
+        values[Variables::offset(k)] = link.d.clone();
+    }
+    Some(values)
+}
+
+/// The value of a polynomial at rational functions.
+fn at(p: &Poly, values: &[Quotient]) -> Quotient {
+    let image = p.map(|c| Some(Quotient::from(Poly::constant(c.clone()))));
+    image.map_or_else(Quotient::zero, |image| image.evaluate(values))
+}
+
+/// Bennett, spherical and folded loops.
+fn oblique_families(theorem: &FourBar, setting: &Setting, families: &mut Vec<Family>) -> Option<bool> {
+    let values = values(&setting.links)?;
+    let mut bennett: Vec<Family> = Vec::new();
+    for variant in &theorem.bennett {
+        // Where K is 0 or infinite both joints are folded.
+        let at_one = |p: &Poly| at(&p.substitute(Variables::X, &Poly::one()), &values);
+        if at_one(&variant.fourth.0).is_zero() || at_one(&variant.fourth.1).is_zero() {
+            continue;
+        }
+        let own = conditions(variant);
+        let Some(found) = setting.conditions(own.iter().map(|p| at(p, &values))) else { continue };
+        // With lengths that are all zero it is a spherical loop.
+        let lengths = setting.links.iter().all(|link| {
+            setting.conditions([link.a.clone()]).is_some_and(|zero| zero.iter().all(|p| found.contains(p)))
+        });
+        if lengths || bennett.iter().any(|known| known.conditions == found) {
+            continue;
+        }
+        let note = Some(constants(variant, &values, &setting.names));
+        bennett.push(Family { class: Class::Bennett, name: sign(variant), conditions: found, note });
+    }
+    // What is a case of another one says nothing new.
+    let implied = |a: &Family, b: &Family| b.conditions.iter().all(|p| a.conditions.contains(p));
+    let kept = |k: &usize| (0..bennett.len()).all(|other| other == *k || !implied(&bennett[*k], &bennett[other]));
+    let mut kept: Vec<Family> = (0..bennett.len()).filter(kept).map(|k| bennett[k].clone()).collect();
+    kept.sort_by(|a, b| a.name.cmp(&b.name));
+    families.extend(kept);
+    let centre = setting.links.iter().flat_map(|link| [link.a.clone(), link.d.clone()]);
+    if let Some(conditions) = setting.conditions(centre) {
+        let name = "spherical: all axes through one point".to_owned();
+        families.push(Family { class: Class::Spherical, name, conditions, note: None });
+    }
+    for axes in 0..2 {
+        for variant in folds(axes) {
+            let Some(conditions) = setting.conditions(variant.iter().map(|p| at(p, &values))) else { continue };
+            if families.iter().any(|known| known.conditions == conditions) {
+                continue;
+            }
+            let name = format!("axes {} and {} coincide, the other two joints locked", axes + 1, axes + 3);
+            families.push(Family { class: Class::Coincident, name, conditions, note: None });
+        }
+    }
+    let numbers: [Ratio; 4] = std::array::from_fn(|k| split(&values[Variables::twist(k)]));
+    let constant = numbers.iter().all(|(n, d)| n.to_constant().is_some() && d.to_constant().is_some());
+    let comparable = constant && setting.residuals.is_empty();
+    comparable.then(|| confirmed(theorem, &numbers, &values, families))?
+}
+
+fn split(q: &Quotient) -> Ratio {
+    (q.numerator().clone(), q.denominator().clone())
+}
+
+/// How the other angles depend on that of joint 1.
+fn constants(variant: &Bennett, values: &[Quotient], names: &Names) -> String {
+    let one = |k: usize| {
+        let (numerator, denominator) = &variant.angles[k];
+        let inverse = denominator.degree(Variables::X) > numerator.degree(Variables::X);
+        let at_one = |p: &Poly| at(&p.substitute(Variables::X, &Poly::one()), values);
+        let constant = at_one(denominator).inverse().map_or_else(Quotient::zero, |d| at_one(numerator).mul(&d));
+        let shown = quotient_text(&constant, names);
+        if inverse {
+            format!("tan(theta1/2) tan(theta{}/2) = {shown}", k + 1)
+        } else {
+            format!("tan(theta{}/2) = {shown} tan(theta1/2)", k + 1)
+        }
+    };
+    [1, 2, 3].map(one).join(", ")
+}
+
+/// Which of the two families, by the sign of `a1 sin(alpha2) / (a2 sin(alpha1))`.
+fn sign(variant: &Bennett) -> String {
+    let sum_of_degrees = |p: &Poly| p.coefficients().first().is_some_and(|c| c.to_i64().is_some_and(|c| c > 0));
+    let same = sum_of_degrees(&variant.lengths[0]) == sum_of_degrees(&variant.lengths[1]);
+    format!("Bennett ({})", if same { "+" } else { "-" })
+}
+
+/// The conditions under which the axes of two opposite joints coincide while the other two are locked, for every
+/// orientation; each has been proved by the closure identity.
+fn folds(axes: usize) -> Vec<Vec<Poly>> {
+    let v = Poly::variable;
+    let mut found = Vec::new();
+    for odd in [false, true] {
+        for (first, second) in [(false, false), (false, true), (true, false), (true, true)] {
+            // At the joint locked at pi the link behind has the twist and length of the one before, at 0 the opposite ones.
+            let relation = |i: usize, j: usize, straight: bool| -> [Poly; 2] {
+                let sign = Int::from_integer(if straight { -1 } else { 1 });
+                let (ti, tj) = (v(Variables::twist(i)), v(Variables::twist(j)));
+                let twist = if odd { ti.mul(&tj).add(&Poly::constant(sign.clone())) } else { tj.sub(&ti.scale(&sign)) };
+                [twist, v(Variables::length(j)).sub(&v(Variables::length(i)).scale(&sign))]
+            };
+            let link = |k: usize| (axes + k) % 4;
+            let [t2, a2] = relation(link(0), link(1), first);
+            let [t4, a4] = relation(link(2), link(3), second);
+            let d = |k: usize| v(Variables::offset(link(k)));
+            // The joint beyond turns in the same sense about an axis of the other direction.
+            let along = if odd { d(2).sub(&d(0)) } else { d(2).add(&d(0)) };
+            if folded(odd, first, second) {
+                found.push(vec![t2, t4, a2, a4, d(1), d(3), along]);
+            }
+        }
+    }
+    found
+}
+
+/// Whether a loop with coincident axes 1 and 3 closes for all angles of joint 1.
+fn folded(odd: bool, first: bool, second: bool) -> bool {
+    let v = Poly::variable;
+    let x = v(Variables::X);
+    let sign = |straight: bool| Int::from_integer(if straight { -1 } else { 1 });
+    let link = |k: usize| -> (Ratio, Poly) { ((v(Variables::twist(k)), Poly::one()), v(Variables::length(k))) };
+    let behind = |k: usize, straight: bool| -> (Ratio, Poly) {
+        let ((t, _), a) = link(k);
+        let sign = sign(straight);
+        let tangent = if odd { (Poly::constant(sign.neg()), t) } else { (t.scale(&sign), Poly::one()) };
+        (tangent, a.scale(&sign))
+    };
+    let locked =
+        |straight: bool| -> Ratio { if straight { (Poly::zero(), Poly::one()) } else { (Poly::one(), Poly::zero()) } };
+    let member = |theta: Ratio, d: Poly, (alpha, a): (Ratio, Poly)| Member { theta, d, alpha, a };
+    let d = v(Variables::offset(0));
+    // Joint 3 turns back, about an axis that may have the other direction, perhaps from half a turn on.
+    let turns = [(x.neg(), Poly::one()), (x.clone(), Poly::one()), (Poly::one(), x.clone()), (Poly::one(), x.neg())];
+    turns.into_iter().any(|third| {
+        closes(&[
+            member((x.clone(), Poly::one()), d.clone(), link(0)),
+            member(locked(first), Poly::zero(), behind(0, first)),
+            member(third, if odd { d.clone() } else { d.neg() }, link(2)),
+            member(locked(second), Poly::zero(), behind(2, second)),
+        ])
+    })
+}
+
+/// All axes parallel.
+fn planar(setting: &Setting, families: &mut Vec<Family>) {
+    let mut direction = Quotient::one();
+    let mut along = Quotient::zero();
+    let mut sines = Vec::new();
+    for link in &setting.links {
+        along = along.add(&direction.mul(&link.d));
+        if !link.sin.is_zero() {
+            sines.push(link.sin.clone());
+            continue;
+        }
+        direction = direction.mul(&link.cos);
+    }
+    let name = "planar: all axes parallel".to_owned();
+    if sines.is_empty() {
+        // Directions that do not come back to themselves close nowhere.
+        if direction == Quotient::one()
+            && let Some(conditions) = setting.conditions([along])
+        {
+            let note =
+                "moves where the four lengths reach round: the longest less than the sum of the others".to_owned();
+            families.push(Family { class: Class::Planar, name, conditions, note: Some(note) });
+        }
+        return;
+    }
+    // The sines are set aside as factors that do not vanish: put them in as they are.
+    let possible = sines.iter().all(|sine| sine.numerator().to_constant().is_none());
+    if possible {
+        let mut conditions: Vec<Poly> =
+            sines.iter().map(|sine| sine.numerator().primitive_part().square_free_part()).collect();
+        // Tangents that vanish are angles of 0, which turn no axis round.
+        let zeros: Vec<(usize, Poly)> = conditions
+            .iter()
+            .filter_map(|p| (0..p.variables()).find(|&k| *p == Poly::variable(k)))
+            .map(|k| (k, Poly::zero()))
+            .collect();
+        if zeros.len() == conditions.len() {
+            let sum = along.numerator().substitute_all(&zeros).primitive_part();
+            conditions.extend(Some(sum).filter(|sum| !sum.is_zero()));
+        }
+        let note = "twists 0 (or pi), and the sum of the offsets, each in the direction of its axis, is 0".to_owned();
+        families.push(Family { class: Class::Planar, name, conditions, note: Some(note) });
+    }
+}
+
+/// Two neighbouring axes coincide.
+fn neighbours(setting: &Setting, families: &mut Vec<Family>) {
+    for (k, link) in setting.links.iter().enumerate() {
+        let sine = &link.sin;
+        if !sine.is_zero() && sine.numerator().to_constant().is_some() {
+            continue;
+        }
+        let Some(mut conditions) = setting.conditions([link.a.clone()]) else { continue };
+        if !sine.is_zero() {
+            conditions.insert(0, sine.numerator().primitive_part().square_free_part());
+        }
+        let name = format!("axes {} and {} coincide, the other two joints locked", k + 1, (k + 1) % 4 + 1);
+        let note = "the other links must close as a rigid triangle; twist 0 or pi".to_owned();
+        families.push(Family { class: Class::Coincident, name, conditions, note: Some(note) });
+    }
+}
+
+/// The linear conditions at twists that are numbers: the lengths, columns as in [`LENGTHS`], with which the loop moves on a
+/// component of its curve on which both joints move. `None` where the curve falls apart, but not over the rationals.
+#[must_use]
+pub fn lengths_at(theorem: &FourBar, tangents: &[Ratio; 4]) -> Option<Vec<Vec<Vec<Poly>>>> {
+    let f = with_tangents(&theorem.pair.f, tangents);
+    let g = with_tangents(&theorem.pair.g, tangents);
+    let coefficients = Coefficients::of(&f)?;
+    if let Some(components) = coefficients.components() {
+        let moving = components.iter().filter(|component| component.moves());
+        return Some(moving.map(|component| null_space(&component.equations(&g, &LENGTHS), LENGTHS.len())).collect());
+    }
+    let [a, b, c, _, e] = coefficients.list().map(Poly::is_zero);
+    if ((a || b) && (c || e)) || (c && e) || (a && b) {
+        return None;
+    }
+    // Irreducible: g = lambda f, one more column; lambda alone cannot be, since f is not zero.
+    let zero_fold = Component::Fold { variable: Variables::X, infinite: false };
+    let mut rows = Vec::new();
+    let columns: Vec<Poly> = LENGTHS.iter().map(|&v| g.derivative(v)).chain([f]).collect();
+    for power in 0..3 {
+        let part = |p: &Poly| p.coefficients_in(Variables::X).get(power).cloned().unwrap_or_else(Poly::zero);
+        let parts: Vec<Vec<Poly>> = columns.iter().map(|p| zero_fold.restricted(&part(p))).collect();
+        for k in 0..3 {
+            rows.push(parts.iter().map(|list| list.get(k).cloned().unwrap_or_else(Poly::zero)).collect::<Vec<_>>());
+        }
+    }
+    Some(vec![null_space(&rows, columns.len())])
+}
+
+/// Whether the linear conditions at the numbers say the same as the families.
+fn confirmed(theorem: &FourBar, tangents: &[Ratio; 4], values: &[Quotient], families: &[Family]) -> Option<bool> {
+    let spaces = lengths_at(theorem, tangents)?;
+    let bennett = families.iter().any(|family| family.class == Class::Bennett);
+    let numbers: Option<Vec<Poly>> = LENGTHS
+        .iter()
+        .map(|&k| {
+            let (n, d) = split(&values[k]);
+            (n.to_constant().is_some() && d.to_constant().is_some()).then_some(n.mul(&d))
+        })
+        .collect();
+    let Some(_) = numbers else {
+        // Unknown lengths: there are Bennett loops among them only if some null space is not zero.
+        return Some(!bennett || spaces.iter().any(|space| !space.is_empty()));
+    };
+    let ratio = |k: usize| &values[LENGTHS[k]];
+    let moves = spaces.iter().flatten().any(|vector| {
+        (0..LENGTHS.len()).all(|i| {
+            (0..LENGTHS.len()).all(|j| {
+                let side = |i: usize, j: usize| ratio(i).mul(&Quotient::from(vector[j].clone()));
+                side(i, j) == side(j, i)
+            })
+        })
+    });
+    let offsets = [1, 2].iter().all(|&k| values[Variables::offset(k)].is_zero());
+    let spherical = families.iter().any(|family| family.class == Class::Spherical);
+    let is_zero = (0..LENGTHS.len()).all(|k| ratio(k).is_zero());
+    Some((moves && offsets && !is_zero) == (bennett && !spherical))
+}

@@ -1,0 +1,379 @@
+//! The search for conditions of 5R and 6R loops: what the literature knows is found, from the ansatz alone, and nothing
+//! else is called mobile.
+#![allow(clippy::unwrap_used)]
+
+use looproot::algebra::echelon::Echelon;
+use looproot::algebra::modp::ModP;
+use looproot::algebra::polynomial::Polynomial;
+use looproot::algebra::ring::Ring;
+use looproot::algebra::text::Format;
+use looproot::catalogue::ansatz::{Ansatz, Link, Symbols};
+use looproot::catalogue::{Format as FileFormat, Options, ansatz_from_text, load_ansatz};
+use looproot::conditions::configurations::{configurations, link_motion};
+use looproot::conditions::curve_ansatz::{Relation, rational_curves, spherical_links};
+use looproot::conditions::finite_field::{all_turns, random_unit, square_root, turn, turn_number};
+use looproot::conditions::identity;
+use looproot::conditions::implication::{Implication, implication};
+use looproot::conditions::multiplier::multiplier;
+use looproot::conditions::search::search;
+use looproot::conditions::spherical::{Directions, closed_by};
+use looproot::conditions::sweep::sweep;
+use looproot::conditions::symmetry::{Slice, slices};
+use looproot::conditions::verification::{closed_positions, germ, rational_member};
+use looproot::kinematics::motion::Motion;
+use looproot::mobility::Local;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rug::Rational;
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+fn builtin(name: &str) -> Ansatz {
+    load_ansatz(name, &Options::default()).unwrap()
+}
+
+fn rational(text: &str) -> Rational {
+    text.parse().unwrap()
+}
+
+/// A loop given by length, half-angle tangent of the twist and offset of each link.
+fn member<const P: u64>(links: &[(&str, &str, &str)]) -> Vec<Link<ModP<P>>> {
+    let image = |text: &str| ModP::from_rational(&rational(text)).unwrap();
+    let link = |(a, t, d): &(&str, &str, &str)| {
+        let (cos, sin) = turn(image(t));
+        Link { cos, sin, a: image(a), d: image(d) }
+    };
+    links.iter().map(link).collect()
+}
+
+const BENNETT: [(&str, &str, &str); 4] = [("4", "1/2", "0"), ("3", "1/3", "0"), ("4", "1/2", "0"), ("3", "1/3", "0")];
+
+const GOLDBERG: [(&str, &str, &str); 5] =
+    [("91/17", "7/11", "0"), ("4", "1/2", "0"), ("40/17", "1/4", "0"), ("3", "1/3", "0"), ("4", "1/2", "0")];
+
+const DIETMAIER: [(&str, &str, &str); 6] = [
+    ("24/13", "2/3", "-1/4"),
+    ("8/5", "1/2", "0"),
+    ("3/2", "3/5", "-1/4"),
+    ("15744/13585", "1/3", "3/4"),
+    ("5120/2717", "4/5", "0"),
+    ("3/2", "3/5", "3/4"),
+];
+
+#[test]
+fn mobile_loops_have_a_family_of_configurations_and_broken_ones_do_not() {
+    for loop_ in [&BENNETT[..], &GOLDBERG, &DIETMAIER] {
+        let mut links = member::<43>(loop_);
+        let found = configurations(&links, 1000);
+        assert!(found.complete && found.all_move(), "{:?}", found.values());
+        for turns in &found.turns {
+            let all = all_turns::<43>();
+            let product = turns.iter().zip(&links).fold(Motion::identity(), |product, (&number, link)| {
+                let (cos, sin) = all[usize::from(number)];
+                product.then_after(&Motion::rotation_z(cos, sin)).then_after(&link_motion(link))
+            });
+            assert_eq!(product, Motion::identity());
+        }
+        links[0].d = links[0].d.add(&ModP::one());
+        assert!(!configurations(&links, 1000).are_a_family());
+    }
+}
+
+#[test]
+fn meeting_in_the_middle_finds_what_looking_through_all_rotations_does() {
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let all = all_turns::<23>();
+    for case in 0..6 {
+        let mut links = member::<23>(&BENNETT);
+        if case > 0 {
+            for link in &mut links {
+                (link.cos, link.sin) = turn(random_unit(&mut rng));
+                (link.a, link.d) = (random_unit(&mut rng), random_unit(&mut rng));
+            }
+        }
+        if case > 3 {
+            // A planar loop, whose axes are parallel.
+            for link in &mut links {
+                (link.cos, link.sin, link.d) = (ModP::one(), ModP::zero(), ModP::zero());
+            }
+        }
+        let motions: Vec<Motion<ModP<23>>> = links.iter().map(link_motion).collect();
+        let at =
+            |joint: usize, number: usize| Motion::rotation_z(all[number].0, all[number].1).then_after(&motions[joint]);
+        let mut expected = Vec::new();
+        for (i, j) in (0..24).flat_map(|i| (0..24).map(move |j| (i, j))) {
+            let front = at(0, i).then_after(&at(1, j));
+            for k in 0..24 {
+                let back = front.then_after(&at(2, k)).inverse().then_after(&motions[3].inverse());
+                for l in 0..24 {
+                    if back == Motion::rotation_z(all[l].0, all[l].1) {
+                        expected.push([i, j, k, l].map(|n| u16::try_from(n).unwrap()).to_vec());
+                    }
+                }
+            }
+        }
+        let mut found = configurations(&links, usize::MAX).turns;
+        found.sort();
+        assert_eq!(found, expected, "case {case}");
+    }
+}
+
+#[test]
+fn planted_configurations_of_six_joints_are_found() {
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    let mut planted = 0;
+    while planted < 5 {
+        let spherical: Vec<ModP<43>> = (0..6).map(|_| random_unit(&mut rng)).collect();
+        let mut links = spherical_links(&spherical).unwrap();
+        let chosen: Vec<_> = (0..6).map(|_| turn(random_unit::<43>(&mut rng))).collect();
+        let Some(turns) = closed_by(&links, &chosen, [1, 3, 4], |x| square_root(*x)).pop() else { continue };
+        let equations = Directions::of(&links, &turns).equations().to_vec();
+        let mut lengths = [ModP::zero(); 12];
+        for vector in Echelon::of(equations, 12).null_space() {
+            let weight: ModP<43> = random_unit(&mut rng);
+            lengths.iter_mut().zip(&vector).for_each(|(total, x)| total.add_product(&weight, x));
+        }
+        for (k, link) in links.iter_mut().enumerate() {
+            (link.a, link.d) = (lengths[k], lengths[6 + k]);
+        }
+        let numbers: Vec<u16> = turns.iter().map(turn_number).collect();
+        assert!(configurations(&links, 1000).turns.contains(&numbers));
+        planted += 1;
+    }
+}
+
+#[test]
+fn symmetric_families_are_those_of_bricard_and_each_is_proved() {
+    let found = slices::<23>(6, 7);
+    assert_eq!(found.len(), 48);
+    let mobile: Vec<_> = found.iter().filter(|slice| slice.slice == Slice::Mobile).collect();
+    let named = |name: &str| mobile.iter().filter(|slice| slice.involution.name == name).count();
+    assert_eq!((mobile.len(), named("half-turn"), named("mirror through two joints")), (6, 4, 2));
+    for slice in &mobile {
+        assert_eq!((slice.dimension, slice.conditions), (2, 1));
+        assert!(identity::proof(slice).is_some());
+        if slice.involution.name == "half-turn" {
+            assert_eq!(slice.lengths, 6);
+        } else {
+            // One of lengths and twists changes sign in the mirror, offsets do.
+            assert!(slice.lengths == 5 && slice.signs.offset && slice.signs.twist != slice.signs.length);
+        }
+    }
+    let folded: Vec<_> = found.iter().filter(|slice| slice.slice == Slice::Folded).collect();
+    assert_eq!(folded.len(), 2);
+    for slice in folded {
+        let signs = slice.signs;
+        assert!(signs.angle && signs.twist && signs.length && signs.offset && slice.conditions == 0);
+    }
+}
+
+#[test]
+fn loops_of_four_and_five_joints_move_by_symmetry_only_folded() {
+    for joints in [4, 5] {
+        let found = slices::<23>(joints, 3);
+        assert!(found.iter().all(|slice| slice.slice != Slice::Mobile));
+        assert!(found.iter().any(|slice| slice.slice == Slice::Folded));
+    }
+}
+
+#[test]
+fn goldberg_loops_follow_from_their_twists() {
+    let twists: Vec<Rational> = GOLDBERG.iter().map(|(_, t, _)| rational(t)).collect();
+    let curves = rational_curves(&twists);
+    let zero = "0, 0, 0, 0, 0".to_owned();
+    let shape = |lengths: &[Rational]| {
+        let list = |part: &[Rational]| part.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        (list(&lengths[..5]), list(&lengths[5..]))
+    };
+    let proper: Vec<_> = curves.iter().filter(|curve| curve.is_proper()).collect();
+    let ratios = |lengths: [&str; 5]| {
+        let all = lengths.map(rational);
+        let scaled: Vec<Rational> = all.iter().map(|a| Rational::from(a / &all[0])).collect();
+        (scaled.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "), zero.clone())
+    };
+    // (b + c, a, c, b, a) and (b - c, a, -c, b, a).
+    for expected in [["91/17", "4", "40/17", "3", "4"], ["11/17", "4", "-40/17", "3", "4"]] {
+        let expected = ratios(expected);
+        let own: Vec<_> =
+            proper.iter().filter(|curve| curve.lengths.len() == 1 && shape(&curve.lengths[0]) == expected).collect();
+        assert!(own.len() > 1, "{expected:?}");
+        for curve in own {
+            let mut links = spherical_links(&twists).unwrap();
+            for (k, link) in links.iter_mut().enumerate() {
+                (link.a, link.d) = (curve.lengths[0][k].clone(), curve.lengths[0][5 + k].clone());
+            }
+            assert_eq!(germ(&links, &curve.points[2]).local, Local::Curve);
+            links[0].a += 1;
+            assert_eq!(germ(&links, &curve.points[2]).local, Local::Open);
+        }
+    }
+    // The ties of neighbouring joints 2 and 3 are those of the Bennett loop of twists alpha and gamma.
+    let (a, c) = (rational("1/2"), rational("1/4"));
+    let sine = -Rational::from(&a + &c) / Rational::from(&a - &c);
+    let product = Rational::from(&a * &c);
+    let cosine = Rational::from(1 - &product) / Rational::from(1 + &product);
+    let tied = |constant: &Rational| {
+        proper.iter().any(|curve| {
+            let tie = curve.tie;
+            (tie.first, tie.second, tie.relation) == (1, 2, Relation::Product) && curve.constant == *constant
+        })
+    };
+    assert!(tied(&sine) && tied(&cosine));
+    // The other curves are Bennett loops with a joint that does not move.
+    assert!(curves.iter().filter(|curve| !curve.is_proper()).all(|curve| curve.moving.contains(&false)));
+}
+
+#[test]
+fn random_twists_of_five_joints_close_on_no_curve() {
+    for twists in [["3/5", "2/7", "5/3", "4/7", "1/6"], ["3/5", "2/7", "11/3", "4/7", "7/6"]] {
+        assert!(rational_curves(&twists.map(rational)).is_empty());
+    }
+}
+
+/// `variable` of an ansatz by its name.
+fn variable(ansatz: &Ansatz, name: &str) -> Polynomial<Rational> {
+    Polynomial::variable(ansatz.symbols.names().index(name).unwrap())
+}
+
+#[test]
+fn the_cosine_relation_of_dietmaier_is_found_and_proved() {
+    let ansatz = builtin("dietmaier_6r");
+    let found = sweep(&ansatz, 1).unwrap();
+    let [relation] = found.relations.as_slice() else { panic!("{found:?}") };
+    let text = Format::Text.polynomial(relation, ansatz.symbols.names());
+    let [b, other] = ["b", "b'"].map(|name| variable(&ansatz, name));
+    let cos = |k: usize| Polynomial::<Rational>::variable(Symbols::cos(k));
+    let expected = b.mul(&cos(0).add(&cos(1))).sub(&other.mul(&cos(3).add(&cos(4))));
+    assert!(*relation == expected || *relation == expected.neg(), "{text}");
+    assert!(found.trial.unwrap().agrees());
+    let proof = multiplier(&ansatz, relation, 1).unwrap();
+    // (z1 + z3) x (z4 + z6)
+    let one = Rational::from(1);
+    let pairs = [(0, 3), (0, 5), (2, 3), (2, 5)].map(|(i, j)| (i, j, one.clone()));
+    assert_eq!(proof.terms, pairs);
+    // A relation with one sign wrong has no proof, and closed positions do not satisfy it.
+    let wrong = b.mul(&cos(0).add(&cos(1))).sub(&other.mul(&cos(3).sub(&cos(4))));
+    assert_eq!(multiplier(&ansatz, &wrong, 1), None);
+    let closed =
+        |relation: &Polynomial<Rational>| closed_positions(&ansatz, std::slice::from_ref(relation), 20, 2).unwrap();
+    assert_eq!((closed(relation).positions, closed(relation).satisfied), (20, 20));
+    assert_eq!((closed(&wrong).positions, closed(&wrong).satisfied), (20, 0));
+    let member = rational_member(&ansatz, std::slice::from_ref(relation), 60_000, 1).unwrap();
+    assert_eq!((member.germ.local, member.germ.rank), (Local::Curve, 5));
+    let mut broken = member.links.clone();
+    broken[0].a += 1;
+    assert_eq!(germ(&broken, &member.turns).local, Local::Open);
+}
+
+#[test]
+fn the_length_relation_of_the_trihedral_loop_is_found() {
+    let ansatz = builtin("trihedral_6r");
+    let found = sweep(&ansatz, 1).unwrap();
+    let [relation] = found.relations.as_slice() else { panic!("{found:?}") };
+    let square = |k: usize| variable(&ansatz, &format!("a{k}")).pow(2);
+    let expected =
+        (1..=6).fold(Polynomial::zero(), |sum, k| if k % 2 == 1 { sum.add(&square(k)) } else { sum.sub(&square(k)) });
+    assert!(*relation == expected || *relation == expected.neg());
+    assert!(found.trial.unwrap().agrees());
+    let closed = closed_positions(&ansatz, &found.relations, 20, 2).unwrap();
+    assert_eq!((closed.positions, closed.satisfied), (20, 20));
+    let member = rational_member(&ansatz, &found.relations, 60_000, 1).unwrap();
+    assert_eq!(member.germ.local, Local::Curve);
+    assert_eq!(implication(&ansatz, relation), Some(Implication { joint: 0 }));
+    assert_eq!(implication(&ansatz, &relation.add(&square(1))), None);
+}
+
+#[test]
+fn an_ansatz_that_does_not_move_yields_no_condition() {
+    let text = r#"
+        title = "Two Bennett proportions alone"
+        [symbols]
+        angles = ["p", "q", "r", "s", "t", "u"]
+        lengths = ["b", "a3", "a4", "a5", "a6"]
+        [mechanism]
+        kind = "loop"
+        convention = "dh"
+        joints = [
+            { type = "R", a = "b*sin(p)", alpha = "p", d = 1 },
+            { type = "R", a = "b*sin(q)", alpha = "q", d = 0 },
+            { type = "R", a = "a3", alpha = "r", d = 2 },
+            { type = "R", a = "a4", alpha = "s", d = 3 },
+            { type = "R", a = "a5", alpha = "t", d = 1 },
+            { type = "R", a = "a6", alpha = "u", d = 5 },
+        ]
+        [ansatz]
+        unknown = ["a6"]
+        fit = [["a3", "a6"], ["1", "cos(r)", "cos(u)"]]
+    "#;
+    let ansatz = ansatz_from_text(text, "rigid.toml", FileFormat::Toml, &Options::default()).unwrap();
+    let found = sweep(&ansatz, 1).unwrap();
+    assert!(found.relations.is_empty() && found.trial.is_none());
+}
+
+#[test]
+fn members_of_the_symmetric_families_are_proved_mobile_and_general_loops_isolated() {
+    for (name, symmetry) in [("line_symmetric_6r", "half-turn"), ("plane_symmetric_6r", "mirror through two joints")] {
+        let found = search(&builtin(name), 1).unwrap();
+        let member = found.member.as_ref().unwrap();
+        assert_eq!(member.germ.local, Local::Curve, "{name}");
+        assert!(Directions::of(&member.links, &member.turns).closes());
+        let own: Vec<_> = found.mobile_slices.iter().filter(|mobile| mobile.contains(&member.links)).collect();
+        assert_eq!(own.len(), 1, "{name}");
+        assert!(own[0].proof.is_some() && own[0].slice.involution.name == symmetry);
+    }
+    let member = rational_member(&Ansatz::general(6), &[], 60_000, 1).unwrap();
+    assert_ne!(member.germ.local, Local::Curve);
+}
+
+/// Exit code, what `looproot conditions` wrote, and its complaints.
+fn conditions(arguments: &[&str], input: &str) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_looproot"));
+    command.arg("conditions").args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn the_verb_says_what_is_proved() {
+    let (code, out, err) = conditions(&["dietmaier_6r"], "");
+    let verdict = out.lines().next().unwrap();
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(verdict.starts_with("mobile where ") && verdict.contains("= 0: proved for all parameters"), "{verdict}");
+    assert!(out.contains("w = z1 x z4 + z1 x z6 + z3 x z4 + z3 x z6"), "{out}");
+    assert!(out.contains("degenerate, folded back on itself") && out.contains("alpha4 = alpha1"), "{out}");
+
+    let (code, out, _) = conditions(&["trihedral_6r", "--json"], "");
+    let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((code, &document["proved"]), (0, &true.into()));
+    assert!(
+        document["verdict"]
+            .as_str()
+            .unwrap()
+            .ends_with("proved for all parameters, a member proved over the rationals")
+    );
+    assert_eq!(document["relations"].as_array().unwrap().len(), 1);
+
+    let (code, out, _) = conditions(&["goldberg_5r"], "");
+    assert_eq!(code, 0);
+    assert!(out.starts_with("4 mobile choices of lengths for example twists, 4 of them proved"), "{out}");
+    assert!(out.contains("degenerate, joint 4 locked"), "{out}");
+}
+
+#[test]
+fn what_cannot_be_searched_is_said() {
+    let joint = r#"{ type = "R", a = "a", alpha = "p", d = "d" }"#;
+    let file = |unknown: &str, joints: usize| {
+        format!(
+            "[symbols]\nangles = [\"p\"]\nlengths = [\"a\", \"d\", \"e\"]\n[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\n\
+             joints = [{}]\n[ansatz]\nunknown = [{unknown}]\n",
+            vec![joint; joints].join(", ")
+        )
+    };
+    let (code, _, err) = conditions(&["-"], &file("\"a\", \"d\", \"e\"", 6));
+    assert!(code == 4 && err.contains("3 unknown lengths"), "{err}");
+    let (code, _, err) = conditions(&["-"], &file("", 7));
+    assert!(code == 4 && err.contains("7 joints"), "{err}");
+}
