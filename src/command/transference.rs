@@ -11,14 +11,13 @@ use std::io::Write;
 
 /// Derives the spherical and the spatial closure equation of a loop of four joints.
 pub fn run(options: &DeriveOptions, mechanism: &str) -> Result<Exit, Fault> {
-    let transfer = match Transfer::named(&mechanism.to_ascii_lowercase())? {
-        Some(transfer) => transfer,
-        None => {
-            let entry = load(mechanism, &options.read.options())?;
-            let expected = NAMED.join(", ");
-            let other = || Error::Unsupported(format!("transference of what is no loop; expected one, or {expected}"));
-            Transfer::of(&entry.title, entry.chain().ok_or_else(other)?)?
-        }
+    let transfer = if let Some(transfer) = Transfer::named(&mechanism.to_ascii_lowercase())? {
+        transfer
+    } else {
+        let entry = load(mechanism, &options.read.options())?;
+        let expected = NAMED.join(", ");
+        let other = || Error::Unsupported(format!("transference of what is no loop; expected one, or {expected}"));
+        Transfer::of(&entry.title, entry.chain().ok_or_else(other)?)?
     };
     let written = if options.json {
         format!("{}\n", json(&transfer))
