@@ -72,6 +72,8 @@ fn did_you_mean(near: &[String]) -> String {
     if near.is_empty() {
         return String::new();
     }
-    let quoted: Vec<String> = near.iter().map(|name| format!("`{name}`")).collect();
+    let mut quoted: Vec<String> = near.iter().map(|name| format!("`{name}`")).collect();
+    // Entries of different folders may have one name.
+    quoted.dedup();
     format!("; did you mean {}?", quoted.join(" or "))
 }

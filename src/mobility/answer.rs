@@ -90,6 +90,8 @@ pub struct Mobility {
     pub configurations: Vec<Configuration>,
     /// How many configurations there are, complex ones included.
     pub complex: usize,
+    /// Whether these are all configurations there, or more may have been missed.
+    pub is_listed: bool,
     /// Why.
     pub reason: String,
 }

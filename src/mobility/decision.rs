@@ -81,6 +81,7 @@ impl Subject<'_> {
             held: Vec::new(),
             configurations: Vec::new(),
             complex: 0,
+            is_listed: true,
             reason,
         }
     }
@@ -215,17 +216,18 @@ impl Subject<'_> {
         // As many isolated configurations as there can be leave none for a curve.
         let is_full = is_complete && verdict.certified == MOST_SOLUTIONS;
         let proof = if is_full || is_proved_immobile(&self.linkage) { Proof::Exact } else { Proof::None };
+        let mut configurations = Vec::new();
+        for mode in solution.modes.iter().filter(|mode| mode.real) {
+            configurations.push(self.singular(mode).unwrap_or_else(|| self.measured(mode)));
+        }
         if !is_complete {
             let (mobility, reason) = match proof {
                 Proof::None => (None, "no motion was found through any value of a joint"),
                 _ => (Some(0), NO_CURVE),
             };
             let reason = format!("{reason}; the isolated configurations: {}", verdict.reason);
-            return Ok(self.answer(mobility, proof, reason));
-        }
-        let mut configurations = Vec::new();
-        for mode in solution.modes.iter().filter(|mode| mode.real) {
-            configurations.push(self.singular(mode).unwrap_or_else(|| self.measured(mode)));
+            let (complex, is_listed) = (verdict.complex, false);
+            return Ok(Mobility { configurations, complex, is_listed, ..self.answer(mobility, proof, reason) });
         }
         let shaky = configurations.iter().filter_map(order).max().filter(|order| *order > 1);
         let (complex, real) = (verdict.complex, configurations.len());

@@ -17,7 +17,7 @@ use std::fmt::Write;
 pub fn verdict(answer: &Mobility) -> String {
     let gruebler = answer.gruebler();
     let mut text = match (answer.mobility, answer.shaky) {
-        (None, _) if answer.complex > 0 => {
+        (None, _) if answer.complex > 0 && answer.is_listed => {
             format!("complex mobility; no real configuration found (Gruebler's count {gruebler})")
         }
         (None, _) => format!("not decided (Gruebler's count {gruebler})"),
@@ -25,7 +25,7 @@ pub fn verdict(answer: &Mobility) -> String {
             format!("shaky of order {order}: infinitesimally mobile only (Gruebler's count {gruebler})")
         }
         (Some(0), None) => {
-            let none = if !answer.configurations.is_empty() {
+            let none = if !answer.configurations.is_empty() || !answer.is_listed {
                 String::new()
             } else if answer.complex == 0 {
                 ": no configuration".to_owned()
