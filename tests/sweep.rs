@@ -364,3 +364,19 @@ fn overconstrained_loops_keep_closed_through_a_full_turn() {
         }
     }
 }
+
+/// In the flat positions at 0 and 180 degrees the axes lose another rank: the only solution is multiple there, and close by
+/// the matrix of the curve is nearly singular.
+#[test]
+fn a_loop_runs_through_flat_positions() {
+    for ([from, to], steps) in [([-180.0_f64, 180.0_f64], 72), ([0.0, 360.0], 36), ([-179.0, 181.0], 71)] {
+        let range = [from.to_radians(), to.to_radians()];
+        let found = swept("double_goldberg", 1, Variable::Rotation, range, steps);
+        assert!(found.samples.iter().all(looproot::sweep::Sample::is_complete), "{from}");
+        let inputs: Vec<f64> = found.samples.iter().flat_map(|sample| &sample.modes).map(|q| q[0]).collect();
+        assert_eq!(inputs, (0..=steps).map(|step| found.range.input(step)).collect::<Vec<f64>>());
+        let [branch] = found.branches.as_slice() else { panic!("{from}: {} branches", found.branches.len()) };
+        assert!(branch.begin == End::Closed(1) && branch.end == End::Closed(1), "{branch:?}");
+        assert!(found.limits.is_empty());
+    }
+}

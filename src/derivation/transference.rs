@@ -13,9 +13,10 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Ring, exact_cos_sin};
 use crate::algebra::text::Names;
 use crate::algebra::trigonometric::{Pair, Trigonometric, half_tangents};
+use crate::elimination::spherical_four_bar::four_bar;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind};
-use crate::kinematics::motion::{Motion, Vector, dot};
+use crate::kinematics::motion::{Motion, dot};
 use rug::Rational;
 
 /// Cosine and sine of an angle.
@@ -42,14 +43,11 @@ pub type CosSin<R> = (R, R);
 /// assert!(f.abs() < 1e-15);
 /// ```
 pub fn spherical_four_bar<R: Ring>(twists: &[CosSin<R>; 4], first: &CosSin<R>, fourth: &CosSin<R>) -> R {
-    let about_x = |(cos, sin): &CosSin<R>| Motion::rotation_x(cos.clone(), sin.clone());
-    let about_z = |(cos, sin): &CosSin<R>| Motion::rotation_z(cos.clone(), sin.clone());
-    let axis: Vector<R> = [R::zero(), R::zero(), R::one()];
-    // Along link 1 one way, along links 4 and 3 the other way: the angles of joints 2 and 3 turn neither axis.
-    let second = about_z(first).rotate(&about_x(&twists[0]).rotate(&axis));
-    let behind_third = about_x(&twists[2]).inverse().rotate(&axis);
-    let third = about_x(&twists[3]).inverse().rotate(&about_z(fourth).inverse().rotate(&behind_third));
-    dot(&second, &third).sub(&twists[1].0)
+    let [first_link, opposite, before, base] = twists.each_ref().map(|(c, s)| Motion::rotation_x(c.clone(), s.clone()));
+    let form = four_bar([&before, &base, &first_link, &opposite].map(|link| &link.rotation));
+    // Seen from link 4: bilinear in (1, cos, sin) of the joints at its ends.
+    let monomials = |(cos, sin): &CosSin<R>| [R::one(), cos.clone(), sin.clone()];
+    dot(&monomials(fourth), &form.map(|row| dot(&row, &monomials(first))))
 }
 
 /// The lines of a loop of four joints as dual angles.

@@ -213,26 +213,32 @@ impl Curve {
     }
 
     /// The point of the curve with the same `border . q` as `start`, by Newton's method, and the length of the first step.
-    /// `None` where that does not converge quickly.
+    /// `None` where that does not converge quickly. Near a singular position steps stop shrinking where the rounding of the
+    /// closure, enlarged by the inverse matrix, hides the rest: that is as far as double precision goes.
     #[must_use]
     pub fn corrected(&self, start: &Point, border: &Point) -> Option<(Point, f64)> {
         const MOST_STEPS: usize = 8;
+        /// Rounding never excuses steps longer than this.
+        const COARSEST: f64 = 1e-8;
         let mut at = *start;
         let mut steps: Vec<f64> = Vec::with_capacity(MOST_STEPS);
         for _ in 0..MOST_STEPS {
             let here = self.here(&at);
             let right = std::array::from_fn(|i| if i < 6 { here.residual[i] } else { 0.0 });
-            let step = times(&inverse(&bordered(&here.jacobian, border))?, &right);
+            let inverted = inverse(&bordered(&here.jacobian, border))?;
+            let step = times(&inverted, &right);
             let size = step.iter().map(|x| x.abs()).fold(0.0, f64::max);
             let longest = at.iter().map(|x| x.abs()).fold(1.0, f64::max);
-            if !size.is_finite() || steps.last().is_some_and(|last| size > last.max(1e-12 * longest)) {
+            let enlarged = inverted.iter().flatten().map(|x| x.abs()).fold(0.0, f64::max);
+            let floor = (4.0 * f64::EPSILON * enlarged).clamp(1e-13, COARSEST) * longest;
+            if !size.is_finite() || steps.last().is_some_and(|last| size > last.max(10.0 * floor)) {
                 return None;
             }
             for (x, d) in at.iter_mut().zip(step) {
                 *x -= d;
             }
             steps.push(size);
-            if size < 1e-13 * longest {
+            if size < floor {
                 break;
             }
         }

@@ -42,6 +42,11 @@ impl Bridge {
     fn is_settled(&self) -> bool {
         !self.forwards.iter().chain(&self.backwards).any(|fate| *fate == Fate::Lost)
     }
+
+    /// Whether it says of no mode what becomes of it.
+    fn is_blank(&self) -> bool {
+        self.forwards.iter().chain(&self.backwards).all(|fate| *fate == Fate::Lost)
+    }
 }
 
 /// The largest difference of two points, angles modulo 2 pi, over the size of the larger one; the input left out.
@@ -161,9 +166,18 @@ pub(super) fn bridges(
         return Ok((Vec::new(), vec![direct]));
     }
     let (mut samples, mut found) = bridges(swept, low, &middle, depth + 1, memory)?;
-    let (more_samples, more) = bridges(swept, &middle, high, depth + 1, memory)?;
-    samples.push(middle);
-    samples.extend(more_samples);
-    found.extend(more);
+    let (mut more_samples, mut more) = bridges(swept, &middle, high, depth + 1, memory)?;
+    if let (Some(last), Some(next)) = (found.last_mut(), more.first_mut())
+        && last.is_blank()
+        && next.is_blank()
+    {
+        // A sample of which nothing is known on either side would only cut one gap in two.
+        last.backwards = std::mem::take(&mut next.backwards);
+        more.remove(0);
+    } else {
+        samples.push(middle);
+    }
+    samples.append(&mut more_samples);
+    found.append(&mut more);
     Ok((samples, found))
 }

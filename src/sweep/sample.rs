@@ -1,6 +1,6 @@
 //! The real modes at one input.
 
-use crate::algebra::number::{Angle, Number};
+use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Input, InputValue};
 use crate::error::Result;
@@ -9,6 +9,8 @@ use crate::mechanism::{InputCurve, Mechanism};
 use crate::solve::curve::{INPUT, Point};
 use crate::verdict::Status;
 use num_complex::Complex;
+use rug::Rational;
+use std::f64::consts::PI;
 
 /// What was found at one input.
 #[derive(Clone, Debug)]
@@ -50,10 +52,21 @@ impl Sample {
 #[must_use]
 pub fn case(joint: usize, variable: Variable, input: f64) -> Case {
     let value = match variable {
-        Variable::Rotation => InputValue::Angle(Angle::from_radians(input)),
+        Variable::Rotation => InputValue::Angle(angle(input)),
         Variable::Translation => InputValue::Distance(Number::from_f64(input)),
     };
     Case::given(Input { joint, value }, 0)
+}
+
+/// The angle that a float stands for: that of a whole number of half turns is exact, for an overconstrained loop may close
+/// there in another way than at all neighbours.
+fn angle(radians: f64) -> Angle {
+    let half_turns = (radians / PI).round();
+    if half_turns * PI != radians {
+        return Angle::from_radians(radians);
+    }
+    let is_odd = half_turns.rem_euclid(2.0) == 1.0;
+    Angle::from_half_tangent(if is_odd { HalfTangent::Infinite } else { HalfTangent::Finite(Rational::new()) })
 }
 
 /// A loop being swept: prepared once.
@@ -70,9 +83,16 @@ impl Swept<'_> {
         let case = case(self.joint, self.variable, input);
         let solution = self.mechanism.solve(&case, Roots::All, &mut memory.0, &mut memory.1)?;
         let real = || solution.modes.iter().filter(|mode| mode.real);
-        let is_regular = solution.verdict.status != Status::SelfMotion
+        // An empty list without a proof says nothing.
+        let is_known = solution.verdict.status != Status::Incomplete || !solution.modes.is_empty();
+        let is_regular = is_known
+            && solution.verdict.status != Status::SelfMotion
             && real().all(|mode| mode.certified && mode.multiplicity == 1);
-        let modes: Vec<Vec<f64>> = real().map(|mode| mode.q.iter().map(|z| z.re).collect()).collect();
+        let mut modes: Vec<Vec<f64>> = real().map(|mode| mode.q.iter().map(|z| z.re).collect()).collect();
+        for mode in &mut modes {
+            // As it was asked for, not modulo a full turn.
+            mode[self.curve.input()] = input;
+        }
         let unit = self.curve.curve().unit(INPUT);
         let point = |q: &Vec<f64>| {
             let mut point = self.curve.point(q);
