@@ -139,6 +139,14 @@ fn the_document_follows_its_schema() {
         ],
     );
     follows("conditions.schema.json", &[&["conditions", "4R", "--json"], &["conditions", "bennett", "--json"]]);
+    follows(
+        "conditions_search.schema.json",
+        &[
+            &["conditions", "goldberg_5r", "--json"],
+            &["conditions", "dietmaier_6r", "--json"],
+            &["conditions", "trihedral_6r", "--json"],
+        ],
+    );
 }
 
 fn follows(schema: &str, runs: &[&[&str]]) {
@@ -177,7 +185,8 @@ fn validate(value: &Value, schema: &Value, root: &Value, place: &str) {
     if let (Some(least), Some(number)) = (schema["minimum"].as_f64(), value.as_f64()) {
         assert!(number >= least, "{place}: {value}");
     }
-    for key in schema["required"].as_array().into_iter().flatten() {
+    // Of what is no object nothing is required: null, where the type allows it.
+    for key in schema["required"].as_array().into_iter().flatten().filter(|_| value.is_object()) {
         assert!(value.get(key.as_str().unwrap()).is_some(), "{place}: no {key}");
     }
     for (key, inner) in schema["properties"].as_object().into_iter().flatten() {
@@ -581,6 +590,90 @@ fn the_library_is_listed_and_shown() {
     assert_eq!(model["convention"], "screws");
     assert_eq!(model["joints"].as_array().unwrap().len(), 6);
     assert_eq!(model["home"].as_array().unwrap().len(), 4);
+}
+
+#[test]
+fn files_of_every_kind_are_listed_and_shown() {
+    let list = json(&run(&["list", "--json"]).out);
+    let kinds =
+        [("framework/steffen", "framework"), ("motion/bennett", "motion"), ("conditions/bennett", "conditions")];
+    for (name, kind) in kinds {
+        let line = list.as_array().unwrap().iter().find(|line| line["name"] == name).unwrap();
+        assert_eq!(line["kind"], kind);
+        let shown = run(&["show", name]);
+        let source = line["source"]["key"].as_str().unwrap();
+        assert_eq!((shown.code, shown.err.as_str()), (0, ""), "{name}");
+        assert!(shown.out.starts_with(line["title"].as_str().unwrap()), "{}", shown.out);
+        assert!(shown.out.contains(&format!("source: [{source}]")), "{}", shown.out);
+        assert_eq!(run(&["show", name, "--source"]).out, library(name));
+        let model = json(&run(&["show", name, "--json"]).out);
+        assert!(model["kind"] == kind && model["citation"].is_string(), "{model}");
+    }
+    assert!(run(&["list"]).out.contains("framework, 9 vertices, 21 bars"));
+    let steffen = run(&["show", "steffen"]).out;
+    assert!(steffen.contains("claimed: dimension 1, infinitesimal 1"), "{steffen}");
+    let motion = json(&run(&["show", "motion/bennett", "--json"]).out);
+    // (t - i) (t - 1 - i - 2 j + eps (2 i - j)), multiplied by hand.
+    let expected = [
+        ["-1", "1", "0", "2", "2", "0", "0", "1"],
+        ["-1", "-2", "-2", "0", "0", "2", "-1", "0"],
+        ["1", "0", "0", "0", "0", "0", "0", "0"],
+    ];
+    assert_eq!(motion["polynomial"], serde_json::json!(expected));
+    let symbols = run(&["show", "dietmaier_6r"]).out;
+    assert!(symbols.contains("6R loop with symbols") && symbols.contains("unknown: b'"), "{symbols}");
+    let goldberg = json(&run(&["show", "goldberg_5r", "--json"]).out);
+    assert_eq!((&goldberg["joints"][0]["alpha"], &goldberg["joints"][0]["a"]), (&"beta + gamma".into(), &"a1".into()));
+}
+
+#[test]
+fn a_name_in_two_folders_is_given_with_its_folder() {
+    for arguments in [&["show", "bennett"][..], &["show", "bennett", "--source"]] {
+        let run = run(arguments);
+        let expected = "found the name `bennett`, expected one of conditions/bennett, motion/bennett";
+        assert!(run.code == 1 && run.err.contains(expected), "{}", run.err);
+    }
+    // Where one of them only is meant, the name is enough.
+    assert_eq!(run(&["factor", "bennett", "-q"]).code, 0);
+    assert_eq!(run(&["conditions", "bennett", "-q"]).code, 0);
+}
+
+/// Each verb with a file of each kind that it is not for: the kind found, the kind expected, the verb to use.
+#[test]
+fn a_file_of_the_wrong_kind_is_told_with_its_verb() {
+    let entry = "expected an arm, a loop or a platform with numbers";
+    let moving = "expected a loop or a framework";
+    let kinds = [
+        ("motion/bennett", "a rational motion", "factor"),
+        ("framework/steffen", "a framework", "mobility"),
+        ("conditions/bennett", "a loop with symbols", "conditions"),
+        ("arm/puma560", "an arm", "solve"),
+        ("loop/general_7r", "a loop", "solve"),
+        ("platform/hexapod", "a platform", "solve"),
+    ];
+    let wrong: [(&[&str], &str, &[usize]); 7] = [
+        (&["solve"], entry, &[0, 1, 2]),
+        (&["derive"], entry, &[0, 1, 2]),
+        (&["sweep", "--from", "0", "--to", "1"], entry, &[0, 1, 2]),
+        (&["sweep", "--from", "0", "--to", "1"], "expected a loop, which has an input to sweep", &[3, 5]),
+        (&["mobility"], moving, &[0, 2, 3, 5]),
+        (&["factor"], "expected a rational motion", &[1, 2, 3, 4, 5]),
+        (&["conditions"], "expected a loop, with symbols or numbers", &[0, 1, 3, 5]),
+    ];
+    for (arguments, expected, files) in wrong {
+        for (name, noun, verb) in files.iter().map(|&index| kinds[index]) {
+            let path = format!("equations/{name}.toml");
+            // By its path, and by its name in the library.
+            for given in [path.as_str(), name] {
+                let run = run(&[arguments, &[given]].concat());
+                let message = format!("found {noun}, {expected}; {noun} is for `looproot {verb}`\n");
+                assert!(run.code == 1 && run.err.ends_with(&message), "{arguments:?} {given}: {}", run.err);
+                assert!(run.err.contains(name) && run.out.is_empty(), "{arguments:?} {given}: {}", run.err);
+            }
+        }
+    }
+    let asks = run(&["check", "conditions/bennett"]);
+    assert!(asks.code == 1 && asks.err.contains("found a loop with symbols"), "{}", asks.err);
 }
 
 #[test]

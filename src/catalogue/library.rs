@@ -38,7 +38,9 @@ pub fn ansatz_names() -> Vec<String> {
     all_names().into_iter().filter(|name| name.starts_with(CONDITIONS)).collect()
 }
 
-fn all_names() -> Vec<String> {
+/// The names of everything in the library, such as `motion/bennett`, in order.
+#[must_use]
+pub fn all_names() -> Vec<String> {
     let mut names = Vec::new();
     collect(&LIBRARY, &mut names);
     names.sort();
@@ -59,20 +61,38 @@ fn collect(folder: &Dir<'_>, names: &mut Vec<String>) {
     }
 }
 
-/// The text of the built-in entry of this name, with or without its folder, and its full name.
+/// The full names of everything in the library of this name, given without its folder: more than one where folders share it.
+///
+/// # Example
+/// ```
+/// assert_eq!(looproot::catalogue::namesakes("bennett"), ["conditions/bennett", "motion/bennett"]);
+/// assert_eq!(looproot::catalogue::namesakes("motion/bennett"), ["motion/bennett"]);
+/// ```
+#[must_use]
+pub fn namesakes(name: &str) -> Vec<String> {
+    let name = name.strip_suffix(".toml").unwrap_or(name);
+    all_names().into_iter().filter(|full| is_called(full, name)).collect()
+}
+
+/// Whether a full name is this one, with or without its folder.
+fn is_called(full: &str, name: &str) -> bool {
+    full == name || full.rsplit('/').next() == Some(name)
+}
+
+/// The text of what the library has under this name, with or without its folder, and its full name: the entry first, as the
+/// others may share its name.
 fn find(name: &str) -> Option<(String, &'static str)> {
-    find_in(builtin_names(), name)
+    find_in(builtin_names(), name).or_else(|| find_in(moving_names(), name)).or_else(|| find_in(ansatz_names(), name))
 }
 
 fn find_in(names: Vec<String>, name: &str) -> Option<(String, &'static str)> {
     let name = name.strip_suffix(".toml").unwrap_or(name);
-    let is_wanted = |full: &String| full == name || full.rsplit('/').next() == Some(name);
-    let full = names.into_iter().find(is_wanted)?;
+    let full = names.into_iter().find(|full| is_called(full, name))?;
     let text = LIBRARY.get_file(format!("{full}.toml"))?.contents_utf8()?;
     Some((full, text))
 }
 
-/// The text of the file of a built-in entry, with or without its folder; `None` for an unknown name.
+/// The text of a file of the library, with or without its folder; `None` for an unknown name.
 #[must_use]
 pub fn builtin_text(name: &str) -> Option<&'static str> {
     find(name).map(|(_, text)| text)
@@ -98,55 +118,37 @@ pub fn citation(key: &str) -> Option<String> {
     Some(citation)
 }
 
-/// The built-in loop with symbols of this name, with or without its folder, else the built-in entry.
+/// The built-in loop with symbols of this name, with or without its folder, else what else is called so.
 pub(super) fn builtin_ansatz(name: &str, options: &Options) -> Option<Result<Ansatz>> {
     let (full, text) = find_in(ansatz_names(), name).or_else(|| find(name))?;
     Some(ansatz_from_text(text, &format!("equations/{full}.toml"), Format::Toml, options))
 }
 
-/// Names of loops with symbols, and of entries, that resemble this one.
-pub(super) fn similar_ansatz(name: &str) -> Vec<String> {
-    let names = all_names();
-    nearest(name, names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]))
-}
-
-/// The built-in framework, rational motion or entry of this name, with or without its folder.
+/// What the library has under this name, with or without its folder.
 ///
 /// # Errors
 /// [`Error::UnknownEntry`] with the names that come near.
 pub fn builtin_any(name: &str, options: &Options) -> Result<Any> {
-    let Some((full, text)) = find_any(name) else {
-        let names = all_names();
-        let words = names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]);
-        return Err(Error::UnknownEntry { name: name.to_owned(), near: nearest(name, words) });
-    };
+    let (full, text) = find(name).ok_or_else(|| unknown(name))?;
     any_from_text(text, &format!("equations/{full}.toml"), Format::Toml, options)
 }
 
-fn find_any(name: &str) -> Option<(String, &'static str)> {
-    find(name).or_else(|| find_in(moving_names(), name))
-}
-
-/// Whether the library has an entry, a framework or a rational motion of this name.
-pub(super) fn has_any(name: &str) -> bool {
-    find_any(name).is_some()
-}
-
-/// Whether the library has an entry of this name.
+/// Whether the library has anything of this name.
 pub(super) fn has(name: &str) -> bool {
     find(name).is_some()
 }
 
-/// Names of the library that resemble this one.
-pub(super) fn similar(name: &str) -> Vec<String> {
-    let names = builtin_names();
-    nearest(name, names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]))
+/// The error for a name that the library does not have, with those that resemble it.
+pub(super) fn unknown(name: &str) -> Error {
+    let names = all_names();
+    let near = nearest(name, names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]));
+    Error::UnknownEntry { name: name.to_owned(), near }
 }
 
 /// The built-in entry of a name, with or without its folder: `puma560` or `arm/puma560`.
 ///
 /// # Errors
-/// [`Error::UnknownEntry`] with the names that come near.
+/// [`Error::UnknownEntry`] with the names that come near, [`Error::File`] for what is no arm, loop or platform.
 ///
 /// # Example
 /// ```
@@ -155,8 +157,6 @@ pub(super) fn similar(name: &str) -> Vec<String> {
 /// # Ok::<(), looproot::error::Error>(())
 /// ```
 pub fn builtin(name: &str, options: &Options) -> Result<Entry> {
-    let Some((full, text)) = find(name) else {
-        return Err(Error::UnknownEntry { name: name.to_owned(), near: similar(name) });
-    };
+    let (full, text) = find(name).ok_or_else(|| unknown(name))?;
     load_text(text, &format!("equations/{full}.toml"), Format::Toml, options)
 }

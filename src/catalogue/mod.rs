@@ -3,6 +3,7 @@
 pub mod ansatz;
 mod dh_table;
 pub mod entry;
+mod file_kind;
 mod framework;
 mod geometry;
 mod heading;
@@ -17,9 +18,12 @@ mod source;
 mod text;
 mod urdf;
 
+pub use file_kind::FileKind;
 pub use framework::FrameworkFile;
 pub use heading::Heading;
-pub use library::{ansatz_names, builtin, builtin_any, builtin_names, builtin_text, citation, moving_names};
+pub use library::{
+    all_names, ansatz_names, builtin, builtin_any, builtin_names, builtin_text, citation, moving_names, namesakes,
+};
 pub use motion::MotionFile;
 pub use options::Options;
 pub use source::{load, load_ansatz, load_any};

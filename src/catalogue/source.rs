@@ -17,8 +17,7 @@ use std::path::Path;
 pub fn load(name: &str, options: &Options) -> Result<Entry> {
     match text_of(name, library::has(name))? {
         Some((text, path, format)) => load_text(&text, path, format, options),
-        None if library::has(name) => library::builtin(name, options),
-        None => Err(Error::UnknownEntry { name: name.to_owned(), near: library::similar(name) }),
+        None => library::builtin(name, options),
     }
 }
 
@@ -27,7 +26,7 @@ pub fn load(name: &str, options: &Options) -> Result<Entry> {
 /// # Errors
 /// As [`load`].
 pub fn load_any(name: &str, options: &Options) -> Result<Any> {
-    match text_of(name, library::has_any(name))? {
+    match text_of(name, library::has(name))? {
         Some((text, path, format)) => any_from_text(&text, path, format, options),
         None => library::builtin_any(name, options),
     }
@@ -42,7 +41,7 @@ pub fn load_ansatz(name: &str, options: &Options) -> Result<Ansatz> {
     match (text_of(name, built_in.is_some())?, built_in) {
         (Some((text, path, format)), _) => ansatz_from_text(&text, path, format, options),
         (None, Some(found)) => found,
-        (None, None) => Err(Error::UnknownEntry { name: name.to_owned(), near: library::similar_ansatz(name) }),
+        (None, None) => Err(library::unknown(name)),
     }
 }
 

@@ -2,9 +2,10 @@
 
 use super::ansatz::{Ansatz, ansatz};
 use super::entry::Entry;
+use super::file_kind::FileKind;
 use super::framework::{FrameworkFile, framework};
 use super::motion::{MotionFile, motion};
-use super::node::{Node, Value};
+use super::node::Node;
 use super::options::Options;
 use super::scope::Scope;
 use super::{dh_table, job, node, urdf};
@@ -34,12 +35,15 @@ pub enum Format {
 /// [`Error::File`] with file and line for what the text says, [`Error::Unsupported`] for kinds not solved yet.
 pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Entry> {
     let (text, name, mut scope) = prepared(text, path, options)?;
-    match format {
-        Format::Toml => job::entry(&mut scope, &node::from_toml(text, path)?, &name),
-        Format::Json => job::entry(&mut scope, &node::from_json(text, path)?, &name),
-        Format::Csv => dh_table::entry(&scope, text, &name),
-        Format::Urdf => urdf::entry(&scope, text, &name, options),
-    }
+    let root = match format {
+        Format::Toml => node::from_toml(text, path)?,
+        Format::Json => node::from_json(text, path)?,
+        Format::Csv => return dh_table::entry(&scope, text, &name),
+        Format::Urdf => return urdf::entry(&scope, text, &name, options),
+    };
+    let others = [FileKind::Framework, FileKind::Motion, FileKind::Conditions];
+    refuse(&scope, &root, &others, "an arm, a loop or a platform with numbers")?;
+    job::entry(&mut scope, &root, &name)
 }
 
 /// A mechanism file of any kind.
@@ -51,6 +55,21 @@ pub enum Any {
     Framework(Box<FrameworkFile>),
     /// A rational motion.
     Motion(Box<MotionFile>),
+    /// A loop with symbols for parameters.
+    Conditions(Box<Ansatz>),
+}
+
+impl Any {
+    /// What it is.
+    #[must_use]
+    pub fn kind(&self) -> FileKind {
+        match self {
+            Self::Entry(entry) => entry.kind().into(),
+            Self::Framework(_) => FileKind::Framework,
+            Self::Motion(_) => FileKind::Motion,
+            Self::Conditions(_) => FileKind::Conditions,
+        }
+    }
 }
 
 /// Reads a mechanism of any kind from text; `path` is the name that errors give.
@@ -66,25 +85,19 @@ pub fn any_from_text(text: &str, path: &str, format: Format, options: &Options) 
             return load_text(text, path, format, options).map(|entry| Any::Entry(Box::new(entry)));
         }
     };
-    Ok(match kind(&root) {
-        Some("framework") => Any::Framework(Box::new(framework(&mut scope, &root, &name)?)),
-        Some("motion") => Any::Motion(Box::new(motion(&mut scope, &root, &name)?)),
+    Ok(match FileKind::of(&root).map(|(kind, _)| kind) {
+        Some(FileKind::Framework) => Any::Framework(Box::new(framework(&mut scope, &root, &name)?)),
+        Some(FileKind::Motion) => Any::Motion(Box::new(motion(&mut scope, &root, &name)?)),
+        Some(FileKind::Conditions) => Any::Conditions(Box::new(ansatz(&mut scope, &root, &name)?)),
         _ => Any::Entry(Box::new(job::entry(&mut scope, &root, &name)?)),
     })
 }
 
-/// The kind that a file names, if it is one.
-fn kind(root: &Node) -> Option<&str> {
-    let field = |node: &'_ Node, key: &str| match &node.value {
-        Value::Table(fields) => fields.iter().position(|field| field.key == key),
-        _ => None,
-    };
-    let Value::Table(fields) = &root.value else { return None };
-    let mechanism = &fields[field(root, "mechanism")?].node;
-    let Value::Table(fields) = &mechanism.value else { return None };
-    match &fields[field(mechanism, "kind")?].node.value {
-        Value::Text(text) => Some(text),
-        _ => None,
+/// Refuses the kinds of files that the reader is not for.
+fn refuse(scope: &Scope<'_>, root: &Node, kinds: &[FileKind], expected: &str) -> Result<()> {
+    match FileKind::of(root) {
+        Some((kind, line)) if kinds.contains(&kind) => Err(scope.fail(line, kind.unexpected(expected))),
+        _ => Ok(()),
     }
 }
 
@@ -101,6 +114,8 @@ pub fn ansatz_from_text(text: &str, path: &str, format: Format, options: &Option
             return Err(Error::Unsupported(format!("{path}: conditions are read from TOML or JSON only")));
         }
     };
+    let others = [FileKind::Arm, FileKind::Platform, FileKind::Framework, FileKind::Motion];
+    refuse(&scope, &root, &others, "a loop, with symbols or numbers")?;
     ansatz(&mut scope, &root, &name)
 }
 

@@ -8,7 +8,7 @@ mod poses;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::Any;
 use crate::catalogue::entry::{Case, Claim, Design, Entry};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mechanism::{FullMode, Mechanism, Solution};
 use crate::verdict::Status;
 use joints::Joints;
@@ -94,12 +94,13 @@ impl Judgement {
 /// Judges the claims of a file of any kind.
 ///
 /// # Errors
-/// As [`judge`]; and for a framework without a realisation.
+/// As [`judge`]; for a framework without a realisation, and for loops with symbols, which make no claims.
 pub fn judge_any(any: &Any) -> Result<Judgement> {
     match any {
         Any::Entry(entry) => judge(entry),
         Any::Framework(file) => moving::framework(file),
         Any::Motion(file) => moving::motion(file),
+        Any::Conditions(_) => Err(Error::Invalid(any.kind().unexpected("a file that can make claims"))),
     }
 }
 

@@ -1,5 +1,6 @@
 //! What the program tells the shell.
 
+use looproot::catalogue::FileKind;
 use looproot::error::Error;
 use looproot::mechanism::Solution;
 use looproot::verdict::Status;
@@ -93,6 +94,11 @@ pub fn misuse(message: &clap::Error) -> Exit {
     // Nothing is left to do when not even this can be printed.
     let _ = message.print();
     if message.use_stderr() { Exit::Misuse } else { Exit::Complete }
+}
+
+/// What stops a verb at a file of a kind that it is not for.
+pub fn unexpected(name: &str, kind: FileKind, expected: &str) -> Fault {
+    Error::Invalid(format!("{name}: {}", kind.unexpected(expected))).into()
 }
 
 /// One line on stderr, which may be closed.

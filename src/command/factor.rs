@@ -1,7 +1,7 @@
 //! `looproot factor`
 
 use super::arguments::FactorOptions;
-use super::exit::{Exit, Fault};
+use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use looproot::catalogue::{Any, load_any};
 use looproot::error::Error;
@@ -11,9 +11,9 @@ use std::io::Write;
 
 /// Factors a rational motion and prints the loop of two factorisations.
 pub fn run(options: &FactorOptions) -> Result<Exit, Fault> {
-    let Any::Motion(file) = load_any(&options.mechanism, &options.read.options())? else {
-        let message = format!("{}: found no motion, expected a [mechanism] of kind \"motion\"", options.mechanism);
-        return Err(Error::Invalid(message).into());
+    let file = match load_any(&options.mechanism, &options.read.options())? {
+        Any::Motion(file) => file,
+        other => return Err(unexpected(&options.mechanism, other.kind(), "a rational motion")),
     };
     let factored = factor(&file);
     let closed = factored.closed_loop(options.pair)?;

@@ -1,10 +1,10 @@
 //! `looproot mobility`
 
 use super::arguments::MobilityOptions;
-use super::exit::{Exit, Fault};
+use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
+use looproot::catalogue::entry::Kind;
 use looproot::catalogue::{Any, FrameworkFile, load_any};
-use looproot::error::Error;
 use looproot::mobility::{Mobility, Proof, mobility};
 use looproot::report::framework as report;
 use looproot::report::mobility::{json, text, verdict};
@@ -13,13 +13,9 @@ use std::io::Write;
 /// Decides whether a loop moves.
 pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
     let entry = match load_any(&options.mechanism, &options.read.options())? {
-        Any::Entry(entry) => entry,
+        Any::Entry(entry) if entry.kind() == Kind::Loop => entry,
         Any::Framework(file) => return of_framework(options, &file),
-        Any::Motion(_) => {
-            let message =
-                "found a rational motion, expected a loop or a framework; `looproot factor` makes loops of it";
-            return Err(Error::Invalid(message.to_owned()).into());
-        }
+        other => return Err(unexpected(&options.mechanism, other.kind(), "a loop or a framework")),
     };
     let answer = mobility(&entry)?;
     let written = if options.json {

@@ -1,12 +1,12 @@
 //! `looproot sweep`
 
 use super::arguments::SweepOptions;
-use super::exit::{Exit, Fault};
+use super::exit::{Exit, Fault, unexpected};
 use super::output::{Output, pool};
 use super::solve::stop_on_interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use looproot::algebra::number::{Angle, Number, Quantity, Reading};
-use looproot::catalogue::entry::{Design, Entry, InputValue, Kind};
+use looproot::catalogue::entry::{Design, Entry, InputValue};
 use looproot::catalogue::load;
 use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, JointKind};
@@ -22,8 +22,7 @@ use std::sync::atomic::Ordering;
 pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
     let entry = load(&options.mechanism, &options.read.options())?;
     let Design::Loop(chain) = &entry.design else {
-        let what = if entry.kind() == Kind::Arm { "an arm" } else { "a platform" };
-        return Err(Error::Invalid(format!("found {what}, expected a loop, which has an input to sweep")).into());
+        return Err(unexpected(&options.mechanism, entry.kind().into(), "a loop, which has an input to sweep"));
     };
     let swept = swept(options, &entry, chain)?;
     let ends = [("--from", &options.from), ("--to", &options.to)];

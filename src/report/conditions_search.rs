@@ -317,7 +317,7 @@ fn member_text(member: &RationalMember, text: &mut String) {
     let _ = writeln!(text, "    screw rank {}: {}", member.germ.rank, local(&member.germ));
 }
 
-/// The same as a document.
+/// The document that equations/conditions_search.schema.json describes.
 #[must_use]
 pub fn json(ansatz: &Ansatz, search: &Search) -> Value {
     let slice = |mobile: &MobileSlice| {

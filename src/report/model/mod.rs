@@ -1,16 +1,55 @@
 //! A mechanism in its normalised form: what was understood of a file, for the reader to compare.
 
+mod ansatz;
 mod chain;
+mod framework;
+mod motion;
 mod platform;
 
 use super::json::{kind, number};
 use super::number::counted;
 use super::table::paragraph;
-use crate::catalogue::citation;
-use crate::catalogue::entry::{Case, Design, Entry, Expected, InputValue, Kind};
+use crate::catalogue::entry::{Case, Design, Entry, Expected, InputValue, Kind, Source};
+use crate::catalogue::{Any, citation};
 use crate::kinematics::chain::Placement;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
+
+/// A file of any kind as a table, with its source and its claims.
+#[must_use]
+pub fn any_text(any: &Any) -> String {
+    match any {
+        Any::Entry(entry) => text(entry),
+        Any::Framework(file) => framework::text(file),
+        Any::Motion(file) => motion::text(file),
+        Any::Conditions(file) => ansatz::text(file),
+    }
+}
+
+/// A file of any kind in radians and metres.
+#[must_use]
+pub fn any_json(any: &Any) -> Value {
+    match any {
+        Any::Entry(entry) => json(entry),
+        Any::Framework(file) => framework::json(file),
+        Any::Motion(file) => motion::json(file),
+        Any::Conditions(file) => ansatz::json(file),
+    }
+}
+
+/// What a listing says of a file beside its name: its kind in short, source, title; and the same as JSON.
+#[must_use]
+pub fn listed(any: &Any) -> ([String; 3], Value) {
+    let (short, object) = match any {
+        Any::Entry(entry) => (format!("{} {}", joints(entry), kind(entry.kind())), identity(entry)),
+        Any::Framework(file) => (framework::short(file), framework::identity(file)),
+        Any::Motion(file) => (motion::short(file), motion::identity(file)),
+        Any::Conditions(file) => (ansatz::short(file), ansatz::identity(file)),
+    };
+    let word = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    let words = [short, word(&object["source"]["key"]), word(&object["title"])];
+    (words, Value::Object(object))
+}
 
 /// The joints in short: `6R`, `RRPRRR`; of a platform the numbers of different points: `6-3`.
 #[must_use]
@@ -60,14 +99,7 @@ pub fn claimed(entry: &Entry, claim: impl Fn(&Expected) -> Option<usize>) -> Str
 pub fn text(entry: &Entry) -> String {
     let mut text = format!("{}\n", entry.title);
     let _ = writeln!(text, "{} {}{}", joints(entry), kind(entry.kind()), formula(entry));
-    if let Some(source) = &entry.source {
-        let place = source.place.as_ref().map_or(String::new(), |place| format!(", {place}"));
-        let citation = citation(&source.key).map_or(String::new(), |citation| format!(". {citation}"));
-        paragraph(&mut text, &format!("source: [{}]{place}{citation}", source.key));
-    }
-    if let Some(notes) = &entry.notes {
-        paragraph(&mut text, &format!("notes: {notes}"));
-    }
+    origin(&mut text, entry.source.as_ref(), entry.notes.as_deref());
     if entry.rounded {
         paragraph(&mut text, "exact: no; some numbers are irrational and rounded for exact work (--digits)");
     }
@@ -97,6 +129,31 @@ pub fn text(entry: &Entry) -> String {
     text
 }
 
+/// Where a mechanism comes from, and the remarks of its file.
+fn origin(text: &mut String, source: Option<&Source>, notes: Option<&str>) {
+    if let Some(source) = source {
+        let place = source.place.as_ref().map_or(String::new(), |place| format!(", {place}"));
+        let citation = citation(&source.key).map_or(String::new(), |citation| format!(". {citation}"));
+        paragraph(text, &format!("source: [{}]{place}{citation}", source.key));
+    }
+    if let Some(notes) = notes {
+        paragraph(text, &format!("notes: {notes}"));
+    }
+}
+
+/// The same for JSON.
+fn remarks(object: &mut Map<String, Value>, source: Option<&Source>, notes: Option<&str>) {
+    object.insert("notes".into(), json!(notes));
+    object.insert("citation".into(), json!(source.and_then(|source| citation(&source.key))));
+}
+
+/// The claims in one line.
+fn claims<const N: usize>(claims: [(&str, Option<String>); N]) -> String {
+    let claims: Vec<String> =
+        claims.into_iter().filter_map(|(what, claim)| claim.map(|claim| format!("{what} {claim}"))).collect();
+    if claims.is_empty() { "no claims\n".to_owned() } else { format!("claimed: {}\n", claims.join(", ")) }
+}
+
 /// What relates its numbers.
 fn formula(entry: &Entry) -> String {
     match &entry.design {
@@ -123,8 +180,7 @@ fn matrix(placement: &Placement) -> [[f64; 4]; 4] {
 #[must_use]
 pub fn json(entry: &Entry) -> Value {
     let mut object = identity(entry);
-    object.insert("notes".into(), json!(entry.notes));
-    object.insert("citation".into(), json!(entry.source.as_ref().and_then(|source| citation(&source.key))));
+    remarks(&mut object, entry.source.as_ref(), entry.notes.as_deref());
     match &entry.design {
         Design::Arm(chain) | Design::Loop(chain) => chain::insert(&mut object, entry, chain),
         Design::Platform(platform) => platform::insert(&mut object, platform),
@@ -134,22 +190,21 @@ pub fn json(entry: &Entry) -> Value {
     Value::Object(object)
 }
 
-/// What a listing says of an entry.
-#[must_use]
-pub fn summary(entry: &Entry) -> Value {
-    Value::Object(identity(entry))
-}
-
 fn identity(entry: &Entry) -> Map<String, Value> {
-    let source = entry.source.as_ref().map(|source| json!({ "key": source.key, "where": source.place }));
     let kinds = match &entry.design {
         Design::Arm(chain) | Design::Loop(chain) => chain::letters(chain),
         Design::Platform(platform) => platform::points(platform),
     };
+    labels(&entry.name, &entry.title, kind(entry.kind()), &kinds, entry.source.as_ref())
+}
+
+/// What every listing says: name, title, kind, type and source.
+fn labels(name: &str, title: &str, kind: &str, kinds: &str, source: Option<&Source>) -> Map<String, Value> {
+    let source = source.map(|source| json!({ "key": source.key, "where": source.place }));
     let mut object = Map::new();
-    object.insert("name".into(), json!(entry.name));
-    object.insert("title".into(), json!(entry.title));
-    object.insert("kind".into(), json!(kind(entry.kind())));
+    object.insert("name".into(), json!(name));
+    object.insert("title".into(), json!(title));
+    object.insert("kind".into(), json!(kind));
     object.insert("type".into(), json!(kinds));
     object.insert("source".into(), json!(source));
     object

@@ -1,0 +1,89 @@
+//! The kinds of mechanism files: what they are called, and which verb of the command line takes them.
+
+use super::entry;
+use super::node::{Node, Value};
+
+/// What a mechanism file is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// A serial arm at poses of its tool.
+    Arm,
+    /// A closed loop with numbers for parameters.
+    Loop,
+    /// A Stewart platform.
+    Platform,
+    /// Bars and bodies.
+    Framework,
+    /// A rational motion.
+    Motion,
+    /// A loop with symbols for parameters.
+    Conditions,
+}
+
+impl FileKind {
+    /// What it is called, with its article.
+    #[must_use]
+    pub const fn noun(self) -> &'static str {
+        match self {
+            Self::Arm => "an arm",
+            Self::Loop => "a loop",
+            Self::Platform => "a platform",
+            Self::Framework => "a framework",
+            Self::Motion => "a rational motion",
+            Self::Conditions => "a loop with symbols",
+        }
+    }
+
+    /// The verb of the command line that takes it.
+    #[must_use]
+    pub const fn verb(self) -> &'static str {
+        match self {
+            Self::Arm | Self::Loop | Self::Platform => "solve",
+            Self::Framework => "mobility",
+            Self::Motion => "factor",
+            Self::Conditions => "conditions",
+        }
+    }
+
+    /// What is wrong where something else was expected.
+    #[must_use]
+    pub fn unexpected(self, expected: &str) -> String {
+        let (noun, verb) = (self.noun(), self.verb());
+        format!("found {noun}, expected {expected}; {noun} is for `looproot {verb}`")
+    }
+
+    /// The kind that a file names, with the line where it does, if it is one.
+    pub(super) fn of(root: &Node) -> Option<(Self, usize)> {
+        if let Some((_, line)) = field(root, "symbols") {
+            return Some((Self::Conditions, line));
+        }
+        let (mechanism, _) = field(root, "mechanism")?;
+        let (kind, line) = field(mechanism, "kind")?;
+        let Value::Text(word) = &kind.value else { return None };
+        let kind = match word.as_str() {
+            "arm" => Self::Arm,
+            "loop" => Self::Loop,
+            "platform" => Self::Platform,
+            "framework" => Self::Framework,
+            "motion" => Self::Motion,
+            _ => return None,
+        };
+        Some((kind, line))
+    }
+}
+
+impl From<entry::Kind> for FileKind {
+    fn from(kind: entry::Kind) -> Self {
+        match kind {
+            entry::Kind::Arm => Self::Arm,
+            entry::Kind::Loop => Self::Loop,
+            entry::Kind::Platform => Self::Platform,
+        }
+    }
+}
+
+/// A field of a table and its line.
+fn field<'a>(node: &'a Node, key: &str) -> Option<(&'a Node, usize)> {
+    let Value::Table(fields) = &node.value else { return None };
+    fields.iter().find(|field| field.key == key).map(|field| (&field.node, field.line))
+}
