@@ -208,13 +208,14 @@ impl Homotopy<'_> {
     pub fn carry(&self, start: &Point) -> End {
         let arc = |s: f64| self.arc(s);
         let Some(near) = self.follow(arc, start, 1.0, END, MOST_STEPS) else { return End::Lost };
-        if let Some(v) = self.follow(arc, &near, END, 0.0, LAST_STEPS) {
-            let [n, x] = sizes(&v);
-            if x > FAR {
-                return if n < REGULAR_NULL { End::Null } else { End::Regular(v) };
-            }
-        }
-        self.singular_end(&near)
+        self.regular_end(&near, END).unwrap_or_else(|| self.singular_end(&near))
+    }
+
+    /// The end of a path that runs straight into a regular solution from s.
+    fn regular_end(&self, near: &Point, s: f64) -> Option<End> {
+        let v = self.follow(|s| self.arc(s), near, s, 0.0, LAST_STEPS)?;
+        let [n, x] = sizes(&v);
+        (x > FAR).then_some(if n < REGULAR_NULL { End::Null } else { End::Regular(v) })
     }
 
     /// The end of a path by Cauchy's formula: the mean over a circle of tau, walked until the path closes.
@@ -225,6 +226,10 @@ impl Homotopy<'_> {
                 let smaller = SMALLER * s;
                 let Some(next) = self.follow(|s| self.arc(s), &v, s, smaller, MOST_STEPS) else { return End::Lost };
                 (v, s) = (next, smaller);
+                // Another solution that passes near is left behind by now.
+                if let Some(end) = self.regular_end(&v, s) {
+                    return end;
+                }
             }
             let Some(mean) = self.mean(&v, self.arc(s)[0]) else { continue };
             let Some(mean) = unit(&mean) else { continue };

@@ -175,7 +175,13 @@ impl PlatformSolver {
         if assembly.route == Route::None || search.lacks_known_poses() {
             let most = if expected.is_some() { PATIENCE * MOST_RUNS } else { MOST_RUNS };
             let (mut runs, mut unchanged) = (0, 0);
-            while runs < most && unchanged < 2 && (runs == 0 || !search.is_done()) && !search.has_all_known_poses() {
+            // Two runs without anything new are enough, unless poses are known to be missing.
+            let patience = if expected.is_some() { most } else { 2 };
+            while runs < most
+                && unchanged < patience
+                && (runs == 0 || !search.is_done())
+                && !search.has_all_known_poses()
+            {
                 let before = search.found.len();
                 let start = self.frame.general(runs);
                 let begin = std::array::from_fn(|i| Leg::new(&start.base[i], &start.plate[i], squares[i]));
