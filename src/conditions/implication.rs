@@ -28,7 +28,7 @@ type Symbol = Polynomial<Rational>;
 /// Unless there are six joints.
 ///
 /// # Source
-/// [LeeLiang1988] for the invariant.
+/// \[LeeLiang1988\] for the invariant.
 #[must_use]
 pub fn implication(ansatz: &Ansatz, relation: &Polynomial<Rational>) -> Option<Implication> {
     assert_eq!(ansatz.joints.len(), 6, "six joints");

@@ -17,7 +17,7 @@ const TWO_PAGES: usize = 8000;
 /// The closure polynomial is left out where it does not fit, for platforms, and where numbers of the file are rounded.
 ///
 /// # Errors
-/// As [`derive`].
+/// As [`derive()`].
 pub fn atlas(entry: &Entry) -> Result<Option<String>> {
     let case = entry.cases.first().ok_or_else(|| Error::Invalid("a file without a case".to_owned()))?;
     let line = |polynomial: &Polynomial<Rational>, names: &Names| Format::Text.polynomial(polynomial, names);
