@@ -37,23 +37,19 @@ pub(super) fn between(
         let before = index.checked_sub(1).and_then(|k| nearest(swept, &here, &samples[k]));
         let after = samples.get(index + 2).and_then(|sample| nearest(swept, &next, sample));
         let (mut triples, mut seen): (Vec<[Seen; 3]>, Vec<Sample>) = (Vec::new(), Vec::new());
-        match (before, here.pair.spread <= next.pair.spread) {
-            (Some(before), true) if before.pair.spread >= here.pair.spread => triples.push([before, here, next]),
-            (None, true) => match probed(swept, here, next, memory)? {
-                Probe::Real(sample) => seen.push(sample),
-                Probe::Nearer(triple) => triples.push(triple),
-                Probe::Farther => {}
-            },
-            _ => {}
-        }
-        match (after, next.pair.spread <= here.pair.spread) {
-            (Some(after), true) if after.pair.spread >= next.pair.spread => triples.push([here, next, after]),
-            (None, true) => match probed(swept, next, here, memory)? {
-                Probe::Real(sample) => seen.push(sample),
-                Probe::Nearer(triple) => triples.push(triple),
-                Probe::Farther => {}
-            },
-            _ => {}
+        for (outside, end, other) in [(before, here, next), (after, next, here)] {
+            if end.pair.spread > other.pair.spread {
+                continue;
+            }
+            match outside {
+                Some(outside) if outside.pair.spread >= end.pair.spread => triples.push([outside, end, other]),
+                Some(_) => {}
+                None => match probed(swept, end, other, memory)? {
+                    Probe::Real(sample) => seen.push(sample),
+                    Probe::Nearer(triple) => triples.push(triple),
+                    Probe::Farther => {}
+                },
+            }
         }
         for triple in triples {
             seen.extend(closer(swept, triple, memory)?);
