@@ -117,7 +117,7 @@ fn a_small_perturbation_stops_every_motion() {
 
 /// The bench: 1000 perturbations of every framework. `cargo test --release --test framework -- --ignored`
 #[test]
-#[ignore = "minutes"]
+#[ignore = "1000 disturbed frameworks of every entry take minutes"]
 fn a_thousand_perturbations_stop_every_motion() {
     use rand::{Rng, SeedableRng};
     let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
