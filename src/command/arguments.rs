@@ -442,7 +442,7 @@ pub struct SpeedOptions {
     /// Number of arms or platforms, or of loops per chain [default: 200; loops: 20]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     pub count: Option<u64>,
-    /// How often each of them is timed [default: 101; loops: 21]
+    /// How often each of them is timed [default: 101; loops: 11]
     #[arg(long, value_name = "N")]
     pub repeats: Option<usize>,
     /// Seed of the draw

@@ -165,7 +165,7 @@ fn measure_mobility(options: &DisturbOptions) -> Result<Exit, Fault> {
 fn measure_speed(options: &SpeedOptions) -> Result<Exit, Fault> {
     let of = |count, repeats| (options.count.unwrap_or(count), options.repeats.unwrap_or(repeats).max(1), options.seed);
     let written = if options.set == "loops" {
-        let (count, repeats, seed) = of(20, 21);
+        let (count, repeats, seed) = of(20, 11);
         let timings = speed_loops::run(count, repeats, seed)?;
         if options.json { format!("{}\n", loops_document(&timings)) } else { loops_table(&timings) }
     } else {
