@@ -4,6 +4,7 @@ use super::candidate::candidates;
 use super::mode::{PlatformAssembly, PlatformMode};
 use super::prepared::{Chart, Frame, norm};
 use super::self_motion::self_motion;
+use crate::algebra::ring::Ring;
 use crate::assembly::Roots;
 use crate::certify::Certificate;
 use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certificate};
@@ -12,7 +13,7 @@ use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
 use crate::solve::pose::{
     Eight, PolishedPose, complex, equations, normalised, patch, polish, polish_extended, refine, wide,
 };
-use crate::solve::scalar::{Extended, Scalar, narrowed};
+use crate::solve::scalar::{Extended, Number, Scalar, narrowed};
 use crate::solve::spectrum::Spectrum;
 use num_complex::Complex;
 
@@ -288,32 +289,47 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// A pose so far away that it needs more digits; whether there is one, proved.
-    fn far_away<R: Extended>(&mut self, start: &Eight<Complex<R>>) -> bool {
-        let Some((point, there, inverse)) = polish_extended(self.legs, start) else { return false };
-        let Some(proof) = pose_certificate(self.legs, self.curvature, &point, &there, &inverse) else { return false };
+    /// Takes in a pose so far away that it needs more digits; whether there is one, proved.
+    pub fn far_away<R: Extended>(&mut self, start: &Eight<Complex<R>>) -> bool {
+        let found = self.proved(start, false).or_else(|| {
+            // A ball about a real point holds one solution only if that is real.
+            let best = largest(start).conjugate();
+            let real = start.map(|z| Complex::<R>::from_real(z.mul(&best).re));
+            self.proved(&real, true)
+        });
+        let Some(found) = found else { return false };
+        let radius = found.certificate.map_or(SINGULAR, |certificate| certificate.radius);
+        match self.known(&found.study, found.real, radius) {
+            Some(at) if self.found[at].certificate.is_none() && (found.real || !self.found[at].real) => {
+                self.found[at] = found;
+            }
+            Some(_) => {}
+            None => self.found.push(found),
+        }
+        true
+    }
+
+    /// The pose near a point in more digits, if there is one and it is proved to be real or complex, as it should be.
+    fn proved<R: Extended>(&self, start: &Eight<Complex<R>>, real: bool) -> Option<Found> {
+        let (point, there, inverse) = polish_extended(self.legs, start)?;
+        let proof = pose_certificate(self.legs, self.curvature, &point, &there, &inverse)?;
         let study = point.map(narrowed);
         let certificate = rounded(proof, &study);
-        if !is_pose(&point, proof.radius) || !is_complex(&study, certificate.radius) {
-            return false;
+        let as_it_should_be = real || is_complex(&study, certificate.radius);
+        if !is_pose(&point, proof.radius) || !as_it_should_be {
+            return None;
         }
         let inverse = inverse.map(|row| row.map(narrowed));
         let here = equations(self.legs, &study, &patch(&study));
-        let found = Found {
+        Some(Found {
             study,
-            real: false,
+            real,
             certificate: Some(certificate),
             residual: here.residual(),
             condition: here.condition(&inverse),
             eigenvalues: 1,
             last: usize::MAX,
-        };
-        match self.known(&study, false, certificate.radius) {
-            Some(at) if self.found[at].certificate.is_none() && !self.found[at].real => self.found[at] = found,
-            Some(_) => {}
-            None => self.found.push(found),
-        }
-        true
+        })
     }
 
     /// The place in the list of a solution known to within `least`, or of its conjugate.
@@ -401,6 +417,11 @@ const ROUNDED: f64 = 1e-15;
 /// Whether a polished solution may belong to a family with `N = 0`.
 pub fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
     norm(&polished.study).norm() < DOUBTFUL && polished.step > NULL * DOUBTFUL
+}
+
+/// The largest coordinate of the rotation.
+fn largest<S: Number>(v: &Eight<S>) -> S {
+    v[1..4].iter().fold(v[0], |best, z| if z.square_size() > best.square_size() { *z } else { best })
 }
 
 /// A proof for a point that was rounded to f64 afterwards.
