@@ -1,6 +1,7 @@
 //! One set of leg lengths being solved: eigenvalue after eigenvalue, until all are accounted for.
 
 use super::candidate::candidates;
+use super::coincident::has_point_leg;
 use super::mode::{PlatformAssembly, PlatformMode};
 use super::prepared::{Chart, Frame, norm};
 use super::self_motion::self_motion;
@@ -19,6 +20,8 @@ use num_complex::Complex;
 
 /// |Im| / (1 + |lambda|) below which an eigenvalue may belong to a real pose: double ones split by 1e-8 and more.
 const NEAR_REAL: f64 = 1e-4;
+/// The same with a leg of length zero: an eigenvalue for every set of such legs, all equal, splits much farther.
+const POINT_LEG: f64 = 0.2;
 /// Imaginary parts below this are rounding of a real pose.
 pub const REAL_PART: f64 = 1e-7;
 /// |N| (with x of hermitian norm 1) below which an eigenvalue that leads to no regular pose is taken to be one without
@@ -178,13 +181,15 @@ impl<'a> Search<'a> {
     /// Follows all eigenvalues of a border basis.
     pub fn all_eigenvalues(&mut self, source: &Source, spectrum: &mut Spectrum<DIMENSION>) {
         (self.null, self.lost, self.followed) = (0, 0, true);
+        let point_leg = has_point_leg(self.legs);
         for found in self.found.iter_mut() {
             found.eigenvalues = 0;
         }
         for k in 0..DIMENSION {
             let value = spectrum.values[k];
             let near_real = value.im.abs() <= NEAR_REAL * (1.0 + value.norm());
-            if value.im < 0.0 || (self.roots == Roots::Real && !near_real) {
+            let may_be_real = near_real || (point_leg && value.im <= POINT_LEG * (1.0 + value.norm()));
+            if value.im < 0.0 || (self.roots == Roots::Real && !may_be_real) {
                 continue;
             }
             self.followed_pair = value.im > 0.0;
@@ -192,8 +197,11 @@ impl<'a> Search<'a> {
             if value.im == 0.0 {
                 outcome = self.real_eigenvalue(k, source, spectrum);
             }
-            if outcome == Outcome::Nothing && (value.im != 0.0 || self.roots == Roots::All) {
+            if outcome == Outcome::Nothing && (value.im != 0.0 && near_real || self.roots == Roots::All) {
                 outcome = self.complex_eigenvalue(k, near_real, source, spectrum);
+            }
+            if outcome != Outcome::Pose && point_leg && value.im <= POINT_LEG * (1.0 + value.norm()) {
+                outcome = self.coincident_ends(k, source, spectrum).unwrap_or(outcome);
             }
             let weight = if value.im > 0.0 { 2 } else { 1 };
             match outcome {
@@ -202,6 +210,15 @@ impl<'a> Search<'a> {
                 Outcome::Nothing => self.lost += weight,
             }
         }
+    }
+
+    /// A real pose at which the ends of legs of length zero coincide.
+    fn coincident_ends(&mut self, k: usize, source: &Source, spectrum: &mut Spectrum<DIMENSION>) -> Option<Outcome> {
+        let z = rotation::<Complex<f64>>(spectrum.values[k], k, source.basis, spectrum)?;
+        let candidates = candidates(source.setting, &z);
+        let starts = candidates.study[..candidates.count].iter();
+        let found = starts.filter(|(x, y)| self.coincide(&source.chart.outward(x, y), k)).count();
+        (found > 0).then_some(Outcome::Pose)
     }
 
     fn real_eigenvalue(&mut self, k: usize, source: &Source, spectrum: &mut Spectrum<DIMENSION>) -> Outcome {
