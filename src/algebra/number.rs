@@ -362,7 +362,10 @@ mod tests {
         let length = Number::parse("3*sin(40)", Quantity::Length, &degrees).unwrap();
         assert_eq!(length.to_f64(), 3.0 * 40.0_f64.sin());
         let lengths = Reading { length: Rational::from((1, 1000)), ..Reading::default() };
-        assert_eq!(*Number::parse("2*sin(30 deg) cm", Quantity::Length, &lengths).unwrap().rational(), (1, 100));
+        assert_eq!(
+            *Number::parse("2*sin(30 deg) cm", Quantity::Length, &lengths).unwrap().rational(),
+            Rational::from((1, 100))
+        );
     }
 
     #[test]
