@@ -8,6 +8,7 @@ use crate::algebra::number::{Angle, Number, Quantity};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use crate::kinematics::freedom::Freedom;
+use rug::Rational;
 
 /// The mechanism of a file.
 pub(super) struct Mechanism {
@@ -243,6 +244,9 @@ fn screw_joint(scope: &Scope<'_>, node: &Node) -> Result<ScrewJoint> {
     if axis.iter().all(|component| component.rational().is_zero()) {
         return Err(scope.fail(axis_node.line, "found the axis [0, 0, 0], expected a direction"));
     }
+    // A direction of irrational length has no rational unit vector and is replaced by one nearby.
+    let square: Rational = axis.iter().map(|component| Rational::from(component.rational().square_ref())).sum();
+    scope.note(square.numer().is_perfect_square() && square.denom().is_perfect_square());
     let point = match (table.get("point"), kind) {
         // A translation has a direction but no place.
         (None, JointKind::Prismatic) => std::array::from_fn(|_| Number::zero()),

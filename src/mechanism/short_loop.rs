@@ -30,6 +30,8 @@ type Mod = ModP<PRIME_61>;
 const NEARLY_ZERO: f64 = 1e-6;
 /// Idle unknowns up to this are zero where the data of the mechanism were rounded.
 const ZERO: f64 = 1e-11;
+/// Closure residuals up to this are rounding: where the equations enlarge it, idle unknowns may be larger.
+const CLOSED: f64 = 1e-13;
 /// How many choices of idle axes are tried before a search is given up.
 const CHOICES: u32 = 2;
 /// At how many places each joint of a loop without input is held, to find out whether the others follow.
@@ -284,7 +286,8 @@ impl ShortLoop {
             count = count.or_else(|| self.count(rung, case, total(&found)));
             self_motion = assembly.self_motion;
             if tight.is_empty() {
-                tight = found.iter().filter(|candidate| candidate.idle < ZERO).cloned().collect();
+                let is_tight = |c: &&Candidate| c.idle < ZERO || c.mode.residual <= CLOSED;
+                tight = found.iter().filter(is_tight).cloned().collect();
             }
             // Idle translations let solutions coincide that are simple; idle rotations do not.
             found.truncate(count.map_or(found.len(), |count| fitting(&found, count)));
