@@ -161,7 +161,7 @@ fn moved(variable: Variable, from: &Vector<Value>, to: &Vector<Value>) -> Option
     if variable == Variable::Translation {
         return Some(to[2] - from[2]);
     }
-    let size: f64 = from.iter().map(|x| x.norm_sqr()).sum();
+    let size: f64 = from.iter().map(Value::norm_sqr).sum();
     let square = from[0] * from[0] + from[1] * from[1];
     let cos = (from[0] * to[0] + from[1] * to[1]) / square;
     let sin = (from[0] * to[1] - from[1] * to[0]) / square;

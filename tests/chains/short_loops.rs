@@ -135,19 +135,21 @@ fn planted_positions_of_a_ball_are_found() {
     };
     let ball = link('S', "0", "0", "d = 0");
     // Both arms stretched: a double root.
-    let stretched = link('R', "2", "0", "d = 0").repeat(2) + &ball;
-    let at = |angle: &str| format!("[[input]]\njoint = 1\nangle = \"{angle}\"\n");
-    let folded = solve(&read(&bennett(&stretched, &at("pi"))).unwrap(), 0);
-    assert_eq!((folded.verdict.status, folded.verdict.complex), (Status::Complete, 1), "{}", folded.verdict.reason);
+    let (long, short) = (link('R', "4", "0", "d = 0"), link('R', "2", "0", "d = 0"));
+    let stretched = solve(&read(&bennett(&(long + &short + &short + &ball), &at("0"))).unwrap(), 0);
+    let verdict = &stretched.verdict;
+    assert_eq!((verdict.status, verdict.complex, verdict.real), (Status::Complete, 2, 2), "{}", verdict.reason);
+    assert!(stretched.modes.len() == 1 && stretched.modes[0].multiplicity == 2);
     // The centre on the axis of a revolute joint: it turns on.
     let still = link('R', "0", "1/2", "d = 0").repeat(2) + &ball;
     assert_eq!(solve(&read(&bennett(&still, &at("0"))).unwrap(), 0).verdict.status, Status::SelfMotion);
     // A slider between: rotation and translation, translation and rotation, two translations, one of either.
-    let (slider, across) = (link('P', "0", "1", "tan_half_theta = 0"), link('P', "0", "-1", "tan_half_theta = 1"));
+    let slider = link('P', "0", "1", "tan_half_theta = 0");
+    let across = link('P', "0", "1", "tan_half_theta = 1") + &link('P', "0", "0", "tan_half_theta = 0");
     for (links, complex) in [
         (link('R', "1", "0", "d = 0") + &link('R', "2", "1", "d = 0") + &slider + &ball, 2),
-        (link('R', "1", "1", "d = 0") + &slider + &link('R', "2", "0", "d = 0") + &ball, 0),
-        (link('R', "1", "1", "d = 0") + &slider + &across + &ball, 1),
+        (link('R', "1", "1", "d = 0") + &slider + &link('R', "2", "0", "d = 0") + &ball, 2),
+        (link('R', "1", "1", "d = 0") + &across + &ball, 1),
         (link('R', "1", "1", "d = 0") + &slider + &ball, 0),
     ] {
         let found = solve(&read(&bennett(&links, &at("0"))).unwrap(), 0);
