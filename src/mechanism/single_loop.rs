@@ -402,7 +402,7 @@ pub(super) fn locked_value(case: &Case) -> f64 {
 }
 
 /// Whether every joint can be within its limits, angles modulo whole turns.
-fn within_limits(q: &[Complex<f64>], variables: &[Variable], limits: &[[f64; 2]]) -> bool {
+pub(super) fn within_limits(q: &[Complex<f64>], variables: &[Variable], limits: &[[f64; 2]]) -> bool {
     q.iter().zip(variables).zip(limits).all(|((value, variable), [low, high])| match variable {
         Variable::Translation => (*low..=*high).contains(&value.re),
         Variable::Rotation => {
