@@ -7,6 +7,7 @@ use super::scope::{Scope, Table};
 use crate::algebra::number::{Angle, Number, Quantity};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
+use crate::kinematics::freedom::Freedom;
 use rug::Rational;
 
 /// The mechanism of a file.
@@ -112,12 +113,18 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
     let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
     let what = match (expected.0, count > expected.0) {
         (7, true) => {
-            let mobility = count - 6;
-            let spin =
-                if balls > 1 { "; the spin of a link between two S joints about their centres counts" } else { "" };
-            format!("mobility {mobility} by Gruebler's count ({count} - 6){spin}: {freedoms} too many for one input")
+            // Two balls have a spin that moves nothing else: eight variables are right then.
+            let off = off - usize::from(balls == 2);
+            let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
+            let constants = if off == 1 { "one variable" } else { "as many variables" };
+            format!("{}: {freedoms} too many for one input; make {constants} constant", Freedom::of(chain))
         }
-        (7, false) => "no loop of them can close in more than one way".to_owned(),
+        (7, false) => {
+            format!(
+                "{}: no loop of them can close in more than one way; a loop has two joints at least",
+                Freedom::of(chain)
+            )
+        }
         (_, true) => format!("a pose leaves {freedoms} undetermined"),
         (_, false) => format!("{freedoms} missing for a pose"),
     };
