@@ -99,6 +99,7 @@ fn derivation(symbols: &Symbols, eliminated: Eliminated) -> Result<Derivation> {
         steps: eliminated.steps,
         polynomial,
         without,
+        proved: true,
         per_root: eliminated.per_root,
         definition: None,
         warnings: Vec::new(),
