@@ -136,7 +136,8 @@ impl<R: Extended> Approach<'_, R> {
 /// A proof of unknowns as it holds for their nearest f64.
 fn rounded<S: Scalar>(proof: Certificate, unknowns: &Six<S>, drift: f64) -> Certificate {
     let largest = unknowns.iter().map(|x| x.bound()).fold(1.0, f64::max);
-    Certificate { radius: proof.radius + 4.0 * f64::EPSILON * largest + drift, ..proof }
+    let proved = proof.radius + drift;
+    Certificate { radius: proved + 4.0 * f64::EPSILON * largest, proved, ..proof }
 }
 
 /// The inverse of a matrix, as good as f64 makes it.

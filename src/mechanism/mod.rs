@@ -3,6 +3,7 @@
 mod by_input;
 mod input_curve;
 mod platform;
+mod short_ball;
 mod short_loop;
 mod single_loop;
 
