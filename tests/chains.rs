@@ -4,6 +4,8 @@
 
 #[path = "chains/short_loops.rs"]
 mod short_loops;
+#[path = "chains/special_pairs.rs"]
+mod special_pairs;
 
 mod arms;
 
