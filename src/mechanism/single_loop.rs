@@ -13,6 +13,7 @@ use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
 use crate::solve::scalar::Extended;
 use crate::verdict::{Bound, Status, verdict};
@@ -124,8 +125,10 @@ impl SingleLoop {
                 return Err(Error::Unsupported(format!(
                     "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without \
                      turning; the screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does \
-                     not close; planar and translational loops are not solved",
-                    6 - rank
+                     not close ({} of the whole loop); solved are loops with three unknown rotations at least: give a \
+                     distance in place of an angle",
+                    6 - rank,
+                    Freedom::of(chain)
                 )));
             }
             prepared.push(Prepared { layout, solver: Some(solver), bound: OnceLock::new(), prepare_us });
@@ -399,7 +402,7 @@ pub(super) fn locked_value(case: &Case) -> f64 {
 }
 
 /// Whether every joint can be within its limits, angles modulo whole turns.
-fn within_limits(q: &[Complex<f64>], variables: &[Variable], limits: &[[f64; 2]]) -> bool {
+pub(super) fn within_limits(q: &[Complex<f64>], variables: &[Variable], limits: &[[f64; 2]]) -> bool {
     q.iter().zip(variables).zip(limits).all(|((value, variable), [low, high])| match variable {
         Variable::Translation => (*low..=*high).contains(&value.re),
         Variable::Rotation => {
