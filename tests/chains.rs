@@ -2,6 +2,8 @@
 //! isolated never called complete.
 #![allow(clippy::unwrap_used)]
 
+#[path = "chains/sequences.rs"]
+mod sequences;
 #[path = "chains/short_loops.rs"]
 mod short_loops;
 

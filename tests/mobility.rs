@@ -153,7 +153,7 @@ fn translations_count_too() {
     let variables = vec![Variable::Translation; 4];
     let whole = (1..4).fold(DualQuaternion::identity(), |product, t| product.mul(&link(t)));
     let links = vec![link(1), link(2), link(3), whole.conjugate()];
-    let linkage = Linkage { variables, links };
+    let linkage = Linkage::about_z(variables, links);
     let germ = Germ::of(&linkage.at(&vec![[Rational::one(), Rational::zero()]; 4]));
     assert_eq!((germ.local, germ.rank), (Local::Manifold { dimension: 2 }, 2));
 }

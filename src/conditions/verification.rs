@@ -29,7 +29,7 @@ pub fn germ<F: Field>(links: &[Link<F>], turns: &[Turn<F>]) -> Germ<F> {
         let translation = DualQuaternion::translation(&[link.a.clone(), F::zero(), link.d.clone()]);
         translation.mul(&DualQuaternion::rotation_x(c, s))
     };
-    let linkage = Linkage { variables: vec![Variable::Rotation; links.len()], links: links.iter().map(link).collect() };
+    let linkage = Linkage::about_z(vec![Variable::Rotation; links.len()], links.iter().map(link).collect());
     let values: Vec<[F; 2]> = turns.iter().map(|(cos, sin)| half(cos, sin)).collect();
     Germ::of(&linkage.at(&values))
 }

@@ -10,6 +10,7 @@ use crate::elimination::degree::general_degree;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::freedom::Freedom;
 use crate::mechanism::{closed_loop, coupled_loop};
 use rug::Rational;
 
@@ -45,8 +46,11 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
         return derivation(&symbols, eliminated);
     }
     let exact = exact(chain, case)?;
-    let eliminated = eliminate(&exact)?;
-    derivation(&exact.symbols, eliminated)
+    let mut derivation = derivation(&exact.symbols, eliminate(&exact)?)?;
+    if let (Some(without), None) = (&mut derivation.without, &case.pose) {
+        without.push_str(&format!("; {}", Freedom::of(chain)));
+    }
+    Ok(derivation)
 }
 
 /// The loop of a case with one ball or none.
@@ -69,7 +73,8 @@ pub(super) fn eliminate(exact: &Exact) -> Result<Eliminated> {
         (None, None) => {
             let rotations = exact.closed.variables.iter().filter(|v| **v == Variable::Rotation).count();
             return Err(Error::Unsupported(format!(
-                "{rotations} unknown rotations: planar and translational loops have no exact route"
+                "{rotations} unknown rotations: planar and translational loops have no exact route; derived are loops with three \
+                 unknown rotations at least: give a distance in place of an angle"
             )));
         }
     };

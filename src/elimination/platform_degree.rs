@@ -26,8 +26,15 @@ pub enum PlatformDegree {
     },
     /// A curve of poses, or more: a self-motion, real or complex. Told by the count growing with the degree at which it
     /// is taken, up to degree 10, by when it has settled in all classes of special geometry known.
-    Infinite,
+    Infinite {
+        /// The largest dimension of a family of poses, complex ones included: so many general quadrics leave finitely
+        /// many of them.
+        dimension: usize,
+    },
 }
+
+/// The largest dimension of a family of poses: all rotations about a point.
+const MOST_DIMENSION: usize = 3;
 
 /// Quaternions that turn base and plate, so that no solution lies where a chart ends.
 const TURNS: [[[i32; 4]; 2]; 2] = [[[5, -3, 7, 4], [4, 6, -3, 5]], [[-3, 8, 2, 9], [7, -2, 5, -6]]];
@@ -109,7 +116,9 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
     }
     // A pose where one chart ends looks like a curve there: all charts must agree on one.
     let Some(products) = settings.iter().find_map(|setting| special_products(&modulus, setting)) else {
-        return Some(PlatformDegree::Infinite);
+        let finite = |cuts: &usize| settings.iter().any(|setting| cut_products(&modulus, setting, *cuts).is_some());
+        let dimension = (1..MOST_DIMENSION).find(finite).unwrap_or(MOST_DIMENSION);
+        return Some(PlatformDegree::Infinite { dimension });
     };
     let poses = regular_part(&modulus, &products).pivots.len();
     Some(PlatformDegree::Finite { poses, null: DIMENSION.saturating_sub(poses), curves: true })
@@ -203,36 +212,46 @@ const ATTEMPTS: [(usize, usize); 2] = [(1, 5), (2, 5)];
 /// `None` where that grows with the degree: a curve of poses.
 #[must_use]
 pub fn special_products(modulus: &Modulus, setting: &Setting<u64>) -> Option<Products> {
+    cut_products(modulus, setting, 0)
+}
+
+/// The same of the poses on so many general quadrics.
+fn cut_products(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> Option<Products> {
     let mut ring = GradedQuotient::new(modulus, setting);
+    for number in 0..cuts {
+        ring.cut(number);
+    }
     let mut known = 0;
     for (power, degree) in ATTEMPTS {
         while known < degree + 1 + 2 * power {
             ring.advance();
             known += 1;
         }
-        // N^power z_i m for every basis element m of the degree.
-        let images: [Vec<Vec<u64>>; 4] = std::array::from_fn(|index| {
-            (0..ring.dimension(degree))
-                .map(|k| {
-                    let mut v = vec![0; ring.dimension(degree)];
-                    v[k] = modulus.one();
-                    let mut v = ring.times(degree, index, &v);
-                    for step in 0..power {
-                        v = ring.times_norm(degree + 1 + 2 * step, &v);
-                    }
-                    v
-                })
-                .collect()
-        });
-        if let Some(products) = quotients(modulus, &images) {
+        // N^power times the products of an unknown with every basis element m of a degree.
+        let images = |from: usize, index: usize| -> Vec<Vec<u64>> {
+            let image = |k: usize| {
+                let mut v = vec![0; ring.dimension(from)];
+                v[k] = modulus.one();
+                let mut v = ring.times(from, index, &v);
+                for step in 0..power {
+                    v = ring.times_norm(degree + 1 + 2 * step, &v);
+                }
+                v
+            };
+            (0..ring.dimension(from)).map(image).collect()
+        };
+        let rotations = std::array::from_fn(|index| images(degree, index));
+        let translations: Vec<_> = (0..setting.count).flat_map(|a| images(degree - 1, 4 + a)).collect();
+        if let Some(products) = quotients(modulus, &rotations, &translations) {
             return Some(products);
         }
     }
     None
 }
 
-/// The matrices of `z_i / z_0`, i = 1..3, on the span of the images of z_0; `None` where the others reach farther.
-fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4]) -> Option<Products> {
+/// The matrices of `z_i / z_0`, i = 1..3, on the span of the images of z_0; `None` where these or the others, those of the
+/// tau, reach farther. Poses that share their rotation differ in tau only.
+fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4], others: &[Vec<u64>]) -> Option<Products> {
     // Rows (z_0 image | z_1 image | z_2 image | z_3 image), reduced by their first parts.
     let width = images[0].first().map_or(0, Vec::len);
     let mut table: Vec<Vec<u64>> =
@@ -259,16 +278,24 @@ fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4]) -> Option<Products>
     if table[rank..].iter().any(|row| row.iter().any(|&x| x != 0)) {
         return None;
     }
+    let rest = |v: &[u64]| {
+        let mut rest = v.to_vec();
+        for (row, &column) in table.iter().zip(&pivots) {
+            modulus.add_multiple(&mut rest, modulus.neg(v[column]), &row[..width]);
+        }
+        rest
+    };
+    if others.iter().any(|other| rest(other).iter().any(|&x| x != 0)) {
+        return None;
+    }
     let mut factors: Products = std::array::from_fn(|_| vec![vec![0; rank]; rank]);
     for (i, factor) in factors.iter_mut().enumerate() {
         for k in 0..rank {
-            let image = table[k][(i + 1) * width..(i + 2) * width].to_vec();
-            let mut rest = image.clone();
+            let image = &table[k][(i + 1) * width..(i + 2) * width];
             for (j, &column) in pivots.iter().enumerate() {
                 factor[k][j] = image[column];
-                modulus.add_multiple(&mut rest, modulus.neg(image[column]), &table[j][..width]);
             }
-            if rest.iter().any(|&x| x != 0) {
+            if rest(image).iter().any(|&x| x != 0) {
                 return None;
             }
         }

@@ -11,6 +11,7 @@ use crate::elimination::common_roots::common_roots;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
+use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
 use crate::solve::newton::{Six, closure};
 use crate::verdict::{Status, Verdict};
@@ -28,6 +29,8 @@ type Mod = ModP<PRIME_61>;
 const NEARLY_ZERO: f64 = 1e-6;
 /// Idle unknowns up to this are zero where the data of the mechanism were rounded.
 const ZERO: f64 = 1e-11;
+/// Closure residuals up to this are rounding: where the equations enlarge it, idle unknowns may be larger.
+const CLOSED: f64 = 1e-13;
 /// How many choices of idle axes are tried before a search is given up.
 const CHOICES: u32 = 2;
 /// At how many places each joint of a loop without input is held, to find out whether the others follow.
@@ -97,8 +100,11 @@ pub(super) fn filled_up(chain: &Chain, layout: Layout) -> Result<Layout> {
 /// independent in general position, which is simplest, then rotations only.
 fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
     if layout.ball.is_some() {
-        let message = "an overconstrained loop with an S joint; solved are overconstrained loops of R, P and C joints";
-        return Err(Error::Unsupported(message.to_owned()));
+        return Err(Error::Unsupported(format!(
+            "an overconstrained loop with an S joint, {}; solved are overconstrained loops of R, P and C joints, and loops with \
+             an S joint and six unknowns: three more joint variables beside the one given",
+            Freedom::of(chain)
+        )));
     }
     let unit = chain.unit().to_f64();
     let over = |motion: &Motion<f64>| Motion { translation: motion.translation.map(|x| x / unit), ..motion.clone() };
@@ -124,8 +130,10 @@ fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
         }
     }
     if rungs.is_empty() {
-        let message = "the joints of this loop are dependent in every position, so that part of it moves by itself";
-        return Err(Error::Unsupported(message.to_owned()));
+        return Err(Error::Unsupported(format!(
+            "the joints of this loop are dependent in every position, so that part of it moves by itself: {}",
+            Freedom::of(chain)
+        )));
     }
     Ok(rungs)
 }
@@ -165,10 +173,18 @@ impl ShortLoop {
             Some(answer) => answer,
             None => self.isolated(prepared, case, roots, workspace, assembly)?,
         };
+        let mut warnings = case.warnings.clone();
+        if locked.is_some() && verdict.complex == 0 && verdict.self_motion == 0 {
+            warnings.push(format!(
+                "an overconstrained loop: {}; it can be assembled at an input only with special dimensions, and looproot mobility \
+                 decides whether it moves; a loop of mobility 1 in general has seven joint variables",
+                Freedom::of(&self.chain)
+            ));
+        }
         Ok(Solution {
             verdict,
             modes,
-            warnings: case.warnings.clone(),
+            warnings,
             prepare_us: prepared.prepare_us,
             solve_us: start.elapsed().as_secs_f64() * 1e6,
             platform: None,
@@ -252,7 +268,8 @@ impl ShortLoop {
             count = count.or_else(|| self.count(rung, case, total(&found)));
             self_motion = assembly.self_motion;
             if tight.is_empty() {
-                tight = found.iter().filter(|candidate| candidate.idle < ZERO).cloned().collect();
+                let is_tight = |c: &&Candidate| c.idle < ZERO || c.mode.residual <= CLOSED;
+                tight = found.iter().filter(is_tight).cloned().collect();
             }
             // Idle translations let solutions coincide that are simple; idle rotations do not.
             found.truncate(count.map_or(found.len(), |count| fitting(&found, count)));

@@ -12,6 +12,7 @@ use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
 use crate::verdict::{Bound, Status, verdict};
 use num_complex::Complex;
@@ -111,8 +112,10 @@ impl SingleLoop {
                 return Err(Error::Unsupported(format!(
                     "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without \
                      turning; the screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does \
-                     not close; planar and translational loops are not solved",
-                    6 - rank
+                     not close ({} of the whole loop); solved are loops with three unknown rotations at least: give a \
+                     distance in place of an angle",
+                    6 - rank,
+                    Freedom::of(chain)
                 )));
             }
             prepared.push(Prepared { layout, solver: Some(solver), bound: OnceLock::new(), prepare_us });

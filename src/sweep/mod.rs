@@ -104,7 +104,7 @@ pub fn sweep(
     entry.cases = vec![case(joint, variable, range.from)];
     let curve = InputCurve::of(&entry, &entry.cases[0])?;
     let mechanism = Mechanism::prepare(&entry)?;
-    let swept = Swept { mechanism: &mechanism, curve: &curve, joint, variable };
+    let swept = Swept { mechanism: &mechanism, curve: &curve, joint, variable, is_rounded: entry.rounded };
     let memory = || (Workspace::default(), Assembly::default());
     let mut samples: Vec<Sample> = Vec::new();
     let steps: Vec<usize> = (0..=range.steps).collect();

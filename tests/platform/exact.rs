@@ -20,7 +20,7 @@ fn count(platform: &Platform<Rational>, legs: &[Rational; 6]) -> Option<usize> {
             assert_eq!(poses + null, 40);
             Some(poses)
         }
-        PlatformDegree::Infinite => None,
+        PlatformDegree::Infinite { .. } => None,
     }
 }
 

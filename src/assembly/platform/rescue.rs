@@ -21,15 +21,44 @@ type Matrix = Vec<[LongFloat; DIMENSION]>;
 /// The combination of `z_1, z_2, z_3` whose eigenvalues are asked for: one that no two poses share, as a rule.
 const WEIGHTS: [i32; 3] = [1, -2, 3];
 
-/// Points near the complex poses of a platform, one of every two conjugate ones: Study's parameters in the frame of
-/// polishing. Those without a pose (`N = 0`) that are multiple are left out.
+/// Eigenvalues with an imaginary part below this, relative to themselves, may be real.
+const NEARLY_REAL: f64 = 1e-3;
+
+/// How far points are moved where the border basis of the platform itself does not exist, in units of its size: by these
+/// powers of 1/2 in turn. Poses move as little; of the 384 bits every degree of the border basis costs about as many.
+const DISTURBANCES: [u32; 2] = [24, 14];
+
+/// Points near the poses of a platform, one of every two conjugate ones: Study's parameters in the frame of polishing.
+/// Those without a pose (`N = 0`) that are multiple are left out.
 pub fn starts(platform: &Platform<Rational>, squares: &[Rational; 6], frame: &Frame) -> Vec<Eight<Long>> {
-    (0..2).find_map(|choice| long_algebra(platform, squares, choice)).map_or_else(Vec::new, |algebra| {
+    let of = |platform: &Platform<Rational>| (0..2).find_map(|choice| long_algebra(platform, squares, choice));
+    // Solutions with N = 0 on curves, which a platform beside this one does not have.
+    let beside = || DISTURBANCES.into_iter().find_map(|bits| of(&disturbed(platform, frame.scale, bits)));
+    let algebra = of(platform).or_else(beside);
+    algebra.map_or_else(Vec::new, |algebra| {
         let hessenberg = Hessenberg::of(combined(&algebra.products));
         let roots = polynomial_roots(&hessenberg.characteristic()).unwrap_or_default();
-        let upper = roots.iter().filter(|root| root.im.to_f64() > 0.0);
+        let upper = roots.iter().filter(|root| root.im.to_f64() > -NEARLY_REAL * root.re.to_f64().abs());
         upper.filter_map(|root| study(&algebra, &hessenberg.vector(root)?, frame)).collect()
     })
+}
+
+/// A general platform very near to this one.
+fn disturbed(platform: &Platform<Rational>, scale: f64, bits: u32) -> Platform<Rational> {
+    let unit = Rational::from_f64(scale).unwrap_or_else(|| Rational::from(1)) >> bits;
+    let mut platform = platform.clone();
+    for (i, point) in platform.base.iter_mut().chain(&mut platform.plate).enumerate() {
+        for (k, x) in point.iter_mut().enumerate() {
+            *x += Rational::from(&unit * spread(i, k));
+        }
+    }
+    platform
+}
+
+/// Numbers between -1 and 1, far from regular, the same ones every time.
+fn spread(point: usize, coordinate: usize) -> Rational {
+    let root = [2.0_f64, 3.0, 5.0][coordinate % 3].sqrt();
+    Rational::from_f64(2.0 * ((point + 1) as f64 * root).fract() - 1.0).unwrap_or_default()
 }
 
 /// `sum_i w_i z_i` as a matrix: row k is its product with basis element k.
