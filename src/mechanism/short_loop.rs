@@ -484,7 +484,7 @@ fn closer(
     let mut at: Six<Complex<f64>> = std::array::from_fn(|k| if is_idle[k] { Complex::ZERO } else { unknowns[k] });
     let size = |at: &Six<Complex<f64>>| {
         let here = closure(closed, at);
-        (here.defect / here.growth(real), here)
+        (here.relative_defect(closed, at, real), here)
     };
     let (mut defect, mut here) = size(&at);
     for _ in 0..POLISHINGS {

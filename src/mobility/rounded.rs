@@ -14,6 +14,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Closure residuals up to this are rounding.
 const CLOSED: f64 = 1e-13;
+/// Residuals above this at an end of a range are on their way to more.
+const CEASING: f64 = CLOSED / 4.0;
 /// Inputs in a full turn, none of them special.
 const INPUTS: u32 = 180;
 /// At least so many neighbouring inputs make a range.
@@ -59,11 +61,13 @@ pub(super) fn closing(entry: &Entry, variables: &[JointVariable]) -> Result<Opti
         samples.rotate_left(open);
         let ranges = samples.split(|(_, modes)| modes.is_empty());
         let longest = ranges.max_by_key(|range| range.len()).unwrap_or_default();
-        if longest.len() >= FEWEST {
+        // The best mode of each input: others may be of another, broken branch.
+        let best = |(_, modes): &(f64, Vec<FullMode>)| modes.iter().map(|m| m.residual).fold(f64::INFINITY, f64::min);
+        // A range ends in limit positions; a loop that only nearly closes ceases to close.
+        let ceases = longest.len() < samples.len()
+            && [longest.first(), longest.last()].into_iter().flatten().any(|end| best(end) > CEASING);
+        if longest.len() >= FEWEST && !ceases {
             let (held, modes) = longest[longest.len() / 2].clone();
-            // The best mode of each input: others may be of another, broken branch.
-            let best =
-                |(_, modes): &(f64, Vec<FullMode>)| modes.iter().map(|m| m.residual).fold(f64::INFINITY, f64::min);
             let residual = longest.iter().map(best).fold(0.0, f64::max);
             return Ok(Some(Closing { held: (k, held), modes, residual, inputs: (longest.len(), samples.len()) }));
         }

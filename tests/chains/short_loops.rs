@@ -127,6 +127,11 @@ fn an_overconstrained_loop_with_a_ball_is_solved_by_its_centre() {
     }
 }
 
+/// The angle of joint 1 as input.
+fn at(angle: &str) -> String {
+    format!("[[input]]\njoint = 1\nangle = {angle}\n")
+}
+
 /// Every branch of the route of a ball: what is planted is found, with its multiplicity.
 #[test]
 fn planted_positions_of_a_ball_are_found() {
