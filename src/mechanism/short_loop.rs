@@ -327,8 +327,8 @@ impl ShortLoop {
 
     /// The isolated solutions of one case of a loop with a ball, all of them exactly.
     fn with_ball(&self, layout: &Layout, case: &Case) -> Result<Answer> {
-        let found = match positions(&self.chain, layout, case)? {
-            Positions::Isolated(found) => found,
+        let (found, clear) = match positions(&self.chain, layout, case)? {
+            Positions::Isolated { found, clear } => (found, clear),
             Positions::Moving => {
                 let reason = "solutions form a self-motion of dimension 1: joints move while the centre of the S joint is where it \
                               has to be";
@@ -368,10 +368,10 @@ impl ShortLoop {
         modes.sort_by(|a, b| b.real.cmp(&a.real).then_with(|| in_order(&a.q, &b.q)));
         let total: usize = modes.iter().map(|mode| mode.multiplicity).sum();
         let real = modes.iter().filter(|mode| mode.real).map(|mode| mode.multiplicity).sum();
-        let (status, reason) = match (self.is_rounded, real) {
+        let (status, reason) = match (self.is_rounded && !clear, real) {
             (true, _) => {
                 let reason = format!(
-                    "not proved: {total} solutions for the rounded data, but an overconstrained loop moves with exact data only"
+                    "not proved: {total} found for the rounded data, but an overconstrained loop moves with exact data only"
                 );
                 (Status::Incomplete, reason)
             }
