@@ -6,6 +6,7 @@
 use super::border::{Arithmetic, BorderBasis, DIMENSION};
 use super::characteristic::characteristic_polynomial;
 use super::platform_degree::{general_products, modular_setting, regular_part, row_times, special_products};
+use super::platform_height::PlatformHeight;
 use crate::algebra::modp::{Modulus, primes};
 use crate::algebra::ring::Ring;
 use crate::closure::study::{LinearLegs, linear_legs};
@@ -22,11 +23,13 @@ pub struct PlatformPolynomial {
     pub coefficients: Vec<Integer>,
     /// What its variable is.
     pub coordinate: Coordinate,
-    /// How many primes it was put together from; one more agrees with it in all coefficients. Not proved: a wrong
-    /// coefficient differs from the right one by a fraction of fewer than 2^20 bits, whose numerator fewer than 2^15 of the
-    /// more than 2^55 primes of 62 bits divide; the probability of error is below 2^-40, if the prime is as good as
-    /// drawn.
+    /// How many primes agree with it in all coefficients.
     pub primes: usize,
+    /// Whether it is proved that its roots are those of all isolated poses, with multiplicity: the product of the primes
+    /// exceeds what [`PlatformHeight`] leaves open. If not, a wrong coefficient differs from the right one by a fraction of
+    /// fewer than 2^20 bits, whose numerator fewer than 2^15 of the more than 2^55 primes of 62 bits divide; the
+    /// probability of error is below 2^-40, if the last prime is as good as drawn.
+    pub proved: bool,
 }
 
 /// A quotient of coordinates of a rotation x, `weights.(z_1, z_2, z_3) / z_0` with `x = turn z`.
@@ -179,49 +182,115 @@ fn polynomial_in(
     accepts: impl Fn(&Modulus, &[u64]) -> bool,
 ) -> Option<PlatformPolynomial> {
     let modulus = primes().next()?;
-    [false, true].into_iter().find_map(|special| {
-        coordinates.iter().find_map(|coordinate| {
+    let mut memory = BorderBasis::new(&modulus);
+    let mut in_general = false;
+    for special in [false, true] {
+        for coordinate in coordinates {
             let legs = &linear_legs(&coordinate.turned(platform));
             let weights = coordinate.weights;
             let mut modular = Modular { legs, squares: legs_squared, weights, special, all_regular: false };
-            let first = modular.polynomial(&modulus, &mut BorderBasis::new(&modulus))?;
+            let Some(first) = modular.polynomial(&modulus, &mut memory) else { continue };
+            in_general |= !special;
             modular.all_regular = !special && first.len() == DIMENSION + 1;
-            (first.len() > 1 && accepts(&modulus, &first)).then_some(())?;
-            lifted(&modular, *coordinate, first.len())
-        })
-    })
+            if first.len() > 1 && accepts(&modulus, &first) {
+                return lifted(&modular, *coordinate, first.len());
+            }
+        }
+        // Where the general border basis exists, the graded ring has no better polynomial.
+        if in_general {
+            break;
+        }
+    }
+    None
 }
 
 /// Residues of the monic polynomial for one prime after the other, put together.
 fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<PlatformPolynomial> {
-    let mut combined = Combined { residues: vec![Integer::new(); length], product: Integer::from(1) };
-    let mut used = 0;
-    let mut guess: Option<Vec<Integer>> = None;
+    let proof = Proof::new(modular, length);
     let mut all = primes();
-    while used < MOST_PRIMES {
-        let group: Vec<Modulus> = all.by_ref().take(GROUP).collect();
-        let memory = || BorderBasis::new(&group[0]);
-        let image = |memory: &mut BorderBasis<u64>, modulus: &Modulus| {
-            modular.polynomial(modulus, memory).filter(|p| p.len() == length)
-        };
-        let images: Vec<Option<Vec<u64>>> = group.par_iter().map_init(memory, image).collect();
-        for (modulus, image) in group.iter().zip(images) {
-            let Some(image) = image else { continue };
-            if let Some(polynomial) = &guess
-                && agrees(modulus, polynomial, &image)
-            {
-                let coefficients = guess.take()?;
-                return Some(PlatformPolynomial { coefficients, coordinate, primes: used });
-            }
-            guess = None;
-            combined.add(modulus, &image);
+    let mut combined = Combined { residues: vec![Integer::new(); length], product: Integer::from(1) };
+    // Images that are not combined yet, because the guess agrees with them.
+    let mut spare: Vec<(Modulus, Vec<u64>)> = Vec::new();
+    let mut guess: Option<Vec<Integer>> = None;
+    let (mut taken, mut used) = (0, 0);
+    while taken < MOST_PRIMES {
+        let group = proof.missing(guess.as_deref(), used).clamp(1, MOST_PRIMES - taken);
+        taken += group;
+        let group: Vec<Modulus> = all.by_ref().take(group).collect();
+        for (modulus, image) in images(modular, &group, length) {
             used += 1;
-            if used.is_multiple_of(2) {
-                guess = combined.primitive();
+            if guess.as_ref().is_some_and(|polynomial| !agrees(&modulus, polynomial, &image)) {
+                guess = None;
+            }
+            spare.push((modulus, image));
+        }
+        // As few primes as will do: the length of the numbers goes into the time more than once.
+        while guess.is_none() && spare.len() > 1 {
+            let part = spare.len().div_ceil(4);
+            for (modulus, image) in spare.drain(..part) {
+                combined.add(&modulus, &image);
+            }
+            guess = combined.primitive().filter(|polynomial| spare.iter().all(|(m, i)| agrees(m, polynomial, i)));
+        }
+        if let Some(polynomial) = &guess
+            && proof.missing(Some(polynomial), used) == 0
+        {
+            let coefficients = guess.take()?;
+            return Some(PlatformPolynomial { coefficients, coordinate, primes: used, proved: proof.bits.is_some() });
+        }
+    }
+    guess.map(|coefficients| PlatformPolynomial { coefficients, coordinate, primes: used, proved: false })
+}
+
+/// The images of the polynomial modulo primes, in their order, without those of unlucky ones.
+fn images(modular: &Modular, group: &[Modulus], length: usize) -> Vec<(Modulus, Vec<u64>)> {
+    let memory = || BorderBasis::new(&group[0]);
+    let image = |memory: &mut BorderBasis<u64>, modulus: &Modulus| {
+        modular.polynomial(modulus, memory).filter(|p| p.len() == length).map(|p| (*modulus, p))
+    };
+    let found: Vec<Option<(Modulus, Vec<u64>)>> = group.par_iter().map_init(memory, image).collect();
+    found.into_iter().flatten().collect()
+}
+
+/// How many primes make a proof.
+struct Proof {
+    /// Bits that the product of the primes must have beyond those of the polynomial; `None` where nothing is proved.
+    bits: Option<f64>,
+    /// Bits that it must have in any case.
+    least: f64,
+}
+
+/// Less than the bits of every prime used.
+const PRIME_BITS: f64 = 61.999;
+
+impl Proof {
+    fn new(modular: &Modular, length: usize) -> Self {
+        if modular.special {
+            return Self { bits: None, least: 0.0 };
+        }
+        let height = PlatformHeight::new(modular.legs, modular.squares);
+        // Two products of a coefficient of the one polynomial and one of the other, which is its measure times a binomial
+        // coefficient at most.
+        let bits = height.measure(&modular.weights) + length as f64 + 1.0;
+        // Where some of the 40 solutions have N = 0, not all primes may have one more of these.
+        Self { bits: Some(bits), least: if length == DIMENSION + 1 { 0.0 } else { height.norm() } }
+    }
+
+    /// How many more primes are worth a try.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count, of thousands at most")]
+    fn missing(&self, guess: Option<&[Integer]>, used: usize) -> usize {
+        let longest = guess.and_then(|polynomial| polynomial.iter().map(Integer::significant_bits).max());
+        match (self.bits, longest) {
+            (None, None) => GROUP,
+            (None, Some(_)) => 0,
+            (Some(bits), longest) => {
+                let wanted = f64::max(bits + f64::from(longest.unwrap_or(0)), self.least);
+                let missing = (wanted / PRIME_BITS).ceil() as usize;
+                let missing = missing.saturating_sub(used);
+                if longest.is_none() { missing.max(GROUP) } else { missing }
             }
         }
     }
-    None
 }
 
 /// Whether a polynomial with integer coefficients has the given monic image.
@@ -248,7 +317,8 @@ impl Combined {
         self.product *= modulus.prime();
     }
 
-    /// The coefficients as integers without common factor, if they fit with room for chance to be ruled out.
+    /// The coefficients as integers without common factor, if they fit with room for chance to be ruled out: the
+    /// residues, in every prime, times their last one.
     fn primitive(&self) -> Option<Vec<Integer>> {
         let bits = self.product.significant_bits();
         let mut denominator = Integer::from(1);
@@ -258,6 +328,9 @@ impl Combined {
             if symmetric(scaled.clone(), &self.product).significant_bits() + ROOM > bits {
                 denominator *= denominator_of(scaled, &self.product)?;
             }
+        }
+        if Integer::from(denominator.gcd_ref(&self.product)) != 1 {
+            return None;
         }
         let mut coefficients: Vec<Integer> = self
             .residues
