@@ -140,10 +140,9 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
         settings.push(setting);
     }
     // A pose where one chart ends looks like a curve there: all charts must agree on one.
-    let Some(products) = settings.iter().find_map(|setting| special_products(&modulus, setting)) else {
+    let Some(poses) = settings.iter().find_map(|setting| special_degree(&modulus, setting)) else {
         return Some(PlatformDegree::Infinite);
     };
-    let poses = regular_part(&modulus, |x| inverse(&modulus, x), &products)?.pivots.len();
     Some(PlatformDegree::Finite { poses, null: DIMENSION.saturating_sub(poses), curves: true })
 }
 
@@ -240,36 +239,56 @@ fn echelon<A: Arithmetic>(
 /// Powers of N that kill what has `N = 0`, degrees at which the rest has settled, in turn.
 const ATTEMPTS: [(usize, usize); 2] = [(1, 5), (2, 5)];
 
+/// The number of poses where solutions with `N = 0` form curves; `None` where that grows with the degree. A plate that moves
+/// without turning shows only there: multiplication by quotients of rotations does not lead out of any degree.
+fn special_degree(modulus: &Modulus, setting: &Setting<u64>) -> Option<usize> {
+    let mut ring = GradedQuotient::new(modulus, setting);
+    let mut known = 0;
+    ATTEMPTS.into_iter().find_map(|(power, degree)| {
+        let mut poses = |degree: usize| {
+            let products = products_at(modulus, &mut ring, &mut known, power, degree)?;
+            Some(regular_part(modulus, |x| inverse(modulus, x), &products)?.pivots.len())
+        };
+        poses(degree).filter(|&count| poses(degree + 1) == Some(count))
+    })
+}
+
 /// The multiplication matrices where solutions with `N = 0` form curves, on what multiplication by a power of N leaves;
 /// `None` where that grows with the degree: a curve of poses.
 #[must_use]
 pub fn special_products(modulus: &Modulus, setting: &Setting<u64>) -> Option<Products<u64>> {
     let mut ring = GradedQuotient::new(modulus, setting);
     let mut known = 0;
-    for (power, degree) in ATTEMPTS {
-        while known < degree + 1 + 2 * power {
-            ring.advance();
-            known += 1;
-        }
-        // N^power z_i m for every basis element m of the degree.
-        let images: [Vec<Vec<u64>>; 4] = std::array::from_fn(|index| {
-            (0..ring.dimension(degree))
-                .map(|k| {
-                    let mut v = vec![0; ring.dimension(degree)];
-                    v[k] = modulus.one();
-                    let mut v = ring.times(degree, index, &v);
-                    for step in 0..power {
-                        v = ring.times_norm(degree + 1 + 2 * step, &v);
-                    }
-                    v
-                })
-                .collect()
-        });
-        if let Some(products) = quotients(modulus, &images) {
-            return Some(products);
-        }
+    ATTEMPTS.into_iter().find_map(|(power, degree)| products_at(modulus, &mut ring, &mut known, power, degree))
+}
+
+/// These matrices on what a power of N leaves of one degree; the ring is known up to the degree `known`.
+fn products_at(
+    modulus: &Modulus,
+    ring: &mut GradedQuotient,
+    known: &mut usize,
+    power: usize,
+    degree: usize,
+) -> Option<Products<u64>> {
+    while *known < degree + 1 + 2 * power {
+        ring.advance();
+        *known += 1;
     }
-    None
+    // N^power z_i m for every basis element m of the degree.
+    let images: [Vec<Vec<u64>>; 4] = std::array::from_fn(|index| {
+        (0..ring.dimension(degree))
+            .map(|k| {
+                let mut v = vec![0; ring.dimension(degree)];
+                v[k] = modulus.one();
+                let mut v = ring.times(degree, index, &v);
+                for step in 0..power {
+                    v = ring.times_norm(degree + 1 + 2 * step, &v);
+                }
+                v
+            })
+            .collect()
+    });
+    quotients(modulus, &images)
 }
 
 /// The matrices of `z_i / z_0`, i = 1..3, on the span of the images of z_0; `None` where the others reach farther.

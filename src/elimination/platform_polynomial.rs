@@ -46,13 +46,15 @@ pub struct Coordinate {
 }
 
 /// What is tried in turn: the coordinates themselves where no solution has `x_0 = 0` and no two share the quotient.
-const COORDINATES: [Coordinate; 6] = [
+const COORDINATES: [Coordinate; 7] = [
     Coordinate { turn: [1, 0, 0, 0], weights: [1, 0, 0] },
     Coordinate { turn: [1, 0, 0, 0], weights: [0, 1, 0] },
     Coordinate { turn: [1, 0, 0, 0], weights: [1, -2, 3] },
     Coordinate { turn: [1, 1, 0, 0], weights: [0, 1, 0] },
     Coordinate { turn: [1, 1, 1, 1], weights: [1, -2, 3] },
     Coordinate { turn: [2, 1, -3, 1], weights: [1, -2, 3] },
+    // Poses that were chosen with small integers do not end this chart.
+    Coordinate { turn: [23, 7, -11, 17], weights: [1, -2, 3] },
 ];
 
 impl Coordinate {
@@ -198,7 +200,7 @@ pub fn multiple_platform_polynomial(
     platform: &Platform<Rational>,
     legs_squared: &[Rational; 6],
 ) -> Option<PlatformPolynomial> {
-    polynomial_in(&COORDINATES[COORDINATES.len() - 1..], platform, legs_squared, |_, _| true)
+    polynomial_in(&COORDINATES[COORDINATES.len() - 2..], platform, legs_squared, |_, _| true)
 }
 
 /// The polynomial in the first coordinate whose polynomial modulo a prime is accepted.
