@@ -10,6 +10,7 @@ mod four_bar;
 mod platform;
 mod polynomial;
 mod pose;
+mod substitution;
 mod symbolic;
 mod symbols;
 pub mod transference;
@@ -19,6 +20,7 @@ mod two_sides;
 pub use equation::Equation;
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;
+pub use substitution::Substitution;
 pub use symbolic::{Displayed, Quotient, Symbolic, SymbolicPolynomial, derive_symbolic};
 
 use crate::algebra::number::Number;

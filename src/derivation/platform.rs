@@ -133,10 +133,10 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
     let squares = squares.each_ref().map(|square| square.rational().clone());
     let platform: Platform<Rational> = platform_over(geometry).ok_or_else(missing)?;
     let degree = platform_degree(&platform, &squares);
-    let isolated = !matches!(degree, Some(PlatformDegree::Infinite | PlatformDegree::Finite { poses: 0, .. }));
+    let isolated = !matches!(degree, Some(PlatformDegree::Infinite { .. } | PlatformDegree::Finite { poses: 0, .. }));
     let poses = match degree {
         Some(PlatformDegree::Finite { poses, .. }) => Some(poses),
-        Some(PlatformDegree::Infinite) | None => None,
+        Some(PlatformDegree::Infinite { .. }) | None => None,
     };
     let found = if isolated { Found::of(&platform, &squares, poses) } else { None };
     let mut steps = vec![
@@ -177,7 +177,9 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
         defined = Some(super::equation::primitive(&definition(found, &platform)));
     } else {
         without = Some(match degree {
-            Some(PlatformDegree::Infinite) => "the poses are not isolated: a self-motion, real or complex".to_owned(),
+            Some(PlatformDegree::Infinite { dimension }) => {
+                format!("the poses are not isolated: a self-motion of dimension {dimension}, real or complex")
+            }
             Some(PlatformDegree::Finite { poses: 0, .. }) => "no pose, real or complex".to_owned(),
             Some(PlatformDegree::Finite { poses, .. }) => {
                 format!("{poses} poses with multiplicity, but no coordinate in which they have a polynomial")

@@ -3,6 +3,7 @@
 pub mod border;
 pub mod characteristic;
 pub mod common_roots;
+pub mod coordinate_ring;
 pub mod cut;
 pub mod degree;
 pub mod graded_quotient;

@@ -28,8 +28,15 @@ pub enum PlatformDegree {
     },
     /// A curve of poses, or more: a self-motion, real or complex. Told by the count growing with the degree at which it
     /// is taken, up to degree 10, by when it has settled in all classes of special geometry known.
-    Infinite,
+    Infinite {
+        /// The largest dimension of a family of poses, complex ones included: so many general quadrics leave finitely
+        /// many of them.
+        dimension: usize,
+    },
 }
+
+/// The largest dimension of a family of poses: all rotations about a point.
+const MOST_DIMENSION: usize = 3;
 
 /// Quaternions that turn base and plate, so that no solution lies where a chart ends.
 const TURNS: [[[i32; 4]; 2]; 2] = [[[5, -3, 7, 4], [4, 6, -3, 5]], [[-3, 8, 2, 9], [7, -2, 5, -6]]];
@@ -140,9 +147,12 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
         settings.push(setting);
     }
     // A pose where one chart ends looks like a curve there: all charts must agree on one.
-    let Some(poses) = settings.iter().find_map(|setting| special_degree(&modulus, setting)) else {
-        return Some(PlatformDegree::Infinite);
+    let Some(products) = settings.iter().find_map(|setting| special_products(&modulus, setting)) else {
+        let finite = |cuts: &usize| settings.iter().any(|setting| cut_products(&modulus, setting, *cuts).is_some());
+        let dimension = (1..MOST_DIMENSION).find(finite).unwrap_or(MOST_DIMENSION);
+        return Some(PlatformDegree::Infinite { dimension });
     };
+    let poses = regular_part(&modulus, |x| inverse(&modulus, x), &products)?.pivots.len();
     Some(PlatformDegree::Finite { poses, null: DIMENSION.saturating_sub(poses), curves: true })
 }
 
@@ -239,60 +249,50 @@ fn echelon<A: Arithmetic>(
 /// Powers of N that kill what has `N = 0`, degrees at which the rest has settled, in turn.
 const ATTEMPTS: [(usize, usize); 2] = [(1, 5), (2, 5)];
 
-/// The number of poses where solutions with `N = 0` form curves; `None` where that grows with the degree. A plate that moves
-/// without turning shows only there: multiplication by quotients of rotations does not lead out of any degree.
-fn special_degree(modulus: &Modulus, setting: &Setting<u64>) -> Option<usize> {
-    let mut ring = GradedQuotient::new(modulus, setting);
-    let mut known = 0;
-    ATTEMPTS.into_iter().find_map(|(power, degree)| {
-        let mut poses = |degree: usize| {
-            let products = products_at(modulus, &mut ring, &mut known, power, degree)?;
-            Some(regular_part(modulus, |x| inverse(modulus, x), &products)?.pivots.len())
-        };
-        poses(degree).filter(|&count| poses(degree + 1) == Some(count))
-    })
-}
-
 /// The multiplication matrices where solutions with `N = 0` form curves, on what multiplication by a power of N leaves;
 /// `None` where that grows with the degree: a curve of poses.
 #[must_use]
 pub fn special_products(modulus: &Modulus, setting: &Setting<u64>) -> Option<Products<u64>> {
-    let mut ring = GradedQuotient::new(modulus, setting);
-    let mut known = 0;
-    ATTEMPTS.into_iter().find_map(|(power, degree)| products_at(modulus, &mut ring, &mut known, power, degree))
+    cut_products(modulus, setting, 0)
 }
 
-/// These matrices on what a power of N leaves of one degree; the ring is known up to the degree `known`.
-fn products_at(
-    modulus: &Modulus,
-    ring: &mut GradedQuotient,
-    known: &mut usize,
-    power: usize,
-    degree: usize,
-) -> Option<Products<u64>> {
-    while *known < degree + 1 + 2 * power {
-        ring.advance();
-        *known += 1;
+/// The same of the poses on so many general quadrics.
+fn cut_products(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> Option<Products<u64>> {
+    let mut ring = GradedQuotient::new(modulus, setting);
+    for number in 0..cuts {
+        ring.cut(number);
     }
-    // N^power z_i m for every basis element m of the degree.
-    let images: [Vec<Vec<u64>>; 4] = std::array::from_fn(|index| {
-        (0..ring.dimension(degree))
-            .map(|k| {
-                let mut v = vec![0; ring.dimension(degree)];
+    let mut known = 0;
+    for (power, degree) in ATTEMPTS {
+        while known < degree + 1 + 2 * power {
+            ring.advance();
+            known += 1;
+        }
+        // N^power times the products of an unknown with every basis element m of a degree.
+        let images = |from: usize, index: usize| -> Vec<Vec<u64>> {
+            let image = |k: usize| {
+                let mut v = vec![0; ring.dimension(from)];
                 v[k] = modulus.one();
-                let mut v = ring.times(degree, index, &v);
+                let mut v = ring.times(from, index, &v);
                 for step in 0..power {
                     v = ring.times_norm(degree + 1 + 2 * step, &v);
                 }
                 v
-            })
-            .collect()
-    });
-    quotients(modulus, &images)
+            };
+            (0..ring.dimension(from)).map(image).collect()
+        };
+        let rotations = std::array::from_fn(|index| images(degree, index));
+        let translations: Vec<_> = (0..setting.count).flat_map(|a| images(degree - 1, 4 + a)).collect();
+        if let Some(products) = quotients(modulus, &rotations, &translations) {
+            return Some(products);
+        }
+    }
+    None
 }
 
-/// The matrices of `z_i / z_0`, i = 1..3, on the span of the images of z_0; `None` where the others reach farther.
-fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4]) -> Option<Products<u64>> {
+/// The matrices of `z_i / z_0`, i = 1..3, on the span of the images of z_0; `None` where these or the others, those of the
+/// tau, reach farther. Poses that share their rotation differ in tau only.
+fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4], others: &[Vec<u64>]) -> Option<Products<u64>> {
     // Rows (z_0 image | z_1 image | z_2 image | z_3 image), reduced by their first parts.
     let width = images[0].first().map_or(0, Vec::len);
     let mut table: Vec<Vec<u64>> =
@@ -319,16 +319,24 @@ fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4]) -> Option<Products<
     if table[rank..].iter().any(|row| row.iter().any(|&x| x != 0)) {
         return None;
     }
+    let rest = |v: &[u64]| {
+        let mut rest = v.to_vec();
+        for (row, &column) in table.iter().zip(&pivots) {
+            modulus.add_multiple(&mut rest, modulus.neg(v[column]), &row[..width]);
+        }
+        rest
+    };
+    if others.iter().any(|other| rest(other).iter().any(|&x| x != 0)) {
+        return None;
+    }
     let mut factors: Products<u64> = std::array::from_fn(|_| vec![vec![0; rank]; rank]);
     for (i, factor) in factors.iter_mut().enumerate() {
         for k in 0..rank {
-            let image = table[k][(i + 1) * width..(i + 2) * width].to_vec();
-            let mut rest = image.clone();
+            let image = &table[k][(i + 1) * width..(i + 2) * width];
             for (j, &column) in pivots.iter().enumerate() {
                 factor[k][j] = image[column];
-                modulus.add_multiple(&mut rest, modulus.neg(image[column]), &table[j][..width]);
             }
-            if rest.iter().any(|&x| x != 0) {
+            if rest(image).iter().any(|&x| x != 0) {
                 return None;
             }
         }

@@ -10,7 +10,7 @@ mod search;
 
 pub use answer::{Configuration, Held, JointVariable, Mobility, Proof};
 pub use decision::mobility;
-pub use linkage::{JointValue, Linkage, Position};
+pub use linkage::{Axis, JointValue, Linkage, Position};
 pub use order::{Germ, Local};
 pub use positions::{Conjugates, Positions, positions};
 pub use search::moves;

@@ -13,6 +13,7 @@ use crate::algebra::number_field::{Algebraic, NumberField};
 use crate::algebra::real_roots::RealRoot;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
+use crate::kinematics::closed_loop::Variable;
 use rug::Rational;
 use std::sync::Arc;
 
@@ -152,7 +153,11 @@ struct Cut<'a> {
 /// The product of a side in which every variable is the first or the second unit of its pair, by the bits of `choice`.
 fn side(linkage: &Linkage<Rational>, variables: &[usize], choice: usize) -> Study<Rational> {
     variables.iter().enumerate().fold(one(), |product, (bit, k)| {
-        let factor = if choice >> bit & 1 == 0 { product } else { times_axis(&product, linkage.variables[*k]) };
+        let factor = if choice >> bit & 1 == 0 {
+            product
+        } else {
+            times_axis(&product, linkage.variables[*k], &linkage.axes[*k])
+        };
         let (x, y) = linkage.links[*k].study();
         let ([a, b, c, d], [e, f, g, h]) = (x, y);
         times(&factor, &[a, b, c, d, e, f, g, h])
@@ -193,10 +198,14 @@ impl<'a> Cut<'a> {
         let mut list = List::default();
         // The half-turn, where t is infinite.
         list.add(self.position(&[Algebraic::zero(), Algebraic::one()]), None)?;
-        let circle = Univariate::new([1, 0, 1].map(Rational::from).to_vec());
-        let (spurious, mut polynomial) = determinant.square_free_part().remove_factor(&circle);
+        let hidden = self.order[self.hidden];
+        let circle = Univariate::new(vec![Rational::from(1), Rational::new(), self.linkage.axes[hidden].square()]);
+        let (spurious, mut polynomial) = match self.linkage.variables[hidden] {
+            Variable::Rotation => determinant.square_free_part().remove_factor(&circle),
+            Variable::Translation => (0, determinant.square_free_part()),
+        };
         if spurious > 0 {
-            // No angle has the tangent i, but limits may.
+            // No half-angle has the tangent i, but limits may.
             let field = NumberField::new(&circle);
             let here = self.position(&[Algebraic::one(), field.root()]);
             list.is_improper |= !matches!(here, Here::Nothing) || field.split().is_some();

@@ -23,7 +23,7 @@ fn count(platform: &Platform<Rational>, legs: &[Rational; 6]) -> Option<usize> {
             assert_eq!(poses + null, 40);
             Some(poses)
         }
-        PlatformDegree::Infinite => None,
+        PlatformDegree::Infinite { .. } => None,
     }
 }
 
@@ -233,8 +233,15 @@ fn what_is_not_proved_is_not_said_to_be() {
     let mut draw = Draw::new(23);
     let mut platform = draw.platform();
     platform.plate = platform.base.clone().map(|a| a.map(|x| x * Rational::from((2, 3))));
-    let polynomial = platform_polynomial(&platform, &platform.legs_squared(&draw.pose().1)).unwrap();
-    assert!(polynomial.coefficients.len() == 25 && !polynomial.proved);
+    for (scale, proved) in [(1, true), (1_000_000_007, false)] {
+        // Lengths no unit makes short.
+        platform.base[0][0] += Rational::from((1, scale)) - 1;
+        platform.plate[0][0] = Rational::from(&platform.base[0][0] * Rational::from((2, 3)));
+        let mut legs = platform.legs_squared(&draw.pose().1);
+        legs[1] += Rational::from((1, scale)) - 1;
+        let polynomial = platform_polynomial(&platform, &legs).unwrap();
+        assert_eq!((polynomial.coefficients.len(), polynomial.proved), (25, proved));
+    }
 }
 
 #[test]
