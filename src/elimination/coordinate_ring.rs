@@ -6,7 +6,7 @@
 //! unknowns form a ring. If every monomial is a combination of finitely many ones, that many bound the number of
 //! solutions, with multiplicity, and no root at infinity, at a half tangent of i, or of a polynomial that knows of only
 //! part of the equations is among them: once all consequences of the equations are known the number is that of the
-//! solutions. \[CoxLittleOShea2015, ch. 5.3\]
+//! solutions. \[CoxLittleOShea2015\]
 //!
 //! The relations between monomials up to some degree are found by linear algebra: relations times an unknown are
 //! relations, as long as they stay below that degree. When the monomials that are left over all have a smaller degree,

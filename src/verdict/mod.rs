@@ -215,6 +215,9 @@ fn accounted_for(certified: usize, multiple: &[usize], bound: &Bound) -> String 
         0 => String::new(),
         several => format!(" and {several} multiple ones (counted {})", multiple.iter().sum::<usize>()),
     };
+    if certified == 0 && multiple.is_empty() {
+        return format!("no root at all of {}", bound.because);
+    }
     format!("{certified} distinct certified roots{also} of {}", bound.because)
 }
 
