@@ -201,7 +201,7 @@ fn six_legs_that_meet_one_line_make_a_double_pose() {
             let part = Rational::from((2 * i32::try_from(k).unwrap() + 5, 3));
             std::array::from_fn(|c| {
                 let onto = if c == 2 { height.clone() } else { Rational::new() };
-                Rational::from(&base[k][c] + (onto - &base[k][c]) * &part)
+                &base[k][c] + (onto - &base[k][c]) * &part
             })
         });
         let platform = Platform { base, plate };
