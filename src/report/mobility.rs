@@ -7,7 +7,7 @@ use super::text::variables;
 use crate::catalogue::entry::Entry;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::Vector;
-use crate::kinematics::screw_system::Screw;
+use crate::kinematics::screw_system::{Screw, ScrewSystem};
 use crate::mobility::{Configuration, Local, Mobility};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -76,13 +76,21 @@ pub fn text(entry: &Entry, answer: &Mobility) -> String {
         );
         text.push('\n');
         paragraph(&mut text, &words);
+        let (principal, translations) = ScrewSystem::of(&configuration.basis).principal_screws();
+        for found in &principal {
+            let _ = writeln!(text, "  principal screw: {}", described(&found.screw));
+        }
+        if translations > 0 {
+            let _ = writeln!(text, "  {} in the system", counted(translations, "independent translation"));
+        }
         for screw in &configuration.redundant {
             let _ = writeln!(text, "  reciprocal screw: {}", described(screw));
         }
     }
     if !answer.configurations.is_empty() {
         text.push('\n');
-        let header: Vec<&str> = std::iter::once("nr").chain(names.iter().map(|(name, _)| name.as_str())).collect();
+        let first: &[&str] = if answer.branches() > 0 { &["nr", "branch"] } else { &["nr"] };
+        let header: Vec<&str> = first.iter().copied().chain(names.iter().map(|(name, _)| name.as_str())).collect();
         let mut table = Columns::new(&header, &[]);
         for (k, configuration) in answer.configurations.iter().enumerate() {
             let cells = configuration.q.iter().zip(&names).zip(&configuration.moving);
@@ -93,7 +101,8 @@ pub fn text(entry: &Entry, answer: &Mobility) -> String {
                 };
                 if *moves || configuration.dimension() == Some(0) { shown } else { format!("{shown} (still)") }
             });
-            table.row(std::iter::once((k + 1).to_string()).chain(cells));
+            let branch = configuration.branch.map_or_else(String::new, |branch| (branch + 1).to_string());
+            table.row([(k + 1).to_string(), branch].into_iter().take(first.len()).chain(cells));
         }
         text += &table.text();
         text += "angles in degrees, distances in metres\n";
@@ -156,14 +165,18 @@ fn configuration(configuration: &Configuration) -> Value {
         Local::Isolated { order } => Some(order),
         _ => None,
     };
+    let (principal, translations) = ScrewSystem::of(&configuration.basis).principal_screws();
     json!({
         "q": configuration.q.iter().map(|x| number(*x)).collect::<Vec<_>>(),
         "degree": (configuration.degree > 0).then_some(configuration.degree),
         "rank": configuration.rank,
+        "branch": configuration.branch.map(|branch| branch + 1),
         "dimension": configuration.dimension(),
         "order": order,
         "moving": configuration.moving,
         "system": configuration.system,
+        "principal": principal.iter().map(|found| screw(&found.screw)).collect::<Vec<_>>(),
+        "translations": translations,
         "redundant": configuration.redundant.iter().map(screw).collect::<Vec<_>>(),
     })
 }
