@@ -2,8 +2,12 @@
 //! isolated never called complete.
 #![allow(clippy::unwrap_used)]
 
+#[path = "chains/sequences.rs"]
+mod sequences;
 #[path = "chains/short_loops.rs"]
 mod short_loops;
+#[path = "chains/special_pairs.rs"]
+mod special_pairs;
 
 mod arms;
 

@@ -21,7 +21,8 @@ use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::closed_loop::Layout;
 use looproot::kinematics::dual_quaternion::Quaternion;
 use looproot::mechanism::{FullMode, Mechanism, Solution, closed_loop};
-use looproot::report::derivation::{markdown, verdict};
+use looproot::report::derivation::{paper, verdict};
+use looproot::report::paper::Style;
 use looproot::verdict::Status;
 use rug::Rational;
 use std::collections::BTreeMap;
@@ -148,6 +149,7 @@ fn check(entry: &Entry) {
 #[test]
 fn loops_of_the_library_are_derived_as_they_are_solved() {
     folder("loop").iter().for_each(check);
+    folder("chain").iter().for_each(check);
 }
 
 #[test]
@@ -282,7 +284,8 @@ fn the_text_of_a_derivation_names_what_it_shows() {
     let derivation = derive(&entry, &entry.cases[0]).unwrap();
     assert_eq!(derivation.equations.len(), 18);
     assert_eq!(derivation.equations[0].name, "Woernle-Lee 3-6 n.n'");
-    let text = markdown(&entry, 1, &derivation).unwrap();
+    let found = derivation.substituted(&entry, &entry.cases[0]).unwrap();
+    let text = paper(&entry, 1, &derivation, &found, Style::Markdown);
     assert_eq!(text.matches("\\begin{aligned}").count(), 18 + 4 + 1);
 }
 

@@ -120,6 +120,80 @@ fn the_least_change_of_a_length_stops_bennett() {
     assert!(broken.configurations.is_empty());
 }
 
+/// A loop of revolutes by lengths and twists, no offsets.
+fn revolutes(links: &[(&str, &str)]) -> Entry {
+    let joint = |(a, alpha): &(&str, &str)| format!("{{ type = \"R\", a = \"{a}\", alpha = \"{alpha}\", d = 0 }},\n");
+    let joints: String = links.iter().map(joint).collect();
+    entry(&format!("[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [\n{joints}]\n"))
+}
+
+#[test]
+fn loops_of_irrational_numbers_close_all_round() {
+    let bennett = [("3*sin(40 deg)", "40 deg"), ("3*sin(65 deg)", "65 deg")].repeat(2);
+    let goldberg = [
+        ("2*(sin(50 deg) + sin(35 deg))", "85 deg"),
+        ("2*sin(20 deg)", "20 deg"),
+        ("2*sin(35 deg)", "35 deg"),
+        ("2*sin(50 deg)", "50 deg"),
+        ("2*sin(20 deg)", "20 deg"),
+    ];
+    let myard =
+        [("5*sin(40 deg)", "40 deg"), ("5", "90 deg"), ("0", "100 deg"), ("5", "90 deg"), ("5*sin(40 deg)", "140 deg")];
+    for (links, rank, branches) in [(&bennett[..], 3, 1), (&goldberg, 4, 1), (&myard, 4, 2)] {
+        let answer = mobility(&revolutes(links)).unwrap();
+        assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::CertifiedSweep), "{}", answer.reason);
+        assert_eq!((answer.screw_rank(), answer.branches()), (Some(rank), branches));
+        assert!(answer.reason.contains("at 180 of 180 inputs"), "{}", answer.reason);
+        // Off by a part of 1e-10 in one length, none of them closes.
+        let longer = format!("{}*(1 + 1e-10)", links[1].0);
+        let mut broken = links.to_vec();
+        broken[1].0 = &longer;
+        let answer = mobility(&revolutes(&broken)).unwrap();
+        assert_eq!((answer.mobility, answer.branches()), (Some(0), 0), "{}", answer.reason);
+        assert!(answer.reason.contains("to rounding the loop does not close through any range"), "{}", answer.reason);
+    }
+}
+
+#[test]
+fn long_decimals_are_exact_and_a_loop_that_closes_to_rounding_is_told() {
+    let answer = mobility(&entry(&bennett("4").replace("a = 4", "a = 4.000000000000001"))).unwrap();
+    assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Exact));
+    let remark = "decimals taken as exact numbers; to rounding it closes";
+    assert!(answer.reason.contains(remark), "{}", answer.reason);
+    let answer = mobility(&entry(&bennett("4").replace("a = 4", "a = 4.000000000001"))).unwrap();
+    assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Exact));
+    assert!(!answer.reason.contains(remark), "{}", answer.reason);
+}
+
+/// A loop by axes and points, one length of which is not rational.
+#[test]
+fn axes_of_irrational_length_are_taken_as_they_are() {
+    // Three parallel axes along (1, 1, 0) and a translation along (1, -1, 3) across them: a slider-crank.
+    let slider = |point: &str, axis: &str| {
+        entry(&format!(
+            r#"
+            [mechanism]
+            kind = "loop"
+            convention = "screws"
+            joints = [
+                {{ type = "R", axis = [1, 1, 0], point = [0, 0, 0] }},
+                {{ type = "R", axis = [2, 2, 0], point = {point} }},
+                {{ type = "R", axis = [-1, -1, 0], point = [1, 0, 5] }},
+                {{ type = "P", axis = {axis} }},
+            ]
+            "#
+        ))
+    };
+    let answer = mobility(&slider("[0, 1, 2]", "[1, -1, 3]")).unwrap();
+    assert_eq!((answer.mobility, answer.screw_rank(), answer.proof), (Some(1), Some(3), Proof::Exact));
+    assert!(!answer.reason.contains("rounded"), "{}", answer.reason);
+    // What is held is told in radians, and its values close the loop.
+    let (k, value) = answer.held[0];
+    assert!(answer.configurations.iter().all(|c| (c.q[k] - value).abs() < 1e-12));
+    let broken = mobility(&slider("[0, 1, 2]", "[1, \"-1000001/1000000\", 3]")).unwrap();
+    assert_eq!((broken.mobility, broken.proof), (Some(0), Proof::Exact), "{}", broken.reason);
+}
+
 /// Six axes `direction, point` of the linear complex of the screw with pitch 1 about z: `d . (e_z x p + e_z) = 0`.
 const COMPLEX: &str = r#"
     [mechanism]
@@ -167,7 +241,7 @@ fn coaxial() -> Linkage<Rational> {
     let mut links = vec![link(0, 0, 2), link(1, 1, 1), link(2, -2, 1), link(3, 4, -1)];
     let whole = links.iter().fold(DualQuaternion::identity(), |product, link| product.mul(link));
     links.push(whole.conjugate());
-    Linkage { variables: vec![Variable::Rotation; 5], links }
+    Linkage::about_z(vec![Variable::Rotation; 5], links)
 }
 
 #[test]
@@ -217,7 +291,7 @@ fn translations_count_too() {
     let variables = vec![Variable::Translation; 4];
     let whole = (1..4).fold(DualQuaternion::identity(), |product, t| product.mul(&link(t)));
     let links = vec![link(1), link(2), link(3), whole.conjugate()];
-    let linkage = Linkage { variables, links };
+    let linkage = Linkage::about_z(variables, links);
     let germ = Germ::of(&linkage.at(&vec![[Rational::one(), Rational::zero()]; 4]));
     assert_eq!((germ.local, germ.rank), (Local::Manifold { dimension: 2 }, 2));
 }

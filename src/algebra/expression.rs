@@ -3,8 +3,10 @@
 //! ```text
 //! text    = sum [unit]              unit   = deg | rad | m | cm | mm
 //! sum     = term { (+|-) term }     term   = factor { (*|/) factor }
-//! factor  = { +|- } ( number | pi | ( sum ) | function ( sum [, sum] ) )
+//! factor  = { +|- } ( number | pi | ( sum ) | function ( sum [, sum] ) | (cos|sin|tan) ( sum [deg|rad] ) )
 //! ```
+//!
+//! The argument of cos, sin and tan is in radians where it has no unit, whatever plain angles of the file are.
 
 use super::value::{Value, decimal};
 use rug::{Integer, Rational};
@@ -48,7 +50,7 @@ pub(super) fn evaluate(text: &str) -> Result<Quantified, String> {
         return Err(format!("`{}` that cannot be read at `{}`", shortened(before), shortened(reader.rest)));
     }
     if unit.is_some() && terms > 1 {
-        return Err(format!("`{}`, a sum with one unit; write the sum in parentheses", shortened(before)));
+        return Err(one_unit(before));
     }
     Ok(Quantified { value, unit })
 }
@@ -60,6 +62,14 @@ pub(super) fn shortened(text: &str) -> String {
     }
     let head: String = text.chars().take(37).collect();
     format!("{head}...")
+}
+
+fn one_unit(sum: &str) -> String {
+    format!("`{}`, a sum with one unit; write the sum in parentheses", shortened(sum.trim_end()))
+}
+
+fn without_argument(function: &str) -> String {
+    format!("`{function}` without an argument in parentheses")
 }
 
 struct Reader<'a> {
@@ -123,9 +133,9 @@ impl<'a> Reader<'a> {
         match name {
             "pi" => Ok(Value::from_turns(Rational::from(1), true)),
             "sqrt" => self.argument(name)?.sqrt(),
-            "cos" => Ok(self.argument(name)?.cos()),
-            "sin" => Ok(self.argument(name)?.sin()),
-            "tan" => self.argument(name)?.tan(),
+            "cos" => Ok(self.angle(name)?.cos()),
+            "sin" => Ok(self.angle(name)?.sin()),
+            "tan" => self.angle(name)?.tan(),
             "acos" => self.argument(name)?.acos(),
             "asin" => self.argument(name)?.asin(),
             "atan" => self.argument(name)?.atan2(&Value::from_rational(Rational::from(1))),
@@ -142,9 +152,30 @@ impl<'a> Reader<'a> {
 
     fn argument(&mut self, function: &str) -> Result<Value, String> {
         if !self.symbol('(') {
-            return Err(format!("`{function}` without an argument in parentheses"));
+            return Err(without_argument(function));
         }
         self.inside()
+    }
+
+    /// The argument of a function of an angle, in radians.
+    fn angle(&mut self, function: &str) -> Result<Value, String> {
+        if !self.symbol('(') {
+            return Err(without_argument(function));
+        }
+        self.enter()?;
+        let before = self.rest;
+        let (value, terms) = self.sum()?;
+        let unit = self.unit()?;
+        if unit.is_some() && terms > 1 {
+            return Err(one_unit(&before[..before.len() - self.rest.len()]));
+        }
+        let value = match unit {
+            None | Some(Unit::Radian) => value,
+            Some(Unit::Degree) => value.mul(&Value::from_turns(Rational::from((1, 180)), true)).checked()?,
+            Some(_) => return Err(format!("`{function}` of a length, where an angle should stand")),
+        };
+        self.leave()?;
+        Ok(value)
     }
 
     fn arctangent(&mut self) -> Result<Value, String> {

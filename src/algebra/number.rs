@@ -349,6 +349,24 @@ mod tests {
     }
 
     #[test]
+    fn arguments_of_functions_of_an_angle_may_have_units() {
+        assert_eq!(*ratio("2*sin(30 deg)").rational(), 1);
+        assert_eq!(*ratio("3*cos(-60 deg)").rational(), Rational::from((3, 2)));
+        assert_eq!(*ratio("tan(45 deg) + sin(pi/2 rad)").rational(), 2);
+        assert_eq!(ratio("3*sin(40 deg)"), ratio("3*sin(2*pi/9)"));
+        assert!((ratio("2*cos((30 + 10) deg)").to_f64() - 1.532_088_886_237_956).abs() < 1e-15);
+        assert!(!ratio("2*cos(pi/7)").is_exact());
+        assert_eq!(angle("asin(sin(90 deg))"), angle("pi/2"));
+        // Of radians, whatever plain angles are.
+        let degrees = Reading { degrees: true, ..Reading::default() };
+        let length = Number::parse("3*sin(40)", Quantity::Length, &degrees).unwrap();
+        assert!((length.to_f64() - 3.0 * 40.0_f64.sin()).abs() < 1e-15);
+        let lengths = Reading { length: Rational::from((1, 1000)), ..Reading::default() };
+        let length = Number::parse("2*sin(30 deg) cm", Quantity::Length, &lengths).unwrap();
+        assert_eq!(*length.rational(), Rational::from((1, 100)));
+    }
+
+    #[test]
     fn units_scale() {
         let length = |text: &str, reading: &Reading| Number::parse(text, Quantity::Length, reading);
         let millimetres = Reading { length: Rational::from((1, 1000)), degrees: true, digits: DIGITS };
@@ -432,6 +450,11 @@ mod tests {
             ("1 mm + 2 mm", "cannot be read"),
             ("1 + 2 mm", "one unit"),
             ("2 mm", "without unit"),
+            ("sin(2 mm)", "`sin` of a length"),
+            ("3*sin(30 + 10 deg)", "`30 + 10 deg`, a sum with one unit"),
+            ("cos(40 deg", "not closed"),
+            ("tan(40 degrees)", "unit `degrees`"),
+            ("sin 40", "without an argument"),
             ("--+.", "not a number"),
             ("\u{e9}", "should stand"),
         ] {

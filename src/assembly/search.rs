@@ -285,7 +285,7 @@ impl Search<'_> {
             unknowns,
             real: S::REAL,
             multiplicity: 1,
-            residual: polished.closure.defect / polished.closure.growth(S::REAL),
+            residual: polished.closure.relative_defect(self.closed, &unknowns, S::REAL),
             condition: dense::norm(&polished.closure.jacobian) * inverse_norm,
             certificate: None,
             hits: Hits::first(self.assembly.tries),
@@ -327,7 +327,8 @@ impl Search<'_> {
     fn widened<S: Scalar>(&self, proof: Certificate, at: &Closure<S>, inverse: &[Six<S>; 6]) -> Option<Certificate> {
         let frames = at.norms.iter().map(|n| n.before * n.step).fold(1.0, f64::max);
         let drift = self.gap_rounding * frames * dense::norm(inverse);
-        (drift < limits::LONE_RADIUS).then_some(Certificate { radius: proof.radius + drift, ..proof })
+        let widened = Certificate { radius: proof.radius + drift, proved: proof.proved + drift, ..proof };
+        (drift < limits::LONE_RADIUS).then_some(widened)
     }
 
     pub fn merge(&mut self, mut mode: Mode) {
@@ -430,7 +431,7 @@ impl Search<'_> {
             unknowns,
             real,
             multiplicity: 1,
-            residual: here.defect / here.growth(real),
+            residual: here.relative_defect(self.closed, &unknowns, real),
             condition: dense::norm(&here.jacobian) * dense::norm(&inverse),
             certificate: Some(certificate),
             hits: Hits::first(self.assembly.tries),

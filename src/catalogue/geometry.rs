@@ -7,6 +7,8 @@ use super::scope::{Scope, Table};
 use crate::algebra::number::{Angle, Number, Quantity};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
+use crate::kinematics::freedom::Freedom;
+use rug::Rational;
 
 /// The mechanism of a file.
 pub(super) struct Mechanism {
@@ -111,12 +113,18 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
     let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
     let what = match (expected.0, count > expected.0) {
         (7, true) => {
-            let mobility = count - 6;
-            let spin =
-                if balls > 1 { "; the spin of a link between two S joints about their centres counts" } else { "" };
-            format!("mobility {mobility} by Gruebler's count ({count} - 6){spin}: {freedoms} too many for one input")
+            // Two balls have a spin that moves nothing else: eight variables are right then.
+            let off = off - usize::from(balls == 2);
+            let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
+            let constants = if off == 1 { "one variable" } else { "as many variables" };
+            format!("{}: {freedoms} too many for one input; make {constants} constant", Freedom::of(chain))
         }
-        (7, false) => "no loop of them can close in more than one way".to_owned(),
+        (7, false) => {
+            format!(
+                "{}: no loop of them can close in more than one way; a loop has two joints at least",
+                Freedom::of(chain)
+            )
+        }
         (_, true) => format!("a pose leaves {freedoms} undetermined"),
         (_, false) => format!("{freedoms} missing for a pose"),
     };
@@ -236,6 +244,9 @@ fn screw_joint(scope: &Scope<'_>, node: &Node) -> Result<ScrewJoint> {
     if axis.iter().all(|component| component.rational().is_zero()) {
         return Err(scope.fail(axis_node.line, "found the axis [0, 0, 0], expected a direction"));
     }
+    // A direction of irrational length has no rational unit vector and is replaced by one nearby.
+    let square: Rational = axis.iter().map(|component| Rational::from(component.rational().square_ref())).sum();
+    scope.note(square.numer().is_perfect_square() && square.denom().is_perfect_square());
     let point = match (table.get("point"), kind) {
         // A translation has a direction but no place.
         (None, JointKind::Prismatic) => std::array::from_fn(|_| Number::zero()),

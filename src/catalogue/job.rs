@@ -8,6 +8,7 @@ use super::scope::{Scope, Table};
 use crate::algebra::number::{Number, Quantity};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, JointKind};
+use crate::kinematics::freedom::Freedom;
 
 /// Correct digits of a claimed solution that names none.
 const DIGITS: u32 = 6;
@@ -65,12 +66,17 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
             return Err(scope.fail(table.line(), message));
         }
         ([], None) if is_short(design) => return Ok(vec![Case::free(table.line())]),
-        ([], None) if matches!(design, Design::Loop(_)) => {
-            let message = "found no [[input]], expected one: the loop has a mobility of 1 by Gruebler's count, and one \
-                           joint variable has to be given (a loop of six variables or fewer needs none)";
-            return Err(scope.fail(table.line(), message));
-        }
-        ([], None) => (allowed[0], scope.need(table, allowed[0])?),
+        ([], None) => match design {
+            Design::Loop(chain) => {
+                let message = format!(
+                    "found no [[input]], expected one: the loop has {}, and one joint variable has to be given (a loop of six \
+                     variables or fewer needs none)",
+                    Freedom::of(chain)
+                );
+                return Err(scope.fail(table.line(), message));
+            }
+            Design::Arm(_) | Design::Platform(_) => (allowed[0], scope.need(table, allowed[0])?),
+        },
         ([.., (_, node)], _) => {
             return Err(scope.fail(node.line, "found the legs of a platform in two places, expected one"));
         }

@@ -16,6 +16,9 @@ const CONDITIONS: &str = "conditions/";
 /// The folders of frameworks and rational motions, which have no cases to be solved.
 const MOVING: [&str; 2] = ["framework/", "motion/"];
 
+/// Loops that were moved to another folder: how their full names began and begin.
+const MOVED: [(&str, &str); 2] = [("loop/structure_", "chain/structure_"), ("loop/ik_", "chain/ik_")];
+
 /// The names of all built-in frameworks and rational motions, such as `framework/steffen`, in order.
 #[must_use]
 pub fn moving_names() -> Vec<String> {
@@ -70,8 +73,14 @@ fn collect(folder: &Dir<'_>, names: &mut Vec<String>) {
 /// ```
 #[must_use]
 pub fn namesakes(name: &str) -> Vec<String> {
-    let name = name.strip_suffix(".toml").unwrap_or(name);
-    all_names().into_iter().filter(|full| is_called(full, name)).collect()
+    let name = today(name.strip_suffix(".toml").unwrap_or(name));
+    all_names().into_iter().filter(|full| is_called(full, &name)).collect()
+}
+
+/// The name of today for an entry that was in another folder once.
+fn today(name: &str) -> String {
+    let moved = MOVED.iter().find_map(|(old, new)| Some(format!("{new}{}", name.strip_prefix(old)?)));
+    moved.unwrap_or_else(|| name.to_owned())
 }
 
 /// Whether a full name is this one, with or without its folder.
@@ -87,6 +96,7 @@ fn find(name: &str) -> Option<(String, &'static str)> {
 
 fn find_in(names: Vec<String>, name: &str) -> Option<(String, &'static str)> {
     let name = name.strip_suffix(".toml").unwrap_or(name);
+    let name = &today(name);
     let full = names.into_iter().find(|full| is_called(full, name))?;
     let text = LIBRARY.get_file(format!("{full}.toml"))?.contents_utf8()?;
     Some((full, text))
@@ -96,6 +106,15 @@ fn find_in(names: Vec<String>, name: &str) -> Option<(String, &'static str)> {
 #[must_use]
 pub fn builtin_text(name: &str) -> Option<&'static str> {
     find(name).map(|(_, text)| text)
+}
+
+/// The derived equations that the library keeps of an entry, with or without its folder, and the name of their file.
+#[must_use]
+pub fn builtin_page(name: &str) -> Option<(String, &'static str)> {
+    let (full, _) = find(name)?;
+    let file = format!("{full}.eqs");
+    let text = LIBRARY.get_file(&file)?.contents_utf8()?;
+    Some((format!("equations/{file}"), text))
 }
 
 /// The citation behind a key of equations/REFERENCES.md, on one line; `None` for an unknown key.

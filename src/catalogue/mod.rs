@@ -22,7 +22,8 @@ pub use file_kind::FileKind;
 pub use framework::FrameworkFile;
 pub use heading::Heading;
 pub use library::{
-    all_names, ansatz_names, builtin, builtin_any, builtin_names, builtin_text, citation, moving_names, namesakes,
+    all_names, ansatz_names, builtin, builtin_any, builtin_names, builtin_page, builtin_text, citation, moving_names,
+    namesakes,
 };
 pub use motion::MotionFile;
 pub use options::Options;

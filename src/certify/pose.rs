@@ -106,7 +106,7 @@ pub fn pose_certificate<S: Number>(
     let root = discriminant.sqrt();
     let radius = (MARGIN * 2.0 * step / (slope + root)).max(f64::MIN_POSITIVE);
     let isolation = (slope + root) / (MARGIN * bend);
-    (radius < isolation).then_some(Certificate { radius, isolation })
+    (radius < isolation).then_some(Certificate { radius, isolation, proved: radius })
 }
 
 /// Whether `N = x.x` differs from zero on the whole ball around a point.

@@ -127,7 +127,8 @@ impl<R: Extended> Approach<'_, R> {
         // The reported unknowns are those of the proof, rounded.
         let largest = unknowns.iter().map(|x| x.bound()).fold(1.0, f64::max);
         let rounding = 4.0 * f64::EPSILON * largest;
-        let certificate = Certificate { radius: proof.radius + rounding + drift(&unknowns), ..proof };
+        let proved = proof.radius + drift(&unknowns);
+        let certificate = Certificate { radius: proved + rounding, proved, ..proof };
         // Judged by the solution itself, not by what its rounding left of it.
         let imaginary = (0..6).map(|j| imaginary(self.closed.variables[j], self.state[j])).fold(0.0, f64::max);
         let real = imaginary <= proof.radius && 3.0 * proof.radius <= proof.isolation;

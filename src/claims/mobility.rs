@@ -22,7 +22,14 @@ pub(super) fn findings(entry: &Entry, case: &Case, number: usize) -> Vec<Finding
         };
         let shown = found.map_or_else(|| "none".to_owned(), |found| found.to_string());
         let message = format!("claims {what} {claimed}, found {shown}: {why}");
-        Some(Finding { case: number, line: case.line, sort: Sort::Mobility, holds: found == Some(claimed), message })
+        Some(Finding {
+            case: number,
+            file: None,
+            line: case.line,
+            sort: Sort::Mobility,
+            holds: found == Some(claimed),
+            message,
+        })
     };
     claims.into_iter().filter_map(finding).collect()
 }

@@ -29,11 +29,14 @@ pub enum Sort {
     Closes,
     /// A listed solution is among those found.
     Found,
+    /// The equations beside a file are those derived from it.
+    Equations,
 }
 
 impl Sort {
     /// All of them.
-    pub const ALL: [Self; 6] = [Self::Complex, Self::Real, Self::Dimension, Self::Mobility, Self::Closes, Self::Found];
+    pub const ALL: [Self; 7] =
+        [Self::Complex, Self::Real, Self::Dimension, Self::Mobility, Self::Closes, Self::Found, Self::Equations];
 
     /// A heading.
     #[must_use]
@@ -45,6 +48,7 @@ impl Sort {
             Self::Mobility => "mobility",
             Self::Closes => "closes",
             Self::Found => "found",
+            Self::Equations => "equations",
         }
     }
 }
@@ -54,6 +58,8 @@ impl Sort {
 pub struct Finding {
     /// Number of the case in the file, from 1.
     pub case: usize,
+    /// The file of the claim, where it is another one than that of the mechanism.
+    pub file: Option<String>,
     /// Line of the claim, or of its case.
     pub line: usize,
     /// What is claimed.
@@ -183,7 +189,7 @@ struct Judge<'a> {
 
 impl Judge<'_> {
     fn finding(&self, line: usize, sort: Sort, holds: bool, message: String) -> Finding {
-        Finding { case: self.number, line, sort, holds, message }
+        Finding { case: self.number, file: None, line, sort, holds, message }
     }
 
     fn counts(&self, findings: &mut Vec<Finding>) {

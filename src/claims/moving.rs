@@ -55,5 +55,5 @@ pub(super) fn motion(file: &MotionFile) -> Result<Judgement> {
 }
 
 fn finding(line: usize, holds: bool, message: String) -> Finding {
-    Finding { case: 1, line, sort: Sort::Dimension, holds, message }
+    Finding { case: 1, file: None, line, sort: Sort::Dimension, holds, message }
 }

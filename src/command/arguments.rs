@@ -1,10 +1,12 @@
 //! The words of the command line.
 
 use super::poly::arguments::{PolyOptions, format};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use looproot::algebra::text::Format;
 use looproot::catalogue::Options;
+use looproot::report::paper::Style;
 use std::path::PathBuf;
 
 /// All solutions of kinematic closure equations, with a verdict on completeness.
@@ -158,6 +160,14 @@ pub struct SolveOptions {
     pub output: OutputOptions,
 }
 
+/// The languages of papers by their names.
+fn style() -> impl TypedValueParser<Value = Style> {
+    PossibleValuesParser::new(Style::NAMED.map(|(name, _)| name)).map(|name| {
+        let found = Style::NAMED.iter().find(|(known, _)| *known == name);
+        found.map_or(Style::Markdown, |(_, style)| *style)
+    })
+}
+
 /// `looproot derive`
 #[derive(Args)]
 pub struct DeriveOptions {
@@ -175,8 +185,7 @@ pub struct DeriveOptions {
         value_name = "NAMES",
         num_args = 0..=1,
         require_equals = true,
-        default_missing_value = "",
-        conflicts_with = "explain"
+        default_missing_value = ""
     )]
     pub symbolic: Option<String>,
     /// Write the equations, where they fit two pages, to name.eqs beside every name.toml
@@ -186,9 +195,17 @@ pub struct DeriveOptions {
     /// another program
     #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]
     pub format: Option<Format>,
-    /// The whole derivation in Markdown with LaTeX formulas
-    #[arg(long, conflicts_with_all = ["json", "format"])]
-    pub explain: bool,
+    /// The whole derivation as a paper, in Markdown with LaTeX formulas or as a LaTeX document, checked by putting in solutions
+    #[arg(
+        long,
+        value_name = "LANGUAGE",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "markdown",
+        value_parser = style(),
+        conflicts_with_all = ["json", "format"]
+    )]
+    pub explain: Option<Style>,
     /// Loops of four R or C joints: the spherical closure equation and, over dual numbers, the spatial one; of a file, or with
     /// all parameters symbols: rccc, ccrr, 4r, hooke
     #[arg(long, conflicts_with_all = ["explain", "symbolic", "bless", "pose", "input", "joints", "legs", "at"])]

@@ -3,9 +3,10 @@
 use super::arguments::CheckOptions;
 use super::exit::{Exit, Fault, complain};
 use super::output::{pool, print};
-use looproot::catalogue::{Options, builtin_any, builtin_names, is_ansatz, load_any, moving_names};
-use looproot::claims::{Judgement, Sort, judge_any};
+use looproot::catalogue::{Any, Options, builtin_any, builtin_names, builtin_page, is_ansatz, load_any, moving_names};
+use looproot::claims::{Finding, Judgement, Sort, judge_any};
 use looproot::error::Error;
+use looproot::report::atlas::judged;
 use looproot::report::number::{counted, duration};
 use looproot::report::table::Columns;
 use rayon::prelude::*;
@@ -30,7 +31,11 @@ pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
             let start = Instant::now();
             let reading = Options::default();
             let any = if is_library { builtin_any(name, &reading) } else { load_any(name, &reading) };
-            let outcome = any.and_then(|any| judge_any(&any));
+            let outcome = any.and_then(|any| {
+                let mut judgement = judge_any(&any)?;
+                judgement.findings.extend(page(name, is_library, &any)?);
+                Ok(judgement)
+            });
             Checked { name: name.clone(), outcome, microseconds: start.elapsed().as_secs_f64() * 1e6 }
         };
         names.par_iter().map(one).collect()
@@ -49,6 +54,23 @@ pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
         });
     }
     Ok(exit)
+}
+
+/// Whether the equations beside a file are those derived from it, if there are any.
+fn page(name: &str, is_library: bool, any: &Any) -> Result<Option<Finding>, Error> {
+    let Any::Entry(entry) = any else { return Ok(None) };
+    let path = Path::new(name).with_extension("eqs");
+    if is_library || !Path::new(name).is_file() {
+        return Ok(builtin_page(name).map(|(file, text)| judged(entry, &file, text)));
+    }
+    // A name without extension is no file with equations beside it, but itself.
+    if !path.is_file() || path == Path::new(name) {
+        return Ok(None);
+    }
+    let file = path.display().to_string();
+    let text =
+        std::fs::read_to_string(&path).map_err(|error| Error::Io { path: file.clone(), message: error.to_string() })?;
+    Ok(Some(judged(entry, &file, &text)))
 }
 
 /// The mechanism files under these paths, in order; names of built-in entries pass as they are.
@@ -106,7 +128,8 @@ fn text(checked: &[Checked], quiet: bool) -> String {
     }
     for one in checked {
         for failure in one.outcome.iter().flat_map(Judgement::failures) {
-            let _ = writeln!(text, "{}:{}: case {}: {}", one.name, failure.line, failure.case, failure.message);
+            let file = failure.file.as_ref().unwrap_or(&one.name);
+            let _ = writeln!(text, "{file}:{}: case {}: {}", failure.line, failure.case, failure.message);
         }
     }
     let judged = || checked.iter().filter_map(|one| one.outcome.as_ref().ok());
@@ -159,6 +182,7 @@ fn document(checked: &[Checked]) -> String {
                 line["claims"] = json!(judgement.findings.len());
                 let failures = judgement.failures().map(|failure| -> Value {
                     json!({
+                        "file": failure.file.as_ref().unwrap_or(&one.name),
                         "line": failure.line,
                         "case": failure.case,
                         "claim": failure.sort.word(),

@@ -8,7 +8,7 @@ use super::wanted::wanted;
 use looproot::catalogue::load;
 use looproot::derivation::{Derivation, derive, derive_symbolic};
 use looproot::error::Error;
-use looproot::report::derivation::{json, markdown, system, text, verdict};
+use looproot::report::derivation::{json, paper, system, text, verdict};
 use looproot::report::symbolic;
 use std::io::Write;
 
@@ -34,6 +34,8 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
             format!("{}\n", symbolic::json(&entry, index + 1, &derivation))
         } else if let Some(format) = options.format {
             symbolic::system(&derivation, format)?
+        } else if let Some(style) = options.explain {
+            symbolic::paper(&entry, index + 1, &derivation, &derivation.substituted(&entry, case)?, style)
         } else if options.quiet {
             symbolic::verdict(&derivation) + "\n"
         } else {
@@ -46,8 +48,8 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
             format!("{}\n", json(&entry, index + 1, &derivation))
         } else if let Some(format) = options.format {
             system(&derivation, format)?
-        } else if options.explain {
-            markdown(&entry, index + 1, &derivation)?
+        } else if let Some(style) = options.explain {
+            paper(&entry, index + 1, &derivation, &derivation.substituted(&entry, case)?, style)
         } else if options.quiet {
             verdict(&derivation) + "\n"
         } else {
@@ -65,6 +67,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
 fn exit(derivation: &Derivation) -> Exit {
     match &derivation.polynomial {
         None => Exit::NotProved,
+        Some(_) if !derivation.proved => Exit::NotProved,
         Some(polynomial) if polynomial.roots.is_empty() && polynomial.at_pi == 0 => Exit::Unreachable,
         Some(_) => Exit::Complete,
     }

@@ -24,8 +24,8 @@ const INVARIANTS: [&str; 6] = ["n.n'", "n.r", "n'.r", "r.r", "n.(r x n')", "(r.r
 /// The vectors whose coordinates across the first axis turn with it.
 const TURNING: [&str; 4] = ["n'", "r", "r x n'", "(r.r) n' - 2 (n'.r) r"];
 
-/// The first cut that leaves the fewest roots, distinct if possible. The first one of all is taken at once where it
-/// leaves 16 distinct ones, as in general.
+/// The first cut that leaves the fewest roots, distinct if possible: of special loops some leave roots that belong to no
+/// solution, and look like the general case.
 pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
     let mut best = None;
     for cut in Cut::ALL {
@@ -34,9 +34,6 @@ pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
             let Some(quality) = quality(&found.cofactor) else { continue };
             if best.is_none_or(|(least, _, _)| quality < least) {
                 best = Some((quality, cut, hidden));
-            }
-            if quality == (16, false) {
-                return best.map(|(_, cut, hidden)| (cut, hidden));
             }
         }
     }

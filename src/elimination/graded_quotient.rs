@@ -60,6 +60,23 @@ impl<'a> GradedQuotient<'a> {
         Self { modulus, unknowns, generators: generators(modulus, setting), degrees: vec![first] }
     }
 
+    /// Adds a general quadric to the equations, before the ring goes on to degree 2: one dimension less.
+    pub fn cut(&mut self, number: usize) {
+        let monomials: Vec<Monomial> = (0..4)
+            .flat_map(|i| (i..4).map(move |j| unknown(i) + unknown(j)))
+            .chain((4..self.unknowns).map(unknown))
+            .collect();
+        // Powers of numbers that have nothing to do with the equations.
+        let base = self.modulus.enter(1_000_003 + 7_919 * number as u64);
+        let mut c = base;
+        let mut quadric = Sparse::new();
+        for monomial in monomials {
+            c = Modulus::mul(self.modulus, Modulus::mul(self.modulus, c, c), base);
+            quadric.insert(monomial, c);
+        }
+        self.generators.push((2, quadric));
+    }
+
     /// Dimension of the ring in a degree known already.
     #[must_use]
     pub fn dimension(&self, degree: usize) -> usize {
@@ -156,7 +173,7 @@ impl<'a> GradedQuotient<'a> {
     /// `z_index v` for v of a degree.
     #[must_use]
     pub fn times(&self, degree: usize, index: usize, v: &[u64]) -> Vec<u64> {
-        let (lower, upper) = (&self.degrees[degree], &self.degrees[degree + 1]);
+        let (lower, upper) = (&self.degrees[degree], &self.degrees[degree + weight(index)]);
         let mut product = vec![0; upper.standard.len()];
         for (standard, c) in lower.standard.iter().zip(v) {
             self.modulus.add_multiple(&mut product, *c, &upper.normal[&(standard + unknown(index))]);

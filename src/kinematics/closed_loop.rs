@@ -5,6 +5,7 @@
 //! path serves all. \[LeeLiang1988\]
 
 use super::chain::{Chain, Geometry, Joint, JointKind, ScrewJoint};
+use super::freedom::Freedom;
 use super::idle::Idle;
 use super::motion::{Motion, dot};
 use crate::algebra::number::{Angle, Number};
@@ -312,7 +313,9 @@ impl Chain {
         let expected = if locked.is_some() { 7 } else { 6 };
         if total != expected {
             return Err(Error::Unsupported(format!(
-                "{total} joint variables, {expected} expected: an overconstrained loop is solved and swept only"
+                "{total} joint variables, {expected} expected: {}; overconstrained loops are solved and swept, and their \
+                 mobility is decided, but there is no single closure polynomial",
+                Freedom::of(self)
             )));
         }
         // An arm's gap stands behind its last constant, a loop's at its locked variable.
@@ -453,8 +456,10 @@ impl Chain {
         let found = items.iter().position(|(at, _)| !is_ball(*at)).filter(|_| items.len() == 3);
         let Some(position) = found else {
             return Err(Error::Unsupported(format!(
-                "{} joint variables with two S joints: solved are loops with one more unknown, as RSSR",
-                layout.variables.len()
+                "{} joint variables with two S joints, {}: solved are loops with two S joints and two more joint variables, one of \
+                 them given, as RSSR",
+                layout.variables.len(),
+                Freedom::of(self)
             )));
         };
         items.rotate_left((position + 1) % 3);

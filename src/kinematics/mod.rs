@@ -4,6 +4,7 @@ pub mod chain;
 pub mod closed_loop;
 pub mod dual_quaternion;
 pub mod framework;
+pub mod freedom;
 pub mod idle;
 pub mod link_form;
 pub mod motion;

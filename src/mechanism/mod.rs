@@ -2,6 +2,7 @@
 
 mod input_curve;
 mod platform;
+mod short_ball;
 mod short_loop;
 mod single_loop;
 

@@ -44,12 +44,9 @@ fn is_settled(assembly: &PlatformAssembly) -> bool {
 /// beside simple ones counts as many times as these leave over.
 fn account_for_singular(assembly: &mut PlatformAssembly, exact: Option<PlatformDegree>) {
     match exact {
-        Some(PlatformDegree::Infinite) => {
-            assembly.modes.retain(|mode| mode.certificate.is_some());
-            // Their numbers have changed.
-            assembly.modes.iter_mut().for_each(|mode| mode.mirror = None);
-        }
-        Some(PlatformDegree::Finite { poses, .. }) => {
+        // All of them are proved to be isolated.
+        Some(PlatformDegree::Finite { poses, .. }) if certified(assembly) == poses => assembly.self_motion = 0,
+        Some(PlatformDegree::Finite { poses, .. }) if assembly.self_motion == 0 => {
             let known: usize = assembly.modes.iter().map(|mode| mode.multiplicity).sum();
             let mut unknown = assembly.modes.iter_mut().filter(|mode| mode.multiplicity == 0);
             if let (Some(mode), None) = (unknown.next(), unknown.next())
@@ -58,8 +55,20 @@ fn account_for_singular(assembly: &mut PlatformAssembly, exact: Option<PlatformD
                 mode.multiplicity = poses - known;
             }
         }
-        None => {}
+        None if assembly.self_motion == 0 => {}
+        _ => {
+            let before = assembly.modes.len();
+            assembly.modes.retain(|mode| mode.certificate.is_some());
+            if assembly.modes.len() < before {
+                // Their numbers have changed.
+                assembly.modes.iter_mut().for_each(|mode| mode.mirror = None);
+            }
+        }
     }
+}
+
+fn certified(assembly: &PlatformAssembly) -> usize {
+    assembly.modes.iter().filter(|mode| mode.certificate.is_some()).count()
 }
 
 impl PreparedPlatform {

@@ -1,6 +1,7 @@
 //! Loops with fewer than six unknowns: overconstrained mechanisms and structures.
 
-use super::single_loop::{filling, full_mode, locked_value, locked_variable};
+use super::short_ball::{Positions, positions};
+use super::single_loop::{filling, full_mode, locked_value, locked_variable, within_limits};
 use super::{FullMode, Solution};
 
 use crate::algebra::modp::{ModP, PRIME_61};
@@ -11,6 +12,7 @@ use crate::elimination::common_roots::common_roots;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
+use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
 use crate::solve::newton::{Six, closure};
 use crate::verdict::{Status, Verdict};
@@ -31,7 +33,8 @@ const ZERO: f64 = 1e-11;
 /// A loop that closes no better than this, its idle unknowns at zero and the others at their best, does not close: it is one
 /// made with a small error.
 const OPEN: f64 = 1e-11;
-/// One that closes so well counts as a solution before they are counted exactly.
+/// Closure residuals up to this are rounding: where the equations enlarge it, idle unknowns may be larger. Loops that close so
+/// well count as solutions before they are counted exactly.
 const CLOSED: f64 = 1e-13;
 /// How many choices of idle axes are tried before a search is given up.
 const CHOICES: u32 = 2;
@@ -94,6 +97,12 @@ pub(super) fn filled_up(chain: &Chain, layout: Layout) -> Result<Layout> {
     if layout.missing() == 0 {
         return Ok(layout);
     }
+    if layout.ball.is_some() {
+        return Err(Error::Unsupported(format!(
+            "an overconstrained loop with an S joint, {}; such a loop is solved at an input only",
+            Freedom::of(chain)
+        )));
+    }
     let last = rungs(chain, &layout)?.into_iter().next_back();
     Ok(last.map_or(layout, |rung| rung.layout))
 }
@@ -101,12 +110,11 @@ pub(super) fn filled_up(chain: &Chain, layout: Layout) -> Result<Layout> {
 /// The choices of idle unknowns by which a loop can be solved: as many translations as leave the six unknowns
 /// independent in general position, which is simplest, then rotations only.
 fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
-    if layout.ball.is_some() {
-        let message = "an overconstrained loop with an S joint; solved are overconstrained loops of R, P and C joints";
-        return Err(Error::Unsupported(message.to_owned()));
+    // A ball has its own route.
+    if layout.ball.is_some() && layout.second_ball.is_none() {
+        return Ok(Vec::new());
     }
     let unit = chain.unit().to_f64();
-    let over = |motion: &Motion<f64>| Motion { translation: motion.translation.map(|x| x / unit), ..motion.clone() };
     let mut rungs = Vec::new();
     for rotations in 0..=layout.missing() {
         if !rungs.is_empty() && rotations < layout.missing() {
@@ -119,20 +127,27 @@ fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
             if solver.is_out_of_reach() || solver.structural_rank() < 6 {
                 break;
             }
-            let open = OpenLoop {
-                variables: open.variables,
-                constants: open.constants.each_ref().map(over),
-                before_gap: over(&open.before_gap),
-                after_gap: over(&open.after_gap),
-            };
-            rungs.push(Rung { layout, solver, open });
+            rungs.push(Rung { layout, solver, open: scaled(&open, unit) });
         }
     }
     if rungs.is_empty() {
-        let message = "the joints of this loop are dependent in every position, so that part of it moves by itself";
-        return Err(Error::Unsupported(message.to_owned()));
+        return Err(Error::Unsupported(format!(
+            "the joints of this loop are dependent in every position, so that part of it moves by itself: {}",
+            Freedom::of(chain)
+        )));
     }
     Ok(rungs)
+}
+
+/// A loop with its lengths over a unit.
+fn scaled(open: &OpenLoop<f64>, unit: f64) -> OpenLoop<f64> {
+    let over = |motion: &Motion<f64>| Motion { translation: motion.translation.map(|x| x / unit), ..motion.clone() };
+    OpenLoop {
+        variables: open.variables,
+        constants: open.constants.each_ref().map(over),
+        before_gap: over(&open.before_gap),
+        after_gap: over(&open.after_gap),
+    }
 }
 
 impl ShortLoop {
@@ -170,10 +185,18 @@ impl ShortLoop {
             Some(answer) => answer,
             None => self.isolated(prepared, case, roots, workspace, assembly)?,
         };
+        let mut warnings = case.warnings.clone();
+        if locked.is_some() && verdict.complex == 0 && verdict.self_motion == 0 {
+            warnings.push(format!(
+                "an overconstrained loop: {}; it can be assembled at an input only with special dimensions, and looproot mobility \
+                 decides whether it moves; a loop of mobility 1 in general has seven joint variables",
+                Freedom::of(&self.chain)
+            ));
+        }
         Ok(Solution {
             verdict,
             modes,
-            warnings: case.warnings.clone(),
+            warnings,
             prepare_us: prepared.prepare_us,
             solve_us: start.elapsed().as_secs_f64() * 1e6,
             platform: None,
@@ -186,6 +209,9 @@ impl ShortLoop {
         let mut complex: Option<(usize, usize)> = None;
         for locked in 0..variables.len() {
             let layout = Layout::of(&self.chain, Some(locked))?;
+            if layout.ball.is_some_and(|ball| (ball..ball + 3).contains(&locked)) {
+                continue;
+            }
             // A joint without which the others are dependent cannot be held to find the motion.
             let Ok(rungs) = rungs(&self.chain, &layout) else { continue };
             let joint = self.joint_of(locked);
@@ -222,7 +248,11 @@ impl ShortLoop {
     fn joint_of(&self, variable: usize) -> usize {
         let kinds = self.chain.joint_kinds();
         let ends = kinds.iter().scan(0, |end, kind| {
-            *end += if *kind == JointKind::Cylindrical { 2 } else { 1 };
+            *end += match kind {
+                JointKind::Cylindrical => 2,
+                JointKind::Spherical => 3,
+                _ => 1,
+            };
             Some(*end)
         });
         1 + ends.take_while(|end| *end <= variable).count()
@@ -247,6 +277,9 @@ impl ShortLoop {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Answer> {
+        if prepared.layout.ball.is_some() {
+            return self.with_ball(&prepared.layout, case);
+        }
         let mut best: Vec<Candidate> = Vec::new();
         let mut count: Option<usize> = None;
         let mut self_motion = 0;
@@ -258,7 +291,8 @@ impl ShortLoop {
             count = count.or_else(|| self.count(rung, case, total(&closed)));
             self_motion = assembly.self_motion;
             if tight.is_empty() {
-                tight = found.iter().filter(|candidate| candidate.idle < ZERO).cloned().collect();
+                let is_tight = |c: &&Candidate| c.idle < ZERO || c.mode.residual <= CLOSED;
+                tight = found.iter().filter(is_tight).cloned().collect();
             }
             // Idle translations let solutions coincide that are simple; idle rotations do not.
             found.truncate(count.map_or(found.len(), |count| fitting(&found, count)));
@@ -287,6 +321,72 @@ impl ShortLoop {
             ..full_mode(&mode, q, &prepared.layout.variables, &self.limits)
         });
         Ok((verdict, modes.collect()))
+    }
+
+    /// The isolated solutions of one case of a loop with a ball, all of them exactly.
+    fn with_ball(&self, layout: &Layout, case: &Case) -> Result<Answer> {
+        let found = match positions(&self.chain, layout, case)? {
+            Positions::Isolated(found) => found,
+            Positions::Moving => {
+                let reason = "solutions form a self-motion of dimension 1: joints move while the centre of the S joint is where it \
+                              has to be";
+                return Ok((outcome(Status::SelfMotion, 1, reason.to_owned()), Vec::new()));
+            }
+        };
+        let filled = layout.with_idle(layout.missing(), 0);
+        let unit = self.chain.unit().to_f64();
+        let filling: Motion<f64> = filling(case)?;
+        let filling = Motion { translation: filling.translation.map(|x| x / unit), ..filling };
+        let closed = scaled(&self.chain.open_loop(&filled)?, unit).close(&filling);
+        let joints = filled.joint_variables();
+        let units = closed.variables.map(|kind| if kind == Variable::Rotation { 1.0 } else { unit });
+        let locked = Complex::from(locked_value(case));
+        let mut modes = Vec::new();
+        for (q, multiplicity) in found {
+            let real = q.iter().all(|x| x.im.abs() < ZERO * (1.0 + x.re.abs()));
+            let own = std::array::from_fn(|k| {
+                let value = joints[k].map_or(Complex::ZERO, |joint| q[joint] / units[k]);
+                if real { Complex::from(value.re) } else { value }
+            });
+            let (unknowns, residual) = closer(&closed, &own, joints.map(|joint| joint.is_none()), real);
+            let q = filled.assemble(&std::array::from_fn(|k| unknowns[k] * units[k]), locked);
+            let within = (real && !self.limits.is_empty()).then(|| within_limits(&q, &layout.variables, &self.limits));
+            modes.push(FullMode {
+                q,
+                real,
+                multiplicity,
+                residual,
+                condition: f64::INFINITY,
+                certified: false,
+                radius: f64::INFINITY,
+                within_limits: within,
+                platform: None,
+            });
+        }
+        modes.sort_by(|a, b| b.real.cmp(&a.real).then_with(|| in_order(&a.q, &b.q)));
+        let total: usize = modes.iter().map(|mode| mode.multiplicity).sum();
+        let real = modes.iter().filter(|mode| mode.real).map(|mode| mode.multiplicity).sum();
+        let (status, reason) = match (self.is_rounded, real) {
+            (true, _) => {
+                let reason = format!(
+                    "not proved: {total} solutions for the rounded data, but an overconstrained loop moves with exact data only"
+                );
+                (Status::Incomplete, reason)
+            }
+            (false, 0) if total == 0 => {
+                let reason = "no solution: the two equations by which the centre of the S joint is reached from both sides have no \
+                              common root";
+                (Status::Unreachable, reason.to_owned())
+            }
+            (false, real) => {
+                let reason = format!(
+                    "{total} of {total}: all common roots of the two equations by which the centre of the S joint is reached from \
+                     both sides, exactly"
+                );
+                (if real == 0 { Status::Unreachable } else { Status::Complete }, reason)
+            }
+        };
+        Ok((Verdict { complex: total, real, ..outcome(status, 0, reason) }, modes))
     }
 
     /// What nearly closes the loop, by the size of its idle unknowns.
@@ -392,7 +492,7 @@ fn closer(
     let mut at: Six<Complex<f64>> = std::array::from_fn(|k| if is_idle[k] { Complex::ZERO } else { unknowns[k] });
     let size = |at: &Six<Complex<f64>>| {
         let here = closure(closed, at);
-        (here.defect / here.growth(real), here)
+        (here.relative_defect(closed, at, real), here)
     };
     let (mut defect, mut here) = size(&at);
     for _ in 0..POLISHINGS {

@@ -1,21 +1,25 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
 use super::{FullMode, Solution};
-use crate::algebra::long_float::LongFloat;
+use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, coupler, wrapped};
+use crate::assembly::{Assembly, AxisTriple, Mode, Roots, Solver, Workspace, coupler, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
+use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
+use crate::solve::scalar::Extended;
 use crate::verdict::{Bound, Status, verdict};
 use num_complex::Complex;
 use rug::Rational;
+use std::cell::OnceCell;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -49,6 +53,16 @@ fn bound_from(degree: Degree, place: &str) -> Bound {
         )
     };
     Bound { count: degree.solutions, because }
+}
+
+/// The dimension of the ring of a loop as a bound.
+fn of_ring(count: usize) -> Bound {
+    let because = if count == 0 {
+        "the closure equations, of which 1 is a combination at this pose (modulo 2^61 - 1)".to_owned()
+    } else {
+        format!("the closure equations, whose ring has dimension {count} at this pose (modulo 2^61 - 1)")
+    };
+    Bound { count, because }
 }
 
 impl Prepared {
@@ -111,8 +125,10 @@ impl SingleLoop {
                 return Err(Error::Unsupported(format!(
                     "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without \
                      turning; the screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does \
-                     not close; planar and translational loops are not solved",
-                    6 - rank
+                     not close ({} of the whole loop); solved are loops with three unknown rotations at least: give a \
+                     distance in place of an angle",
+                    6 - rank,
+                    Freedom::of(chain)
                 )));
             }
             prepared.push(Prepared { layout, solver: Some(solver), bound: OnceLock::new(), prepare_us });
@@ -148,9 +164,21 @@ impl SingleLoop {
         let start = Instant::now();
         solver.solve_up_to(&gap, roots, &most, workspace, assembly);
         let mut solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let count_here = || {
-            let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
-            Some(bound_from(prepared.degree(&closed, None)?, "at this pose"))
+        let modular = || modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?);
+        let (by_cuts, ring) = (OnceCell::new(), OnceCell::new());
+        let plan = || -> Option<&Plan> {
+            let with_ball = prepared.layout.ball_unknown().is_some();
+            ring.get_or_init(|| modular().filter(|_| !with_ball).and_then(|closed| Plan::of(&closed))).as_ref()
+        };
+        // The ring is asked where the cuts know of nothing, or of more than `found`.
+        let count_here = |found: usize| -> Option<Bound> {
+            let degree = *by_cuts.get_or_init(|| prepared.degree(&modular()?, None));
+            let bound = degree.map(|degree| bound_from(degree, "at this pose"));
+            if bound.as_ref().is_some_and(|bound| bound.count <= found) {
+                return bound;
+            }
+            let ring = plan().map(|plan| of_ring(plan.count()));
+            bound.into_iter().chain(ring).min_by_key(|bound| bound.count)
         };
         let judge = |assembly: &Assembly| {
             verdict(
@@ -163,7 +191,7 @@ impl SingleLoop {
                     let skip = roots == Roots::Real && !solver.is_special();
                     if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
                 },
-                count_here,
+                || count_here(assembly.total()),
                 solver.too_far(&gap),
             )
         };
@@ -172,19 +200,24 @@ impl SingleLoop {
             _ if roots == Roots::Real || solver.structural_rank() < 6 => None,
             Status::Incomplete => {
                 let everywhere = prepared.bound(&self.chain).count;
-                Some(count_here().map_or(everywhere, |here| here.count.min(everywhere)))
+                Some(count_here(assembly.total()).map_or(everywhere, |here| here.count.min(everywhere)))
             }
             // The exact count of three rotations knows of every self-motion: what f64 took for one is none.
-            Status::SelfMotion if prepared.general() == 2 => count_here().map(|here| here.count),
+            Status::SelfMotion if prepared.general() == 2 => count_here(2).map(|here| here.count),
             _ => None,
         };
-        let open = || self.chain.try_open_loop::<LongFloat>(&prepared.layout).ok().flatten();
-        if let Some(expected) = expected
-            && let (Some(open), Ok(filling)) = (open(), filling(case))
-        {
-            solver.rescue(&open.close(&filling), expected, assembly);
+        if let Some(expected) = expected {
+            self.rescue::<LongFloat>(prepared, case, plan(), expected, assembly);
             verdict = judge(assembly);
+            if verdict.status == Status::Incomplete {
+                // Solutions that only the rounding of the data keeps from infinity.
+                self.rescue::<LongerFloat>(prepared, case, plan(), expected, assembly);
+                verdict = judge(assembly);
+            }
             solve_us = start.elapsed().as_secs_f64() * 1e6;
+        }
+        if solver.structural_rank() < 6 {
+            verdict.reason += &dependent(&self.chain, &prepared.layout, solver.axis_triples());
         }
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {
@@ -199,6 +232,21 @@ impl SingleLoop {
             solve_us,
             platform: None,
         })
+    }
+
+    /// Looks again for what is missing of a list, in longer numbers.
+    fn rescue<R: Extended>(
+        &self,
+        prepared: &Prepared,
+        case: &Case,
+        plan: Option<&Plan>,
+        expected: usize,
+        assembly: &mut Assembly,
+    ) {
+        let open: Option<OpenLoop<R>> = self.chain.try_open_loop(&prepared.layout).ok().flatten();
+        if let (Some(solver), Some(open), Ok(filling)) = (&prepared.solver, open, filling(case)) {
+            solver.rescue(&open.close(&filling), plan, expected, assembly);
+        }
     }
 
     /// Solves a loop with two balls.
@@ -241,6 +289,25 @@ impl SingleLoop {
             platform: None,
         })
     }
+}
+
+/// Why six joints are dependent, where two triples of their axes say it.
+fn dependent(chain: &Chain, layout: &Layout, triples: &[AxisTriple]) -> String {
+    let [one, two] = triples else { return String::new() };
+    let freedoms = |kind: JointKind| match kind {
+        JointKind::Cylindrical => 2,
+        JointKind::Spherical => 3,
+        _ => 1,
+    };
+    let kinds = chain.joint_kinds().into_iter().enumerate();
+    let joints: Vec<usize> = kinds.flat_map(|(k, kind)| std::iter::repeat_n(k + 1, freedoms(kind))).collect();
+    let variables = layout.joint_variables();
+    let name = |triple: &AxisTriple| {
+        let joint = |k: usize| variables[triple.first + k].and_then(|v| joints.get(v)).copied().unwrap_or(0);
+        let how = if triple.parallel { "are parallel" } else { "meet in a point" };
+        format!("the axes of joints {}, {}, {} {how}", joint(0), joint(1), joint(2))
+    };
+    format!("; {} and {}: their six screws are dependent in every position", name(one), name(two))
 }
 
 /// A mode as a user reads it.
@@ -335,7 +402,7 @@ pub(super) fn locked_value(case: &Case) -> f64 {
 }
 
 /// Whether every joint can be within its limits, angles modulo whole turns.
-fn within_limits(q: &[Complex<f64>], variables: &[Variable], limits: &[[f64; 2]]) -> bool {
+pub(super) fn within_limits(q: &[Complex<f64>], variables: &[Variable], limits: &[[f64; 2]]) -> bool {
     q.iter().zip(variables).zip(limits).all(|((value, variable), [low, high])| match variable {
         Variable::Translation => (*low..=*high).contains(&value.re),
         Variable::Rotation => {

@@ -55,8 +55,6 @@ pub struct Configuration {
     pub branch: Option<usize>,
     /// What the axes have in common, in words.
     pub system: String,
-    /// A basis of the system that the joint screws span, in the frame of the first joint.
-    pub basis: Vec<Screw<f64>>,
     /// A basis of the screws reciprocal to all joints: of the wrenches that the loop can hold in itself, its redundant
     /// constraints.
     pub redundant: Vec<Screw<f64>>,

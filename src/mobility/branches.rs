@@ -1,10 +1,11 @@
 //! Which configurations of a mobile loop lie on one and the same curve: the curve is followed in floating point.
 
 use super::answer::Configuration;
-use super::linkage::{JointValue, Linkage};
+use super::linkage::{Axis, JointValue, Linkage};
 use super::order::Germ;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
+use crate::kinematics::motion::dot;
 use nalgebra::{DMatrix, DVector};
 use rug::Rational;
 use std::f64::consts::PI;
@@ -45,7 +46,7 @@ pub(super) fn branches(linkage: &Linkage<Rational>, configurations: &[Configurat
     found
 }
 
-/// The links in floating point, each over its largest coordinate.
+/// The loop in floating point, axes of length 1 and each link over its largest coordinate.
 fn floating(linkage: &Linkage<Rational>) -> Linkage<f64> {
     let link = |link: &DualQuaternion<Rational>| {
         let (x, y) = link.study();
@@ -53,7 +54,19 @@ fn floating(linkage: &Linkage<Rational>) -> Linkage<f64> {
         let image = |v: &[Rational; 4]| v.each_ref().map(|c| Rational::from(c / &largest).to_f64());
         DualQuaternion::from_study(&image(&x), &image(&y))
     };
-    Linkage { variables: linkage.variables.clone(), links: linkage.links.iter().map(link).collect() }
+    let axis = |axis: &Axis<Rational>| match axis {
+        Axis::Z => Axis::Z,
+        Axis::Along(e) => {
+            let e = e.each_ref().map(Rational::to_f64);
+            let length = dot(&e, &e).sqrt();
+            Axis::Along(e.map(|x| x / length))
+        }
+    };
+    Linkage {
+        variables: linkage.variables.clone(),
+        axes: linkage.axes.iter().map(axis).collect(),
+        links: linkage.links.iter().map(link).collect(),
+    }
 }
 
 /// A curve of configurations.

@@ -53,7 +53,7 @@ pub fn at_most(linkage: &Linkage<Rational>, enough: usize) -> Option<usize> {
         let mut values = Values::default();
         for hidden in (1..6).map(|step| (k + step) % 6) {
             values.note(&image, k, hidden);
-            let count = values.count();
+            let count = values.count(image.axes[k].square());
             least = match (least, count) {
                 (Some(a), Some(b)) => Some(usize::min(a, b)),
                 (a, b) => a.or(b),
@@ -97,10 +97,10 @@ impl Values {
         }
     }
 
-    /// How many values are left, without those that belong to no angle.
-    fn count(&self) -> Option<usize> {
+    /// How many values are left, without those that belong to no angle: of tangent i over the length of the axis.
+    fn count(&self, square: Mod) -> Option<usize> {
         let (divisor, at_infinity) = self.common.as_ref()?;
-        let circle = Univariate::new([1, 0, 1].map(Ring::from_integer).to_vec());
+        let circle = Univariate::new(vec![Mod::one(), Mod::zero(), square]);
         let (_, proper) = divisor.remove_factor(&circle);
         proper.degree().map(|degree| degree + at_infinity)
     }

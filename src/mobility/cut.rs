@@ -31,7 +31,11 @@ fn first_side(n: usize) -> usize {
 /// The product of a side in which every variable is the first or the second unit of its pair, by the bits of `choice`.
 fn side<F: Field>(linkage: &Linkage<F>, variables: &[usize], choice: usize) -> Study<F> {
     variables.iter().enumerate().fold(one(), |product, (bit, k)| {
-        let factor = if choice >> bit & 1 == 0 { product } else { times_axis(&product, linkage.variables[*k]) };
+        let factor = if choice >> bit & 1 == 0 {
+            product
+        } else {
+            times_axis(&product, linkage.variables[*k], &linkage.axes[*k])
+        };
         let (x, y) = linkage.links[*k].study();
         let ([a, b, c, d], [e, f, g, h]) = (x, y);
         times(&factor, &[a, b, c, d, e, f, g, h])

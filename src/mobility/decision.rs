@@ -5,7 +5,7 @@ use super::branches::branches;
 use super::linkage::{JointValue, Linkage};
 use super::order::{Germ, Local, MOST_SOLUTIONS};
 use super::positions::Conjugates;
-use super::rounded::{Closing, closing};
+use super::rounded::{Closing, closing, has_long_decimals, is_exact, remark};
 use super::search::{Outcome, Search, at, decide, is_open_everywhere, search};
 use super::stillness::all_stand_still;
 use crate::algebra::number::{Angle, HalfTangent, Number};
@@ -99,14 +99,22 @@ impl Subject<'_> {
     /// Loops of up to six variables, which in general do not move.
     fn overconstrained(&self) -> Result<Mobility> {
         let answer = self.exactly()?;
-        if !self.entry.rounded || answer.mobility > Some(0) {
+        let moves = answer.mobility > Some(0);
+        let is_rounded = !is_exact(self.chain);
+        if !is_rounded && (moves || !has_long_decimals(self.chain)) {
             return Ok(answer);
         }
-        if let Some(closing) = closing(self.entry, &self.variables)? {
-            return Ok(self.swept(&closing));
-        }
-        let reason = format!("{}; numbers of the file were rounded, which may have stopped a motion", answer.reason);
-        Ok(Mobility { reason, ..answer })
+        let closing = if moves { None } else { closing(self.entry, &self.variables)? };
+        let remark = match closing {
+            Some(closing) if is_rounded => return Ok(self.swept(&closing)),
+            Some(closing) => remark(&closing, &self.variables),
+            None if moves => "this holds for the loop with its irrational numbers rounded (--digits)".to_owned(),
+            None if is_rounded => "numbers of the file were rounded, which may have stopped a motion; to rounding the \
+                                   loop does not close through any range, either"
+                .to_owned(),
+            None => return Ok(answer),
+        };
+        Ok(Mobility { reason: format!("{}; {remark}", answer.reason), ..answer })
     }
 
     /// A loop that closes to rounding.
@@ -271,9 +279,10 @@ impl Subject<'_> {
         let unit = self.linkage.unit();
         for (k, z) in mode.q.iter().enumerate() {
             let half = z.re / 2.0;
+            let length = self.linkage.axes[k].length(53).to_f64();
             let value = match self.variables[k].variable {
-                Variable::Rotation => half.tan(),
-                Variable::Translation => half,
+                Variable::Rotation => half.tan() / length,
+                Variable::Translation => half / length,
             };
             let tangent = if value.abs() < 1e-6 * unit.to_f64() {
                 Rational::new()
@@ -292,13 +301,14 @@ impl Subject<'_> {
 
     /// A configuration as it is in floating point.
     fn measured(&self, mode: &FullMode) -> Configuration {
-        let value = |(z, variable): (&num_complex::Complex<f64>, &JointVariable)| -> JointValue<f64> {
-            match variable.variable {
-                Variable::Rotation => [(z.re / 2.0).cos(), (z.re / 2.0).sin()],
-                Variable::Translation => [1.0, z.re / 2.0],
+        let value = |(k, z): (usize, &num_complex::Complex<f64>)| -> JointValue<f64> {
+            let length = self.linkage.axes[k].length(53).to_f64();
+            match self.variables[k].variable {
+                Variable::Rotation => [(z.re / 2.0).cos(), (z.re / 2.0).sin() / length],
+                Variable::Translation => [1.0, z.re / 2.0 / length],
             }
         };
-        let values: Vec<JointValue<f64>> = mode.q.iter().zip(&self.variables).map(value).collect();
+        let values: Vec<JointValue<f64>> = mode.q.iter().enumerate().map(value).collect();
         let linkage: Option<Linkage<f64>> = self.linkage.map();
         let germ = linkage.map(|linkage| Germ::of(&linkage.at(&values)));
         let system = germ.as_ref().map(Germ::system);
@@ -321,7 +331,6 @@ impl Subject<'_> {
             moving: (0..n).map(moves).collect(),
             branch: None,
             system: system.as_ref().map(ScrewSystem::description).unwrap_or_default(),
-            basis: system.as_ref().map(ScrewSystem::basis).unwrap_or_default(),
             redundant: freedom.map(|freedom| freedom.redundant.basis()).unwrap_or_default(),
         }
     }

@@ -2,18 +2,52 @@
 
 use crate::algebra::ring::{Field, Ring};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::{Chain, Geometry, JointKind};
 use crate::kinematics::closed_loop::{Layout, Variable};
 use crate::kinematics::dual_quaternion::DualQuaternion;
-use crate::kinematics::motion::Motion;
-use rug::{Integer, Rational};
+use crate::kinematics::motion::{Motion, cross, dot};
+use rug::{Float, Integer, Rational};
 
 /// Study's parameters `x0..x3, y0..y3` of a motion up to a factor.
 pub(super) type Study<R> = [R; 8];
 
-/// The value of a joint variable as a ratio `c : s`. A rotation is `c + s k`, its angle twice that of tangent s/c, so that
-/// the angle pi is no exception; a translation is `c + s eps k`, by the distance `2 s/c`.
+/// The value of a joint variable as a ratio `c : s`. A rotation is `c + s e` with the quaternion e of its axis, its angle twice
+/// that of tangent s/c times the length of e, so that the angle pi is no exception; a translation is `c + s eps e`, by the
+/// distance `2 s/c` times that length.
 pub type JointValue<F> = [F; 2];
+
+/// The axis of a joint variable in its own frame: through the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Axis<F> {
+    /// The z axis, of length 1.
+    Z,
+    /// Along a vector, whose length need be no number of the field.
+    Along([F; 3]),
+}
+
+impl<F: Field> Axis<F> {
+    /// The square of its length.
+    pub(super) fn square(&self) -> F {
+        match self {
+            Self::Z => F::one(),
+            Self::Along(e) => dot(e, e),
+        }
+    }
+
+    fn map<G: Field>(&self, image: impl Fn(&F) -> Option<G>) -> Option<Axis<G>> {
+        Some(match self {
+            Self::Z => Axis::Z,
+            Self::Along([x, y, z]) => Axis::Along([image(x)?, image(y)?, image(z)?]),
+        })
+    }
+}
+
+impl Axis<Rational> {
+    /// Its length.
+    pub(super) fn length(&self, bits: u32) -> Float {
+        Float::with_val(bits, self.square()).sqrt()
+    }
+}
 
 /// A closed chain `V_1 L_1 V_2 L_2 ... V_n L_n = 1` of joint variables V and constant links L, as dual quaternions up to
 /// factors.
@@ -21,6 +55,8 @@ pub type JointValue<F> = [F; 2];
 pub struct Linkage<F> {
     /// What each joint variable does, in loop order.
     pub variables: Vec<Variable>,
+    /// Their axes, likewise.
+    pub axes: Vec<Axis<F>>,
     /// The link behind each joint variable.
     pub links: Vec<DualQuaternion<F>>,
 }
@@ -29,6 +65,7 @@ pub struct Linkage<F> {
 #[derive(Clone, Debug)]
 pub struct Position<F> {
     pub(super) variables: Vec<Variable>,
+    pub(super) axes: Vec<Axis<F>>,
     pub(super) links: Vec<Study<F>>,
 }
 
@@ -38,6 +75,9 @@ impl Linkage<Rational> {
     /// # Errors
     /// For joints other than R, P, C and S, and for a third S joint.
     pub fn of(chain: &Chain) -> Result<Self> {
+        if let Some(linkage) = Self::about_given_axes(chain) {
+            return Ok(linkage);
+        }
         let layout = Layout::of(chain, None)?;
         let (_, mut motions) = chain
             .unknowns_and_constants::<Rational>()
@@ -48,7 +88,43 @@ impl Linkage<Rational> {
             *last = last.then_after(&first);
         }
         let links = motions.iter().map(|motion| primitive(&dual_quaternion(motion))).collect();
-        Ok(Self { variables: layout.variables, links })
+        Ok(Self::about_z(layout.variables, links))
+    }
+
+    /// The loop of a list of screw axes of R, P and C joints some of which are along vectors of irrational length: there is
+    /// no rational frame with its z axis along such a vector, but none is needed.
+    fn about_given_axes(chain: &Chain) -> Option<Self> {
+        let Geometry::Screws { joints, home } = &chain.geometry else { return None };
+        let vectors: Vec<[Rational; 3]> =
+            joints.iter().map(|j| j.axis.each_ref().map(|x| x.rational().clone())).collect();
+        if vectors.iter().all(|axis| is_square(&dot(axis, axis))) {
+            return None;
+        }
+        let mut linkage = Self { variables: Vec::new(), axes: Vec::new(), links: Vec::new() };
+        let mut motions: Vec<Motion<Rational>> = vec![Motion::identity()];
+        let mut here: [Rational; 3] = std::array::from_fn(|_| Rational::new());
+        for (joint, vector) in joints.iter().zip(vectors) {
+            let variables: &[Variable] = match joint.kind {
+                JointKind::Revolute => &[Variable::Rotation],
+                JointKind::Prismatic => &[Variable::Translation],
+                JointKind::Cylindrical => &[Variable::Rotation, Variable::Translation],
+                _ => return None,
+            };
+            let step = std::array::from_fn(|i| Rational::from(joint.point[i].rational() - &here[i]));
+            *motions.last_mut()? = Motion::translation(step);
+            here = joint.point.each_ref().map(|x| x.rational().clone());
+            for variable in variables {
+                linkage.variables.push(*variable);
+                linkage.axes.push(Axis::Along(vector.clone()));
+                motions.push(Motion::identity());
+            }
+        }
+        // What stands before the first variable comes behind the last one: conjugation.
+        let first = motions.remove(0);
+        let back = Motion::translation(here.map(|x| -x));
+        *motions.last_mut()? = back.then_after(&home.exact).then_after(&first);
+        linkage.links = motions.iter().map(|motion| primitive(&dual_quaternion(motion))).collect();
+        Some(linkage)
     }
 
     /// A length of the size of the links: the power of two nearest to their mean, 1 without lengths.
@@ -64,17 +140,6 @@ impl Linkage<Rational> {
         Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
     }
 
-    /// The chain with a motion added behind one of its links, as a link made with an error.
-    ///
-    /// # Panics
-    /// When there is no such link.
-    #[must_use]
-    pub fn with_error(&self, link: usize, motion: &DualQuaternion<Rational>) -> Self {
-        let mut other = self.clone();
-        other.links[link] = primitive(&other.links[link].mul(motion));
-        other
-    }
-
     /// The same chain over another field; `None` for an unlucky prime.
     #[must_use]
     pub fn map<F: Field>(&self) -> Option<Linkage<F>> {
@@ -87,11 +152,18 @@ impl Linkage<Rational> {
             Some(DualQuaternion::from_study(&four(&x)?, &four(&y)?))
         };
         let links: Option<Vec<_>> = self.links.iter().map(image).collect();
-        Some(Linkage { variables: self.variables.clone(), links: links? })
+        let axes: Option<Vec<_>> = self.axes.iter().map(|axis| axis.map(F::from_rational)).collect();
+        Some(Linkage { variables: self.variables.clone(), axes: axes?, links: links? })
     }
 }
 
 impl<F: Field> Linkage<F> {
+    /// The chain of these joint variables, all about or along the z axis of their frame, with a link behind each.
+    #[must_use]
+    pub fn about_z(variables: Vec<Variable>, links: Vec<DualQuaternion<F>>) -> Self {
+        Self { axes: vec![Axis::Z; variables.len()], variables, links }
+    }
+
     /// The chain in which some joint variables are rigid, at these values: their place in the list of variables, and the
     /// value.
     ///
@@ -110,7 +182,8 @@ impl<F: Field> Linkage<F> {
             position = position.without(k);
         }
         let link = |[a, b, c, d, e, f, g, h]: Study<F>| DualQuaternion::from_study(&[a, b, c, d], &[e, f, g, h]);
-        Self { variables: position.variables, links: position.links.into_iter().map(link).collect() }
+        let links = position.links.into_iter().map(link).collect();
+        Self { variables: position.variables, axes: position.axes, links }
     }
 
     /// The chain with its joints at these values, which need not close.
@@ -120,13 +193,13 @@ impl<F: Field> Linkage<F> {
     #[must_use]
     pub fn at(&self, values: &[JointValue<F>]) -> Position<F> {
         assert_eq!(values.len(), self.variables.len(), "one value for every joint variable");
-        let links = self.links.iter().zip(&self.variables).zip(values).map(|((link, variable), value)| {
-            let (x, y) = link.study();
+        let links = (0..values.len()).map(|k| {
+            let (x, y) = self.links[k].study();
             let [a, b, c, d] = x;
             let [e, f, g, h] = y;
-            times(&joint(*variable, value), &[a, b, c, d, e, f, g, h])
+            times(&joint(self.variables[k], &self.axes[k], &values[k]), &[a, b, c, d, e, f, g, h])
         });
-        Position { variables: self.variables.clone(), links: links.collect() }
+        Position { links: links.collect(), variables: self.variables.clone(), axes: self.axes.clone() }
     }
 }
 
@@ -144,8 +217,9 @@ impl<F: Field> Position<F> {
     /// When there is no joint variable `k`, or no other one.
     #[must_use]
     pub fn without(&self, k: usize) -> Self {
-        let (mut variables, mut links) = (self.variables.clone(), self.links.clone());
+        let (mut variables, mut axes, mut links) = (self.variables.clone(), self.axes.clone(), self.links.clone());
         variables.remove(k);
+        axes.remove(k);
         let link = links.remove(k);
         if k == 0 {
             // In front of the first variable: to the end, by conjugation.
@@ -154,7 +228,7 @@ impl<F: Field> Position<F> {
         } else {
             links[k - 1] = times(&links[k - 1], &link);
         }
-        Self { variables, links }
+        Self { variables, axes, links }
     }
 }
 
@@ -170,19 +244,19 @@ pub(super) fn one<R: Ring>() -> Study<R> {
 }
 
 /// `V(c : s)`.
-pub(super) fn joint<R: Ring>(variable: Variable, value: &JointValue<R>) -> Study<R> {
+pub(super) fn joint<R: Ring>(variable: Variable, axis: &Axis<R>, value: &JointValue<R>) -> Study<R> {
     let mut study: Study<R> = std::array::from_fn(|_| R::zero());
     study[0] = value[0].clone();
-    study[axis(variable)] = value[1].clone();
-    study
-}
-
-/// Where the unit along the axis of a joint stands: k or eps k.
-fn axis(variable: Variable) -> usize {
-    match variable {
+    // Where the unit k, or eps k, stands.
+    let k = match variable {
         Variable::Rotation => 3,
         Variable::Translation => 7,
+    };
+    match axis {
+        Axis::Z => study[k] = value[1].clone(),
+        Axis::Along(e) => (0..3).for_each(|i| study[k - 2 + i] = e[i].mul(&value[1])),
     }
+    study
 }
 
 /// `a b`.
@@ -205,9 +279,20 @@ pub(super) fn times<R: Ring>(a: &Study<R>, b: &Study<R>) -> Study<R> {
     product
 }
 
-/// `a e` with the unit e along the axis of a joint, k or eps k.
-pub(super) fn times_axis<R: Ring>(a: &Study<R>, variable: Variable) -> Study<R> {
-    let turned = |b: usize| [a[b + 3].neg(), a[b + 2].clone(), a[b + 1].neg(), a[b].clone()];
+/// `a e` with the quaternion e of the axis of a joint, for a translation `a eps e`.
+pub(super) fn times_axis<R: Ring>(a: &Study<R>, variable: Variable, axis: &Axis<R>) -> Study<R> {
+    let turned = |b: usize| match axis {
+        Axis::Z => [a[b + 3].neg(), a[b + 2].clone(), a[b + 1].neg(), a[b].clone()],
+        Axis::Along(e) => {
+            let vector = [&a[b + 1], &a[b + 2], &a[b + 3]].map(R::clone);
+            let mut along = cross(&vector, e);
+            for (c, e) in along.iter_mut().zip(e) {
+                c.add_product(&a[b], e);
+            }
+            let [x, y, z] = along;
+            [dot(&vector, e).neg(), x, y, z]
+        }
+    };
     let [w, x, y, z] = turned(0);
     match variable {
         Variable::Rotation => {
@@ -216,6 +301,11 @@ pub(super) fn times_axis<R: Ring>(a: &Study<R>, variable: Variable) -> Study<R> 
         }
         Variable::Translation => [R::zero(), R::zero(), R::zero(), R::zero(), w, x, y, z],
     }
+}
+
+/// Whether a rational number is the square of one.
+pub(super) fn is_square(q: &Rational) -> bool {
+    q.numer().is_perfect_square() && q.denom().is_perfect_square()
 }
 
 /// The dual quaternion of a motion, up to a factor; rational for rational motions.

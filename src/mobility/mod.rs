@@ -16,7 +16,7 @@ mod stillness;
 pub use answer::{Configuration, Held, JointVariable, Mobility, Proof};
 pub use count::{at_most, count};
 pub use decision::mobility;
-pub use linkage::{JointValue, Linkage, Position};
+pub use linkage::{Axis, JointValue, Linkage, Position};
 pub use order::{Germ, Local};
 pub use positions::{Conjugates, Positions, positions};
 pub use search::moves;

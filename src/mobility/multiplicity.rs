@@ -56,7 +56,8 @@ pub(super) fn multiplicity<F: Field>(position: &Position<F>) -> Option<usize> {
 /// The product round the chain in which the joints of `mask` stand for their units along the axis, the others for 1.
 fn product<F: Field>(position: &Position<F>, mask: usize) -> Study<F> {
     position.links.iter().enumerate().fold(one(), |product, (k, link)| {
-        let turned = if mask >> k & 1 == 1 { times_axis(&product, position.variables[k]) } else { product };
+        let turned =
+            if mask >> k & 1 == 1 { times_axis(&product, position.variables[k], &position.axes[k]) } else { product };
         times(&turned, link)
     })
 }

@@ -42,11 +42,11 @@ pub struct Germ<F> {
     pub local: Local,
     /// The rank of the joint screws.
     pub rank: usize,
-    /// The joint screws, up to one common factor: direction and moment of each axis (of a translation 0 and its direction)
+    /// The joint screws, up to factors: direction and moment of each axis (of a translation 0 and its direction)
     /// in the frame of the first joint.
     pub screws: Vec<[F; 6]>,
     /// Where a curve or a multiple position was found: the power series of each joint variable along it, coefficient 0
-    /// first, as the tangent of half the angle (half the distance) by which it has moved on.
+    /// first, as the tangent of half the angle (half the distance) by which it has moved on, over the length of its axis.
     pub series: Vec<Vec<F>>,
 }
 
@@ -183,6 +183,11 @@ impl<'a, F: Field> Expansion<'a, F> {
         Self { position, products, series: vec![vec![F::zero()]; position.links.len()] }
     }
 
+    /// The product up to joint variable k, times its axis.
+    fn along(&self, k: usize) -> Study<F> {
+        times_axis(&self.products[k][0], self.position.variables[k], &self.position.axes[k])
+    }
+
     /// What each joint variable alone adds to the product of the closed chain, to first order.
     fn screws(&self) -> Vec<[F; 6]> {
         let n = self.position.links.len();
@@ -191,7 +196,7 @@ impl<'a, F: Field> Expansion<'a, F> {
             behind.push(times(link, &behind[behind.len() - 1]));
         }
         let screw = |k: usize| {
-            let product = times(&times_axis(&self.products[k][0], self.position.variables[k]), &behind[n - k]);
+            let product = times(&self.along(k), &behind[n - k]);
             equations(&product)
         };
         (0..n).map(screw).collect()
@@ -215,7 +220,7 @@ impl<'a, F: Field> Expansion<'a, F> {
                     total.add_product(x, term);
                 }
             }
-            let mut factor = times_axis(&sum, self.position.variables[k]);
+            let mut factor = times_axis(&sum, self.position.variables[k], &self.position.axes[k]);
             for (total, term) in factor.iter_mut().zip(&previous[order]) {
                 *total = total.add(term);
             }
@@ -230,7 +235,7 @@ impl<'a, F: Field> Expansion<'a, F> {
         for (k, link) in self.position.links.iter().enumerate() {
             let Some(x) = self.series[k].last() else { continue };
             if !x.is_zero() {
-                let along = times_axis(&self.products[k][0], self.position.variables[k]);
+                let along = self.along(k);
                 for (total, term) in change.iter_mut().zip(&along) {
                     total.add_product(x, term);
                 }

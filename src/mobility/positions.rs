@@ -14,6 +14,7 @@ use crate::algebra::number_field::{Algebraic, NumberField};
 use crate::algebra::real_roots::RealRoot;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
+use crate::kinematics::closed_loop::Variable;
 use rug::Rational;
 use std::sync::Arc;
 
@@ -148,10 +149,14 @@ impl<'a> Separation<'a> {
         let mut list = List::default();
         // The half-turn, where t is infinite.
         list.add(self.position(&[Algebraic::zero(), Algebraic::one()]), None)?;
-        let circle = Univariate::new([1, 0, 1].map(Rational::from).to_vec());
-        let (spurious, mut polynomial) = determinant.square_free_part().remove_factor(&circle);
+        let hidden = self.cut.order[self.cut.hidden];
+        let circle = Univariate::new(vec![Rational::from(1), Rational::new(), self.linkage.axes[hidden].square()]);
+        let (spurious, mut polynomial) = match self.linkage.variables[hidden] {
+            Variable::Rotation => determinant.square_free_part().remove_factor(&circle),
+            Variable::Translation => (0, determinant.square_free_part()),
+        };
         if spurious > 0 {
-            // No angle has the tangent i, but limits may.
+            // No half-angle has the tangent i, but limits may.
             let field = NumberField::new(&circle);
             let here = self.position(&[Algebraic::one(), field.root()]);
             list.is_improper |= !matches!(here, Here::Nothing) || field.split().is_some();

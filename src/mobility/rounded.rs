@@ -1,20 +1,29 @@
-//! Loops whose numbers had to be rounded: whether they close, to rounding, through the whole range of a joint.
+//! Loops whose numbers are rounded: whether they close, to rounding, through the whole range of a joint.
 
 use super::answer::JointVariable;
-use crate::algebra::number::Angle;
+use super::linkage::is_square;
+use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::error::Result;
+use crate::kinematics::chain::{Chain, Geometry, JointKind, ScrewJoint};
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{FullMode, Mechanism};
+use rug::{Integer, Rational};
 use std::f64::consts::{PI, TAU};
 
 /// Closure residuals up to this are rounding.
 const CLOSED: f64 = 1e-13;
+/// Residuals above this at an end of a range are on their way to more.
+const CEASING: f64 = CLOSED / 4.0;
 /// Inputs in a full turn, none of them special.
 const INPUTS: u32 = 180;
 /// At least so many neighbouring inputs make a range.
 const FEWEST: usize = 12;
+/// Decimals of so many digits behind the point may be rounded numbers.
+const LONG: u32 = 12;
+/// No decimal of more digits is looked at.
+const MOST_DIGITS: u32 = 64;
 
 /// A range of a joint in which a loop closes to rounding.
 pub(super) struct Closing {
@@ -47,16 +56,71 @@ pub(super) fn closing(entry: &Entry, variables: &[JointVariable]) -> Result<Opti
             let modes = solution.modes.into_iter().filter(|mode| mode.real && mode.residual <= CLOSED).collect();
             samples.push((radians, modes));
         }
+        // The circle has no ends: where it does not close all round, it is cut where it does not close.
+        let open = samples.iter().position(|(_, modes)| modes.is_empty()).unwrap_or_default();
+        samples.rotate_left(open);
         let ranges = samples.split(|(_, modes)| modes.is_empty());
         let longest = ranges.max_by_key(|range| range.len()).unwrap_or_default();
-        if longest.len() >= FEWEST {
+        // The best mode of each input: others may be of another, broken branch.
+        let best = |(_, modes): &(f64, Vec<FullMode>)| modes.iter().map(|m| m.residual).fold(f64::INFINITY, f64::min);
+        // A range ends in limit positions; a loop that only nearly closes ceases to close.
+        let ceases = longest.len() < samples.len()
+            && [longest.first(), longest.last()].into_iter().flatten().any(|end| best(end) > CEASING);
+        if longest.len() >= FEWEST && !ceases {
             let (held, modes) = longest[longest.len() / 2].clone();
-            // The best mode of each input: others may be of another, broken branch.
-            let best =
-                |(_, modes): &(f64, Vec<FullMode>)| modes.iter().map(|m| m.residual).fold(f64::INFINITY, f64::min);
             let residual = longest.iter().map(best).fold(0.0, f64::max);
             return Ok(Some(Closing { held: (k, held), modes, residual, inputs: (longest.len(), samples.len()) }));
         }
     }
     Ok(None)
+}
+
+/// What closing to rounding says of a loop whose decimals are taken exactly and do not move.
+pub(super) fn remark(closing: &Closing, variables: &[JointVariable]) -> String {
+    format!(
+        "with its decimals taken as exact numbers; to rounding it closes, with residuals up to {:.1e} at {} of {} inputs of \
+         joint {}: if they are rounded, write them as expressions",
+        closing.residual, closing.inputs.0, closing.inputs.1, variables[closing.held.0].joint
+    )
+}
+
+/// Whether the loop of exact arithmetic is that of the file.
+pub(super) fn is_exact(chain: &Chain) -> bool {
+    match &chain.geometry {
+        Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => joints.iter().all(|joint| {
+            [&joint.a, &joint.d].iter().all(|x| x.is_exact())
+                && [&joint.alpha, &joint.theta0].iter().all(|x| x.is_exact())
+        }),
+        Geometry::Screws { joints, home } => {
+            let has_frame = |joint: &ScrewJoint| {
+                is_square(&joint.axis.iter().map(|x| Rational::from(x.rational().square_ref())).sum())
+            };
+            let needs_none = |joint: &ScrewJoint| {
+                matches!(joint.kind, JointKind::Revolute | JointKind::Prismatic | JointKind::Cylindrical)
+            };
+            home.defect == 0.0
+                && joints.iter().flat_map(|joint| joint.axis.iter().chain(&joint.point)).all(Number::is_exact)
+                && (joints.iter().all(has_frame) || joints.iter().all(needs_none))
+        }
+    }
+}
+
+/// Whether the file gives decimals so long that they may be rounded numbers.
+pub(super) fn has_long_decimals(chain: &Chain) -> bool {
+    let is_long = |q: &Rational| {
+        let (mut rest, mut digits) = (q.denom().clone(), 0);
+        while digits < MOST_DIGITS && rest.is_divisible_u(2) | rest.is_divisible_u(5) {
+            rest /= rest.clone().gcd(&Integer::from(10));
+            digits += 1;
+        }
+        rest == 1 && digits >= LONG
+    };
+    let angle = |angle: &Angle| matches!(angle.half_tangent(), HalfTangent::Finite(t) if is_long(t));
+    let number = |number: &Number| is_long(number.rational());
+    match &chain.geometry {
+        Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => joints
+            .iter()
+            .any(|joint| number(&joint.a) || number(&joint.d) || angle(&joint.alpha) || angle(&joint.theta0)),
+        Geometry::Screws { joints, .. } => joints.iter().any(|joint| joint.axis.iter().chain(&joint.point).any(number)),
+    }
 }

@@ -112,7 +112,7 @@ pub(super) fn search(linkage: &Linkage<Rational>) -> Outcome {
     complex.map_or(Outcome::Nothing, Outcome::Complex)
 }
 
-/// Half the angle's tangent, or half the distance, at which a joint variable is held.
+/// Half the angle's tangent, or half the distance, at which a joint variable is held, over the length of its axis.
 fn tangent(linkage: &Linkage<Rational>, k: usize, shift: usize) -> Rational {
     let tangent = Rational::from(TANGENTS[shift % TANGENTS.len()]);
     match linkage.variables[k] {
@@ -160,7 +160,6 @@ struct Known {
     germ: Germ<Algebraic>,
     moving: Vec<bool>,
     system: String,
-    basis: Vec<Screw<Algebraic>>,
     redundant: Vec<Screw<Algebraic>>,
 }
 
@@ -179,34 +178,35 @@ impl Known {
         for screw in &redundant {
             let _ = screw.pitch().map(|pitch| is_unit(&pitch));
         }
-        Some(Self { values, germ, moving, system: description, basis: system.basis(), redundant })
+        Some(Self { values, germ, moving, system: description, redundant })
     }
 
     /// The same in floating point, at one value of the root.
-    fn configuration(&self, variables: &[Variable], degree: usize, root: &Float) -> Configuration {
+    fn configuration(&self, linkage: &Linkage<Rational>, degree: usize, root: &Float) -> Configuration {
         let value = |x: &Algebraic| x.at(root).to_f64();
-        let joint = |(variable, [c, s]): (&Variable, &JointValue<Algebraic>)| match variable {
-            Variable::Rotation => {
-                let (c, s) = (c.at(root), s.at(root));
-                // Of (c : s) and (-c : -s) the one within half a turn.
-                let angle = if c < 0 { Float::with_val(BITS, -s).atan2(&-c) } else { s.atan2(&c) };
-                2.0 * angle.to_f64()
+        let joint = |(k, [c, s]): (usize, &JointValue<Algebraic>)| {
+            let (c, s) = (c.at(root), s.at(root) * linkage.axes[k].length(BITS));
+            match linkage.variables[k] {
+                Variable::Rotation => {
+                    // Of (c : s) and (-c : -s) the one within half a turn.
+                    let angle = if c < 0 { Float::with_val(BITS, -s).atan2(&-c) } else { s.atan2(&c) };
+                    2.0 * angle.to_f64()
+                }
+                Variable::Translation => 2.0 * Float::with_val(BITS, s / c).to_f64(),
             }
-            Variable::Translation => 2.0 * Float::with_val(BITS, s.at(root) / c.at(root)).to_f64(),
         };
         let screw = |screw: &Screw<Algebraic>| Screw {
             direction: screw.direction.each_ref().map(value),
             moment: screw.moment.each_ref().map(value),
         };
         Configuration {
-            q: variables.iter().zip(&self.values).map(joint).collect(),
+            q: self.values.iter().enumerate().map(joint).collect(),
             degree,
             rank: self.germ.rank,
             local: self.germ.local.clone(),
             moving: self.moving.clone(),
             branch: None,
             system: self.system.clone(),
-            basis: self.basis.iter().map(screw).collect(),
             redundant: self.redundant.iter().map(screw).collect(),
         }
     }
@@ -219,7 +219,7 @@ pub(super) fn decide(linkage: &Linkage<Rational>, held: &[(usize, Rational)], fo
         for (part, known) in conjugates.each(|part| Known::of(linkage, held, part)) {
             let Some(known) = known else { continue };
             let degree = part.count();
-            let here = |root: &Float| known.configuration(&linkage.variables, degree, root);
+            let here = |root: &Float| known.configuration(linkage, degree, root);
             if part.polynomial.is_none() {
                 configurations.push(here(&Float::new(BITS)));
             }
@@ -233,7 +233,7 @@ pub(super) fn decide(linkage: &Linkage<Rational>, held: &[(usize, Rational)], fo
     configurations
         .sort_by(|a, b| a.q.iter().map(|x| x.abs()).sum::<f64>().total_cmp(&b.q.iter().map(|x| x.abs()).sum()));
     let value = |(k, tangent): &(usize, Rational)| {
-        let t = Float::with_val(BITS, tangent);
+        let t = linkage.axes[*k].length(BITS) * tangent;
         (*k, 2.0 * if linkage.variables[*k] == Variable::Rotation { t.atan().to_f64() } else { t.to_f64() })
     };
     let complex = found.iter().map(Conjugates::count).sum();

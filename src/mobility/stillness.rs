@@ -108,12 +108,13 @@ impl<F: Field + Domain> Common<F> {
 }
 
 impl Common<Rational> {
-    /// Whether its only zeros belong to no motion: tangents i and -i of a rotation, infinite distances.
-    fn is_improper(&self, variable: Variable) -> bool {
-        if variable == Variable::Translation {
+    /// Whether its only zeros belong to no motion: tangents i and -i of a rotation (over the length of its axis), infinite
+    /// distances.
+    fn is_improper(&self, linkage: &Linkage<Rational>, hidden: usize) -> bool {
+        if linkage.variables[hidden] == Variable::Translation {
             return self.polynomial.degree() == Some(0);
         }
-        let circle = Univariate::new([1, 0, 1].map(Rational::from).to_vec());
+        let circle = Univariate::new(vec![Rational::from(1), Rational::new(), linkage.axes[hidden].square()]);
         self.at_infinity == 0 && self.polynomial.remove_factor(&circle).1.degree() == Some(0)
     }
 }
@@ -129,7 +130,7 @@ fn is_bound(image: &Linkage<Mod>, k: usize, hidden: usize) -> bool {
 
 /// The same over the rationals, and with factors that belong to no motion left out.
 fn is_bound_exactly(linkage: &Linkage<Rational>, k: usize, hidden: usize) -> bool {
-    let is_improper = |common: &Common<Rational>| common.is_improper(linkage.variables[hidden]);
+    let is_improper = |common: &Common<Rational>| common.is_improper(linkage, hidden);
     (0..=DEGREE).all(|shift| {
         Common::of(conditions_at(linkage, k, hidden, shift), is_improper).is_some_and(|common| is_improper(&common))
     })
@@ -138,7 +139,7 @@ fn is_bound_exactly(linkage: &Linkage<Rational>, k: usize, hidden: usize) -> boo
 /// Whether a joint variable that is known to stand still has no constant value that all cuts allow at several values of k: then k
 /// does not move, either.
 fn is_without_value(linkage: &Linkage<Rational>, k: usize, constant: usize) -> bool {
-    let is_improper = |common: &Common<Rational>| common.is_improper(linkage.variables[constant]);
+    let is_improper = |common: &Common<Rational>| common.is_improper(linkage, constant);
     let forms = (0..3).flat_map(|shift| conditions_at(linkage, k, constant, shift));
     Common::of(forms, is_improper).is_some_and(|common| is_improper(&common))
 }

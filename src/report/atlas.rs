@@ -1,8 +1,10 @@
-//! The text of a `.eqs` file: closure equations and closure polynomial of an entry, where they fit two pages.
+//! The text of a `.eqs` file: closure equations and closure polynomial of an entry, where they fit two pages; and whether
+//! a file that is there is that text.
 
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::{Design, Entry};
+use crate::claims::{Finding, Sort};
 use crate::derivation::{derive, platform_equations};
 use crate::error::{Error, Result};
 use rug::Rational;
@@ -10,6 +12,8 @@ use std::fmt::Write;
 
 /// Two pages of characters.
 const TWO_PAGES: usize = 8000;
+/// As much of a line is shown.
+const LONGEST_LINE: usize = 60;
 
 /// The text for an entry's first case; `None` where the equations alone are longer than two pages.
 ///
@@ -51,4 +55,52 @@ pub fn atlas(entry: &Entry) -> Result<Option<String>> {
         }
     }
     Ok(Some(text))
+}
+
+/// Judges the text of a `.eqs` file by what is derived from its entry.
+#[must_use]
+pub fn judged(entry: &Entry, file: &str, kept: &str) -> Finding {
+    let (line, message) = match atlas(entry) {
+        Ok(Some(derived)) if derived == kept => (1, None),
+        Ok(Some(derived)) => {
+            let (line, found, expected) = first_difference(kept, &derived);
+            (line, Some(format!("found {found}, derived {expected} (looproot derive --bless writes it)")))
+        }
+        Ok(None) => {
+            (1, Some("should not be there: the equations that are derived are longer than two pages".to_owned()))
+        }
+        Err(error) => (1, Some(format!("no such equations are derived: {error}"))),
+    };
+    Finding {
+        case: 1,
+        file: Some(file.to_owned()),
+        line,
+        sort: Sort::Equations,
+        holds: message.is_none(),
+        message: message.unwrap_or_default(),
+    }
+}
+
+/// The number of the first line in which two texts differ, and what both have there.
+fn first_difference(kept: &str, derived: &str) -> (usize, String, String) {
+    let shown =
+        |line: Option<&str>| line.map_or_else(|| "the end".to_owned(), |line| format!("\"{}\"", shortened(line)));
+    let (mut left, mut right) = (kept.lines(), derived.lines());
+    for number in 1.. {
+        let (one, two) = (left.next(), right.next());
+        if one != two || one.is_none() {
+            return (number, shown(one), shown(two));
+        }
+    }
+    (1, String::new(), String::new())
+}
+
+/// The beginning of a line.
+fn shortened(line: &str) -> String {
+    let line = line.trim();
+    let mut short: String = line.chars().take(LONGEST_LINE).collect();
+    if short.len() < line.len() {
+        short.push_str("...");
+    }
+    short
 }

@@ -2,10 +2,11 @@
 
 use super::json::{kind, number};
 use super::number::digits;
+use super::paper::{Paper, Style};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::{Entry, Kind};
-use crate::derivation::{ClosurePolynomial, Derivation, Removed, Root, RootPose};
+use crate::derivation::{ClosurePolynomial, Derivation, Removed, Root, RootPose, Substitution};
 use crate::error::Result;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -26,10 +27,11 @@ pub fn verdict(derivation: &Derivation) -> String {
         return format!("no closure polynomial: {}", derivation.without.as_deref().unwrap_or("not known"));
     };
     let (name, degree) = (variable(derivation, polynomial), polynomial.degree());
+    let certainty = if derivation.proved { "proved" } else { "probability of error below 2^-40" };
     let mut text = match (polynomial.distinct(), polynomial.roots.len()) {
         (0, _) => format!("degree 0 in {name}, no finite root"),
-        (1, real) => format!("degree {degree} in {name}, 1 distinct root, {real} real (proved)"),
-        (distinct, real) => format!("degree {degree} in {name}, {distinct} distinct roots, {real} real (proved)"),
+        (1, real) => format!("degree {degree} in {name}, 1 distinct root, {real} real ({certainty})"),
+        (distinct, real) => format!("degree {degree} in {name}, {distinct} distinct roots, {real} real ({certainty})"),
     };
     if polynomial.at_pi > 0 {
         let more = if degree > 0 { " more" } else { "" };
@@ -200,6 +202,7 @@ pub fn json(entry: &Entry, case: usize, derivation: &Derivation) -> Value {
             json!({ "factor": text, "multiplicity": one.multiplicity, "reason": one.reason })
         };
         document["removed_factors"] = polynomial.removed.iter().map(factor).collect();
+        document["proved"] = json!(derivation.proved);
         document["discriminant_sign"] = json!(polynomial.discriminant_sign());
         let factor =
             |(degree, multiplicity): &(usize, usize)| json!({ "degree": degree, "multiplicity": multiplicity });
@@ -240,70 +243,77 @@ pub(super) fn file(polynomials: &[Polynomial<Rational>], names: &Names, format: 
     format.system(&polynomials.iter().map(compact).collect::<Vec<_>>(), &names)
 }
 
-/// The derivation as Markdown with formulas in LaTeX, every displayed equation one of those that were used.
-///
-/// # Errors
-/// Never for derivations of this crate.
-pub fn markdown(entry: &Entry, case: usize, derivation: &Derivation) -> Result<String> {
+/// The derivation as a paper, every displayed equation one of those that were used, and what came of putting solutions
+/// into them.
+#[must_use]
+pub fn paper(entry: &Entry, case: usize, derivation: &Derivation, found: &Substitution, style: Style) -> String {
     let names = &derivation.names;
-    let display = |polynomial: &Polynomial<Rational>| -> Result<String> {
-        let lines = Format::Latex.system(std::slice::from_ref(polynomial), names)?;
-        let lines = lines.replace("  f &= ", "  & ").replace("\n\\end{align*}", " = 0\n\\end{align*}");
-        Ok(format!("$$\n{}$$\n", lines.replace("align*", "aligned")))
-    };
-    let mut text = format!("# {}\n\n{}, case {case}: {}.\n\n", entry.title, kind(entry.kind()), verdict(derivation));
-    text.push_str("## Unknowns\n\n");
-    text.push_str(match entry.kind() {
-        Kind::Platform => {
-            "A pose is a point $(x, y)$ of the projective space of dimension 7: $x$ the quaternion of the rotation, $y = p\\,x$ \
-             that of the translation $p$, as a dual quaternion $x + \\tfrac12\\varepsilon y$. With $a_i$, $b_i$ the ends of leg \
-             $i$, of length $L_i$, as pure quaternions:\n\n\
-             $$\nw_i = y + x\\,b_i - a_i\\,x, \\qquad w_i \\cdot w_i = L_i^2\\,(x \\cdot x), \\qquad x \\cdot y = 0\n$$\n"
-        }
-        Kind::Arm | Kind::Loop => {
-            "The motions of the joints, multiplied round the loop, are the identity: $V_1 G_1 V_2 G_2 \\cdots V_6 G_6 = I$ \
-             with constant $G_j$ and each $V_j$ a rotation about or a translation along its own $z$ axis. The cosine, sine and \
-             half-angle tangent of joint $j$ are $c_j$, $s_j$ and $t_j$, a distance is $d_j$:\n\n\
-             $$\nc_j = \\frac{1 - t_j^2}{1 + t_j^2}, \\qquad s_j = \\frac{2 t_j}{1 + t_j^2}\n$$\n"
-        }
-    });
-    text.push_str("\n## Closure equations\n\nWith integer coefficients without common factor.\n");
+    let summary = format!("{}, case {case}: {}.", kind(entry.kind()), verdict(derivation));
+    let mut paper = Paper::new(style, names, &entry.title, &summary);
+    paper.heading("Unknowns");
+    unknowns(&mut paper, entry.kind());
+    paper.heading("Closure equations");
+    paper.sentence("With integer coefficients without common factor.");
     for equation in &derivation.equations {
-        let _ = write!(text, "\n**{}**\n\n{}", equation.name, display(&equation.polynomial)?);
+        paper.label(&equation.name);
+        paper.equation(&equation.polynomial);
         if let Some(algebraic) = equation.algebraic.as_ref().filter(|a| **a != equation.polynomial) {
-            let _ = write!(text, "\nin half-angle tangents\n\n{}", display(algebraic)?);
+            paper.sentence("in half-angle tangents");
+            paper.equation(algebraic);
         }
     }
-    text.push_str("\n## Elimination\n\n");
-    for (number, step) in (1..).zip(&derivation.steps) {
-        let _ = writeln!(text, "{number}. {step}");
-    }
+    paper.heading("Elimination");
+    paper.numbered(&derivation.steps);
     if let Some(polynomial) = &derivation.polynomial {
-        let _ = write!(text, "\n## Closure polynomial\n\n{}; ", verdict(derivation));
-        let _ = write!(text, "{}.\n\n", factors(polynomial));
+        paper.heading("Closure polynomial");
+        paper.sentence(&format!("{}; {}.", verdict(derivation), factors(polynomial)));
         if let Some(definition) = &derivation.definition {
-            let _ = write!(text, "Its variable is defined by\n\n{}\n", display(definition)?);
+            paper.sentence("Its variable is defined by");
+            paper.equation(definition);
         }
-        text.push_str(&display(&polynomial.to_polynomial())?);
+        paper.equation(&polynomial.to_polynomial());
         if !polynomial.removed.is_empty() {
-            text.push_str("\nDivided out:\n\n");
-        }
-        for line in divided_out(derivation, polynomial) {
-            let _ = writeln!(text, "- {line}");
+            paper.sentence("Divided out:");
+            paper.bullets(&divided_out(derivation, polynomial));
         }
         if !polynomial.roots.is_empty() {
             let name = variable(derivation, polynomial);
-            text.push_str("\nReal roots, isolated by Descartes' rule and counted by Sturm's theorem:\n\n");
-            for real in &polynomial.roots {
-                let _ = writeln!(text, "- {name} = {}", root(real));
-                for pose in &real.poses {
-                    let _ = writeln!(text, "  - {}", self::pose(pose));
-                }
-            }
+            paper.sentence("Real roots, isolated by Descartes' rule and counted by Sturm's theorem:");
+            let listed = polynomial.roots.iter().map(|real| {
+                let poses: Vec<String> = real.poses.iter().map(pose).collect();
+                let poses = if poses.is_empty() { String::new() } else { format!(": {}", poses.join("; ")) };
+                format!("{name} = {}{poses}", root(real))
+            });
+            paper.bullets(&listed.collect::<Vec<_>>());
         }
     }
+    paper.check(found);
     for warning in &derivation.warnings {
-        let _ = writeln!(text, "\n> {warning}");
+        paper.sentence(&format!("Warning: {warning}"));
     }
-    Ok(text)
+    paper.finish()
+}
+
+/// What the variables of the equations are.
+pub(super) fn unknowns(paper: &mut Paper<'_>, kind: Kind) {
+    match kind {
+        Kind::Platform => {
+            paper.typeset_paragraph(
+                "A pose is a point $(x, y)$ of the projective space of dimension 7: $x$ the quaternion of the rotation, $y = p\\,x$ \
+                 that of the translation $p$, as a dual quaternion $x + \\tfrac12\\varepsilon y$. With $a_i$, $b_i$ the ends of leg \
+                 $i$, of length $L_i$, as pure quaternions:",
+            );
+            paper.formula(
+                "w_i = y + x\\,b_i - a_i\\,x, \\qquad w_i \\cdot w_i = L_i^2\\,(x \\cdot x), \\qquad x \\cdot y = 0",
+            );
+        }
+        Kind::Arm | Kind::Loop => {
+            paper.typeset_paragraph(
+                "The motions of the joints, multiplied round the loop, are the identity: $V_1 G_1 V_2 G_2 \\cdots V_n G_n = I$ \
+                 with constant $G_j$ and each $V_j$ a rotation about or a translation along its own $z$ axis. The cosine, sine and \
+                 half-angle tangent of joint $j$ are $c_j$, $s_j$ and $t_j$, a distance is $d_j$:",
+            );
+            paper.formula("c_j = \\frac{1 - t_j^2}{1 + t_j^2}, \\qquad s_j = \\frac{2 t_j}{1 + t_j^2}");
+        }
+    }
 }

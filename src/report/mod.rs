@@ -11,6 +11,7 @@ pub mod mobility;
 pub mod model;
 pub mod motion;
 pub mod number;
+pub mod paper;
 pub mod picture;
 pub mod sweep;
 pub mod symbolic;

@@ -1,12 +1,13 @@
 //! Derivations with symbols, as text and JSON.
 
-use super::derivation::file;
+use super::derivation::{file, unknowns};
 use super::json::kind;
 use super::number::counted;
+use super::paper::{Paper, Style};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::Entry;
-use crate::derivation::{Quotient, Symbolic};
+use crate::derivation::{Quotient, Substitution, Symbolic};
 use crate::error::Result;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -58,11 +59,13 @@ pub fn text(symbolic: &Symbolic) -> String {
     if let Some(polynomial) = &symbolic.polynomial {
         let displayed = &polynomial.displayed;
         let _ = writeln!(text, "\nClosure polynomial, {} expanded", counted(displayed.polynomial.len(), "term"));
-        if displayed.compact.len() <= MOST_TERMS {
-            let _ = writeln!(text, "  {}", plain(&displayed.compact, names));
+        let compact = plain(&displayed.compact, names);
+        if compact.len() <= TWO_PAGES {
+            let _ = writeln!(text, "  {compact}");
         } else {
-            let _ = writeln!(text, "  {} in the names below: --format text", counted(displayed.compact.len(), "term"));
+            let _ = writeln!(text, "  {} in the names below: --json", counted(displayed.compact.len(), "term"));
         }
+        let _ = writeln!(text, "  its coefficients, without the names: --json, --format text and others");
     }
     if !symbolic.translations.is_empty() {
         text.push_str("\nTranslations\n");
@@ -86,6 +89,9 @@ pub fn text(symbolic: &Symbolic) -> String {
 
 /// Longer polynomials are not for readers.
 const MOST_TERMS: usize = 120;
+
+/// Two pages of characters: as much of a closure polynomial over names is for readers.
+const TWO_PAGES: usize = 8000;
 
 /// The document that equations/derivation.schema.json describes; `case` is the number of the case in the file.
 #[must_use]
@@ -142,4 +148,66 @@ pub fn system(symbolic: &Symbolic, format: Format) -> Result<String> {
         None => symbolic.equations.iter().map(|equation| equation.polynomial.clone()).collect(),
     };
     file(&polynomials, &symbolic.names, format)
+}
+
+/// The derivation as a paper, every displayed equation one of those that were used, and what came of putting solutions
+/// with the numbers of the file into them.
+#[must_use]
+pub fn paper(entry: &Entry, case: usize, symbolic: &Symbolic, found: &Substitution, style: Style) -> String {
+    let names = &symbolic.names;
+    let summary = format!("{}, case {case}, with symbols: {}.", kind(entry.kind()), verdict(symbolic));
+    let mut paper = Paper::new(style, names, &entry.title, &summary);
+    paper.heading("Unknowns and symbols");
+    unknowns(&mut paper, entry.kind());
+    paper.typeset_paragraph("Cosine and sine of the twist $\\alpha_k$ are $c_{\\alpha_k}$ and $s_{\\alpha_k}$.");
+    paper.sentence(&format!("Symbols: {}.", symbolic.symbols.join(", ")));
+    if !symbolic.numbers.is_empty() {
+        paper.sentence(&format!("Numbers of the file: {}.", symbolic.numbers.join(", ")));
+    }
+    paper.heading("Closure equations");
+    for equation in &symbolic.equations {
+        paper.label(&format!("{}, {} expanded", equation.name, counted(equation.polynomial.len(), "term")));
+        paper.equation(&equation.compact);
+    }
+    let mut long = Vec::new();
+    if !symbolic.parts.is_empty() {
+        paper.sentence("with");
+    }
+    for (name, part) in &symbolic.parts {
+        if part.len() <= MOST_TERMS {
+            paper.definition(name, part);
+        } else {
+            long.push(format!("{name}: {}", counted(part.len(), "term")));
+        }
+    }
+    if !long.is_empty() {
+        paper.sentence("Too long for a page, in --json and --format:");
+        paper.bullets(&long);
+    }
+    paper.heading("Elimination");
+    paper.numbered(&symbolic.steps);
+    if let Some(polynomial) = &symbolic.polynomial {
+        let displayed = &polynomial.displayed;
+        let name = &names.list()[polynomial.variable];
+        let degree = displayed.polynomial.degree(polynomial.variable);
+        paper.heading("Closure polynomial");
+        let terms = counted(displayed.polynomial.len(), "term");
+        if plain(&displayed.compact, names).len() <= TWO_PAGES {
+            paper.sentence(&format!("Degree {degree} in {name}, {terms} expanded:"));
+            paper.equation(&displayed.compact);
+        } else {
+            let compact = counted(displayed.compact.len(), "term");
+            paper.sentence(&format!(
+                "Degree {degree} in {name}, {terms} expanded and {compact} in the names above: too long for a page, in --json and --format."
+            ));
+        }
+    }
+    if !symbolic.translations.is_empty() {
+        paper.heading("Translations");
+    }
+    for translation in &symbolic.translations {
+        paper.quotient(translation.variable, [&translation.numerator, &translation.denominator]);
+    }
+    paper.check(found);
+    paper.finish()
 }

@@ -10,6 +10,8 @@ use num_complex::Complex;
 /// Study's parameters (x, y) of a pose, as one vector.
 pub type Eight<S> = [S; 8];
 
+/// The square of a length, in units of the platform, below which legs are not told from points.
+const SHORT: f64 = 1e-18;
 /// Newton steps before giving up.
 const MOST_STEPS: usize = 12;
 /// A step of this size (relative to x of norm 1) is the last.
@@ -32,7 +34,8 @@ pub struct Equations<S> {
     pub values: Eight<S>,
     /// Their derivatives.
     pub jacobian: [Eight<S>; 8],
-    /// `|w|^2 + L^2 |x|^2` of each leg, halved: what its value is small against.
+    /// `|w|^2 + L^2 |x|^2` of each leg, halved: what its value is small against. Legs much shorter than the platform count
+    /// as a billionth of it.
     pub sizes: [f64; 6],
 }
 
@@ -63,7 +66,7 @@ pub fn equations<S: Number<Real: From<f64>>>(legs: &[Leg<f64>; 6], v: &Eight<S>,
         let by_x = leg.half_slope(&w, &x, times);
         equations.jacobian[i][..4].copy_from_slice(&by_x);
         equations.jacobian[i][4..].copy_from_slice(&w);
-        equations.sizes[i] = 0.5 * (square(&w) + leg.square.abs() * length);
+        equations.sizes[i] = 0.5 * (square(&w) + (leg.square.abs() + SHORT) * length);
     }
     equations.values[6] = scalar(&x, &y);
     equations.jacobian[6][..4].copy_from_slice(&y);

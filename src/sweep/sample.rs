@@ -5,12 +5,17 @@ use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Input, InputValue};
 use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
-use crate::mechanism::{InputCurve, Mechanism};
+use crate::mechanism::{FullMode, InputCurve, Mechanism};
 use crate::solve::curve::{INPUT, Point};
 use crate::verdict::Status;
 use num_complex::Complex;
 use rug::Rational;
 use std::f64::consts::PI;
+
+/// Closure residuals up to this are rounding.
+const CLOSED: f64 = 1e-13;
+/// Condition numbers up to this are those of simple modes, also where no proof says so.
+const REGULAR: f64 = 1e8;
 
 /// What was found at one input.
 #[derive(Clone, Debug)]
@@ -75,6 +80,8 @@ pub(super) struct Swept<'a> {
     pub curve: &'a InputCurve,
     pub joint: usize,
     pub variable: Variable,
+    /// Whether it has fewer than seven variables.
+    pub is_overconstrained: bool,
 }
 
 impl Swept<'_> {
@@ -85,9 +92,11 @@ impl Swept<'_> {
         let real = || solution.modes.iter().filter(|mode| mode.real);
         // An empty list without a proof says nothing.
         let is_known = solution.verdict.status != Status::Incomplete || !solution.modes.is_empty();
+        // An overconstrained loop of rounded numbers closes to rounding, and has no certified modes.
+        let closes = |mode: &FullMode| self.is_overconstrained && mode.residual <= CLOSED && mode.condition <= REGULAR;
         let is_regular = is_known
             && solution.verdict.status != Status::SelfMotion
-            && real().all(|mode| mode.certified && mode.multiplicity == 1);
+            && real().all(|mode| mode.multiplicity == 1 && (mode.certified || closes(mode)));
         let mut modes: Vec<Vec<f64>> = real().map(|mode| mode.q.iter().map(|z| z.re).collect()).collect();
         for mode in &mut modes {
             // As it was asked for, not modulo a full turn.

@@ -23,11 +23,20 @@ pub fn platform_verdict(
     exact: Option<PlatformDegree>,
 ) -> Verdict {
     let dimension = match exact {
-        Some(PlatformDegree::Infinite) => assembly.self_motion.max(1),
+        Some(PlatformDegree::Infinite { dimension }) if assembly.self_motion == 0 => dimension,
+        // Where solutions are multiple, a pose gives way in more directions than it can move.
+        Some(PlatformDegree::Infinite { dimension }) => assembly.self_motion.min(dimension),
         _ => assembly.self_motion,
     };
     let mut judged = if dimension > 0 {
-        let how = if assembly.self_motion > 0 { "" } else { ", real or complex, by an exact count (modulo a prime)" };
+        let how = match exact {
+            Some(PlatformDegree::Infinite { .. }) if assembly.self_motion > 0 => String::new(),
+            Some(PlatformDegree::Finite { poses, .. }) => format!(
+                ", to within rounding (of exactly these data {poses} isolated poses, by a count modulo a prime)"
+            ),
+            Some(PlatformDegree::Infinite { .. }) => ", real or complex, by an exact count (modulo a prime)".to_owned(),
+            None => ", as far as f64 tells".to_owned(),
+        };
         let reason = format!(
             "poses form a self-motion of dimension {dimension}{how}; the isolated ones are listed, not proved complete"
         );
@@ -107,7 +116,7 @@ fn count(assembly: &PlatformAssembly, roots: Roots, exact: Option<PlatformDegree
                 }
             }
         }
-        Some(PlatformDegree::Infinite) | None => {
+        Some(PlatformDegree::Infinite { .. }) | None => {
             Judged::unproved(format!("not proved: found {found} of up to 40 roots"))
         }
     }

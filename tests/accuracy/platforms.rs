@@ -124,6 +124,6 @@ fn no_crippled_list_is_called_complete() {
 fn a_curve_of_poses_is_a_self_motion() {
     let (solver, whole) = list(PlatformSet::General, 2);
     let study: Vec<_> = whole.modes.iter().map(|mode| solver.study(mode)).collect();
-    let verdict = platform_verdict(&whole, &study, Roots::All, Some(PlatformDegree::Infinite));
-    assert_eq!((verdict.status, verdict.self_motion), (Status::SelfMotion, 1));
+    let verdict = platform_verdict(&whole, &study, Roots::All, Some(PlatformDegree::Infinite { dimension: 2 }));
+    assert_eq!((verdict.status, verdict.self_motion), (Status::SelfMotion, 2));
 }

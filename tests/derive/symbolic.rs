@@ -3,11 +3,13 @@
 use crate::{entry, named, real, run, solved};
 use looproot::algebra::number::{Angle, HalfTangent, Number};
 use looproot::algebra::polynomial::Polynomial;
-use looproot::catalogue::entry::{Design, Entry};
+use looproot::algebra::text::Format;
+use looproot::algebra::univariate::Univariate;
+use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue};
 use looproot::derivation::transference::SpatialFourBar;
-use looproot::derivation::{Symbolic, derive_symbolic};
+use looproot::derivation::{Symbolic, derive, derive_symbolic};
 use looproot::kinematics::chain::{Chain, Geometry, Joint, JointKind};
-use rug::Rational;
+use rug::{Integer, Rational};
 use std::collections::BTreeMap;
 
 fn symbolic(entry: &Entry) -> Symbolic {
@@ -105,6 +107,118 @@ fn an_rcrcr_loop_has_a_quartic() {
 }
 
 #[test]
+fn two_cylinders_side_by_side_have_an_octic() {
+    let count = |path: &str| {
+        let derived = assert_true_at_solutions(path);
+        let polynomial = derived.polynomial.unwrap();
+        let expanded = &polynomial.displayed.polynomial;
+        assert_eq!(expanded.degree(polynomial.variable), 8, "{path}");
+        (derived.equations.iter().map(|e| e.polynomial.len()).collect::<Vec<_>>(), expanded.len())
+    };
+    assert_eq!(count("loop/crcrr_2_angle.toml"), (vec![25, 82], 7088));
+    assert_eq!(count("loop/ccrrr_4_angle.toml").0.len(), 2);
+    assert_eq!(count("loop/cpcrr_2_distance.toml").0.len(), 2);
+    assert_eq!(count("loop/ccprr_3_distance.toml"), (vec![44, 215], 31584));
+    // Without merged links the two equations are those of four joints.
+    let mut entry = entry("loop/cccr_4_angle.toml");
+    let value = InputValue::Distance(Number::exact(Rational::from((3, 2))));
+    entry.cases = vec![Case::given(Input { joint: 1, value }, 1)];
+    let derived = symbolic(&entry);
+    assert_eq!(derived.equations.iter().map(|e| e.polynomial.len()).collect::<Vec<_>>(), [21, 66]);
+    let found = derived.substituted(&entry, &entry.cases[0]).unwrap();
+    assert!(found.solutions == 8 && found.values == 8 * found.equations && found.largest < 1e-10, "{found:?}");
+}
+
+/// Solutions are put into the equations that are shown: one wrong coefficient is an error.
+#[test]
+fn a_wrong_equation_is_found_by_its_solutions() {
+    let loaded = entry("loop/crcrr_2_angle.toml");
+    let case = &loaded.cases[0];
+    let wrong = |polynomial: &Polynomial<Rational>| {
+        let last = polynomial.len() - 1;
+        Polynomial::from_terms(
+            polynomial
+                .terms()
+                .enumerate()
+                .map(|(k, (exponents, c))| (exponents, if k == last { Rational::from(c + 1) } else { c.clone() })),
+        )
+    };
+    let right = symbolic(&loaded);
+    assert!(right.substituted(&loaded, case).is_ok());
+    let mut changed = right.clone();
+    changed.equations[1].compact = wrong(&right.equations[1].compact);
+    let message = changed.substituted(&loaded, case).unwrap_err().to_string();
+    assert!(message.contains("dual part") && message.contains("does not vanish at solution 1"), "{message}");
+    let mut changed = right.clone();
+    changed.parts[0].1 = wrong(&right.parts[0].1);
+    assert!(changed.substituted(&loaded, case).is_err());
+    let numeric = derive(&loaded, case).unwrap();
+    assert!(numeric.substituted(&loaded, case).is_ok());
+    let mut changed = numeric.clone();
+    changed.equations[0].algebraic = changed.equations[0].algebraic.as_ref().map(wrong);
+    assert!(changed.substituted(&loaded, case).is_err());
+    let mut changed = numeric;
+    let polynomial = changed.polynomial.as_mut().unwrap();
+    let mut coefficients = polynomial.coefficients.coefficients().to_vec();
+    coefficients[0] = Integer::from(&coefficients[0] / 2);
+    polynomial.coefficients = Univariate::new(coefficients);
+    assert!(changed.substituted(&loaded, case).is_err());
+    let platform = entry("platform/points_6_3.toml");
+    let mut derivation = derive(&platform, &platform.cases[0]).unwrap();
+    let found = derivation.substituted(&platform, &platform.cases[0]).unwrap();
+    assert!(found.solutions == 16 && found.values > 0 && found.largest < 1e-10, "{found:?}");
+    derivation.equations[0].polynomial = wrong(&derivation.equations[0].polynomial);
+    assert!(derivation.substituted(&platform, &platform.cases[0]).is_err());
+}
+
+/// Names of the columns of an array are not checked by anyone but LaTeX itself: environments and dollars in pairs, no sign of
+/// its own outside of formulas.
+#[test]
+fn a_latex_document_is_well_formed() {
+    for arguments in [
+        &["derive", "crcrr_2_angle", "--symbolic", "--explain=latex"][..],
+        &["derive", "cccr_4_angle", "--symbolic", "--explain=latex"],
+        &["derive", "prrprrr_6_angle", "--explain=latex"],
+        &["derive", "rrsrr", "--explain=latex"],
+        &["derive", "planar_both", "--explain=latex"],
+    ] {
+        let (code, text, err) = run(arguments);
+        assert_eq!((code, err.as_str()), (0, ""), "{arguments:?}");
+        let (mut open, flat): (Vec<&str>, String) = (Vec::new(), text.replace("\\\\", ""));
+        for part in flat.split('\\') {
+            if let Some(rest) = part.strip_prefix("begin{") {
+                open.push(rest.split('}').next().unwrap());
+            } else if let Some(rest) = part.strip_prefix("end{") {
+                assert_eq!(open.pop(), rest.split('}').next(), "{arguments:?}");
+            }
+        }
+        assert!(open.is_empty() && text.ends_with("\\end{document}\n"), "{arguments:?}");
+        let mut is_display = false;
+        for line in text.lines() {
+            is_display |= line.starts_with("\\begin{align*}");
+            if !is_display {
+                let plain: String = line.replace("\\_", "").split('$').step_by(2).collect();
+                assert!(line.matches('$').count() % 2 == 0 && !plain.contains(['_', '^', '&', '#']), "{line}");
+            }
+            is_display &= !line.starts_with("\\end{align*}");
+            let braces = |c: char| line.replace("\\{", "").replace("\\}", "").matches(c).count();
+            assert_eq!(braces('{'), braces('}'), "{line}");
+        }
+        assert!(text.contains("Checked: "), "{arguments:?}");
+    }
+}
+
+#[test]
+fn every_language_takes_a_derivation_with_symbols() {
+    for (name, _) in Format::NAMED {
+        for entry in ["rssr", "cccr_4_angle", "bennett_a", "crcrr_2_angle"] {
+            let (code, out, err) = run(&["derive", entry, "--symbolic", "--format", name]);
+            assert!(code == 0 && err.is_empty() && out.len() > 200, "{entry} --format {name}: {err}");
+        }
+    }
+}
+
+#[test]
 fn loops_with_balls_have_a_quadratic_or_a_quartic() {
     for (path, degree) in [("loop/rssr.toml", 2), ("loop/rscr.toml", 4), ("loop/rsrc.toml", 4), ("loop/rrsrr.toml", 4)]
     {
@@ -157,7 +271,10 @@ fn bennett_s_loop_is_a_pair_of_equations() {
     }
     // Without lengths only the spherical four-bar is left.
     let spherical = symbolic(&four_revolutes([(1, 2), (1, 3), (2, 5), (3, 4)], [0; 4], [0; 4]));
-    assert!(spherical.polynomial.is_none() && spherical.steps.len() == 2);
+    let polynomial = spherical.polynomial.unwrap();
+    // Of degree 2 in the angle behind the input's.
+    assert_eq!(spherical.names.list()[polynomial.variable], "t1");
+    assert_eq!(polynomial.displayed.polynomial.degree(polynomial.variable), 2);
     assert_eq!(spherical.equations.iter().map(|e| e.polynomial.len()).collect::<Vec<_>>(), [21]);
 }
 

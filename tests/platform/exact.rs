@@ -8,6 +8,7 @@ use looproot::assembly::Roots;
 use looproot::closure::study::linear_legs;
 use looproot::elimination::border::{Arithmetic, BorderBasis, DIMENSION, Reals, Setting, weak_directions};
 use looproot::elimination::platform_degree::{PlatformDegree, modular_setting, platform_degree};
+use looproot::elimination::platform_height::PlatformHeight;
 use looproot::elimination::platform_polynomial::platform_polynomial;
 use looproot::kinematics::platform::Platform;
 use num_complex::Complex;
@@ -20,7 +21,7 @@ fn count(platform: &Platform<Rational>, legs: &[Rational; 6]) -> Option<usize> {
             assert_eq!(poses + null, 40);
             Some(poses)
         }
-        PlatformDegree::Infinite => None,
+        PlatformDegree::Infinite { .. } => None,
     }
 }
 
@@ -159,6 +160,7 @@ fn the_poses_are_the_roots_of_the_exact_polynomial() {
         let (complex, real) = case.counts.unwrap();
         let polynomial = platform_polynomial(&case.platform, &case.legs).unwrap();
         assert_eq!(polynomial.coefficients.len(), complex + 1, "{name}");
+        assert!(polynomial.proved, "{name}");
         for mode in &solved(&case.platform, &case.legs, Roots::All).modes {
             let error = backward_error(&polynomial.coefficients, polynomial.coordinate.at(&mode.quaternion));
             assert!(error < 1e-12, "{name}: {error:e}");
@@ -168,6 +170,40 @@ fn the_poses_are_the_roots_of_the_exact_polynomial() {
             assert_eq!(Univariate::new(exact).distinct_real_roots(), real, "{name}");
         }
     }
+}
+
+/// Mahler's measure is no less than any coefficient over its binomial coefficient, and the bound no less than that; but not
+/// so much larger that it were of no use.
+#[test]
+fn polynomials_are_no_larger_than_is_known_beforehand() {
+    for seed in 30..36 {
+        let mut draw = Draw::new(seed);
+        let mut platform = draw.platform();
+        if seed % 2 == 0 {
+            let third = |points: &mut [[Rational; 3]; 6]| points.iter_mut().flatten().for_each(|x| *x /= 3);
+            third(&mut platform.base);
+            third(&mut platform.plate);
+        }
+        let legs = platform.legs_squared(&draw.pose().1);
+        let height = PlatformHeight::new(&linear_legs(&platform), &legs);
+        let polynomial = platform_polynomial(&platform, &legs).unwrap();
+        assert!(polynomial.proved && polynomial.coordinate.weights == [1, 0, 0]);
+        let longest = polynomial.coefficients.iter().map(rug::Integer::significant_bits).max().unwrap();
+        let measure = height.measure(&polynomial.coordinate.weights);
+        assert!(f64::from(longest) < measure + 40.0, "{longest} {measure}");
+        assert!(measure < 8.0 * f64::from(longest), "{longest} {measure}");
+        assert!(height.norm() > measure);
+        assert!(f64::from(u32::try_from(polynomial.primes).unwrap()) * 62.0 > measure + f64::from(longest));
+    }
+}
+
+#[test]
+fn what_is_not_proved_is_not_said_to_be() {
+    let mut draw = Draw::new(23);
+    let mut platform = draw.platform();
+    platform.plate = platform.base.clone().map(|a| a.map(|x| x * Rational::from((2, 3))));
+    let polynomial = platform_polynomial(&platform, &platform.legs_squared(&draw.pose().1)).unwrap();
+    assert!(polynomial.coefficients.len() == 25 && !polynomial.proved);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::self_motion::{Numeric, project};
 use crate::assembly::Roots;
 use crate::certify::pose::are_apart;
 use crate::solve::dense::inverse;
-use crate::solve::pose::{Eight, PolishedPose, complex, equations, patch, polish};
+use crate::solve::pose::{Eight, PolishedPose, complex, equations, patch, polish, wide};
 use crate::solve::scalar::Scalar;
 use num_complex::Complex;
 
@@ -33,6 +33,9 @@ impl Search<'_> {
             return true;
         }
         let polished = polish(self.legs, start).filter(|p| !near_null(p));
+        if polished.is_none() && !near_real && self.far_away(&start.map(wide)) {
+            return true;
+        }
         if let Some(polished) = &polished {
             let real = real_parts(&polished.study)[2];
             if imaginary(&polished.study, &real) >= REAL_PART {

@@ -2,6 +2,7 @@
 
 mod arrival;
 mod candidate;
+mod coincident;
 mod homotopy;
 mod mode;
 mod prepared;

@@ -1,9 +1,11 @@
 //! One set of leg lengths being solved: eigenvalue after eigenvalue, until all are accounted for.
 
 use super::candidate::candidates;
+use super::coincident::has_point_leg;
 use super::mode::{PlatformAssembly, PlatformMode};
 use super::prepared::{Chart, Frame, norm};
 use super::self_motion::self_motion;
+use crate::algebra::ring::Ring;
 use crate::assembly::Roots;
 use crate::certify::Certificate;
 use crate::certify::pose::{Curvature, are_apart, is_complex, is_pose, pose_certificate};
@@ -12,12 +14,14 @@ use crate::elimination::border::{BorderBasis, DIMENSION, Setting};
 use crate::solve::pose::{
     Eight, PolishedPose, complex, equations, normalised, patch, polish, polish_extended, refine, wide,
 };
-use crate::solve::scalar::{Extended, Scalar, narrowed};
+use crate::solve::scalar::{Extended, Number, Scalar, narrowed};
 use crate::solve::spectrum::Spectrum;
 use num_complex::Complex;
 
 /// |Im| / (1 + |lambda|) below which an eigenvalue may belong to a real pose: double ones split by 1e-8 and more.
 const NEAR_REAL: f64 = 1e-4;
+/// The same with a leg of length zero: an eigenvalue for every set of such legs, all equal, splits much farther.
+const POINT_LEG: f64 = 0.2;
 /// Imaginary parts below this are rounding of a real pose.
 pub const REAL_PART: f64 = 1e-7;
 /// |N| (with x of hermitian norm 1) below which an eigenvalue that leads to no regular pose is taken to be one without
@@ -177,13 +181,15 @@ impl<'a> Search<'a> {
     /// Follows all eigenvalues of a border basis.
     pub fn all_eigenvalues(&mut self, source: &Source, spectrum: &mut Spectrum<DIMENSION>) {
         (self.null, self.lost, self.followed) = (0, 0, true);
+        let point_leg = has_point_leg(self.legs);
         for found in self.found.iter_mut() {
             found.eigenvalues = 0;
         }
         for k in 0..DIMENSION {
             let value = spectrum.values[k];
             let near_real = value.im.abs() <= NEAR_REAL * (1.0 + value.norm());
-            if value.im < 0.0 || (self.roots == Roots::Real && !near_real) {
+            let may_be_real = near_real || (point_leg && value.im <= POINT_LEG * (1.0 + value.norm()));
+            if value.im < 0.0 || (self.roots == Roots::Real && !may_be_real) {
                 continue;
             }
             self.followed_pair = value.im > 0.0;
@@ -191,8 +197,11 @@ impl<'a> Search<'a> {
             if value.im == 0.0 {
                 outcome = self.real_eigenvalue(k, source, spectrum);
             }
-            if outcome == Outcome::Nothing && (value.im != 0.0 || self.roots == Roots::All) {
+            if outcome == Outcome::Nothing && (value.im != 0.0 && near_real || self.roots == Roots::All) {
                 outcome = self.complex_eigenvalue(k, near_real, source, spectrum);
+            }
+            if outcome != Outcome::Pose && point_leg && value.im <= POINT_LEG * (1.0 + value.norm()) {
+                outcome = self.coincident_ends(k, source, spectrum).unwrap_or(outcome);
             }
             let weight = if value.im > 0.0 { 2 } else { 1 };
             match outcome {
@@ -201,6 +210,15 @@ impl<'a> Search<'a> {
                 Outcome::Nothing => self.lost += weight,
             }
         }
+    }
+
+    /// A real pose at which the ends of legs of length zero coincide.
+    fn coincident_ends(&mut self, k: usize, source: &Source, spectrum: &mut Spectrum<DIMENSION>) -> Option<Outcome> {
+        let z = rotation::<Complex<f64>>(spectrum.values[k], k, source.basis, spectrum)?;
+        let candidates = candidates(source.setting, &z);
+        let starts = candidates.study[..candidates.count].iter();
+        let found = starts.filter(|(x, y)| self.coincide(&source.chart.outward(x, y), k)).count();
+        (found > 0).then_some(Outcome::Pose)
     }
 
     fn real_eigenvalue(&mut self, k: usize, source: &Source, spectrum: &mut Spectrum<DIMENSION>) -> Outcome {
@@ -288,32 +306,47 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// A pose so far away that it needs more digits; whether there is one, proved.
-    fn far_away<R: Extended>(&mut self, start: &Eight<Complex<R>>) -> bool {
-        let Some((point, there, inverse)) = polish_extended(self.legs, start) else { return false };
-        let Some(proof) = pose_certificate(self.legs, self.curvature, &point, &there, &inverse) else { return false };
+    /// Takes in a pose so far away that it needs more digits; whether there is one, proved.
+    pub fn far_away<R: Extended>(&mut self, start: &Eight<Complex<R>>) -> bool {
+        let found = self.proved(start, false).or_else(|| {
+            // A ball about a real point holds one solution only if that is real.
+            let best = largest(start).conjugate();
+            let real = start.map(|z| Complex::<R>::from_real(z.mul(&best).re));
+            self.proved(&real, true)
+        });
+        let Some(found) = found else { return false };
+        let radius = found.certificate.map_or(SINGULAR, |certificate| certificate.radius);
+        match self.known(&found.study, found.real, radius) {
+            Some(at) if self.found[at].certificate.is_none() && (found.real || !self.found[at].real) => {
+                self.found[at] = found;
+            }
+            Some(_) => {}
+            None => self.found.push(found),
+        }
+        true
+    }
+
+    /// The pose near a point in more digits, if there is one and it is proved to be real or complex, as it should be.
+    fn proved<R: Extended>(&self, start: &Eight<Complex<R>>, real: bool) -> Option<Found> {
+        let (point, there, inverse) = polish_extended(self.legs, start)?;
+        let proof = pose_certificate(self.legs, self.curvature, &point, &there, &inverse)?;
         let study = point.map(narrowed);
         let certificate = rounded(proof, &study);
-        if !is_pose(&point, proof.radius) || !is_complex(&study, certificate.radius) {
-            return false;
+        let as_it_should_be = real || is_complex(&study, certificate.radius);
+        if !is_pose(&point, proof.radius) || !as_it_should_be {
+            return None;
         }
         let inverse = inverse.map(|row| row.map(narrowed));
         let here = equations(self.legs, &study, &patch(&study));
-        let found = Found {
+        Some(Found {
             study,
-            real: false,
+            real,
             certificate: Some(certificate),
             residual: here.residual(),
             condition: here.condition(&inverse),
             eigenvalues: 1,
             last: usize::MAX,
-        };
-        match self.known(&study, false, certificate.radius) {
-            Some(at) if self.found[at].certificate.is_none() && !self.found[at].real => self.found[at] = found,
-            Some(_) => {}
-            None => self.found.push(found),
-        }
-        true
+        })
     }
 
     /// The place in the list of a solution known to within `least`, or of its conjugate.
@@ -322,9 +355,10 @@ impl<'a> Search<'a> {
             let product: Complex<f64> = (0..4).map(|k| study[k] * if conjugate { w[k] } else { w[k].conj() }).sum();
             product.norm_sqr() > 1.0 - SAME
         };
-        // Polished to rounding: what is farther apart than this is not one. Singular ones are less accurate.
+        // Polished to rounding: what is farther apart than this is not one. Singular ones are less accurate, and of those
+        // known more accurately the proofs tell.
         self.found.iter().position(|found| {
-            let room = found.certificate.map_or(SINGULAR, |c| c.radius.max(REAL_PART));
+            let room = found.certificate.map_or(SINGULAR, |c| c.radius.max(least.min(REAL_PART)));
             let same = |w: &Eight<Complex<f64>>| !are_apart(study, room.max(least), w, room);
             (same_rotation(&found.study, false) && same(&found.study))
                 || (!real && same_rotation(&found.study, true) && same(&found.study.map(|z| z.conj())))
@@ -401,6 +435,11 @@ const ROUNDED: f64 = 1e-15;
 /// Whether a polished solution may belong to a family with `N = 0`.
 pub fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
     norm(&polished.study).norm() < DOUBTFUL && polished.step > NULL * DOUBTFUL
+}
+
+/// The largest coordinate of the rotation.
+fn largest<S: Number>(v: &Eight<S>) -> S {
+    v[1..4].iter().fold(v[0], |best, z| if z.square_size() > best.square_size() { *z } else { best })
 }
 
 /// A proof for a point that was rounded to f64 afterwards.

@@ -8,10 +8,14 @@ use nalgebra::{ComplexField, SMatrix, SVector};
 
 /// Singular values below this part of the largest one count as zero.
 const RANK: f64 = 1e-6;
+/// The same while a pose is approached: the singular values of multiple ones shrink with the distance.
+const NEGLIGIBLE: f64 = 1e-8;
 /// Relative residual of a pose.
 const CLOSED: f64 = 1e-12;
 /// How far a step along the curve goes.
 const STEP: f64 = 0.02;
+/// Poses are another direction of motion if they are farther away than this part of a step.
+const MOVED: f64 = 0.2;
 /// |N| of a point on a family without poses.
 const NULL: f64 = 1e-3;
 
@@ -30,7 +34,7 @@ pub fn project<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Eig
             return Some(v);
         }
         let svd = SMatrix::<S, 8, 8>::from_fn(|i, j| here.jacobian[i][j]).svd(true, true);
-        let cut = RANK * svd.singular_values.max();
+        let cut = NEGLIGIBLE * svd.singular_values.max();
         let step = svd.solve(&SVector::<S, 8>::from(here.values), cut).ok()?;
         for k in 0..8 {
             v[k] -= step[k];
@@ -40,37 +44,37 @@ pub fn project<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Eig
     None
 }
 
-/// The corank of the equations at a pose, and a direction in which they give way.
-fn corank<S: Numeric>(legs: &[Leg<f64>; 6], v: &Eight<S>) -> (usize, Eight<S>) {
+/// The directions in which the equations at a pose give way.
+fn kernel<S: Numeric>(legs: &[Leg<f64>; 6], v: &Eight<S>) -> impl Iterator<Item = Eight<S>> {
     let here = equations(legs, v, &patch(v));
     let svd = SMatrix::<S, 8, 8>::from_fn(|i, j| here.jacobian[i][j]).svd(false, true);
-    let values = svd.singular_values;
-    let smallest = (1..8).fold(0, |best, k| if values[k] < values[best] { k } else { best });
-    let count = values.iter().filter(|&&s| s <= RANK * values.max()).count();
-    (
-        count,
-        svd.v_t.map_or([<S as Scalar>::from_f64(0.0); 8], |v| {
-            std::array::from_fn(|j| Number::conjugate(v[(smallest, j)]))
-        }),
-    )
+    let (values, rows) = (svd.singular_values, svd.v_t);
+    let cut = RANK * values.max();
+    (0..8)
+        .filter(move |&k| values[k] <= cut)
+        .filter_map(move |k| rows.map(|rows| std::array::from_fn(|j| Number::conjugate(rows[(k, j)]))))
 }
 
 /// The dimension of the set of poses through the pose next to a point, real or complex as the type is; 0 for isolated ones
 /// and where there is none.
+///
+/// The equations may give way in more directions than there is motion: what counts is where poses are found again after a
+/// step in each of them.
 #[must_use]
 pub fn self_motion<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> usize {
     let Some(v) = project(legs, start) else { return 0 };
-    let norm = norm(&v).size();
-    let (count, direction) = corank(legs, &v);
-    if count == 0 || norm < NULL {
+    if norm(&v).size() < NULL {
         return 0;
     }
-    let there = [STEP, -STEP].map(|h| {
-        let moved = std::array::from_fn(|k| v[k] + direction[k].times(h));
-        let slid = project(legs, &moved)?;
-        let distance = (0..8).map(|k| (slid[k] - v[k]).size()).fold(0.0, f64::max);
-        (distance > 0.2 * STEP && distance < 5.0 * STEP).then(|| corank(legs, &slid).0)
-    });
-    // The corank may be larger at a point where branches meet.
-    there.into_iter().flatten().min().unwrap_or(0).min(count)
+    let mut moved = SMatrix::<S, 8, 16>::zeros();
+    for (k, direction) in kernel(legs, &v).enumerate() {
+        for (side, step) in [STEP, -STEP].into_iter().enumerate() {
+            let start = std::array::from_fn(|j| v[j] + direction[j].times(step));
+            let Some(slid) = project(legs, &start) else { continue };
+            for j in 0..8 {
+                moved[(j, 2 * k + side)] = slid[j] - v[j];
+            }
+        }
+    }
+    moved.svd(false, false).singular_values.iter().filter(|&&size| size > MOVED * STEP).count()
 }

@@ -88,7 +88,7 @@ fn expected(drawn: &PlatformSample) -> Option<usize> {
     let platform = Platform { base: points(&drawn.platform.base)?, plate: points(&drawn.platform.plate)? };
     match platform_degree(&platform, &squares)? {
         PlatformDegree::Finite { poses, .. } => Some(poses.min(MOST)),
-        PlatformDegree::Infinite => None,
+        PlatformDegree::Infinite { .. } => None,
     }
 }
 

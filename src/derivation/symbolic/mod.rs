@@ -1,6 +1,7 @@
 //! Derivations that keep link parameters as symbols: the same closure equations and eliminations over a ring of
 //! polynomials.
 
+mod dual;
 mod parts;
 mod routes;
 mod size;
@@ -16,6 +17,7 @@ use crate::catalogue::entry::{Case, Design, Entry};
 use crate::elimination::degree::general_degree;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
+use crate::kinematics::link_form::LinkForm;
 use crate::mechanism::coupled_loop;
 use parts::Parts;
 use routes::Outcome;
@@ -72,6 +74,8 @@ pub struct Symbolic {
     pub parts: Vec<(String, Polynomial<Rational>)>,
     /// Translations in terms of unknowns and symbols.
     pub translations: Vec<Quotient>,
+    /// The variables of the symbols with the numbers of the file.
+    pub values: Vec<(usize, Rational)>,
     /// With what the result was compared, after putting in the numbers of the file; it was equal.
     pub compared: String,
 }
@@ -93,7 +97,10 @@ pub fn derive_symbolic(entry: &Entry, case: &Case, wanted: &[String]) -> Result<
     let unknowns = 3 * symbols.len();
     let table = Table::of(chain, case, wanted, unknowns, !is_pair)?;
     let outcome = match &numeric {
-        None => routes::pair(chain, &table, &symbols)?,
+        None => {
+            let input = case.input.first().map_or(chain.joint_kinds().len(), |input| input.joint);
+            dual::four_revolutes(chain, &table, &symbols, (input + 3) % 4)?
+        }
         Some(numeric) => routes::route(chain, case, &table, &symbols, numeric)?,
     };
     finished(&table, &symbols, outcome)
@@ -114,8 +121,11 @@ fn numeric(chain: &Chain, case: &Case) -> Result<(Symbols, Option<Numeric>)> {
         return Ok((symbols, Some(Numeric::Coupled(eliminated))));
     }
     let exact = exact(chain, case)?;
-    let special =
-        exact.ball.is_some() || general_degree(exact.closed.variables) == Some(2) || two_sides::is_opposite(&exact);
+    let is_neighbour = || LinkForm::of(&exact.closed).is_some_and(|form| dual::opposite_link(&form).is_some());
+    let special = exact.ball.is_some()
+        || general_degree(exact.closed.variables) == Some(2)
+        || two_sides::is_opposite(&exact)
+        || is_neighbour();
     if !special {
         return Err(size::too_large(chain, case, &exact));
     }
@@ -185,6 +195,7 @@ fn finished(table: &Table<'_>, symbols: &Symbols, outcome: Outcome) -> Result<Sy
         polynomial: polynomial
             .map(|(variable, one)| SymbolicPolynomial { variable: variable + count, displayed: displayed(&one) }),
         translations: outcome.translations.iter().map(quotient).collect(),
+        values: table.values().into_iter().map(|(variable, number)| (variable + count, number)).collect(),
         parts: parts.list.iter().map(|(name, part)| (name.clone(), moved(part))).collect(),
         compared: outcome.compared,
     })

@@ -35,7 +35,8 @@ impl Point<'_, '_> {
 
     fn filling(&self, case: &Case) -> Option<Motion<Mod>> {
         let Some(input) = case.input.first() else {
-            return case.pose.as_ref()?.exact.inverse().map(Mod::from_rational);
+            let Some(pose) = &case.pose else { return Some(Motion::identity()) };
+            return pose.exact.inverse().map(Mod::from_rational);
         };
         Some(match (&input.value, self.at(None)) {
             (InputValue::Angle(angle), value) => {
@@ -70,8 +71,8 @@ pub(super) fn too_large(chain: &Chain, case: &Case, exact: &Exact) -> Error {
         Err(error) => return error,
     };
     Error::Unsupported(format!(
-        "{what} is too large for symbols: {size}; symbols are for loops with three unknown rotations, two opposite axes with \
-         the translations, a ball, two balls, or four revolutes alone"
+        "{what} is too large for symbols: {size}; symbols are for loops with three unknown rotations, both \
+         translations along two of four axes, a ball, two balls, or four revolutes alone"
     ))
 }
 

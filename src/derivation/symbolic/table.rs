@@ -1,6 +1,5 @@
 //! The parameters of a loop as symbols.
 
-use crate::algebra::dual::Dual;
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Ring, exact_cos_sin};
@@ -119,20 +118,18 @@ impl<'c> Table<'c> {
         }
     }
 
-    /// What fills the gap: the input, or the inverse of a pose.
+    /// What fills the gap: the input, or the inverse of a pose; nothing where neither is given.
     pub fn filling(&self) -> Result<Motion<Symbol>> {
         if let Some(pose) = &self.case.pose {
             let image = pose.exact.inverse().map(Symbol::from_rational);
             return image.ok_or_else(|| Error::Invalid("the pose has no image".to_owned()));
         }
-        let motion = self.case.input.first().and_then(|input| match &input.value {
-            InputValue::Angle(angle) => {
-                let (cos, sin) = self.angle_at(None, angle)?;
-                Some(Motion::rotation_z(cos, sin))
-            }
-            InputValue::Distance(distance) => Some(Motion::translation_z(self.length_at(None, distance)?)),
-        });
-        motion.ok_or_else(|| Error::Invalid("a case without pose and input".to_owned()))
+        let Some(input) = self.case.input.first() else { return Ok(Motion::identity()) };
+        let motion = match &input.value {
+            InputValue::Angle(angle) => self.angle_at(None, angle).map(|(cos, sin)| Motion::rotation_z(cos, sin)),
+            InputValue::Distance(distance) => self.length_at(None, distance).map(Motion::translation_z),
+        };
+        motion.ok_or_else(|| Error::Invalid("the input has no image".to_owned()))
     }
 
     /// Every variable with its value in the file.
@@ -199,27 +196,5 @@ impl Parameters<Symbol> for Table<'_> {
     }
     fn length(&self, joint: usize, parameter: Parameter, value: &Number) -> Option<Symbol> {
         self.length_at(Some((joint, parameter)), value)
-    }
-}
-
-/// The same loop by the principle of transference: every angle `alpha + eps a` or `theta + eps d`, all axes through one
-/// point.
-pub(super) struct Transferred<'t, P> {
-    pub joints: &'t [Joint],
-    pub parameters: &'t P,
-}
-
-impl<R: Ring, P: Parameters<R>> Parameters<Dual<R>> for Transferred<'_, P> {
-    fn angle(&self, joint: usize, parameter: Parameter, value: &Angle) -> Option<(Dual<R>, Dual<R>)> {
-        let numbers = &self.joints[joint];
-        let (along, number) = match parameter {
-            Parameter::Twist => (Parameter::Length, &numbers.a),
-            _ => (Parameter::Offset, &numbers.d),
-        };
-        let (cos, sin) = self.parameters.angle(joint, parameter, value)?;
-        Some(Dual::angle(cos, sin, &self.parameters.length(joint, along, number)?))
-    }
-    fn length(&self, _joint: usize, _parameter: Parameter, _value: &Number) -> Option<Dual<R>> {
-        Some(Dual::zero())
     }
 }

@@ -1,0 +1,99 @@
+//! How freely a loop may move: Gruebler's count, and the rank of the screws of its joints in general position.
+
+use super::chain::{Chain, JointKind};
+use super::closed_loop::{Numbers, Variable};
+use super::motion::{Motion, Vector};
+use super::screw_system::{Screw, ScrewSystem};
+use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::ring::{Field, Ring};
+use std::fmt;
+
+/// The field of the rank, in which a wrong one has a probability below `1e-16`.
+type Mod = ModP<PRIME_61>;
+
+/// The freedoms of a chain read as a loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Freedom {
+    /// The number of joint variables.
+    pub variables: usize,
+    /// The rank of the joint screws at joint values in general position, closed or not: what the loop has to close against.
+    /// `None` for joints other than R, P, C and S.
+    pub rank: Option<usize>,
+    /// Whether two S joints let the link between them spin.
+    pub spins: bool,
+}
+
+impl Freedom {
+    /// The freedoms of a chain.
+    ///
+    /// # Example
+    /// ```
+    /// use looproot::{catalogue, kinematics::freedom::Freedom};
+    ///
+    /// let bennett = catalogue::builtin("bennett_a", &Default::default())?;
+    /// let freedom = Freedom::of(bennett.chain().unwrap());
+    /// assert_eq!((freedom.gruebler(), freedom.rank), (-2, Some(4)));
+    /// assert_eq!(
+    ///     freedom.to_string(),
+    ///     "mobility -2 by Gruebler's count (4 - 6), screw rank 4 in general position"
+    /// );
+    /// # Ok::<(), looproot::error::Error>(())
+    /// ```
+    #[must_use]
+    pub fn of(chain: &Chain) -> Self {
+        let kinds = chain.joint_kinds();
+        let count = |kind: &JointKind| match kind {
+            JointKind::Revolute | JointKind::Prismatic | JointKind::Helical => 1,
+            JointKind::Cylindrical | JointKind::Universal => 2,
+            JointKind::Spherical => 3,
+        };
+        let spins = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count() > 1;
+        let is_known = !kinds.iter().any(|kind| matches!(kind, JointKind::Helical | JointKind::Universal));
+        let rank = if is_known { rank(chain) } else { None };
+        Self { variables: kinds.iter().map(count).sum(), rank, spins }
+    }
+
+    /// Joint variables less equations, `n - 6`.
+    #[must_use]
+    pub fn gruebler(&self) -> i64 {
+        i64::try_from(self.variables).unwrap_or(i64::MAX) - 6
+    }
+}
+
+impl fmt::Display for Freedom {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "mobility {} by Gruebler's count ({} - 6)", self.gruebler(), self.variables)?;
+        if let Some(rank) = self.rank {
+            write!(f, ", screw rank {rank} in general position")?;
+        }
+        if self.spins {
+            f.write_str(" (the spin of a link between two S joints about the line of their centres counts)")?;
+        }
+        Ok(())
+    }
+}
+
+/// The rank at pseudo-random joint values, modulo a prime.
+fn rank(chain: &Chain) -> Option<usize> {
+    let mut screws: Vec<Screw<Mod>> = Vec::new();
+    let mut frame: Motion<Mod> = Motion::identity();
+    for (number, (variable, behind)) in (1..).zip(chain.cycle::<Mod>(&Numbers).unwrap_or_default()) {
+        let axis: Vector<Mod> = std::array::from_fn(|i| frame.rotation[i][2]);
+        // Any numbers without a relation between them.
+        let value = Mod::new(1_000_003 * (number + 2) * (number + 2) * (number + 2) + 77_711 * number);
+        let moved = match variable {
+            Variable::Rotation => {
+                screws.push(Screw::rotation(&frame.translation, &axis));
+                let square = value.mul(&value);
+                let scale = Mod::one().add(&square).inverse()?;
+                Motion::rotation_z(Mod::one().sub(&square).mul(&scale), value.add(&value).mul(&scale))
+            }
+            Variable::Translation => {
+                screws.push(Screw::translation(&axis));
+                Motion::translation_z(value)
+            }
+        };
+        frame = frame.then_after(&moved).then_after(&behind);
+    }
+    Some(ScrewSystem::of(&screws).order())
+}
