@@ -27,15 +27,15 @@ fn overconstrained_loops_are_proved_to_move() {
     let cases = [
         ("bennett_a", 3, 1, 1),
         ("goldberg_a", 4, 1, 1),
-        ("myard_a", 4, 2, 2),
-        ("bricard_line_symmetric_a", 5, 2, 2),
+        ("myard_a", 4, 1, 2),
+        ("bricard_line_symmetric_a", 5, 1, 2),
         ("bricard_plane_symmetric_a", 5, 2, 4),
         ("bricard_trihedral_a", 5, 2, 2),
-        ("wohlhart_hybrid_a", 5, 4, 4),
+        ("wohlhart_hybrid_a", 5, 1, 4),
         ("waldron_hybrid", 5, 1, 1),
         ("double_goldberg", 5, 1, 1),
         ("dietmaier_a", 5, 2, 4),
-        ("rrcrp_a", 5, 2, 2),
+        ("rrcrp_a", 5, 1, 2),
         ("rrrrp_parallel_pairs", 4, 1, 1),
         ("planar_4r", 3, 2, 2),
     ];
@@ -50,10 +50,8 @@ fn overconstrained_loops_are_proved_to_move() {
 
 #[test]
 fn broken_ones_are_refused() {
-    // Right angles leave limits of configurations that theorem 4 cannot exclude.
-    let unproved = answer("bricard_trihedral_broken");
-    assert_eq!((unproved.mobility, unproved.proof, unproved.branches()), (Some(0), Proof::None, 0));
-    for name in ["bennett_broken", "dietmaier_broken"] {
+    // Right angles leave limits of configurations that theorem 4 cannot exclude, and theorem 6 can.
+    for name in ["bennett_broken", "dietmaier_broken", "bricard_trihedral_broken"] {
         let answer = answer(name);
         assert_eq!((answer.mobility, answer.proof, answer.shaky), (Some(0), Proof::Exact, None), "{name}");
     }
@@ -73,10 +71,24 @@ fn loops_with_enough_freedoms_move_by_a_certified_configuration() {
 
 #[test]
 fn a_small_error_in_any_link_stops_the_motion() {
-    for name in ["bennett_a", "myard_a", "bricard_line_symmetric_a", "dietmaier_a", "goldberg_a", "planar_4r"] {
-        let linkage = Linkage::of(builtin(name, &Options::default()).unwrap().chain().unwrap()).unwrap();
-        let tally = disturb(&linkage, 6, 1, || true, || ());
+    let names = [
+        "bennett_a",
+        "myard_a",
+        "bricard_line_symmetric_a",
+        "dietmaier_a",
+        "goldberg_a",
+        "planar_4r",
+        "rrcrp_a",
+        "rrcrp_b",
+        "rrrrp_parallel_pairs",
+        "bricard_trihedral_a",
+    ];
+    for name in names {
+        let tally = disturb(&builtin(name, &Options::default()).unwrap(), (6, 6), 1, || true, || ());
         assert_eq!((tally.count, tally.immobile, tally.mobile.len()), (6, 6, 0), "{name}");
+        assert!(tally.miscounted.is_empty(), "{name}");
+        // What is solved is confirmed by a count of its own, but that with right angles it may be too high.
+        assert!(tally.counted == tally.solved || name == "bricard_trihedral_a", "{name}: {tally:?}");
     }
 }
 
@@ -219,6 +231,58 @@ fn a_half_turn_is_a_position_like_any_other() {
     let folded = loop_4r.at(&[[zero(), one()], [one(), zero()], [zero(), one()], [one(), zero()]]);
     assert!(folded.closes());
     assert_eq!(Germ::of(&folded).local, Local::Curve);
+}
+
+/// Two coaxial revolutes and three more round a loop: its last link is such that it closes at home, drawn at random.
+fn coaxial() -> Linkage<Rational> {
+    let link = |a: i32, t: i32, d: i32| -> DualQuaternion<Rational> {
+        let shift = DualQuaternion::translation(&[Rational::from(a), Rational::new(), Rational::from(d)]);
+        shift.mul(&DualQuaternion::rotation_x(Rational::one(), Rational::from((t, 3))))
+    };
+    let mut links = vec![link(0, 0, 2), link(1, 1, 1), link(2, -2, 1), link(3, 4, -1)];
+    let whole = links.iter().fold(DualQuaternion::identity(), |product, link| product.mul(link));
+    links.push(whole.conjugate());
+    Linkage::about_z(vec![Variable::Rotation; 5], links)
+}
+
+#[test]
+fn two_coaxial_joints_move_in_any_loop() {
+    let linkage = coaxial();
+    let germ = Germ::of(&linkage.at(&vec![[Rational::one(), Rational::zero()]; 5]));
+    assert_eq!((germ.local, germ.rank), (Local::Manifold { dimension: 1 }, 4));
+    assert_eq!(looproot::mobility::moves(&linkage), Some(true));
+}
+
+/// Five generators `(-3 s, 3 c, 4)/5` through `(c, s, 0)` of one family of a hyperboloid: their screws have rank 3.
+const REGULUS: &str = r#"
+    [mechanism]
+    kind = "loop"
+    convention = "screws"
+    joints = [
+        { type = "R", axis = [0, "3/5", "4/5"], point = [1, 0, 0] },
+        { type = "R", axis = ["-12/25", "9/25", "4/5"], point = ["3/5", "4/5", 0] },
+        { type = "R", axis = ["-9/25", "-12/25", "4/5"], point = ["-4/5", "3/5", 0] },
+        { type = "R", axis = ["36/65", "3/13", "4/5"], point = ["5/13", "-12/13", 0] },
+        { type = "R", axis = ["9/17", "-24/85", "4/5"], point = ["-8/17", "-15/17", 0] },
+    ]
+"#;
+
+#[test]
+fn several_infinitesimal_motions_are_decided_by_low_orders() {
+    let linkage = Linkage::of(entry(REGULUS).chain().unwrap()).unwrap();
+    let germ = Germ::of(&linkage.at(&vec![[Rational::one(), Rational::zero()]; 5]));
+    // Three quadratic equations for two first-order motions leave 1 and these two: multiplicity 3.
+    assert_eq!((germ.local, germ.rank), (Local::Isolated { order: 3 }, 3));
+    let answer = mobility(&entry(REGULUS)).unwrap();
+    assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Exact), "{}", answer.reason);
+}
+
+#[test]
+fn exact_counts_agree_with_solutions_known() {
+    let linkage = |name: &str| Linkage::of(builtin(name, &Options::default()).unwrap().chain().unwrap()).unwrap();
+    assert_eq!(looproot::mobility::at_most(&linkage("structure_6r"), 16), Some(16));
+    assert_eq!(looproot::mobility::count(&linkage("structure_5r")), Some(1));
+    assert_eq!(looproot::mobility::count(&linkage("bennett_broken")), Some(0));
 }
 
 #[test]

@@ -432,12 +432,15 @@ pub struct AccuracyOptions {
 /// `looproot bench mobility`
 #[derive(Args)]
 pub struct DisturbOptions {
-    /// A mobile loop of up to six variables of the built-in library; all of them if none is given
+    /// A mobile loop of up to six variables or a mobile framework of the built-in library; all of them if none is given
     #[arg(long, value_name = "NAME")]
     pub entry: Option<String>,
-    /// Number of disturbed loops of each
+    /// Number of disturbed mechanisms of each
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub count: u64,
+    /// Number of disturbed loops of each that are solved as well, and their configurations counted [default: all]
+    #[arg(long, value_name = "N")]
+    pub solve: Option<u64>,
     /// Seed of the draw
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,

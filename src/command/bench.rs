@@ -7,6 +7,7 @@ use super::solve::stop_on_interrupt;
 use indicatif::{ProgressBar, ProgressStyle};
 use looproot::assembly::Roots;
 use looproot::benchmark::accuracy::{self, Counts, Job, quantiles};
+use looproot::benchmark::framework;
 use looproot::benchmark::mobility as disturbed;
 use looproot::benchmark::platform;
 use looproot::benchmark::platform::accuracy::PlatformJob;
@@ -14,8 +15,8 @@ use looproot::benchmark::platform::sample::PlatformSet;
 use looproot::benchmark::sample::{CHAINS, Set};
 use looproot::benchmark::speed::{self, Timings};
 use looproot::benchmark::speed_loops::{self, ExactRow, LoopRow, LoopTimings, Spread};
-use looproot::catalogue::entry::Kind;
-use looproot::catalogue::{Options, builtin, builtin_names};
+use looproot::catalogue::entry::{Entry, Kind};
+use looproot::catalogue::{Any, FrameworkFile, Options, builtin, builtin_any, builtin_names, moving_names};
 use looproot::error::Error;
 use looproot::mobility::{Linkage, moves};
 use looproot::report::number::duration;
@@ -116,49 +117,100 @@ fn document(counts: &Counts, set: &str, options: &AccuracyOptions) -> serde_json
     })
 }
 
-/// The mobile loops of up to six variables that are asked for.
-fn mobile(options: &DisturbOptions) -> Result<Vec<(String, Linkage<Rational>)>, Error> {
-    let names = options.entry.as_ref().map_or_else(builtin_names, |name| vec![name.clone()]);
+/// A mechanism that moves, to be disturbed.
+enum Mobile {
+    Loop(Box<Entry>),
+    Framework(Box<FrameworkFile>),
+}
+
+/// The mobile loops of up to six variables and the mobile frameworks that are asked for.
+fn mobile(options: &DisturbOptions) -> Result<Vec<(String, Mobile)>, Error> {
+    let names = options.entry.as_ref().map_or_else(
+        || {
+            [builtin_names(), moving_names().into_iter().filter(|name| name.starts_with("framework/")).collect()]
+                .concat()
+        },
+        |name| vec![name.clone()],
+    );
     let mut found = Vec::new();
     for name in names {
-        let entry = builtin(&name, &Options::default())?;
-        let chain = entry.chain().filter(|_| entry.kind() == Kind::Loop);
-        let Some(linkage) = chain.and_then(|chain| Linkage::of(chain).ok()) else { continue };
-        if linkage.variables.len() <= 6 && moves(&linkage) == Some(true) {
-            found.push((name, linkage));
+        match builtin_any(&name, &Options::default())? {
+            Any::Entry(entry) if entry.kind() == Kind::Loop => {
+                let linkage = entry.chain().and_then(|chain| Linkage::of(chain).ok());
+                let is_mobile =
+                    |linkage: &Linkage<Rational>| linkage.variables.len() <= 6 && moves(linkage) == Some(true);
+                if linkage.as_ref().is_some_and(is_mobile) {
+                    found.push((name, Mobile::Loop(entry)));
+                }
+            }
+            Any::Framework(file) if file.dimension != Some(0) => found.push((name, Mobile::Framework(file))),
+            _ => {}
         }
     }
     if found.is_empty() {
-        return Err(Error::Invalid("found no mobile loop of up to six variables, expected one".to_owned()));
+        let message = "found no mobile loop of up to six variables and no mobile framework, expected one";
+        return Err(Error::Invalid(message.to_owned()));
     }
     Ok(found)
 }
 
 fn measure_mobility(options: &DisturbOptions) -> Result<Exit, Fault> {
     let pool = pool(options.threads)?;
-    let loops = mobile(options)?;
+    let mobile = mobile(options)?;
+    let (count, seed) = (options.count, options.seed);
+    let solved = options.solve.unwrap_or(count);
     let stop = stop_on_interrupt();
-    let bar = ProgressBar::new(options.count * loops.len() as u64);
+    let bar = ProgressBar::new(count * mobile.len() as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta} {msg}") {
+        bar.set_style(style);
+    }
     let running = || !stop.load(Ordering::Relaxed);
-    let mut table = Columns::new(&["loop", "disturbed", "immobile", "undecided", "mobile", "each"], &["loop"]);
+    let tick = || bar.inc(1);
+    let header = [
+        "mechanism",
+        "disturbed",
+        "immobile",
+        "undecided",
+        "mobile",
+        "asked",
+        "solved",
+        "counted",
+        "miscounted",
+        "complex",
+        "real",
+        "each",
+    ];
+    let mut table = Columns::new(&header, &["mechanism"]);
     let mut documents = Vec::new();
-    let mut none_moves = true;
-    for (name, linkage) in &loops {
+    let mut is_faultless = true;
+    for (name, mechanism) in mobile.iter().take_while(|_| running()) {
+        bar.set_message(name.clone());
         let start = Instant::now();
-        let tally = pool.install(|| disturbed::run(linkage, options.count, options.seed, running, || bar.inc(1)));
+        let tally = pool.install(|| match mechanism {
+            Mobile::Loop(entry) => disturbed::run(entry, (count, solved), seed, running, tick),
+            Mobile::Framework(file) => framework::run(file, count, seed, running, tick),
+        });
         let each = start.elapsed().as_secs_f64() * 1e6 / tally.count.max(1) as f64;
-        none_moves &= tally.mobile.is_empty();
-        let counts = [tally.count, tally.immobile, tally.undecided, tally.mobile.len()].map(|n| n.to_string());
-        table.row(std::iter::once(name.clone()).chain(counts).chain([duration(each)]));
+        is_faultless &= tally.mobile.is_empty() && tally.miscounted.is_empty();
+        let (complex, real) = tally.configurations;
+        let decided = [tally.count, tally.immobile, tally.undecided, tally.mobile.len()].map(|n| n.to_string());
+        let counted = [tally.asked, tally.solved, tally.counted, tally.miscounted.len(), complex, real];
+        let counted =
+            counted.map(|n| if matches!(mechanism, Mobile::Loop(_)) { n.to_string() } else { "-".to_owned() });
+        table.row(std::iter::once(name.clone()).chain(decided).chain(counted).chain([duration(each)]));
         documents.push(json!({
-            "loop": name, "disturbed": tally.count, "immobile": tally.immobile, "undecided": tally.undecided,
-            "mobile": tally.mobile,
+            "mechanism": name, "disturbed": tally.count, "immobile": tally.immobile, "undecided": tally.undecided,
+            "mobile": tally.mobile, "asked": tally.asked, "solved": tally.solved, "counted": tally.counted, "miscounted": tally.miscounted,
+            "complex": complex, "real": real,
         }));
     }
     bar.finish_and_clear();
-    let foot = format!("errors of 1e-3 to 1e-9 in one link, seed {}\n", options.seed);
+    let foot = format!(
+        "errors of 1e-3 to 1e-9 in one link of a loop, in all vertices or all lengths of a framework, seed {seed}\n\
+         asked: loops given to `solve`; solved: those whose list of configurations it calls complete; counted: those that an exact count confirms\n"
+    );
     print(&if options.json { format!("{}\n", json!(documents)) } else { table.text() + &foot })?;
-    let exit = if none_moves { Exit::Complete } else { Exit::NotProved };
+    let exit = if is_faultless { Exit::Complete } else { Exit::NotProved };
     Ok(if running() { exit } else { Exit::Interrupted })
 }
 

@@ -32,7 +32,11 @@ type Mod = ModP<PRIME_61>;
 const NEARLY_ZERO: f64 = 1e-6;
 /// Idle unknowns up to this are zero where the data of the mechanism were rounded.
 const ZERO: f64 = 1e-11;
-/// Closure residuals up to this are rounding: where the equations enlarge it, idle unknowns may be larger.
+/// A loop that closes no better than this, its idle unknowns at zero and the others at their best, does not close: it is one
+/// made with a small error.
+const OPEN: f64 = 1e-11;
+/// Closure residuals up to this are rounding: where the equations enlarge it, idle unknowns may be larger. Loops that close so
+/// well count as solutions before they are counted exactly.
 const CLOSED: f64 = 1e-13;
 /// How many choices of idle axes are tried before a search is given up.
 const CHOICES: u32 = 2;
@@ -290,7 +294,8 @@ impl ShortLoop {
                 continue;
             }
             let mut found = self.candidates(rung, case, roots, most, workspace, assembly)?;
-            count = count.or_else(|| self.count(rung, case, total(&found)));
+            let closed: Vec<Candidate> = found.iter().filter(|c| c.mode.residual < CLOSED).cloned().collect();
+            count = count.or_else(|| self.count(rung, case, total(&closed)));
             self_motion = assembly.self_motion;
             if tight.is_empty() {
                 let is_tight = |c: &&Candidate| c.idle < ZERO || c.mode.residual <= CLOSED;
@@ -422,6 +427,9 @@ impl ShortLoop {
             let idle = (0..6).filter(|&k| is_idle[k]).map(|k| own[k].norm()).fold(0.0, f64::max);
             if idle < NEARLY_ZERO {
                 let (unknowns, residual) = closer(&closed, &own, is_idle, mode.real);
+                if !(residual < OPEN) {
+                    continue;
+                }
                 let q = layout.assemble(&std::array::from_fn(|k| unknowns[k] * units[k]), locked);
                 candidates.push(Candidate { q, mode: Mode { residual, ..mode.clone() }, idle });
             }

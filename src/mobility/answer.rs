@@ -50,6 +50,9 @@ pub struct Configuration {
     pub local: Local,
     /// Which joint variables move along the curve or in the manifold.
     pub moving: Vec<bool>,
+    /// The branch it lies on, numbered from 0; `None` if it does not move. Configurations that a curve passes one after the other
+    /// are of one branch.
+    pub branch: Option<usize>,
     /// What the axes have in common, in words.
     pub system: String,
     /// A basis of the screws reciprocal to all joints: of the wrenches that the loop can hold in itself, its redundant
@@ -109,9 +112,9 @@ impl Mobility {
         self.configurations.iter().map(|configuration| configuration.rank).max()
     }
 
-    /// The number of real branches through what is held; 0 of an immobile loop.
+    /// The number of different real branches through what is held; 0 of an immobile loop.
     #[must_use]
     pub fn branches(&self) -> usize {
-        self.configurations.iter().filter(|configuration| configuration.dimension() > Some(0)).count()
+        self.configurations.iter().filter_map(|configuration| configuration.branch).max().map_or(0, |last| last + 1)
     }
 }

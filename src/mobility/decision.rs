@@ -1,11 +1,13 @@
 //! Whether the loop of an entry moves.
 
 use super::answer::{Configuration, JointVariable, Mobility, Proof};
+use super::branches::branches;
 use super::linkage::{Axis, JointValue, Linkage};
 use super::order::{Germ, Local, MOST_SOLUTIONS};
 use super::positions::Conjugates;
 use super::rounded::{Closing, closing, has_long_decimals, is_exact};
-use super::search::{Outcome, Search, at, decide, is_proved_immobile, search};
+use super::search::{Outcome, Search, at, decide, is_open_everywhere, search};
+use super::stillness::all_stand_still;
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue};
@@ -22,6 +24,9 @@ const TANGENTS: [(i32, i32); 6] = [(1, 2), (-1, 3), (4, 3), (-7, 3), (-5, 7), (8
 /// Theorem 4 in words.
 const NO_CURVE: &str = "no curve of configurations: held at some value of any one of its joints, the loop has no configuration, \
                         nor a limit of any";
+/// Theorems 5 and 6 in words.
+const STILL: &str =
+    "no curve of configurations: the conditions of its cuts leave every joint variable finitely many values";
 /// Decimal digits in which a singular solution known in floating point is compared with simple rationals.
 const SIMPLE: u32 = 6;
 
@@ -45,7 +50,12 @@ pub fn mobility(entry: &Entry) -> Result<Mobility> {
         return Err(Error::Invalid(format!("found {what}, expected a loop")));
     };
     let subject = Subject { entry, chain, linkage: Linkage::of(chain)?, variables: variables(chain) };
-    if subject.variables.len() > 6 { subject.free() } else { subject.overconstrained() }
+    let mut answer = if subject.variables.len() > 6 { subject.free()? } else { subject.overconstrained()? };
+    let found = branches(&subject.linkage, &answer.configurations);
+    for (configuration, branch) in answer.configurations.iter_mut().zip(found) {
+        configuration.branch = branch;
+    }
+    Ok(answer)
 }
 
 /// The joint variables of a chain in joint order.
@@ -132,6 +142,10 @@ impl Subject<'_> {
 
     /// The same by exact arithmetic alone.
     fn exactly(&self) -> Result<Mobility> {
+        let is_short = self.variables.len() < 6;
+        if all_stand_still(&self.linkage) {
+            return if is_short { Ok(self.immobile(Some(STILL))) } else { self.structure(Some(STILL)) };
+        }
         match search(&self.linkage) {
             Outcome::Mobile(found) => Ok(self.mobile(found)),
             Outcome::Complex(found) => {
@@ -143,8 +157,10 @@ impl Subject<'_> {
                 );
                 Ok(Mobility { held: found.held, complex: found.complex, ..self.answer(None, Proof::None, reason) })
             }
-            Outcome::Nothing if self.variables.len() < 6 => Ok(self.immobile()),
-            Outcome::Nothing => self.structure(),
+            Outcome::Nothing => {
+                let why = is_open_everywhere(&self.linkage).then_some(NO_CURVE);
+                if is_short { Ok(self.immobile(why)) } else { self.structure(why) }
+            }
         }
     }
 
@@ -174,8 +190,8 @@ impl Subject<'_> {
         };
         let why = match first.map(|c| &c.local) {
             Some(Local::Manifold { .. }) => format!(
-                "at {place} the joint screws span the Lie algebra of a group of motions, of dimension {rank}, so that \
-                 {} variables less {rank} equations move (theorem 1)",
+                "at {place} the screws of the joints that can move span the Lie algebra of a group of motions, so that {} \
+                 variables less screw rank {rank} move (theorem 1)",
                 self.variables.len()
             ),
             _ => format!(
@@ -193,33 +209,35 @@ impl Subject<'_> {
         }
     }
 
-    /// Loops of up to five variables in which no curve was found: all their configurations.
-    fn immobile(&self) -> Mobility {
+    /// Loops of up to five variables in which no curve was found: all their configurations. `why` says how it is known that
+    /// there is none, if it is.
+    fn immobile(&self, why: Option<&str>) -> Mobility {
+        let (mobility, proof) = (why.map(|_| 0), if why.is_some() { Proof::Exact } else { Proof::None });
+        let nothing = why.unwrap_or("no motion was found through any value of a joint");
         let Some(found) = at(&self.linkage, &[]) else {
-            let reason = "no motion was found, and the configurations could not be separated".to_owned();
-            return self.answer(None, Proof::None, reason);
+            let reason = format!("{nothing}; the configurations could not be separated");
+            return Mobility { is_listed: false, ..self.answer(mobility, proof, reason) };
         };
         let complex: usize = found.iter().map(Conjugates::count).sum();
         let Search { configurations, .. } = decide(&self.linkage, &[], &found);
         let real = configurations.len();
         let shaky = configurations.iter().filter_map(order).max().filter(|order| *order > 1);
-        if configurations.iter().any(|c| c.dimension() != Some(0)) {
-            let reason =
-                "no motion was found through any value of a joint, and a configuration is not decided".to_owned();
-            return Mobility { configurations, complex, ..self.answer(None, Proof::None, reason) };
-        }
         let reason = match (complex, real) {
             (0, _) => "no configuration: the closure equations have no solution, real or complex".to_owned(),
             (_, 0) => format!("no real configuration: {complex} complex ones, all of them isolated"),
             _ => {
-                format!("{real} real of {complex} complex configurations, all of them isolated{}", order_clause(shaky))
+                // A list that is finite leaves none for a curve, whatever is known of each.
+                let unknown = configurations.iter().any(|c| c.dimension() != Some(0));
+                let unknown = if unknown { "; the multiplicity of one is not known" } else { "" };
+                let clause = order_clause(shaky);
+                format!("{real} real of {complex} complex configurations, all of them isolated{clause}{unknown}")
             }
         };
         Mobility { shaky, configurations, complex, ..self.answer(Some(0), Proof::Exact, reason) }
     }
 
-    /// Loops of six variables in which no curve was found.
-    fn structure(&self) -> Result<Mobility> {
+    /// Loops of six variables in which no curve was found; `why` as above.
+    fn structure(&self, why: Option<&str>) -> Result<Mobility> {
         // A loop is an arm that holds its own base.
         let mut arm = self.entry.clone();
         arm.design = Design::Arm(self.chain.clone());
@@ -230,7 +248,7 @@ impl Subject<'_> {
         // irrational length rounded ones.
         let is_full =
             is_complete && verdict.certified == MOST_SOLUTIONS && self.linkage.axes.iter().all(|axis| *axis == Axis::Z);
-        let proof = if is_full || is_proved_immobile(&self.linkage) { Proof::Exact } else { Proof::None };
+        let proof = if is_full || why.is_some() { Proof::Exact } else { Proof::None };
         let mut configurations = Vec::new();
         for mode in solution.modes.iter().filter(|mode| mode.real) {
             configurations.push(self.singular(mode).unwrap_or_else(|| self.measured(mode)));
@@ -238,7 +256,7 @@ impl Subject<'_> {
         if !is_complete {
             let (mobility, reason) = match proof {
                 Proof::None => (None, "no motion was found through any value of a joint"),
-                _ => (Some(0), NO_CURVE),
+                _ => (Some(0), why.unwrap_or(NO_CURVE)),
             };
             let reason = format!("{reason}; the isolated configurations: {}", verdict.reason);
             let (complex, is_listed) = (verdict.complex, false);
@@ -254,7 +272,7 @@ impl Subject<'_> {
         let curves = match proof {
             Proof::None => "no motion was found through any value of a joint, but that there is none is not proved",
             _ if is_full => "as many as there can be",
-            _ => NO_CURVE,
+            _ => why.unwrap_or(NO_CURVE),
         };
         let reason = format!("{what}: {}; {curves}", verdict.reason);
         Ok(Mobility { shaky, configurations, complex, ..self.answer(Some(0), proof, reason) })
@@ -318,6 +336,7 @@ impl Subject<'_> {
             rank,
             local,
             moving: (0..n).map(moves).collect(),
+            branch: None,
             system: system.as_ref().map(ScrewSystem::description).unwrap_or_default(),
             redundant: freedom.map(|freedom| freedom.redundant.basis()).unwrap_or_default(),
         }

@@ -140,17 +140,6 @@ impl Linkage<Rational> {
         Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
     }
 
-    /// The chain with a motion added behind one of its links, as a link made with an error.
-    ///
-    /// # Panics
-    /// When there is no such link.
-    #[must_use]
-    pub fn with_error(&self, link: usize, motion: &DualQuaternion<Rational>) -> Self {
-        let mut other = self.clone();
-        other.links[link] = primitive(&other.links[link].mul(motion));
-        other
-    }
-
     /// The same chain over another field; `None` for an unlucky prime.
     #[must_use]
     pub fn map<F: Field>(&self) -> Option<Linkage<F>> {

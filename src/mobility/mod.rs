@@ -1,14 +1,20 @@
 //! Does a closed chain move: decided from exact configurations, with proofs written out in docs/mobility.md.
 
 mod answer;
+mod branches;
+mod count;
+mod cut;
 mod decision;
 pub mod linkage;
+mod multiplicity;
 pub mod order;
 mod positions;
 mod rounded;
 mod search;
+mod stillness;
 
 pub use answer::{Configuration, Held, JointVariable, Mobility, Proof};
+pub use count::{at_most, count};
 pub use decision::mobility;
 pub use linkage::{Axis, JointValue, Linkage, Position};
 pub use order::{Germ, Local};

@@ -1,6 +1,7 @@
 //! Does a closed chain move from one of its positions: the closure equations as power series.
 
 use super::linkage::{Position, Study, is_unit, one, times, times_axis};
+use super::multiplicity::multiplicity;
 use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::Field;
 use crate::kinematics::screw_system::{Screw, ScrewSystem};
@@ -14,8 +15,8 @@ pub const MOST_SOLUTIONS: usize = 16;
 pub enum Local {
     /// The chain does not close here.
     Open,
-    /// The screws span the Lie algebra of a group of motions: the positions near this one form a smooth manifold of this
-    /// dimension, as many as the joint variables are more than the rank.
+    /// The screws of the joint variables that can move span the Lie algebra of a group of motions: the positions near this
+    /// one form a smooth manifold of this dimension, as many as the joint variables are more than the rank.
     Manifold {
         /// Its dimension.
         dimension: usize,
@@ -29,7 +30,8 @@ pub enum Local {
         /// The multiplicity.
         order: usize,
     },
-    /// Two or more independent infinitesimal motions and no group: not decided by this test.
+    /// Two or more independent infinitesimal motions, no group, and nothing that stops them in low orders: not decided by
+    /// this test.
     Deficient,
 }
 
@@ -56,7 +58,7 @@ impl<F: Field> Germ<F> {
     /// Over a prime field an order found is an upper bound of the order over the rationals.
     ///
     /// # Source
-    /// docs/mobility.md, theorems 1 and 2.
+    /// docs/mobility.md, theorems 1, 2 and 7.
     #[must_use]
     pub fn of(position: &Position<F>) -> Self {
         Self::of_conjugates(position, 1)
@@ -87,13 +89,27 @@ impl<F: Field> Germ<F> {
         let mut germ = Self { local: Local::Deficient, rank, screws, series: Vec::new() };
         if free.is_empty() {
             germ.local = Local::Isolated { order: 1 };
-        } else if germ.is_algebra() {
+        } else if germ.is_group() {
             germ.local = Local::Manifold { dimension: n - rank };
         } else if let [free] = free[..] {
             germ.local = expansion.solve(&solved, &left_over, free, MOST_SOLUTIONS / conjugates);
             germ.series = expansion.series;
+        } else if F::PIVOT_ZERO == 0.0
+            && let Some(order) = multiplicity(position)
+        {
+            germ.local = Local::Isolated { order };
         }
         germ
+    }
+
+    /// The screws of the joint variables at a position that nearly closes, and the closure equations there, both over the scalar of
+    /// the product.
+    pub(super) fn first_order(position: &Position<F>) -> (Vec<[F; 6]>, [F; 6]) {
+        let expansion = Expansion::of(position);
+        let product = &expansion.products[position.links.len()][0];
+        let scalar = product[0].inverse().unwrap_or_else(F::one);
+        let scaled = |v: [F; 6]| v.map(|x| x.mul(&scalar));
+        (expansion.screws().into_iter().map(scaled).collect(), scaled(equations(product)))
     }
 
     /// The screws of the joint variables.
@@ -103,16 +119,38 @@ impl<F: Field> Germ<F> {
         ScrewSystem::of(&self.screws.iter().cloned().map(screw).collect::<Vec<_>>())
     }
 
-    /// Whether the screws span a Lie algebra: no commutator leads out of their span.
-    fn is_algebra(&self) -> bool {
+    /// Whether the joint variables that move to first order, and all others in the algebra that their screws generate, span
+    /// this algebra and have all first-order motions among them.
+    fn is_group(&self) -> bool {
         if self.rank == 6 {
             return true;
         }
-        let basis = Echelon::of(self.screws.iter().map(|s| s.to_vec()).collect(), 6);
-        let basis = basis.rows();
+        let columns = self.screws.len();
+        let transposed = (0..6).map(|i| self.screws.iter().map(|s| s[i].clone()).collect()).collect();
+        let rates = Echelon::of(transposed, columns).null_space();
+        let moving = (0..columns).filter(|k| rates.iter().any(|rate| is_unit(&rate[*k])));
+        let algebra = generated(moving.map(|k| self.screws[k].to_vec()).collect());
+        let inside = self.screws.iter().filter(|screw| {
+            let rows = algebra.rows().iter().cloned().chain([screw.to_vec()]).collect();
+            Echelon::of(rows, 6).rank() == algebra.rank()
+        });
+        let inside: Vec<Vec<F>> = inside.map(|screw| screw.to_vec()).collect();
+        let count = inside.len();
+        Echelon::of(inside, 6).rank() == algebra.rank() && count - algebra.rank() == columns - self.rank
+    }
+}
+
+/// The Lie algebra that screws generate, by a basis.
+fn generated<F: Field>(screws: Vec<Vec<F>>) -> Echelon<F> {
+    let mut span = Echelon::of(screws, 6);
+    loop {
+        let basis = span.rows();
         let commutators = (0..basis.len()).flat_map(|i| (0..i).map(move |j| commutator(&basis[i], &basis[j])));
-        let rows = basis.iter().cloned().chain(commutators).collect();
-        Echelon::of(rows, 6).rank() == self.rank
+        let next = Echelon::of(basis.iter().cloned().chain(commutators).collect(), 6);
+        if next.rank() == span.rank() {
+            return span;
+        }
+        span = next;
     }
 }
 
@@ -249,6 +287,6 @@ impl<'a, F: Field> Expansion<'a, F> {
 }
 
 /// The six closure equations of a product: what must vanish beside the scalars.
-fn equations<F: Field>(product: &Study<F>) -> [F; 6] {
+pub(super) fn equations<F: Field>(product: &Study<F>) -> [F; 6] {
     [1, 2, 3, 5, 6, 7].map(|i| product[i].clone())
 }

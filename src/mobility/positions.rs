@@ -5,7 +5,8 @@
 //! kernel of a matrix of eight rows and at most eight columns, linear in the tangent t of the hidden half-angle. Its
 //! determinant is a polynomial of degree at most 4 in t, and over each of its roots linear algebra gives the rest.
 
-use super::linkage::{JointValue, Linkage, Study, is_unit, one, times, times_axis};
+use super::cut::Cut;
+use super::linkage::{JointValue, Linkage, is_unit};
 use crate::algebra::determinant;
 use crate::algebra::echelon::Echelon;
 use crate::algebra::modp::{ModP, PRIME_61, PRIME_62};
@@ -114,14 +115,7 @@ impl Conjugates {
 pub fn positions(linkage: &Linkage<Rational>) -> Positions {
     let n = linkage.variables.len();
     assert!((1..=5).contains(&n), "one to five joint variables");
-    for first in 0..n {
-        for hidden in 0..=(n - 1).div_ceil(2) {
-            if let Some(finite) = Cut::of(linkage, first, hidden).solve() {
-                return finite;
-            }
-        }
-    }
-    Positions::Unknown
+    Cut::<Rational>::all(n).find_map(|cut| Separation::of(linkage, cut).solve()).unwrap_or(Positions::Unknown)
 }
 
 /// Whether some cut of a chain shows that it has no positions, and no limits of positions of chains nearby.
@@ -132,63 +126,20 @@ pub fn positions(linkage: &Linkage<Rational>) -> Positions {
 pub fn is_properly_open(linkage: &Linkage<Rational>) -> bool {
     let n = linkage.variables.len();
     assert!((1..=5).contains(&n), "one to five joint variables");
-    let cuts = (0..n).flat_map(|first| (0..=(n - 1).div_ceil(2)).map(move |hidden| (first, hidden)));
-    cuts.map(|(first, hidden)| Cut::of(linkage, first, hidden).solve())
+    Cut::<Rational>::all(n)
+        .map(|cut| Separation::of(linkage, cut).solve())
         .any(|found| matches!(found, Some(Positions::Finite { found, is_proper: true }) if found.is_empty()))
 }
 
-/// A chain cut into two sides, with one hidden variable.
-struct Cut<'a> {
+/// A cut of a chain over the rationals.
+struct Separation<'a> {
     linkage: &'a Linkage<Rational>,
-    /// The variables in loop order from the cut.
-    order: Vec<usize>,
-    /// Place of the hidden one in this order; it belongs to the first side.
-    hidden: usize,
-    /// Number of variables of the first side.
-    first_side: usize,
-    /// The matrix without t, and the factor of t.
-    matrix: [Vec<Vec<Rational>>; 2],
+    cut: Cut<Rational>,
 }
 
-/// The product of a side in which every variable is the first or the second unit of its pair, by the bits of `choice`.
-fn side(linkage: &Linkage<Rational>, variables: &[usize], choice: usize) -> Study<Rational> {
-    variables.iter().enumerate().fold(one(), |product, (bit, k)| {
-        let factor = if choice >> bit & 1 == 0 {
-            product
-        } else {
-            times_axis(&product, linkage.variables[*k], &linkage.axes[*k])
-        };
-        let (x, y) = linkage.links[*k].study();
-        let ([a, b, c, d], [e, f, g, h]) = (x, y);
-        times(&factor, &[a, b, c, d, e, f, g, h])
-    })
-}
-
-impl<'a> Cut<'a> {
-    fn of(linkage: &'a Linkage<Rational>, first: usize, hidden: usize) -> Self {
-        let n = linkage.variables.len();
-        let order: Vec<usize> = (0..n).map(|k| (first + k) % n).collect();
-        let first_side = (n - 1).div_ceil(2) + 1;
-        let (left, right) = order.split_at(first_side);
-        let mut columns: [Vec<Study<Rational>>; 2] = [Vec::new(), Vec::new()];
-        for power in 0..2 {
-            for bits in 0..1_usize << (first_side - 1) {
-                // The bits above the hidden place move up by one.
-                let low = bits & ((1 << hidden) - 1);
-                let choice = (bits - low) << 1 | power << hidden | low;
-                columns[power].push(side(linkage, left, choice));
-            }
-            for bits in 0..1_usize << right.len() {
-                let mut column = side(linkage, right, bits);
-                for i in [1, 2, 3, 5, 6, 7] {
-                    column[i] = column[i].neg();
-                }
-                // The second side is free of the hidden variable.
-                columns[power].push(if power == 0 { column } else { std::array::from_fn(|_| Rational::new()) });
-            }
-        }
-        let matrix = columns.map(|columns| (0..8).map(|i| columns.iter().map(|c| c[i].clone()).collect()).collect());
-        Self { linkage, order, hidden, first_side, matrix }
+impl<'a> Separation<'a> {
+    fn of(linkage: &'a Linkage<Rational>, cut: (usize, usize)) -> Self {
+        Self { linkage, cut: Cut::of(linkage, cut) }
     }
 
     /// All positions, if this cut finds them.
@@ -198,7 +149,7 @@ impl<'a> Cut<'a> {
         let mut list = List::default();
         // The half-turn, where t is infinite.
         list.add(self.position(&[Algebraic::zero(), Algebraic::one()]), None)?;
-        let hidden = self.order[self.hidden];
+        let hidden = self.cut.order[self.cut.hidden];
         let circle = Univariate::new(vec![Rational::from(1), Rational::new(), self.linkage.axes[hidden].square()]);
         let (spurious, mut polynomial) = match self.linkage.variables[hidden] {
             Variable::Rotation => determinant.square_free_part().remove_factor(&circle),
@@ -238,43 +189,21 @@ impl<'a> Cut<'a> {
 
     /// A polynomial that vanishes wherever the columns are dependent; zero if the cut separates nothing.
     fn determinant(&self) -> Univariate<Rational> {
-        let columns = self.matrix[0][0].len();
-        if columns == 8 {
-            return determinant::modular(&self.matrix);
-        }
-        // Of more rows than columns two mixtures; what is foreign to the one is not to the other.
-        let mixture = |seed: usize| {
-            let weight = |i: usize, j: usize| {
-                let n = seed * (i + 2) * (i + 3 * j + 1) % 211;
-                Rational::from(n) - 105
-            };
-            let mixed: Vec<Vec<Vec<Rational>>> = self
-                .matrix
-                .iter()
-                .map(|m| {
-                    let row = |i: usize| {
-                        let entry = |c: usize| (0..8).fold(Rational::new(), |sum, j| sum + weight(i, j) * &m[j][c]);
-                        (0..columns).map(entry).collect()
-                    };
-                    (0..columns).map(row).collect()
-                })
-                .collect();
-            determinant::modular(&mixed)
-        };
-        mixture(7919).gcd(&mixture(104_729))
+        let conditions = self.cut.conditions(|matrix| determinant::modular(matrix));
+        conditions.into_iter().reduce(|a, b| a.gcd(&b)).unwrap_or_else(Univariate::zero)
     }
 
     /// What there is at one value of the hidden variable.
     fn position(&self, t: &JointValue<Algebraic>) -> Here {
-        let columns = self.matrix[0][0].len();
-        let left = 1 << (self.first_side - 1);
+        let columns = self.cut.columns();
+        let left = self.cut.degree();
         let entry = |i: usize, j: usize| -> Option<Algebraic> {
-            let constant = Algebraic::from_rational(&self.matrix[0][i][j])?;
+            let constant = Algebraic::from_rational(&self.cut.matrix[0][i][j])?;
             if j >= left {
                 return Some(constant);
             }
             let mut sum = constant.mul(&t[0]);
-            sum.add_product(&Algebraic::from_rational(&self.matrix[1][i][j])?, &t[1]);
+            sum.add_product(&Algebraic::from_rational(&self.cut.matrix[1][i][j])?, &t[1]);
             Some(sum)
         };
         let rows: Option<Vec<Vec<Algebraic>>> = (0..8).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect();
@@ -290,10 +219,10 @@ impl<'a> Cut<'a> {
             (Side::General, _) | (_, Side::General) => return Here::Nothing,
             _ => return Here::Improper,
         };
-        let mut values = vec![[Algebraic::one(), Algebraic::zero()]; self.order.len()];
+        let mut values = vec![[Algebraic::one(), Algebraic::zero()]; self.cut.order.len()];
         let mut rest = v.into_iter().chain(w);
-        for (place, k) in self.order.iter().enumerate() {
-            let value = if place == self.hidden { Some(t.clone()) } else { rest.next() };
+        for (place, k) in self.cut.order.iter().enumerate() {
+            let value = if place == self.cut.hidden { Some(t.clone()) } else { rest.next() };
             let Some(value) = value else { return Here::Undecided };
             values[*k] = value;
         }

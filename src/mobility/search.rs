@@ -4,6 +4,7 @@ use super::answer::{Configuration, Held};
 use super::linkage::{JointValue, Linkage, is_unit};
 use super::order::{Germ, Local};
 use super::positions::{Conjugates, Positions, is_properly_open, positions};
+use super::stillness::all_stand_still;
 use crate::algebra::number_field::Algebraic;
 use crate::algebra::ring::Ring;
 use crate::kinematics::closed_loop::Variable;
@@ -65,13 +66,17 @@ pub(super) enum Outcome {
 /// proved.
 ///
 /// # Source
-/// docs/mobility.md, theorems 1, 2 and 4.
+/// docs/mobility.md, theorems 1, 2, 4, 5 and 6.
 #[must_use]
 pub fn moves(linkage: &Linkage<Rational>) -> Option<bool> {
-    if is_proved_immobile(linkage) {
+    // What is cheaper first.
+    if all_stand_still(linkage) {
         return Some(false);
     }
-    matches!(search(linkage), Outcome::Mobile(_)).then_some(true)
+    if matches!(search(linkage), Outcome::Mobile(_)) {
+        return Some(true);
+    }
+    is_open_everywhere(linkage).then_some(false)
 }
 
 /// Looks for a motion: holds as few joints as leave finitely many configurations, and decides what passes through those.
@@ -128,7 +133,7 @@ pub(super) fn at(linkage: &Linkage<Rational>, held: &[(usize, Rational)]) -> Opt
 
 /// Whether it is proved that no joint variable moves along any curve of configurations: each one is held at a value at
 /// which the closure equations have no solution at all, not even a limit of configurations.
-pub(super) fn is_proved_immobile(linkage: &Linkage<Rational>) -> bool {
+pub(super) fn is_open_everywhere(linkage: &Linkage<Rational>) -> bool {
     let n = linkage.variables.len();
     let stands_still = |k: usize| {
         let value = [Rational::from(1), tangent(linkage, k, k)];
@@ -200,6 +205,7 @@ impl Known {
             rank: self.germ.rank,
             local: self.germ.local.clone(),
             moving: self.moving.clone(),
+            branch: None,
             system: self.system.clone(),
             redundant: self.redundant.iter().map(screw).collect(),
         }

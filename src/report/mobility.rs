@@ -90,7 +90,8 @@ pub fn text(entry: &Entry, answer: &Mobility) -> String {
     }
     if !answer.configurations.is_empty() {
         text.push('\n');
-        let header: Vec<&str> = std::iter::once("nr").chain(names.iter().map(|(name, _)| name.as_str())).collect();
+        let first: &[&str] = if answer.branches() > 0 { &["nr", "branch"] } else { &["nr"] };
+        let header: Vec<&str> = first.iter().copied().chain(names.iter().map(|(name, _)| name.as_str())).collect();
         let mut table = Columns::new(&header, &[]);
         for (k, configuration) in answer.configurations.iter().enumerate() {
             let cells = configuration.q.iter().zip(&names).zip(&configuration.moving);
@@ -101,7 +102,8 @@ pub fn text(entry: &Entry, answer: &Mobility) -> String {
                 };
                 if *moves || configuration.dimension() == Some(0) { shown } else { format!("{shown} (still)") }
             });
-            table.row(std::iter::once((k + 1).to_string()).chain(cells));
+            let branch = configuration.branch.map_or_else(String::new, |branch| (branch + 1).to_string());
+            table.row([(k + 1).to_string(), branch].into_iter().take(first.len()).chain(cells));
         }
         text += &table.text();
         text += "angles in degrees, distances in metres\n";
@@ -179,6 +181,7 @@ fn configuration(configuration: &Configuration) -> Value {
         "q": configuration.q.iter().map(|x| number(*x)).collect::<Vec<_>>(),
         "degree": (configuration.degree > 0).then_some(configuration.degree),
         "rank": configuration.rank,
+        "branch": configuration.branch.map(|branch| branch + 1),
         "dimension": configuration.dimension(),
         "order": order,
         "moving": configuration.moving,

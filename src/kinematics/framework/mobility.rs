@@ -6,7 +6,9 @@ use super::octahedron::{Diagonal, Octahedron};
 use super::order::{Order, order};
 use super::parts::parts;
 use super::slice::{Slice, moving_slice};
+use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::nearest_f64;
+use crate::algebra::ring::Ring;
 use rug::Rational;
 
 /// Solutions of a generic octahedron with one face fixed, hence the greatest multiplicity of an isolated realisation.
@@ -94,7 +96,7 @@ impl Mobility {
 pub fn mobility(framework: &Framework<Rational>, steps: usize) -> Option<Mobility> {
     let float = framework.map(|q| Some(nearest_f64(q)))?;
     let exact = framework.squares();
-    let (rank, rigid) = framework.ranks();
+    let (rank, rigid) = full_rank(framework).unwrap_or_else(|| framework.ranks());
     let infinitesimal = framework.coordinates() - rank - rigid;
     let squares: Vec<f64> = exact.iter().map(nearest_f64).collect();
     let mut found = begin(&float, rank, infinitesimal);
@@ -158,6 +160,13 @@ fn begin(framework: &Framework<f64>, rank: usize, infinitesimal: usize) -> Mobil
     let maxwell = (3 * vertices).cast_signed() - 6 - bars.cast_signed();
     let (verdict, proof) = (Verdict::Rigid, Proof::Rank);
     Mobility { verdict, proof, count: (vertices, bars, maxwell), rank, infinitesimal, flex: None }
+}
+
+/// The ranks of a framework without first-order motions: full modulo a prime, they are no less over the rationals.
+fn full_rank(framework: &Framework<Rational>) -> Option<(usize, usize)> {
+    let image = framework.map(ModP::<PRIME_61>::from_rational)?;
+    let (rank, rigid) = image.ranks();
+    (rigid == 6 && rank + rigid == framework.coordinates()).then_some((rank, rigid))
 }
 
 /// What the ring about the diagonals of an octahedron proves.
