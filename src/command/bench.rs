@@ -16,7 +16,7 @@ use looproot::benchmark::sample::{CHAINS, Set};
 use looproot::benchmark::speed::{self, Timings};
 use looproot::benchmark::speed_loops::{self, ExactRow, LoopRow, LoopTimings, Spread};
 use looproot::catalogue::entry::{Entry, Kind};
-use looproot::catalogue::{Any, FrameworkFile, Options, builtin, builtin_any, builtin_names, moving_names};
+use looproot::catalogue::{Any, FrameworkFile, Options, builtin_any, builtin_names, moving_names};
 use looproot::error::Error;
 use looproot::mobility::{Linkage, moves};
 use looproot::report::number::duration;
