@@ -455,7 +455,8 @@ fn a_file_that_states_the_condition_is_proved_for_all_parameters() {
     assert_eq!((code, out.as_str()), (0, "mobile: proved for all parameters, a member proved over the rationals\n"));
     let wrong = relation.replacen("+ cos(alpha2)", "- cos(alpha2)", 1);
     let (code, out, _) = conditions(&["-", "-q"], &format!("{}[ansatz]\nrelations = [\"{wrong}\"]\n", &known[..start]));
-    assert!(code == 2 && out.starts_with("no mobile member found"), "{out}");
+    // Members with b = b' = 0 satisfy it and move: nothing is said of the others.
+    assert!(code == 2 && !out.starts_with("mobile"), "{out}");
 }
 
 #[test]
