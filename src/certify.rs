@@ -35,6 +35,9 @@ pub struct Certificate {
     pub radius: f64,
     /// And within this larger distance there is no other one.
     pub isolation: f64,
+    /// The radius before the unknowns were rounded to f64: each of them is off by no more than this and a few roundings of
+    /// itself, where one of enormous size spoils the radius of all.
+    pub proved: f64,
 }
 
 /// Roundings per step of the product: cosine and sine (2), their use (4), the product (6), all with room for complex
@@ -149,7 +152,7 @@ fn weighted_certificate<S: Number>(
     // Of coordinates, not of weighted ones.
     let largest = weights.iter().copied().fold(1.0, f64::max);
     let radius = radius * largest;
-    (radius <= isolation).then_some(Certificate { radius, isolation })
+    (radius <= isolation).then_some(Certificate { radius, isolation, proved: radius })
 }
 
 /// As [`certificate`], with the loop opened in turn behind each of its joints: imaginary parts make some frames far

@@ -426,6 +426,14 @@ fn every_source_of_the_library_is_in_the_references() {
 }
 
 #[test]
+fn entries_that_moved_are_found_by_their_old_names() {
+    for name in ["loop/ik_general", "chain/ik_general", "ik_general.toml", "loop/structure_4r", "structure_4r"] {
+        let entry = builtin(name, &Options::default()).unwrap();
+        assert_eq!(entry.name, name.rsplit('/').next().unwrap().trim_end_matches(".toml"));
+    }
+}
+
+#[test]
 fn every_entry_is_in_the_table_of_the_readme() {
     let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/equations/README.md")).unwrap();
     let listed: Vec<&str> =

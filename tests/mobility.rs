@@ -108,6 +108,81 @@ fn the_least_change_of_a_length_stops_bennett() {
     assert!(broken.configurations.is_empty());
 }
 
+/// A loop of revolutes by lengths and twists, no offsets.
+fn revolutes(links: &[(&str, &str)]) -> Entry {
+    let joint = |(a, alpha): &(&str, &str)| format!("{{ type = \"R\", a = \"{a}\", alpha = \"{alpha}\", d = 0 }},\n");
+    let joints: String = links.iter().map(joint).collect();
+    entry(&format!("[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [\n{joints}]\n"))
+}
+
+#[test]
+fn loops_of_irrational_numbers_close_all_round() {
+    let bennett = [("3*sin(40 deg)", "40 deg"), ("3*sin(65 deg)", "65 deg")].repeat(2);
+    let goldberg = [
+        ("2*(sin(50 deg) + sin(35 deg))", "85 deg"),
+        ("2*sin(20 deg)", "20 deg"),
+        ("2*sin(35 deg)", "35 deg"),
+        ("2*sin(50 deg)", "50 deg"),
+        ("2*sin(20 deg)", "20 deg"),
+    ];
+    let myard =
+        [("5*sin(40 deg)", "40 deg"), ("5", "90 deg"), ("0", "100 deg"), ("5", "90 deg"), ("5*sin(40 deg)", "140 deg")];
+    for (links, rank, branches) in [(&bennett[..], 3, 1), (&goldberg, 4, 1), (&myard, 4, 2)] {
+        let answer = mobility(&revolutes(links)).unwrap();
+        assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::CertifiedSweep), "{}", answer.reason);
+        assert_eq!((answer.screw_rank(), answer.branches()), (Some(rank), branches));
+        assert!(answer.reason.contains("at 180 of 180 inputs"), "{}", answer.reason);
+        // Off by a part of 1e-10 in one length, none of them closes.
+        let longer = format!("{}*(1 + 1e-10)", links[1].0);
+        let mut broken = links.to_vec();
+        broken[1].0 = &longer;
+        let answer = mobility(&revolutes(&broken)).unwrap();
+        assert_eq!((answer.mobility, answer.branches()), (Some(0), 0), "{}", answer.reason);
+        assert!(answer.reason.contains("to rounding the loop does not close through any range"), "{}", answer.reason);
+    }
+}
+
+#[test]
+fn decimals_are_exact_unless_they_look_rounded() {
+    let with = |length: &str| mobility(&entry(&bennett("4").replace("a = 4", &format!("a = {length}")))).unwrap();
+    let answer = with("4.000000000000001");
+    assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::CertifiedSweep), "{}", answer.reason);
+    assert!(answer.reason.contains("as exact numbers they do not move"), "{}", answer.reason);
+    for broken in ["4.000000000001", "4.00000000012345678"] {
+        let answer = with(broken);
+        assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Exact), "{broken}: {}", answer.reason);
+    }
+}
+
+/// A loop by axes and points, one length of which is not rational.
+#[test]
+fn axes_of_irrational_length_are_taken_as_they_are() {
+    // Three parallel axes along (1, 1, 0) and a translation along (1, -1, 3) across them: a slider-crank.
+    let slider = |point: &str, axis: &str| {
+        entry(&format!(
+            r#"
+            [mechanism]
+            kind = "loop"
+            convention = "screws"
+            joints = [
+                {{ type = "R", axis = [1, 1, 0], point = [0, 0, 0] }},
+                {{ type = "R", axis = [2, 2, 0], point = {point} }},
+                {{ type = "R", axis = [-1, -1, 0], point = [1, 0, 5] }},
+                {{ type = "P", axis = {axis} }},
+            ]
+            "#
+        ))
+    };
+    let answer = mobility(&slider("[0, 1, 2]", "[1, -1, 3]")).unwrap();
+    assert_eq!((answer.mobility, answer.screw_rank(), answer.proof), (Some(1), Some(3), Proof::Exact));
+    assert!(!answer.reason.contains("rounded"), "{}", answer.reason);
+    // What is held is told in radians, and its values close the loop.
+    let (k, value) = answer.held[0];
+    assert!(answer.configurations.iter().all(|c| (c.q[k] - value).abs() < 1e-12));
+    let broken = mobility(&slider("[0, 1, 2]", "[1, \"-1000001/1000000\", 3]")).unwrap();
+    assert_eq!((broken.mobility, broken.proof), (Some(0), Proof::Exact), "{}", broken.reason);
+}
+
 /// Six axes `direction, point` of the linear complex of the screw with pitch 1 about z: `d . (e_z x p + e_z) = 0`.
 const COMPLEX: &str = r#"
     [mechanism]

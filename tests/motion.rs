@@ -8,6 +8,8 @@ use looproot::factoring::{Factored, factor};
 use looproot::kinematics::dual_quaternion::DualQuaternion;
 use looproot::kinematics::motion_polynomial::{Linkage, factorisations, from_parts, parts, product, quadratic_factors};
 use looproot::kinematics::screw_system::ScrewSystem;
+use looproot::mobility::{Proof, mobility};
+use looproot::report::motion::toml;
 use proptest::prelude::*;
 use rug::Rational;
 use std::process::Command;
@@ -169,6 +171,7 @@ fn the_program_factors_and_its_loop_is_a_mechanism_file() {
     let (code, out, _) = run(&["factor", "six_revolutes", "--json"]);
     let answer: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!((code, &answer["loop"]["joints"], &answer["loop"]["screw_rank"]), (0, &"6R".into(), &5.into()));
+    assert!(answer["reason"].as_str().unwrap().contains("close a 6R loop"), "{answer}");
     let (code, out, _) = run(&["factor", "six_revolutes", "--toml"]);
     assert_eq!((code, out.matches("type = \"R\"").count()), (0, 6));
     let loop_file = read(&out).unwrap();
@@ -178,6 +181,28 @@ fn the_program_factors_and_its_loop_is_a_mechanism_file() {
     let (code, _, err) = run(&["factor", "steffen"]);
     assert!(code == 1 && err.contains("expected a rational motion"), "{err}");
     assert_eq!(run(&["check", "equations/motion", "--quiet"]).0, 0);
+}
+
+/// The loop of every two factorisations, printed and read again, is proved to move: the axes are rational vectors whose lengths
+/// are not.
+#[test]
+fn printed_loops_are_proved_to_move() {
+    for (name, count) in [("motion/bennett", 2), ("motion/six_revolutes", 6), ("motion/rotation_translation", 2)] {
+        let file = builtin(name);
+        let factored = factor(&file);
+        for (i, j) in (0..count).flat_map(|i| (0..i).map(move |j| (j, i))) {
+            let closed = factored.closed_loop(Some((i, j))).unwrap().unwrap();
+            let Any::Entry(entry) = read(&toml(&file, &closed)).unwrap() else { panic!("a loop") };
+            let answer = mobility(&entry).unwrap();
+            let expected = (Some(closed.mobility().0), Some(closed.order), Proof::Exact);
+            assert_eq!(
+                (answer.mobility, answer.screw_rank(), answer.proof),
+                expected,
+                "{name} {i} {j}: {}",
+                answer.reason
+            );
+        }
+    }
 }
 
 /// The rotation about a line through a point.

@@ -9,6 +9,8 @@ mod equations;
 mod exact;
 #[path = "platform/poses.rs"]
 mod poses;
+#[path = "platform/special.rs"]
+mod special;
 #[path = "platform/template.rs"]
 mod template;
 #[path = "platform/triangle.rs"]

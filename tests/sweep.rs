@@ -3,7 +3,7 @@
 
 use looproot::assembly::{Assembly, Roots, Workspace, wrapped};
 use looproot::catalogue::entry::Entry;
-use looproot::catalogue::{Options, load};
+use looproot::catalogue::{Format, Options, load, load_text};
 use looproot::kinematics::closed_loop::Variable;
 use looproot::kinematics::motion::Motion;
 use looproot::mechanism::{Derivatives, InputCurve, Mechanism, Solution};
@@ -378,5 +378,49 @@ fn a_loop_runs_through_flat_positions() {
         let [branch] = found.branches.as_slice() else { panic!("{from}: {} branches", found.branches.len()) };
         assert!(branch.begin == End::Closed(1) && branch.end == End::Closed(1), "{branch:?}");
         assert!(found.limits.is_empty());
+    }
+}
+
+/// Numbers of degrees: no mode is counted, but all close to rounding, and the branch is that of the exact loop.
+#[test]
+fn a_loop_of_rounded_numbers_is_followed() {
+    let text = r#"
+        [mechanism]
+        kind = "loop"
+        convention = "dh"
+        joints = [
+            { type = "R", a = "3*sin(40 deg)", alpha = "40 deg", d = 0 },
+            { type = "R", a = "3*sin(65 deg)", alpha = "65 deg", d = 0 },
+            { type = "R", a = "3*sin(40 deg)", alpha = "40 deg", d = 0 },
+            { type = "R", a = "3*sin(65 deg)", alpha = "65 deg", d = 0 },
+        ]
+    "#;
+    let entry = load_text(text, "own.toml", Format::Toml, &Options::default()).unwrap();
+    let range = Range { from: -PI, to: PI, steps: 48 };
+    let found = sweep(&entry, 1, Variable::Rotation, range, || true, || ()).unwrap();
+    let [branch] = found.branches.as_slice() else { panic!("{} branches", found.branches.len()) };
+    assert!(branch.begin == End::Closed(1) && branch.rows.len() == 49 && found.unresolved() == 0);
+    // tan(q1/2) tan(q2/2) of Bennett's loop.
+    let half = |degrees: f64| (degrees / 2.0).to_radians();
+    let product = half(105.0).sin() / half(25.0).sin();
+    for q in found.samples.iter().flat_map(|sample| &sample.modes).filter(|q| (q[0].sin()).abs() > 1e-3) {
+        assert!((((q[0] / 2.0).tan() * (q[1] / 2.0).tan() / product).abs() - 1.0).abs() < 1e-9, "{q:?}");
+    }
+}
+
+/// Idle joints in place of the missing ones are dependent near this position of a subtractive Goldberg loop, its own are not.
+#[test]
+fn positions_singular_for_idle_joints_only_are_passed() {
+    let found = swept("goldberg_subtractive", 2, Variable::Rotation, [-PI, PI], 72);
+    assert_eq!((found.branches.len(), found.unresolved()), (1, 0));
+    assert_eq!(found.branches[0].begin, End::Closed(1));
+}
+
+/// A pole of large residue: the translations are beyond what double precision follows long before it.
+#[test]
+fn poles_of_large_residue_are_told() {
+    for (name, joint) in [("cprcr_every_input", 3), ("crpprr_every_input", 2)] {
+        let found = swept(name, joint, Variable::Rotation, [-PI, PI], 72);
+        assert_eq!(found.unresolved(), 0, "{name}");
     }
 }

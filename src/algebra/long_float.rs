@@ -1,29 +1,37 @@
-//! Floating-point numbers of 384 bits that are copied like machine numbers: for what 31 digits do not reach.
+//! Floating-point numbers of 384 bits, or of 960, that are copied like machine numbers: for what 31 digits do not reach.
 
 use super::ring::{Field, Ring};
 use rug::{Integer, Rational, integer::Order};
 use std::cmp::Ordering;
 
-/// Bits of a mantissa.
-const BITS: u32 = 384;
-/// Its words, the least significant one first.
-const LIMBS: usize = 6;
-
-type Mantissa = [u64; LIMBS];
-/// A mantissa with a word of guard bits below.
-type Guarded = [u64; LIMBS + 1];
+/// Numbers of 384 bits.
+pub type LongFloat = LongNumber<6>;
+/// Numbers of 960 bits.
+pub type LongerFloat = LongNumber<15>;
 
 /// `+-0.m 2^e` with the highest bit of m set, or zero. Results are cut off, not rounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LongFloat {
-    limbs: Mantissa,
+pub struct LongNumber<const LIMBS: usize> {
+    /// The words of m, the least significant one first.
+    limbs: [u64; LIMBS],
     exponent: i32,
     negative: bool,
 }
 
-impl LongFloat {
+/// A mantissa with a word of guard bits below.
+struct Guarded<const LIMBS: usize> {
+    guard: u64,
+    limbs: [u64; LIMBS],
+}
+
+impl<const LIMBS: usize> LongNumber<LIMBS> {
+    /// Bits of a mantissa.
+    #[expect(clippy::cast_possible_truncation, reason = "some words")]
+    pub const BITS: u32 = 64 * LIMBS as u32;
     /// Bound on the relative error of one operation, with room for the last steps of an inverse.
-    pub const UNIT_ROUNDOFF: f64 = power_of_half(BITS - 4);
+    pub const UNIT_ROUNDOFF: f64 = power_of_half(Self::BITS - 4);
+    /// How often Newton's method doubles the digits of f64 until all are right.
+    pub const DOUBLINGS: u32 = (Self::BITS / 53).ilog2() + 1;
 
     const ZERO: Self = Self { limbs: [0; LIMBS], exponent: 0, negative: false };
 
@@ -48,15 +56,14 @@ impl LongFloat {
 
     /// The sum of two numbers of one sign, the first one not the smaller in exponent.
     fn plus(&self, other: &Self) -> Self {
-        let (a, b) = (guarded(&self.limbs, 0), guarded(&other.limbs, self.exponent.abs_diff(other.exponent)));
-        let mut sum = [0; LIMBS + 1];
+        let b = guarded(&other.limbs, self.exponent.abs_diff(other.exponent));
+        let mut limbs = [0; LIMBS];
         let mut carry = false;
-        for ((s, x), y) in sum.iter_mut().zip(a).zip(b) {
+        for ((s, &x), y) in limbs.iter_mut().zip(&self.limbs).zip(b.limbs) {
             let (partial, first) = x.overflowing_add(y);
             let (total, second) = partial.overflowing_add(u64::from(carry));
             (*s, carry) = (total, first || second);
         }
-        let mut limbs: Mantissa = std::array::from_fn(|k| sum[k + 1]);
         let mut exponent = self.exponent;
         if carry {
             for k in 0..LIMBS {
@@ -72,7 +79,7 @@ impl LongFloat {
     fn minus(&self, other: &Self) -> Self {
         let (mut a, mut b) = (guarded(&self.limbs, 0), guarded(&other.limbs, self.exponent.abs_diff(other.exponent)));
         let mut negative = self.negative;
-        match a.iter().rev().cmp(b.iter().rev()) {
+        match a.limbs.iter().rev().cmp(b.limbs.iter().rev()).then(a.guard.cmp(&b.guard)) {
             Ordering::Equal => return Self::ZERO,
             Ordering::Less => {
                 std::mem::swap(&mut a, &mut b);
@@ -80,16 +87,18 @@ impl LongFloat {
             }
             Ordering::Greater => {}
         }
-        let mut rest = [0; LIMBS + 1];
-        let mut borrow = false;
-        for ((r, x), y) in rest.iter_mut().zip(a).zip(b) {
+        let (guard, mut borrow) = a.guard.overflowing_sub(b.guard);
+        let mut rest = [0; LIMBS];
+        for ((r, x), y) in rest.iter_mut().zip(a.limbs).zip(b.limbs) {
             let (partial, first) = x.overflowing_sub(y);
             let (total, second) = partial.overflowing_sub(u64::from(borrow));
             (*r, borrow) = (total, first || second);
         }
-        let words = rest.iter().rev().take_while(|x| **x == 0).count();
-        let bits = rest[LIMBS - words].leading_zeros();
-        let limb = |k: usize| if k >= words { rest[k - words] } else { 0 };
+        // Word k from below, the guard bits being word 0.
+        let word = |k: usize| if k == 0 { guard } else { rest[k - 1] };
+        let words = (0..=LIMBS).rev().take_while(|&k| word(k) == 0).count();
+        let bits = word(LIMBS - words).leading_zeros();
+        let limb = |k: usize| if k >= words { word(k - words) } else { 0 };
         let limbs = std::array::from_fn(|k| match bits {
             0 => limb(k + 1),
             _ => limb(k + 1) << bits | limb(k) >> (64 - bits),
@@ -118,19 +127,21 @@ fn scaled(x: f64, k: i32) -> f64 {
 }
 
 /// A mantissa moved down by so many places.
-fn guarded(limbs: &Mantissa, places: u32) -> Guarded {
-    if places > BITS + 64 {
-        return [0; LIMBS + 1];
+#[expect(clippy::cast_possible_truncation, reason = "some words")]
+fn guarded<const LIMBS: usize>(limbs: &[u64; LIMBS], places: u32) -> Guarded<LIMBS> {
+    if places > 64 * (LIMBS as u32 + 1) {
+        return Guarded { guard: 0, limbs: [0; LIMBS] };
     }
     let (words, bits) = ((places / 64) as usize, places % 64);
     let limb = |k: usize| if (1..=LIMBS).contains(&k) { limbs[k - 1] } else { 0 };
-    std::array::from_fn(|k| match bits {
+    let moved = |k: usize| match bits {
         0 => limb(k + words),
         _ => limb(k + words) >> bits | limb(k + words + 1) << (64 - bits),
-    })
+    };
+    Guarded { guard: moved(0), limbs: std::array::from_fn(|k| moved(k + 1)) }
 }
 
-impl From<f64> for LongFloat {
+impl<const LIMBS: usize> From<f64> for LongNumber<LIMBS> {
     /// The number itself.
     ///
     /// # Panics
@@ -150,7 +161,7 @@ impl From<f64> for LongFloat {
     }
 }
 
-impl Ring for LongFloat {
+impl<const LIMBS: usize> Ring for LongNumber<LIMBS> {
     fn zero() -> Self {
         Self::ZERO
     }
@@ -174,21 +185,27 @@ impl Ring for LongFloat {
         if self.is_zero() || other.is_zero() {
             return Self::ZERO;
         }
-        let mut product = [0_u64; 2 * LIMBS];
-        for (i, &a) in self.limbs.iter().enumerate() {
+        // The upper half of the product so far, and the word below it.
+        let (mut upper, mut below) = ([0_u64; LIMBS], 0);
+        for &a in &self.limbs {
             let mut carry = 0_u128;
-            for (j, &b) in other.limbs.iter().enumerate() {
-                let sum = u128::from(a) * u128::from(b) + u128::from(product[i + j]) + carry;
-                product[i + j] = low_word(sum);
+            let mut lowest = 0;
+            for j in 0..LIMBS {
+                let sum = u128::from(a) * u128::from(other.limbs[j]) + u128::from(upper[j]) + carry;
                 carry = sum >> 64;
+                if j == 0 {
+                    lowest = low_word(sum);
+                } else {
+                    upper[j - 1] = low_word(sum);
+                }
             }
-            product[i + LIMBS] = low_word(carry);
+            (upper[LIMBS - 1], below) = (low_word(carry), lowest);
         }
         let mut exponent = self.exponent + other.exponent;
-        let full = product[2 * LIMBS - 1] >> 63 == 1;
+        let full = upper[LIMBS - 1] >> 63 == 1;
         let limbs = std::array::from_fn(|k| {
-            let here = product[LIMBS + k];
-            if full { here } else { here << 1 | product[LIMBS + k - 1] >> 63 }
+            let under = if k == 0 { below } else { upper[k - 1] };
+            if full { upper[k] } else { upper[k] << 1 | under >> 63 }
         });
         if !full {
             exponent -= 1;
@@ -207,7 +224,7 @@ impl Ring for LongFloat {
         }
         let length = |n: &Integer| i32::try_from(n.significant_bits()).ok();
         let (top, bottom) = (length(q.numer())?, length(q.denom())?);
-        let bits = i32::try_from(BITS).ok()?;
+        let bits = i32::try_from(Self::BITS).ok()?;
         // The quotient gets the bits of a mantissa, or one more.
         let shift = bits + 1 + bottom - top;
         let size = Integer::from(q.numer().abs_ref()) << shift.max(0);
@@ -227,15 +244,15 @@ fn low_word(x: u128) -> u64 {
     u64::try_from(x & u128::from(u64::MAX)).unwrap_or(0)
 }
 
-impl Field for LongFloat {
+impl<const LIMBS: usize> Field for LongNumber<LIMBS> {
     fn inverse(&self) -> Option<Self> {
         if self.is_zero() {
             return None;
         }
-        // Newton's method from the f64 inverse of the mantissa: 53 digits are doubled three times.
+        // Newton's method from the f64 inverse of the mantissa: 53 digits are doubled until there are enough.
         let mantissa = Self { exponent: 0, ..*self };
         let mut x = Self::from(1.0 / mantissa.to_f64());
-        for _ in 0..3 {
+        for _ in 0..Self::DOUBLINGS {
             let error = Self::one().sub(&mantissa.mul(&x));
             x = x.add(&x.mul(&error));
         }
@@ -244,7 +261,8 @@ impl Field for LongFloat {
     fn pivot_size(&self) -> f64 {
         self.to_f64().abs()
     }
-    const PIVOT_ZERO: f64 = 1e-105;
+    // Ten digits are left for roundings.
+    const PIVOT_ZERO: f64 = power_of_half(Self::BITS - 35);
 }
 
 #[cfg(test)]
@@ -252,9 +270,9 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn exact(x: LongFloat) -> Rational {
+    fn exact<const LIMBS: usize>(x: LongNumber<LIMBS>) -> Rational {
         let mantissa = Integer::from_digits(&x.limbs, Order::Lsf);
-        let places = x.exponent - i32::try_from(BITS).unwrap();
+        let places = x.exponent - i32::try_from(LongNumber::<LIMBS>::BITS).unwrap();
         let value = if places < 0 {
             Rational::from((mantissa, Integer::from(1) << places.unsigned_abs()))
         } else {
@@ -263,8 +281,8 @@ mod tests {
         if x.negative { -value } else { value }
     }
 
-    fn close(x: LongFloat, wanted: &Rational) -> bool {
-        let limit = Rational::from_f64(LongFloat::UNIT_ROUNDOFF).unwrap() * Rational::from(wanted.abs_ref());
+    fn close<const LIMBS: usize>(x: LongNumber<LIMBS>, wanted: &Rational) -> bool {
+        let limit = Rational::from_f64(LongNumber::<LIMBS>::UNIT_ROUNDOFF).unwrap() * Rational::from(wanted.abs_ref());
         (exact(x) - wanted).abs() <= limit
     }
 
@@ -276,22 +294,30 @@ mod tests {
         })
     }
 
+    fn operations_are_right<const LIMBS: usize>(a: &Rational, b: &Rational) -> Result<(), TestCaseError> {
+        let [x, y] = [a, b].map(|q| LongNumber::<LIMBS>::from_rational(q).unwrap());
+        prop_assert!(close(x, a) && close(y, b));
+        // Operands are exact from here on.
+        let (a, b) = (exact(x), exact(y));
+        prop_assert!(close(x.add(&y), &Rational::from(&a + &b)));
+        prop_assert!(close(x.sub(&y), &Rational::from(&a - &b)));
+        prop_assert!(close(x.mul(&y), &Rational::from(&a * &b)));
+        // Nearly equal numbers, whose leading bits cancel.
+        for places in [520_u32, 1090] {
+            let near = LongNumber::<LIMBS>::from_rational(&(Rational::from(1) + (a.clone() >> places))).unwrap();
+            prop_assert!(close(near.sub(&Ring::one()), &(exact(near) - Rational::from(1))));
+        }
+        if let Some(inverse) = x.inverse() {
+            prop_assert!(close(inverse, &a.recip()));
+        }
+        Ok(())
+    }
+
     proptest! {
         #[test]
         fn every_operation_is_right_to_the_bound(a in number(), b in number()) {
-            let [x, y] = [&a, &b].map(|q| LongFloat::from_rational(q).unwrap());
-            prop_assert!(close(x, &a) && close(y, &b));
-            // Operands are exact from here on.
-            let (a, b) = (exact(x), exact(y));
-            prop_assert!(close(x.add(&y), &Rational::from(&a + &b)));
-            prop_assert!(close(x.sub(&y), &Rational::from(&a - &b)));
-            prop_assert!(close(x.mul(&y), &Rational::from(&a * &b)));
-            // Nearly equal numbers, whose leading bits cancel.
-            let near = LongFloat::from_rational(&(Rational::from(1) + (a.clone() >> 520_u32))).unwrap();
-            prop_assert!(close(near.sub(&LongFloat::one()), &(exact(near) - Rational::from(1))));
-            if let Some(inverse) = x.inverse() {
-                prop_assert!(close(inverse, &a.recip()));
-            }
+            operations_are_right::<6>(&a, &b)?;
+            operations_are_right::<15>(&a, &b)?;
         }
 
         #[test]

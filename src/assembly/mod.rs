@@ -1,5 +1,6 @@
 //! Roots to assembly modes: prepare a geometry once, then find every way to close it, pose after pose.
 
+mod axis_triples;
 mod ball;
 pub mod coupler;
 mod few_rotations;
@@ -12,5 +13,6 @@ mod search;
 mod shifted;
 mod solver;
 
-pub use mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
+pub use axis_triples::AxisTriple;
+pub use mode::{Assembly, Hits, Mode, Roots, are_apart, distance, wrapped};
 pub use solver::{Gap, Solver, Workspace};

@@ -24,8 +24,8 @@ pub struct Mode {
     pub real: bool,
     /// How many solutions coincide here; 0 where that is not known.
     pub multiplicity: usize,
-    /// Largest entry of |E - I| of the closure E, translations over the scale of the mechanism (its mean link length,
-    /// rounded to a power of two); of a complex mode over the largest product of norms round the loop, too.
+    /// Largest entry of |E - I| of the closure E over the size of what cancels in it, see
+    /// [`relative_defect`](crate::solve::newton::Closure::relative_defect).
     pub residual: f64,
     /// Row-sum condition number of the Jacobian, lengths over the scale of the mechanism.
     pub condition: f64,
@@ -70,8 +70,10 @@ pub struct Assembly {
     pub clean: bool,
     /// How many pencils were solved.
     pub tries: usize,
-    /// How many modes were found or proved in numbers of 384 bits only.
+    /// How many modes were found or proved in longer numbers only.
     pub rescued: usize,
+    /// The bits of these numbers.
+    pub rescued_in: u32,
 }
 
 impl Assembly {
@@ -89,16 +91,12 @@ impl Assembly {
 
     /// Takes in modes proved in more digits: those not known are added, and where all of the `expected` ones are proved
     /// then, what could not be proved is left out as none.
-    pub(super) fn complete_with(&mut self, modes: Vec<Mode>, variables: &[Variable; 6], expected: usize) {
-        let radius = |mode: &Mode| mode.certificate.map_or(0.0, |c| c.radius);
+    pub(super) fn complete_with(&mut self, modes: Vec<Mode>, variables: &[Variable; 6], expected: usize, bits: u32) {
         let proved = |modes: &[Mode]| modes.iter().filter(|m| m.certificate.is_some()).count();
         let before = proved(&self.modes);
         let mut all = modes;
         for mode in self.modes.drain(..) {
-            let same = |other: &&mut Mode| {
-                let room = radius(other) + radius(&mode);
-                distance(variables, &other.unknowns, &mode.unknowns) <= room
-            };
+            let same = |other: &&mut Mode| !are_apart(variables, other, &mode);
             match all.iter_mut().find(same) {
                 // What f64 proves already stays as it is.
                 Some(other) if mode.certificate.is_some() && mode.real == other.real => *other = mode,
@@ -110,9 +108,23 @@ impl Assembly {
             all.retain(|mode| mode.certificate.is_some());
             self.self_motion = 0;
         }
-        self.rescued = proved(&all).saturating_sub(before);
+        let more = proved(&all).saturating_sub(before);
+        if more > 0 {
+            (self.rescued, self.rescued_in) = (self.rescued + more, bits);
+        }
         self.modes = all;
     }
+}
+
+/// Whether one unknown at least differs by more than both modes are off. Those without certificate count as exact.
+#[must_use]
+pub fn are_apart(variables: &[Variable; 6], one: &Mode, two: &Mode) -> bool {
+    let off = |mode: &Mode, k: usize| {
+        let rounding = 4.0 * f64::EPSILON * mode.unknowns[k].norm().max(1.0);
+        mode.certificate.map_or(0.0, |c| c.proved + rounding)
+    };
+    let apart = |k: usize| difference(variables[k], one.unknowns[k] - two.unknowns[k]) > off(one, k) + off(two, k);
+    (0..6).any(apart)
 }
 
 /// An angle in (-pi, pi].
@@ -130,13 +142,11 @@ pub fn wrapped(angle: f64) -> f64 {
 /// The largest difference of two unknowns, angles modulo 2 pi.
 #[must_use]
 pub fn distance(variables: &[Variable; 6], a: &Six<Complex<f64>>, b: &Six<Complex<f64>>) -> f64 {
-    let mut largest = 0.0_f64;
-    for k in 0..6 {
-        let mut difference = a[k] - b[k];
-        if variables[k] == Variable::Rotation {
-            difference.re = wrapped(difference.re);
-        }
-        largest = largest.max(difference.re.abs()).max(difference.im.abs());
-    }
-    largest
+    (0..6).map(|k| difference(variables[k], a[k] - b[k])).fold(0.0, f64::max)
+}
+
+/// The size of a difference, of angles modulo 2 pi.
+fn difference(variable: Variable, z: Complex<f64>) -> f64 {
+    let re = if variable == Variable::Rotation { wrapped(z.re) } else { z.re };
+    re.abs().max(z.im.abs())
 }

@@ -1,4 +1,4 @@
-//! The list of a loop again from its exact constants, in numbers of 384 bits: for solutions that f64 does not reach.
+//! The list of a loop again from its exact constants, in numbers of 384 or 960 bits: for solutions that f64 does not.
 //!
 //! Nearly special geometry has solutions almost at infinity: angles with large imaginary parts, translations of enormous
 //! length. In f64 they are lost in rounding; here the same eliminations lead to the same closure polynomial in numbers of
@@ -6,12 +6,12 @@
 //! proved.
 
 use super::ball::canonical;
-use super::mode::{Hits, Mode, distance, wrapped};
+use super::mode::{Hits, Mode, are_apart, wrapped};
 use crate::algebra::determinant::determinant;
-use crate::algebra::long_float::LongFloat;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::certify::{Refined, exponential, exponential_pair, from_pairs};
+use crate::elimination::coordinate_ring::{self, CoordinateRing};
 use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::degree::{TurnedPencil, general_degree, turned_pencil};
 use crate::elimination::octic;
@@ -25,27 +25,31 @@ use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::link_form::{LinkForm, product, turned};
 use crate::kinematics::motion::Motion;
 use crate::solve::back_substitution::CutView;
+use crate::solve::hessenberg::Hessenberg;
 use crate::solve::kernel::{at_root, kernel};
-use crate::solve::newton::{Six, closure_at};
+use crate::solve::newton::{Six, closure_at, product as product_of_steps};
 use crate::solve::polynomial_roots::polynomial_roots;
-use crate::solve::scalar::{Number, extended};
+use crate::solve::scalar::{Extended, Number, extended};
 use num_complex::Complex;
 
-type Long = Complex<LongFloat>;
 /// What enters the motions of a loop, unknown by unknown: cosine and sine, or a distance and 0.
-type Pairs = [(Long, Long); 6];
+type Pairs<R> = [(Complex<R>, Complex<R>); 6];
 
 /// Closure polynomials that are tried at most: of other cuts, or in other angles.
 const MOST_TRIES: usize = 6;
-/// Imaginary parts below this are rounding of a real root.
-const REAL: f64 = 1e-60;
 
 /// Finds and proves the solutions of a loop with exact constants, lengths over the scale of the solver. Returns the
-/// modes, conjugates included, of the first closure polynomial that leads to `expected` of them, or else the most.
-pub(super) fn rescue(exact: &ClosedLoop<LongFloat>, ball: Option<usize>, expected: usize) -> Vec<Mode> {
+/// modes, conjugates included, of the first closure polynomial that leads to `expected` of them, or else the most: then
+/// of the ring of the loop, too, if there is a plan for that.
+pub(super) fn rescue<R: Extended>(
+    exact: &ClosedLoop<R>,
+    ball: Option<usize>,
+    plan: Option<&coordinate_ring::Plan>,
+    expected: usize,
+) -> Vec<Mode> {
     let mut best = Vec::new();
     let mut tries = 0;
-    let mut take = |candidates: Vec<Pairs>| {
+    let mut take = |candidates: Vec<Pairs<R>>| {
         let modes = modes(exact, ball, &candidates);
         if modes.len() > best.len() {
             best = modes;
@@ -59,23 +63,31 @@ pub(super) fn rescue(exact: &ClosedLoop<LongFloat>, ball: Option<usize>, expecte
         (None, Some(8)) => four_bars(exact, &mut take),
         _ => cuts(exact, &mut take),
     }
+    if best.len() < expected
+        && let Some(ring) = plan.and_then(|plan| plan.ring(exact))
+    {
+        let modes = modes(exact, ball, &eigenvectors(&ring).unwrap_or_default());
+        if modes.len() > best.len() {
+            best = modes;
+        }
+    }
     best
 }
 
 /// A loop over complex numbers.
-fn complex(closed: &ClosedLoop<LongFloat>) -> ClosedLoop<Long> {
-    let lift = |motion: &Motion<LongFloat>| Motion {
-        rotation: motion.rotation.map(|row| row.map(Long::from_real)),
-        translation: motion.translation.map(Long::from_real),
+fn complex<R: Extended>(closed: &ClosedLoop<R>) -> ClosedLoop<Complex<R>> {
+    let lift = |motion: &Motion<R>| Motion {
+        rotation: motion.rotation.map(|row| row.map(Complex::from_real)),
+        translation: motion.translation.map(Complex::from_real),
     };
     ClosedLoop { variables: closed.variables, constants: closed.constants.each_ref().map(lift) }
 }
 
 /// The roots on and above the real axis: the others are their conjugates.
-fn upper_roots(polynomial: &Univariate<LongFloat>) -> Option<Vec<Long>> {
+fn upper_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<Complex<R>>> {
     let roots = polynomial_roots(polynomial)?.into_iter().filter_map(|root| {
-        let real = root.im.size() <= REAL * (1.0 + root.size());
-        let kept = if real { Complex::new(root.re, LongFloat::zero()) } else { root };
+        let real = root.im.size() <= R::UNIT_ROUNDOFF.sqrt() * (1.0 + root.size());
+        let kept = if real { Complex::new(root.re, R::zero()) } else { root };
         (real || root.im.to_f64() > 0.0).then_some(kept)
     });
     Some(roots.collect())
@@ -83,23 +95,22 @@ fn upper_roots(polynomial: &Univariate<LongFloat>) -> Option<Vec<Long>> {
 
 /// The monomials of a variable at a root: (1, cos, sin) of an angle counted from the offset, (1, d, d^2) of a distance.
 /// `None` at a half tangent of +-i.
-fn monomials(variable: Variable, root: &Long) -> Option<[Long; 3]> {
-    let powers = powers::<LongFloat>(variable, &separated::offset());
-    let at =
-        |row: &[LongFloat; 3]| row.iter().rev().fold(Long::zero(), |sum, c| sum.mul(root).add(&Long::from_real(*c)));
+fn monomials<R: Extended>(variable: Variable, root: &Complex<R>) -> Option<[Complex<R>; 3]> {
+    let powers = powers::<R>(variable, &separated::offset());
+    let at = |row: &[R; 3]| row.iter().rev().fold(Complex::zero(), |sum, c| sum.mul(root).add(&Complex::from_real(*c)));
     let [one, first, second] = powers.each_ref().map(at);
     let inverse = one.inverse()?;
-    Some([Long::one(), first.mul(&inverse), second.mul(&inverse)])
+    Some([Complex::one(), first.mul(&inverse), second.mul(&inverse)])
 }
 
 /// `row . monomials`
-fn weighted(row: &[LongFloat; 3], monomials: &[Long; 3]) -> Long {
-    row.iter().zip(monomials).fold(Long::zero(), |sum, (c, m)| sum.add(&m.times(*c)))
+fn weighted<R: Extended>(row: &[R; 3], monomials: &[Complex<R>; 3]) -> Complex<R> {
+    row.iter().zip(monomials).fold(Complex::zero(), |sum, (c, m)| sum.add(&m.times(*c)))
 }
 
 /// Both sides of two separated equations at their solutions.
-fn both_sides(equations: &Separated<LongFloat>) -> Option<Vec<[[Long; 3]; 2]>> {
-    let Plan::Together { hidden, other } = equations.plan(LongFloat::PIVOT_ZERO) else { return None };
+fn both_sides<R: Extended>(equations: &Separated<R>) -> Option<Vec<[[Complex<R>; 3]; 2]>> {
+    let Plan::Together { hidden, other } = equations.plan(R::PIVOT_ZERO) else { return None };
     let polynomial = separated::closure_polynomial(equations, hidden, &other);
     let sides = upper_roots(&polynomial)?.into_iter().filter_map(|root| {
         let known = monomials(equations.kinds[hidden], &root)?;
@@ -110,12 +121,12 @@ fn both_sides(equations: &Separated<LongFloat>) -> Option<Vec<[[Long; 3]; 2]>> {
 }
 
 /// The rotations of a loop in link form, and its translations.
-fn in_link_form<const RHO: usize, const TAU: usize>(
-    form: &LinkForm<Long, RHO, TAU>,
-    rotations: &[(Long, Long); RHO],
-) -> Option<Pairs> {
+fn in_link_form<R: Extended, const RHO: usize, const TAU: usize>(
+    form: &LinkForm<Complex<R>, RHO, TAU>,
+    rotations: &[(Complex<R>, Complex<R>); RHO],
+) -> Option<Pairs<R>> {
     let values = form.slides_at(rotations).values?;
-    let mut pairs = [(Long::zero(), Long::zero()); 6];
+    let mut pairs = [(Complex::zero(), Complex::zero()); 6];
     for (&unknown, pair) in form.rotations.iter().zip(rotations) {
         pairs[unknown] = *pair;
     }
@@ -126,13 +137,13 @@ fn in_link_form<const RHO: usize, const TAU: usize>(
 }
 
 /// Three rotations.
-fn spherical_triangle(exact: &ClosedLoop<LongFloat>) -> Option<Vec<Pairs>> {
+fn spherical_triangle<R: Extended>(exact: &ClosedLoop<R>) -> Option<Vec<Pairs<R>>> {
     let (form, lifted) = (LinkForm::<_, 3, 3>::of(exact)?, LinkForm::of(&complex(exact))?);
     let real = triangle(&form);
     let powers = powers(Variable::Rotation, &separated::offset());
-    let coefficient = |l: usize| (0..3).fold(LongFloat::zero(), |sum, k| sum.add(&real.equation[k].mul(&powers[k][l])));
+    let coefficient = |l: usize| (0..3).fold(R::zero(), |sum, k| sum.add(&real.equation[k].mul(&powers[k][l])));
     let polynomial = Univariate::new((0..3).map(coefficient).collect());
-    let triangle = Triangle { dropped: real.dropped, equation: real.equation.map(Long::from_real) };
+    let triangle = Triangle { dropped: real.dropped, equation: real.equation.map(Complex::from_real) };
     let candidates = upper_roots(&polynomial)?.into_iter().filter_map(|root| {
         let [_, cos, sin] = monomials(Variable::Rotation, &root)?;
         in_link_form(&lifted, &triangle.rotations(&lifted, &(cos, sin))?)
@@ -141,11 +152,11 @@ fn spherical_triangle(exact: &ClosedLoop<LongFloat>) -> Option<Vec<Pairs>> {
 }
 
 /// Four rotations.
-fn four_bars(exact: &ClosedLoop<LongFloat>, take: &mut impl FnMut(Vec<Pairs>) -> bool) {
+fn four_bars<R: Extended>(exact: &ClosedLoop<R>, take: &mut impl FnMut(Vec<Pairs<R>>) -> bool) {
     let (Some(form), Some(lifted)) = (LinkForm::<_, 4, 2>::of(exact), LinkForm::<_, 4, 2>::of(&complex(exact))) else {
         return;
     };
-    if let Some(axes) = OppositeAxes::of(&form, LongFloat::PIVOT_ZERO)
+    if let Some(axes) = OppositeAxes::of(&form, R::PIVOT_ZERO)
         && let Some(sides) = both_sides(&axes.equations(&form))
     {
         let candidates = sides.iter().filter_map(|[[_, c, s], [_, c2, s2]]| {
@@ -166,7 +177,7 @@ fn four_bars(exact: &ClosedLoop<LongFloat>, take: &mut impl FnMut(Vec<Pairs>) ->
             let Some(roots) = upper_roots(&polynomial) else { continue };
             let candidates = roots.iter().filter_map(|root| {
                 let known = monomials(Variable::Rotation, root)?;
-                let row = |form: &[[LongFloat; 3]; 3]| -> [Long; 3] {
+                let row = |form: &[[R; 3]; 3]| -> [Complex<R>; 3] {
                     std::array::from_fn(|l| {
                         let at = |k: usize| if hidden == Hidden::First { form[k][l] } else { form[l][k] };
                         weighted(&std::array::from_fn(at), &known)
@@ -188,15 +199,15 @@ fn four_bars(exact: &ClosedLoop<LongFloat>, take: &mut impl FnMut(Vec<Pairs>) ->
 }
 
 /// Five or six rotations: cut after cut, the loop as it is first.
-fn cuts(exact: &ClosedLoop<LongFloat>, take: &mut impl FnMut(Vec<Pairs>) -> bool) {
+fn cuts<R: Extended>(exact: &ClosedLoop<R>, take: &mut impl FnMut(Vec<Pairs<R>>) -> bool) {
     let as_it_is = (exact.clone(), [0, 1, 2, 3, 4, 5], false);
-    let moved = rearranged(exact, LongFloat::PIVOT_ZERO).into_iter().map(|m| (m.closed, m.order, m.flipped));
+    let moved = rearranged(exact, R::PIVOT_ZERO).into_iter().map(|m| (m.closed, m.order, m.flipped));
     for (closed, order, flipped) in std::iter::once(as_it_is).chain(moved) {
         for cut in Cut::ALL {
             for hidden in [Hidden::First, Hidden::Second] {
                 let Some(candidates) = one_cut(&closed, cut, hidden) else { continue };
                 let candidates = candidates.into_iter().map(|of_cut| {
-                    let mut pairs = [(Long::zero(), Long::zero()); 6];
+                    let mut pairs = [(Complex::zero(), Complex::zero()); 6];
                     for (j, (first, second)) in of_cut.into_iter().enumerate() {
                         let index = cut.unknown_index(j);
                         pairs[order[index]] = match closed.variables[index] {
@@ -216,17 +227,17 @@ fn cuts(exact: &ClosedLoop<LongFloat>, take: &mut impl FnMut(Vec<Pairs>) -> bool
 }
 
 /// The candidates of one cut, its unknowns in the order of the cut.
-fn one_cut(closed: &ClosedLoop<LongFloat>, cut: Cut, hidden: Hidden) -> Option<Vec<Pairs>> {
+fn one_cut<R: Extended>(closed: &ClosedLoop<R>, cut: Cut, hidden: Hidden) -> Option<Vec<Pairs<R>>> {
     let TurnedPencil { view, form, pencil } = turned_pencil(closed, cut, hidden)?;
     let value = |k: i32| {
-        let x = LongFloat::from_integer(k - 8);
+        let x = R::from_integer(k - 8);
         let [a0, a1, a2] = &pencil.coefficients;
         let at = |i: usize, j: usize| a2[i][j].mul(&x).add(&a1[i][j]).mul(&x).add(&a0[i][j]);
-        let matrix: [[LongFloat; 8]; 8] = std::array::from_fn(|i| std::array::from_fn(|j| at(i, j)));
+        let matrix: [[R; 8]; 8] = std::array::from_fn(|i| std::array::from_fn(|j| at(i, j)));
         (x, determinant(&matrix))
     };
     let polynomial = Univariate::interpolate(&(0..=16).map(value).collect::<Vec<_>>());
-    let back = CutView::<Long>::new(&view, &form, hidden);
+    let back = CutView::<Complex<R>>::new(&view, &form, hidden);
     let candidates = upper_roots(&polynomial)?.into_iter().filter_map(|root| {
         let [_, cos, sin] = monomials(Variable::Rotation, &root)?;
         back.pairs_of((cos, sin), &kernel(&at_root(&pencil, root), 0.0).basis[0])
@@ -234,20 +245,48 @@ fn one_cut(closed: &ClosedLoop<LongFloat>, cut: Cut, hidden: Hidden) -> Option<V
     Some(candidates.collect())
 }
 
+/// The combination of cosines, sines and distances whose eigenvalues are asked for: one that no two solutions share, as
+/// a rule.
+const WEIGHTS: [i32; 10] = [3, -5, 7, 11, -13, 17, 19, -23, 29, 31];
+
+/// The solutions by the eigenvectors of a product in the ring of the loop.
+fn eigenvectors<R: Extended>(ring: &CoordinateRing<R>) -> Option<Vec<Pairs<R>>> {
+    let (first, closed) = ring.view();
+    let (one, unknowns) = ring.unknowns();
+    let hessenberg = Hessenberg::of(ring.multiplication(&WEIGHTS.map(R::from_integer)));
+    let candidates = upper_roots(&hessenberg.characteristic())?.into_iter().filter_map(|root| {
+        let values = hessenberg.vector(&root)?;
+        let at = |row: &[R]| row.iter().zip(&values).fold(Complex::zero(), |sum, (c, v)| sum.add(&v.times(*c)));
+        let unit = at(&one).inverse()?;
+        let known = unknowns.each_ref().map(|[x, y]| (at(x).mul(&unit), at(y).mul(&unit)));
+        // V6 = (G6 V1 G1 ... V5 G5)^-1, a rotation about z.
+        let frame = product_of_steps::<Complex<R>>(closed, &known, 5).rotation;
+        let g = &closed.constants[5].rotation;
+        let entry = |j: usize| (0..3).fold(Complex::zero(), |sum, k| sum.add(&frame[k][j].times(g[0][k])));
+        let sixth = (entry(0), entry(1));
+        let mut pairs = [(Complex::zero(), Complex::zero()); 6];
+        for (k, pair) in known.into_iter().chain([sixth]).enumerate() {
+            pairs[(first + k) % 6] = pair;
+        }
+        Some(pairs)
+    });
+    Some(candidates.collect())
+}
+
 /// A ball: its centre, and what is left of the rotation.
-fn centre(exact: &ClosedLoop<LongFloat>, ball: usize) -> Option<Vec<Pairs>> {
+fn centre<R: Extended>(exact: &ClosedLoop<R>, ball: usize) -> Option<Vec<Pairs<R>>> {
     let lifted = complex(exact);
     let (reach, complex_reach) = (Reach::of(exact, ball), Reach::of(&lifted, ball));
     let sides = both_sides(&reach.equations)?;
-    let pair = |variable: Variable, m: &[Long; 3]| match variable {
+    let pair = |variable: Variable, m: &[Complex<R>; 3]| match variable {
         Variable::Rotation => (m[1], m[2]),
-        Variable::Translation => (m[1], Long::zero()),
+        Variable::Translation => (m[1], Complex::zero()),
     };
     let candidates = sides.iter().filter_map(|sides| {
         let middle = complex_reach.middle(sides.each_ref())?;
         let [first, second, third] = reach.variables;
         let others = [(first, pair(first, &sides[1])), (second, middle), (third, pair(third, &sides[0]))];
-        let mut pairs = [(Long::zero(), Long::zero()); 6];
+        let mut pairs = [(Complex::zero(), Complex::zero()); 6];
         let constant = |k: usize| &lifted.constants[(ball + k) % 6].rotation;
         let mut rest = *constant(2);
         for (k, (variable, pair)) in others.into_iter().enumerate() {
@@ -270,20 +309,20 @@ fn centre(exact: &ClosedLoop<LongFloat>, ball: usize) -> Option<Vec<Pairs>> {
 }
 
 /// The residual of unknowns rounded to f64, see [`Mode::residual`]. f64 itself would add errors of its own.
-fn residual(exact: &ClosedLoop<LongFloat>, unknowns: &Six<Complex<f64>>, real: bool) -> f64 {
-    let mut pairs = [(Long::zero(), Long::zero()); 6];
+fn residual<R: Extended>(exact: &ClosedLoop<R>, unknowns: &Six<Complex<f64>>, real: bool) -> f64 {
+    let mut pairs = [(Complex::zero(), Complex::zero()); 6];
     for (j, pair) in pairs.iter_mut().enumerate() {
         *pair = match exact.variables[j] {
-            Variable::Translation => (extended(unknowns[j]), Long::zero()),
+            Variable::Translation => (extended(unknowns[j]), Complex::zero()),
             Variable::Rotation => exponential_pair(exponential(unknowns[j])).unwrap_or(*pair),
         };
     }
-    let here = closure_at::<Long>(exact, &pairs);
-    here.defect / here.growth(real)
+    let here = closure_at::<Complex<R>>(exact, &pairs);
+    here.relative_defect(exact, unknowns, real)
 }
 
 /// The modes that are proved among candidates, every one once, conjugates included.
-fn modes(exact: &ClosedLoop<LongFloat>, ball: Option<usize>, candidates: &[Pairs]) -> Vec<Mode> {
+fn modes<R: Extended>(exact: &ClosedLoop<R>, ball: Option<usize>, candidates: &[Pairs<R>]) -> Vec<Mode> {
     let mut modes: Vec<Mode> = Vec::new();
     for Refined { unknowns, real, certificate, condition } in candidates.iter().filter_map(|p| from_pairs(exact, p)) {
         let mut add = |mut unknowns: Six<Complex<f64>>| {
@@ -295,20 +334,17 @@ fn modes(exact: &ClosedLoop<LongFloat>, ball: Option<usize>, candidates: &[Pairs
             if let Some(ball) = ball {
                 canonical(&mut unknowns, ball);
             }
-            let apart = |other: &Mode| {
-                let radius = other.certificate.map_or(f64::INFINITY, |c| c.radius) + certificate.radius;
-                distance(&exact.variables, &other.unknowns, &unknowns) > radius
+            let mode = Mode {
+                unknowns,
+                real,
+                multiplicity: 1,
+                residual: residual(exact, &unknowns, real),
+                condition,
+                certificate: Some(certificate),
+                hits: Hits::first(usize::MAX),
             };
-            if modes.iter().all(apart) {
-                modes.push(Mode {
-                    unknowns,
-                    real,
-                    multiplicity: 1,
-                    residual: residual(exact, &unknowns, real),
-                    condition,
-                    certificate: Some(certificate),
-                    hits: Hits::first(usize::MAX),
-                });
+            if modes.iter().all(|other| are_apart(&exact.variables, other, &mode)) {
+                modes.push(mode);
             }
         };
         add(unknowns);

@@ -285,7 +285,7 @@ impl Search<'_> {
             unknowns,
             real: S::REAL,
             multiplicity: 1,
-            residual: polished.closure.defect / polished.closure.growth(S::REAL),
+            residual: polished.closure.relative_defect(self.closed, &unknowns, S::REAL),
             condition: dense::norm(&polished.closure.jacobian) * inverse_norm,
             certificate: None,
             hits: Hits::first(self.assembly.tries),
@@ -327,7 +327,8 @@ impl Search<'_> {
     fn widened<S: Scalar>(&self, proof: Certificate, at: &Closure<S>, inverse: &[Six<S>; 6]) -> Option<Certificate> {
         let frames = at.norms.iter().map(|n| n.before * n.step).fold(1.0, f64::max);
         let drift = self.gap_rounding * frames * dense::norm(inverse);
-        (drift < limits::LONE_RADIUS).then_some(Certificate { radius: proof.radius + drift, ..proof })
+        let widened = Certificate { radius: proof.radius + drift, proved: proof.proved + drift, ..proof };
+        (drift < limits::LONE_RADIUS).then_some(widened)
     }
 
     pub fn merge(&mut self, mut mode: Mode) {
@@ -430,7 +431,7 @@ impl Search<'_> {
             unknowns,
             real,
             multiplicity: 1,
-            residual: here.defect / here.growth(real),
+            residual: here.relative_defect(self.closed, &unknowns, real),
             condition: dense::norm(&here.jacobian) * dense::norm(&inverse),
             certificate: Some(certificate),
             hits: Hits::first(self.assembly.tries),
@@ -473,6 +474,33 @@ impl Search<'_> {
             // Beside a self-motion, complex solutions that are not isolated are points of its complex continuation.
             mode.multiplicity > 0 || dimension == 0
         });
+        self.merge_multiple();
+    }
+
+    /// Rounding leaves a cloud of points where a multiple solution is, as wide as the root of its size of that order: one
+    /// of them stays, a real one if there is one, the nearest to the middle.
+    fn merge_multiple(&mut self) {
+        let variables = self.closed.variables;
+        let mut left = std::mem::take(&mut self.assembly.modes);
+        while let Some(mode) = left.pop() {
+            if mode.certificate.is_some() || mode.multiplicity < 3 {
+                self.assembly.modes.push(mode);
+                continue;
+            }
+            let width = limits::CLOUD * f64::EPSILON.powf(1.0 / mode.multiplicity as f64);
+            let near = |other: &Mode| {
+                let alike = other.certificate.is_none() && other.multiplicity == mode.multiplicity;
+                alike && distance(&variables, &other.unknowns, &mode.unknowns) < width
+            };
+            let (mut cloud, apart): (Vec<Mode>, Vec<Mode>) = left.into_iter().partition(near);
+            left = apart;
+            cloud.push(mode);
+            let off =
+                |mode: &Mode| cloud.iter().map(|x| distance(&variables, &x.unknowns, &mode.unknowns)).sum::<f64>();
+            let order = |a: &&Mode, b: &&Mode| b.real.cmp(&a.real).then(off(a).total_cmp(&off(b)));
+            let middle = cloud.iter().min_by(order).cloned();
+            self.assembly.modes.extend(middle);
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! A geometry prepared once for many poses.
 
+use super::axis_triples::AxisTriple;
 use super::limits;
 use super::mode::{Assembly, Mode, Roots};
 use super::platform::{PlatformAssembly, PlatformWorkspace};
@@ -7,9 +8,8 @@ use super::prepared::PreparedCut;
 use super::rescue::rescue;
 use super::search::{AS_IT_IS, Search};
 use super::shifted::Shifted;
-use crate::algebra::long_float::LongFloat;
-use crate::algebra::ring::Ring;
 use crate::closure::half_angle::half_angle_form;
+use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::degree::general_degree;
 use crate::elimination::pencil::{before_second_link, bilinear};
@@ -17,6 +17,7 @@ use crate::elimination::point_reach::general_count;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
 use crate::solve::eigen::{EigenWorkspace, companion};
+use crate::solve::scalar::Extended;
 use crate::solve::singular::structural_rank;
 
 /// A geometry, prepared: solve many poses of it.
@@ -50,6 +51,7 @@ pub struct Solver {
     /// Cuts that need no pose, best first.
     prepared: Vec<PreparedCut>,
     structural_rank: usize,
+    axis_triples: Vec<AxisTriple>,
     /// Where the three rotations of a ball begin, if there is one.
     ball: Option<usize>,
 }
@@ -127,7 +129,8 @@ impl Solver {
             .collect();
         prepared.sort_by(|a, b| b.form.score.total_cmp(&a.form.score));
         let structural_rank = structural_rank(&closed);
-        Self { open, scale, prepared, structural_rank, ball: None }
+        let axis_triples = AxisTriple::all(&open);
+        Self { open, scale, prepared, structural_rank, axis_triples, ball: None }
     }
 
     /// As [`Solver::prepare`] for a loop with a ball, whose three rotations begin at this unknown.
@@ -141,6 +144,12 @@ impl Solver {
     #[must_use]
     pub fn structural_rank(&self) -> usize {
         self.structural_rank
+    }
+
+    /// The triples of neighbouring axes that are parallel or meet in a point.
+    #[must_use]
+    pub fn axis_triples(&self) -> &[AxisTriple] {
+        &self.axis_triples
     }
 
     /// Whether some cut loses equations: the geometry is special, and may have fewer than 16 solutions.
@@ -246,18 +255,24 @@ impl Solver {
         self.finish(assembly);
     }
 
-    /// Looks again for what is missing of a list, in numbers of 384 bits: `exact` is the same loop, its gap filled, from
-    /// exact data, and `expected` the number of its solutions.
-    pub fn rescue(&self, exact: &ClosedLoop<LongFloat>, expected: usize, assembly: &mut Assembly) {
-        let unit = LongFloat::from(1.0 / self.scale);
+    /// Looks again for what is missing of a list, in numbers of more digits: `exact` is the same loop, its gap filled, from
+    /// exact data, `plan` that of its ring, if it is known, and `expected` the number of its solutions.
+    pub fn rescue<R: Extended>(
+        &self,
+        exact: &ClosedLoop<R>,
+        plan: Option<&Plan>,
+        expected: usize,
+        assembly: &mut Assembly,
+    ) {
+        let unit = R::from(1.0 / self.scale);
         let constants = exact
             .constants
             .each_ref()
             .map(|motion| Motion { translation: motion.translation.map(|x| x.mul(&unit)), ..motion.clone() });
         let scaled = ClosedLoop { variables: exact.variables, constants };
         self.scale_translations(assembly, 1.0 / self.scale);
-        let modes = rescue(&scaled, self.ball, expected);
-        assembly.complete_with(modes, &self.open.variables, expected);
+        let modes = rescue(&scaled, self.ball, plan, expected);
+        assembly.complete_with(modes, &self.open.variables, expected, R::BITS);
         self.finish(assembly);
     }
 

@@ -66,15 +66,17 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
             return Err(scope.fail(table.line(), message));
         }
         ([], None) if is_short(design) => return Ok(vec![Case::free(table.line())]),
-        ([], None) if let Design::Loop(chain) = design => {
-            let message = format!(
-                "found no [[input]], expected one: the loop has {}, and one joint variable has to be given (a loop of six \
-                 variables or fewer needs none)",
-                Freedom::of(chain)
-            );
-            return Err(scope.fail(table.line(), message));
-        }
-        ([], None) => (allowed[0], scope.need(table, allowed[0])?),
+        ([], None) => match design {
+            Design::Loop(chain) => {
+                let message = format!(
+                    "found no [[input]], expected one: the loop has {}, and one joint variable has to be given (a loop of six \
+                     variables or fewer needs none)",
+                    Freedom::of(chain)
+                );
+                return Err(scope.fail(table.line(), message));
+            }
+            Design::Arm(_) | Design::Platform(_) => (allowed[0], scope.need(table, allowed[0])?),
+        },
         ([.., (_, node)], _) => {
             return Err(scope.fail(node.line, "found the legs of a platform in two places, expected one"));
         }

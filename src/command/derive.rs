@@ -67,6 +67,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
 fn exit(derivation: &Derivation) -> Exit {
     match &derivation.polynomial {
         None => Exit::NotProved,
+        Some(_) if !derivation.proved => Exit::NotProved,
         Some(polynomial) if polynomial.roots.is_empty() && polynomial.at_pi == 0 => Exit::Unreachable,
         Some(_) => Exit::Complete,
     }

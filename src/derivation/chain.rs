@@ -6,6 +6,7 @@ use super::{Derivation, Equation, cuts, four_bar, triangle, two_sides};
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::Case;
+use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::general_degree;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
@@ -50,7 +51,26 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
     if let (Some(without), None) = (&mut derivation.without, &case.pose) {
         without.push_str(&format!("; {}", Freedom::of(chain)));
     }
+    if let Some(polynomial) = &derivation.polynomial {
+        derivation.warnings.extend(false_roots(&exact, polynomial.degree() + polynomial.at_pi));
+    }
     Ok(derivation)
+}
+
+/// How many of the roots, counted with multiplicity, belong to no solution, if the ring of the closure equations says so.
+fn false_roots(exact: &Exact, roots: usize) -> Option<String> {
+    // A ball is counted by its centre, and nothing is false of 16.
+    if exact.ball.is_some() || roots == 16 {
+        return None;
+    }
+    let count = Plan::of(exact.modular.as_ref()?)?.count();
+    (count < roots).then(|| {
+        let of_none = roots - count;
+        format!(
+            "{of_none} of its roots belong to no solution: the ring of the closure equations has dimension {count} \
+             (modulo 2^61 - 1)"
+        )
+    })
 }
 
 /// The loop of a case with one ball or none.
@@ -99,6 +119,7 @@ fn derivation(symbols: &Symbols, eliminated: Eliminated) -> Result<Derivation> {
         steps: eliminated.steps,
         polynomial,
         without,
+        proved: true,
         per_root: eliminated.per_root,
         definition: None,
         warnings: Vec::new(),

@@ -24,8 +24,8 @@ const INVARIANTS: [&str; 6] = ["n.n'", "n.r", "n'.r", "r.r", "n.(r x n')", "(r.r
 /// The vectors whose coordinates across the first axis turn with it.
 const TURNING: [&str; 4] = ["n'", "r", "r x n'", "(r.r) n' - 2 (n'.r) r"];
 
-/// The first cut that leaves the fewest roots, distinct if possible. The first one of all is taken at once where it
-/// leaves 16 distinct ones, as in general.
+/// The first cut that leaves the fewest roots, distinct if possible: of special loops some leave roots that belong to no
+/// solution, and look like the general case.
 pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
     let mut best = None;
     for cut in Cut::ALL {
@@ -35,9 +35,6 @@ pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
             if best.is_none_or(|(least, _, _)| quality < least) {
                 best = Some((quality, cut, hidden));
             }
-            if quality == (16, false) {
-                return best.map(|(_, cut, hidden)| (cut, hidden));
-            }
         }
     }
     best.map(|(_, cut, hidden)| (cut, hidden))
@@ -46,20 +43,17 @@ pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
 /// The equations of the best cut and the determinant of its pencil.
 pub(super) fn eliminate(exact: &Exact) -> Eliminated {
     let chosen = exact.modular.as_ref().and_then(choice);
-    let regular = |cut: &&Cut| cut.fits(exact.closed.variables) && half_angle_form(&cut.of(&exact.closed)).is_some();
-    let (cut, hidden) = match (chosen, Cut::ALL.iter().find(regular)) {
-        (Some(chosen), _) => chosen,
-        (None, Some(&cut)) => (cut, Hidden::First),
-        (None, None) => {
-            let step = "Every cut of the loop loses equations.".to_owned();
-            return Eliminated {
-                equations: Vec::new(),
-                steps: vec![step],
-                polynomial: None,
-                removed: Vec::new(),
-                per_root: 1,
-            };
-        }
+    let regular = |cut: &Cut| cut.fits(exact.closed.variables) && half_angle_form(&cut.of(&exact.closed)).is_some();
+    let any = || Cut::ALL.into_iter().find(regular).map(|cut| (cut, Hidden::First));
+    let Some((cut, hidden)) = chosen.or_else(any) else {
+        let step = "Every cut of the loop loses equations.".to_owned();
+        return Eliminated {
+            equations: Vec::new(),
+            steps: vec![step],
+            polynomial: None,
+            removed: Vec::new(),
+            per_root: 1,
+        };
     };
     let view = cut.of(&exact.closed);
     let mut equations = listed(&exact.symbols, cut, &view);

@@ -44,6 +44,8 @@ pub struct Derivation {
     pub polynomial: Option<ClosurePolynomial>,
     /// Why there is no polynomial.
     pub without: Option<String>,
+    /// Whether it is proved that the polynomial is the right one; if not, the probability of error is below 2^-40.
+    pub proved: bool,
     /// At most so many solutions belong to a simple root in general.
     pub per_root: usize,
     /// What the variable of the polynomial is, as an equation; none where the equations have it.

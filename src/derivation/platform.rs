@@ -62,11 +62,17 @@ impl Found {
         match self {
             Self::Quotient(found) => format!(
                 "Multiplication by k = {} in the quotient algebra, without the components with x.x = 0, is a matrix of size {}; \
-                 its characteristic polynomial from {} primes is the closure polynomial. One more prime agrees in all \
-                 coefficients: no proof, but a probability of error below 2^-40.",
+                 its characteristic polynomial, of which {} primes know the residues, is the closure polynomial: {}.",
                 words(&found.coordinate),
                 found.coefficients.len() - 1,
-                found.primes
+                found.primes,
+                if found.proved {
+                    "proved, since the product of the primes exceeds all that a bound of its coefficients known beforehand \
+                     leaves open"
+                } else {
+                    "not proved, but one prime at least is more than its coefficients need, and agrees; the probability of \
+                     error is below 2^-40"
+                }
             ),
             Self::Corner(found) => {
                 let [one, two, three] = found.pairs.legs.map(|[i, j]| format!("{} and {}", i + 1, j + 1));
@@ -88,6 +94,13 @@ impl Found {
                      k = ({g}, {h}, {l}).P, in the frame of the {other}{mirrored}."
                 )
             }
+        }
+    }
+
+    fn is_proved(&self) -> bool {
+        match self {
+            Self::Quotient(found) => found.proved,
+            Self::Corner(_) => true,
         }
     }
 
@@ -180,6 +193,7 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
         steps,
         polynomial,
         without,
+        proved: found.as_ref().is_some_and(Found::is_proved),
         per_root: found.as_ref().map_or(1, Found::per_root),
         definition: defined,
         warnings,

@@ -1,6 +1,6 @@
 //! Solutions put into equations: what a derivation displays is checked against what the solver found.
 
-use super::{Derivation, Displayed, Symbolic};
+use super::{ClosurePolynomial, Derivation, Displayed, Symbolic};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::algebra::text::Names;
@@ -51,7 +51,7 @@ impl Derivation {
     /// # Errors
     /// [`Error::Invalid`] where one does not vanish: either the derivation or the solver is wrong.
     pub fn substituted(&self, entry: &Entry, case: &Case) -> Result<Substitution> {
-        let polynomial = self.polynomial.as_ref().map(|polynomial| polynomial.to_polynomial());
+        let polynomial = self.polynomial.as_ref().map(ClosurePolynomial::to_polynomial);
         let mut shown = Vec::new();
         for equation in &self.equations {
             let forms = std::iter::once(&equation.polynomial).chain(&equation.algebraic);

@@ -3,6 +3,7 @@
 pub mod border;
 pub mod characteristic;
 pub mod common_roots;
+pub mod coordinate_ring;
 pub mod cut;
 pub mod degree;
 pub mod graded_quotient;
@@ -10,6 +11,7 @@ pub mod octic;
 pub mod opposite_axes;
 pub mod pencil;
 pub mod platform_degree;
+pub mod platform_height;
 pub mod platform_long;
 pub mod platform_polynomial;
 pub mod point_reach;

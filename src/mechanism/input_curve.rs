@@ -42,7 +42,8 @@ impl InputCurve {
             .ok_or_else(|| Error::Invalid("found no input, expected an input of a loop".to_owned()))?;
         let layout = filled_up(chain, Layout::of(chain, Some(locked))?)?;
         let input = layout.variables[locked];
-        let curve = Curve::new(&chain.open_loop(&layout)?, input);
+        let idle = layout.joint_variables().map(|joint| joint.is_none());
+        let curve = Curve::new(&chain.open_loop(&layout)?, idle, input);
         Ok(Self { layout, curve })
     }
 

@@ -1,7 +1,9 @@
 //! A mechanism ready to solve: what a file says, prepared once, answered case by case.
 
+mod by_input;
 mod input_curve;
 mod platform;
+mod short_ball;
 mod short_loop;
 mod single_loop;
 

@@ -1,43 +1,56 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
+use super::by_input::{ByInput, Prepared};
 use super::{FullMode, Solution};
-use crate::algebra::long_float::LongFloat;
+use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, coupler, wrapped};
+use crate::assembly::{Assembly, AxisTriple, Mode, Roots, Solver, Workspace, coupler, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
+use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::Chain;
-use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::chain::{Chain, JointKind};
+use crate::kinematics::closed_loop::{
+    ClosedLoop, Coupled, Layout, Numbers, OpenCoupled, OpenLoop, Variable, angle_motion, distance_motion,
+};
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
+use crate::solve::scalar::Extended;
 use crate::verdict::{Bound, Status, verdict};
 use num_complex::Complex;
 use rug::Rational;
+use std::cell::OnceCell;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 use std::time::Instant;
 
+/// The way in which a loop is solved, prepared.
+enum Way {
+    Six(Box<SixUnknowns>),
+    Balls(Box<Balls>),
+}
+
 /// The solver of one choice of the locked joint (of an arm: the only one).
-struct Prepared {
+struct SixUnknowns {
     layout: Layout,
-    /// None for loops with two balls, which are solved without preparation.
-    solver: Option<Solver>,
+    solver: Solver,
+    /// The loop modulo a prime, when first asked for; none for an unlucky prime.
+    modular: OnceLock<Option<OpenLoop<Mod>>>,
     bound: OnceLock<Bound>,
-    prepare_us: f64,
+}
+
+/// Loops with two balls.
+struct Balls {
+    layout: Layout,
+    open: OpenCoupled<f64>,
+    modular: Option<OpenCoupled<Mod>>,
 }
 
 /// The field of exact degree counts.
 type Mod = ModP<PRIME_61>;
-
-/// The loop of a chain modulo a prime, its gap filled.
-fn modular_loop(chain: &Chain, layout: &Layout, filling: &Motion<Mod>) -> Option<ClosedLoop<Mod>> {
-    let open: OpenLoop<Mod> = chain.try_open_loop(layout).ok()??;
-    Some(open.close(filling))
-}
 
 fn bound_from(degree: Degree, place: &str) -> Bound {
     let all = degree.solutions + degree.left_out;
@@ -52,12 +65,28 @@ fn bound_from(degree: Degree, place: &str) -> Bound {
     Bound { count: degree.solutions, because }
 }
 
-impl Prepared {
+/// The dimension of the ring of a loop as a bound.
+fn of_ring(count: usize) -> Bound {
+    let because = if count == 0 {
+        "the closure equations, of which 1 is a combination at this pose (modulo 2^61 - 1)".to_owned()
+    } else {
+        format!("the closure equations, whose ring has dimension {count} at this pose (modulo 2^61 - 1)")
+    };
+    Bound { count, because }
+}
+
+impl SixUnknowns {
+    /// The loop modulo a prime, its gap filled.
+    fn modular(&self, chain: &Chain, filling: &Motion<Mod>) -> Option<ClosedLoop<Mod>> {
+        let open = self.modular.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
+        Some(open.as_ref()?.close(filling))
+    }
+
     /// The bound on the number of solutions at every pose or input, computed when first asked for.
     fn bound(&self, chain: &Chain) -> &Bound {
         self.bound.get_or_init(|| {
             let locked = self.layout.locked.map(|k| self.layout.variables[k]);
-            let general = |choice| modular_loop(chain, &self.layout, &general_filling(locked, choice)?);
+            let general = |choice| self.modular(chain, &general_filling(locked, choice)?);
             let other = if locked.is_none() { general(1) } else { None };
             let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref()));
             counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"))
@@ -73,7 +102,7 @@ impl Prepared {
 
     /// The degree of the closure polynomial of general loops with these unknowns.
     fn general(&self) -> usize {
-        self.solver.as_ref().map_or(2, Solver::general_degree)
+        self.solver.general_degree()
     }
 }
 
@@ -81,45 +110,13 @@ impl Prepared {
 pub(super) struct SingleLoop {
     chain: Chain,
     limits: Vec<[f64; 2]>,
-    prepared: Vec<Prepared>,
+    prepared: ByInput<Way>,
 }
 
 impl SingleLoop {
     /// Prepares the chain of an entry for all its cases.
     pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
-        let mut prepared: Vec<Prepared> = Vec::new();
-        for case in &entry.cases {
-            let locked = locked_variable(chain, case)?;
-            if prepared.iter().any(|p| p.layout.locked == locked) {
-                continue;
-            }
-            let layout = Layout::of(chain, locked)?;
-            if layout.second_ball.is_some() {
-                chain.coupled_loop::<f64>(&layout, &Motion::identity())?;
-                prepared.push(Prepared { layout, solver: None, bound: OnceLock::new(), prepare_us: 0.0 });
-                continue;
-            }
-            let open: OpenLoop<f64> = chain.open_loop(&layout)?;
-            let start = Instant::now();
-            let solver = match layout.ball_unknown() {
-                Some(ball) => Solver::with_ball(&open, ball),
-                None => Solver::prepare(&open),
-            };
-            let prepare_us = start.elapsed().as_secs_f64() * 1e6;
-            if solver.is_out_of_reach() {
-                let rotations = layout_rotations(&open);
-                let rank = solver.structural_rank();
-                return Err(Error::Unsupported(format!(
-                    "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without \
-                     turning; the screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does \
-                     not close ({} of the whole loop); solved are loops with three unknown rotations at least: give a \
-                     distance in place of an angle",
-                    6 - rank,
-                    Freedom::of(chain)
-                )));
-            }
-            prepared.push(Prepared { layout, solver: Some(solver), bound: OnceLock::new(), prepare_us });
-        }
+        let prepared = ByInput::prepare(entry, chain, |layout| way(chain, layout))?;
         Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), prepared })
     }
 
@@ -131,15 +128,12 @@ impl SingleLoop {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
-        let locked = locked_variable(&self.chain, case)?;
-        let prepared = self
-            .prepared
-            .iter()
-            .find(|p| p.layout.locked == locked)
-            .ok_or_else(|| Error::Invalid("the case locks a joint that was not prepared".to_owned()))?;
-        let Some(solver) = &prepared.solver else {
-            return self.solve_coupled(&prepared.layout, case, roots, workspace, assembly);
+        let Prepared { of, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
+        let prepared = match of {
+            Way::Six(prepared) => prepared,
+            Way::Balls(balls) => return self.solve_coupled(balls, *prepare_us, case, roots, workspace, assembly),
         };
+        let solver = &prepared.solver;
         let mut gap = solver.gap(&filling(case)?);
         if gap.is_rough() {
             let open: OpenLoop<Rational> = self.chain.open_loop(&prepared.layout)?;
@@ -151,9 +145,21 @@ impl SingleLoop {
         let start = Instant::now();
         solver.solve_up_to(&gap, roots, &most, workspace, assembly);
         let mut solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let count_here = || {
-            let closed = modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?)?;
-            Some(bound_from(prepared.degree(&closed, None)?, "at this pose"))
+        let modular = || prepared.modular(&self.chain, &filling::<Mod>(case).ok()?);
+        let (by_cuts, ring) = (OnceCell::new(), OnceCell::new());
+        let plan = || -> Option<&Plan> {
+            let with_ball = prepared.layout.ball_unknown().is_some();
+            ring.get_or_init(|| modular().filter(|_| !with_ball).and_then(|closed| Plan::of(&closed))).as_ref()
+        };
+        // The ring is asked where the cuts know of nothing, or of more than `found`.
+        let count_here = |found: usize| -> Option<Bound> {
+            let degree = *by_cuts.get_or_init(|| prepared.degree(&modular()?, None));
+            let bound = degree.map(|degree| bound_from(degree, "at this pose"));
+            if bound.as_ref().is_some_and(|bound| bound.count <= found) {
+                return bound;
+            }
+            let ring = plan().map(|plan| of_ring(plan.count()));
+            bound.into_iter().chain(ring).min_by_key(|bound| bound.count)
         };
         let judge = |assembly: &Assembly| {
             verdict(
@@ -166,7 +172,7 @@ impl SingleLoop {
                     let skip = roots == Roots::Real && !solver.is_special();
                     if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
                 },
-                count_here,
+                || count_here(assembly.total()),
                 solver.too_far(&gap),
             )
         };
@@ -175,19 +181,24 @@ impl SingleLoop {
             _ if roots == Roots::Real || solver.structural_rank() < 6 => None,
             Status::Incomplete => {
                 let everywhere = prepared.bound(&self.chain).count;
-                Some(count_here().map_or(everywhere, |here| here.count.min(everywhere)))
+                Some(count_here(assembly.total()).map_or(everywhere, |here| here.count.min(everywhere)))
             }
             // The exact count of three rotations knows of every self-motion: what f64 took for one is none.
-            Status::SelfMotion if prepared.general() == 2 => count_here().map(|here| here.count),
+            Status::SelfMotion if prepared.general() == 2 => count_here(2).map(|here| here.count),
             _ => None,
         };
-        let open = || self.chain.try_open_loop::<LongFloat>(&prepared.layout).ok().flatten();
-        if let Some(expected) = expected
-            && let (Some(open), Ok(filling)) = (open(), filling(case))
-        {
-            solver.rescue(&open.close(&filling), expected, assembly);
+        if let Some(expected) = expected {
+            self.rescue::<LongFloat>(prepared, case, plan(), expected, assembly);
             verdict = judge(assembly);
+            if verdict.status == Status::Incomplete {
+                // Solutions that only the rounding of the data keeps from infinity.
+                self.rescue::<LongerFloat>(prepared, case, plan(), expected, assembly);
+                verdict = judge(assembly);
+            }
             solve_us = start.elapsed().as_secs_f64() * 1e6;
+        }
+        if solver.structural_rank() < 6 {
+            verdict.reason += &dependent(&self.chain, &prepared.layout, solver.axis_triples());
         }
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {
@@ -198,31 +209,47 @@ impl SingleLoop {
             verdict,
             modes: modes.collect(),
             warnings: case.warnings.clone(),
-            prepare_us: prepared.prepare_us,
+            prepare_us: *prepare_us,
             solve_us,
             platform: None,
         })
     }
 
+    /// Looks again for what is missing of a list, in longer numbers.
+    fn rescue<R: Extended>(
+        &self,
+        prepared: &SixUnknowns,
+        case: &Case,
+        plan: Option<&Plan>,
+        expected: usize,
+        assembly: &mut Assembly,
+    ) {
+        let open: Option<OpenLoop<R>> = self.chain.try_open_loop(&prepared.layout).ok().flatten();
+        if let (Some(open), Ok(filling)) = (open, filling(case)) {
+            prepared.solver.rescue(&open.close(&filling), plan, expected, assembly);
+        }
+    }
+
     /// Solves a loop with two balls.
     fn solve_coupled(
         &self,
-        layout: &Layout,
+        prepared: &Balls,
+        prepare_us: f64,
         case: &Case,
         roots: Roots,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
         let start = Instant::now();
-        let coupled = self.chain.coupled_loop::<f64>(layout, &filling(case)?)?;
+        let layout = &prepared.layout;
+        let coupled = prepared.open.close(&filling(case)?);
         let balls = coupler::solve(&coupled, roots, workspace, assembly);
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let count = filling::<Mod>(case)
-            .and_then(|filling| self.chain.coupled_loop::<Mod>(layout, &filling))
-            .map(|coupled| spherical_pair::count(&coupled));
+        let modular = prepared.modular.as_ref().zip(filling::<Mod>(case).ok());
+        let count = modular.and_then(|(open, filling)| spherical_pair::count(&open.close(&filling)));
         let bound = || match count {
-            Ok(Some(count)) => bound_from(Degree { solutions: count, left_out: 2 - count }, "at this input"),
-            _ => Bound::general(2),
+            Some(count) => bound_from(Degree { solutions: count, left_out: 2 - count }, "at this input"),
+            None => Bound::general(2),
         };
         let mut verdict = verdict(assembly, roots, 6, 2, bound, || Some(bound()), None);
         verdict.reason += "; the link between the two S joints spins freely about the line of their centres, \
@@ -239,11 +266,55 @@ impl SingleLoop {
             verdict,
             modes: modes.collect(),
             warnings: case.warnings.clone(),
-            prepare_us: 0.0,
+            prepare_us,
             solve_us,
             platform: None,
         })
     }
+}
+
+/// The way to solve a loop, prepared.
+fn way(chain: &Chain, layout: Layout) -> Result<Way> {
+    if layout.second_ball.is_some() {
+        let (open, modular) = (chain.open_coupled(&layout, &Numbers)?, chain.open_coupled(&layout, &Numbers).ok());
+        return Ok(Way::Balls(Box::new(Balls { layout, open, modular })));
+    }
+    let open: OpenLoop<f64> = chain.open_loop(&layout)?;
+    let solver = match layout.ball_unknown() {
+        Some(ball) => Solver::with_ball(&open, ball),
+        None => Solver::prepare(&open),
+    };
+    if solver.is_out_of_reach() {
+        let rotations = layout_rotations(&open);
+        let rank = solver.structural_rank();
+        return Err(Error::Unsupported(format!(
+            "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without turning; the \
+             screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does not close ({} of the \
+             whole loop); solved are loops with three unknown rotations at least: give a distance in place of an angle",
+            6 - rank,
+            Freedom::of(chain)
+        )));
+    }
+    Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular: OnceLock::new(), bound: OnceLock::new() })))
+}
+
+/// Why six joints are dependent, where two triples of their axes say it.
+fn dependent(chain: &Chain, layout: &Layout, triples: &[AxisTriple]) -> String {
+    let [one, two] = triples else { return String::new() };
+    let freedoms = |kind: JointKind| match kind {
+        JointKind::Cylindrical => 2,
+        JointKind::Spherical => 3,
+        _ => 1,
+    };
+    let kinds = chain.joint_kinds().into_iter().enumerate();
+    let joints: Vec<usize> = kinds.flat_map(|(k, kind)| std::iter::repeat_n(k + 1, freedoms(kind))).collect();
+    let variables = layout.joint_variables();
+    let name = |triple: &AxisTriple| {
+        let joint = |k: usize| variables[triple.first + k].and_then(|v| joints.get(v)).copied().unwrap_or(0);
+        let how = if triple.parallel { "are parallel" } else { "meet in a point" };
+        format!("the axes of joints {}, {}, {} {how}", joint(0), joint(1), joint(2))
+    };
+    format!("; {} and {}: their six screws are dependent in every position", name(one), name(two))
 }
 
 /// A mode as a user reads it.
@@ -338,7 +409,7 @@ pub(super) fn locked_value(case: &Case) -> f64 {
 }
 
 /// Whether every joint can be within its limits, angles modulo whole turns.
-fn within_limits(q: &[Complex<f64>], variables: &[Variable], limits: &[[f64; 2]]) -> bool {
+pub(super) fn within_limits(q: &[Complex<f64>], variables: &[Variable], limits: &[[f64; 2]]) -> bool {
     q.iter().zip(variables).zip(limits).all(|((value, variable), [low, high])| match variable {
         Variable::Translation => (*low..=*high).contains(&value.re),
         Variable::Rotation => {

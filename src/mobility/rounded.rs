@@ -14,12 +14,14 @@ use std::f64::consts::{PI, TAU};
 
 /// Closure residuals up to this are rounding.
 const CLOSED: f64 = 1e-13;
+/// Residuals above this at an end of a range are on their way to more.
+const CEASING: f64 = CLOSED / 4.0;
 /// Inputs in a full turn, none of them special.
 const INPUTS: u32 = 180;
 /// At least so many neighbouring inputs make a range.
 const FEWEST: usize = 12;
 /// Decimals of so many digits behind the point may be rounded numbers.
-const LONG: u32 = 12;
+const LONG: u32 = 14;
 /// No decimal of more digits is looked at.
 const MOST_DIGITS: u32 = 64;
 
@@ -42,7 +44,8 @@ pub(super) fn closing(entry: &Entry, variables: &[JointVariable]) -> Result<Opti
             continue;
         }
         let input = |radians: f64| Input { joint, value: InputValue::Angle(Angle::from_radians(radians)) };
-        let one = Entry { cases: vec![Case::given(input(0.0), 0)], ..entry.clone() };
+        // Long decimals, too, are rounded numbers here.
+        let one = Entry { cases: vec![Case::given(input(0.0), 0)], rounded: true, ..entry.clone() };
         // Joints without which the others are dependent cannot be held.
         let Ok(mechanism) = Mechanism::prepare(&one) else { continue };
         let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
@@ -59,25 +62,18 @@ pub(super) fn closing(entry: &Entry, variables: &[JointVariable]) -> Result<Opti
         samples.rotate_left(open);
         let ranges = samples.split(|(_, modes)| modes.is_empty());
         let longest = ranges.max_by_key(|range| range.len()).unwrap_or_default();
-        if longest.len() >= FEWEST {
+        // The best mode of each input: others may be of another, broken branch.
+        let best = |(_, modes): &(f64, Vec<FullMode>)| modes.iter().map(|m| m.residual).fold(f64::INFINITY, f64::min);
+        // A range ends in limit positions; a loop that only nearly closes ceases to close.
+        let ceases = longest.len() < samples.len()
+            && [longest.first(), longest.last()].into_iter().flatten().any(|end| best(end) > CEASING);
+        if longest.len() >= FEWEST && !ceases {
             let (held, modes) = longest[longest.len() / 2].clone();
-            // The best mode of each input: others may be of another, broken branch.
-            let best =
-                |(_, modes): &(f64, Vec<FullMode>)| modes.iter().map(|m| m.residual).fold(f64::INFINITY, f64::min);
             let residual = longest.iter().map(best).fold(0.0, f64::max);
             return Ok(Some(Closing { held: (k, held), modes, residual, inputs: (longest.len(), samples.len()) }));
         }
     }
     Ok(None)
-}
-
-/// What closing to rounding says of a loop whose decimals are taken exactly and do not move.
-pub(super) fn remark(closing: &Closing, variables: &[JointVariable]) -> String {
-    format!(
-        "with its decimals taken as exact numbers; to rounding it closes, with residuals up to {:.1e} at {} of {} inputs of \
-         joint {}: if they are rounded, write them as expressions",
-        closing.residual, closing.inputs.0, closing.inputs.1, variables[closing.held.0].joint
-    )
 }
 
 /// Whether the loop of exact arithmetic is that of the file.

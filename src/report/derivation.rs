@@ -27,10 +27,11 @@ pub fn verdict(derivation: &Derivation) -> String {
         return format!("no closure polynomial: {}", derivation.without.as_deref().unwrap_or("not known"));
     };
     let (name, degree) = (variable(derivation, polynomial), polynomial.degree());
+    let certainty = if derivation.proved { "proved" } else { "probability of error below 2^-40" };
     let mut text = match (polynomial.distinct(), polynomial.roots.len()) {
         (0, _) => format!("degree 0 in {name}, no finite root"),
-        (1, real) => format!("degree {degree} in {name}, 1 distinct root, {real} real (proved)"),
-        (distinct, real) => format!("degree {degree} in {name}, {distinct} distinct roots, {real} real (proved)"),
+        (1, real) => format!("degree {degree} in {name}, 1 distinct root, {real} real ({certainty})"),
+        (distinct, real) => format!("degree {degree} in {name}, {distinct} distinct roots, {real} real ({certainty})"),
     };
     if polynomial.at_pi > 0 {
         let more = if degree > 0 { " more" } else { "" };
@@ -201,6 +202,7 @@ pub fn json(entry: &Entry, case: usize, derivation: &Derivation) -> Value {
             json!({ "factor": text, "multiplicity": one.multiplicity, "reason": one.reason })
         };
         document["removed_factors"] = polynomial.removed.iter().map(factor).collect();
+        document["proved"] = json!(derivation.proved);
         document["discriminant_sign"] = json!(polynomial.discriminant_sign());
         let factor =
             |(degree, multiplicity): &(usize, usize)| json!({ "degree": degree, "multiplicity": multiplicity });

@@ -7,7 +7,7 @@ use super::text::variables;
 use crate::catalogue::entry::Entry;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::Vector;
-use crate::kinematics::screw_system::Screw;
+use crate::kinematics::screw_system::{PrincipalScrew, Screw, ScrewSystem};
 use crate::mobility::{Configuration, Local, Mobility};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -79,6 +79,14 @@ pub fn text(entry: &Entry, answer: &Mobility) -> String {
         for screw in &configuration.redundant {
             let _ = writeln!(text, "  reciprocal screw: {}", described(screw));
         }
+        let (principal, translations) = principal(configuration);
+        for PrincipalScrew { screw, .. } in &principal {
+            let _ = writeln!(text, "  principal screw of the joints: {}", described(screw));
+        }
+        match translations {
+            0 => {}
+            n => _ = writeln!(text, "  the joints admit {}", counted(n, "independent translation")),
+        }
     }
     if !answer.configurations.is_empty() {
         text.push('\n');
@@ -99,6 +107,16 @@ pub fn text(entry: &Entry, answer: &Mobility) -> String {
         text += "angles in degrees, distances in metres\n";
     }
     text
+}
+
+/// The principal screws of the system of the joints, and how many independent translations it has; none where the joints
+/// admit every motion.
+fn principal(configuration: &Configuration) -> (Vec<PrincipalScrew>, usize) {
+    if configuration.rank >= 6 {
+        return (Vec::new(), 0);
+    }
+    // What is reciprocal to all screws reciprocal to the joints.
+    ScrewSystem::of(&configuration.redundant).reciprocal().principal_screws()
 }
 
 /// What the configurations near one form.
@@ -156,6 +174,7 @@ fn configuration(configuration: &Configuration) -> Value {
         Local::Isolated { order } => Some(order),
         _ => None,
     };
+    let (principal, translations) = principal(configuration);
     json!({
         "q": configuration.q.iter().map(|x| number(*x)).collect::<Vec<_>>(),
         "degree": (configuration.degree > 0).then_some(configuration.degree),
@@ -165,6 +184,8 @@ fn configuration(configuration: &Configuration) -> Value {
         "moving": configuration.moving,
         "system": configuration.system,
         "redundant": configuration.redundant.iter().map(screw).collect::<Vec<_>>(),
+        "principal": principal.iter().map(|p| screw(&p.screw)).collect::<Vec<_>>(),
+        "translations": translations,
     })
 }
 

@@ -143,6 +143,7 @@ pub fn json(file: &MotionFile, factored: &Factored, closed: Option<&Loop>) -> Va
         let part = |v: &[Rational; 3]| v.each_ref().map(ToString::to_string);
         json!({ "direction": part(&screw.direction), "moment": part(&screw.moment) })
     };
+    let reason = verdict(factored, closed);
     let closed = closed.map(|closed| {
         let links = closed.parameters.as_ref().map(|links| {
             let one = |link: &crate::kinematics::motion_polynomial::LinkParameters| {
@@ -170,6 +171,6 @@ pub fn json(file: &MotionFile, factored: &Factored, closed: Option<&Loop>) -> Va
         "norm_factors": factored.quadratics(),
         "factorisations": list,
         "loop": closed,
-        "reason": verdict(factored, None),
+        "reason": reason,
     })
 }

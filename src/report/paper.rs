@@ -87,13 +87,13 @@ impl<'n> Paper<'n> {
 
     /// `name = polynomial`
     pub(super) fn definition(&mut self, name: &str, polynomial: &Polynomial<Rational>) {
-        let name = self.name(name);
+        let name = Self::name(name);
         self.lines(&format!("{name} = "), polynomial, "");
     }
 
     /// `variable = N/D`, then N and D.
     pub(super) fn quotient(&mut self, variable: usize, parts: [&Polynomial<Rational>; 2]) {
-        let name = self.name(&self.names.list()[variable]);
+        let name = Self::name(&self.names.list()[variable]);
         let [above, below] = ["N", "D"].map(|letter| format!("{letter}_{{{name}}}"));
         self.formula(&format!("{name} = \\frac{{{above}}}{{{below}}}"));
         for (name, part) in [above, below].iter().zip(parts) {
@@ -156,7 +156,7 @@ impl<'n> Paper<'n> {
     }
 
     /// A name in a formula.
-    fn name(&self, name: &str) -> String {
+    fn name(name: &str) -> String {
         let one = Names::given([name.to_owned()]);
         one.map_or_else(|_| name.to_owned(), |names| words(&Format::Latex.polynomial(&Polynomial::variable(0), &names)))
     }
@@ -179,7 +179,7 @@ impl<'n> Paper<'n> {
     /// A word that is a symbol: a variable, a letter with a number or a power, a Greek letter.
     fn symbol(&self, word: &str) -> Option<String> {
         if self.names.list().iter().any(|name| name == word) && word.chars().any(|c| c.is_ascii_digit()) {
-            return Some(self.name(word));
+            return Some(Self::name(word));
         }
         if let Some((base, power)) = word.split_once('^') {
             let digits = !power.is_empty() && power.chars().all(|c| c.is_ascii_digit());
@@ -191,9 +191,9 @@ impl<'n> Paper<'n> {
         }
         let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
         match letters {
-            "alpha" | "theta" => Some(self.name(word)),
+            "alpha" | "theta" => Some(Self::name(word)),
             "eps" => Some("\\varepsilon".to_owned()),
-            "f" | "g" | "u" | "v" | "t" | "p" | "q" | "N" if word.len() <= 2 => Some(self.name(word)),
+            "f" | "g" | "u" | "v" | "t" | "p" | "q" | "N" if word.len() <= 2 => Some(Self::name(word)),
             _ => None,
         }
     }

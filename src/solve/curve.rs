@@ -8,6 +8,7 @@ use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
 use crate::kinematics::closed_loop::{OpenLoop, Variable};
 use crate::kinematics::motion::{Motion, cross};
+use nalgebra::SMatrix;
 
 /// Seven joint variables: the six unknowns in loop order, then the input. Lengths over the scale of the loop.
 pub type Point = [f64; 7];
@@ -22,6 +23,8 @@ pub const ALONG_INPUT: Point = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
 #[derive(Clone, Debug)]
 pub struct Curve {
     variables: [Variable; 7],
+    /// Which of them are idle: 0 all along the curve of an overconstrained loop, whose equations are more than its joints.
+    idle: [bool; 7],
     constants: [Motion<f64>; 7],
     scale: f64,
 }
@@ -47,9 +50,9 @@ fn bordered(jacobian: &[[f64; 7]; 6], border: &Point) -> [[f64; 7]; 7] {
 }
 
 impl Curve {
-    /// The curve of a loop whose gap the input of this kind fills.
+    /// The curve of a loop whose gap the input of this kind fills; `idle` says which of its unknowns stay at 0.
     #[must_use]
-    pub fn new(open: &OpenLoop<f64>, input: Variable) -> Self {
+    pub fn new(open: &OpenLoop<f64>, idle: [bool; 6], input: Variable) -> Self {
         let mut constants: [Motion<f64>; 7] = std::array::from_fn(|j| match j {
             0..5 => open.constants[j].clone(),
             5 => open.before_gap.clone(),
@@ -63,7 +66,8 @@ impl Curve {
             constant.translation = constant.translation.map(|x| x / scale);
         }
         let variables = std::array::from_fn(|j| if j < 6 { open.variables[j] } else { input });
-        Self { variables, constants, scale }
+        let idle = std::array::from_fn(|j| j < 6 && idle[j]);
+        Self { variables, idle, constants, scale }
     }
 
     /// What each variable does.
@@ -105,6 +109,25 @@ impl Curve {
         })
     }
 
+    /// The inverse of a bordered Jacobian, by least squares where some variables are idle: they would make some positions
+    /// singular that are not.
+    fn inverted(&self, bordered: &[[f64; 7]; 7]) -> Option<[[f64; 7]; 7]> {
+        /// Singular values below this part of the largest are none.
+        const RANK: f64 = 1e-13;
+        let moving = self.idle.iter().filter(|idle| !**idle).count();
+        if moving == 7 {
+            return inverse(bordered);
+        }
+        let matrix = SMatrix::<f64, 7, 7>::from_fn(|i, j| if self.idle[j] { 0.0 } else { bordered[i][j] });
+        let svd = matrix.svd(true, true);
+        let least = RANK * svd.singular_values.max();
+        if svd.rank(least) < moving {
+            return None;
+        }
+        let inverse = svd.pseudo_inverse(least).ok()?;
+        Some(std::array::from_fn(|i| std::array::from_fn(|j| if self.idle[i] { 0.0 } else { inverse[(i, j)] })))
+    }
+
     fn here(&self, at: &Point) -> Here {
         let mut frame = Motion::identity();
         let mut jacobian = [[0.0; 7]; 6];
@@ -141,7 +164,7 @@ impl Curve {
     /// none at a limit position.
     #[must_use]
     pub fn taylor<const N: usize>(&self, at: &Point, border: &Point) -> Option<[[f64; 7]; N]> {
-        let inverted = inverse(&bordered(&self.here(at).jacobian, border))?;
+        let inverted = self.inverted(&bordered(&self.here(at).jacobian, border))?;
         let mut values: [Series<f64, N>; 7] = at.map(Series::constant);
         for order in 1..N {
             // With this order still 0 the residual holds what the lower ones bring about.
@@ -165,13 +188,19 @@ impl Curve {
         /// Columns left over by elimination below this part of the largest are none.
         const RANK: f64 = 1e-10;
         let mut a = self.here(at).jacobian;
+        // Idle variables last, and left out.
         let mut columns = [0, 1, 2, 3, 4, 5, 6];
+        columns.sort_by_key(|&j| self.idle[j]);
+        for line in &mut a {
+            *line = columns.map(|j| line[j]);
+        }
+        let free = self.idle.iter().filter(|idle| !**idle).count() - 1;
         let mut first = 0.0;
         // Complete pivoting: what is left over is the free column.
-        for k in 0..6 {
+        for k in 0..free {
             let (mut row, mut column) = (k, k);
             for i in k..6 {
-                for j in k..7 {
+                for j in k..=free {
                     if a[i][j].abs() > a[row][column].abs() {
                         (row, column) = (i, j);
                     }
@@ -198,9 +227,9 @@ impl Curve {
             }
         }
         let mut solved = [0.0; 7];
-        solved[6] = 1.0;
-        for k in (0..6).rev() {
-            let sum: f64 = (k + 1..7).map(|j| a[k][j] * solved[j]).sum();
+        solved[free] = 1.0;
+        for k in (0..free).rev() {
+            let sum: f64 = (k + 1..=free).map(|j| a[k][j] * solved[j]).sum();
             solved[k] = -sum / a[k][k];
         }
         let length = solved.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -225,7 +254,7 @@ impl Curve {
         for _ in 0..MOST_STEPS {
             let here = self.here(&at);
             let right = std::array::from_fn(|i| if i < 6 { here.residual[i] } else { 0.0 });
-            let inverted = inverse(&bordered(&here.jacobian, border))?;
+            let inverted = self.inverted(&bordered(&here.jacobian, border))?;
             let step = times(&inverted, &right);
             let size = step.iter().map(|x| x.abs()).fold(0.0, f64::max);
             let longest = at.iter().map(|x| x.abs()).fold(1.0, f64::max);

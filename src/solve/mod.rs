@@ -6,6 +6,7 @@ pub mod curve;
 pub mod dense;
 pub mod eigen;
 pub mod francis;
+pub mod hessenberg;
 pub mod kernel;
 pub mod newton;
 pub mod polynomial_roots;

@@ -18,6 +18,10 @@ pub struct Closure<S> {
     pub jacobian: [Six<S>; 6],
     /// The largest entry of |E - I|.
     pub defect: f64,
+    /// The largest one of its rotation.
+    pub turn: f64,
+    /// The largest one of its translation.
+    pub shift: f64,
     /// The trace of the rotation of E.
     pub trace: S,
     /// Norms for error bounds, one triple per unknown.
@@ -43,6 +47,31 @@ impl<S> Closure<S> {
     #[must_use]
     pub fn growth(&self, real: bool) -> f64 {
         if real { 1.0 } else { self.norms.iter().map(|n| n.before * n.step * n.behind).fold(1.0, f64::max) }
+    }
+}
+
+impl<S: Number> Closure<S> {
+    /// The defect over the size of what cancels in it. Of real unknowns the entries of rotations are no larger than 1, and
+    /// the translation is a sum of the links and joint translations round the loop: it counts in parts of their whole
+    /// length, or of the scale of lengths if that is larger. Of complex unknowns it is the largest product of the norms of
+    /// all steps before, at and behind one of them.
+    #[must_use]
+    pub fn relative_defect(&self, closed: &ClosedLoop<S::Real>, unknowns: &Six<Complex<f64>>, real: bool) -> f64
+    where
+        S::Real: Number,
+    {
+        if !real {
+            return self.defect / self.growth(false);
+        }
+        let link = |motion: &Motion<S::Real>| motion.translation.iter().map(|x| x.square_size()).sum::<f64>().sqrt();
+        let slides = unknowns.iter().zip(closed.variables).filter(|(_, kind)| *kind == Variable::Translation);
+        let length = closed.constants.iter().map(link).sum::<f64>() + slides.map(|(x, _)| x.norm()).sum::<f64>();
+        self.defect_over(length.max(1.0))
+    }
+
+    /// The defect with its translation in parts of this length.
+    fn defect_over(&self, length: f64) -> f64 {
+        larger(self.turn, self.shift / length)
     }
 }
 
@@ -169,18 +198,20 @@ where
     let r = &frame.rotation;
     let half = |x: S, y: S| x.sub(&y).halved();
     let t = frame.translation;
-    let mut defect = 0.0_f64;
+    let (mut turn, mut shift) = (0.0_f64, 0.0_f64);
     for i in 0..3 {
         for j in 0..3 {
             let off = if i == j { r[i][j].sub(&S::one()) } else { r[i][j] };
-            defect = larger(defect, off.size());
+            turn = larger(turn, off.size());
         }
-        defect = larger(defect, t[i].size());
+        shift = larger(shift, t[i].size());
     }
     Closure {
         residual: [half(r[2][1], r[1][2]), half(r[0][2], r[2][0]), half(r[1][0], r[0][1]), t[0], t[1], t[2]],
         jacobian,
-        defect,
+        defect: larger(turn, shift),
+        turn,
+        shift,
         trace: r[0][0].add(&r[1][1]).add(&r[2][2]),
         norms,
     }
@@ -227,10 +258,13 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
     let mut unknowns = *start;
     let mut here = closure(closed, &unknowns);
     let raw = here.defect;
+    // Beside long translations, whose rounding is as long, the rotation counts in full.
+    let length = reach(&closed.variables, &start.map(Scalar::to_complex));
     let mut known_inverse = None;
     for count in 0..MOST_STEPS {
         let floor = ROUNDING.max(1e-16 * here.growth(S::REAL));
-        if !here.defect.is_finite() || (here.defect <= floor && known_inverse.is_some()) {
+        let defect = here.defect_over(length);
+        if !defect.is_finite() || (defect <= floor && known_inverse.is_some()) {
             break;
         }
         let inverted = inverse(&here.jacobian);
@@ -238,21 +272,22 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
             let step = times(matrix, &here.residual);
             let next: Six<S> = std::array::from_fn(|k| unknowns[k].sub(&step[k]));
             let there = closure(closed, &next);
-            if there.defect < 0.5 * here.defect {
+            let left = there.defect_over(length);
+            if left < 0.5 * defect {
                 (unknowns, here, known_inverse) = (next, there, inverted);
                 continue;
             }
             // At a regular root one step from here lands on rounding; creeping just above it is noise.
-            if there.defect < here.defect && there.defect < 50.0 * floor {
+            if left < defect && left < 50.0 * floor {
                 (unknowns, here, known_inverse) = (next, there, inverted);
                 break;
             }
             known_inverse = inverted;
         }
-        if here.defect <= 5.0 * floor && count > 0 {
+        if defect <= 5.0 * floor && count > 0 {
             break;
         }
-        let Some((next, there)) = damped(closed, &unknowns, &here) else { break };
+        let Some((next, there)) = damped(closed, &unknowns, &here, length) else { break };
         (unknowns, here) = (next, there);
         known_inverse = None;
     }
@@ -309,13 +344,18 @@ fn damped_step<S: Scalar>(here: &Closure<S>, damping: f64) -> Option<Six<S>> {
 }
 
 /// The best of some Levenberg-Marquardt steps, from none to strong damping, that go downhill.
-fn damped<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>, here: &Closure<S>) -> Option<(Six<S>, Closure<S>)> {
+fn damped<S: Scalar>(
+    closed: &ClosedLoop<f64>,
+    unknowns: &Six<S>,
+    here: &Closure<S>,
+    length: f64,
+) -> Option<(Six<S>, Closure<S>)> {
     let mut best: Option<(Six<S>, Closure<S>)> = None;
     for damping in [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2] {
         let Some(step) = damped_step(here, damping) else { continue };
         let next: Six<S> = std::array::from_fn(|k| unknowns[k].sub(&step[k]));
         let there = closure(closed, &next);
-        if there.defect < best.as_ref().map_or(here, |(_, closure)| closure).defect {
+        if there.defect_over(length) < best.as_ref().map_or(here, |(_, closure)| closure).defect_over(length) {
             best = Some((next, there));
         }
     }

@@ -9,10 +9,8 @@ use crate::algebra::univariate::Univariate;
 use num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Rounds without a root that settles after which none will: multiple roots come nearer by a constant factor only.
+/// Rounds in 384 bits without a root that settles after which none will.
 const PATIENCE: usize = 60;
-/// Leading coefficients below this part of the largest one are none.
-const LEADING: f64 = 1e-90;
 
 /// The simple roots of a polynomial with real coefficients; those at infinity and multiple ones, which do not settle, are
 /// left out. `None` for zero.
@@ -21,22 +19,23 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
     let coefficients = polynomial.coefficients();
     let sizes: Vec<f64> = coefficients.iter().map(|c| c.to_f64().abs()).collect();
     let largest = sizes.iter().copied().fold(0.0, f64::max);
-    let degree = sizes.iter().rposition(|size| *size > LEADING * largest)?;
+    // Leading coefficients that are nearly rounding are none.
+    let degree = sizes.iter().rposition(|size| *size > R::UNIT_ROUNDOFF.powf(0.8) * largest)?;
     let coefficients = &coefficients[..=degree];
-    // A circle about the origin whose radius is the mean of the roots; turned, so that no two approximations are
-    // conjugate and stay so.
-    let first = sizes.iter().position(|size| *size > 0.0).unwrap_or(0);
-    let radius = (sizes[first] / sizes[degree]).powf(1.0 / (degree - first).max(1) as f64);
-    if !(radius > 0.0 && radius.is_finite()) {
-        return (degree == 0).then(Vec::new);
+    let radii = radii(&sizes[..=degree]);
+    if !radii.iter().all(|radius| *radius > 0.0 && radius.is_finite()) {
+        return None;
     }
-    let start = |k: usize| Complex::from_polar(radius, TAU * (k as f64 + 0.3) / degree as f64 + 0.4);
+    // Turned, so that no two approximations are conjugate and stay so.
+    let start = |k: usize| Complex::from_polar(radii[k], TAU * (k as f64 + 0.3) / degree as f64 + 0.4);
     let mut roots: Vec<Complex<R>> = (0..degree).map(|k| extended(start(k))).collect();
     // Corrections of this relative size are rounding.
     let settled = R::UNIT_ROUNDOFF.powf(0.75);
+    // More digits tell nearer roots apart, to which approximations come nearer by a constant factor only.
+    let patience = PATIENCE * (R::BITS as usize).div_ceil(384).pow(2);
     let mut open = vec![true; degree];
     let mut idle = 0;
-    while idle < PATIENCE && open.contains(&true) {
+    while idle < patience && open.contains(&true) {
         idle += 1;
         for k in 0..degree {
             if !open[k] {
@@ -51,7 +50,7 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
             }
             let Some(newton) = slope.inverse().map(|inverse| value.mul(&inverse)) else {
                 // At a zero of the derivative: anywhere else.
-                roots[k] = x.add(&extended(Complex::new(1e-3 * radius, 2e-3 * radius)));
+                roots[k] = x.add(&extended(Complex::new(1e-3 * radii[k], 2e-3 * radii[k])));
                 continue;
             };
             let repelled = (0..degree).filter(|j| *j != k).fold(Complex::new(0.0, 0.0), |sum, j| {
@@ -69,6 +68,29 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
         }
     }
     Some(roots.into_iter().zip(open).filter(|(_, open)| !open).map(|(root, _)| root).collect())
+}
+
+/// How far from the origin the roots may be, by the sizes of the coefficients: every edge of their upper convex hull, on
+/// a logarithmic scale, stands for as many roots as it is long, and its slope for their size. Roots at 0 share the
+/// smallest radius.
+fn radii(sizes: &[f64]) -> Vec<f64> {
+    let slope = |i: usize, j: usize| (sizes[j].ln() - sizes[i].ln()) / (j - i) as f64;
+    let mut hull: Vec<usize> = Vec::new();
+    for k in (0..sizes.len()).filter(|&k| sizes[k] > 0.0) {
+        while let [.., i, j] = hull[..]
+            && slope(i, j) <= slope(j, k)
+        {
+            hull.pop();
+        }
+        hull.push(k);
+    }
+    let mut radii = Vec::new();
+    for edge in hull.windows(2) {
+        radii.resize(edge[1], (-slope(edge[0], edge[1])).exp());
+    }
+    // A power of the variable alone has no edge.
+    radii.resize(sizes.len().saturating_sub(1), 1.0);
+    radii
 }
 
 /// A real polynomial and its derivative at a point.

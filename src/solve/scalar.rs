@@ -2,7 +2,7 @@
 //! proofs and for roots that f64 does not reach.
 
 use crate::algebra::double_double::DoubleDouble;
-use crate::algebra::long_float::LongFloat;
+use crate::algebra::long_float::LongNumber;
 use crate::algebra::ring::{Field, Ring};
 use num_complex::Complex;
 
@@ -43,6 +43,8 @@ pub trait Extended: Number<Real = Self> + From<f64> {
     fn to_f64(self) -> f64;
     /// How often Newton's method doubles the digits of f64 until all are right.
     const DOUBLINGS: u32;
+    /// Bits of a mantissa.
+    const BITS: u32;
 }
 
 /// A complex number of as many digits, exactly.
@@ -158,19 +160,21 @@ impl Extended for DoubleDouble {
         Self::to_f64(self)
     }
     const DOUBLINGS: u32 = 1;
+    const BITS: u32 = 106;
 }
 
-impl Extended for LongFloat {
+impl<const LIMBS: usize> Extended for LongNumber<LIMBS> {
     fn to_f64(self) -> f64 {
         Self::to_f64(self)
     }
-    const DOUBLINGS: u32 = 3;
+    const DOUBLINGS: u32 = Self::DOUBLINGS;
+    const BITS: u32 = Self::BITS;
 }
 
 /// What numbers of more digits have in common, their unit roundoff and their halves apart.
 macro_rules! extended_number {
-    ($real:ty, $halved:expr) => {
-        impl Number for $real {
+    ($real:ty, $halved:expr $(, $parameter:ident)?) => {
+        impl$(<const $parameter: usize>)? Number for $real {
             type Real = Self;
             const UNIT_ROUNDOFF: f64 = <$real>::UNIT_ROUNDOFF;
             fn times(self, x: Self) -> Self {
@@ -207,7 +211,7 @@ macro_rules! extended_number {
 }
 
 extended_number!(DoubleDouble, |x: DoubleDouble| x.mul(&DoubleDouble::from(0.5)));
-extended_number!(LongFloat, |x: LongFloat| x.shifted(-1));
+extended_number!(LongNumber<LIMBS>, |x: Self| x.shifted(-1), LIMBS);
 
 /// Newton's method for a square root: every step doubles the digits.
 fn improved_root<S: Number>(of: S, start: S, doublings: u32) -> S {

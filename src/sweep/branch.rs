@@ -140,7 +140,8 @@ impl Web {
                 paths.push((path, closed));
             }
         }
-        let mut found = Found { web: self, curve, range, limits: Vec::new(), keys: Vec::new() };
+        let borders = [steps.first(), steps.last()].map(|sample| sample.map_or(range.from, |sample| sample.input));
+        let mut found = Found { web: self, curve, range, borders, limits: Vec::new(), keys: Vec::new() };
         let mut branches: Vec<Branch> = paths.iter().map(|(path, closed)| found.branch(path, *closed, steps)).collect();
         self.circuits(&mut branches, &paths, &owner);
         found.between(&mut branches, &owner);
@@ -202,6 +203,8 @@ struct Found<'a> {
     web: &'a Web,
     curve: &'a InputCurve,
     range: Range,
+    /// The first and the last input that were looked at.
+    borders: [f64; 2],
     limits: Vec<Limit>,
     /// Bridge and number in it of every limit position.
     keys: Vec<(usize, usize)>,
@@ -252,7 +255,15 @@ impl Found<'_> {
         let web = self.web;
         let own = web.samples[node.0].0.input;
         match web.fate(node, forwards) {
-            None => (End::Range, own),
+            None => {
+                let border = self.borders[usize::from(forwards)];
+                let step = (self.range.to - self.range.from) / self.range.steps as f64;
+                // Beyond the last input of which anything is known nothing is known, short of the end of the range.
+                if (own - border).abs() < 0.5 * step.abs() {
+                    return (End::Range, own);
+                }
+                (End::Unresolved([own, if forwards { own + step } else { own - step }]), own)
+            }
             Some((bridge, Fate::Back(_, folds) | Fate::On(_, folds) | Fate::Infinite(_, folds)))
                 if !folds.is_empty() =>
             {

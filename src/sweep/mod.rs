@@ -104,7 +104,8 @@ pub fn sweep(
     entry.cases = vec![case(joint, variable, range.from)];
     let curve = InputCurve::of(&entry, &entry.cases[0])?;
     let mechanism = Mechanism::prepare(&entry)?;
-    let swept = Swept { mechanism: &mechanism, curve: &curve, joint, variable, is_rounded: entry.rounded };
+    let is_overconstrained = curve.variables().len() < 7;
+    let swept = Swept { mechanism: &mechanism, curve: &curve, joint, variable, is_overconstrained };
     let memory = || (Workspace::default(), Assembly::default());
     let mut samples: Vec<Sample> = Vec::new();
     let steps: Vec<usize> = (0..=range.steps).collect();

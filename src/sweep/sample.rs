@@ -80,8 +80,8 @@ pub(super) struct Swept<'a> {
     pub curve: &'a InputCurve,
     pub joint: usize,
     pub variable: Variable,
-    /// Whether numbers of the mechanism were rounded.
-    pub is_rounded: bool,
+    /// Whether it has fewer than seven variables.
+    pub is_overconstrained: bool,
 }
 
 impl Swept<'_> {
@@ -93,7 +93,7 @@ impl Swept<'_> {
         // An empty list without a proof says nothing.
         let is_known = solution.verdict.status != Status::Incomplete || !solution.modes.is_empty();
         // An overconstrained loop of rounded numbers closes to rounding, and has no certified modes.
-        let closes = |mode: &FullMode| self.is_rounded && mode.residual <= CLOSED && mode.condition <= REGULAR;
+        let closes = |mode: &FullMode| self.is_overconstrained && mode.residual <= CLOSED && mode.condition <= REGULAR;
         let is_regular = is_known
             && solution.verdict.status != Status::SelfMotion
             && real().all(|mode| mode.multiplicity == 1 && (mode.certified || closes(mode)));

@@ -16,6 +16,10 @@ const TURN: f64 = 0.97;
 const MOST_STEPS: usize = 2000;
 /// Translations beyond this, in scaled lengths, are on their way to infinity.
 const FAR: f64 = 1e5;
+/// Translations beyond this are where the way cannot be followed any longer and they grow as beside a pole.
+const LARGE: f64 = 1e3;
+/// Two places tell the same pole if they differ by no more than this part of the way to it.
+const SAME_POLE: f64 = 0.05;
 
 /// A limit position as it is met on the way.
 #[derive(Clone, Copy, Debug)]
@@ -99,7 +103,11 @@ impl Walk<'_> {
         towards[INPUT] = (self.target - self.begin).signum();
         let mut here = Place { point: *start, direction: self.curve.tangent(start, &towards)? };
         let mut longest = LONGEST;
+        let mut first: Option<Place> = None;
         for _ in 0..MOST_STEPS {
+            if first.is_none() && self.largest(&here).1 > LARGE {
+                first = Some(here);
+            }
             let far = here.point[..INPUT]
                 .iter()
                 .zip(self.curve.variables())
@@ -108,14 +116,38 @@ impl Walk<'_> {
                 return Some(Destination::Infinite(here.point[INPUT]));
             }
             let reach = norm(&here.point).max(4.0) / 4.0;
-            let (next, h) = self.step(&here, longest.min(LONGEST * reach))?;
-            if let Some(end) = self.events(&here, &next, h, folds).ok()? {
-                return Some(end);
+            let Some((next, h)) = self.step(&here, longest.min(LONGEST * reach)) else {
+                return self.pole(&first?, &here);
+            };
+            match self.events(&here, &next, h, folds) {
+                Ok(Some(end)) => return Some(end),
+                Ok(None) => {}
+                Err(Untraceable) => return self.pole(&first?, &here),
             }
             here = next;
             longest = 2.0 * h;
         }
         None
+    }
+
+    /// The translation that is largest, and its size.
+    fn largest(&self, place: &Place) -> (usize, f64) {
+        let translations = (0..INPUT).filter(|&k| self.curve.variables()[k] == Variable::Translation);
+        let sizes = translations.map(|k| (k, place.point[k].abs()));
+        sizes.fold((0, 0.0), |best, other| if other.1 > best.1 { other } else { best })
+    }
+
+    /// The pole of a translation on the way, as it is told alike by two places, or by one far out. There the closure in
+    /// floating point does not hold the way any longer, though beside a pole y = c/(x - x0) it is known: x0 = x + y/y'.
+    fn pole(&self, first: &Place, last: &Place) -> Option<Destination> {
+        let (k, size) = self.largest(last);
+        let pole = |place: &Place| place.point[INPUT] + place.point[k] * place.direction[INPUT] / place.direction[k];
+        let (one, two) = (pole(first), pole(last));
+        let is_same = (one - two).abs() <= SAME_POLE * (one - first.point[INPUT]).abs();
+        let is_far = size > 10.0 * LARGE || size > 2.0 * first.point[k].abs();
+        let is_ahead = (two - last.point[INPUT]) * last.direction[INPUT] > 0.0;
+        let is_inside = (two - self.begin) * (two - self.target) <= 0.0;
+        (is_same && is_far && is_ahead && is_inside).then_some(Destination::Infinite(two))
     }
 
     /// One step along the curve, no longer than `longest`, and its length.

@@ -4,8 +4,9 @@ mod platform;
 
 pub use platform::platform_verdict;
 
-use crate::assembly::{Assembly, Mode, Roots, distance};
+use crate::assembly::{Assembly, Mode, Roots, are_apart};
 use crate::kinematics::closed_loop::Variable;
+use num_complex::Complex;
 
 /// The outcome in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,15 +87,25 @@ pub fn verdict(
     let mut judged = if assembly.self_motion > 0 {
         Judged { status: Status::SelfMotion, ..Judged::unproved(self_motion(assembly, structural_rank)) }
     } else if structural_rank < 6 {
-        let found = if assembly.modes.is_empty() { "no solution was found" } else { "the list is not proved complete" };
-        Judged::unproved(format!("{}; {found}", deficient(structural_rank)))
+        let none = if assembly.modes.is_empty() { pose().filter(|here| here.count == 0) } else { None };
+        match none {
+            Some(here) => Judged {
+                status: Status::Unreachable,
+                ..Judged::unproved(format!("{}; {}", deficient(structural_rank), accounted(&[], &here)))
+            },
+            None if assembly.modes.is_empty() => {
+                Judged::unproved(format!("{}; no solution was found", deficient(structural_rank)))
+            }
+            None => Judged::unproved(format!("{}; the list is not proved complete", deficient(structural_rank))),
+        }
     } else if let Some(doubt) = doubt(&assembly.modes) {
         Judged::unproved(format!("not proved: {doubt}"))
     } else {
         count(assembly, roots, general, geometry, pose)
     };
     if assembly.rescued > 0 {
-        judged.reason += &format!("; {} of them found or proved in 384-bit arithmetic only", assembly.rescued);
+        let (rescued, bits) = (assembly.rescued, assembly.rescued_in);
+        judged.reason += &format!("; {rescued} of them found or proved in {bits}-bit arithmetic only");
     }
     if let (Some((gap, links)), Status::Incomplete, 0) = (too_far, judged.status, assembly.real()) {
         judged.status = Status::Unreachable;
@@ -204,21 +215,23 @@ fn accounted_for(certified: usize, multiple: &[usize], bound: &Bound) -> String 
         0 => String::new(),
         several => format!(" and {several} multiple ones (counted {})", multiple.iter().sum::<usize>()),
     };
+    if certified == 0 && multiple.is_empty() {
+        return format!("no root at all of {}", bound.because);
+    }
     format!("{certified} distinct certified roots{also} of {}", bound.because)
 }
 
 /// Whether the solutions proved of two modes cannot be one. A check of the list as a whole: the solver has merged what
 /// is one already. Every unknown counts as an angle here, which can only bring modes nearer.
 fn are_distinct(one: &Mode, two: &Mode) -> bool {
-    let radius = |mode: &Mode| mode.certificate.map_or(0.0, |c| c.radius);
-    distance(&[Variable::Rotation; 6], &one.unknowns, &two.unknowns) > radius(one) + radius(two)
+    are_apart(&[Variable::Rotation; 6], one, two)
 }
 
 /// Whether a complex mode is farther from the real numbers than its error.
 fn is_proved_complex(mode: &Mode) -> bool {
-    let imaginary = mode.unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
-    match mode.certificate {
-        Some(certificate) => imaginary > certificate.radius,
-        None => imaginary > 1e-6,
-    }
+    let off = |z: &Complex<f64>| match mode.certificate {
+        Some(certificate) => certificate.proved + 4.0 * f64::EPSILON * z.norm().max(1.0),
+        None => 1e-6,
+    };
+    mode.unknowns.iter().any(|z| z.im.abs() > off(z))
 }

@@ -89,7 +89,7 @@ fn both_precisions_find_the_same_solutions() {
         };
         let (mut fast, mut exact) = (Assembly::default(), Assembly::default());
         solver.solve(&filling, Roots::All, &mut Workspace::default(), &mut fast);
-        solver.rescue(&closed::<LongFloat>(&drawn, &layout).2, *count, &mut exact);
+        solver.rescue(&closed::<LongFloat>(&drawn, &layout).2, None, *count, &mut exact);
         assert_eq!((fast.total(), exact.total(), exact.rescued), (*count, *count, *count), "{name}");
         assert_eq!(fast.real(), exact.real(), "{name}");
         for mode in &fast.modes {
@@ -101,7 +101,7 @@ fn both_precisions_find_the_same_solutions() {
             assert!(near < 1e-8, "{name}: {near:e}");
         }
         // Solutions that are there already are not counted as new.
-        solver.rescue(&closed::<LongFloat>(&drawn, &layout).2, *count, &mut fast);
+        solver.rescue(&closed::<LongFloat>(&drawn, &layout).2, None, *count, &mut fast);
         assert_eq!((fast.total(), fast.rescued), (*count, 0), "{name}");
     }
 }

@@ -92,15 +92,129 @@ fn a_loop_without_input_moves_or_is_a_structure() {
 #[test]
 fn a_loop_of_seven_variables_without_input_says_what_it_needs() {
     let message = read(&bennett(&LINKS.repeat(4)[..LINKS.len() * 7 / 2], "")).unwrap_err().to_string();
-    assert!(message.contains("no [[input]]") && message.contains("mobility of 1"), "{message}");
+    assert!(
+        message.contains("no [[input]]") && message.contains("mobility 1 by Gruebler's count (7 - 6)"),
+        "{message}"
+    );
 }
 
+/// A planar four-bar may have a ball for one of its revolutes: the two positions of its closed form.
 #[test]
-fn an_overconstrained_loop_with_a_ball_is_refused() {
-    let links = format!("{LINKS}{{ type = \"S\", a = 1, tan_half_alpha = 0 }},\n");
-    let entry = read(&bennett(&links, "[[input]]\njoint = 1\nangle = 1\n")).unwrap();
-    let message = Mechanism::prepare(&entry).map(|_| ()).unwrap_err().to_string();
-    assert!(message.contains("overconstrained loop with an S joint"), "{message}");
+fn an_overconstrained_loop_with_a_ball_is_solved_by_its_centre() {
+    let joint = |kind: char, a: i32| format!("{{ type = \"{kind}\", a = {a}, alpha = 0, d = 0 }},\n");
+    let input = "[[input]]\njoint = 1\ntan_half = \"1/2\"\n";
+    // cos q1 = 3/5, sin q1 = 4/5: the diagonal from joint 2 to joint 1 by way of link 4.
+    let diagonal = (16.0_f64 + 4.0 + 2.0 * 4.0 * 2.0 * 0.6).sqrt();
+    let inner = ((9.0 + 9.0 - diagonal * diagonal) / 18.0).acos();
+    for ball in [2, 3, 4] {
+        let kind = |k: usize| if k == ball { 'S' } else { 'R' };
+        let links: String = (1..).zip([2, 3, 3, 4]).map(|(k, a)| joint(kind(k), a)).collect();
+        let found = solve(&read(&bennett(&links, input)).unwrap(), 0);
+        let verdict = &found.verdict;
+        assert_eq!((verdict.status, verdict.complex, verdict.real), (Status::Complete, 2, 2), "{}", verdict.reason);
+        // The angle of joint 3, which turns by the angle outside of the triangle.
+        let third = if ball == 2 { 4 } else { 2 };
+        for mode in &found.modes {
+            assert!(mode.residual < 1e-14 && mode.multiplicity == 1, "{ball}: {:e}", mode.residual);
+            if ball != 3 {
+                let turn = mode.q[third].re.abs();
+                assert!((turn - (std::f64::consts::PI - inner)).abs() < 1e-12, "{ball}: {turn} {inner}");
+            }
+        }
+        // A joint off by a hair closes nothing.
+        let off = links.replacen("d = 0", "d = \"1/1000000\"", 1);
+        let verdict = solve(&read(&bennett(&off, input)).unwrap(), 0).verdict;
+        assert_eq!((verdict.status, verdict.complex), (Status::Unreachable, 0), "{}", verdict.reason);
+        let verdict = solve(&read(&bennett(&links, "")).unwrap(), 0).verdict;
+        assert_eq!(verdict.status, Status::SelfMotion, "{}", verdict.reason);
+    }
+}
+
+/// The angle of joint 1 as input.
+fn at(angle: &str) -> String {
+    format!("[[input]]\njoint = 1\nangle = {angle}\n")
+}
+
+/// Every branch of the route of a ball: what is planted is found, with its multiplicity.
+#[test]
+fn planted_positions_of_a_ball_are_found() {
+    let link = |kind: char, a: &str, twist: &str, own: &str| {
+        format!("{{ type = \"{kind}\", a = \"{a}\", tan_half_alpha = \"{twist}\", {own} }},\n")
+    };
+    let ball = link('S', "0", "0", "d = 0");
+    // Both arms stretched: a double root.
+    let (long, short) = (link('R', "4", "0", "d = 0"), link('R', "2", "0", "d = 0"));
+    let stretched = solve(&read(&bennett(&(long + &short + &short + &ball), &at("0"))).unwrap(), 0);
+    let verdict = &stretched.verdict;
+    assert_eq!((verdict.status, verdict.complex, verdict.real), (Status::Complete, 2, 2), "{}", verdict.reason);
+    assert!(stretched.modes.len() == 1 && stretched.modes[0].multiplicity == 2);
+    // The centre on the axis of a revolute joint: it turns on.
+    let still = link('R', "0", "1/2", "d = 0").repeat(2) + &ball;
+    assert_eq!(solve(&read(&bennett(&still, &at("0"))).unwrap(), 0).verdict.status, Status::SelfMotion);
+    // A slider between: rotation and translation, translation and rotation, two translations, one of either.
+    let slider = link('P', "0", "1", "tan_half_theta = 0");
+    let across = link('P', "0", "1", "tan_half_theta = 1") + &link('P', "0", "0", "tan_half_theta = 0");
+    for (links, complex) in [
+        (link('R', "1", "0", "d = 0") + &link('R', "2", "1", "d = 0") + &slider + &ball, 2),
+        (link('R', "1", "1", "d = 0") + &slider + &link('R', "2", "0", "d = 0") + &ball, 2),
+        (link('R', "1", "1", "d = 0") + &across + &ball, 1),
+        (link('R', "1", "1", "d = 0") + &slider + &ball, 0),
+    ] {
+        let found = solve(&read(&bennett(&links, &at("0"))).unwrap(), 0);
+        assert_eq!(found.verdict.complex, complex, "{links}{}", found.verdict.reason);
+        for mode in &found.modes {
+            assert!(mode.residual < 1e-13, "{links}{:e}", mode.residual);
+        }
+    }
+}
+
+/// What a loop is told that is not solved: its mobility by Gruebler's count and by screws, and what it lacks.
+#[test]
+fn mobility_is_named_where_a_loop_is_not_solved() {
+    let joint = |kind: char, own: &str| format!("{{ type = \"{kind}\", a = 1, tan_half_alpha = \"2/3\", {own} }},\n");
+    let general = |kinds: &str| -> String {
+        let own = |kind| match kind {
+            'P' => "tan_half_theta = \"1/4\"",
+            'C' => "d0 = 0",
+            _ => "d = 2",
+        };
+        kinds.chars().map(|kind| joint(kind, own(kind))).collect()
+    };
+    let angle = |joint: usize| format!("[[input]]\njoint = {joint}\nangle = 1\n");
+    let unread = |kinds: &str, input: &str| read(&bennett(&general(kinds), input)).unwrap_err().to_string();
+    let unsolved = |kinds: &str, input: &str| {
+        let entry = read(&bennett(&general(kinds), input)).unwrap();
+        let message = Mechanism::prepare(&entry).map(|_| ()).unwrap_err();
+        assert_eq!(message.exit_code(), 4);
+        message.to_string()
+    };
+    let contains = |message: String, words: &[&str]| {
+        assert!(words.iter().all(|word| message.contains(word)), "{message}");
+    };
+    let too_many = "mobility 2 by Gruebler's count (8 - 6), screw rank 6 in general position: one freedom too many";
+    contains(unread("RRRRRRRR", &angle(1)), &[too_many, "make one variable constant"]);
+    contains(unread("CCCC", &angle(1)), &[too_many]);
+    contains(
+        unread("RSSRR", &angle(1)),
+        &["mobility 3 by", "the spin of a link between two S joints", "one freedom too many"],
+    );
+    contains(unread("RSSSR", &angle(1)), &["mobility 5 by", "4 freedoms too many"]);
+    contains(unread("R", ""), &["mobility -5 by", "no loop of them can close in more than one way"]);
+    contains(unread("RRRRRRR", ""), &["found no [[input]]", "mobility 1 by", "screw rank 6"]);
+    contains(unread("RRRRRRR", &angle(8)), &["found joint 8, expected one from 1 to 7"]);
+    contains(unread("PRRRRRR", &angle(1)), &["found an angle as input of joint 1", "expected `distance`"]);
+    let found = solve(&read(&bennett(&general("RRS"), "[[input]]\njoint = 1\ntan_half = 2\n")).unwrap(), 0);
+    assert_eq!((found.verdict.status, found.verdict.complex), (Status::Unreachable, 0), "{}", found.verdict.reason);
+    contains(found.warnings.concat(), &["mobility -1 by Gruebler's count (5 - 6), screw rank 5", "looproot mobility"]);
+    contains(unsolved("SS", ""), &["mobility 0 by", "the spin of a link between two S joints", "as RSSR"]);
+    contains(unsolved("PPPPRRR", &angle(5)), &["mobility 1 by", "give a distance in place of an angle"]);
+    let found = solve(&read(&bennett(&general("RRRR"), &angle(1))).unwrap(), 0);
+    assert_eq!(found.verdict.status, Status::Unreachable);
+    contains(found.warnings.concat(), &["mobility -2 by Gruebler's count (4 - 6), screw rank 4", "looproot mobility"]);
+    let short = read(&bennett(&general("RRRRRR"), &angle(1))).unwrap();
+    let message = looproot::derivation::derive(&short, &short.cases[0]).unwrap_err();
+    assert_eq!(message.exit_code(), 4);
+    contains(message.to_string(), &["mobility 0 by", "screw rank 6", "no single closure polynomial"]);
 }
 
 #[test]

@@ -3,12 +3,12 @@
 use super::prepared::Frame;
 use crate::algebra::long_float::LongFloat;
 use crate::algebra::ring::{Field, Ring};
-use crate::algebra::univariate::Univariate;
 use crate::closure::study::{Four, left, scalar};
 use crate::elimination::border::DIMENSION;
 use crate::elimination::platform_long::{LongAlgebra, long_algebra};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
+use crate::solve::hessenberg::Hessenberg;
 use crate::solve::polynomial_roots::polynomial_roots;
 use crate::solve::pose::Eight;
 use crate::solve::scalar::{Number, extended};
@@ -16,7 +16,6 @@ use num_complex::Complex;
 use rug::Rational;
 
 type Long = Complex<LongFloat>;
-type Matrix = Vec<[LongFloat; DIMENSION]>;
 
 /// The combination of `z_1, z_2, z_3` whose eigenvalues are asked for: one that no two poses share, as a rule.
 const WEIGHTS: [i32; 3] = [1, -2, 3];
@@ -49,7 +48,7 @@ fn disturbed(platform: &Platform<Rational>, scale: f64, bits: u32) -> Platform<R
     let mut platform = platform.clone();
     for (i, point) in platform.base.iter_mut().chain(&mut platform.plate).enumerate() {
         for (k, x) in point.iter_mut().enumerate() {
-            *x += Rational::from(&unit * spread(i, k));
+            *x += &unit * spread(i, k);
         }
     }
     platform
@@ -62,97 +61,20 @@ fn spread(point: usize, coordinate: usize) -> Rational {
 }
 
 /// `sum_i w_i z_i` as a matrix: row k is its product with basis element k.
-fn combined(products: &[Matrix; 3]) -> Matrix {
+fn combined(products: &[Vec<[LongFloat; DIMENSION]>; 3]) -> Vec<Vec<LongFloat>> {
     let weights = WEIGHTS.map(LongFloat::from_integer);
     (0..DIMENSION)
         .map(|k| {
-            std::array::from_fn(|j| {
+            let entry = |j: usize| {
                 products.iter().zip(&weights).fold(LongFloat::zero(), |sum, (m, w)| sum.add(&m[k][j].mul(w)))
-            })
+            };
+            (0..DIMENSION).map(entry).collect()
         })
         .collect()
 }
 
-/// A matrix brought to upper Hessenberg form by elimination.
-struct Hessenberg {
-    matrix: Matrix,
-    /// The row exchanged with the one below the diagonal of every column, and the factors by which that one was taken
-    /// from those below.
-    steps: Vec<(usize, [LongFloat; DIMENSION])>,
-}
-
-impl Hessenberg {
-    fn of(mut matrix: Matrix) -> Self {
-        let n = DIMENSION;
-        let mut steps = Vec::new();
-        for column in 0..n - 2 {
-            let target = column + 1;
-            let size = |i: usize| matrix[i][column].pivot_size();
-            let pivot = (target..n).fold(target, |best, i| if size(i) > size(best) { i } else { best });
-            matrix.swap(pivot, target);
-            for row in &mut matrix {
-                row.swap(pivot, target);
-            }
-            let inverse = matrix[target][column].inverse().unwrap_or_else(LongFloat::zero);
-            let mut factors = [LongFloat::zero(); DIMENSION];
-            let pivot_row = matrix[target];
-            for (i, row) in matrix.iter_mut().enumerate().skip(target + 1) {
-                factors[i] = row[column].mul(&inverse);
-                let factor = factors[i].neg();
-                row[column] = LongFloat::zero();
-                for (x, p) in row.iter_mut().zip(&pivot_row).skip(target) {
-                    *x = x.add(&factor.mul(p));
-                }
-            }
-            // The inverse operations from the right.
-            for row in &mut matrix {
-                row[target] = (target + 1..n).fold(row[target], |sum, i| sum.add(&row[i].mul(&factors[i])));
-            }
-            steps.push((pivot, factors));
-        }
-        Self { matrix, steps }
-    }
-
-    /// `det(x - H)`
-    fn characteristic(&self) -> Univariate<LongFloat> {
-        let h = &self.matrix;
-        // Those of the leading blocks: p_k = (x - h_kk) p_{k-1} - sum_i h_ik (h_{i+1,i} ... h_{k,k-1}) p_{i-1}.
-        let mut leading = vec![Univariate::constant(LongFloat::one())];
-        for k in 0..DIMENSION {
-            let mut p = leading[k].mul(&Univariate::new(vec![h[k][k].neg(), LongFloat::one()]));
-            let mut product = LongFloat::one();
-            for i in (0..k).rev() {
-                product = product.mul(&h[i + 1][i]);
-                p = p.add(&leading[i].scale(&product.mul(&h[i][k]).neg()));
-            }
-            leading.push(p);
-        }
-        leading.pop().unwrap_or_else(Univariate::zero)
-    }
-
-    /// The eigenvector of the matrix itself at an eigenvalue; `None` where it is not unique.
-    fn vector(&self, value: &Long) -> Option<[Long; DIMENSION]> {
-        let h = &self.matrix;
-        let mut v = [Long::zero(); DIMENSION];
-        v[DIMENSION - 1] = Long::one();
-        for k in (1..DIMENSION).rev() {
-            let known = (k..DIMENSION).fold(value.mul(&v[k]), |sum, j| sum.sub(&v[j].times(h[k][j])));
-            v[k - 1] = known.times(h[k][k - 1].inverse()?);
-        }
-        for (column, (pivot, factors)) in self.steps.iter().enumerate().rev() {
-            let target = column + 1;
-            let from = v[target];
-            for i in target + 1..DIMENSION {
-                v[i] = v[i].add(&from.times(factors[i]));
-            }
-            v.swap(target, *pivot);
-        }
-        Some(v)
-    }
-}
-
 /// Study's parameters from the values of the basis elements at a solution.
-fn study(algebra: &LongAlgebra, values: &[Long; DIMENSION], frame: &Frame) -> Option<Eight<Long>> {
+fn study(algebra: &LongAlgebra, values: &[Long], frame: &Frame) -> Option<Eight<Long>> {
     let one = values[0].inverse()?;
     let at = |k: usize| values[k].mul(&one);
     let z: Four<Long> = [Long::one(), at(1), at(2), at(3)];

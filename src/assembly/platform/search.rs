@@ -355,9 +355,10 @@ impl<'a> Search<'a> {
             let product: Complex<f64> = (0..4).map(|k| study[k] * if conjugate { w[k] } else { w[k].conj() }).sum();
             product.norm_sqr() > 1.0 - SAME
         };
-        // Polished to rounding: what is farther apart than this is not one. Singular ones are less accurate.
+        // Polished to rounding: what is farther apart than this is not one. Singular ones are less accurate, and of those
+        // known more accurately the proofs tell.
         self.found.iter().position(|found| {
-            let room = found.certificate.map_or(SINGULAR, |c| c.radius.max(REAL_PART));
+            let room = found.certificate.map_or(SINGULAR, |c| c.radius.max(least.min(REAL_PART)));
             let same = |w: &Eight<Complex<f64>>| !are_apart(study, room.max(least), w, room);
             (same_rotation(&found.study, false) && same(&found.study))
                 || (!real && same_rotation(&found.study, true) && same(&found.study.map(|z| z.conj())))

@@ -8,6 +8,8 @@ use nalgebra::{ComplexField, SMatrix, SVector};
 
 /// Singular values below this part of the largest one count as zero.
 const RANK: f64 = 1e-6;
+/// The same while a pose is approached: the singular values of multiple ones shrink with the distance.
+const NEGLIGIBLE: f64 = 1e-8;
 /// Relative residual of a pose.
 const CLOSED: f64 = 1e-12;
 /// How far a step along the curve goes.
@@ -32,7 +34,7 @@ pub fn project<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Eig
             return Some(v);
         }
         let svd = SMatrix::<S, 8, 8>::from_fn(|i, j| here.jacobian[i][j]).svd(true, true);
-        let cut = RANK * svd.singular_values.max();
+        let cut = NEGLIGIBLE * svd.singular_values.max();
         let step = svd.solve(&SVector::<S, 8>::from(here.values), cut).ok()?;
         for k in 0..8 {
             v[k] -= step[k];
@@ -69,9 +71,6 @@ pub fn self_motion<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> usize 
         for (side, step) in [STEP, -STEP].into_iter().enumerate() {
             let start = std::array::from_fn(|j| v[j] + direction[j].times(step));
             let Some(slid) = project(legs, &start) else { continue };
-            if kernel(legs, &slid).next().is_none() {
-                continue;
-            }
             for j in 0..8 {
                 moved[(j, 2 * k + side)] = slid[j] - v[j];
             }

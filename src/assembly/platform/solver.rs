@@ -124,8 +124,14 @@ impl PlatformSolver {
         let curvature = Curvature::new(&legs);
         let proved = |assembly: &PlatformAssembly| assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
         let before = proved(assembly);
+        let known = workspace.found.clone();
         let mut search = Search::going_on(&legs, &curvature, Roots::All, Some(expected), &mut workspace.found);
+        let poses = search.poses();
         search.proved_near(&starts(platform, legs_squared, &self.frame));
+        if search.poses() < poses {
+            // Of several that coincide, or nearly so, one was proved and the others were not found.
+            *search.found = known;
+        }
         assembly.modes.clear();
         search.tell(&self.frame, assembly);
         assembly.unresolved = search.unresolved();

@@ -1,0 +1,57 @@
+//! Triples of neighbouring axes that are parallel or meet in a point: two of them leave six joints dependent.
+//!
+//! Rotations about three parallel axes are motions of a plane, those about three axes through a point turn about it. Two
+//! planes share the translation along both; two points the rotation about the line through them; a plane and a point the
+//! rotation about its normal there: six screws of two triples are dependent in every position.
+
+use crate::kinematics::closed_loop::{OpenLoop, Variable};
+use crate::kinematics::motion::Motion;
+
+/// Distances, in parts of the longest link, and sines below which axes meet or are parallel.
+const NEAR: f64 = 1e-10;
+
+/// Three neighbouring axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AxisTriple {
+    /// The first of the three unknowns.
+    pub first: usize,
+    /// Whether the axes are parallel; else they meet in a point.
+    pub parallel: bool,
+}
+
+impl AxisTriple {
+    /// All triples that do not overlap, from the first unknown on, among the links of a loop whose gap is open.
+    #[must_use]
+    pub fn all(open: &OpenLoop<f64>) -> Vec<Self> {
+        let size = |m: &Motion<f64>| m.translation.iter().map(|x| x.abs()).fold(0.0, f64::max);
+        let near = NEAR * open.constants.iter().map(size).fold(0.0, f64::max);
+        let mut found: Vec<Self> = Vec::new();
+        for first in 0..4 {
+            let free = found.last().is_none_or(|triple| triple.first + 3 <= first);
+            if free && (first..first + 3).all(|k| open.variables[k] == Variable::Rotation) {
+                let [before, behind] = [&open.constants[first], &open.constants[first + 1]];
+                let parallel = is_parallel(before) && is_parallel(behind);
+                let meet = || Some((crossing(&before.inverse(), near)? - crossing(behind, near)?).abs() <= near);
+                if parallel || meet() == Some(true) {
+                    found.push(Self { first, parallel });
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Whether a link keeps the direction of the z axis.
+fn is_parallel(link: &Motion<f64>) -> bool {
+    link.rotation[0][2].hypot(link.rotation[1][2]) <= NEAR
+}
+
+/// Where on the z axis the image of the z axis under a link crosses it.
+fn crossing(link: &Motion<f64>, near: f64) -> Option<f64> {
+    let ([x, y, z], [u, v, w]) = (link.translation, [0, 1, 2].map(|i| link.rotation[i][2]));
+    let square = u * u + v * v;
+    if !(square > NEAR * NEAR) || (x * v - y * u).abs() > near * square.sqrt() {
+        return None;
+    }
+    Some(z - w * (x * u + y * v) / square)
+}

@@ -1,0 +1,367 @@
+//! How many solutions a loop has, in any geometry: the dimension of the ring of polynomials on its solution set.
+//!
+//! Unknown 6 of a cut is a rotation about z and turns no line along z, so the first five unknowns solve the 14 equations
+//! of lines with a marked point, `T(V4 G4 V5 G5) z = T((G6 V1 G1 V2 G2 V3 G3)^-1) z`, and fix the sixth one. Modulo these
+//! equations (and `cos^2 + sin^2 = 1`, by which no power of a sine above the first occurs) all polynomials in the five
+//! unknowns form a ring. If every monomial is a combination of finitely many ones, that many bound the number of
+//! solutions, with multiplicity, and no root at infinity, at a half tangent of i, or of a polynomial that knows of only
+//! part of the equations is among them: once all consequences of the equations are known the number is that of the
+//! solutions. \[CoxLittleOShea2015\]
+//!
+//! The relations between monomials up to some degree are found by linear algebra: relations times an unknown are
+//! relations, as long as they stay below that degree. When the monomials that are left over all have a smaller degree,
+//! an unknown times one of them is again a combination of them, and the solutions are the eigenvectors of such products.
+//!
+//! Which products lead to new relations is found out once, modulo a prime; in numbers the same ones are formed again.
+
+use super::cut::Cut;
+use crate::algebra::ring::{Field, Ring};
+use crate::closure::woernle_lee::{MarkedLine, SIZE, act, left_columns, right_columns, split, split_inverse};
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use std::collections::{BTreeMap, HashMap};
+
+/// Powers of the five unknowns, a byte each: twice the power of the cosine and the power of the sine (0 or 1), or twice
+/// the power of a distance.
+type Monomial = u64;
+/// Coefficients by monomials.
+type Sparse<F> = BTreeMap<Monomial, F>;
+
+/// Degrees up to which relations are looked for: the first of them that is enough.
+const DEGREES: [u32; 2] = [3, 4];
+
+fn digit(monomial: Monomial, unknown: usize) -> u64 {
+    (monomial >> (8 * unknown)) & 255
+}
+
+fn degree(monomial: Monomial) -> u32 {
+    (0..5).map(|k| digit(monomial, k)).map(|d| u32::try_from(d / 2 + d % 2).unwrap_or(u32::MAX)).sum()
+}
+
+/// `(1, cos, sin)` or `(1, d, d^2)` of an unknown.
+fn factors(variable: Variable, unknown: usize) -> [Monomial; 3] {
+    let last = if variable == Variable::Rotation { 1 } else { 4 };
+    [0, 2, last].map(|power| power << (8 * unknown))
+}
+
+/// A polynomial times the cosine or the sine of an unknown, or a distance.
+fn times<F: Field>(polynomial: &[(Monomial, F)], unknown: usize, is_sine: bool) -> Sparse<F> {
+    let mut product = Sparse::new();
+    let mut add = |monomial: Monomial, c: F| {
+        let entry = product.entry(monomial).or_insert_with(F::zero);
+        *entry = entry.add(&c);
+    };
+    let (cos, sin) = (2 << (8 * unknown), 1 << (8 * unknown));
+    for (monomial, c) in polynomial {
+        match (is_sine, digit(*monomial, unknown) % 2) {
+            (false, _) => add(monomial + cos, c.clone()),
+            (true, 0) => add(monomial + sin, c.clone()),
+            // sin^2 = 1 - cos^2
+            (true, _) => {
+                add(monomial - sin, c.clone());
+                add(monomial - sin + 2 * cos, c.neg());
+            }
+        }
+    }
+    product
+}
+
+/// The equations of a loop whose last unknown is a rotation.
+fn equations<F: Field>(closed: &ClosedLoop<F>) -> Vec<Sparse<F>> {
+    let kinds = closed.variables;
+    let at = |unknown: usize| factors(kinds[unknown], unknown);
+    let left: Vec<(Monomial, MarkedLine<F>)> =
+        left_columns(closed).into_iter().enumerate().map(|(k, line)| (at(4)[k / 3] + at(3)[k % 3], line)).collect();
+    let back = [1, 2].map(|k| closed.constants[k].inverse());
+    let mut right = Vec::new();
+    for (first, lines) in at(0).into_iter().zip(right_columns(closed)) {
+        for (second, line) in at(1).into_iter().zip(lines) {
+            right.push((first + second, act(&back[0], &line)));
+        }
+    }
+    // Unknown 3 on either side: the same equations, but other combinations of low degree.
+    let near = right.iter().flat_map(|(m, line)| {
+        let parts = split_inverse(kinds[2], line).map(|part| act(&back[1], &part));
+        at(2).map(|third| third + m).into_iter().zip(parts).collect::<Vec<_>>()
+    });
+    let far = left.iter().flat_map(|(m, line)| {
+        let parts = split(kinds[2], &act(&closed.constants[2], line));
+        at(2).map(|third| third + m).into_iter().zip(parts).collect::<Vec<_>>()
+    });
+    let difference = |plus: &[(Monomial, MarkedLine<F>)], minus: &[(Monomial, MarkedLine<F>)], i: usize| {
+        let mut sum = Sparse::new();
+        for (monomial, line) in plus {
+            let entry = sum.entry(*monomial).or_insert_with(F::zero);
+            *entry = entry.add(&line[i]);
+        }
+        for (monomial, line) in minus {
+            let entry = sum.entry(*monomial).or_insert_with(F::zero);
+            *entry = entry.sub(&line[i]);
+        }
+        sum
+    };
+    let (near, far): (Vec<_>, Vec<_>) = (near.collect(), far.collect());
+    (1..SIZE).flat_map(|i| [difference(&left, &near, i), difference(&far, &right, i)]).collect()
+}
+
+/// The monomials up to a degree, highest first.
+fn monomials(kinds: &[Variable; 5], most: u32) -> Vec<Monomial> {
+    let mut all: Vec<Monomial> = vec![0];
+    for (unknown, kind) in kinds.iter().enumerate() {
+        let powers: Vec<Monomial> =
+            (0..=u64::from(2 * most)).filter(|d| *kind == Variable::Rotation || d % 2 == 0).collect();
+        let longer = |m: &Monomial| powers.iter().map(|d| m + (d << (8 * unknown))).collect::<Vec<_>>();
+        all = all.iter().flat_map(longer).filter(|m| degree(*m) <= most).collect();
+    }
+    all.sort_by_key(|m| (std::cmp::Reverse(degree(*m)), *m));
+    all
+}
+
+/// Where a relation comes from.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    /// An equation of the loop.
+    Equation(usize),
+    /// The relation of a leading column, times the cosine or the sine of an unknown, or its distance.
+    Product { column: usize, unknown: usize, is_sine: bool },
+}
+
+/// Relations between the monomials up to a degree, in echelon form.
+struct Relations<F> {
+    kinds: [Variable; 5],
+    most: u32,
+    columns: Vec<Monomial>,
+    places: HashMap<Monomial, usize>,
+    /// By the column of the leading coefficient, which is 1: the coefficients from there on.
+    rows: Vec<Option<Vec<F>>>,
+}
+
+impl<F: Field> Relations<F> {
+    fn new(kinds: [Variable; 5], most: u32) -> Self {
+        let columns = monomials(&kinds, most);
+        let places = columns.iter().enumerate().map(|(k, m)| (*m, k)).collect();
+        let rows = columns.iter().map(|_| None).collect();
+        Self { kinds, most, columns, places, rows }
+    }
+
+    /// Reduces a relation by those known already, up to a column if it is known that nothing is left before that one.
+    /// `None` for a relation of too high a degree, and for zero.
+    fn reduced(&self, relation: &Sparse<F>, known: Option<usize>) -> Option<(usize, Vec<F>)> {
+        let mut row = vec![F::zero(); self.columns.len()];
+        for (monomial, c) in relation.iter().filter(|(_, c)| !c.is_zero()) {
+            row[*self.places.get(monomial)?] = c.clone();
+        }
+        for column in 0..row.len() {
+            if known == Some(column) {
+                return Some((column, row));
+            }
+            if row[column].is_zero() {
+                continue;
+            }
+            match (&self.rows[column], known) {
+                (Some(pivot), _) => {
+                    let factor = row[column].neg();
+                    for (x, p) in row[column..].iter_mut().zip(pivot).filter(|(_, p)| !p.is_zero()) {
+                        x.add_product(&factor, p);
+                    }
+                }
+                (None, None) => return Some((column, row)),
+                // Rounding of zero.
+                (None, Some(_)) => {}
+            }
+        }
+        None
+    }
+
+    /// Takes in a reduced relation; `false` where its leading coefficient has no inverse.
+    fn take(&mut self, column: usize, row: &[F]) -> bool {
+        let Some(inverse) = row[column].inverse() else { return false };
+        let mut row: Vec<F> = row[column..].iter().map(|x| x.mul(&inverse)).collect();
+        row[0] = F::one();
+        self.rows[column] = Some(row);
+        true
+    }
+
+    /// A relation times the cosine or the sine of an unknown, or its distance.
+    fn product(&self, column: usize, unknown: usize, is_sine: bool) -> Option<Sparse<F>> {
+        let row = self.rows[column].as_ref()?.iter().zip(&self.columns[column..]);
+        let terms: Vec<(Monomial, F)> = row.filter(|(c, _)| !c.is_zero()).map(|(c, m)| (*m, c.clone())).collect();
+        Some(times(&terms, unknown, is_sine))
+    }
+
+    /// The relation of a source.
+    fn relation(&self, equations: &[Sparse<F>], source: Source) -> Option<Sparse<F>> {
+        match source {
+            Source::Equation(k) => equations.get(k).cloned(),
+            Source::Product { column, unknown, is_sine } => self.product(column, unknown, is_sine),
+        }
+    }
+
+    /// The monomials that are no leading ones, if all are of lower degree.
+    fn standard(&self) -> Option<Vec<usize>> {
+        let left: Vec<usize> = (0..self.columns.len()).filter(|&k| self.rows[k].is_none()).collect();
+        left.iter().all(|&k| degree(self.columns[k]) < self.most).then_some(left)
+    }
+
+    /// What an unknown can be multiplied by.
+    fn factors(&self) -> impl Iterator<Item = (usize, bool)> {
+        let both = |unknown: usize, kind: Variable| {
+            let sines: &[bool] = if kind == Variable::Rotation { &[false, true] } else { &[false] };
+            sines.iter().map(move |is_sine| (unknown, *is_sine))
+        };
+        self.kinds.into_iter().enumerate().flat_map(move |(unknown, kind)| both(unknown, kind))
+    }
+}
+
+/// How the relations of a loop follow from its equations.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    most: u32,
+    /// Which relations lead to new ones, each with its leading column then.
+    steps: Vec<(Source, usize)>,
+    count: usize,
+}
+
+impl Plan {
+    /// The plan of a loop over an exact field; `None` where solutions form families, and where relations of a higher
+    /// degree are needed to see that they do not.
+    #[must_use]
+    pub fn of<F: Field>(closed: &ClosedLoop<F>) -> Option<Self> {
+        let (_, closed) = turned(closed)?;
+        let equations = equations(&closed);
+        DEGREES.iter().find_map(|&most| Self::up_to(most, &closed, &equations))
+    }
+
+    fn up_to<F: Field>(most: u32, closed: &ClosedLoop<F>, equations: &[Sparse<F>]) -> Option<Self> {
+        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), most);
+        let mut steps = Vec::new();
+        // Relations not multiplied yet.
+        let mut fresh = Vec::new();
+        let mut offer = |relations: &mut Relations<F>, fresh: &mut Vec<usize>, source: Source| {
+            let reduced = relations.relation(equations, source).and_then(|relation| relations.reduced(&relation, None));
+            if let Some((column, row)) = reduced
+                && relations.take(column, &row)
+            {
+                fresh.push(column);
+                steps.push((source, column));
+            }
+        };
+        for k in 0..equations.len() {
+            offer(&mut relations, &mut fresh, Source::Equation(k));
+        }
+        // Low degrees first.
+        while let Some(best) = (0..fresh.len()).max_by_key(|&k| fresh[k]) {
+            let column = fresh.swap_remove(best);
+            if degree(relations.columns[column]) < most {
+                for (unknown, is_sine) in relations.factors().collect::<Vec<_>>() {
+                    offer(&mut relations, &mut fresh, Source::Product { column, unknown, is_sine });
+                }
+            }
+        }
+        let count = relations.standard()?.len();
+        Some(Self { most, steps, count })
+    }
+
+    /// An upper bound on the number of solutions, with multiplicity: their number, unless relations of a higher degree are
+    /// needed to see that.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The ring of the same loop in another field; `None` where a number vanishes that should not.
+    #[must_use]
+    pub fn ring<F: Field>(&self, closed: &ClosedLoop<F>) -> Option<CoordinateRing<F>> {
+        let (rotation, closed) = turned(closed)?;
+        let equations = equations(&closed);
+        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), self.most);
+        for (source, column) in &self.steps {
+            let relation = relations.relation(&equations, *source)?;
+            let (column, row) = relations.reduced(&relation, Some(*column))?;
+            if !relations.take(column, &row) {
+                return None;
+            }
+        }
+        let standard = relations.standard()?;
+        let n = standard.len();
+        let mut normal: Vec<Vec<F>> = vec![Vec::new(); relations.columns.len()];
+        for column in (0..normal.len()).rev() {
+            let mut sum = vec![F::zero(); n];
+            match &relations.rows[column] {
+                None => sum[standard.binary_search(&column).ok()?] = F::one(),
+                Some(row) => {
+                    for (c, other) in row.iter().zip(&normal[column..]).skip(1).filter(|(c, _)| !c.is_zero()) {
+                        let c = c.neg();
+                        sum.iter_mut().zip(other).for_each(|(x, y)| x.add_product(&c, y));
+                    }
+                }
+            }
+            normal[column] = sum;
+        }
+        Some(CoordinateRing { rotation, closed, relations, standard, normal })
+    }
+}
+
+/// The loop with a rotation as its last unknown, and how many unknowns went from the head to the tail for that.
+fn turned<F: Ring>(closed: &ClosedLoop<F>) -> Option<(usize, ClosedLoop<F>)> {
+    let last = (0..6).rev().find(|&k| closed.variables[k] == Variable::Rotation)?;
+    let rotation = (last + 1) % 6;
+    Some((rotation, Cut { rotation, reversed: false }.of(closed)))
+}
+
+/// The ring of polynomials on the solutions of a loop: all of them by a basis of monomials.
+pub struct CoordinateRing<F> {
+    rotation: usize,
+    closed: ClosedLoop<F>,
+    relations: Relations<F>,
+    /// The basis, by columns of the relations.
+    standard: Vec<usize>,
+    /// All monomials in terms of the basis.
+    normal: Vec<Vec<F>>,
+}
+
+impl<F: Field> CoordinateRing<F> {
+    /// A polynomial in terms of the basis.
+    fn normal(&self, polynomial: &Sparse<F>) -> Vec<F> {
+        let mut sum = vec![F::zero(); self.standard.len()];
+        for (monomial, c) in polynomial {
+            let normal = &self.normal[self.relations.places[monomial]];
+            sum.iter_mut().zip(normal).for_each(|(x, y)| x.add_product(c, y));
+        }
+        sum
+    }
+
+    /// The product with a combination of cosines, sines and distances of the unknowns, with these weights in turn: row k
+    /// is that of basis element k. The values of the basis at a solution are an eigenvector, that of the combination the
+    /// eigenvalue.
+    #[must_use]
+    pub fn multiplication(&self, weights: &[F; 10]) -> Vec<Vec<F>> {
+        let row = |&column: &usize| {
+            let element = [(self.relations.columns[column], F::one())];
+            let mut sum = vec![F::zero(); self.standard.len()];
+            for ((unknown, is_sine), weight) in self.relations.factors().zip(weights) {
+                let product = self.normal(&times(&element, unknown, is_sine));
+                sum.iter_mut().zip(&product).for_each(|(x, y)| x.add_product(weight, y));
+            }
+            sum
+        };
+        self.standard.iter().map(row).collect()
+    }
+
+    /// The loop as it is read here, and which unknown of the original one is first.
+    #[must_use]
+    pub fn view(&self) -> (usize, &ClosedLoop<F>) {
+        (self.rotation, &self.closed)
+    }
+
+    /// The monomial 1 in terms of the basis, then cosine and sine or the distance and 0 of the first five unknowns.
+    #[must_use]
+    pub fn unknowns(&self) -> (Vec<F>, [[Vec<F>; 2]; 5]) {
+        let one = [(0, F::one())];
+        let at = |unknown: usize, is_sine: bool| self.normal(&times(&one, unknown, is_sine));
+        let pair = |unknown: usize| match self.relations.kinds[unknown] {
+            Variable::Rotation => [at(unknown, false), at(unknown, true)],
+            Variable::Translation => [at(unknown, false), vec![F::zero(); self.standard.len()]],
+        };
+        (self.normal(&one.iter().cloned().collect()), std::array::from_fn(pair))
+    }
+}
