@@ -455,7 +455,8 @@ fn a_file_that_states_the_condition_is_proved_for_all_parameters() {
     assert_eq!((code, out.as_str()), (0, "mobile: proved for all parameters, a member proved over the rationals\n"));
     let wrong = relation.replacen("+ cos(alpha2)", "- cos(alpha2)", 1);
     let (code, out, _) = conditions(&["-", "-q"], &format!("{}[ansatz]\nrelations = [\"{wrong}\"]\n", &known[..start]));
-    assert!(code == 2 && out.starts_with("no mobile member found"), "{out}");
+    // Members with b = b' = 0 satisfy it and move: nothing is said of the others.
+    assert!(code == 2 && !out.starts_with("mobile"), "{out}");
 }
 
 #[test]
@@ -493,7 +494,7 @@ fn goldberg_and_myard_have_formulas_for_all_twists() {
     }
     // In the languages of other programs too.
     let (code, out, _) = conditions(&["myard_5r", "--format", "singular", "--family", "loop 1"], "");
-    assert!(code == 0 && out.contains("a1-a5"), "{out}");
+    assert!(code == 0 && out.contains("ring ") && out.contains("sin_alpha*a2"), "{out}");
     let (code, _, err) = conditions(&["myard_5r", "--format", "singular", "--family", "loop 9"], "");
     assert!(code == 1 && err.contains("expected a part of one of: loop 1; loop 2"), "{err}");
 }
@@ -516,7 +517,7 @@ fn a_loop_of_the_ansatz_is_told_from_others_of_its_twists() {
 fn a_condition_without_real_solution_is_said_to_be_empty() {
     let text = text_of("trihedral_6r").replace(
         "unknown = [\"a6\"]",
-        "unknown = [\"a6\"]\nrelations = [\"a1 = 1\", \"a3 = 1\", \"a5 = 1\", \"a2 = 2\", \"a4 = 2\"]",
+        "unknown = [\"a6\"]\nrelations = [\"a1 = 1\", \"a3 = 4\", \"a5 = 5\", \"a2 = 2\", \"a4 = 7\"]",
     );
     let text = text.split("fit = [").next().unwrap().to_owned() + "fit = [\"1\", \"a6\", \"a6^2\"]\n";
     let (code, out, _) = conditions(&["-", "-q"], &text);

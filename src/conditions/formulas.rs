@@ -242,7 +242,7 @@ fn half_tangent(twist: &Twist, free: &[usize]) -> Ratio {
         if *cos == -1 { [Rational::new(), Rational::from(1)] } else { [Rational::from(cos + 1), sin.clone()] };
     let scale = constant.iter().fold(Integer::from(1), |lcm, c| lcm.lcm(c.denom()));
     let [mut real, mut imaginary] =
-        constant.map(|c| Polynomial::constant(Int::from(Rational::from(c * &scale).into_numer_denom().0)));
+        constant.map(|c| Polynomial::constant(Int::from((c * &scale).into_numer_denom().0)));
     for (variable, &angle) in free.iter().enumerate() {
         let multiple = twist.multiples[angle];
         let t = Polynomial::variable(variable).scale(&Int::from_integer(multiple.signum()));

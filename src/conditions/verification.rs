@@ -76,7 +76,7 @@ pub fn closed_positions(
         let tangents: Vec<_> = ansatz.free_angles().iter().map(|_| random()).collect();
         let three = [random(), random(), random()];
         let weights: Vec<_> = ansatz.free_lengths().iter().map(|_| random()).collect();
-        let Some((values, _)) =
+        let Some(ClosingMember { values, .. }) =
             closing_member(&members, ansatz, &[], (&tangents, &three, &weights), |x| square_root(*x))
         else {
             continue;
@@ -91,6 +91,15 @@ pub fn closed_positions(
 const CHOSEN: [usize; 3] = [0, 1, 3];
 const FOLLOWING: [usize; 3] = [2, 4, 5];
 
+/// A member with a closed position.
+struct ClosingMember<F> {
+    /// The values of its symbols.
+    values: Vec<F>,
+    turns: Vec<Turn<F>>,
+    /// Whether such members are general among those that satisfy the relations, if each has a curve of such positions.
+    is_general: bool,
+}
+
 /// A member of given twists that closes in a position with given half-angle tangents of three joints, its free lengths
 /// combined with the given weights from those that close and satisfy the relations that are linear in them: the values of
 /// its symbols, and its rotations. `None` where there is none over the field.
@@ -100,7 +109,7 @@ fn closing_member<F: Field>(
     relations: &[Polynomial<F>],
     (tangents, chosen, weights): (&[F], &[F; 3], &[F]),
     root: impl Fn(&F) -> Option<F>,
-) -> Option<(Vec<F>, Vec<Turn<F>>)> {
+) -> Option<ClosingMember<F>> {
     let count = ansatz.free_lengths().len();
     let at = |lengths: &[F]| members.values(tangents, lengths);
     let mut turns = vec![(F::one(), F::zero()); 6];
@@ -134,6 +143,11 @@ fn closing_member<F: Field>(
     columns.push(constant);
     let row = |i: usize| columns.iter().map(|column| column[i].clone()).collect::<Vec<F>>();
     let rows: Vec<Vec<F>> = (0..3 + linear.len()).map(row).collect();
+    // Three rotations and the lengths that close, without the curve through each, are as many as there are members.
+    let own = |row: &Vec<F>| row[..count].to_vec();
+    let closing = Echelon::of(rows.iter().map(own).collect(), count).rank();
+    let related = Echelon::of(rows[3..].iter().map(own).collect(), count).rank() + relations.len() - linear.len();
+    let is_general = closing <= related + 2;
     let mut lengths = vec![F::zero(); count + 1];
     for (vector, weight) in Echelon::of(rows, count + 1).null_space().iter().zip(weights) {
         for (total, x) in lengths.iter_mut().zip(vector) {
@@ -151,7 +165,7 @@ fn closing_member<F: Field>(
         }
     }
     let values = at(&lengths)?;
-    Some((values, turns))
+    Some(ClosingMember { values, turns, is_general })
 }
 
 /// Whether a polynomial is linear in the lengths.
@@ -182,7 +196,8 @@ impl ModularMembers {
 /// The coefficients of orders up to 16 of the reduced closure equations are algebraic functions of the draws, of a degree
 /// below `2^21` (docs/conditions_search.md). If general members did not move, one of these functions would not vanish, and a
 /// random draw over the field of p elements would be a zero of it with a probability below `2^21 / p < 2^-39`. Draws are as
-/// in [`closed_positions`]; relations that are not linear in the lengths are left to chance.
+/// in [`closed_positions`]; relations that are not linear in the lengths are left to chance. Draws whose members are not
+/// general, by a count of dimensions, do not count.
 ///
 /// # Panics
 /// Unless there are six joints.
@@ -220,9 +235,8 @@ fn modular<const P: u64>(
         let three = [random(), random(), random()];
         let weights: Vec<_> = ansatz.free_lengths().iter().map(|_| random()).collect();
         let draw = (&*tangents, &three, &*weights);
-        let Some((values, turns)) = closing_member(&members, ansatz, &images, draw, |x| square_root(*x)) else {
-            continue;
-        };
+        let found_one = closing_member(&members, ansatz, &images, draw, |x| square_root(*x));
+        let Some(ClosingMember { values, turns, is_general: true }) = found_one else { continue };
         if images.iter().any(|relation| !relation.evaluate(&values).is_zero()) {
             continue;
         }
@@ -294,7 +308,7 @@ pub fn rational_member(
         }
         let weights: Vec<_> = (0..free).map(|_| Rational::from(rng.random_range(1..9))).collect();
         let found = closing_member(&members, ansatz, relations, (&tangents, &chosen, &weights), rational_square_root);
-        let Some((values, turns)) = found else { continue };
+        let Some(ClosingMember { values, turns, .. }) = found else { continue };
         if relations.iter().any(|relation| !relation.evaluate(&values).is_zero()) {
             continue;
         }

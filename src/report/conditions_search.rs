@@ -109,7 +109,7 @@ pub fn is_proved(search: &Search) -> bool {
         return proper.peek().is_some() && proper.all(CurveLoop::is_proved);
     }
     if search.modular.is_some() {
-        return own_certainty(search) == Certainty::Family || member_moves(search.member.as_ref());
+        return own_certainty(search) == Certainty::Family;
     }
     search.mobile_slices.iter().all(|slice| slice.proof.is_some()) && proper_slices(search).count() > 0
 }
@@ -737,12 +737,9 @@ pub fn system(ansatz: &Ansatz, search: &Search, family: Option<&str>, format: Fo
         return Err(Error::Unsupported("no condition was found that could be written".to_owned()));
     }
     let wanted = family.unwrap_or_default().to_lowercase();
-    match families.iter().find(|(name, ..)| name.to_lowercase().contains(&wanted)) {
-        Some((_, conditions, names)) => format.system(conditions, names),
-        None => {
-            let known: Vec<&str> = families.iter().map(|(name, ..)| name.as_str()).collect();
-            let message = format!("found no family `{wanted}`, expected a part of one of: {}", known.join("; "));
-            Err(Error::Invalid(message))
-        }
+    if let Some((_, conditions, names)) = families.iter().find(|(name, ..)| name.to_lowercase().contains(&wanted)) {
+        return format.system(conditions, names);
     }
+    let known: Vec<&str> = families.iter().map(|(name, ..)| name.as_str()).collect();
+    Err(Error::Invalid(format!("found no family `{wanted}`, expected a part of one of: {}", known.join("; "))))
 }

@@ -108,7 +108,7 @@ fn normal(one: &Axis, other: &Axis, first: usize, second: usize) -> Result<Norma
         moved(&one.point, &one.direction, &coordinate(&other.direction)),
         moved(&other.point, &other.direction, &coordinate(&one.direction)),
     ];
-    let length = Rational::from(dot(&difference(&feet[1], &feet[0]), &across) / &sin);
+    let length = dot(&difference(&feet[1], &feet[0]), &across) / &sin;
     Ok(Normal { cos, sin, length, feet })
 }
 
