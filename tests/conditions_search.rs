@@ -11,15 +11,15 @@ use looproot::catalogue::ansatz::{Ansatz, Link, Symbols};
 use looproot::catalogue::{Format as FileFormat, Options, ansatz_from_text, load_ansatz};
 use looproot::conditions::configurations::{configurations, link_motion};
 use looproot::conditions::curve_ansatz::{Relation, rational_curves, spherical_links};
-use looproot::conditions::finite_field::{all_turns, random_unit, square_root, turn, turn_number};
+use looproot::conditions::finite_field::{all_turns, half_tangent_turn, random_unit, square_root, turn, turn_number};
 use looproot::conditions::identity;
 use looproot::conditions::implication::{Implication, implication};
 use looproot::conditions::multiplier::multiplier;
-use looproot::conditions::search::search;
+use looproot::conditions::search::{FamilyProof, search};
 use looproot::conditions::spherical::{Directions, closed_by};
 use looproot::conditions::sweep::sweep;
 use looproot::conditions::symmetry::{Slice, slices};
-use looproot::conditions::verification::{closed_positions, germ, rational_member};
+use looproot::conditions::verification::{closed_positions, germ, modular_members, rational_member};
 use looproot::kinematics::motion::Motion;
 use looproot::mobility::Local;
 use rand::SeedableRng;
@@ -246,14 +246,14 @@ fn the_cosine_relation_of_dietmaier_is_found_and_proved() {
     let expected = b.mul(&cos(0).add(&cos(1))).sub(&other.mul(&cos(3).add(&cos(4))));
     assert!(*relation == expected || *relation == expected.neg(), "{text}");
     assert!(found.trial.unwrap().agrees());
-    let proof = multiplier(&ansatz, relation, 1).unwrap();
+    let proof = multiplier(&ansatz, Some(relation), 1).unwrap();
     // (z1 + z3) x (z4 + z6)
     let one = Rational::from(1);
     let pairs = [(0, 3), (0, 5), (2, 3), (2, 5)].map(|(i, j)| (i, j, one.clone()));
     assert_eq!(proof.terms, pairs);
     // A relation with one sign wrong has no proof, and closed positions do not satisfy it.
     let wrong = b.mul(&cos(0).add(&cos(1))).sub(&other.mul(&cos(3).sub(&cos(4))));
-    assert_eq!(multiplier(&ansatz, &wrong, 1), None);
+    assert_eq!(multiplier(&ansatz, Some(&wrong), 1), None);
     let closed =
         |relation: &Polynomial<Rational>| closed_positions(&ansatz, std::slice::from_ref(relation), 20, 2).unwrap();
     assert_eq!((closed(relation).positions, closed(relation).satisfied), (20, 20));
@@ -372,8 +372,195 @@ fn what_cannot_be_searched_is_said() {
             vec![joint; joints].join(", ")
         )
     };
-    let (code, _, err) = conditions(&["-"], &file("\"a\", \"d\", \"e\"", 6));
-    assert!(code == 4 && err.contains("3 unknown lengths"), "{err}");
+    let (code, _, err) = conditions(&["-"], &file("\"a\", \"x\"", 6));
+    assert!(code == 1 && err.contains("the unknown `x`, expected one of the symbols: a, d, e, p"), "{err}");
+    for (letter, instead) in [("P", ""), ("C", ""), ("S", "three R joints"), ("U", "two R joints")] {
+        let text = file("", 6).replacen("\"R\"", &format!("\"{letter}\""), 1);
+        let (code, out, err) = conditions(&["-", "--json"], &text);
+        let expected =
+            format!("a joint of type `{letter}`: conditions are derived for loops of 4 to 6 revolute joints");
+        assert!(code == 4 && out.is_empty() && err.contains(&expected) && err.contains(instead), "{err}");
+    }
+    let numbers = file("", 6).replace("\"a\", alpha = \"p\", d = \"d\"", "1, tan_half_alpha = \"1/3\", d = 0");
+    let (code, _, err) =
+        conditions(&["-"], &numbers.replace("angles = [\"p\"]\nlengths = [\"a\", \"d\", \"e\"]\n", ""));
+    assert!(code == 4 && err.contains("`looproot mobility` decides"), "{err}");
     let (code, _, err) = conditions(&["-"], &file("", 7));
     assert!(code == 4 && err.contains("7 joints"), "{err}");
+}
+
+/// A built-in ansatz as text.
+fn text_of(name: &str) -> String {
+    std::fs::read_to_string(format!("{}/equations/conditions/{name}.toml", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+#[test]
+fn with_two_lengths_unknown_one_runs_where_that_is_enough() {
+    let text = text_of("trihedral_6r").replace("unknown = [\"a6\"]", "unknown = [\"a5\", \"a6\"]");
+    let (code, out, _) = conditions(&["-"], &text);
+    let verdict = out.lines().next().unwrap();
+    let expected = "mobile where a1^2 - a2^2 + a3^2 - a4^2 + a5^2 - a6^2 = 0: proved for all parameters";
+    assert!(code == 0 && verdict.starts_with(expected), "{verdict}");
+    assert!(out.contains("Sweep over a5 (a6 drawn with the parameters)"), "{out}");
+}
+
+#[test]
+fn an_unknown_twist_is_found() {
+    let text = text_of("line_symmetric_6r")
+        .replace("\"alpha6 = alpha3\",", "")
+        .replace("[ansatz]", "[ansatz]\nunknown = [\"alpha6\"]");
+    let ansatz = ansatz_from_text(&text, "twist.toml", FileFormat::Toml, &Options::default()).unwrap();
+    let found = search(&ansatz, 1).unwrap();
+    let family = found.fitted.as_ref().unwrap().family.as_ref().unwrap();
+    assert_eq!((family.angle.as_deref(), family.condition.is_none()), (Some("alpha6 = alpha3"), true));
+    assert_eq!(found.fitted.unwrap().member.unwrap().germ.local, Local::Curve);
+}
+
+#[test]
+fn relations_that_others_imply_are_left_out_and_identities_of_all_members_are_none() {
+    // Terms of which cos^2 + sin^2 - 1 is a combination, and products with the relation.
+    let text = text_of("wohlhart_6r").replace(
+        "unknown = [\"d5\"]",
+        "unknown = [\"d5\"]\nfit = [[\"d1\", \"d3\", \"d5\"], [\"1\", \"cos(alpha1)\", \"cos(alpha1)^2\", \"sin(alpha1)^2\"]]",
+    );
+    let ansatz = ansatz_from_text(&text, "wohlhart.toml", FileFormat::Toml, &Options::default()).unwrap();
+    let found = sweep(&ansatz, 1).unwrap();
+    let sum = ["d1", "d3", "d5"].map(|name| variable(&ansatz, name));
+    let expected = sum.iter().fold(Polynomial::zero(), |sum, d| sum.add(d));
+    assert!(found.relations == [expected.clone()] || found.relations == [expected.neg()], "{:?}", found.relations);
+    // Without the three terms that are combinations of others.
+    assert_eq!(found.terms, 9);
+    assert!(found.trial.unwrap().agrees());
+    assert!(matches!(search(&ansatz, 1).unwrap().fitted.unwrap().proof, Some(FamilyProof::Multiplier(_))));
+}
+
+#[test]
+fn random_members_over_prime_fields_tell_families_from_others() {
+    let ansatz = builtin("dietmaier_6r");
+    let [b, other] = ["b", "b'"].map(|name| variable(&ansatz, name));
+    let cos = |k: usize| Polynomial::<Rational>::variable(Symbols::cos(k));
+    let relation = b.mul(&cos(0).add(&cos(1))).sub(&other.mul(&cos(3).add(&cos(4))));
+    let found = modular_members(&ansatz, &[relation], 2, 3);
+    assert!(found.all_move() && found.members == 4, "{found:?}");
+    assert!(!modular_members(&Ansatz::general(6), &[], 2, 3).all_move());
+}
+
+#[test]
+fn a_file_that_states_the_condition_is_proved_for_all_parameters() {
+    let known = text_of("dietmaier_6r");
+    let start = known.find("[ansatz]").unwrap();
+    let relation = "b*(cos(alpha1) + cos(alpha2)) = b'*(cos(alpha4) + cos(alpha5))";
+    let (code, out, _) =
+        conditions(&["-", "-q"], &format!("{}[ansatz]\nrelations = [\"{relation}\"]\n", &known[..start]));
+    assert_eq!((code, out.as_str()), (0, "mobile: proved for all parameters, a member proved over the rationals\n"));
+    let wrong = relation.replacen("+ cos(alpha2)", "- cos(alpha2)", 1);
+    let (code, out, _) = conditions(&["-", "-q"], &format!("{}[ansatz]\nrelations = [\"{wrong}\"]\n", &known[..start]));
+    assert!(code == 2 && out.starts_with("no mobile member found"), "{out}");
+}
+
+#[test]
+fn twists_with_a_symmetry_say_which_lengths_move() {
+    let text = text_of("line_symmetric_6r").replace("\"a4 = a1\", ", "");
+    let ansatz = ansatz_from_text(&text, "lengths.toml", FileFormat::Toml, &Options::default()).unwrap();
+    let found = search(&ansatz, 1).unwrap();
+    let [pattern] = found.patterns.as_slice() else { panic!("{:?}", found.patterns) };
+    let [one, four] = ["a1", "a4"].map(|name| variable(&ansatz, name));
+    assert!(pattern.proved && pattern.involution == "half-turn");
+    assert!(pattern.conditions == [four.sub(&one)] || pattern.conditions == [one.sub(&four)]);
+    let whole = search(&builtin("line_symmetric_6r"), 1).unwrap();
+    assert!(whole.patterns.iter().any(|pattern| pattern.conditions.is_empty() && pattern.proved));
+}
+
+#[test]
+fn goldberg_and_myard_have_formulas_for_all_twists() {
+    let zero = ["d1", "d2", "d3", "d4", "d5"].map(|name| format!("{name} = 0"));
+    for (name, wanted) in [
+        (
+            "goldberg_5r",
+            ["a2 - a5 = 0", "sin_alpha*a3 - sin_gamma*a2 = 0", "sin_alpha*a4 - sin_beta*a2 = 0", "a1 - a3 - a4 = 0"],
+        ),
+        (
+            "goldberg_5r",
+            ["a2 - a5 = 0", "sin_alpha*a3 + sin_gamma*a2 = 0", "sin_alpha*a4 - sin_beta*a2 = 0", "a1 - a3 - a4 = 0"],
+        ),
+        ("myard_5r", ["a3 = 0", "a1 - a5 = 0", "a2 - a4 = 0", "sin_alpha*a2 - a1 = 0"]),
+    ] {
+        let (code, out, _) = conditions(&[name], "");
+        assert!(code == 0 && out.lines().next().unwrap().ends_with("4 for all twists by an identity"), "{out}");
+        let has =
+            |line: &str| wanted.iter().all(|part| line.contains(part)) && zero.iter().all(|part| line.contains(part));
+        assert!(out.lines().any(has), "{name}: {out}");
+    }
+    // In the languages of other programs too.
+    let (code, out, _) = conditions(&["myard_5r", "--format", "singular", "--family", "loop 1"], "");
+    assert!(code == 0 && out.contains("a1-a5"), "{out}");
+    let (code, _, err) = conditions(&["myard_5r", "--format", "singular", "--family", "loop 9"], "");
+    assert!(code == 1 && err.contains("expected a part of one of: loop 1; loop 2"), "{err}");
+}
+
+#[test]
+fn a_loop_of_the_ansatz_is_told_from_others_of_its_twists() {
+    let goldberg = text_of("goldberg_5r");
+    let (code, out, _) = conditions(&["-", "-q"], &format!("{goldberg}\n[ansatz]\nrelations = [\"a1 = 2*a3 + a4\"]\n"));
+    assert!(code == 2 && out.contains("none is in the ansatz"), "{out}");
+    let relations = "\"d1 = 0\", \"d2 = 0\", \"d3 = 0\", \"d4 = 0\", \"d5 = 0\", \"a5 = a2\", \"a2*sin(gamma) = a3*sin(alpha)\", \
+                     \"a2*sin(beta) = a4*sin(alpha)\"";
+    let unknown = format!(
+        "{goldberg}\n[ansatz]\nrelations = [{relations}]\nunknown = [\"a1\"]\nfit = [\"a1\", \"a2\", \"a3\", \"a4\"]\n"
+    );
+    let (code, out, _) = conditions(&["-", "-q"], &unknown);
+    assert!(code == 0 && out.starts_with("mobile where a1 - a3 - a4 = 0: proved for all parameters"), "{out}");
+}
+
+#[test]
+fn a_condition_without_real_solution_is_said_to_be_empty() {
+    let text = text_of("trihedral_6r").replace(
+        "unknown = [\"a6\"]",
+        "unknown = [\"a6\"]\nrelations = [\"a1 = 1\", \"a3 = 1\", \"a5 = 1\", \"a2 = 2\", \"a4 = 2\"]",
+    );
+    let text = text.split("fit = [").next().unwrap().to_owned() + "fit = [\"1\", \"a6\", \"a6^2\"]\n";
+    let (code, out, _) = conditions(&["-", "-q"], &text);
+    assert!(code == 3 && out.starts_with("no real mechanism: the real solution set is empty, "), "{out}");
+}
+
+#[test]
+fn other_conventions_give_the_same_loop() {
+    let goldberg = builtin("goldberg_5r");
+    // Rx Tx of each joint before its Rz Tz: those of the link before it.
+    let links = [("a1", "beta + gamma"), ("a2", "alpha"), ("a3", "gamma"), ("a4", "beta"), ("a5", "alpha")];
+    let joint = |k: usize| {
+        let (a, alpha) = links[(k + 4) % 5];
+        format!("{{ type = \"R\", a = \"{a}\", alpha = \"{alpha}\", d = \"d{}\" }}", k + 1)
+    };
+    let start = text_of("goldberg_5r").split("joints").next().unwrap().replace("\"dh\"", "\"modified-dh\"");
+    let text = format!("{start}joints = [{}]", (0..5).map(joint).collect::<Vec<_>>().join(", "));
+    let modified = ansatz_from_text(&text, "modified.toml", FileFormat::Toml, &Options::default()).unwrap();
+    for (one, other) in goldberg.joints.iter().zip(&modified.joints) {
+        assert_eq!((&one.a, &one.alpha, &one.d), (&other.a, &other.alpha, &other.d));
+    }
+}
+
+#[test]
+fn screw_axes_give_twists_lengths_and_offsets_where_they_are_rational() {
+    // The Bennett loop of twists 2 arctan(1/2) and 2 arctan(1/3) in an exact position, by its axes there.
+    let mut axes = Vec::new();
+    let mut frame = Motion::<Rational>::identity();
+    for ((a, t, _), theta) in BENNETT.iter().zip(["2", "-5/2", "-2", "5/2"]) {
+        let [(c, s), (cos, sin)] = [*t, theta].map(|t| half_tangent_turn(&rational(t)).unwrap());
+        let link = Link { cos: c, sin: s, a: rational(a), d: Rational::new() };
+        let vector = |column: [&Rational; 3]| column.map(|x| format!("\"{x}\"")).join(", ");
+        axes.push(format!(
+            "{{ type = \"R\", axis = [{}], point = [{}] }}",
+            vector([0, 1, 2].map(|i| &frame.rotation[i][2])),
+            vector([0, 1, 2].map(|i| &frame.translation[i])),
+        ));
+        frame = frame.then_after(&Motion::rotation_z(cos, sin)).then_after(&link_motion(&link));
+    }
+    assert_eq!(frame, Motion::identity());
+    let text = format!("[mechanism]\nkind = \"loop\"\nconvention = \"screws\"\njoints = [{}]\n", axes.join(", "));
+    let (code, out, _) = conditions(&["-", "-q"], &text);
+    assert!(code == 0 && out.starts_with("moves: Bennett"), "{out}");
+    let irrational = text.replacen("axis = [\"0\", \"0\", \"1\"]", "axis = [1, 0, 1]", 1);
+    let (code, _, err) = conditions(&["-", "-q"], &irrational);
+    assert!(code == 4 && err.contains("no rational root"), "{err}");
 }

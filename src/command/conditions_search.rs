@@ -6,7 +6,7 @@ use super::output::Output;
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use looproot::catalogue::ansatz::Ansatz;
 use looproot::conditions::search::search;
-use looproot::report::conditions_search::{is_proved, json, system, text, verdict};
+use looproot::report::conditions_search::{empty, is_proved, json, markdown, system, text, verdict};
 use std::io::Write;
 use std::time::Duration;
 
@@ -25,7 +25,9 @@ pub fn run(options: &ConditionsOptions, ansatz: &Ansatz) -> Result<Exit, Fault> 
     let written = if options.json {
         format!("{}\n", json(ansatz, &found))
     } else if let Some(format) = options.format {
-        system(ansatz, &found, format)?
+        system(ansatz, &found, options.family.as_deref(), format)?
+    } else if options.explain {
+        markdown(ansatz, &found)?
     } else if options.quiet {
         verdict(ansatz, &found) + "\n"
     } else {
@@ -34,7 +36,7 @@ pub fn run(options: &ConditionsOptions, ansatz: &Ansatz) -> Result<Exit, Fault> 
     let mut output = Output::open(&options.output, &options.mechanism)?;
     output.writer.write_all(written.as_bytes())?;
     output.writer.flush()?;
-    Ok(if ansatz.empty().is_some() {
+    Ok(if empty(ansatz, &found).is_some() {
         Exit::Unreachable
     } else if is_proved(&found) {
         Exit::Complete

@@ -61,7 +61,7 @@ impl Tie {
         std::array::from_fn(|_| rest.next().expect("five joints without two"))
     }
 
-    fn triad<F: Field>(self, links: &[Link<F>], x: &F, constant: &F) -> Option<(Vec<Turn<F>>, Triad<F>)> {
+    pub(super) fn triad<F: Field>(self, links: &[Link<F>], x: &F, constant: &F) -> Option<(Vec<Turn<F>>, Triad<F>)> {
         let mut turns = vec![(F::one(), F::zero()); 5];
         turns[self.first] = half_tangent_turn(x)?;
         turns[self.second] = half_tangent_turn(&self.follow(x, constant)?)?;
@@ -70,7 +70,7 @@ impl Tie {
     }
 
     /// `(1 + x^2)(x^2 + K^2)` or `(1 + x^2)(1 + K^2 x^2)`, which times the square root of D is a polynomial of degree 4.
-    fn denominator<F: Field>(self, x: &F, constant: &F) -> F {
+    pub(super) fn denominator<F: Field>(self, x: &F, constant: &F) -> F {
         let (square, k) = (x.mul(x), constant.mul(constant));
         let second = match self.relation {
             Relation::Product => square.add(&k),
@@ -125,7 +125,7 @@ pub fn curves<F: Field + Domain>(
 }
 
 /// The square root of D times the denominator, as a polynomial.
-fn separated<F: Field + Domain>(
+pub(super) fn separated<F: Field + Domain>(
     links: &[Link<F>],
     tie: Tie,
     constant: &F,

@@ -1,18 +1,23 @@
 //! For which parameters a closed chain moves: conditions derived symbolically, each step computed and checked.
 
+mod branch;
 pub mod closure_identity;
 pub mod component;
 pub mod configurations;
 pub mod curve_ansatz;
 pub mod decide;
 mod degenerate;
+pub mod family;
 pub mod finite_field;
+mod fit;
+pub mod formulas;
 pub mod four_bar;
 pub mod identity;
 pub mod implication;
 pub mod lift;
 pub mod multiplier;
 pub mod null_space;
+pub mod pattern;
 pub mod quotient;
 pub mod search;
 pub mod spherical;

@@ -38,13 +38,13 @@ fn pairs() -> impl Iterator<Item = (usize, usize)> {
     (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)))
 }
 
-/// A multiplier for the members of an ansatz that satisfy a relation: sought modulo a prime, proved by expansion. `None`
-/// where there is none, or where the relation is not linear in the unknown length.
+/// A multiplier for the members of an ansatz that satisfy a relation, or for all of them where there is none: sought modulo a
+/// prime, proved by expansion. `None` where there is no multiplier, or where the relation is not linear in any length.
 ///
 /// # Panics
 /// Unless there are six joints.
 #[must_use]
-pub fn multiplier(ansatz: &Ansatz, relation: &Polynomial<Rational>, seed: u64) -> Option<Multiplier> {
+pub fn multiplier(ansatz: &Ansatz, relation: Option<&Polynomial<Rational>>, seed: u64) -> Option<Multiplier> {
     assert_eq!(ansatz.joints.len(), 6, "six joints");
     // Symbols that relations of the file give would have to be replaced first.
     let (angles, lengths) = (&ansatz.symbols.angles, &ansatz.symbols.lengths);
@@ -61,35 +61,41 @@ pub fn multiplier(ansatz: &Ansatz, relation: &Polynomial<Rational>, seed: u64) -
     })
 }
 
-/// The multipliers that annihilate the translations of random members in random spherical configurations.
-fn candidates(ansatz: &Ansatz, relation: &Polynomial<Rational>, seed: u64) -> Option<Vec<Vec<Image>>> {
-    let [unknown] = ansatz.unknown.as_slice() else { return None };
-    let variable = ansatz.symbols.length(*unknown);
-    if relation.degree(variable) != 1 {
-        return None;
-    }
-    let place = ansatz.free_lengths().iter().position(|k| k == unknown)?;
+/// The multipliers that annihilate the translations of random members in random spherical configurations, and are not zero
+/// in all of these.
+fn candidates(ansatz: &Ansatz, relation: Option<&Polynomial<Rational>>, seed: u64) -> Option<Vec<Vec<Image>>> {
+    // Solved for a length in which it is linear, an unknown one if it can be.
+    let is_linear = |k: &usize| relation.is_none_or(|relation| relation.degree(ansatz.symbols.length(*k)) == 1);
+    let free = ansatz.free_lengths();
+    let place = ansatz.unknown.iter().copied().chain(free.iter().copied()).find(is_linear)?;
     let members = ansatz.over::<Image>()?;
-    let relation = relation.map(ModP::from_rational)?;
+    let relation = match relation {
+        Some(relation) => Some(relation.map(ModP::from_rational)?),
+        None => None,
+    };
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut rows: Vec<Vec<Image>> = Vec::new();
+    let (mut rows, mut products): (Vec<Vec<Image>>, Vec<Vec<[Image; 3]>>) = (Vec::new(), Vec::new());
     for _ in 0..400 {
         if rows.len() == 40 {
             break;
         }
         let mut random = || Image::new(rng.random_range(1..PRIME_61));
         let tangents: Vec<Image> = ansatz.free_angles().iter().map(|_| random()).collect();
-        let mut lengths: Vec<Image> = ansatz.free_lengths().iter().map(|_| random()).collect();
+        let mut lengths: Vec<Image> = free.iter().map(|_| random()).collect();
         let three = [random(), random(), random()];
-        let mut at = |value: Image| {
-            lengths[place] = value;
-            members.values(&tangents, &lengths)
-        };
-        let (Some(zero), Some(one)) = (at(Image::zero()), at(Image::one())) else { continue };
-        let constant = relation.evaluate(&zero);
-        let slope = relation.evaluate(&one).sub(&constant);
-        let Some(root) = slope.inverse().map(|inverse| constant.neg().mul(&inverse)) else { continue };
-        let Some(links) = at(root).and_then(|values| members.links(&values)) else { continue };
+        if let Some(relation) = &relation {
+            let mut at = |value: Image| {
+                lengths[place] = value;
+                members.values(&tangents, &lengths)
+            };
+            let (Some(zero), Some(one)) = (at(Image::zero()), at(Image::one())) else { continue };
+            let constant = relation.evaluate(&zero);
+            let slope = relation.evaluate(&one).sub(&constant);
+            let Some(root) = slope.inverse().map(|inverse| constant.neg().mul(&inverse)) else { continue };
+            lengths[place] = root;
+        }
+        let values = members.values(&tangents, &lengths);
+        let Some(links) = values.and_then(|values| members.links(&values)) else { continue };
         let mut turns = vec![(Image::one(), Image::zero()); 6];
         for (joint, t) in three.iter().enumerate() {
             if let Some(turn) = half_tangent_turn(t) {
@@ -100,9 +106,18 @@ fn candidates(ansatz: &Ansatz, relation: &Polynomial<Rational>, seed: u64) -> Op
         let directions = Directions::of(&links, &turns);
         let own: Vec<Image> = links.iter().map(|link| link.a).chain(links.iter().map(|link| link.d)).collect();
         let translation = directions.translation(&own);
-        rows.push(pairs().map(|(i, j)| dot(&cross(&directions.axes[i], &directions.axes[j]), &translation)).collect());
+        products.push(pairs().map(|(i, j)| cross(&directions.axes[i], &directions.axes[j])).collect());
+        rows.push(products[rows.len()].iter().map(|product| dot(product, &translation)).collect());
     }
-    (rows.len() == 40).then(|| canonical(Echelon::of(rows, 15).null_space()))
+    let vanishes = |omega: &[Image]| {
+        let component = |product: &Vec<[Image; 3]>, i: usize| {
+            product.iter().zip(omega).fold(Image::zero(), |sum, (vector, x)| sum.add(&vector[i].mul(x)))
+        };
+        products.iter().all(|product| (0..3).all(|i| component(product, i).is_zero()))
+    };
+    let mut space = canonical(Echelon::of(rows, 15).null_space());
+    space.retain(|omega| !vanishes(omega));
+    (products.len() == 40).then_some(space)
 }
 
 /// Cosines between axes and triple products of axes as further variables of the polynomials.
@@ -143,9 +158,9 @@ impl Axes {
     }
 }
 
-/// The number of terms of `w . t` times the sines of the twists, if it is a multiple of the relation; `None` if it is not,
-/// or nothing but zero times it.
-fn expanded(ansatz: &Ansatz, relation: &Polynomial<Rational>, omega: &[Rational]) -> Option<usize> {
+/// The number of terms of `w . t` times the sines of the twists, if it is a multiple of the relation (without one: zero);
+/// `None` if it is not.
+fn expanded(ansatz: &Ansatz, relation: Option<&Polynomial<Rational>>, omega: &[Rational]) -> Option<usize> {
     let angles: Vec<(Symbol, Symbol)> = (0..ansatz.symbols.angles.len())
         .map(|k| (Symbol::variable(Symbols::cos(k)), Symbol::variable(Symbols::sin(k))))
         .collect();
@@ -164,6 +179,11 @@ fn expanded(ansatz: &Ansatz, relation: &Polynomial<Rational>, omega: &[Rational]
             translation = translation.add(&along.add(&offset).scale(factor));
         }
     }
-    translation.checked_div_exact(relation)?;
-    (!translation.is_zero()).then_some(translation.len())
+    match relation {
+        None => translation.is_zero().then_some(0),
+        Some(relation) => {
+            translation.checked_div_exact(relation)?;
+            (!translation.is_zero()).then_some(translation.len())
+        }
+    }
 }

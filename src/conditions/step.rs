@@ -49,8 +49,8 @@ impl Formula {
 
     /// A ratio of polynomials.
     #[must_use]
-    pub fn ratio(name: &str, (numerator, denominator): &Ratio) -> Self {
-        Self { name: name.to_owned(), value: ratio_text(numerator, denominator, &tangents()) }
+    pub fn ratio(name: &str, ratio: &Ratio) -> Self {
+        Self { name: name.to_owned(), value: ratio_text(ratio, &tangents()) }
     }
 }
 
@@ -63,7 +63,9 @@ pub fn tangents() -> Names {
     Names::given(Variables::TANGENTS).expect("the names are distinct")
 }
 
-fn ratio_text(numerator: &Poly, denominator: &Poly, names: &Names) -> String {
+/// A ratio of polynomials as text, both in factors.
+#[must_use]
+pub fn ratio_text((numerator, denominator): &Ratio, names: &Names) -> String {
     let bracketed = |p: &Poly| {
         let text = product(&factored(p, &[]), names);
         if text.contains(' ') { format!("({text})") } else { text }
@@ -77,7 +79,7 @@ fn ratio_text(numerator: &Poly, denominator: &Poly, names: &Names) -> String {
 /// A rational function as text.
 #[must_use]
 pub fn quotient_text(quotient: &Quotient, names: &Names) -> String {
-    ratio_text(quotient.numerator(), quotient.denominator(), names)
+    ratio_text(&(quotient.numerator().clone(), quotient.denominator().clone()), names)
 }
 
 /// Over the rationals, as texts want it.

@@ -1,55 +1,40 @@
 //! Conditions for the mobility of an ansatz with free parameters: mobile members are sought over small prime fields, and
 //! relations fitted to what they have in common.
 //!
-//! Parameters are drawn at random and the unknown lengths run through the whole field; members with a family of
-//! configurations in which every joint moves are kept. The terms of a relation, evaluated at these, are linearly dependent.
-//! What is found is a conjecture.
+//! Parameters are drawn at random and one unknown runs through the whole field, then two where one is not enough; members
+//! with a family of configurations in which every joint moves are kept. The terms of a relation, evaluated at these, are
+//! linearly dependent. What is found is a conjecture.
 
-use super::configurations::configurations;
-use super::curve_ansatz::canonical;
-use super::finite_field::random_unit;
+use super::fit::{Draw, Place, Scouted, choices, fit, images, moves, over, random, scout, unknown_places};
 use super::lift;
 use crate::algebra::echelon::Echelon;
-use crate::algebra::modp::ModP;
+use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
-use crate::catalogue::ansatz::{Ansatz, Members, Symbols};
+use crate::catalogue::ansatz::{Ansatz, Symbols};
 use crate::error::{Error, Result};
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::Rng;
 use rayon::prelude::*;
 use rug::{Integer, Rational};
-use std::collections::BTreeMap;
+
+pub use super::fit::Evidence;
 
 /// What a sweep found.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     /// For each prime, what the random members said.
     pub evidence: Vec<Evidence>,
-    /// Relations with coprime integer coefficients that all mobile members satisfy; none where there are none among the
-    /// terms.
+    /// The symbols that ran through the fields, by name; the other unknown ones were drawn like parameters.
+    pub running: Vec<String>,
+    /// Relations with coprime integer coefficients that all mobile members satisfy, none of them a consequence of the
+    /// others; none where there are none among the terms.
     pub relations: Vec<Polynomial<Rational>>,
     /// The terms among which relations were sought.
     pub terms: usize,
     /// Fresh members looked at to try the relations; absent without relations.
     pub trial: Option<Trial>,
-}
-
-/// What random members over one prime field said.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Evidence {
-    /// The prime.
-    pub prime: u64,
-    /// Random choices of the parameters.
-    pub draws: usize,
-    /// How many of these have how many mobile members.
-    pub roots: BTreeMap<usize, usize>,
-    /// The typical number: the degree of the condition in the unknown.
-    pub typical: usize,
-    /// Mobile members that relations were fitted to.
-    pub members: usize,
-    /// The number of independent relations among the terms.
-    pub relations: usize,
+    /// Whether almost all members move, whatever the unknown is.
+    pub always: bool,
 }
 
 /// Fresh members over another prime field, on the relations and off them.
@@ -75,65 +60,105 @@ impl Trial {
     }
 }
 
-/// The fit over one prime field. Fields are larger where there is one unknown to run through them; two of them, so that
-/// coefficients up to some dozens come back.
-type Fit = fn(&Ansatz, &[Polynomial<Rational>], u64) -> Result<(Evidence, Vec<Vec<u64>>)>;
+type Fit = fn(&Ansatz, &[Polynomial<Rational>], &[Place], u64) -> Result<(Evidence, Vec<Vec<u64>>)>;
+type Scout = fn(&Ansatz, &[Place], usize, u64) -> Result<Scouted>;
 
+/// The fields where one unknown runs through them, and smaller ones where two do: two of them, and more where coefficients
+/// are so large that two do not give them back.
+const FITS: [[Fit; 4]; 2] =
+    [[fit::<59>, fit::<67>, fit::<71>, fit::<79>], [fit::<31>, fit::<43>, fit::<47>, fit::<59>]];
+/// The field in which is looked whether any member moves, and in how many draws.
+const SCOUTS: [(Scout, usize); 2] = [(scout::<59>, 16), (scout::<31>, 8)];
 /// The prime of the trial.
 const TRIAL: u64 = 103;
-/// Members more than terms, so that a relation among them is no accident.
-const SURPLUS: usize = 12;
-/// Random choices of parameters, for each member wanted, before a sweep gives up.
-const PATIENCE: usize = 4;
 /// One of so many members off the relations is tried.
 const OFF: u64 = 8;
 /// Random choices of parameters in the trial.
 const TRIALS: usize = 12;
+/// Draws in which is looked whether relations imply another one.
+const SAMPLES: usize = 8;
 
 /// Sweeps an ansatz.
 ///
 /// # Errors
-/// [`Error::Unsupported`] unless there are one or two unknown lengths and four to six joints.
+/// [`Error::Unsupported`] without an unknown symbol, for other than four to six joints, and for numbers that are fractions
+/// modulo one of the primes.
 pub fn sweep(ansatz: &Ansatz, seed: u64) -> Result<Sweep> {
-    let fits: [Fit; 2] = match ansatz.unknown.len() {
-        1 => [fit::<59>, fit::<67>],
-        2 => [fit::<31>, fit::<43>],
-        n => return Err(Error::Unsupported(format!("a sweep over {n} unknown lengths, expected one or two"))),
-    };
     if !(4..=6).contains(&ansatz.joints.len()) {
         return Err(Error::Unsupported(format!("a sweep for {} joints, expected four to six", ansatz.joints.len())));
     }
-    let mut last = None;
+    let unknown = unknown_places(ansatz);
+    if unknown.is_empty() {
+        return Err(Error::Unsupported("a sweep without an unknown symbol, expected one at least".to_owned()));
+    }
+    let mut sweep = Sweep {
+        evidence: Vec::new(),
+        running: names(ansatz, &unknown),
+        relations: Vec::new(),
+        terms: 0,
+        trial: None,
+        always: false,
+    };
+    let Some((running, scouted)) = running(ansatz, &unknown, seed)? else { return Ok(sweep) };
+    sweep.running = names(ansatz, &running);
+    if scouted == Scouted::All {
+        return Ok(Sweep { always: true, ..sweep });
+    }
     for terms in term_lists(ansatz) {
-        let mut evidence = Vec::new();
-        let mut spaces = Vec::new();
-        for fit in fits {
-            let (found, space) = fit(ansatz, &terms, seed)?;
-            let empty = space.is_empty();
-            spaces.push((found.prime, space));
-            evidence.push(found);
-            if empty {
+        let terms = independent(ansatz, &terms, seed)?;
+        sweep.terms = terms.len();
+        sweep.evidence.clear();
+        let mut spaces: Vec<(u64, Vec<Vec<u64>>)> = Vec::new();
+        for fit in FITS[running.len() - 1] {
+            let (found, space) = fit(ansatz, &terms, &running, seed)?;
+            let is_empty = space.is_empty();
+            if !is_empty {
+                spaces.push((found.prime, space));
+            }
+            sweep.evidence.push(found);
+            if is_empty && spaces.is_empty() {
                 break;
             }
+            let Some(relations) = lifted(&spaces, &terms) else { continue };
+            sweep.relations = minimal(ansatz, relations, &running, seed)?;
+            let trial = trial::<TRIAL>(ansatz, &sweep.relations, &running, seed)?;
+            sweep.trial = Some(trial);
+            if trial.agrees() {
+                return Ok(sweep);
+            }
         }
-        let relations = lifted(&spaces, &terms);
-        let sweep = Sweep { evidence, relations, terms: terms.len(), trial: None };
         if !sweep.relations.is_empty() {
-            let trial = trial::<TRIAL>(ansatz, &sweep.relations, seed)?;
-            return Ok(Sweep { trial: Some(trial), ..sweep });
-        }
-        let members = sweep.evidence.iter().map(|evidence| evidence.members).max().unwrap_or(0);
-        last = Some(sweep);
-        // Without mobile members, other terms find nothing either.
-        if members == 0 {
-            break;
+            return Ok(sweep);
         }
     }
-    last.ok_or_else(|| Error::Invalid("found no terms to fit".to_owned()))
+    Ok(sweep)
 }
 
-/// The terms of the file, or what usual conditions are made of: lengths times functions of one angle, then products of two
-/// lengths.
+/// Which of the unknown have to run for some members to move: one of them, two, or none that was looked at.
+fn running(ansatz: &Ansatz, unknown: &[Place], seed: u64) -> Result<Option<(Vec<Place>, Scouted)>> {
+    let singles = unknown.iter().map(|&place| vec![place]);
+    let pairs = (0..unknown.len()).flat_map(|i| (i + 1..unknown.len()).map(move |j| vec![unknown[i], unknown[j]]));
+    for places in singles.chain(pairs) {
+        let (scout, draws) = SCOUTS[places.len() - 1];
+        let scouted = scout(ansatz, &places, draws, seed)?;
+        if scouted != Scouted::Rigid {
+            return Ok(Some((places, scouted)));
+        }
+    }
+    Ok(None)
+}
+
+fn names(ansatz: &Ansatz, places: &[Place]) -> Vec<String> {
+    let symbols = &ansatz.symbols;
+    let name = |place: &Place| match *place {
+        Place::Tangent(k) => symbols.angles[ansatz.free_angles()[k]].clone(),
+        Place::Length(k) => symbols.lengths[ansatz.free_lengths()[k]].clone(),
+    };
+    places.iter().map(name).collect()
+}
+
+/// The terms of the file, or what usual conditions are made of: lengths times functions of one angle, products of two
+/// lengths; where an angle is unknown, functions of angles first.
 fn term_lists(ansatz: &Ansatz) -> Vec<Vec<Polynomial<Rational>>> {
     if !ansatz.fit.is_empty() {
         return vec![ansatz.fit.clone()];
@@ -144,166 +169,134 @@ fn term_lists(ansatz: &Ansatz) -> Vec<Vec<Polynomial<Rational>>> {
     for &angle in ansatz.free_angles() {
         functions.extend([Symbols::cos(angle), Symbols::sin(angle)].map(Polynomial::variable));
     }
-    let linear = lengths.iter().flat_map(|length| functions.iter().map(|f| length.mul(f))).collect();
-    let quadratic = (0..lengths.len()).flat_map(|i| (0..=i).map(move |j| (i, j)));
-    vec![linear, quadratic.map(|(i, j)| lengths[i].mul(&lengths[j])).collect()]
-}
-
-/// A choice of the free parameters with all lengths but the unknown ones, which are 0 so far.
-struct Draw<F> {
-    tangents: Vec<F>,
-    lengths: Vec<F>,
-}
-
-/// The places of the unknown among the free lengths.
-fn unknown_places(ansatz: &Ansatz) -> Vec<usize> {
-    let free = ansatz.free_lengths();
-    ansatz.unknown.iter().filter_map(|unknown| free.iter().position(|k| k == unknown)).collect()
-}
-
-fn draw<const P: u64>(ansatz: &Ansatz, rng: &mut ChaCha8Rng) -> Draw<ModP<P>> {
-    Draw {
-        tangents: ansatz.free_angles().iter().map(|_| random_unit(rng)).collect(),
-        lengths: ansatz.free_lengths().iter().map(|_| random_unit(rng)).collect(),
-    }
-}
-
-/// The values of all symbols of the members of a draw that move, for all values of the unknown.
-fn mobile<const P: u64>(members: &Members<'_, ModP<P>>, places: &[usize], draw: &Draw<ModP<P>>) -> Vec<Vec<ModP<P>>> {
-    let choices = P.pow(u32::try_from(places.len()).unwrap_or(u32::MAX));
-    let member = |choice: u64| {
-        let mut lengths = draw.lengths.clone();
-        let mut rest = choice;
-        for &place in places {
-            lengths[place] = ModP::new(rest % P);
-            rest /= P;
-        }
-        let values = members.values(&draw.tangents, &lengths)?;
-        moves(members, &values).then_some(values)
+    let products = |list: &[Polynomial<Rational>]| -> Vec<Polynomial<Rational>> {
+        (0..list.len()).flat_map(|i| (0..=i).map(move |j| list[i].mul(&list[j]))).collect()
     };
-    (0..choices).filter_map(member).collect()
+    let mut lists = Vec::new();
+    if !ansatz.unknown_angles.is_empty() {
+        lists.extend([functions.clone(), products(&functions)]);
+    }
+    if !lengths.is_empty() {
+        let one = Polynomial::one();
+        let factors = lengths.iter().chain([&one]);
+        lists.push(factors.flat_map(|length| functions.iter().map(|f| length.mul(f))).collect());
+        lists.push(products(&lengths.iter().cloned().chain([one.clone()]).collect::<Vec<_>>()));
+    }
+    lists
 }
 
-/// Whether a member has a family of configurations in which all joints move.
-fn moves<const P: u64>(members: &Members<'_, ModP<P>>, values: &[ModP<P>]) -> bool {
-    let limit = usize::try_from(4 * P).unwrap_or(usize::MAX);
-    members.links(values).is_some_and(|links| configurations(&links, limit).all_move())
+/// The terms without those that are combinations of the ones before them for every member, mobile or not.
+fn independent(ansatz: &Ansatz, terms: &[Polynomial<Rational>], seed: u64) -> Result<Vec<Polynomial<Rational>>> {
+    let members = over::<PRIME_61>(ansatz)?;
+    let images = images::<PRIME_61>(terms)?;
+    let wanted = terms.len() + 4;
+    let row = |number: usize| {
+        let draw = Draw::<ModP<PRIME_61>>::random(ansatz, &mut random::<PRIME_61>(seed, number));
+        let values = members.values(&draw.tangents, &draw.lengths)?;
+        Some(images.iter().map(|term| term.evaluate(&values)).collect::<Vec<_>>())
+    };
+    let rows: Vec<_> = (0..2 * wanted).filter_map(row).take(wanted).collect();
+    if rows.len() < wanted {
+        return Ok(terms.to_vec());
+    }
+    let mut pivots = Echelon::of(rows, terms.len()).pivots().to_vec();
+    pivots.sort_unstable();
+    Ok(pivots.into_iter().map(|k| terms[k].clone()).collect())
 }
 
-/// The relations among the terms over one prime field.
-fn fit<const P: u64>(ansatz: &Ansatz, terms: &[Polynomial<Rational>], seed: u64) -> Result<(Evidence, Vec<Vec<u64>>)> {
-    let unlucky = || Error::Unsupported(format!("a number of the ansatz that is a fraction modulo {P}"));
-    let members = ansatz.over::<ModP<P>>().ok_or_else(unlucky)?;
-    let places = unknown_places(ansatz);
-    let images: Option<Vec<Polynomial<ModP<P>>>> = terms.iter().map(|term| term.map(ModP::from_rational)).collect();
-    let images = images.ok_or_else(unlucky)?;
-    let wanted = terms.len() + SURPLUS;
-    let batch = wanted.div_ceil(2);
-    let mut draws: Vec<Vec<Vec<ModP<P>>>> = Vec::new();
-    let mut typical = 0;
-    while draws.len() < PATIENCE * wanted {
-        let start = draws.len();
-        draws.par_extend((start..start + batch).into_par_iter().map(|number| {
-            let mut rng = ChaCha8Rng::seed_from_u64(seed ^ (P << 32) ^ number as u64);
-            mobile(&members, &places, &draw(ansatz, &mut rng))
-        }));
-        typical = usual(&draws);
-        let kept = draws.iter().filter(|found| typical > 0 && found.len() == typical).count();
-        if kept * typical >= wanted || draws.len() >= wanted && typical == 0 {
-            break;
-        }
-    }
-    let rows: Vec<Vec<ModP<P>>> = draws
-        .iter()
-        .filter(|found| typical > 0 && found.len() == typical)
-        .flatten()
-        .map(|values| images.iter().map(|term| term.evaluate(values)).collect())
-        .collect();
-    let space = if rows.len() < wanted { Vec::new() } else { null_space(&rows, terms.len()) };
-    let mut roots = BTreeMap::new();
-    for found in &draws {
-        *roots.entry(found.len()).or_default() += 1;
-    }
-    let evidence =
-        Evidence { prime: P, draws: draws.len(), roots, typical, members: rows.len(), relations: space.len() };
-    Ok((evidence, space.iter().map(|vector| vector.iter().map(|x| x.value()).collect()).collect()))
-}
-
-/// The number of mobile members, none apart, that most draws have.
-fn usual<T>(draws: &[Vec<T>]) -> usize {
-    let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
-    for found in draws.iter().filter(|found| !found.is_empty()) {
-        *counts.entry(found.len()).or_default() += 1;
-    }
-    counts.into_iter().max_by_key(|&(_, count)| count).map_or(0, |(roots, _)| roots)
-}
-
-/// Subsets tried where a few members spoil the fit.
-const SUBSETS: usize = 40;
-
-/// The null space of the rows; where there is none, that of a subset with which most of the rows agree, as a few members
-/// move by accident modulo a small prime.
-fn null_space<const P: u64>(rows: &[Vec<ModP<P>>], columns: usize) -> Vec<Vec<ModP<P>>> {
-    let whole = Echelon::of(rows.to_vec(), columns).null_space();
-    if !whole.is_empty() {
-        return canonical(whole);
-    }
-    let mut rng = ChaCha8Rng::seed_from_u64(P);
-    for _ in 0..SUBSETS {
-        let chosen = rand::seq::index::sample(&mut rng, rows.len(), columns.min(rows.len()));
-        let subset = chosen.into_iter().map(|i| rows[i].clone()).collect();
-        let space = Echelon::of(subset, columns).null_space();
-        let [vector] = space.as_slice() else { continue };
-        let agrees =
-            |row: &&Vec<ModP<P>>| row.iter().zip(vector).fold(ModP::zero(), |sum, (x, y)| sum.add(&x.mul(y))).is_zero();
-        if 10 * rows.iter().filter(agrees).count() >= 9 * rows.len() {
-            return canonical(space);
-        }
-    }
-    Vec::new()
-}
-
-/// The relations from their residues; none unless all primes give as many.
-fn lifted(spaces: &[(u64, Vec<Vec<u64>>)], terms: &[Polynomial<Rational>]) -> Vec<Polynomial<Rational>> {
-    let count = spaces.first().map_or(0, |(_, space)| space.len());
-    if spaces.len() < 2 || spaces.iter().any(|(_, space)| space.len() != count) {
-        return Vec::new();
+/// The relations from their residues modulo the primes that give as many; `None` unless there are two such primes, and
+/// integers of a size that they determine.
+fn lifted(spaces: &[(u64, Vec<Vec<u64>>)], terms: &[Polynomial<Rational>]) -> Option<Vec<Polynomial<Rational>>> {
+    let count = spaces.iter().map(|(_, space)| space.len()).min()?;
+    let spaces: Vec<_> = spaces.iter().filter(|(_, space)| space.len() == count).collect();
+    if spaces.len() < 2 {
+        return None;
     }
     let relation = |number: usize| {
         let residues: Vec<(u64, Vec<u64>)> =
             spaces.iter().map(|(prime, space)| (*prime, space[number].clone())).collect();
         let coefficients = lift::vector(&residues)?;
         let denominator = coefficients.iter().fold(Integer::from(1), |lcm, c| lcm.lcm(c.denom()));
-        let sum = terms
-            .iter()
-            .zip(&coefficients)
-            .fold(Polynomial::zero(), |sum, (term, c)| sum.add(&term.scale(&Rational::from(c * &denominator))));
-        Some(sum)
+        let scaled = |(term, c): (&Polynomial<Rational>, &Rational)| term.scale(&Rational::from(c * &denominator));
+        let sum = terms.iter().zip(&coefficients).map(scaled).fold(Polynomial::zero(), |sum, term| sum.add(&term));
+        Some(without_monomial(&sum))
     };
-    (0..count).map(relation).collect::<Option<_>>().unwrap_or_default()
+    (0..count).map(relation).collect()
+}
+
+/// A polynomial without the product of variables that divides it.
+fn without_monomial(polynomial: &Polynomial<Rational>) -> Polynomial<Rational> {
+    let variables = polynomial.variables();
+    let exponent = |variable: usize| polynomial.terms().map(|(exponents, _)| exponents[variable]).min().unwrap_or(0);
+    let common: Vec<u32> = (0..variables).map(exponent).collect();
+    let divided = |(exponents, c): (Vec<u32>, &Rational)| {
+        (exponents.iter().zip(&common).map(|(e, less)| e - less).collect::<Vec<_>>(), c.clone())
+    };
+    Polynomial::from_terms(polynomial.terms().map(divided))
+}
+
+/// The simplest relations, without those that the others imply for general values of the parameters.
+fn minimal(
+    ansatz: &Ansatz,
+    mut relations: Vec<Polynomial<Rational>>,
+    running: &[Place],
+    seed: u64,
+) -> Result<Vec<Polynomial<Rational>>> {
+    relations.sort_by_key(|relation| (relation.total_degree(), relation.len()));
+    let mut kept: Vec<Polynomial<Rational>> = Vec::new();
+    for relation in relations {
+        if !implied::<TRIAL>(ansatz, &kept, &relation, running, seed)? {
+            kept.push(relation);
+        }
+    }
+    Ok(kept)
+}
+
+/// Whether a relation vanishes wherever others do, for random values of the symbols that do not run.
+fn implied<const P: u64>(
+    ansatz: &Ansatz,
+    others: &[Polynomial<Rational>],
+    relation: &Polynomial<Rational>,
+    running: &[Place],
+    seed: u64,
+) -> Result<bool> {
+    let (members, others) = (over::<P>(ansatz)?, images::<P>(others)?);
+    let relation = images::<P>(std::slice::from_ref(relation))?;
+    let vanish = |list: &[Polynomial<ModP<P>>], values: &[ModP<P>]| list.iter().all(|p| p.evaluate(values).is_zero());
+    let (mut common, mut also) = (0_usize, 0_usize);
+    for number in 0..SAMPLES {
+        let mut draw = Draw::<ModP<P>>::random(ansatz, &mut random::<P>(seed, number));
+        for choice in 0..choices::<P>(running) {
+            draw.set(running, choice);
+            let Some(values) = members.values(&draw.tangents, &draw.lengths) else { continue };
+            if vanish(&others, &values) {
+                common += 1;
+                also += usize::from(vanish(&relation, &values));
+            }
+        }
+    }
+    // A few accidents of a small field apart.
+    Ok(!others.is_empty() && common > 0 && 10 * also >= 9 * common)
 }
 
 /// Tries relations on fresh members over another field.
-fn trial<const P: u64>(ansatz: &Ansatz, relations: &[Polynomial<Rational>], seed: u64) -> Result<Trial> {
-    let unlucky = || Error::Unsupported(format!("a number of the ansatz that is a fraction modulo {P}"));
-    let members = ansatz.over::<ModP<P>>().ok_or_else(unlucky)?;
-    let images: Option<Vec<Polynomial<ModP<P>>>> = relations.iter().map(|r| r.map(ModP::from_rational)).collect();
-    let images = images.ok_or_else(unlucky)?;
-    let places = unknown_places(ansatz);
+fn trial<const P: u64>(
+    ansatz: &Ansatz,
+    relations: &[Polynomial<Rational>],
+    running: &[Place],
+    seed: u64,
+) -> Result<Trial> {
+    let (members, images) = (over::<P>(ansatz)?, images::<P>(relations)?);
+    let choices = choices::<P>(running);
+    let off = OFF * (choices / P).max(1);
+    let none = Trial { prime: P, on: 0, mobile_on: 0, off: 0, mobile_off: 0 };
     let one = |number: usize| {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed ^ (P << 32) ^ number as u64);
-        let draw = draw::<P>(ansatz, &mut rng);
-        let mut trial = Trial { prime: P, on: 0, mobile_on: 0, off: 0, mobile_off: 0 };
-        let mut lengths = draw.lengths;
-        let choices = P.pow(u32::try_from(places.len()).unwrap_or(u32::MAX));
-        let off = OFF * (choices / P).max(1);
+        let mut rng = random::<P>(seed, number);
+        let mut draw = Draw::<ModP<P>>::random(ansatz, &mut rng);
+        let mut trial = none;
         for choice in 0..choices {
-            let mut rest = choice;
-            for &place in &places {
-                lengths[place] = ModP::new(rest % P);
-                rest /= P;
-            }
-            let Some(values) = members.values(&draw.tangents, &lengths) else { continue };
+            draw.set(running, choice);
+            let Some(values) = members.values(&draw.tangents, &draw.lengths) else { continue };
             let on = images.iter().all(|relation| relation.evaluate(&values).is_zero());
             // Off the relations a few are enough.
             if !on && rng.random_range(0..off) != 0 {
@@ -319,8 +312,7 @@ fn trial<const P: u64>(ansatz: &Ansatz, relations: &[Polynomial<Rational>], seed
         trial
     };
     let trials: Vec<Trial> = (0..TRIALS).into_par_iter().map(one).collect();
-    let empty = Trial { prime: P, on: 0, mobile_on: 0, off: 0, mobile_off: 0 };
-    Ok(trials.iter().fold(empty, |sum, t| Trial {
+    Ok(trials.iter().fold(none, |sum, t| Trial {
         prime: P,
         on: sum.on + t.on,
         mobile_on: sum.mobile_on + t.mobile_on,

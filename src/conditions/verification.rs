@@ -5,13 +5,13 @@ use super::curve_ansatz::rational_square_root;
 use super::finite_field::{Turn, half_tangent_turn, square_root};
 use super::spherical::{Directions, closed_by, triad};
 use crate::algebra::echelon::Echelon;
-use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::modp::{ModP, PRIME_61, PRIME_62};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Field, Ring};
 use crate::catalogue::ansatz::{Ansatz, Link, Members};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
-use crate::mobility::{Germ, Linkage};
+use crate::mobility::{Germ, Linkage, Local};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rug::Rational;
@@ -76,7 +76,8 @@ pub fn closed_positions(
         let tangents: Vec<_> = ansatz.free_angles().iter().map(|_| random()).collect();
         let three = [random(), random(), random()];
         let weights: Vec<_> = ansatz.free_lengths().iter().map(|_| random()).collect();
-        let Some((values, _)) = closing_member(&members, ansatz, &tangents, &three, &weights, |x| square_root(*x))
+        let Some((values, _)) =
+            closing_member(&members, ansatz, &[], (&tangents, &three, &weights), |x| square_root(*x))
         else {
             continue;
         };
@@ -91,14 +92,13 @@ const CHOSEN: [usize; 3] = [0, 1, 3];
 const FOLLOWING: [usize; 3] = [2, 4, 5];
 
 /// A member of given twists that closes in a position with given half-angle tangents of three joints, its free lengths
-/// combined with the given weights from those that close: the values of its symbols, and its rotations. `None` where there
-/// is none over the field.
+/// combined with the given weights from those that close and satisfy the relations that are linear in them: the values of
+/// its symbols, and its rotations. `None` where there is none over the field.
 fn closing_member<F: Field>(
     members: &Members<'_, F>,
     ansatz: &Ansatz,
-    tangents: &[F],
-    chosen: &[F; 3],
-    weights: &[F],
+    relations: &[Polynomial<F>],
+    (tangents, chosen, weights): (&[F], &[F; 3], &[F]),
     root: impl Fn(&F) -> Option<F>,
 ) -> Option<(Vec<F>, Vec<Turn<F>>)> {
     let count = ansatz.free_lengths().len();
@@ -117,17 +117,23 @@ fn closing_member<F: Field>(
             links.iter().map(|link| link.a.clone()).chain(links.iter().map(|link| link.d.clone())).collect();
         Some(directions.translation(&own))
     };
+    let linear: Vec<&Polynomial<F>> = relations.iter().filter(|relation| is_linear(ansatz, relation)).collect();
+    let equations = |lengths: &[F]| {
+        let values = at(lengths)?;
+        let relations = linear.iter().map(|relation| relation.evaluate(&values));
+        Some(translation(lengths)?.into_iter().chain(relations).collect::<Vec<F>>())
+    };
     // Linear in the lengths, up to a constant: one column for every length, the last for the constant.
-    let constant = translation(&zero)?;
+    let constant = equations(&zero)?;
     let mut columns = Vec::new();
     for k in 0..count {
         let mut unit = zero.clone();
         unit[k] = F::one();
-        let column = translation(&unit)?;
-        columns.push(std::array::from_fn::<_, 3, _>(|i| column[i].sub(&constant[i])));
+        columns.push(equations(&unit)?.iter().zip(&constant).map(|(x, c)| x.sub(c)).collect::<Vec<F>>());
     }
     columns.push(constant);
-    let rows: Vec<Vec<F>> = (0..3).map(|i| columns.iter().map(|column| column[i].clone()).collect()).collect();
+    let row = |i: usize| columns.iter().map(|column| column[i].clone()).collect::<Vec<F>>();
+    let rows: Vec<Vec<F>> = (0..3 + linear.len()).map(row).collect();
     let mut lengths = vec![F::zero(); count + 1];
     for (vector, weight) in Echelon::of(rows, count + 1).null_space().iter().zip(weights) {
         for (total, x) in lengths.iter_mut().zip(vector) {
@@ -146,6 +152,87 @@ fn closing_member<F: Field>(
     }
     let values = at(&lengths)?;
     Some((values, turns))
+}
+
+/// Whether a polynomial is linear in the lengths.
+fn is_linear<F: Field>(ansatz: &Ansatz, polynomial: &Polynomial<F>) -> bool {
+    let first = ansatz.symbols.length(0);
+    polynomial.terms().all(|(exponents, _)| exponents.iter().skip(first).sum::<u32>() <= 1)
+}
+
+/// Random members with a closed position over prime fields, and how many of them the order test calls mobile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ModularMembers {
+    /// Members with a position of screw rank 5.
+    pub members: usize,
+    /// How many of these have a curve of positions there.
+    pub mobile: usize,
+}
+
+impl ModularMembers {
+    /// Whether all of them move.
+    #[must_use]
+    pub const fn all_move(&self) -> bool {
+        self.members > 0 && self.members == self.mobile
+    }
+}
+
+/// The order test at random members that satisfy the relations, over the fields of `2^61 - 1` and of `2^62 - 57` elements.
+///
+/// The coefficients of orders up to 16 of the reduced closure equations are algebraic functions of the draws, of a degree
+/// below `2^21` (docs/conditions_search.md). If general members did not move, one of these functions would not vanish, and a
+/// random draw over the field of p elements would be a zero of it with a probability below `2^21 / p < 2^-39`. Draws are as
+/// in [`closed_positions`]; relations that are not linear in the lengths are left to chance.
+///
+/// # Panics
+/// Unless there are six joints.
+#[must_use]
+pub fn modular_members(ansatz: &Ansatz, relations: &[Polynomial<Rational>], draws: usize, seed: u64) -> ModularMembers {
+    assert_eq!(ansatz.joints.len(), 6, "six joints");
+    let one = modular::<PRIME_61>(ansatz, relations, draws, seed);
+    let other = modular::<PRIME_62>(ansatz, relations, draws, seed);
+    // An unlucky prime, or no members, is no evidence.
+    let found = [one, other].map(Option::unwrap_or_default);
+    if found.iter().any(|&[members, _]| members == 0) {
+        return ModularMembers { members: 0, mobile: 0 };
+    }
+    ModularMembers { members: found[0][0] + found[1][0], mobile: found[0][1] + found[1][1] }
+}
+
+/// Members of screw rank 5 met in the draws, and how many of them move.
+fn modular<const P: u64>(
+    ansatz: &Ansatz,
+    relations: &[Polynomial<Rational>],
+    draws: usize,
+    seed: u64,
+) -> Option<[usize; 2]> {
+    let members = ansatz.over::<ModP<P>>()?;
+    let images: Vec<Polynomial<ModP<P>>> =
+        relations.iter().map(|relation| relation.map(ModP::from_rational)).collect::<Option<_>>()?;
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut found = [0, 0];
+    for _ in 0..8 * draws {
+        if found[0] == draws {
+            break;
+        }
+        let mut random = || ModP::<P>::new(rng.random_range(1..P));
+        let tangents: Vec<_> = ansatz.free_angles().iter().map(|_| random()).collect();
+        let three = [random(), random(), random()];
+        let weights: Vec<_> = ansatz.free_lengths().iter().map(|_| random()).collect();
+        let draw = (&*tangents, &three, &*weights);
+        let Some((values, turns)) = closing_member(&members, ansatz, &images, draw, |x| square_root(*x)) else {
+            continue;
+        };
+        if images.iter().any(|relation| !relation.evaluate(&values).is_zero()) {
+            continue;
+        }
+        let Some(links) = members.links(&values) else { continue };
+        let germ = germ(&links, &turns);
+        if germ.rank == 5 {
+            found = [found[0] + 1, found[1] + usize::from(germ.local == Local::Curve)];
+        }
+    }
+    Some(found)
 }
 
 /// A member over the rationals with an exact position.
@@ -206,7 +293,7 @@ pub fn rational_member(
             continue;
         }
         let weights: Vec<_> = (0..free).map(|_| Rational::from(rng.random_range(1..9))).collect();
-        let found = closing_member(&members, ansatz, &tangents, &chosen, &weights, rational_square_root);
+        let found = closing_member(&members, ansatz, relations, (&tangents, &chosen, &weights), rational_square_root);
         let Some((values, turns)) = found else { continue };
         if relations.iter().any(|relation| !relation.evaluate(&values).is_zero()) {
             continue;

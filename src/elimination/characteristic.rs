@@ -1,67 +1,77 @@
-//! The characteristic polynomial of a matrix modulo a prime, by its Hessenberg form.
+//! The characteristic polynomial of a matrix over a field, by its Hessenberg form.
 
 use super::border::Arithmetic;
-use crate::algebra::modp::Modulus;
 
-/// Coefficients of `det(x - matrix)`, constant term first; the matrix is used up. Residues in Montgomery form.
+/// Coefficients of `det(x - matrix)`, constant term first; the matrix is used up. `None` where `inverse` does not exist for a
+/// number that is not 0, as may be for residues modulo several primes.
 #[must_use]
-pub fn characteristic_polynomial(modulus: &Modulus, matrix: &mut [Vec<u64>]) -> Vec<u64> {
-    let n = matrix.len();
-    reduce(modulus, matrix);
+pub fn characteristic_polynomial<A: Arithmetic>(
+    field: &A,
+    inverse: impl Fn(A::Element) -> Option<A::Element>,
+    matrix: &mut [Vec<A::Element>],
+) -> Option<Vec<A::Element>> {
+    let (n, zero) = (matrix.len(), field.zero());
+    reduce(field, inverse, matrix)?;
     // Those of the leading blocks: p_k = (x - h_kk) p_{k-1} - sum_i h_ik (h_{i+1,i} ... h_{k,k-1}) p_{i-1}.
-    let mut leading: Vec<Vec<u64>> = vec![vec![modulus.enter(1)]];
+    let mut leading: Vec<Vec<A::Element>> = vec![vec![field.one()]];
     for k in 0..n {
-        let mut p = vec![0; k + 2];
+        let mut p = vec![zero; k + 2];
         p[1..].copy_from_slice(&leading[k]);
-        modulus.add_multiple(&mut p[..=k], modulus.neg(matrix[k][k]), &leading[k]);
-        let mut product = modulus.enter(1);
+        field.add_multiple(&mut p[..=k], field.neg(matrix[k][k]), &leading[k]);
+        let mut product = field.one();
         for i in (0..k).rev() {
-            product = modulus.mul(product, matrix[i + 1][i]);
-            if product == 0 {
+            product = field.mul(product, matrix[i + 1][i]);
+            if product == zero {
                 break;
             }
-            let factor = modulus.neg(modulus.mul(product, matrix[i][k]));
-            modulus.add_multiple(&mut p[..=i], factor, &leading[i]);
+            let factor = field.neg(field.mul(product, matrix[i][k]));
+            field.add_multiple(&mut p[..=i], factor, &leading[i]);
         }
         leading.push(p);
     }
-    leading.pop().unwrap_or_default()
+    leading.pop()
 }
 
 /// Similar upper Hessenberg form, by elimination.
-fn reduce(modulus: &Modulus, matrix: &mut [Vec<u64>]) {
-    let n = matrix.len();
+fn reduce<A: Arithmetic>(
+    field: &A,
+    inverse: impl Fn(A::Element) -> Option<A::Element>,
+    matrix: &mut [Vec<A::Element>],
+) -> Option<()> {
+    let (n, zero) = (matrix.len(), field.zero());
     for column in 0..n.saturating_sub(2) {
         let target = column + 1;
-        let Some(pivot) = (target..n).find(|&i| matrix[i][column] != 0) else { continue };
+        let Some(pivot) = (target..n).find(|&i| matrix[i][column] != zero) else { continue };
         if pivot != target {
             matrix.swap(pivot, target);
             for row in matrix.iter_mut() {
                 row.swap(pivot, target);
             }
         }
-        let inverse = modulus.inverse(matrix[target][column]);
+        let inverse = inverse(matrix[target][column])?;
         let (head, tail) = matrix.split_at_mut(target + 1);
         let pivot_row = &head[target];
-        let mut factors = vec![0; n];
+        let mut factors = vec![zero; n];
         for (i, row) in tail.iter_mut().enumerate() {
-            let factor = modulus.mul(row[column], inverse);
+            let factor = field.mul(row[column], inverse);
             factors[target + 1 + i] = factor;
-            modulus.add_multiple(&mut row[column..], modulus.neg(factor), &pivot_row[column..]);
+            field.add_multiple(&mut row[column..], field.neg(factor), &pivot_row[column..]);
         }
         // The inverse operations from the right.
         for row in matrix.iter_mut() {
             let mut sum = [row[target]];
             let terms = row.chunks_exact(1).zip(&factors).skip(target + 1).map(|(x, &factor)| (factor, x));
-            modulus.add_combination(&mut sum, terms);
+            field.add_combination(&mut sum, terms);
             row[target] = sum[0];
         }
     }
+    Some(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::algebra::modp::Modulus;
 
     #[test]
     fn a_companion_matrix_has_its_polynomial_and_so_have_matrices_similar_to_it() {
@@ -86,8 +96,11 @@ mod tests {
         }
         let mut expected = coefficients;
         expected.push(modulus.enter(1));
-        assert_eq!(characteristic_polynomial(&modulus, &mut matrix), expected);
+        let polynomial = |matrix: &mut [Vec<u64>]| {
+            characteristic_polynomial(&modulus, |x| (x != 0).then(|| modulus.inverse(x)), matrix).unwrap()
+        };
+        assert_eq!(polynomial(&mut matrix), expected);
         // A matrix in blocks: of zeros, x^2.
-        assert_eq!(characteristic_polynomial(&modulus, &mut [vec![0, 0], vec![0, 0]]), [0, 0, modulus.enter(1)]);
+        assert_eq!(polynomial(&mut [vec![0, 0], vec![0, 0]]), [0, 0, modulus.enter(1)]);
     }
 }

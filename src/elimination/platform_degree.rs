@@ -3,7 +3,9 @@
 //! The equations of the general platform have 40 solutions with `N = x.x != 0`. In special geometry some of them, or
 //! whole curves, have `N = 0` and are no poses: they are the eigenvalue 0 of multiplication by N.
 
-use super::border::{Arithmetic, BorderBasis, DIMENSION, MOST_DIRECTIONS, Setting, exact_directions};
+use super::border::{
+    Arithmetic, BorderBasis, DIMENSION, MOST_DIRECTIONS, Residues, Setting, SideBySide, exact_directions,
+};
 use super::graded_quotient::GradedQuotient;
 use crate::algebra::modp::{Modulus, primes};
 use crate::algebra::ring::Ring;
@@ -47,6 +49,32 @@ pub fn modular_setting(
     legs: &LinearLegs<Rational>,
     squares: &[Rational; 6],
 ) -> Option<Setting<u64>> {
+    let (matrix, forms) = modular_legs(modulus, legs, squares)?;
+    let directions = exact_directions(modulus, |x| inverse(modulus, x), &matrix)?;
+    Some(Setting::new(modulus, &directions, &forms))
+}
+
+/// The same modulo several primes; `None` also where these differ in what is 0.
+#[must_use]
+pub fn setting_side_by_side(
+    field: &SideBySide,
+    legs: &LinearLegs<Rational>,
+    squares: &[Rational; 6],
+) -> Option<Setting<Residues>> {
+    let [a, b, c, d] = field.moduli().each_ref().map(|modulus| modular_legs(modulus, legs, squares));
+    let parts = [a?, b?, c?, d?];
+    let matrix = std::array::from_fn(|i| std::array::from_fn(|k| field.join(parts.each_ref().map(|p| p.0[i][k]))));
+    let forms: [Form<Residues>; 6] = std::array::from_fn(|i| {
+        std::array::from_fn(|j| std::array::from_fn(|k| field.join(parts.each_ref().map(|p| p.1[i][j][k]))))
+    });
+    let directions = exact_directions(field, |x| field.inverse(x), &matrix)?;
+    Some(Setting::new(field, &directions, &forms))
+}
+
+/// The legs modulo a prime: K, and the quadratic forms.
+type ModularLegs = ([[u64; 7]; 6], [Form<u64>; 6]);
+
+fn modular_legs(modulus: &Modulus, legs: &LinearLegs<Rational>, squares: &[Rational; 6]) -> Option<ModularLegs> {
     let image = |q: &Rational| -> Option<u64> {
         if *q.denom() == 1 {
             return Some(modulus.reduce(q.numer()));
@@ -68,9 +96,13 @@ pub fn modular_setting(
             forms[i][j][j] = Modulus::add(modulus, forms[i][j][j], square);
         }
     }
-    let inverse = |x: u64| (x != 0).then(|| modulus.inverse(x));
-    let directions = exact_directions(modulus, inverse, &matrix)?;
-    Some(Setting::new(modulus, &directions, &forms))
+    Some((matrix, forms))
+}
+
+/// `1/x`, where there is one.
+#[must_use]
+pub fn inverse(modulus: &Modulus, x: u64) -> Option<u64> {
+    (x != 0).then(|| modulus.inverse(x))
 }
 
 /// A platform with its base and plate turned by rotations that are no multiples of a right angle, exactly.
@@ -109,7 +141,7 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
         let legs = linear_legs(&turned(platform, choice));
         let setting = modular_setting(&modulus, &legs, legs_squared)?;
         if let Some(products) = general_products(&modulus, &setting, &mut BorderBasis::new(&modulus)) {
-            let null = DIMENSION - regular_part(&modulus, &products).pivots.len();
+            let null = DIMENSION - regular_part(&modulus, |x| inverse(&modulus, x), &products)?.pivots.len();
             return Some(PlatformDegree::Finite { poses: DIMENSION - null, null, curves: false });
         }
         settings.push(setting);
@@ -120,89 +152,98 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
         let dimension = (1..MOST_DIMENSION).find(finite).unwrap_or(MOST_DIMENSION);
         return Some(PlatformDegree::Infinite { dimension });
     };
-    let poses = regular_part(&modulus, &products).pivots.len();
+    let poses = regular_part(&modulus, |x| inverse(&modulus, x), &products)?.pivots.len();
     Some(PlatformDegree::Finite { poses, null: DIMENSION.saturating_sub(poses), curves: true })
 }
 
 /// Multiplication by `z_1/z_0`, `z_2/z_0` and `z_3/z_0`: row k is the product with basis element k.
-pub type Products = [Vec<Vec<u64>>; 3];
+pub type Products<E> = [Vec<Vec<E>>; 3];
 
 /// The multiplication matrices of the general border basis; `None` where that does not exist.
-pub fn general_products(modulus: &Modulus, setting: &Setting<u64>, basis: &mut BorderBasis<u64>) -> Option<Products> {
+pub fn general_products<A: Arithmetic>(
+    field: &A,
+    setting: &Setting<A::Element>,
+    basis: &mut BorderBasis<A::Element>,
+) -> Option<Products<A::Element>> {
     if setting.count > MOST_DIRECTIONS {
         return None;
     }
-    basis.build(modulus, setting).ok()?;
+    basis.build(field, setting).ok()?;
     Some(basis.products.each_ref().map(|matrix| matrix.iter().map(|row| row.to_vec()).collect()))
 }
 
 /// What powers of N leave of a quotient algebra.
-pub struct RegularPart {
+pub struct RegularPart<E> {
     /// A basis, in reduced echelon form.
-    pub basis: Vec<Vec<u64>>,
+    pub basis: Vec<Vec<E>>,
     /// The columns of its pivots.
     pub pivots: Vec<usize>,
 }
 
-/// The part of an algebra on which `N = 1 + M_1^2 + M_2^2 + M_3^2` is invertible.
+/// The part of an algebra on which `N = 1 + M_1^2 + M_2^2 + M_3^2` is invertible; `None` where `inverse` does not exist for a
+/// number that is not 0.
 #[must_use]
-pub fn regular_part(modulus: &Modulus, products: &Products) -> RegularPart {
+pub fn regular_part<A: Arithmetic>(
+    field: &A,
+    inverse: impl Fn(A::Element) -> Option<A::Element>,
+    products: &Products<A::Element>,
+) -> Option<RegularPart<A::Element>> {
     let n = products[0].len();
-    let norm: Vec<Vec<u64>> = (0..n)
+    let norm: Vec<Vec<A::Element>> = (0..n)
         .map(|i| {
-            let mut row = vec![0; n];
-            row[i] = modulus.one();
-            for matrix in products {
-                for (&c, other) in matrix[i].iter().zip(matrix) {
-                    modulus.add_multiple(&mut row, c, other);
-                }
-            }
+            let mut row = vec![field.zero(); n];
+            row[i] = field.one();
+            let terms = products.iter().flat_map(|matrix| matrix[i].iter().zip(matrix));
+            field.add_combination(&mut row, terms.map(|(&c, other)| (c, other.as_slice())));
             row
         })
         .collect();
     let mut basis = norm.clone();
-    let mut pivots = echelon(modulus, &mut basis);
+    let mut pivots = echelon(field, &inverse, &mut basis)?;
     let mut settled = pivots.len() == n;
     while !settled {
-        let mut next: Vec<Vec<u64>> = basis.iter().map(|v| row_times(modulus, v, &norm)).collect();
-        let found = echelon(modulus, &mut next);
+        let mut next: Vec<Vec<A::Element>> = basis.iter().map(|v| row_times(field, v, &norm)).collect();
+        let found = echelon(field, &inverse, &mut next)?;
         settled = found.len() == pivots.len();
         (basis, pivots) = (next, found);
     }
-    RegularPart { basis, pivots }
+    Some(RegularPart { basis, pivots })
 }
 
 /// `v matrix`
 #[must_use]
-pub fn row_times(modulus: &Modulus, v: &[u64], matrix: &[Vec<u64>]) -> Vec<u64> {
-    let mut product = vec![0; matrix.first().map_or(0, Vec::len)];
-    for (&c, row) in v.iter().zip(matrix) {
-        modulus.add_multiple(&mut product, c, row);
-    }
+pub fn row_times<A: Arithmetic>(field: &A, v: &[A::Element], matrix: &[Vec<A::Element>]) -> Vec<A::Element> {
+    let mut product = vec![field.zero(); matrix.first().map_or(0, Vec::len)];
+    field.add_combination(&mut product, v.iter().zip(matrix).map(|(&c, row)| (c, row.as_slice())));
     product
 }
 
 /// Reduced echelon form, rows of zeros dropped; the columns of the pivots.
-fn echelon(modulus: &Modulus, rows: &mut Vec<Vec<u64>>) -> Vec<usize> {
+fn echelon<A: Arithmetic>(
+    field: &A,
+    inverse: impl Fn(A::Element) -> Option<A::Element>,
+    rows: &mut Vec<Vec<A::Element>>,
+) -> Option<Vec<usize>> {
+    let zero = field.zero();
     let mut pivots = Vec::new();
     for column in 0..rows.first().map_or(0, Vec::len) {
         let rank = pivots.len();
-        let Some(best) = (rank..rows.len()).find(|&i| rows[i][column] != 0) else { continue };
+        let Some(best) = (rank..rows.len()).find(|&i| rows[i][column] != zero) else { continue };
         rows.swap(best, rank);
-        let inverse = modulus.inverse(rows[rank][column]);
+        let inverse = inverse(rows[rank][column])?;
         for x in &mut rows[rank][column..] {
-            *x = Modulus::mul(modulus, *x, inverse);
+            *x = field.mul(*x, inverse);
         }
         let (head, tail) = rows.split_at_mut(rank);
         let Some((pivot_row, tail)) = tail.split_first_mut() else { break };
         for row in head.iter_mut().chain(tail) {
-            let factor = modulus.neg(row[column]);
-            modulus.add_multiple(&mut row[column..], factor, &pivot_row[column..]);
+            let factor = field.neg(row[column]);
+            field.add_multiple(&mut row[column..], factor, &pivot_row[column..]);
         }
         pivots.push(column);
     }
     rows.truncate(pivots.len());
-    pivots
+    Some(pivots)
 }
 
 /// Powers of N that kill what has `N = 0`, degrees at which the rest has settled, in turn.
@@ -211,12 +252,12 @@ const ATTEMPTS: [(usize, usize); 2] = [(1, 5), (2, 5)];
 /// The multiplication matrices where solutions with `N = 0` form curves, on what multiplication by a power of N leaves;
 /// `None` where that grows with the degree: a curve of poses.
 #[must_use]
-pub fn special_products(modulus: &Modulus, setting: &Setting<u64>) -> Option<Products> {
+pub fn special_products(modulus: &Modulus, setting: &Setting<u64>) -> Option<Products<u64>> {
     cut_products(modulus, setting, 0)
 }
 
 /// The same of the poses on so many general quadrics.
-fn cut_products(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> Option<Products> {
+fn cut_products(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> Option<Products<u64>> {
     let mut ring = GradedQuotient::new(modulus, setting);
     for number in 0..cuts {
         ring.cut(number);
@@ -251,7 +292,7 @@ fn cut_products(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> Optio
 
 /// The matrices of `z_i / z_0`, i = 1..3, on the span of the images of z_0; `None` where these or the others, those of the
 /// tau, reach farther. Poses that share their rotation differ in tau only.
-fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4], others: &[Vec<u64>]) -> Option<Products> {
+fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4], others: &[Vec<u64>]) -> Option<Products<u64>> {
     // Rows (z_0 image | z_1 image | z_2 image | z_3 image), reduced by their first parts.
     let width = images[0].first().map_or(0, Vec::len);
     let mut table: Vec<Vec<u64>> =
@@ -288,7 +329,7 @@ fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4], others: &[Vec<u64>]
     if others.iter().any(|other| rest(other).iter().any(|&x| x != 0)) {
         return None;
     }
-    let mut factors: Products = std::array::from_fn(|_| vec![vec![0; rank]; rank]);
+    let mut factors: Products<u64> = std::array::from_fn(|_| vec![vec![0; rank]; rank]);
     for (i, factor) in factors.iter_mut().enumerate() {
         for k in 0..rank {
             let image = &table[k][(i + 1) * width..(i + 2) * width];

@@ -3,11 +3,15 @@
 //! In the quotient algebra of the equations modulo a prime, multiplication by a quotient of two coordinates of the rotation
 //! is a matrix; its characteristic polynomial is the image of the one over the rationals. Enough primes give that.
 
-use super::border::{Arithmetic, BorderBasis, DIMENSION};
+use super::border::{Arithmetic, BorderBasis, DIMENSION, Residues, SIDE, SideBySide};
 use super::characteristic::characteristic_polynomial;
-use super::platform_degree::{general_products, modular_setting, regular_part, row_times, special_products};
+use super::platform_degree::{
+    Products, general_products, inverse, modular_setting, regular_part, row_times, setting_side_by_side,
+    special_products,
+};
 use super::platform_height::PlatformHeight;
 use crate::algebra::modp::{Modulus, primes};
+use crate::algebra::modular::primes::{PRIME_BITS, largest_primes};
 use crate::algebra::ring::Ring;
 use crate::closure::study::{LinearLegs, linear_legs};
 use crate::kinematics::dual_quaternion::Quaternion;
@@ -42,13 +46,15 @@ pub struct Coordinate {
 }
 
 /// What is tried in turn: the coordinates themselves where no solution has `x_0 = 0` and no two share the quotient.
-const COORDINATES: [Coordinate; 6] = [
+const COORDINATES: [Coordinate; 7] = [
     Coordinate { turn: [1, 0, 0, 0], weights: [1, 0, 0] },
     Coordinate { turn: [1, 0, 0, 0], weights: [0, 1, 0] },
     Coordinate { turn: [1, 0, 0, 0], weights: [1, -2, 3] },
     Coordinate { turn: [1, 1, 0, 0], weights: [0, 1, 0] },
     Coordinate { turn: [1, 1, 1, 1], weights: [1, -2, 3] },
     Coordinate { turn: [2, 1, -3, 1], weights: [1, -2, 3] },
+    // Poses that were chosen with small integers do not end this chart.
+    Coordinate { turn: [23, 7, -11, 17], weights: [1, -2, 3] },
 ];
 
 impl Coordinate {
@@ -87,8 +93,10 @@ impl Coordinate {
 
 /// One platform and one coordinate, for one prime after the other.
 struct Modular<'a> {
+    /// The legs with integer coefficients, and the multiples of their squared lengths.
     legs: &'a LinearLegs<Rational>,
     squares: &'a [Rational; 6],
+    height: PlatformHeight,
     weights: [i32; 3],
     /// Whether the general border basis does not exist.
     special: bool,
@@ -105,27 +113,48 @@ impl Modular<'_> {
         } else {
             general_products(modulus, &setting, memory)?
         };
-        let regular = (!self.all_regular).then(|| regular_part(modulus, &products));
         let weights = self.weights.map(|w| modulus.reduce(&Integer::from(w)));
+        self.characteristic(modulus, |x| inverse(modulus, x), products, weights)
+    }
+
+    /// The same modulo several primes side by side; `None` where these differ in what is 0.
+    fn polynomials(&self, field: &SideBySide, memory: &mut BorderBasis<Residues>) -> Option<[Vec<u64>; SIDE]> {
+        let setting = setting_side_by_side(field, self.legs, self.squares)?;
+        let products = general_products(field, &setting, memory)?;
+        let moduli = field.moduli();
+        let weights = self.weights.map(|w| field.join(moduli.map(|m| m.reduce(&Integer::from(w)))));
+        let joined = self.characteristic(field, |x| field.inverse(x), products, weights)?;
+        Some(std::array::from_fn(|k| joined.iter().map(|c| field.part(c, k)).collect()))
+    }
+
+    /// The characteristic polynomial of the coordinate on what has N != 0.
+    fn characteristic<A: Arithmetic>(
+        &self,
+        field: &A,
+        inverse: impl Fn(A::Element) -> Option<A::Element>,
+        products: Products<A::Element>,
+        weights: [A::Element; 3],
+    ) -> Option<Vec<A::Element>> {
+        let regular = if self.all_regular { None } else { Some(regular_part(field, &inverse, &products)?) };
         let [mut matrix, rest @ ..] = products;
         for (k, row) in matrix.iter_mut().enumerate() {
             for x in row.iter_mut() {
-                *x = Modulus::mul(modulus, *x, weights[0]);
+                *x = field.mul(*x, weights[0]);
             }
             for (other, &w) in rest.iter().zip(&weights[1..]) {
-                modulus.add_multiple(row, w, &other[k]);
+                field.add_multiple(row, w, &other[k]);
             }
         }
         if let Some(regular) = regular
             && regular.pivots.len() < matrix.len()
         {
-            let image = |v: &Vec<u64>| {
-                let product = row_times(modulus, v, &matrix);
+            let image = |v: &Vec<A::Element>| {
+                let product = row_times(field, v, &matrix);
                 regular.pivots.iter().map(|&p| product[p]).collect()
             };
             matrix = regular.basis.iter().map(image).collect();
         }
-        Some(characteristic_polynomial(modulus, &mut matrix))
+        characteristic_polynomial(field, inverse, &mut matrix)
     }
 }
 
@@ -171,7 +200,7 @@ pub fn multiple_platform_polynomial(
     platform: &Platform<Rational>,
     legs_squared: &[Rational; 6],
 ) -> Option<PlatformPolynomial> {
-    polynomial_in(&COORDINATES[COORDINATES.len() - 1..], platform, legs_squared, |_, _| true)
+    polynomial_in(&COORDINATES[COORDINATES.len() - 2..], platform, legs_squared, |_, _| true)
 }
 
 /// The polynomial in the first coordinate whose polynomial modulo a prime is accepted.
@@ -186,9 +215,11 @@ fn polynomial_in(
     let mut in_general = false;
     for special in [false, true] {
         for coordinate in coordinates {
-            let legs = &linear_legs(&coordinate.turned(platform));
-            let weights = coordinate.weights;
-            let mut modular = Modular { legs, squares: legs_squared, weights, special, all_regular: false };
+            let (mut legs, mut squares) = (linear_legs(&coordinate.turned(platform)), legs_squared.clone());
+            let height = PlatformHeight::new(&legs, &squares);
+            clear(&mut legs, &mut squares);
+            let (legs, squares, weights) = (&legs, &squares, coordinate.weights);
+            let mut modular = Modular { legs, squares, height, weights, special, all_regular: false };
             let Some(first) = modular.polynomial(&modulus, &mut memory) else { continue };
             in_general |= !special;
             modular.all_regular = !special && first.len() == DIMENSION + 1;
@@ -204,10 +235,22 @@ fn polynomial_in(
     None
 }
 
+/// Multiplies every leg by the common denominator of its coefficients: quotients are costly modulo a prime.
+fn clear(legs: &mut LinearLegs<Rational>, squares: &mut [Rational; 6]) {
+    for ((row, form), square) in legs.matrix.iter_mut().zip(&mut legs.forms).zip(squares) {
+        let all = row.iter_mut().chain(form.iter_mut().flatten()).chain([square]);
+        let all: Vec<&mut Rational> = all.collect();
+        let common = all.iter().fold(Integer::from(1), |lcm, x| lcm.lcm(x.denom()));
+        for x in all {
+            *x *= &common;
+        }
+    }
+}
+
 /// Residues of the monic polynomial for one prime after the other, put together.
 fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<PlatformPolynomial> {
-    let proof = Proof::new(modular, length);
-    let mut all = primes();
+    let (mut all, prime_bits) = prime_numbers(modular);
+    let proof = Proof::new(modular, length, prime_bits);
     let mut combined = Combined { residues: vec![Integer::new(); length], product: Integer::from(1) };
     // Images that are not combined yet, because the guess agrees with them.
     let mut spare: Vec<(Modulus, Vec<u64>)> = Vec::new();
@@ -242,15 +285,42 @@ fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<Pl
     guess.map(|coefficients| PlatformPolynomial { coefficients, coordinate, primes: used, proved: false })
 }
 
+/// The primes that are worked with, largest first, and less than the binary logarithm of each: short ones where these
+/// go side by side.
+fn prime_numbers(modular: &Modular) -> (Box<dyn Iterator<Item = Modulus>>, f64) {
+    let short = || largest_primes().map(Modulus::new);
+    let first: Vec<Modulus> = short().take(SIDE).collect();
+    let fits = <[Modulus; SIDE]>::try_from(first).is_ok_and(|first| SideBySide::new(first).is_some());
+    if fits && !modular.special {
+        (Box::new(short()), f64::from(PRIME_BITS) - 0.001)
+    } else {
+        (Box::new(primes()), 61.999)
+    }
+}
+
 /// The images of the polynomial modulo primes, in their order, without those of unlucky ones.
 fn images(modular: &Modular, group: &[Modulus], length: usize) -> Vec<(Modulus, Vec<u64>)> {
-    let memory = || BorderBasis::new(&group[0]);
-    let image = |memory: &mut BorderBasis<u64>, modulus: &Modulus| {
-        modular.polynomial(modulus, memory).filter(|p| p.len() == length).map(|p| (*modulus, p))
-    };
-    let found: Vec<Option<(Modulus, Vec<u64>)>> = group.par_iter().map_init(memory, image).collect();
-    found.into_iter().flatten().collect()
+    let side = if modular.special { 1 } else { SIDE };
+    let parts: Vec<&[Modulus]> = group.chunks(side).collect();
+    let memory = || (None, BorderBasis::new(&group[0]));
+    let found: Vec<Vec<Option<Vec<u64>>>> = parts
+        .par_iter()
+        .map_init(memory, |(joined, single), moduli| {
+            let field = <[Modulus; SIDE]>::try_from(*moduli).ok().and_then(SideBySide::new);
+            let together = field
+                .and_then(|field| modular.polynomials(&field, joined.get_or_insert_with(|| BorderBasis::new(&field))));
+            match together {
+                Some(images) => images.into_iter().map(Some).collect(),
+                None => moduli.iter().map(|modulus| modular.polynomial(modulus, single)).collect(),
+            }
+        })
+        .collect();
+    let images = group.iter().copied().zip(found.into_iter().flatten());
+    images.filter_map(|(modulus, image)| Some((modulus, image.filter(|p| p.len() == length)?))).collect()
 }
+
+/// Bits of a product of primes beyond which the graded ring proves nothing.
+const MOST_SPECIAL_BITS: f64 = 12_000.0;
 
 /// How many primes make a proof.
 struct Proof {
@@ -258,22 +328,21 @@ struct Proof {
     bits: Option<f64>,
     /// Bits that it must have in any case.
     least: f64,
+    /// Less than the bits of every prime.
+    prime_bits: f64,
 }
 
-/// Less than the bits of every prime used.
-const PRIME_BITS: f64 = 61.999;
-
 impl Proof {
-    fn new(modular: &Modular, length: usize) -> Self {
-        if modular.special {
-            return Self { bits: None, least: 0.0 };
-        }
-        let height = PlatformHeight::new(modular.legs, modular.squares);
+    fn new(modular: &Modular, length: usize, prime_bits: f64) -> Self {
+        let height = &modular.height;
         // Two products of a coefficient of the one polynomial and one of the other, which is its measure times a binomial
         // coefficient at most.
         let bits = height.measure(&modular.weights) + length as f64 + 1.0;
         // Where some of the 40 solutions have N = 0, not all primes may have one more of these.
-        Self { bits: Some(bits), least: if length == DIMENSION + 1 { 0.0 } else { height.norm() } }
+        let least = if length == DIMENSION + 1 && !modular.special { 0.0 } else { height.norm() };
+        // The graded ring takes its time.
+        let within_reach = !modular.special || f64::max(bits, least) < MOST_SPECIAL_BITS;
+        Self { bits: within_reach.then_some(bits), least, prime_bits }
     }
 
     /// How many more primes are worth a try.
@@ -285,9 +354,9 @@ impl Proof {
             (None, Some(_)) => 0,
             (Some(bits), longest) => {
                 let wanted = f64::max(bits + f64::from(longest.unwrap_or(0)), self.least);
-                let missing = (wanted / PRIME_BITS).ceil() as usize;
-                let missing = missing.saturating_sub(used);
-                if longest.is_none() { missing.max(GROUP) } else { missing }
+                let missing = ((wanted / self.prime_bits).ceil() as usize).saturating_sub(used);
+                let missing = if longest.is_none() { missing.max(GROUP) } else { missing };
+                missing.next_multiple_of(SIDE)
             }
         }
     }

@@ -1,97 +1,244 @@
 //! What a search for conditions of 5R and 6R loops found: the verdict first, then what was tried; as text and JSON.
 
+use super::table::Columns;
 use crate::algebra::polynomial::Polynomial;
-use crate::algebra::text::Format;
+use crate::algebra::text::{Format, Names};
 use crate::catalogue::ansatz::{Ansatz, Link};
 use crate::conditions::curve_ansatz::{Curve, Relation};
-use crate::conditions::search::{CurveLoop, CurveSearch, Fitted, MobileSlice, SLICE_PRIME, Search};
+use crate::conditions::formulas::Formulas;
+use crate::conditions::pattern::TwistPattern;
+use crate::conditions::search::{CurveLoop, CurveSearch, FamilyProof, Fitted, MobileSlice, SLICE_PRIME, Search};
+use crate::conditions::step::{factored, plain, product, ratio_text};
 use crate::conditions::sweep::{Evidence, Sweep};
 use crate::conditions::symmetry::{Signs, Slice};
-use crate::conditions::verification::RationalMember;
+use crate::conditions::verification::{ModularMembers, RationalMember};
+use crate::error::{Error, Result};
 use crate::mobility::{Germ, Local};
 use rug::Rational;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Whether what was found is proved, for the family that was asked for.
-#[must_use]
-pub fn is_proved(search: &Search) -> bool {
-    let member = |member: &Option<RationalMember>| member.as_ref().is_some_and(|m| m.germ.local == Local::Curve);
-    match (&search.fitted, &search.curves) {
-        (Some(fitted), _) => fitted.is_proved(),
-        (None, Some(curves)) => {
-            let mut proper = curves.loops.iter().filter(|found| is_proper(found)).peekable();
-            proper.peek().is_some() && proper.all(|found| found.germ.local == Local::Curve)
+/// How sure it is that what was found moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Certainty {
+    /// Proved for all parameters.
+    Family,
+    /// But for a probability below two to the power of minus this.
+    Probable(u32),
+    /// A member over the rationals is proved; nothing is said of the others.
+    Member,
+    /// Not at all.
+    Conjecture,
+}
+
+impl Certainty {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Family => "proved for all parameters",
+            Self::Probable(_) => "probability of error",
+            Self::Member => "proved for a member",
+            Self::Conjecture => "conjecture",
         }
-        (None, None) if search.member.is_some() => member(&search.member),
-        (None, None) => {
-            search.mobile_slices.iter().all(|slice| slice.proof.is_some()) && proper_slices(search).count() > 0
-        }
+    }
+
+    fn bound(self) -> Option<String> {
+        if let Self::Probable(power) = self { Some(format!("2^-{power}")) } else { None }
     }
 }
 
-fn is_proper(found: &CurveLoop) -> bool {
-    found.curves.iter().all(Curve::is_proper)
+/// Closed positions all of which satisfy the condition.
+const IMPLIED: u32 = 50;
+/// Random members that all move.
+const MEMBERS: u32 = 39;
+
+fn member_moves(member: Option<&RationalMember>) -> bool {
+    member.is_some_and(|member| member.germ.local == Local::Curve)
+}
+
+fn fitted_certainty(search: &Search, fitted: &Fitted) -> Certainty {
+    let implied = fitted.closed.filter(|closed| closed.positions > 0 && closed.satisfied == closed.positions);
+    let of_curves = search.curves.as_ref().is_some_and(|curves| curves.loops.iter().any(CurveLoop::is_proved));
+    let modular = fitted.modular.is_some_and(|modular| modular.all_move());
+    // Without a relation every member belongs to the family.
+    let symmetric = fitted.sweep.always && own_pattern(search).is_some();
+    let by_formulas = search.curves.as_ref().is_some_and(|curves| curves.loops.iter().any(CurveLoop::is_proved_family));
+    if fitted.proof.is_some() || symmetric || by_formulas {
+        Certainty::Family
+    } else if implied.is_some() {
+        Certainty::Probable(IMPLIED)
+    } else if modular {
+        Certainty::Probable(MEMBERS)
+    } else if member_moves(fitted.member.as_ref()) || of_curves {
+        Certainty::Member
+    } else {
+        Certainty::Conjecture
+    }
+}
+
+/// A symmetric family that is proved to move and that all members of the ansatz belong to.
+fn own_pattern(search: &Search) -> Option<&TwistPattern> {
+    search.patterns.iter().find(|pattern| pattern.conditions.is_empty() && pattern.proved)
+}
+
+/// How sure it is that the members of an ansatz without unknown symbols move.
+fn own_certainty(search: &Search) -> Certainty {
+    let modular = search.modular.is_some_and(|modular| modular.all_move());
+    match () {
+        () if own_pattern(search).is_some() || search.proof.is_some() => Certainty::Family,
+        () if modular => Certainty::Probable(MEMBERS),
+        () if member_moves(search.member.as_ref()) => Certainty::Member,
+        () => Certainty::Conjecture,
+    }
+}
+
+/// Whether what was found is proved, for the family that was asked for or for a member of it.
+#[must_use]
+pub fn is_proved(search: &Search) -> bool {
+    if let Some(fitted) = &search.fitted {
+        let found = fitted.sweep.always || !fitted.sweep.relations.is_empty();
+        return found
+            && match fitted_certainty(search, fitted) {
+                Certainty::Family => true,
+                // For five joints, what moves is known by its members.
+                Certainty::Member => search.curves.is_some(),
+                _ => false,
+            };
+    }
+    if let Some(curves) = &search.curves {
+        let mut proper = curves.loops.iter().filter(|found| found.is_proper() && found.in_ansatz).peekable();
+        return proper.peek().is_some() && proper.all(CurveLoop::is_proved);
+    }
+    if search.modular.is_some() {
+        return own_certainty(search) == Certainty::Family || member_moves(search.member.as_ref());
+    }
+    search.mobile_slices.iter().all(|slice| slice.proof.is_some()) && proper_slices(search).count() > 0
+}
+
+/// Why no real mechanism has what was asked for, or what was found; `None` where that is not proved.
+#[must_use]
+pub fn empty<'a>(ansatz: &'a Ansatz, search: &'a Search) -> Option<&'a str> {
+    ansatz.empty().or_else(|| search.fitted.as_ref()?.empty.as_deref())
 }
 
 fn proper_slices(search: &Search) -> impl Iterator<Item = &MobileSlice> {
     search.mobile_slices.iter().filter(|mobile| mobile.slice.slice == Slice::Mobile)
 }
 
-fn polynomial(ansatz: &Ansatz, polynomial: &Polynomial<Rational>) -> String {
-    Format::Text.polynomial(polynomial, ansatz.symbols.names())
+/// A condition in factors.
+fn condition(polynomial: &Polynomial<Rational>, names: &Names) -> String {
+    product(&factored(&polynomial.primitive().0, &[]), names)
+}
+
+fn conditions(list: &[Polynomial<Rational>], names: &Names) -> String {
+    list.iter().map(|one| format!("{} = 0", condition(one, names))).collect::<Vec<_>>().join(", ")
 }
 
 /// What was found, with how far it is proved.
 #[must_use]
 pub fn verdict(ansatz: &Ansatz, search: &Search) -> String {
-    if let Some(reason) = ansatz.empty() {
+    if let Some(reason) = empty(ansatz, search) {
         return format!("no real mechanism: the real solution set is empty, {reason}");
     }
-    match (&search.fitted, &search.curves, &search.member) {
-        (Some(fitted), ..) => fit_verdict(ansatz, fitted),
-        (None, Some(curves), _) => {
-            let proper: Vec<&CurveLoop> = curves.loops.iter().filter(|found| is_proper(found)).collect();
-            let proved = proper.iter().filter(|found| found.germ.local == Local::Curve).count();
-            let at = if curves.chosen { "example twists" } else { "these twists" };
-            match proper.len() {
-                0 => format!("no mobile lengths found for {at} among curves with two tied joints"),
-                n => format!("{n} mobile choices of lengths for {at}, {proved} of them proved over the rationals"),
-            }
-        }
-        (None, None, Some(member)) => match member.germ.local {
-            Local::Curve => "mobile, proved for a random member over the rationals".to_owned(),
-            _ => format!("no mobile member found: random members are {}", local(&member.germ)),
-        },
-        (None, None, None) => match proper_slices(search).count() {
+    if let Some(fitted) = &search.fitted {
+        return fit_verdict(ansatz, search, fitted);
+    }
+    if let Some(curves) = &search.curves {
+        return curve_verdict(curves);
+    }
+    if search.modular.is_none() {
+        return match proper_slices(search).count() {
             0 => "no symmetry found that moves for all lengths".to_owned(),
             n => {
                 let proved = proper_slices(search).filter(|slice| slice.proof.is_some()).count();
                 format!("{n} symmetric families that move for all lengths, {proved} of them proved for all parameters")
             }
-        },
+        };
+    }
+    let member = if member_moves(search.member.as_ref()) { ", a member proved over the rationals" } else { "" };
+    match own_certainty(search) {
+        Certainty::Family => {
+            let name = own_pattern(search).map(|pattern| format!(" by symmetry, {}", pattern.involution));
+            format!("mobile{}: proved for all parameters{member}", name.unwrap_or_default())
+        }
+        Certainty::Probable(power) => format!("mobile: probability of error <= 2^-{power}{member}"),
+        Certainty::Member => {
+            "a random member over the rationals is proved mobile; nothing is said of the others".to_owned()
+        }
+        Certainty::Conjecture => {
+            let rigid = search
+                .modular
+                .filter(|modular| modular.members > 0)
+                .map(|modular| format!("{} of {} random members move", modular.mobile, modular.members));
+            let member =
+                search.member.as_ref().map(|member| format!("one over the rationals: {}", local(&member.germ)));
+            let said: Vec<String> = rigid.into_iter().chain(member).collect();
+            let partial = if search.patterns.iter().any(|pattern| pattern.proved) {
+                "; with further conditions on lengths it moves by symmetry"
+            } else {
+                ""
+            };
+            match said.as_slice() {
+                [] => format!("no mobile member found: no closed position was met{partial}"),
+                _ => format!("no mobile member found: {}{partial}", said.join("; ")),
+            }
+        }
     }
 }
 
-fn fit_verdict(ansatz: &Ansatz, fitted: &Fitted) -> String {
-    let relations: Vec<String> =
-        fitted.sweep.relations.iter().map(|relation| format!("{} = 0", polynomial(ansatz, relation))).collect();
-    if relations.is_empty() {
+fn curve_verdict(curves: &CurveSearch) -> String {
+    let at = if curves.chosen { "example twists" } else { "these twists" };
+    let proper: Vec<&CurveLoop> = curves.loops.iter().filter(|found| found.is_proper()).collect();
+    let own: Vec<&&CurveLoop> = proper.iter().filter(|found| found.in_ansatz).collect();
+    let proved = own.iter().filter(|found| found.is_proved()).count();
+    let for_all = own.iter().filter(|found| found.formulas.as_ref().is_some_and(|f| f.proved)).count();
+    let formulas = if for_all > 0 { format!(", {for_all} for all twists by an identity") } else { String::new() };
+    match (own.len(), proper.len()) {
+        (0, 0) => format!("no mobile lengths found for {at} among curves with two tied joints"),
+        (0, n) => {
+            format!("no mobile member found for {at}: of the {n} mobile choices of lengths none is in the ansatz")
+        }
+        (own, n) if own == n => {
+            format!("{n} mobile choices of lengths for {at}, {proved} of them proved over the rationals{formulas}")
+        }
+        (own, n) => format!(
+            "{own} of the {n} mobile choices of lengths for {at} are in the ansatz, {proved} of them proved over the \
+             rationals{formulas}"
+        ),
+    }
+}
+
+fn fit_verdict(ansatz: &Ansatz, search: &Search, fitted: &Fitted) -> String {
+    let certainty = fitted_certainty(search, fitted);
+    let by_curve = search.curves.as_ref().is_some_and(|curves| curves.loops.iter().any(CurveLoop::is_proved));
+    let member =
+        if member_moves(fitted.member.as_ref()) || by_curve { ", a member proved over the rationals" } else { "" };
+    let sure = match certainty {
+        Certainty::Probable(power) => format!("probability of error <= 2^-{power}"),
+        Certainty::Family => "proved for all parameters".to_owned(),
+        Certainty::Member | Certainty::Conjecture => "a conjecture".to_owned(),
+    };
+    let running = fitted.sweep.running.join(", ");
+    if fitted.sweep.always {
+        return format!("mobile for all values of {running}, no condition: {sure}{member}");
+    }
+    let found = said(ansatz, fitted);
+    if found.is_empty() {
         let members = fitted.sweep.evidence.iter().map(|evidence| evidence.members).max().unwrap_or(0);
         let why = if members == 0 { "no mobile members met" } else { "no relation among the terms" };
         return format!("no condition found in this ansatz: {why}");
     }
-    let found = relations.join(", ");
-    let implied = fitted.closed.filter(|closed| closed.positions > 0 && closed.satisfied == closed.positions);
-    let proved_member = fitted.member.as_ref().is_some_and(|member| member.germ.local == Local::Curve);
-    let member = if proved_member { ", a member proved over the rationals" } else { "" };
-    if fitted.is_proved() {
-        return format!("mobile where {found}: proved for all parameters{member}");
-    }
-    if implied.is_some() {
-        return format!("mobile where {found}: probability of error <= 2^-50{member}");
-    }
-    format!("mobile where {found}: a conjecture{member}")
+    format!("mobile where {}: {sure}{member}", found.join(", "))
+}
+
+/// The relations that were fitted, those between angles as one equation.
+fn said(ansatz: &Ansatz, fitted: &Fitted) -> Vec<String> {
+    let names = ansatz.symbols.names();
+    let first = 3 * ansatz.symbols.angles.len();
+    let angle = fitted.family.as_ref().and_then(|family| family.angle.clone());
+    let has_length = |relation: &&Polynomial<Rational>| (first..relation.variables()).any(|k| relation.degree(k) > 0);
+    let shown = fitted.sweep.relations.iter().filter(|relation| angle.is_none() || has_length(relation));
+    let texts = shown.map(|relation| format!("{} = 0", condition(relation, names)));
+    angle.iter().cloned().chain(texts).collect()
 }
 
 /// What the positions near one form.
@@ -178,15 +325,52 @@ pub fn text(ansatz: &Ansatz, search: &Search) -> String {
     if let Some(member) = &search.member {
         text.push_str("\nRandom member that satisfies the relations\n");
         member_text(member, &mut text);
-        for mobile in search.mobile_slices.iter().filter(|mobile| mobile.contains(&member.links)) {
-            let _ = writeln!(
-                text,
-                "    one of the symmetric family `{}`: {}",
-                mobile.slice.involution.name,
-                pattern(mobile)
-            );
-        }
     }
+    modular_text(search.modular, &mut text);
+    if let Some(proof) = &search.proof {
+        proof_text(proof, &mut text);
+    }
+    pattern_text(ansatz, search, &mut text);
+    slice_text(search, &mut text);
+    text.push_str(SCOPE);
+    if ansatz.rounded {
+        text.push_str(ROUNDED);
+    }
+    text
+}
+
+const ROUNDED: &str = "\nwarning: numbers of the file without rational value or half-angle tangent are replaced by rationals nearby \
+                       (--digits): everything here is exact for those, and a relation between such numbers may be lost\n";
+
+fn modular_text(modular: Option<ModularMembers>, text: &mut String) {
+    if let Some(ModularMembers { members, mobile }) = modular.filter(|modular| modular.members > 0) {
+        let _ = writeln!(
+            text,
+            "  random members with a closed position modulo 2^61 - 1 and 2^62 - 57: {mobile} of {members} pass the order test; if \
+             general members did not move, each of them would with a probability below 2^-{MEMBERS} only"
+        );
+    }
+}
+
+fn pattern_text(ansatz: &Ansatz, search: &Search, text: &mut String) {
+    if search.patterns.is_empty() {
+        return;
+    }
+    text.push_str(
+        "\nThe twists of this ansatz have the following symmetries, in which it moves for all lengths that satisfy\n",
+    );
+    for pattern in &search.patterns {
+        let list = if pattern.conditions.is_empty() {
+            "nothing more: all members belong to the family".to_owned()
+        } else {
+            conditions(&pattern.conditions, ansatz.symbols.names())
+        };
+        let sure = if pattern.proved { "proved for all parameters" } else { "evidence at random twists only" };
+        let _ = writeln!(text, "  {} from joint {}: {list} ({sure})", pattern.involution, pattern.joint + 1);
+    }
+}
+
+fn slice_text(search: &Search, text: &mut String) {
     let _ = writeln!(
         text,
         "\nSymmetric families: {} patterns of signs and involutions at random twists modulo {SLICE_PRIME}",
@@ -194,38 +378,61 @@ pub fn text(ansatz: &Ansatz, search: &Search) -> String {
     );
     if search.mobile_slices.is_empty() {
         text.push_str("  none moves for all lengths of its pattern\n");
+        return;
     }
+    let mut table = Columns::new(
+        &["symmetry", "signs", "dimension", "conditions", "lengths", "moves for all lengths", "proved"],
+        &["symmetry", "signs", "moves for all lengths", "proved"],
+    );
     for mobile in &search.mobile_slices {
         let slice = &mobile.slice;
-        let what = match slice.slice {
-            Slice::Folded => "degenerate, folded back on itself",
-            _ => "moves for all lengths",
-        };
-        let _ = writeln!(text, "  {}, {}: {what}", slice.involution.name, signs(slice.signs));
-        let _ = writeln!(text, "    {}", pattern(mobile));
-        let _ = writeln!(
-            text,
-            "    dimension {}, {} conditions on {} lengths, in {} positions",
-            slice.dimension, slice.conditions, slice.lengths, slice.positions
-        );
-        match &mobile.proof {
-            Some(proof) => {
+        let moves = if slice.slice == Slice::Folded { "degenerate, folded back on itself" } else { "yes" };
+        table.row([
+            slice.involution.name.to_owned(),
+            signs(slice.signs),
+            slice.dimension.to_string(),
+            slice.conditions.to_string(),
+            slice.lengths.to_string(),
+            moves.to_owned(),
+            if mobile.proof.is_some() { "for all parameters" } else { "no: random twists only" }.to_owned(),
+        ]);
+    }
+    text.push_str(&table.text());
+    text.push_str("\nTheir patterns, and why they move\n");
+    let mut proofs: Vec<&str> = Vec::new();
+    for mobile in &search.mobile_slices {
+        let slice = &mobile.slice;
+        let _ = write!(text, "  {}, {}: {}", slice.involution.name, signs(slice.signs), pattern(mobile));
+        if slice.slice == Slice::Folded {
+            text.push_str(" (degenerate, folded back on itself)");
+        }
+        text.push('\n');
+        match mobile.proof.as_deref() {
+            Some(proof) if !proofs.contains(&proof) => {
+                proofs.push(proof);
                 let _ = writeln!(text, "    proved for all parameters: {proof}");
             }
+            Some(_) => text.push_str("    proved for all parameters in the same way\n"),
             None => text.push_str("    no identity known: evidence at random twists only\n"),
         }
     }
-    text.push_str(SCOPE);
-    text
 }
 
 const SCOPE: &str = "\nWhat was not found may move all the same: loops without such a symmetry, without two tied joints, or with conditions \
                      of other terms.\n";
 
 fn fit_text(ansatz: &Ansatz, fitted: &Fitted, text: &mut String) {
-    let Sweep { evidence, relations, terms, trial } = &fitted.sweep;
-    let unknown: Vec<&str> = ansatz.unknown.iter().map(|&k| ansatz.symbols.lengths[k].as_str()).collect();
-    let _ = writeln!(text, "\nSweep over {} and fit of {terms} terms", unknown.join(", "));
+    let Sweep { evidence, relations, terms, trial, running, always } = &fitted.sweep;
+    let drawn: Vec<&str> =
+        ansatz.unknown_names().into_iter().filter(|name| !running.iter().any(|own| own == name)).collect();
+    let drawn =
+        if drawn.is_empty() { String::new() } else { format!(" ({} drawn with the parameters)", drawn.join(", ")) };
+    let _ = writeln!(text, "\nSweep over {}{drawn} and fit of {terms} terms", running.join(", "));
+    if *always {
+        text.push_str("  almost all members have a family of configurations, whatever the unknown is\n");
+    } else if evidence.is_empty() {
+        text.push_str("  no members with a family of configurations were met\n");
+    }
     for evidence in evidence {
         let _ = writeln!(
             text,
@@ -239,7 +446,7 @@ fn fit_text(ansatz: &Ansatz, fitted: &Fitted, text: &mut String) {
         );
     }
     for relation in relations {
-        let _ = writeln!(text, "  {} = 0", polynomial(ansatz, relation));
+        let _ = writeln!(text, "  {} = 0", condition(relation, ansatz.symbols.names()));
     }
     if let Some(trial) = trial {
         let _ = writeln!(
@@ -248,42 +455,61 @@ fn fit_text(ansatz: &Ansatz, fitted: &Fitted, text: &mut String) {
             trial.prime, trial.mobile_on, trial.on, trial.mobile_off, trial.off
         );
     }
-    if let Some(closed) = &fitted.closed {
-        let _ = writeln!(
+    if let Some(closed) = fitted.closed.filter(|closed| closed.positions > 0) {
+        let _ = write!(
             text,
-            "  closed positions of random members modulo 2^61 - 1: {} of {} satisfy it, so closure implies mobility but for a \
-             probability <= 2^-50",
+            "  closed positions of random members modulo 2^61 - 1: {} of {} satisfy it",
             closed.satisfied, closed.positions
         );
+        text.push_str(if closed.satisfied == closed.positions {
+            ", so closure implies mobility but for a probability <= 2^-50\n"
+        } else {
+            ": closure does not imply it\n"
+        });
     }
-    if let Some(multiplier) = &fitted.multiplier {
-        let term = |(i, j, factor): &(usize, usize, Rational)| {
-            let factor = if *factor == 1 { String::new() } else { format!("({factor}) ") };
-            format!("{factor}z{} x z{}", i + 1, j + 1)
-        };
-        let terms: Vec<String> = multiplier.terms.iter().map(term).collect();
-        let _ = writeln!(
-            text,
-            "  proof for all parameters: with w = {} the product of w and the closing translation, {} terms in the cosines \
-             and triple products of axes, is divisible by the relation: on it two of three equations are left for the three \
-             degrees of freedom of the spherical loop, and every real closed position of screw rank 5 with w not 0 and axes that \
-             span the space lies on a curve of positions",
-            terms.join(" + "),
-            multiplier.size
-        );
-    }
-    if let Some(implication) = fitted.implication {
-        let (i, j) = (implication.joint + 1, implication.joint + 4);
-        let _ = writeln!(
-            text,
-            "  proof for all parameters: r^2 (z{i} . z{j}) - 2 (z{i} . r)(z{j} . r), r from axis {i} to axis {j}, is z{i} . z{j} times a \
-             number made of lengths on both sides of the loop, so that closure implies the relation where z{i} . z{j} is not 0: \
-             every such real closed position of screw rank 5 lies on a curve of positions"
-        );
+    modular_text(fitted.modular, text);
+    if let Some(proof) = &fitted.proof {
+        proof_text(proof, text);
     }
     if let Some(member) = &fitted.member {
         text.push_str("  random member over the rationals\n");
         member_text(member, text);
+    }
+}
+
+fn proof_text(proof: &FamilyProof, text: &mut String) {
+    match proof {
+        FamilyProof::Multiplier(multiplier) => {
+            let term = |(i, j, factor): &(usize, usize, Rational)| {
+                let factor = if *factor == 1 { String::new() } else { format!("({factor}) ") };
+                format!("{factor}z{} x z{}", i + 1, j + 1)
+            };
+            let terms: Vec<String> = multiplier.terms.iter().map(term).collect();
+            let vanishes = if multiplier.size == 0 {
+                "vanishes for all members".to_owned()
+            } else {
+                format!(
+                    "{} terms in the cosines and triple products of axes, is divisible by the relation and vanishes on it",
+                    multiplier.size
+                )
+            };
+            let _ = writeln!(
+                text,
+                "  proof for all parameters: with w = {} the product of w and the closing translation, {vanishes}: two of \
+                 three equations are left for the three degrees of freedom of the spherical loop, and every real closed \
+                 position of screw rank 5 with w not 0 and axes that span the space lies on a curve of positions",
+                terms.join(" + ")
+            );
+        }
+        FamilyProof::Implication(implication) => {
+            let (i, j) = (implication.joint + 1, implication.joint + 4);
+            let _ = writeln!(
+                text,
+                "  proof for all parameters: r^2 (z{i} . z{j}) - 2 (z{i} . r)(z{j} . r), r from axis {i} to axis {j}, is z{i} . z{j} \
+                 times a number made of lengths on both sides of the loop, so that closure implies the relation where z{i} . z{j} \
+                 is not 0: every such real closed position of screw rank 5 lies on a curve of positions"
+            );
+        }
     }
 }
 
@@ -298,7 +524,10 @@ fn curve_text(curves: &CurveSearch, text: &mut String) {
     }
     for found in &curves.loops {
         let reasons = degenerate(found);
-        let note = if reasons.is_empty() { String::new() } else { format!("degenerate, {}: ", reasons.join(", ")) };
+        let mut note = if reasons.is_empty() { String::new() } else { format!("degenerate, {}: ", reasons.join(", ")) };
+        if !found.in_ansatz {
+            note.insert_str(0, "not in the ansatz, ");
+        }
         let _ = writeln!(text, "  {note}{}", local(&found.germ));
         for vector in lengths(&found.lengths) {
             let _ = writeln!(text, "    {vector}");
@@ -306,6 +535,22 @@ fn curve_text(curves: &CurveSearch, text: &mut String) {
         for curve in &found.curves {
             let _ = writeln!(text, "    {}", tie(curve));
         }
+        if let Some(formulas) = &found.formulas {
+            formula_text(formulas, text);
+        }
+    }
+}
+
+fn formula_text(formulas: &Formulas, text: &mut String) {
+    let sure = if formulas.proved {
+        "proved: the product of all joints and links, expanded in the tangents, is a number".to_owned()
+    } else {
+        format!("a conjecture, fitted to {} random twists", formulas.samples)
+    };
+    let _ = writeln!(text, "    for all twists of the ansatz ({sure})");
+    let _ = writeln!(text, "      {}", conditions(&formulas.conditions, &formulas.names));
+    for (number, ratio) in (1..).zip(&formulas.motion) {
+        let _ = writeln!(text, "      tan(theta{number}/2) = {}", ratio_text(ratio, &formulas.motion_names));
     }
 }
 
@@ -328,23 +573,77 @@ pub fn json(ansatz: &Ansatz, search: &Search) -> Value {
             "proof": mobile.proof,
         })
     };
+    let own_symmetry = |pattern: &TwistPattern| {
+        let list = pattern.conditions.iter().map(|one| condition(one, ansatz.symbols.names()));
+        json!({
+            "involution": pattern.involution,
+            "joint": pattern.joint + 1,
+            "conditions": list.collect::<Vec<_>>(),
+            "proved": pattern.proved,
+        })
+    };
     json!({
         "title": ansatz.title,
         "joints": ansatz.joints.len(),
         "verdict": verdict(ansatz, search),
         "proved": is_proved(search),
         "complete": false,
-        "empty": ansatz.empty(),
+        "certainty": certainty(search).map(|certainty| json!({
+            "name": certainty.name(),
+            "probability_of_error": certainty.bound(),
+        })),
+        "empty": empty(ansatz, search),
+        "unknown": ansatz.unknown_names(),
         "relations": search.fitted.as_ref().map(|fitted| relations(ansatz, fitted)),
+        "factors": search.fitted.as_ref().map(|fitted| factors(ansatz, fitted)),
         "evidence": search.fitted.as_ref().map(evidence),
+        "members": search.modular.or(search.fitted.as_ref().and_then(|fitted| fitted.modular)).map(|modular| json!({
+            "primes": ["2^61 - 1", "2^62 - 57"], "found": modular.members, "mobile": modular.mobile,
+        })),
+        "own_symmetries": search.patterns.iter().map(own_symmetry).collect::<Vec<_>>(),
         "loops": search.curves.as_ref().map(loops),
         "symmetries": search.mobile_slices.iter().map(slice).collect::<Vec<_>>(),
         "rounded": ansatz.rounded,
     })
 }
 
+/// How sure what was found is; `None` where nothing was.
+fn certainty(search: &Search) -> Option<Certainty> {
+    match (&search.fitted, &search.curves) {
+        (Some(fitted), _) if fitted.sweep.relations.is_empty() && !fitted.sweep.always => None,
+        (Some(fitted), _) => Some(fitted_certainty(search, fitted)),
+        (None, Some(curves)) => {
+            let found = |certain: &dyn Fn(&CurveLoop) -> bool| {
+                let mut own = curves.loops.iter().filter(|found| found.is_proper() && found.in_ansatz).peekable();
+                own.peek().is_some() && own.all(certain)
+            };
+            let for_all = |found: &CurveLoop| found.formulas.as_ref().is_some_and(|formulas| formulas.proved);
+            match () {
+                () if found(&for_all) => Some(Certainty::Family),
+                () if found(&CurveLoop::is_proved) => Some(Certainty::Member),
+                () => None,
+            }
+        }
+        (None, None) if search.modular.is_some() => {
+            Some(own_certainty(search)).filter(|certainty| *certainty != Certainty::Conjecture)
+        }
+        (None, None) => is_proved(search).then_some(Certainty::Family),
+    }
+}
+
 fn relations(ansatz: &Ansatz, fitted: &Fitted) -> Vec<String> {
-    fitted.sweep.relations.iter().map(|relation| polynomial(ansatz, relation)).collect()
+    let text = |relation| Format::Text.polynomial(relation, ansatz.symbols.names());
+    fitted.sweep.relations.iter().map(text).collect()
+}
+
+/// The factors of each relation, with their powers.
+fn factors(ansatz: &Ansatz, fitted: &Fitted) -> Vec<Value> {
+    let names = ansatz.symbols.names();
+    let factor = |(factor, power): &(_, u32)| json!({ "text": plain(factor, names), "multiplicity": power });
+    let of = |relation: &Polynomial<Rational>| -> Value {
+        factored(&relation.primitive().0, &[]).iter().map(factor).collect()
+    };
+    fitted.sweep.relations.iter().map(of).collect()
 }
 
 fn evidence(fitted: &Fitted) -> Value {
@@ -355,23 +654,37 @@ fn evidence(fitted: &Fitted) -> Value {
     };
     json!({
         "terms": fitted.sweep.terms,
+        "running": fitted.sweep.running,
+        "always": fitted.sweep.always,
         "sweeps": fitted.sweep.evidence.iter().map(sweep).collect::<Vec<_>>(),
         "trial": fitted.sweep.trial.map(|trial| json!({
             "prime": trial.prime, "on": trial.on, "mobile_on": trial.mobile_on, "off": trial.off, "mobile_off": trial.mobile_off,
         })),
         "closed_positions": fitted.closed.map(|closed| json!({ "found": closed.positions, "satisfied": closed.satisfied })),
         "member": fitted.member.as_ref().map(|member| local(&member.germ)),
-        "family_proof": fitted.is_proved(),
+        "family_proof": fitted.proof.is_some(),
     })
 }
 
 fn loops(curves: &CurveSearch) -> Value {
     let found = |found: &CurveLoop| {
+        let formulas = found.formulas.as_ref().map(|formulas| {
+            let conditions = formulas.conditions.iter().map(|one| condition(one, &formulas.names));
+            let motion = formulas.motion.iter().map(|ratio| ratio_text(ratio, &formulas.motion_names));
+            json!({
+                "conditions": conditions.collect::<Vec<_>>(),
+                "tan_half_theta": motion.collect::<Vec<_>>(),
+                "proved": formulas.proved,
+                "samples": formulas.samples,
+            })
+        });
         json!({
             "lengths": lengths(&found.lengths),
             "ties": found.curves.iter().map(tie).collect::<Vec<_>>(),
             "degenerate": degenerate(found),
             "local": local(&found.germ),
+            "in_ansatz": found.in_ansatz,
+            "formulas": formulas,
         })
     };
     json!({
@@ -380,14 +693,56 @@ fn loops(curves: &CurveSearch) -> Value {
     })
 }
 
-/// The relations that were fitted, in the language of another program.
+/// What was found as Markdown, conditions in LaTeX.
 ///
 /// # Errors
-/// Where none was, or the language has no way to say it.
-pub fn system(ansatz: &Ansatz, search: &Search, format: Format) -> crate::error::Result<String> {
-    let relations = search.fitted.as_ref().map_or(&[][..], |fitted| &fitted.sweep.relations);
-    if relations.is_empty() {
-        return Err(crate::error::Error::Unsupported("no relation was fitted that could be written".to_owned()));
+/// Never for what searches find.
+pub fn markdown(ansatz: &Ansatz, search: &Search) -> Result<String> {
+    let mut text = format!("# {}\n\n{}.\n", ansatz.title, verdict(ansatz, search));
+    for (name, conditions, names) in families(ansatz, search) {
+        let lines = Format::Latex.system(&conditions, &names)?.replace("align*", "aligned");
+        let _ = write!(text, "\n## Conditions: {name}\n\nAll of these vanish:\n\n$$\n{lines}$$\n");
     }
-    format.system(relations, ansatz.symbols.names())
+    let _ =
+        write!(text, "\n## What was searched, and how far it is proved\n\n```\n{}```\n", self::text(ansatz, search));
+    Ok(text)
+}
+
+/// The conditions that were found, family by family: what was fitted, the formulas of loops of five joints, the symmetric
+/// families of the twists.
+fn families(ansatz: &Ansatz, search: &Search) -> Vec<(String, Vec<Polynomial<Rational>>, Names)> {
+    let names = ansatz.symbols.names();
+    let mut families = Vec::new();
+    if let Some(fitted) = search.fitted.as_ref().filter(|fitted| !fitted.sweep.relations.is_empty()) {
+        families.push(("fitted".to_owned(), fitted.sweep.relations.clone(), names.clone()));
+    }
+    let loops = search.curves.iter().flat_map(|curves| &curves.loops).filter_map(|found| found.formulas.as_ref());
+    for (number, formulas) in (1..).zip(loops) {
+        families.push((format!("loop {number}"), formulas.conditions.clone(), formulas.names.clone()));
+    }
+    for pattern in search.patterns.iter().filter(|pattern| !pattern.conditions.is_empty()) {
+        let name = format!("{} from joint {}", pattern.involution, pattern.joint + 1);
+        families.push((name, pattern.conditions.clone(), names.clone()));
+    }
+    families
+}
+
+/// The conditions of one family in the language of another program; without a name, of the first one.
+///
+/// # Errors
+/// Where none was found, or none of this name, or the language has no way to say it.
+pub fn system(ansatz: &Ansatz, search: &Search, family: Option<&str>, format: Format) -> Result<String> {
+    let families = families(ansatz, search);
+    if families.is_empty() {
+        return Err(Error::Unsupported("no condition was found that could be written".to_owned()));
+    }
+    let wanted = family.unwrap_or_default().to_lowercase();
+    match families.iter().find(|(name, ..)| name.to_lowercase().contains(&wanted)) {
+        Some((_, conditions, names)) => format.system(conditions, names),
+        None => {
+            let known: Vec<&str> = families.iter().map(|(name, ..)| name.as_str()).collect();
+            let message = format!("found no family `{wanted}`, expected a part of one of: {}", known.join("; "));
+            Err(Error::Invalid(message))
+        }
+    }
 }

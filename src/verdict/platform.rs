@@ -30,7 +30,7 @@ pub fn platform_verdict(
     };
     let mut judged = if dimension > 0 {
         let how = match exact {
-            Some(PlatformDegree::Infinite { .. }) if assembly.self_motion > 0 => "".to_owned(),
+            Some(PlatformDegree::Infinite { .. }) if assembly.self_motion > 0 => String::new(),
             Some(PlatformDegree::Finite { poses, .. }) => format!(
                 ", to within rounding (of exactly these data {poses} isolated poses, by a count modulo a prime)"
             ),

@@ -8,7 +8,10 @@ use looproot::assembly::Roots;
 use looproot::closure::study::linear_legs;
 use looproot::elimination::border::{Arithmetic, BorderBasis, DIMENSION, Reals, Setting, weak_directions};
 use looproot::elimination::platform_degree::{PlatformDegree, modular_setting, platform_degree};
-use looproot::elimination::platform_polynomial::platform_polynomial;
+use looproot::elimination::platform_height::PlatformHeight;
+use looproot::elimination::platform_polynomial::{multiple_platform_polynomial, platform_polynomial};
+use looproot::kinematics::dual_quaternion::Quaternion;
+use looproot::kinematics::motion::Motion;
 use looproot::kinematics::platform::Platform;
 use num_complex::Complex;
 use rug::{Float, Rational};
@@ -95,6 +98,35 @@ fn architecture_singular_platforms_have_no_pose_or_a_curve_of_them() {
     assert!(assembly.modes.is_empty() && assembly.self_motion == 0);
 }
 
+/// A plate congruent to the base on equal legs swings without turning, in two directions.
+#[test]
+fn a_plate_that_swings_without_turning_is_no_finite_number_of_poses() {
+    let mut draw = Draw::new(40);
+    let mut platform = draw.platform();
+    platform.plate = platform.base.clone();
+    let legs = std::array::from_fn(|_| Rational::from(49));
+    assert_eq!(count(&platform, &legs), None);
+    assert_eq!(count(&platform, &platform.legs_squared(&draw.pose().1)), Some(24));
+}
+
+/// The planted rotation (1, 1, 1, 0) is a right angle away from the turn (2, 1, -3, 1) of one of the coordinates.
+#[test]
+fn small_integers_leave_a_coordinate() {
+    let mut draw = Draw::new(41);
+    let mut platform = draw.platform();
+    platform.base.iter_mut().for_each(|a| a[2] = Rational::new());
+    platform.plate = platform.base.clone().map(|a| a.map(|x| x * Rational::from((3, 5))));
+    let [one, zero] = [1, 0].map(Rational::from);
+    let rotation = Quaternion { scalar: one.clone(), vector: [one.clone(), one, zero] };
+    let square = rotation.norm();
+    let turned = rotation.scaled_rotation().map(|row| row.map(|x| x / &square));
+    let pose = Motion { rotation: turned, translation: draw.point() };
+    let legs = platform.legs_squared(&pose);
+    assert_eq!(count(&platform, &legs), Some(16));
+    let polynomial = multiple_platform_polynomial(&platform, &legs).unwrap();
+    assert_eq!(polynomial.coefficients.len(), 17);
+}
+
 /// The largest entry of `X_i X_j - X_j X_i`, as the arithmetic has it.
 fn commutators<A: Arithmetic>(arithmetic: &A, basis: &BorderBasis<A::Element>) -> Vec<A::Element> {
     let mut all = Vec::new();
@@ -159,6 +191,7 @@ fn the_poses_are_the_roots_of_the_exact_polynomial() {
         let (complex, real) = case.counts.unwrap();
         let polynomial = platform_polynomial(&case.platform, &case.legs).unwrap();
         assert_eq!(polynomial.coefficients.len(), complex + 1, "{name}");
+        assert!(polynomial.proved, "{name}");
         for mode in &solved(&case.platform, &case.legs, Roots::All).modes {
             let error = backward_error(&polynomial.coefficients, polynomial.coordinate.at(&mode.quaternion));
             assert!(error < 1e-12, "{name}: {error:e}");
@@ -167,6 +200,47 @@ fn the_poses_are_the_roots_of_the_exact_polynomial() {
             let exact = polynomial.coefficients.iter().map(Rational::from).collect();
             assert_eq!(Univariate::new(exact).distinct_real_roots(), real, "{name}");
         }
+    }
+}
+
+/// Mahler's measure is no less than any coefficient over its binomial coefficient, and the bound no less than that; but not
+/// so much larger that it were of no use.
+#[test]
+fn polynomials_are_no_larger_than_is_known_beforehand() {
+    for seed in 30..36 {
+        let mut draw = Draw::new(seed);
+        let mut platform = draw.platform();
+        if seed % 2 == 0 {
+            let third = |points: &mut [[Rational; 3]; 6]| points.iter_mut().flatten().for_each(|x| *x /= 3);
+            third(&mut platform.base);
+            third(&mut platform.plate);
+        }
+        let legs = platform.legs_squared(&draw.pose().1);
+        let height = PlatformHeight::new(&linear_legs(&platform), &legs);
+        let polynomial = platform_polynomial(&platform, &legs).unwrap();
+        assert!(polynomial.proved && polynomial.coordinate.weights == [1, 0, 0]);
+        let longest = polynomial.coefficients.iter().map(rug::Integer::significant_bits).max().unwrap();
+        let measure = height.measure(&polynomial.coordinate.weights);
+        assert!(f64::from(longest) < measure + 40.0, "{longest} {measure}");
+        assert!(measure < 8.0 * f64::from(longest), "{longest} {measure}");
+        assert!(height.norm() > measure);
+        assert!(f64::from(u32::try_from(polynomial.primes).unwrap()) * 62.0 > measure + f64::from(longest));
+    }
+}
+
+#[test]
+fn what_is_not_proved_is_not_said_to_be() {
+    let mut draw = Draw::new(23);
+    let mut platform = draw.platform();
+    platform.plate = platform.base.clone().map(|a| a.map(|x| x * Rational::from((2, 3))));
+    for (scale, proved) in [(1, true), (1_000_000_007, false)] {
+        // Lengths no unit makes short.
+        platform.base[0][0] += Rational::from((1, scale)) - 1;
+        platform.plate[0][0] = Rational::from(&platform.base[0][0] * Rational::from((2, 3)));
+        let mut legs = platform.legs_squared(&draw.pose().1);
+        legs[1] += Rational::from((1, scale)) - 1;
+        let polynomial = platform_polynomial(&platform, &legs).unwrap();
+        assert_eq!((polynomial.coefficients.len(), polynomial.proved), (25, proved));
     }
 }
 

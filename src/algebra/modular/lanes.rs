@@ -10,7 +10,7 @@ pub(super) const MOST_LANES: usize = 32;
 /// Residues modulo several primes, one prime per lane.
 ///
 /// Elements are whatever the operations below return: reduced far enough that all of them are exact again.
-pub(super) trait Lanes: Copy {
+pub(crate) trait Lanes: Copy {
     /// A residue in every lane.
     type Element: Copy;
     /// A sum of products, not reduced.
@@ -49,7 +49,7 @@ pub(super) trait Lanes: Copy {
 /// most `0.314 p^2` the high part stays within `2^100` of the constant, the low one below `2^52`, and the quotient by p
 /// below `2^51`, where adding and subtracting `1.5 * 2^52` rounds to integers.
 #[derive(Clone, Copy)]
-pub(super) struct Floats<'a, S: Simd> {
+pub(crate) struct Floats<'a, S: Simd> {
     simd: S,
     prime: S::f64s,
     /// `1/p`, rounded
@@ -73,7 +73,7 @@ const COARSE: f64 = ROUND * (1_u64 << PRIME_BITS) as f64;
 impl<'a, S: Simd> Floats<'a, S> {
     /// The lanes of these primes, of which there are as many as lanes; `bits` is filled for the inversion.
     #[inline(always)]
-    pub(super) fn new(simd: S, primes: &[u64], bits: &'a mut Vec<S::f64s>) -> Self {
+    pub(crate) fn new(simd: S, primes: &[u64], bits: &'a mut Vec<S::f64s>) -> Self {
         let low = low_bits(primes);
         let mut buffer = [0.0; MOST_LANES];
         let buffer = &mut buffer[..primes.len()];
@@ -89,6 +89,13 @@ impl<'a, S: Simd> Floats<'a, S> {
         }
         let prime = simd.partial_load_f64s(buffer);
         Self { simd, prime, reciprocal: simd.div_f64s(simd.splat_f64s(1.0), prime), ones: PRIME_BITS - low, bits }
+    }
+
+    /// The lanes of these primes and their rounded reciprocals, for everything but inversion.
+    #[inline(always)]
+    pub(crate) fn of(simd: S, primes: &[f64], reciprocals: &[f64]) -> Self {
+        let (prime, reciprocal) = (simd.partial_load_f64s(primes), simd.partial_load_f64s(reciprocals));
+        Self { simd, prime, reciprocal, ones: 0, bits: &[] }
     }
 
     /// `round(a / p)`, for quotients below `2^51`.

@@ -3,7 +3,7 @@
 use crate::algebra::modp::is_prime;
 
 /// Every prime used here lies below `2^PRIME_BITS`, and close to it.
-pub(super) const PRIME_BITS: u32 = 49;
+pub(crate) const PRIME_BITS: u32 = 49;
 
 /// How far the largest primes lie below `2^PRIME_BITS`; finding them takes longer than a small determinant.
 const DISTANCES: [u16; 64] = [
@@ -34,7 +34,7 @@ pub(super) fn count_beyond(bits: f64) -> usize {
 }
 
 /// The primes below `2^PRIME_BITS`, largest first.
-fn largest_primes() -> impl Iterator<Item = u64> {
+pub(crate) fn largest_primes() -> impl Iterator<Item = u64> {
     let top = 1 << PRIME_BITS;
     let tabled = DISTANCES.iter().map(move |&distance| top - u64::from(distance));
     let last = top - u64::from(DISTANCES[DISTANCES.len() - 1]);

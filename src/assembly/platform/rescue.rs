@@ -48,7 +48,7 @@ fn disturbed(platform: &Platform<Rational>, scale: f64, bits: u32) -> Platform<R
     let mut platform = platform.clone();
     for (i, point) in platform.base.iter_mut().chain(&mut platform.plate).enumerate() {
         for (k, x) in point.iter_mut().enumerate() {
-            *x += Rational::from(&unit * spread(i, k));
+            *x += &unit * spread(i, k);
         }
     }
     platform

@@ -3,9 +3,13 @@
 mod expression;
 mod member;
 mod read;
+mod real;
+mod replacement;
 mod resolve;
+mod screws;
 
 pub use member::{Link, Members};
+pub use replacement::Replaced;
 
 use super::entry::Source;
 use crate::algebra::polynomial::Polynomial;
@@ -134,6 +138,8 @@ pub struct Ansatz {
     pub relations: Vec<Relation>,
     /// The lengths, by number, for which conditions are sought.
     pub unknown: Vec<usize>,
+    /// The angles, by number, for which conditions are sought.
+    pub unknown_angles: Vec<usize>,
     /// The terms that a condition may have, each a product of powers of the variables.
     pub fit: Vec<Polynomial<Rational>>,
     /// Whether a number of the file had to be replaced by a rational nearby.
@@ -175,6 +181,7 @@ impl Ansatz {
             symbols,
             relations: Vec::new(),
             unknown: Vec::new(),
+            unknown_angles: Vec::new(),
             fit: Vec::new(),
             rounded: false,
             given_lengths: Vec::new(),
@@ -200,6 +207,19 @@ impl Ansatz {
         self.joints[joint].alpha.in_terms_of(&self.angles)
     }
 
+    /// The names of the symbols for which conditions are sought, lengths first.
+    #[must_use]
+    pub fn unknown_names(&self) -> Vec<&str> {
+        let lengths = self.unknown.iter().map(|&k| self.symbols.lengths[k].as_str());
+        lengths.chain(self.unknown_angles.iter().map(|&k| self.symbols.angles[k].as_str())).collect()
+    }
+
+    /// Every angle in terms of the free ones.
+    #[must_use]
+    pub fn angles(&self) -> &[Twist] {
+        &self.angles
+    }
+
     /// Why no real mechanism satisfies the relations; `None` where that is not proved.
     #[must_use]
     pub fn empty(&self) -> Option<&str> {
@@ -209,7 +229,8 @@ impl Ansatz {
 
 impl Twist {
     /// One of the angles of an ansatz.
-    fn symbol(angle: usize, angles: usize) -> Self {
+    #[must_use]
+    pub fn symbol(angle: usize, angles: usize) -> Self {
         let multiples = (0..angles).map(|k| i32::from(k == angle)).collect();
         Self { multiples, constant: (Rational::from(1), Rational::new()) }
     }
@@ -221,7 +242,8 @@ impl Twist {
     }
 
     /// A sum of multiples of angles.
-    fn sum<'a>(terms: impl IntoIterator<Item = (i32, &'a Self)>, angles: usize) -> Self {
+    #[must_use]
+    pub fn sum<'a>(terms: impl IntoIterator<Item = (i32, &'a Self)>, angles: usize) -> Self {
         let mut sum = Self { multiples: vec![0; angles], constant: (Rational::from(1), Rational::new()) };
         for (factor, angle) in terms {
             for (total, k) in sum.multiples.iter_mut().zip(&angle.multiples) {

@@ -71,28 +71,55 @@ fn joints(scope: &Scope<'_>, node: &Node, symbols: &Symbols) -> Result<Vec<Symbo
     let table = scope.table(node, "the [mechanism] of conditions", &["kind", "convention", "joints", "limits"])?;
     scope.word(scope.need(&table, "kind")?, "kind", &["loop"])?;
     let convention = scope.need(&table, "convention")?;
-    if scope.word(convention, "convention", &["dh", "modified-dh", "screws"])? != "dh" {
-        return Err(Error::Unsupported("conditions of loops in another convention than \"dh\"".to_owned())
-            .at(scope.path, convention.line));
-    }
+    let convention = scope.word(convention, "convention", &["dh", "modified-dh", "screws"])?;
     let list = scope.need(&table, "joints")?;
     let nodes = scope.list(list, "joints")?;
     if !JOINTS.contains(&nodes.len()) {
         let (least, most) = (JOINTS.start(), JOINTS.end());
         return Err(scope.fail(list.line, format!("found {} joints, expected {least} to {most}", nodes.len())));
     }
-    nodes.iter().map(|node| joint(scope, node, symbols)).collect()
+    match convention {
+        "screws" => super::screws::joints(scope, &table, nodes, symbols.angles.len()),
+        "modified-dh" => {
+            // Rx Tx of each joint stand before its Rz Tz: round the loop, behind those of the joint before it.
+            let mut joints: Vec<SymbolicJoint> =
+                nodes.iter().map(|node| joint(scope, node, symbols)).collect::<Result<_>>()?;
+            let links: Vec<_> = joints.iter().map(|joint| (joint.a.clone(), joint.alpha.clone())).collect();
+            for (k, joint) in joints.iter_mut().enumerate() {
+                (joint.a, joint.alpha) = links[(k + 1) % links.len()].clone();
+            }
+            Ok(joints)
+        }
+        _ => nodes.iter().map(|node| joint(scope, node, symbols)).collect(),
+    }
+}
+
+/// Refuses joints that are no revolute ones.
+pub(super) fn check_kind(scope: &Scope<'_>, joint: &Node) -> Result<()> {
+    // Which other keys there are depends on the type.
+    let Value::Table(fields) = &joint.value else { return Ok(()) };
+    let Some(kind) = fields.iter().find(|field| field.key == "type").map(|field| &field.node) else { return Ok(()) };
+    let letter = scope.word(kind, "type", &["R", "P", "C", "H", "U", "S"])?;
+    if letter == "R" {
+        return Ok(());
+    }
+    let instead = match letter {
+        "U" => "; a U joint can be written as two R joints with a link of length 0 and twist pi/2 between them",
+        "S" => "; an S joint can be written as three R joints with links of length 0 and twist pi/2 between them",
+        _ => "",
+    };
+    let message = format!(
+        "found a joint of type `{letter}`: conditions are derived for loops of 4 to 6 revolute joints (type `R`) only{instead}; \
+         whether one loop with numbers moves, `looproot mobility` decides for all types of joints"
+    );
+    Err(Error::Unsupported(message).at(scope.path, kind.line))
 }
 
 fn joint(scope: &Scope<'_>, node: &Node, symbols: &Symbols) -> Result<SymbolicJoint> {
     let keys = ["type", "a", "alpha", "tan_half_alpha", "d", "theta0", "tan_half_theta0", "name"];
+    check_kind(scope, node)?;
     let table = scope.table(node, "a joint", &keys)?;
-    let kind = scope.need(&table, "type")?;
-    if scope.word(kind, "type", &["R", "P", "C", "H", "U", "S"])? != "R" {
-        return Err(
-            Error::Unsupported("conditions of loops with joints other than R".to_owned()).at(scope.path, kind.line)
-        );
-    }
+    scope.need(&table, "type")?;
     let length = |key: &str| match table.get(key) {
         Some(node) => length(scope, node, key, symbols),
         None => Err(scope.fail(table.line(), format!("found no `{key}` in a joint, expected one"))),
@@ -136,16 +163,22 @@ fn relations(scope: &Scope<'_>, node: &Node, ansatz: &mut Ansatz) -> Result<()> 
     if let Some(list) = table.get("unknown") {
         for item in scope.list(list, "unknown")? {
             let name = scope.text(item, "unknown")?;
-            let known = ansatz.symbols.lengths.iter().position(|length| length == name);
-            let fault = || {
-                let lengths = ansatz.symbols.lengths.join(", ");
-                scope.fail(item.line, format!("found the unknown `{name}`, expected one of the lengths: {lengths}"))
+            let find = |names: &[String]| names.iter().position(|known| known == name);
+            let symbols = &ansatz.symbols;
+            let (chosen, index) = match (find(&symbols.lengths), find(&symbols.angles)) {
+                (Some(length), _) => (&mut ansatz.unknown, length),
+                (None, Some(angle)) => (&mut ansatz.unknown_angles, angle),
+                (None, None) => {
+                    let known: Vec<&str> = symbols.lengths.iter().chain(&symbols.angles).map(String::as_str).collect();
+                    let message =
+                        format!("found the unknown `{name}`, expected one of the symbols: {}", known.join(", "));
+                    return Err(scope.fail(item.line, message));
+                }
             };
-            let index = known.ok_or_else(fault)?;
-            if ansatz.unknown.contains(&index) {
+            if chosen.contains(&index) {
                 return Err(scope.fail(item.line, format!("found the unknown `{name}` twice, expected it once")));
             }
-            ansatz.unknown.push(index);
+            chosen.push(index);
         }
     }
     if let Some(list) = table.get("relations") {

@@ -4,7 +4,6 @@
 use super::{Ansatz, Meaning, Relation, Symbols, Twist};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Field, Ring};
-use crate::algebra::trigonometric::{Pair, half_tangents};
 use crate::catalogue::scope::Scope;
 use crate::error::{Error, Result};
 use rug::Rational;
@@ -47,12 +46,27 @@ impl Ansatz {
     pub(super) fn resolve(&mut self) -> std::result::Result<(), (usize, Error)> {
         self.resolve_angles()?;
         self.resolve_lengths()?;
-        self.empty = self.relations.iter().find_map(|relation| self.without_real_solution(relation));
+        self.contradiction()?;
+        self.empty = self.relations.iter().find_map(|relation| relation.without_real_solution(self));
+        Ok(())
+    }
+
+    /// Refuses a relation of higher degree that is a number where the others give its symbols.
+    fn contradiction(&self) -> std::result::Result<(), (usize, Error)> {
+        let list = self.replacements();
+        for relation in &self.relations {
+            let Meaning::Polynomial(polynomial) = &relation.meaning else { continue };
+            if polynomial.substitute_all(&list).to_constant().is_some_and(|constant| !constant.is_zero()) {
+                let message = format!("found `{}`, which contradicts the other relations", relation.text);
+                return Err((relation.line, Error::Invalid(message)));
+            }
+        }
         Ok(())
     }
 
     fn resolve_angles(&mut self) -> std::result::Result<(), (usize, Error)> {
         let count = self.symbols.angles.len();
+        self.given_lengths.clear();
         self.angles = (0..count).map(|k| Twist::symbol(k, count)).collect();
         let mut given = Vec::new();
         for relation in &self.relations {
@@ -66,7 +80,10 @@ impl Ansatz {
                 continue;
             }
             // The symbol that stands first in the relation, where a unit stands before it.
-            let place = |k: &usize| relation.text.find(&self.symbols.angles[*k]).unwrap_or(usize::MAX);
+            let place = |k: &usize| {
+                let is_unknown = self.unknown_angles.contains(k);
+                (is_unknown, relation.text.find(&self.symbols.angles[*k]).unwrap_or(usize::MAX))
+            };
             let pivot = (0..count).filter(|&k| rest.multiples[k].abs() == 1).min_by_key(place);
             let Some(pivot) = pivot else {
                 let message = format!(
@@ -75,6 +92,9 @@ impl Ansatz {
                 );
                 return Err((relation.line, Error::Unsupported(message)));
             };
+            if self.unknown_angles.contains(&pivot) {
+                return Err((relation.line, gives_unknown(relation, &self.symbols.angles[pivot])));
+            }
             let sign = -rest.multiples[pivot];
             let mut value = Twist::sum([(sign, &rest)], count);
             value.multiples[pivot] = 0;
@@ -171,12 +191,7 @@ impl Ansatz {
                 return Err((relation.line, Error::Invalid(message)));
             };
             if self.unknown.contains(&pivot) {
-                let name = &self.symbols.lengths[pivot];
-                let message = format!(
-                    "found `{}`, which gives a value to `{name}`: it contradicts `unknown`, expected `{name}` to be free",
-                    relation.text
-                );
-                return Err((relation.line, Error::Invalid(message)));
+                return Err((relation.line, gives_unknown(relation, &self.symbols.lengths[pivot])));
             }
             let inverse = row[pivot].inverse().expect("a pivot is not zero");
             for (other, _) in &mut rows[index + 1..] {
@@ -189,47 +204,14 @@ impl Ansatz {
         }
         Ok(given)
     }
+}
 
-    /// Why a relation has no real solution, where that is seen: a polynomial in one variable without real root, or a sum of
-    /// even terms of one sign with a constant.
-    fn without_real_solution(&self, relation: &Relation) -> Option<String> {
-        let Meaning::Polynomial(polynomial) = &relation.meaning else { return None };
-        let names = self.symbols.names().list();
-        let used: Vec<usize> = (0..names.len()).filter(|&k| polynomial.degree(k) > 0).collect();
-        let first = polynomial.coefficients().first()?;
-        let of_one_sign =
-            polynomial.terms().all(|(exponents, c)| c.cmp0() == first.cmp0() && exponents.iter().all(|e| e % 2 == 0));
-        let has_constant = polynomial.terms().any(|(exponents, _)| exponents.iter().all(|&e| e == 0));
-        let say = |why: &str| Some(format!("`{}` (line {}) has no real solution: {why}", relation.text, relation.line));
-        if of_one_sign && has_constant && !used.is_empty() {
-            return say("a sum of even powers of one sign and a constant of the same sign does not vanish");
-        }
-        let angle = used.first()? / 3;
-        let is_angle = angle < self.symbols.angles.len();
-        let (univariate, what, at_pi) = if is_angle && used.iter().all(|&k| k / 3 == angle) {
-            let pair = Pair { cos: Symbols::cos(angle), sin: Symbols::sin(angle) };
-            if polynomial.degree(Symbols::tan_half(angle)) > 0 {
-                if used.len() > 1 {
-                    return None;
-                }
-                (polynomial.to_univariate(Symbols::tan_half(angle))?, "tangent of half the angle", false)
-            } else {
-                let form = half_tangents(polynomial, &[(pair, Symbols::tan_half(angle))]);
-                let variable = Symbols::tan_half(angle);
-                let at_pi = form.polynomial.degree(variable) < 2 * form.powers[0];
-                (form.polynomial.to_univariate(variable)?, "tangent of half the angle", at_pi)
-            }
-        } else if let [variable] = used.as_slice() {
-            (polynomial.to_univariate(*variable)?, "length", false)
-        } else {
-            return None;
-        };
-        let roots = crate::algebra::univariate::Univariate::new(univariate.primitive_integers()).distinct_real_roots();
-        if roots > 0 || at_pi || univariate.is_zero() {
-            return None;
-        }
-        say(&format!("the polynomial in the {what}, of degree {}, has no real root", univariate.degree().unwrap_or(0)))
-    }
+/// The complaint about a relation that gives a value to a symbol for which conditions are sought.
+fn gives_unknown(relation: &Relation, name: &str) -> Error {
+    Error::Invalid(format!(
+        "found `{}`, which gives a value to `{name}`: it contradicts `unknown`, expected `{name}` to be free",
+        relation.text
+    ))
 }
 
 /// Whether a length is in a relation as it is written.

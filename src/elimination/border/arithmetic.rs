@@ -238,6 +238,7 @@ impl Arithmetic for Modulus {
         }
     }
     fn solve(&self, relations: &mut Relations<u64>, rank: usize, split: &mut Split<u64>) -> Result<f64, usize> {
-        echelon::solve(self, relations, rank, split)
+        let inverse = |x: u64| (x != 0).then(|| self.inverse(x));
+        echelon::solve(self, inverse, relations, rank, split)
     }
 }

@@ -5,7 +5,7 @@
 //! filtered by the degree, `z` of degree 1 and `tau` of degree 2; its levels have 1, 3, 7, 9, 9, 7, 3, 1 basis elements.
 //! The basis of a level is what the relations of that degree leave of the products of `z` with the level below.
 //!
-//! One code runs over f64, where every step is orthogonal, over numbers of 384 bits, and modulo a prime.
+//! One code runs over f64, where every step is orthogonal, over numbers of 384 bits, and modulo one prime or four.
 
 mod arithmetic;
 mod basis;
@@ -14,8 +14,10 @@ mod echelon;
 mod orthogonal;
 mod pivoted;
 mod setting;
+mod side_by_side;
 
 pub use arithmetic::{Arithmetic, LongReals, Reals, Relations, Split};
 pub use basis::{BorderBasis, DIMENSION, LEVELS, LostRank};
 pub use directions::{Directions, MOST_DIRECTIONS, exact_directions, weak_directions};
 pub use setting::Setting;
+pub use side_by_side::{Residues, SIDE, SideBySide};
