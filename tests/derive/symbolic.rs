@@ -169,8 +169,7 @@ fn a_wrong_equation_is_found_by_its_solutions() {
     assert!(derivation.substituted(&platform, &platform.cases[0]).is_err());
 }
 
-/// Names of the columns of an array are not checked by anyone but LaTeX itself: environments and dollars in pairs, no sign of
-/// its own outside of formulas.
+/// Environments, dollars and braces in pairs, and none of LaTeX's own signs outside of formulas.
 #[test]
 fn a_latex_document_is_well_formed() {
     for arguments in [
