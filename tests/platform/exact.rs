@@ -236,7 +236,7 @@ fn what_is_not_proved_is_not_said_to_be() {
     for (scale, proved) in [(1, true), (1_000_000_007, false)] {
         // Lengths no unit makes short.
         platform.base[0][0] += Rational::from((1, scale)) - 1;
-        platform.plate[0][0] = Rational::from(&platform.base[0][0] * Rational::from((2, 3)));
+        platform.plate[0][0] = &platform.base[0][0] * Rational::from((2, 3));
         let mut legs = platform.legs_squared(&draw.pose().1);
         legs[1] += Rational::from((1, scale)) - 1;
         let polynomial = platform_polynomial(&platform, &legs).unwrap();
