@@ -320,7 +320,7 @@ fn images(modular: &Modular, group: &[Modulus], length: usize) -> Vec<(Modulus, 
 }
 
 /// Bits of a product of primes beyond which the graded ring proves nothing.
-const MOST_SPECIAL_BITS: f64 = 12_000.0;
+const MOST_SPECIAL_BITS: f64 = 8_000.0;
 
 /// How many primes make a proof.
 struct Proof {
