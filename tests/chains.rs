@@ -6,8 +6,6 @@
 mod sequences;
 #[path = "chains/short_loops.rs"]
 mod short_loops;
-#[path = "chains/special_pairs.rs"]
-mod special_pairs;
 
 mod arms;
 
