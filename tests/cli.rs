@@ -418,9 +418,31 @@ fn platforms_are_measured() {
     assert_eq!((&document["platforms"], &document["miscounted"]), (&2.into(), &0.into()));
     let times = run(&["bench", "speed", "--set", "platform", "--count", "1", "--repeats", "1"]);
     assert!(times.code == 0 && times.out.contains("all 40 poses"), "{}", times.out);
+    let times = json(&run(&["bench", "speed", "--set", "platform", "--count", "1", "--repeats", "1", "--json"]).out);
+    assert!(times["stages"][0]["least_us"].is_number(), "{times}");
     for arguments in [&["bench", "accuracy", "--set", "platform-7-7"][..], &["bench", "speed", "--set", "structured"]] {
         assert_eq!(run(arguments).code, 1, "{arguments:?}");
     }
+}
+
+#[test]
+fn loops_are_measured() {
+    let times = json(&run(&["bench", "speed", "--set", "loops", "--count", "1", "--repeats", "1", "--json"]).out);
+    let row = |group: &str, name: &str| {
+        let rows = times[group].as_array().unwrap();
+        rows.iter().find(|row| row["unknowns"] == name).unwrap_or_else(|| panic!("{name}: {times}")).clone()
+    };
+    for (name, solutions) in [("CCC", 2), ("CRCR", 4), ("CCRR", 8), ("RRRRRR", 16), ("SRRR", 4), ("loop/rssr", 2)] {
+        let row = row("loops", name);
+        assert!(row["solutions"] == solutions && row["answer"]["slowest_us"].is_number(), "{row}");
+    }
+    assert!(row("loops", "overconstrained/planar_4r")["real"].is_null());
+    for (name, degree) in [("CCC", 2), ("CRCR", 4), ("PRPRRR", 8), ("RRRRRR", 16)] {
+        let row = row("exact", name);
+        assert!(row["degree"] == degree && row["roots"]["median_us"].is_number(), "{row}");
+    }
+    let text = run(&["bench", "speed", "--set", "loops", "--count", "1", "--repeats", "1"]).out;
+    assert!(text.starts_with("microseconds, one core; faer"), "{text}");
 }
 
 #[test]

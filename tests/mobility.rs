@@ -155,14 +155,15 @@ fn loops_of_irrational_numbers_close_all_round() {
 }
 
 #[test]
-fn long_decimals_are_exact_and_a_loop_that_closes_to_rounding_is_told() {
-    let answer = mobility(&entry(&bennett("4").replace("a = 4", "a = 4.000000000000001"))).unwrap();
-    assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Exact));
-    let remark = "decimals taken as exact numbers; to rounding it closes";
-    assert!(answer.reason.contains(remark), "{}", answer.reason);
-    let answer = mobility(&entry(&bennett("4").replace("a = 4", "a = 4.000000000001"))).unwrap();
-    assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Exact));
-    assert!(!answer.reason.contains(remark), "{}", answer.reason);
+fn decimals_are_exact_unless_they_look_rounded() {
+    let with = |length: &str| mobility(&entry(&bennett("4").replace("a = 4", &format!("a = {length}")))).unwrap();
+    let answer = with("4.000000000000001");
+    assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::CertifiedSweep), "{}", answer.reason);
+    assert!(answer.reason.contains("as exact numbers they do not move"), "{}", answer.reason);
+    for broken in ["4.000000000001", "4.00000000012345678"] {
+        let answer = with(broken);
+        assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Exact), "{broken}: {}", answer.reason);
+    }
 }
 
 /// A loop by axes and points, one length of which is not rational.

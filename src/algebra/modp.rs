@@ -222,6 +222,10 @@ impl<const P: u64> Ring for ModP<P> {
         self.0 == 0
     }
     fn from_rational(q: &Rational) -> Option<Self> {
+        // An inverse costs more than a hundred products, and most constants of mechanisms are 0 and 1.
+        if *q.denom() == 1 {
+            return Some(Self(Self::MODULUS.reduce(q.numer())));
+        }
         let denominator = Self(Self::MODULUS.reduce(q.denom())).inverse()?;
         Some(Self(Self::MODULUS.reduce(q.numer())).mul(&denominator))
     }

@@ -11,14 +11,15 @@ impl Ring for Rational {
     fn one() -> Self {
         Rational::from(1)
     }
+    // Zeros are frequent, and GMP would take greatest common divisors for them too.
     fn add(&self, other: &Self) -> Self {
-        Rational::from(self + other)
+        if other.is_zero() { self.clone() } else { Rational::from(self + other) }
     }
     fn sub(&self, other: &Self) -> Self {
-        Rational::from(self - other)
+        if other.is_zero() { self.clone() } else { Rational::from(self - other) }
     }
     fn mul(&self, other: &Self) -> Self {
-        Rational::from(self * other)
+        if self.is_zero() || other.is_zero() { Rational::new() } else { Rational::from(self * other) }
     }
     fn neg(&self) -> Self {
         let mut x = self.clone();

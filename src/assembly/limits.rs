@@ -26,6 +26,8 @@ pub const REAL_PART: f64 = 1e-8;
 pub const MERGED: f64 = 1e-4;
 /// A solution without a known partner that is proved no better than this may be one of a cluster.
 pub const LONE_RADIUS: f64 = 1e-7;
+/// How many times the root of rounding of its order the points found of a multiple solution may be apart.
+pub const CLOUD: f64 = 32.0;
 /// Closure errors that make two solutions one and are no larger than this are rounding of the input: the solution
 /// counts as double.
 pub const TOLD_APART: f64 = 1e-13;

@@ -474,6 +474,33 @@ impl Search<'_> {
             // Beside a self-motion, complex solutions that are not isolated are points of its complex continuation.
             mode.multiplicity > 0 || dimension == 0
         });
+        self.merge_multiple();
+    }
+
+    /// Rounding leaves a cloud of points where a multiple solution is, as wide as the root of its size of that order: one
+    /// of them stays, a real one if there is one, the nearest to the middle.
+    fn merge_multiple(&mut self) {
+        let variables = self.closed.variables;
+        let mut left = std::mem::take(&mut self.assembly.modes);
+        while let Some(mode) = left.pop() {
+            if mode.certificate.is_some() || mode.multiplicity < 3 {
+                self.assembly.modes.push(mode);
+                continue;
+            }
+            let width = limits::CLOUD * f64::EPSILON.powf(1.0 / mode.multiplicity as f64);
+            let near = |other: &Mode| {
+                let alike = other.certificate.is_none() && other.multiplicity == mode.multiplicity;
+                alike && distance(&variables, &other.unknowns, &mode.unknowns) < width
+            };
+            let (mut cloud, apart): (Vec<Mode>, Vec<Mode>) = left.into_iter().partition(near);
+            left = apart;
+            cloud.push(mode);
+            let off =
+                |mode: &Mode| cloud.iter().map(|x| distance(&variables, &x.unknowns, &mode.unknowns)).sum::<f64>();
+            let order = |a: &&Mode, b: &&Mode| b.real.cmp(&a.real).then(off(a).total_cmp(&off(b)));
+            let middle = cloud.iter().min_by(order).cloned();
+            self.assembly.modes.extend(middle);
+        }
     }
 }
 

@@ -6,3 +6,4 @@ pub mod mobility;
 pub mod platform;
 pub mod sample;
 pub mod speed;
+pub mod speed_loops;

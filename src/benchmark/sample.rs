@@ -89,7 +89,7 @@ impl Set {
     }
 
     /// The joints of a chain of this set.
-    fn joints(self) -> Vec<JointKind> {
+    pub(super) fn joints(self) -> Vec<JointKind> {
         let (Self::Chain(index) | Self::SpecialChain(index)) = self else { return vec![JointKind::Revolute; 6] };
         let kind = |letter| match letter {
             'P' => JointKind::Prismatic,
@@ -180,7 +180,7 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
     }
 }
 
-fn matrix(pose: &Motion<f64>) -> [[Number; 4]; 4] {
+pub(super) fn matrix(pose: &Motion<f64>) -> [[Number; 4]; 4] {
     std::array::from_fn(|i| {
         std::array::from_fn(|j| match (i, j) {
             (3, _) => Number::exact(Rational::from(u32::from(j == 3))),

@@ -74,7 +74,12 @@ pub fn pose_certificate<S: Number>(
             slack += size * (errors[k] + VALUE_ROUNDINGS * S::UNIT_ROUNDOFF * at.values[k].bound());
             bent += size * curvature.bounds[k];
         }
-        step = step.max(moved.bound() + slack);
+        let length = moved.bound() + slack;
+        // A maximum would pass over what is no number.
+        if !(length.is_finite() && bent.is_finite()) {
+            return None;
+        }
+        step = step.max(length);
         bend = bend.max(bent);
         let (mut sum, mut sizes) = (0.0, 0.0);
         for j in 0..8 {
@@ -95,7 +100,11 @@ pub fn pose_certificate<S: Number>(
             };
             sizes += row[k].bound() * column;
         }
-        deviation = deviation.max(sum + PRODUCT_ROUNDINGS * S::UNIT_ROUNDOFF * sizes);
+        let row_deviation = sum + PRODUCT_ROUNDINGS * S::UNIT_ROUNDOFF * sizes;
+        if !row_deviation.is_finite() {
+            return None;
+        }
+        deviation = deviation.max(row_deviation);
     }
     let (step, deviation, bend) = (MARGIN * step, MARGIN * deviation, MARGIN * bend);
     let slope = 1.0 - deviation;

@@ -11,7 +11,7 @@ use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::{Motion, cross};
 use crate::solve::dense::{inverse, norm, times};
 use crate::solve::newton::{Closure, Six, closure_at, coordinates, product, reach};
-use crate::solve::scalar::{Extended, Number, extended, narrowed};
+use crate::solve::scalar::{Extended, Number, Scalar, extended, narrowed};
 use num_complex::Complex;
 
 /// Roundings in a stored constant.
@@ -122,19 +122,22 @@ impl<R: Extended> Approach<'_, R> {
 
     /// What is proved of the solution, in f64, where the rounding of the constants cannot have moved it by more than
     /// `drift`.
-    fn told(&self, proof: Certificate, condition: f64, drift: impl Fn(&Six<Complex<f64>>) -> f64) -> Refined {
+    fn told(&self, proof: Certificate, condition: f64, drift: f64) -> Refined {
         let unknowns = self.unknowns();
-        // The reported unknowns are those of the proof, rounded.
-        let largest = unknowns.iter().map(|x| x.bound()).fold(1.0, f64::max);
-        let rounding = 4.0 * f64::EPSILON * largest;
-        let proved = proof.radius + drift(&unknowns);
-        let certificate = Certificate { radius: proved + rounding, proved, ..proof };
+        let certificate = rounded(proof, &unknowns, drift);
         // Judged by the solution itself, not by what its rounding left of it.
         let imaginary = (0..6).map(|j| imaginary(self.closed.variables[j], self.state[j])).fold(0.0, f64::max);
         let real = imaginary <= proof.radius && 3.0 * proof.radius <= proof.isolation;
         let unknowns = if real { unknowns.map(|z| z.re.into()) } else { unknowns };
         Refined { unknowns, real, certificate, condition }
     }
+}
+
+/// A proof of unknowns as it holds for their nearest f64.
+fn rounded<S: Scalar>(proof: Certificate, unknowns: &Six<S>, drift: f64) -> Certificate {
+    let largest = unknowns.iter().map(|x| x.bound()).fold(1.0, f64::max);
+    let proved = proof.radius + drift;
+    Certificate { radius: proved + 4.0 * f64::EPSILON * largest, proved, ..proof }
 }
 
 /// The inverse of a matrix, as good as f64 makes it.
@@ -149,6 +152,11 @@ fn rough_inverse<R: Extended>(matrix: &Square<R>) -> Option<Square<R>> {
 /// the solution is not proved.
 #[must_use]
 pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>) -> Option<Refined> {
+    if unknowns.iter().all(|z| z.im == 0.0)
+        && let Some(refined) = refined_real(closed, &unknowns.map(|z| z.re))
+    {
+        return Some(refined);
+    }
     let variables = closed.variables;
     let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
     let state: Six<Quad> = std::array::from_fn(|j| match variables[j] {
@@ -169,15 +177,73 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
         if size < 1e-26 || stalls || round == 11 {
             let proof = certificate(&here, &inverse).or_else(|| in_any_frame(&precise, &pairs, at.reach))?;
             let condition = norm(&here.jacobian) * norm(&inverse);
-            let drift = |refined: &Six<Complex<f64>>| drift(closed, refined);
-            let refined = at.told(proof, condition, drift);
-            let sure = drift(&at.unknowns()) < MOST_DRIFT * at.reach;
-            return sure.then_some(refined);
+            let drift = drift(closed, &at.unknowns());
+            return (drift < MOST_DRIFT * at.reach).then(|| at.told(proof, condition, drift));
         }
         before = size;
         at.step_back(&step);
     }
     None
+}
+
+/// Cosine and sine over their norm, which is nearly 1.
+fn on_circle(cos: DoubleDouble, sin: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
+    // 1/sqrt(1 + e) = 1 - e/2 + 3 e^2/8; what is left over is less than the rounding that the proof allows for.
+    let off = cos.mul(&cos).add(&sin.mul(&sin)).sub(&DoubleDouble::one());
+    let bend = DoubleDouble::from(0.375).mul(&off).sub(&DoubleDouble::from(0.5));
+    let scale = DoubleDouble::one().add(&off.mul(&bend));
+    (cos.mul(&scale), sin.mul(&scale))
+}
+
+/// As [`refined_certificate`] for a real solution, in real numbers, which cost a third; `None` also where only another
+/// frame would prove it.
+fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<Refined> {
+    let variables = closed.variables;
+    let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
+    let reach = reach(&variables, &unknowns.map(Complex::from));
+    let mut pairs: [(DoubleDouble, DoubleDouble); 6] = std::array::from_fn(|j| match variables[j] {
+        Variable::Rotation => on_circle(unknowns[j].cos().into(), unknowns[j].sin().into()),
+        Variable::Translation => (unknowns[j].into(), DoubleDouble::zero()),
+    });
+    let mut before = f64::INFINITY;
+    loop {
+        let here = closure_at::<DoubleDouble>(&precise, &pairs);
+        let rough = inverse(&here.jacobian.map(|row| row.map(DoubleDouble::to_f64)))?;
+        let rough = rough.map(|row| row.map(DoubleDouble::from));
+        let step = times(&rough, &here.residual);
+        let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max) / reach;
+        let stalls = !(size < 0.5 * before);
+        if !(size < 0.3) || (stalls && size > 1e-12) {
+            return None;
+        }
+        if size < 1e-26 || stalls {
+            let proof = certificate(&here, &rough)?;
+            let values: Six<f64> = std::array::from_fn(|j| match (variables[j], pairs[j]) {
+                (Variable::Rotation, (cos, sin)) => sin.to_f64().atan2(cos.to_f64()),
+                (Variable::Translation, (distance, _)) => distance.to_f64(),
+            });
+            let drift = drift(closed, &values);
+            return (drift < MOST_DRIFT * reach).then(|| Refined {
+                unknowns: values.map(Complex::from),
+                real: true,
+                certificate: rounded(proof, &values, drift),
+                condition: norm(&here.jacobian) * norm(&rough),
+            });
+        }
+        before = size;
+        for j in 0..6 {
+            let d = step[j].neg();
+            let (first, second) = pairs[j];
+            pairs[j] = match variables[j] {
+                Variable::Translation => (first.add(&d), second),
+                Variable::Rotation => {
+                    let turn = small_turn(Complex { re: d, im: DoubleDouble::zero() });
+                    let (cos, sin) = (turn.re, turn.im);
+                    on_circle(first.mul(&cos).sub(&second.mul(&sin)), second.mul(&cos).add(&first.mul(&sin)))
+                }
+            };
+        }
+    }
 }
 
 /// Steps of Newton's method from a start that is nearly as exact as its numbers.
@@ -213,7 +279,7 @@ pub fn from_pairs<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>) -> Opti
         if size < SETTLED
             && let Some(proof) = certificate(&here, &inverse).or_else(|| in_any_frame(closed, &pairs, at.reach))
         {
-            return Some(at.told(proof, norm(&here.jacobian) * norm(&inverse), |_| 0.0));
+            return Some(at.told(proof, norm(&here.jacobian) * norm(&inverse), 0.0));
         }
         at.step_back(&step);
     }
@@ -247,22 +313,21 @@ fn imaginary<R: Extended>(variable: Variable, state: Complex<R>) -> f64 {
 
 /// How far the rounding of the constants can have moved a solution, to first order. A constant off by a twist x, a few
 /// roundings in size, moves the unknowns by `J^-1 Ad_j x` with the frame of its step.
-fn drift(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>) -> f64 {
-    let pairs: Six<(Complex<f64>, Complex<f64>)> =
-        std::array::from_fn(|j| coordinates(closed.variables[j], unknowns[j]));
+fn drift<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> f64 {
+    let pairs: Six<(S, S)> = std::array::from_fn(|j| coordinates(closed.variables[j], unknowns[j]));
     let Some(inverse) = inverse(&closure_at(closed, &pairs).jacobian) else { return f64::INFINITY };
     let mut sum = 0.0;
     for count in 1..=6 {
-        let frame: Motion<Complex<f64>> = product(closed, &pairs, count);
-        let mut moved = [[Complex::new(0.0, 0.0); 6]; 6];
+        let frame: Motion<S> = product(closed, &pairs, count);
+        let mut moved = [[S::zero(); 6]; 6];
         for axis in 0..3 {
             // A turn about this axis of the frame, and a shift along it.
-            let direction: [Complex<f64>; 3] = std::array::from_fn(|i| frame.rotation[i][axis]);
+            let direction: [S; 3] = std::array::from_fn(|i| frame.rotation[i][axis]);
             let moment = cross(&frame.translation, &direction);
             for (row, from) in moved.iter_mut().zip(&inverse) {
                 for i in 0..3 {
-                    row[axis] += from[i] * direction[i] + from[3 + i] * moment[i];
-                    row[3 + axis] += from[3 + i] * direction[i];
+                    row[axis] = row[axis].add(&from[i].mul(&direction[i])).add(&from[3 + i].mul(&moment[i]));
+                    row[3 + axis] = row[3 + axis].add(&from[3 + i].mul(&direction[i]));
                 }
             }
         }

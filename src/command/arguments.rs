@@ -455,18 +455,22 @@ pub struct DisturbOptions {
 /// `looproot bench speed`
 #[derive(Args)]
 pub struct SpeedOptions {
-    /// general (arms), platform or another set of platforms
+    /// general (arms); loops of all residual chains, short and planar loops of the library, and exact closure polynomials;
+    /// platform or another set of platforms
     #[arg(long, default_value = "general")]
     pub set: String,
-    /// Number of arms or platforms
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=100_000))]
-    pub count: u64,
-    /// How often each stage is timed over all of them
-    #[arg(long, value_name = "N", default_value_t = 101)]
-    pub repeats: usize,
+    /// Number of arms or platforms, or of loops per chain [default: 200; loops: 20]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub count: Option<u64>,
+    /// How often each of them is timed [default: 101; loops: 11]
+    #[arg(long, value_name = "N")]
+    pub repeats: Option<usize>,
     /// Seed of the draw
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
+    /// A JSON document
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `looproot completions`

@@ -13,7 +13,8 @@ use looproot::benchmark::platform;
 use looproot::benchmark::platform::accuracy::PlatformJob;
 use looproot::benchmark::platform::sample::PlatformSet;
 use looproot::benchmark::sample::{CHAINS, Set};
-use looproot::benchmark::speed;
+use looproot::benchmark::speed::{self, Timings};
+use looproot::benchmark::speed_loops::{self, ExactRow, LoopRow, LoopTimings, Spread};
 use looproot::catalogue::entry::{Entry, Kind};
 use looproot::catalogue::{Any, FrameworkFile, Options, builtin_any, builtin_names, moving_names};
 use looproot::error::Error;
@@ -214,15 +215,85 @@ fn measure_mobility(options: &DisturbOptions) -> Result<Exit, Fault> {
 }
 
 fn measure_speed(options: &SpeedOptions) -> Result<Exit, Fault> {
-    let (count, repeats, seed) = (options.count, options.repeats.max(1), options.seed);
-    let timings = match families(&options.set)?.as_slice() {
-        [(_, Family::Arms(Set::General))] => speed::run(count, repeats, seed)?,
-        [(_, Family::Platforms(set))] => platform::speed::run(*set, count, repeats, seed)?,
-        _ => {
-            let message = format!("found the set `{}`, expected general or a set of platforms", options.set);
-            return Err(Error::Invalid(message).into());
-        }
+    let of = |count, repeats| (options.count.unwrap_or(count), options.repeats.unwrap_or(repeats).max(1), options.seed);
+    let written = if options.set == "loops" {
+        let (count, repeats, seed) = of(20, 11);
+        let timings = speed_loops::run(count, repeats, seed)?;
+        if options.json { format!("{}\n", loops_document(&timings)) } else { loops_table(&timings) }
+    } else {
+        let (count, repeats, seed) = of(200, 101);
+        let timings = match families(&options.set)?.as_slice() {
+            [(_, Family::Arms(Set::General))] => speed::run(count, repeats, seed)?,
+            [(_, Family::Platforms(set))] => platform::speed::run(*set, count, repeats, seed)?,
+            _ => {
+                let message = format!("found the set `{}`, expected general, loops or a set of platforms", options.set);
+                return Err(Error::Invalid(message).into());
+            }
+        };
+        if options.json { format!("{}\n", stages_document(&timings)) } else { format!("{timings}\n") }
     };
-    print(&format!("{timings}\n"))?;
+    print(&written)?;
     Ok(Exit::Complete)
+}
+
+fn stages_document(timings: &Timings) -> serde_json::Value {
+    let row =
+        |(name, median, least): &(&str, f64, f64)| json!({ "name": name, "median_us": median, "least_us": least });
+    json!({ "stages": timings.rows.iter().map(row).collect::<Vec<_>>() })
+}
+
+/// Three numbers of a spread: median, least, slowest.
+fn cells(spread: Option<&Spread>) -> [String; 3] {
+    spread.map_or_else(Default::default, |s| [s.median, s.least, s.slowest].map(|time| format!("{time:.1}")))
+}
+
+fn loops_table(timings: &LoopTimings) -> String {
+    const THREE: [&str; 3] = ["median", "least", "slowest"];
+    let header = |what: &[&str]| -> Vec<String> {
+        what.iter().flat_map(|what| THREE.map(|of| format!("{what} {of}").trim().to_owned())).collect()
+    };
+    let loops = ["unknowns".to_owned(), "solutions".to_owned()].into_iter().chain(header(&["real", "all", "answer"]));
+    let mut table = Columns::new(&loops.collect::<Vec<_>>(), &["unknowns"]);
+    for row in &timings.loops {
+        let spreads = [row.real.as_ref(), row.all.as_ref(), Some(&row.answer)];
+        let own = [row.name.clone(), row.solutions.to_string()];
+        table.row(own.into_iter().chain(spreads.into_iter().flat_map(cells)));
+    }
+    let exact = ["unknowns".to_owned(), "degree".to_owned()].into_iter().chain(header(&["derived", "roots"]));
+    let mut polynomials = Columns::new(&exact.collect::<Vec<_>>(), &["unknowns"]);
+    for row in &timings.exact {
+        let own = [row.name.to_owned(), row.degree.to_string()];
+        polynomials.row(own.into_iter().chain([&row.derived, &row.isolated].into_iter().flat_map(|s| cells(Some(s)))));
+    }
+    let [median, least, _] = cells(Some(&timings.reference));
+    format!(
+        "microseconds, one core; faer, eigenvalues of one 16x16 matrix: median {median}, least {least}\n\n\
+         f64, prepared once, many inputs. real, all: the numbers and the proof of each mode.\n\
+         answer: as `solve` gives it, from the exact input to the count of all solutions and the verdict\n{}\n\
+         exact, lengths and half-angle tangents of three decimals. derived: from data to polynomial and isolated real roots.\n\
+         roots: of this their isolation, and their number by Sturm's theorem\n{}",
+        table.text(),
+        polynomials.text()
+    )
+}
+
+fn loops_document(timings: &LoopTimings) -> serde_json::Value {
+    let spread = |s: &Spread| json!({ "median_us": s.median, "least_us": s.least, "slowest_us": s.slowest });
+    let row = |row: &LoopRow| {
+        json!({
+            "unknowns": row.name, "solutions": row.solutions, "real": row.real.as_ref().map(spread),
+            "all": row.all.as_ref().map(spread), "answer": spread(&row.answer),
+        })
+    };
+    let exact = |row: &ExactRow| {
+        json!({
+            "unknowns": row.name, "degree": row.degree, "derived": spread(&row.derived),
+            "roots": spread(&row.isolated),
+        })
+    };
+    json!({
+        "faer_16x16": spread(&timings.reference),
+        "loops": timings.loops.iter().map(row).collect::<Vec<_>>(),
+        "exact": timings.exact.iter().map(exact).collect::<Vec<_>>(),
+    })
 }

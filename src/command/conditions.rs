@@ -9,7 +9,10 @@ use looproot::conditions::decide::{Decision, decide};
 use looproot::conditions::four_bar::{FourBar, derive};
 use looproot::error::{Error, Result};
 use looproot::report::conditions::{json, markdown, system, text, verdict};
+use looproot::report::json::tenths;
+use looproot::report::number::duration;
 use std::io::Write;
+use std::time::Instant;
 
 /// Derives for which parameters a loop moves.
 pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
@@ -21,10 +24,15 @@ pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
             return Err(Error::Unsupported(format!("conditions of a loop of {count} joints: only of 4 to 6")).into());
         }
     }
+    let start = Instant::now();
     let theorem = derive();
+    let derived = start.elapsed().as_secs_f64() * 1e6;
     let decision = decide(&theorem, &ansatz)?;
+    let decided = start.elapsed().as_secs_f64() * 1e6 - derived;
     let written = if options.json {
-        format!("{}\n", json(&theorem, &ansatz, &decision))
+        let mut document = json(&theorem, &ansatz, &decision);
+        document["timings_us"] = serde_json::json!({ "derive": tenths(derived), "decide": tenths(decided) });
+        format!("{document}\n")
     } else if let Some(format) = options.format {
         system(&decision, options.family.as_deref(), format)?
     } else if options.explain {
@@ -32,7 +40,8 @@ pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
     } else if options.quiet {
         verdict(&theorem, &ansatz, &decision) + "\n"
     } else {
-        text(&theorem, &ansatz, &decision)
+        let times = format!("derived and proved in {}, applied in {}", duration(derived), duration(decided));
+        format!("{}\n{times}\n", text(&theorem, &ansatz, &decision))
     };
     let mut output = Output::open(&options.output, &options.mechanism)?;
     output.writer.write_all(written.as_bytes())?;

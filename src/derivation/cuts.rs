@@ -43,20 +43,17 @@ pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
 /// The equations of the best cut and the determinant of its pencil.
 pub(super) fn eliminate(exact: &Exact) -> Eliminated {
     let chosen = exact.modular.as_ref().and_then(choice);
-    let regular = |cut: &&Cut| cut.fits(exact.closed.variables) && half_angle_form(&cut.of(&exact.closed)).is_some();
-    let (cut, hidden) = match (chosen, Cut::ALL.iter().find(regular)) {
-        (Some(chosen), _) => chosen,
-        (None, Some(&cut)) => (cut, Hidden::First),
-        (None, None) => {
-            let step = "Every cut of the loop loses equations.".to_owned();
-            return Eliminated {
-                equations: Vec::new(),
-                steps: vec![step],
-                polynomial: None,
-                removed: Vec::new(),
-                per_root: 1,
-            };
-        }
+    let regular = |cut: &Cut| cut.fits(exact.closed.variables) && half_angle_form(&cut.of(&exact.closed)).is_some();
+    let any = || Cut::ALL.into_iter().find(regular).map(|cut| (cut, Hidden::First));
+    let Some((cut, hidden)) = chosen.or_else(any) else {
+        let step = "Every cut of the loop loses equations.".to_owned();
+        return Eliminated {
+            equations: Vec::new(),
+            steps: vec![step],
+            polynomial: None,
+            removed: Vec::new(),
+            per_root: 1,
+        };
     };
     let view = cut.of(&exact.closed);
     let mut equations = listed(&exact.symbols, cut, &view);

@@ -83,6 +83,11 @@ pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
         Eliminated { equations: listed.collect(), steps, polynomial: None, removed: Vec::new(), per_root: 1 };
     if !(degenerate && exact.modular.is_some()) {
         let origin = [1, 1, 0].map(Rational::from);
+        // Integers multiply without greatest common divisors.
+        let mut equations = equations;
+        for form in [&mut equations.f, &mut equations.g] {
+            Rational::normalise(form.as_flattened_mut());
+        }
         let polynomial = closure_polynomial(&equations, hidden, &origin);
         if !polynomial.is_zero() {
             let rest = polynomial.remove_factor(&circle()).1;

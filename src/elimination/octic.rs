@@ -79,7 +79,14 @@ pub fn false_roots<F: Field + Domain>(
         let [one, cos, sin] = view(form);
         one.mul(&normal[2]).add(&cos.mul(&normal[0])).add(&sin.mul(&normal[1]))
     };
-    let forms = |form: &dyn Fn(&[F; 3]) -> Form<F>| [0, 1, 2].map(|i| form(&unit(i)));
+    let forms = |form: &dyn Fn(&[F; 3]) -> Form<F>| {
+        [0, 1, 2].map(|i| {
+            // Only zeros matter: over the rationals as integers, which multiply faster.
+            let mut form = form(&unit(i));
+            F::normalise(form.as_flattened_mut());
+            form
+        })
+    };
     let directions = forms(&|x| bar.coplanarity(bar.base, x));
     let gaps = forms(&|x| bar.gap(bar.base, x));
     let common = |list: &[Univariate<F>]| list.iter().fold(Univariate::zero(), |g: Univariate<F>, p| g.gcd(p));

@@ -76,6 +76,53 @@ pub struct Coupled<R> {
     pub indices: [usize; 3],
 }
 
+/// A loop of two balls and one unknown before its locked variable is given.
+#[derive(Clone, Debug)]
+pub struct OpenCoupled<R> {
+    variable: Variable,
+    /// The link, and the constants before and behind the unknown.
+    stretches: [Stretch<R>; 3],
+    indices: [usize; 3],
+}
+
+/// A constant motion, or two with the locked variable between them.
+#[derive(Clone, Debug)]
+struct Stretch<R> {
+    before: Motion<R>,
+    after: Option<Motion<R>>,
+}
+
+impl<R: Ring> Stretch<R> {
+    fn empty() -> Self {
+        Self { before: Motion::identity(), after: None }
+    }
+
+    fn extend(&mut self, motion: &Motion<R>) {
+        let last = self.after.as_mut().unwrap_or(&mut self.before);
+        *last = last.then_after(motion);
+    }
+
+    fn open(&mut self) {
+        self.after = Some(Motion::identity());
+    }
+
+    fn close(&self, filling: &Motion<R>) -> Motion<R> {
+        match &self.after {
+            None => self.before.clone(),
+            Some(after) => self.before.then_after(filling).then_after(after),
+        }
+    }
+}
+
+impl<R: Ring> OpenCoupled<R> {
+    /// The loop whose locked variable is this motion.
+    #[must_use]
+    pub fn close(&self, filling: &Motion<R>) -> Coupled<R> {
+        let [link, before, behind] = self.stretches.each_ref().map(|stretch| stretch.close(filling));
+        Coupled { variable: self.variable, link, before, behind, indices: self.indices }
+    }
+}
+
 /// A constant of a DH joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
@@ -408,49 +455,47 @@ impl Chain {
     /// # Errors
     /// Unless there is exactly one more unknown; and for an unlucky prime.
     pub fn coupled_loop<R: Ring>(&self, layout: &Layout, filling: &Motion<R>) -> Result<Coupled<R>, Error> {
-        self.coupled_loop_over(layout, filling, &Numbers)
+        Ok(self.open_coupled(layout, &Numbers)?.close(filling))
     }
 
-    /// As [`Chain::coupled_loop`], with these constants of the joints.
+    /// The loop of a chain with two balls before its locked variable is given, with these constants of the joints.
     ///
     /// # Errors
     /// As [`Chain::coupled_loop`].
-    pub fn coupled_loop_over<R: Ring>(
+    pub fn open_coupled<R: Ring>(
         &self,
         layout: &Layout,
-        filling: &Motion<R>,
         parameters: &impl Parameters<R>,
-    ) -> Result<Coupled<R>, Error> {
+    ) -> Result<OpenCoupled<R>, Error> {
         let unlucky = || Error::Unsupported("the geometry has no image in this ring (unlucky prime)".into());
         let steps = self.steps(parameters).ok_or_else(unlucky)?;
         let balls = [layout.ball, layout.second_ball];
         // Index of the first variable and the constant behind each ball and unknown; what stands before the first of
         // them comes last.
-        let mut items: Vec<(usize, Motion<R>)> = Vec::new();
-        let mut start = Motion::identity();
+        let mut items: Vec<(usize, Stretch<R>)> = Vec::new();
+        let mut start = Stretch::empty();
         let mut index = 0;
         for step in steps {
-            let motion = match step {
-                Step::Constant(motion) => motion,
+            // Inside a ball only its own quarter turns stand, which cancel but for the unknowns.
+            let last = items.last_mut().map_or(&mut start, |(_, stretch)| stretch);
+            match step {
+                Step::Constant(motion) => last.extend(&motion),
                 Step::Unknown(_) => {
                     index += 1;
                     let inside = balls.into_iter().flatten().any(|ball| index - 1 > ball && index - 1 < ball + 3);
                     if layout.locked == Some(index - 1) {
-                        filling.clone()
-                    } else {
-                        if !inside {
-                            items.push((index - 1, Motion::identity()));
-                        }
-                        continue;
+                        last.open();
+                    } else if !inside {
+                        items.push((index - 1, Stretch::empty()));
                     }
                 }
-            };
-            // Inside a ball only its own quarter turns stand, which cancel but for the unknowns.
-            let last = items.last_mut().map_or(&mut start, |(_, constant)| constant);
-            *last = last.then_after(&motion);
+            }
         }
-        if let Some((_, constant)) = items.last_mut() {
-            *constant = constant.then_after(&start);
+        if let Some((_, last)) = items.last_mut() {
+            last.extend(&start.before);
+            if let Some(after) = start.after {
+                last.after = Some(after);
+            }
         }
         let is_ball = |at: usize| balls.contains(&Some(at));
         let found = items.iter().position(|(at, _)| !is_ball(*at)).filter(|_| items.len() == 3);
@@ -463,9 +508,9 @@ impl Chain {
             )));
         };
         items.rotate_left((position + 1) % 3);
-        let [(x, link), (y, before), (v, behind)]: [(usize, Motion<R>); 3] =
+        let [(x, link), (y, before), (v, behind)]: [(usize, Stretch<R>); 3] =
             items.try_into().map_err(|_| Error::Unsupported("two balls and one unknown".into()))?;
-        Ok(Coupled { variable: layout.variables[v], link, before, behind, indices: [x, y, v] })
+        Ok(OpenCoupled { variable: layout.variables[v], stretches: [link, before, behind], indices: [x, y, v] })
     }
 
     /// The unknowns of a chain read as a loop, each with the constant behind it; what stands before the first one comes

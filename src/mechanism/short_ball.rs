@@ -20,10 +20,18 @@ use rug::Rational;
 /// A value of a joint variable.
 type Value = Complex<f64>;
 
+/// Less than this, over the sizes of all that comes in, may be rounding of the data.
+const CLEAR: f64 = 1e-9;
+
 /// All positions of the centre of a ball.
 pub(super) enum Positions {
-    /// Isolated ones: the joint variables in joint order, and how many coincide there.
-    Isolated(Vec<(Vec<Value>, usize)>),
+    /// Isolated ones.
+    Isolated {
+        /// The joint variables in joint order, and how many coincide there.
+        found: Vec<(Vec<Value>, usize)>,
+        /// Whether there are none, and none would be there for data nearby.
+        clear: bool,
+    },
     /// The other joints move on while the centre is where it has to be.
     Moving,
 }
@@ -43,14 +51,18 @@ pub(super) fn positions(chain: &Chain, layout: &Layout, case: &Case) -> Result<P
     let total = layout.variables.len();
     let lifted = |x: &Rational| Complex::from(x.to_f64());
     let mut found = Vec::new();
+    let unit = chain.unit().to_f64();
+    let clear;
     match steps.as_slice() {
         [] => {
+            clear = target.iter().any(|x| x.to_f64().abs() > CLEAR * unit);
             if target == none {
                 found.push((Vec::new(), 1));
             }
         }
         [(_, variable, constant)] => {
             let rows = unmoved(*variable, &constant.translation, &target);
+            clear = rows.iter().any(|x| x.to_f64().abs() > CLEAR * unit.max(unit * unit));
             if rows.iter().all(Ring::is_zero) {
                 let place = constant.translation.each_ref().map(lifted);
                 let Some(value) = moved(*variable, &place, &target.each_ref().map(lifted)) else {
@@ -61,6 +73,7 @@ pub(super) fn positions(chain: &Chain, layout: &Layout, case: &Case) -> Result<P
         }
         [(_, first, constant), (_, second, last)] => {
             let [one, two] = rows(*first, *second, constant, &last.translation, &target);
+            clear = are_apart(&one, &two);
             let common = one.gcd(&two);
             if one.is_zero() && two.is_zero() {
                 return Ok(Positions::Moving);
@@ -115,7 +128,22 @@ pub(super) fn positions(chain: &Chain, layout: &Layout, case: &Case) -> Result<P
         }
         (q, multiplicity)
     };
-    Ok(Positions::Isolated(found.into_iter().map(whole).collect()))
+    let found: Vec<_> = found.into_iter().map(whole).collect();
+    Ok(Positions::Isolated { clear: clear && found.is_empty(), found })
+}
+
+/// Whether two polynomials of degree 2 or less have no common root, and none if their coefficients are a little off: by their
+/// resultant, the degree 2 taken for granted, so that roots at infinity count.
+fn are_apart(one: &Univariate<Rational>, two: &Univariate<Rational>) -> bool {
+    let parts = |polynomial: &Univariate<Rational>| {
+        let list: [f64; 3] = std::array::from_fn(|k| polynomial.coefficients().get(k).map_or(0.0, Rational::to_f64));
+        let size = list.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+        list.map(|x| x / size)
+    };
+    let (p, q) = (parts(one), parts(two));
+    let minor = |i: usize, j: usize| p[i] * q[j] - p[j] * q[i];
+    let resultant = minor(2, 0) * minor(2, 0) - minor(2, 1) * minor(1, 0);
+    resultant.abs() > CLEAR
 }
 
 /// What stands behind the ball up to the first unknown, and the unknowns with the constants behind them, up to the ball.

@@ -1,14 +1,15 @@
 //! Loops with fewer than six unknowns: overconstrained mechanisms and structures.
 
+use super::by_input::{ByInput, Prepared};
 use super::short_ball::{Positions, positions};
-use super::single_loop::{filling, full_mode, locked_value, locked_variable, within_limits};
+use super::single_loop::{filling, full_mode, locked_value, within_limits};
 use super::{FullMode, Solution};
-
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
 use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, wrapped};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::elimination::common_roots::common_roots;
+use crate::elimination::degree::{degree, general_filling};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
@@ -20,6 +21,7 @@ use nalgebra::{SMatrix, SVector};
 use num_complex::Complex;
 use rug::Rational;
 use std::cmp::Ordering;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// The field of exact counts.
@@ -51,14 +53,24 @@ struct Rung {
     solver: Solver,
     /// The loop with lengths over the mean link.
     open: OpenLoop<f64>,
+    /// At most so many solutions there are at any input, idle unknowns free, when first asked for; none where the closure
+    /// polynomials vanish.
+    most: OnceLock<Option<usize>>,
+    /// What counts the solutions, when first asked for; none for an unlucky prime.
+    counting: OnceLock<Option<Counting>>,
+}
+
+/// Two other choices of idle axes, modulo a prime.
+struct Counting {
+    loops: [OpenLoop<Mod>; 2],
+    is_idle: [bool; 6],
 }
 
 /// One choice of the locked variable.
-struct Prepared {
+struct Ladder {
     /// Without idle unknowns.
     layout: Layout,
     rungs: Vec<Rung>,
-    prepare_us: f64,
 }
 
 /// A chain with too few unknowns, prepared for all its cases.
@@ -66,7 +78,7 @@ pub(super) struct ShortLoop {
     chain: Chain,
     limits: Vec<[f64; 2]>,
     is_rounded: bool,
-    prepared: Vec<Prepared>,
+    prepared: ByInput<Ladder>,
 }
 
 /// What may be a solution.
@@ -127,7 +139,8 @@ fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
             if solver.is_out_of_reach() || solver.structural_rank() < 6 {
                 break;
             }
-            rungs.push(Rung { layout, solver, open: scaled(&open, unit) });
+            let open = scaled(&open, unit);
+            rungs.push(Rung { layout, solver, open, most: OnceLock::new(), counting: OnceLock::new() });
         }
     }
     if rungs.is_empty() {
@@ -153,17 +166,8 @@ fn scaled(open: &OpenLoop<f64>, unit: f64) -> OpenLoop<f64> {
 impl ShortLoop {
     /// Prepares the chain of an entry for all its cases.
     pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
-        let mut prepared: Vec<Prepared> = Vec::new();
-        for case in &entry.cases {
-            let locked = locked_variable(chain, case)?;
-            if prepared.iter().any(|p| p.layout.locked == locked) {
-                continue;
-            }
-            let layout = Layout::of(chain, locked)?;
-            let start = Instant::now();
-            let rungs = rungs(chain, &layout)?;
-            prepared.push(Prepared { layout, rungs, prepare_us: start.elapsed().as_secs_f64() * 1e6 });
-        }
+        let ladder = |layout: Layout| Ok(Ladder { rungs: rungs(chain, &layout)?, layout });
+        let prepared = ByInput::prepare(entry, chain, ladder)?;
         Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), is_rounded: entry.rounded, prepared })
     }
 
@@ -175,15 +179,13 @@ impl ShortLoop {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
-        let locked = locked_variable(&self.chain, case)?;
-        let prepared = self.prepared.iter().find(|p| p.layout.locked == locked);
-        let prepared =
-            prepared.ok_or_else(|| Error::Invalid("the case locks a joint that was not prepared".to_owned()))?;
+        let Prepared { of: ladder, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
         let start = Instant::now();
+        let locked = ladder.layout.locked;
         let moving = if locked.is_none() { self.motion(workspace, assembly)? } else { None };
         let (verdict, modes) = match moving {
             Some(answer) => answer,
-            None => self.isolated(prepared, case, roots, workspace, assembly)?,
+            None => self.isolated(ladder, case, roots, workspace, assembly)?,
         };
         let mut warnings = case.warnings.clone();
         if locked.is_some() && verdict.complex == 0 && verdict.self_motion == 0 {
@@ -197,7 +199,7 @@ impl ShortLoop {
             verdict,
             modes,
             warnings,
-            prepare_us: prepared.prepare_us,
+            prepare_us: *prepare_us,
             solve_us: start.elapsed().as_secs_f64() * 1e6,
             platform: None,
         })
@@ -215,10 +217,10 @@ impl ShortLoop {
             // A joint without which the others are dependent cannot be held to find the motion.
             let Ok(rungs) = rungs(&self.chain, &layout) else { continue };
             let joint = self.joint_of(locked);
-            let prepared = Prepared { layout, rungs, prepare_us: 0.0 };
+            let ladder = Ladder { layout, rungs };
             for number in 0..PLACES {
                 let case = self.held(joint, variables[locked], number);
-                let (verdict, _) = self.isolated(&prepared, &case, Roots::All, workspace, assembly)?;
+                let (verdict, _) = self.isolated(&ladder, &case, Roots::All, workspace, assembly)?;
                 if verdict.real == 0 && verdict.self_motion == 0 {
                     if verdict.complex > 0 {
                         complex = Some((joint, verdict.complex));
@@ -271,22 +273,27 @@ impl ShortLoop {
     /// The isolated solutions of one case.
     fn isolated(
         &self,
-        prepared: &Prepared,
+        ladder: &Ladder,
         case: &Case,
         roots: Roots,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Answer> {
-        if prepared.layout.ball.is_some() {
-            return self.with_ball(&prepared.layout, case);
+        if ladder.layout.ball.is_some() {
+            return self.with_ball(&ladder.layout, case);
         }
         let mut best: Vec<Candidate> = Vec::new();
         let mut count: Option<usize> = None;
         let mut self_motion = 0;
         let mut tight: Vec<Candidate> = Vec::new();
         let total = |list: &[Candidate]| list.iter().map(|c| c.mode.multiplicity.max(1)).sum::<usize>();
-        for rung in &prepared.rungs {
-            let mut found = self.candidates(rung, case, roots, workspace, assembly)?;
+        for (k, rung) in ladder.rungs.iter().enumerate() {
+            // Where closure polynomials vanish at every input, solutions with idle unknowns form families.
+            let most = *rung.most.get_or_init(|| self.most(&rung.layout));
+            if most.is_none() && k + 1 < ladder.rungs.len() {
+                continue;
+            }
+            let mut found = self.candidates(rung, case, roots, most, workspace, assembly)?;
             let closed: Vec<Candidate> = found.iter().filter(|c| c.mode.residual < CLOSED).cloned().collect();
             count = count.or_else(|| self.count(rung, case, total(&closed)));
             self_motion = assembly.self_motion;
@@ -318,15 +325,15 @@ impl ShortLoop {
         best.sort_by(|a, b| b.mode.real.cmp(&a.mode.real).then_with(|| in_order(&a.q, &b.q)));
         let modes = best.into_iter().map(|Candidate { mode, q, .. }| FullMode {
             certified: proved && mode.certificate.is_some(),
-            ..full_mode(&mode, q, &prepared.layout.variables, &self.limits)
+            ..full_mode(&mode, q, &ladder.layout.variables, &self.limits)
         });
         Ok((verdict, modes.collect()))
     }
 
     /// The isolated solutions of one case of a loop with a ball, all of them exactly.
     fn with_ball(&self, layout: &Layout, case: &Case) -> Result<Answer> {
-        let found = match positions(&self.chain, layout, case)? {
-            Positions::Isolated(found) => found,
+        let (found, clear) = match positions(&self.chain, layout, case)? {
+            Positions::Isolated { found, clear } => (found, clear),
             Positions::Moving => {
                 let reason = "solutions form a self-motion of dimension 1: joints move while the centre of the S joint is where it \
                               has to be";
@@ -366,10 +373,10 @@ impl ShortLoop {
         modes.sort_by(|a, b| b.real.cmp(&a.real).then_with(|| in_order(&a.q, &b.q)));
         let total: usize = modes.iter().map(|mode| mode.multiplicity).sum();
         let real = modes.iter().filter(|mode| mode.real).map(|mode| mode.multiplicity).sum();
-        let (status, reason) = match (self.is_rounded, real) {
+        let (status, reason) = match (self.is_rounded && !clear, real) {
             (true, _) => {
                 let reason = format!(
-                    "not proved: {total} solutions for the rounded data, but an overconstrained loop moves with exact data only"
+                    "not proved: {total} found for the rounded data, but an overconstrained loop moves with exact data only"
                 );
                 (Status::Incomplete, reason)
             }
@@ -395,10 +402,11 @@ impl ShortLoop {
         rung: &Rung,
         case: &Case,
         roots: Roots,
+        most: Option<usize>,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Vec<Candidate>> {
-        let Rung { layout, solver, open } = rung;
+        let Rung { layout, solver, open, .. } = rung;
         let filling: Motion<f64> = filling(case)?;
         let mut gap = solver.gap(&filling);
         if gap.is_rough() {
@@ -406,7 +414,7 @@ impl ShortLoop {
             let [.., last] = open.close(&super::single_loop::filling(case)?).constants;
             gap = last.map(|x| Some(nearest_f64(x))).map_or(gap, |last| solver.exact_gap(&last));
         }
-        solver.solve_up_to(&gap, roots, &|| usize::MAX, workspace, assembly);
+        solver.solve_up_to(&gap, roots, &|| most.unwrap_or(usize::MAX), workspace, assembly);
         let unit = self.chain.unit().to_f64();
         let filling = Motion { translation: filling.translation.map(|x| x / unit), ..filling };
         let closed = open.close(&filling);
@@ -432,18 +440,31 @@ impl ShortLoop {
 
     /// How many solutions there are, exactly: at most this many, by the common roots of two choices of idle unknowns.
     fn count(&self, rung: &Rung, case: &Case, enough: usize) -> Option<usize> {
-        let plain = Layout { idle: Vec::new(), ..rung.layout.clone() };
-        let variables = rung.layout.loop_kinds();
-        let rotations = variables.iter().filter(|kind| **kind == Variable::Rotation).count();
-        let idle = rung.layout.idle.iter().filter(|idle| idle.variable == Variable::Rotation).count();
+        let Counting { loops, is_idle } = rung.counting.get_or_init(|| self.counting(&rung.layout)).as_ref()?;
+        let filling: Motion<Mod> = filling(case).ok()?;
+        let [one, other] = loops.each_ref().map(|open| open.close(&filling));
+        common_roots(&one, &other, *is_idle, enough)
+    }
+
+    /// A bound on the number of solutions with idle unknowns at every input; `None` where the closure polynomials vanish.
+    fn most(&self, layout: &Layout) -> Option<usize> {
+        // Without input nothing is in general position.
+        let Some(locked) = layout.locked.map(|k| layout.variables[k]) else { return Some(usize::MAX) };
+        let open = self.chain.try_open_loop::<Mod>(layout).ok().flatten();
+        let Some((open, filling)) = open.zip(general_filling(Some(locked), 0)) else { return Some(usize::MAX) };
+        Some(degree(&open.close(&filling), None)?.solutions)
+    }
+
+    /// Two choices of idle axes beside those of a layout.
+    fn counting(&self, layout: &Layout) -> Option<Counting> {
+        let plain = Layout { idle: Vec::new(), ..layout.clone() };
+        let rotations = layout.loop_kinds().iter().filter(|kind| **kind == Variable::Rotation).count();
+        let idle = layout.idle.iter().filter(|idle| idle.variable == Variable::Rotation).count();
         // Three rotations close by themselves, wherever idle translations point.
         let idle = (idle + usize::from(rotations == 3)).min(plain.missing());
-        let closed = |choice| -> Option<ClosedLoop<Mod>> {
-            let layout = plain.with_idle(idle, choice);
-            Some(self.chain.try_open_loop::<Mod>(&layout).ok()??.close(&filling(case).ok()?))
-        };
+        let open = |choice| self.chain.try_open_loop::<Mod>(&plain.with_idle(idle, choice)).ok()?;
         let is_idle = plain.with_idle(idle, 0).joint_variables().map(|joint| joint.is_none());
-        common_roots(&closed(CHOICES)?, &closed(CHOICES + 1)?, is_idle, enough)
+        Some(Counting { loops: [open(CHOICES)?, open(CHOICES + 1)?], is_idle })
     }
 
     fn verdict(&self, found: &[Candidate], count: Option<usize>, roots: Roots) -> Verdict {

@@ -1,5 +1,6 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
+use super::by_input::{ByInput, Prepared};
 use super::{FullMode, Solution};
 use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::modp::{ModP, PRIME_61};
@@ -12,7 +13,9 @@ use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
-use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use crate::kinematics::closed_loop::{
+    ClosedLoop, Coupled, Layout, Numbers, OpenCoupled, OpenLoop, Variable, angle_motion, distance_motion,
+};
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
 use crate::solve::scalar::Extended;
@@ -24,23 +27,30 @@ use std::f64::consts::TAU;
 use std::sync::OnceLock;
 use std::time::Instant;
 
+/// The way in which a loop is solved, prepared.
+enum Way {
+    Six(Box<SixUnknowns>),
+    Balls(Box<Balls>),
+}
+
 /// The solver of one choice of the locked joint (of an arm: the only one).
-struct Prepared {
+struct SixUnknowns {
     layout: Layout,
-    /// None for loops with two balls, which are solved without preparation.
-    solver: Option<Solver>,
+    solver: Solver,
+    /// The loop modulo a prime, when first asked for; none for an unlucky prime.
+    modular: OnceLock<Option<OpenLoop<Mod>>>,
     bound: OnceLock<Bound>,
-    prepare_us: f64,
+}
+
+/// Loops with two balls.
+struct Balls {
+    layout: Layout,
+    open: OpenCoupled<f64>,
+    modular: Option<OpenCoupled<Mod>>,
 }
 
 /// The field of exact degree counts.
 type Mod = ModP<PRIME_61>;
-
-/// The loop of a chain modulo a prime, its gap filled.
-fn modular_loop(chain: &Chain, layout: &Layout, filling: &Motion<Mod>) -> Option<ClosedLoop<Mod>> {
-    let open: OpenLoop<Mod> = chain.try_open_loop(layout).ok()??;
-    Some(open.close(filling))
-}
 
 fn bound_from(degree: Degree, place: &str) -> Bound {
     let all = degree.solutions + degree.left_out;
@@ -65,12 +75,18 @@ fn of_ring(count: usize) -> Bound {
     Bound { count, because }
 }
 
-impl Prepared {
+impl SixUnknowns {
+    /// The loop modulo a prime, its gap filled.
+    fn modular(&self, chain: &Chain, filling: &Motion<Mod>) -> Option<ClosedLoop<Mod>> {
+        let open = self.modular.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
+        Some(open.as_ref()?.close(filling))
+    }
+
     /// The bound on the number of solutions at every pose or input, computed when first asked for.
     fn bound(&self, chain: &Chain) -> &Bound {
         self.bound.get_or_init(|| {
             let locked = self.layout.locked.map(|k| self.layout.variables[k]);
-            let general = |choice| modular_loop(chain, &self.layout, &general_filling(locked, choice)?);
+            let general = |choice| self.modular(chain, &general_filling(locked, choice)?);
             let other = if locked.is_none() { general(1) } else { None };
             let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref()));
             counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"))
@@ -86,7 +102,7 @@ impl Prepared {
 
     /// The degree of the closure polynomial of general loops with these unknowns.
     fn general(&self) -> usize {
-        self.solver.as_ref().map_or(2, Solver::general_degree)
+        self.solver.general_degree()
     }
 }
 
@@ -94,45 +110,13 @@ impl Prepared {
 pub(super) struct SingleLoop {
     chain: Chain,
     limits: Vec<[f64; 2]>,
-    prepared: Vec<Prepared>,
+    prepared: ByInput<Way>,
 }
 
 impl SingleLoop {
     /// Prepares the chain of an entry for all its cases.
     pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
-        let mut prepared: Vec<Prepared> = Vec::new();
-        for case in &entry.cases {
-            let locked = locked_variable(chain, case)?;
-            if prepared.iter().any(|p| p.layout.locked == locked) {
-                continue;
-            }
-            let layout = Layout::of(chain, locked)?;
-            if layout.second_ball.is_some() {
-                chain.coupled_loop::<f64>(&layout, &Motion::identity())?;
-                prepared.push(Prepared { layout, solver: None, bound: OnceLock::new(), prepare_us: 0.0 });
-                continue;
-            }
-            let open: OpenLoop<f64> = chain.open_loop(&layout)?;
-            let start = Instant::now();
-            let solver = match layout.ball_unknown() {
-                Some(ball) => Solver::with_ball(&open, ball),
-                None => Solver::prepare(&open),
-            };
-            let prepare_us = start.elapsed().as_secs_f64() * 1e6;
-            if solver.is_out_of_reach() {
-                let rotations = layout_rotations(&open);
-                let rank = solver.structural_rank();
-                return Err(Error::Unsupported(format!(
-                    "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without \
-                     turning; the screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does \
-                     not close ({} of the whole loop); solved are loops with three unknown rotations at least: give a \
-                     distance in place of an angle",
-                    6 - rank,
-                    Freedom::of(chain)
-                )));
-            }
-            prepared.push(Prepared { layout, solver: Some(solver), bound: OnceLock::new(), prepare_us });
-        }
+        let prepared = ByInput::prepare(entry, chain, |layout| way(chain, layout))?;
         Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), prepared })
     }
 
@@ -144,15 +128,12 @@ impl SingleLoop {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
-        let locked = locked_variable(&self.chain, case)?;
-        let prepared = self
-            .prepared
-            .iter()
-            .find(|p| p.layout.locked == locked)
-            .ok_or_else(|| Error::Invalid("the case locks a joint that was not prepared".to_owned()))?;
-        let Some(solver) = &prepared.solver else {
-            return self.solve_coupled(&prepared.layout, case, roots, workspace, assembly);
+        let Prepared { of, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
+        let prepared = match of {
+            Way::Six(prepared) => prepared,
+            Way::Balls(balls) => return self.solve_coupled(balls, *prepare_us, case, roots, workspace, assembly),
         };
+        let solver = &prepared.solver;
         let mut gap = solver.gap(&filling(case)?);
         if gap.is_rough() {
             let open: OpenLoop<Rational> = self.chain.open_loop(&prepared.layout)?;
@@ -164,7 +145,7 @@ impl SingleLoop {
         let start = Instant::now();
         solver.solve_up_to(&gap, roots, &most, workspace, assembly);
         let mut solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let modular = || modular_loop(&self.chain, &prepared.layout, &filling::<Mod>(case).ok()?);
+        let modular = || prepared.modular(&self.chain, &filling::<Mod>(case).ok()?);
         let (by_cuts, ring) = (OnceCell::new(), OnceCell::new());
         let plan = || -> Option<&Plan> {
             let with_ball = prepared.layout.ball_unknown().is_some();
@@ -228,7 +209,7 @@ impl SingleLoop {
             verdict,
             modes: modes.collect(),
             warnings: case.warnings.clone(),
-            prepare_us: prepared.prepare_us,
+            prepare_us: *prepare_us,
             solve_us,
             platform: None,
         })
@@ -237,37 +218,38 @@ impl SingleLoop {
     /// Looks again for what is missing of a list, in longer numbers.
     fn rescue<R: Extended>(
         &self,
-        prepared: &Prepared,
+        prepared: &SixUnknowns,
         case: &Case,
         plan: Option<&Plan>,
         expected: usize,
         assembly: &mut Assembly,
     ) {
         let open: Option<OpenLoop<R>> = self.chain.try_open_loop(&prepared.layout).ok().flatten();
-        if let (Some(solver), Some(open), Ok(filling)) = (&prepared.solver, open, filling(case)) {
-            solver.rescue(&open.close(&filling), plan, expected, assembly);
+        if let (Some(open), Ok(filling)) = (open, filling(case)) {
+            prepared.solver.rescue(&open.close(&filling), plan, expected, assembly);
         }
     }
 
     /// Solves a loop with two balls.
     fn solve_coupled(
         &self,
-        layout: &Layout,
+        prepared: &Balls,
+        prepare_us: f64,
         case: &Case,
         roots: Roots,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
         let start = Instant::now();
-        let coupled = self.chain.coupled_loop::<f64>(layout, &filling(case)?)?;
+        let layout = &prepared.layout;
+        let coupled = prepared.open.close(&filling(case)?);
         let balls = coupler::solve(&coupled, roots, workspace, assembly);
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let count = filling::<Mod>(case)
-            .and_then(|filling| self.chain.coupled_loop::<Mod>(layout, &filling))
-            .map(|coupled| spherical_pair::count(&coupled));
+        let modular = prepared.modular.as_ref().zip(filling::<Mod>(case).ok());
+        let count = modular.and_then(|(open, filling)| spherical_pair::count(&open.close(&filling)));
         let bound = || match count {
-            Ok(Some(count)) => bound_from(Degree { solutions: count, left_out: 2 - count }, "at this input"),
-            _ => Bound::general(2),
+            Some(count) => bound_from(Degree { solutions: count, left_out: 2 - count }, "at this input"),
+            None => Bound::general(2),
         };
         let mut verdict = verdict(assembly, roots, 6, 2, bound, || Some(bound()), None);
         verdict.reason += "; the link between the two S joints spins freely about the line of their centres, \
@@ -284,11 +266,36 @@ impl SingleLoop {
             verdict,
             modes: modes.collect(),
             warnings: case.warnings.clone(),
-            prepare_us: 0.0,
+            prepare_us,
             solve_us,
             platform: None,
         })
     }
+}
+
+/// The way to solve a loop, prepared.
+fn way(chain: &Chain, layout: Layout) -> Result<Way> {
+    if layout.second_ball.is_some() {
+        let (open, modular) = (chain.open_coupled(&layout, &Numbers)?, chain.open_coupled(&layout, &Numbers).ok());
+        return Ok(Way::Balls(Box::new(Balls { layout, open, modular })));
+    }
+    let open: OpenLoop<f64> = chain.open_loop(&layout)?;
+    let solver = match layout.ball_unknown() {
+        Some(ball) => Solver::with_ball(&open, ball),
+        None => Solver::prepare(&open),
+    };
+    if solver.is_out_of_reach() {
+        let rotations = layout_rotations(&open);
+        let rank = solver.structural_rank();
+        return Err(Error::Unsupported(format!(
+            "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without turning; the \
+             screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does not close ({} of the \
+             whole loop); solved are loops with three unknown rotations at least: give a distance in place of an angle",
+            6 - rank,
+            Freedom::of(chain)
+        )));
+    }
+    Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular: OnceLock::new(), bound: OnceLock::new() })))
 }
 
 /// Why six joints are dependent, where two triples of their axes say it.

@@ -2,10 +2,10 @@
 
 use super::answer::{Configuration, JointVariable, Mobility, Proof};
 use super::branches::branches;
-use super::linkage::{JointValue, Linkage};
+use super::linkage::{Axis, JointValue, Linkage};
 use super::order::{Germ, Local, MOST_SOLUTIONS};
 use super::positions::Conjugates;
-use super::rounded::{Closing, closing, has_long_decimals, is_exact, remark};
+use super::rounded::{Closing, closing, has_long_decimals, is_exact};
 use super::search::{Outcome, Search, at, decide, is_open_everywhere, search};
 use super::stillness::all_stand_still;
 use crate::algebra::number::{Angle, HalfTangent, Number};
@@ -106,24 +106,29 @@ impl Subject<'_> {
         }
         let closing = if moves { None } else { closing(self.entry, &self.variables)? };
         let remark = match closing {
-            Some(closing) if is_rounded => return Ok(self.swept(&closing)),
-            Some(closing) => remark(&closing, &self.variables),
-            None if moves => "this holds for the loop with its irrational numbers rounded (--digits)".to_owned(),
-            None if is_rounded => "numbers of the file were rounded, which may have stopped a motion; to rounding the \
-                                   loop does not close through any range, either"
-                .to_owned(),
+            Some(closing) => return Ok(self.swept(&closing, is_rounded)),
+            None if moves => "this holds for the loop with its irrational numbers rounded (--digits)",
+            None if is_rounded => {
+                "numbers of the file were rounded, which may have stopped a motion; to rounding the loop does not close \
+                 through any range, either"
+            }
             None => return Ok(answer),
         };
         Ok(Mobility { reason: format!("{}; {remark}", answer.reason), ..answer })
     }
 
     /// A loop that closes to rounding.
-    fn swept(&self, closing: &Closing) -> Mobility {
+    fn swept(&self, closing: &Closing, is_rounded: bool) -> Mobility {
         let configurations: Vec<Configuration> =
             closing.modes.iter().map(|mode| Configuration { local: Local::Curve, ..self.measured(mode) }).collect();
+        let what = if is_rounded {
+            "numbers of the file were rounded, and exactly rounded numbers do not move"
+        } else {
+            "decimals of the file are so long that they are taken for rounded ones; as exact numbers they do not move"
+        };
         let reason = format!(
-            "numbers of the file were rounded, and exactly rounded numbers do not move; as given, the loop closes with \
-             residuals up to {:.1e} at {} of {} inputs of joint {} round the circle, one behind the other",
+            "{what}; as given, the loop closes with residuals up to {:.1e} at {} of {} inputs of joint {} round the \
+             circle, one behind the other",
             closing.residual, closing.inputs.0, closing.inputs.1, self.variables[closing.held.0].joint
         );
         let complex = configurations.len();
@@ -239,8 +244,10 @@ impl Subject<'_> {
         let solution = solve(&arm, Case::at(Placement::identity(), 0))?;
         let verdict = &solution.verdict;
         let is_complete = matches!(verdict.status, Status::Complete | Status::Unreachable);
-        // As many isolated configurations as there can be leave none for a curve.
-        let is_full = is_complete && verdict.certified == MOST_SOLUTIONS;
+        // As many isolated configurations as there can be leave none for a curve. They are those of unit axes: of axes of
+        // irrational length rounded ones.
+        let is_full =
+            is_complete && verdict.certified == MOST_SOLUTIONS && self.linkage.axes.iter().all(|axis| *axis == Axis::Z);
         let proof = if is_full || why.is_some() { Proof::Exact } else { Proof::None };
         let mut configurations = Vec::new();
         for mode in solution.modes.iter().filter(|mode| mode.real) {

@@ -21,7 +21,7 @@ const INPUTS: u32 = 180;
 /// At least so many neighbouring inputs make a range.
 const FEWEST: usize = 12;
 /// Decimals of so many digits behind the point may be rounded numbers.
-const LONG: u32 = 12;
+const LONG: u32 = 14;
 /// No decimal of more digits is looked at.
 const MOST_DIGITS: u32 = 64;
 
@@ -44,7 +44,8 @@ pub(super) fn closing(entry: &Entry, variables: &[JointVariable]) -> Result<Opti
             continue;
         }
         let input = |radians: f64| Input { joint, value: InputValue::Angle(Angle::from_radians(radians)) };
-        let one = Entry { cases: vec![Case::given(input(0.0), 0)], ..entry.clone() };
+        // Long decimals, too, are rounded numbers here.
+        let one = Entry { cases: vec![Case::given(input(0.0), 0)], rounded: true, ..entry.clone() };
         // Joints without which the others are dependent cannot be held.
         let Ok(mechanism) = Mechanism::prepare(&one) else { continue };
         let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
@@ -73,15 +74,6 @@ pub(super) fn closing(entry: &Entry, variables: &[JointVariable]) -> Result<Opti
         }
     }
     Ok(None)
-}
-
-/// What closing to rounding says of a loop whose decimals are taken exactly and do not move.
-pub(super) fn remark(closing: &Closing, variables: &[JointVariable]) -> String {
-    format!(
-        "with its decimals taken as exact numbers; to rounding it closes, with residuals up to {:.1e} at {} of {} inputs of \
-         joint {}: if they are rounded, write them as expressions",
-        closing.residual, closing.inputs.0, closing.inputs.1, variables[closing.held.0].joint
-    )
 }
 
 /// Whether the loop of exact arithmetic is that of the file.

@@ -82,6 +82,8 @@ pub fn number(x: f64) -> Value {
     if x.is_finite() { json!(x + 0.0) } else { Value::Null }
 }
 
-fn tenths(microseconds: f64) -> Value {
+/// Microseconds with one decimal.
+#[must_use]
+pub fn tenths(microseconds: f64) -> Value {
     number((microseconds * 10.0).round() / 10.0)
 }

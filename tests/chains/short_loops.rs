@@ -92,7 +92,10 @@ fn a_loop_without_input_moves_or_is_a_structure() {
 #[test]
 fn a_loop_of_seven_variables_without_input_says_what_it_needs() {
     let message = read(&bennett(&LINKS.repeat(4)[..LINKS.len() * 7 / 2], "")).unwrap_err().to_string();
-    assert!(message.contains("no [[input]]") && message.contains("mobility of 1"), "{message}");
+    assert!(
+        message.contains("no [[input]]") && message.contains("mobility 1 by Gruebler's count (7 - 6)"),
+        "{message}"
+    );
 }
 
 /// A planar four-bar may have a ball for one of its revolutes: the two positions of its closed form.

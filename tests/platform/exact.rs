@@ -9,7 +9,9 @@ use looproot::closure::study::linear_legs;
 use looproot::elimination::border::{Arithmetic, BorderBasis, DIMENSION, Reals, Setting, weak_directions};
 use looproot::elimination::platform_degree::{PlatformDegree, modular_setting, platform_degree};
 use looproot::elimination::platform_height::PlatformHeight;
-use looproot::elimination::platform_polynomial::platform_polynomial;
+use looproot::elimination::platform_polynomial::{multiple_platform_polynomial, platform_polynomial};
+use looproot::kinematics::dual_quaternion::Quaternion;
+use looproot::kinematics::motion::Motion;
 use looproot::kinematics::platform::Platform;
 use num_complex::Complex;
 use rug::{Float, Rational};
@@ -94,6 +96,35 @@ fn architecture_singular_platforms_have_no_pose_or_a_curve_of_them() {
     assert_eq!(count(&platform, &legs), Some(0));
     let assembly = solved(&platform, &legs, Roots::All);
     assert!(assembly.modes.is_empty() && assembly.self_motion == 0);
+}
+
+/// A plate congruent to the base on equal legs swings without turning, in two directions.
+#[test]
+fn a_plate_that_swings_without_turning_is_no_finite_number_of_poses() {
+    let mut draw = Draw::new(40);
+    let mut platform = draw.platform();
+    platform.plate = platform.base.clone();
+    let legs = std::array::from_fn(|_| Rational::from(49));
+    assert_eq!(count(&platform, &legs), None);
+    assert_eq!(count(&platform, &platform.legs_squared(&draw.pose().1)), Some(24));
+}
+
+/// The planted rotation (1, 1, 1, 0) is a right angle away from the turn (2, 1, -3, 1) of one of the coordinates.
+#[test]
+fn small_integers_leave_a_coordinate() {
+    let mut draw = Draw::new(41);
+    let mut platform = draw.platform();
+    platform.base.iter_mut().for_each(|a| a[2] = Rational::new());
+    platform.plate = platform.base.clone().map(|a| a.map(|x| x * Rational::from((3, 5))));
+    let [one, zero] = [1, 0].map(Rational::from);
+    let rotation = Quaternion { scalar: one.clone(), vector: [one.clone(), one, zero] };
+    let square = rotation.norm();
+    let turned = rotation.scaled_rotation().map(|row| row.map(|x| x / &square));
+    let pose = Motion { rotation: turned, translation: draw.point() };
+    let legs = platform.legs_squared(&pose);
+    assert_eq!(count(&platform, &legs), Some(16));
+    let polynomial = multiple_platform_polynomial(&platform, &legs).unwrap();
+    assert_eq!(polynomial.coefficients.len(), 17);
 }
 
 /// The largest entry of `X_i X_j - X_j X_i`, as the arithmetic has it.
@@ -201,9 +232,14 @@ fn polynomials_are_no_larger_than_is_known_beforehand() {
 fn what_is_not_proved_is_not_said_to_be() {
     let mut draw = Draw::new(23);
     let mut platform = draw.platform();
-    platform.plate = platform.base.clone().map(|a| a.map(|x| x * Rational::from((2, 3))));
-    let polynomial = platform_polynomial(&platform, &platform.legs_squared(&draw.pose().1)).unwrap();
-    assert!(polynomial.coefficients.len() == 25 && !polynomial.proved);
+    merged(&mut platform.plate, &[(0, 1), (0, 2), (3, 4)]);
+    for (scale, proved) in [(1, true), (1_000_000_007, false)] {
+        // Lengths that no unit makes short.
+        platform.base[0][0] += Rational::from((1, scale)) - 1_u32;
+        let legs = platform.legs_squared(&draw.pose().1);
+        let polynomial = platform_polynomial(&platform, &legs).unwrap();
+        assert_eq!((polynomial.coefficients.len(), polynomial.proved), (9, proved));
+    }
 }
 
 #[test]

@@ -51,7 +51,17 @@ impl Polynomial<Int> {
 
     /// The largest monomial that divides all terms, as a polynomial; 1 for the zero polynomial.
     pub(super) fn monomial_content(&self) -> Self {
-        let lowest = |variable| (0..self.len()).map(|i| self.exponent(i, variable)).min().unwrap_or(0);
+        // From the last term on, which as a rule is free of the variable already.
+        let lowest = |variable| {
+            let mut lowest = u32::MAX;
+            for i in (0..self.len()).rev() {
+                lowest = lowest.min(self.exponent(i, variable));
+                if lowest == 0 {
+                    break;
+                }
+            }
+            if self.is_zero() { 0 } else { lowest }
+        };
         Self::from_terms([((0..self.variables()).map(lowest).collect(), Int::one())])
     }
 }

@@ -34,7 +34,7 @@ impl Polynomial<Int> {
 
     /// The variables that occur.
     fn support(&self) -> Vec<usize> {
-        (0..self.variables()).filter(|&variable| self.degree(variable) > 0).collect()
+        self.degrees().into_iter().enumerate().filter(|(_, degree)| *degree > 0).map(|(variable, _)| variable).collect()
     }
 
     /// Of two primitive polynomials with positive leading coefficients, not divisible by variables.

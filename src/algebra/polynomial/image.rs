@@ -19,7 +19,9 @@ pub(super) struct Layout {
 impl Layout {
     /// A layout for two polynomials and what divides them; `None` if there is no room.
     pub(super) fn new(a: &Polynomial<Int>, b: &Polynomial<Int>) -> Option<Self> {
-        let degree = |variable: usize| a.degree(variable).max(b.degree(variable));
+        let (a_degrees, b_degrees) = (a.degrees(), b.degrees());
+        let of = |degrees: &[u32], variable: usize| degrees.get(variable).copied().unwrap_or(0);
+        let degree = |variable: usize| of(&a_degrees, variable).max(of(&b_degrees, variable));
         let mut variables: Vec<usize> = (0..a.variables().max(b.variables())).filter(|&v| degree(v) > 0).collect();
         variables.sort_by_key(|&variable| Reverse(degree(variable)));
         let mut used = 0;
@@ -305,11 +307,31 @@ impl Images<'_> {
         (quotient, rest)
     }
 
+    /// Leaves the remainder of a multiple: products in the place of an inverse, which costs more than a hundred of them.
+    fn reduce(&self, a: &mut Dense, b: &[u64]) {
+        let m = &self.modulus;
+        let Some((&leading, lower)) = b.split_last() else { return };
+        while a.len() >= b.len() {
+            let Some(top) = a.pop() else { return };
+            let shift = a.len() - lower.len();
+            for c in a.iter_mut() {
+                *c = m.mul(*c, leading);
+            }
+            for (c, d) in a[shift..].iter_mut().zip(lower) {
+                *c = m.sub(*c, m.mul(top, *d));
+            }
+            trim(a);
+        }
+    }
+
     /// The monic greatest common divisor; zero, without coefficients, only of two zeros.
     fn univariate_gcd(&self, mut a: Dense, mut b: Dense) -> Dense {
         while !b.is_empty() {
-            let remainder = self.divide(&a, &b).1;
-            (a, b) = (b, remainder);
+            if b.len() == 1 {
+                return vec![self.modulus.enter(1)];
+            }
+            self.reduce(&mut a, &b);
+            (a, b) = (b, a);
         }
         if let Some(&leading) = a.last() {
             let inverse = self.modulus.inverse(leading);

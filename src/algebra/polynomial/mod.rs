@@ -230,7 +230,16 @@ impl<R: Ring> Polynomial<R> {
     /// The degrees in all [`Self::variables`].
     #[must_use]
     pub fn degrees(&self) -> Vec<u32> {
-        (0..self.variables()).map(|variable| self.degree(variable)).collect()
+        // The bitwise or shows which variables occur at all, mostly few of them.
+        let words = self.packing.words();
+        let mut outline = vec![0; words];
+        for monomial in self.monomials.chunks_exact(words) {
+            for (or, word) in outline.iter_mut().zip(monomial) {
+                *or |= word;
+            }
+        }
+        let degree = |variable| if self.packing.exponent(&outline, variable) == 0 { 0 } else { self.degree(variable) };
+        (0..self.variables()).map(degree).collect()
     }
 
     /// The total degree; `None` for the zero polynomial.
@@ -320,7 +329,7 @@ impl<R: Ring> Polynomial<R> {
 
     /// The largest exponent of any variable.
     fn largest_exponent(&self) -> u32 {
-        (0..self.variables()).map(|variable| self.degree(variable)).max().unwrap_or(0)
+        self.degrees().into_iter().max().unwrap_or(0)
     }
 
     /// A packing that holds both.

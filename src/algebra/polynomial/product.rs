@@ -34,7 +34,9 @@ impl<R: Ring> Polynomial<R> {
             return Size { terms: 0, largest_exponent: 0 };
         }
         let variables = self.variables().max(other.variables());
-        let degrees = (0..variables).map(|v| u64::from(self.degree(v)) + u64::from(other.degree(v)));
+        let (own, others) = (self.degrees(), other.degrees());
+        let of = |degrees: &[u32], variable: usize| u64::from(degrees.get(variable).copied().unwrap_or(0));
+        let degrees = (0..variables).map(|v| of(&own, v) + of(&others, v));
         let pairs = (self.len() as u64).saturating_mul(other.len() as u64);
         let cells = degrees.clone().fold(1_u64, |cells, degree| cells.saturating_mul(degree + 1));
         Size { terms: pairs.min(cells), largest_exponent: degrees.max().unwrap_or(0) }
@@ -109,8 +111,9 @@ impl<R: Ring> Polynomial<R> {
 
     /// By heap and box, with sums in the shortest integers that hold them.
     fn collected_product(&self, other: &Self, packing: Packing, left: &[u64], right: &[u64]) -> Self {
-        let sum = |variable| self.degree(variable) + other.degree(variable);
-        let degrees: Vec<u32> = (0..packing.variables()).map(sum).collect();
+        let (own, others) = (self.degrees(), other.degrees());
+        let of = |degrees: &[u32], variable: usize| degrees.get(variable).copied().unwrap_or(0);
+        let degrees: Vec<u32> = (0..packing.variables()).map(|v| of(&own, v) + of(&others, v)).collect();
         let grid = Grid::new(packing, &degrees, CELLS.min(self.len().saturating_mul(other.len())));
         let mut coefficients = Vec::new();
         let integers = to_words(&self.coefficients).zip(to_words(&other.coefficients));

@@ -112,18 +112,21 @@ impl<D: Domain> Polynomial<D> {
         let (own, other) = (self.packed_as(packing), divisor.packed_as(packing));
         let words = packing.words();
         // Degrees add, and the products of first and of last terms cannot cancel.
-        let (mut highest, mut degrees) = (vec![0; words], Vec::with_capacity(packing.variables()));
-        for variable in 0..packing.variables() {
-            degrees.push(self.degree(variable));
-            let degree = self.degree(variable).checked_sub(divisor.degree(variable))?;
-            let (word, shift) = packing.place(variable);
-            highest[word] |= u64::from(degree) << shift;
-        }
         let mut last = own[own.len() - words..].to_vec();
         if !divide_monomial(packing.guards(), &mut last, &other[other.len() - words..]) {
             return None;
         }
         self.coefficients.last()?.checked_div_exact(divisor.coefficients.last()?)?;
+        if divisor.len() == 1 {
+            return self.quotient_by_term(packing, &own, &other, &divisor.coefficients[0]);
+        }
+        let (mut highest, mut degrees, lower) = (vec![0; words], self.degrees(), divisor.degrees());
+        degrees.resize(packing.variables(), 0);
+        for (variable, degree) in degrees.iter().enumerate() {
+            let degree = degree.checked_sub(lower.get(variable).copied().unwrap_or(0))?;
+            let (word, shift) = packing.place(variable);
+            highest[word] |= u64::from(degree) << shift;
+        }
         let terms = || {
             // In machine words as long as they suffice.
             let wide: Option<Vec<i128>> = self.coefficients.iter().map(D::to_wide).collect();
@@ -139,6 +142,17 @@ impl<D: Domain> Polynomial<D> {
             Division { packing, dividend, divisor, degrees: &degrees, highest: &highest }.run().ok().flatten()
         };
         let (monomials, coefficients) = terms()?;
+        Some(Self { packing, monomials, coefficients })
+    }
+
+    /// The exact quotient by one term, which keeps the order of the terms.
+    fn quotient_by_term(&self, packing: Packing, own: &[u64], monomial: &[u64], c: &D) -> Option<Self> {
+        let (guards, mut monomials) = (packing.guards(), own.to_vec());
+        let divides = |own: &mut [u64]| divide_monomial(guards, own, monomial);
+        if !monomials.chunks_exact_mut(packing.words()).all(divides) {
+            return None;
+        }
+        let coefficients = self.coefficients.iter().map(|own| own.checked_div_exact(c)).collect::<Option<_>>()?;
         Some(Self { packing, monomials, coefficients })
     }
 }

@@ -35,6 +35,12 @@ impl Polynomial<Int> {
             }
         }
         let mut rest = self.div_exact(&monomial).primitive_part();
+        if rest.len() > 1 && rest.degrees().into_iter().all(|degree| degree <= 1) {
+            // The square of a factor would have a degree of 2 or more.
+            enter(&mut factors, rest, 1);
+            factors.sort_by_key(|(_, multiplicity)| *multiplicity);
+            return factors;
+        }
         // In characteristic 0 a factor that the main variable occurs in is not lost by the derivative; others are in the
         // content.
         let occurs =
@@ -60,6 +66,10 @@ impl Polynomial<Int> {
 
     /// Yun's algorithm for a polynomial that is primitive in the variable.
     fn decompose_in(&self, variable: usize, factors: &mut Vec<(Self, usize)>) {
+        if self.degree(variable) == 1 {
+            // Primitive and of degree 1: irreducible.
+            return enter(factors, self.primitive_part(), 1);
+        }
         let derivative = self.derivative(variable);
         let repeated = self.gcd(&derivative);
         let mut rest = self.div_exact(&repeated);

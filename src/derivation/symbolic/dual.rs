@@ -110,8 +110,8 @@ impl<'s> DualPair<'s> {
     fn resultant_in_words(&self) -> String {
         let name = self.symbols.name(self.unknowns[1]);
         format!(
-            "With f = p2 t^2 + p1 t + p0 and g = q2 t^2 + q1 t + q0 in t = {name} their resultant is (p2 q0 - p0 q2)^2 - (p2 q1 - p1 q2) \
-             (p1 q0 - p0 q1)"
+            "With f = p2 t^2 + p1 t + p0 and g = q2 t^2 + q1 t + q0 in t = {name} their resultant is the square of (p2 q0 - p0 q2) less (p2 \
+             q1 - p1 q2) (p1 q0 - p0 q1)"
         )
     }
 
@@ -188,7 +188,7 @@ pub(super) fn neighbours(
             label(3)
         ),
         format!("{TRANSFERENCE}, free of both translations and of both rotations about the two axes: g = 0."),
-        format!("{} = 0, a polynomial of degree 8 in {}.", pair.resultant_in_words(), symbols.name(unknowns[0])),
+        format!("{}, a polynomial of degree 8 in {}.", pair.resultant_in_words(), symbols.name(unknowns[0])),
         format!(
             "The common root of both is {}; the rotations of joints {} and {} and the two translations follow rationally.",
             symbols.name(unknowns[1]),
@@ -253,7 +253,7 @@ pub(super) fn four_revolutes(chain: &Chain, table: &Table<'_>, symbols: &Symbols
     } else {
         steps.push(format!("{TRANSFERENCE}: g = 0."));
         steps.push(format!(
-            "{} = 0: where its coefficients in {} vanish, the loop may move.",
+            "{}: where its coefficients in {} vanish, the loop may move.",
             pair.resultant_in_words(),
             symbols.name(unknowns[0])
         ));

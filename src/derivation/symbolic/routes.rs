@@ -77,7 +77,7 @@ pub(super) fn route(
     let (exact, eliminated) = match numeric {
         Numeric::Coupled(eliminated) => {
             let layout = Layout::of(chain, locked_variable(chain, case)?)?;
-            let coupled = chain.coupled_loop_over(&layout, &table.filling()?, table)?;
+            let coupled = chain.open_coupled(&layout, table)?.close(&table.filling()?);
             return one_row(symbols, 0, coupled.variable, &spherical_pair::equation(&coupled), eliminated);
         }
         Numeric::Single(exact, eliminated) => (exact, eliminated),

@@ -1,0 +1,44 @@
+//! What is prepared once for every choice of the locked variable, and found again case by case.
+
+use super::single_loop::locked_variable;
+use crate::catalogue::entry::{Case, Entry};
+use crate::error::{Error, Result};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::Layout;
+use std::time::Instant;
+
+/// What serves all cases that lock the same variable.
+pub(super) struct Prepared<T> {
+    locked: Option<usize>,
+    /// Microseconds that the preparation took.
+    pub prepare_us: f64,
+    /// What was prepared.
+    pub of: T,
+}
+
+/// One preparation for each variable that some case locks.
+pub(super) struct ByInput<T>(Vec<Prepared<T>>);
+
+impl<T> ByInput<T> {
+    /// Prepares a chain for all cases of an entry.
+    pub fn prepare(entry: &Entry, chain: &Chain, one: impl Fn(Layout) -> Result<T>) -> Result<Self> {
+        let mut all: Vec<Prepared<T>> = Vec::new();
+        for case in &entry.cases {
+            let locked = locked_variable(chain, case)?;
+            if all.iter().all(|known| known.locked != locked) {
+                let layout = Layout::of(chain, locked)?;
+                let start = Instant::now();
+                let of = one(layout)?;
+                all.push(Prepared { locked, prepare_us: start.elapsed().as_secs_f64() * 1e6, of });
+            }
+        }
+        Ok(Self(all))
+    }
+
+    /// That of one case.
+    pub fn of(&self, chain: &Chain, case: &Case) -> Result<&Prepared<T>> {
+        let locked = locked_variable(chain, case)?;
+        let found = self.0.iter().find(|known| known.locked == locked);
+        found.ok_or_else(|| Error::Invalid("the case locks a joint that was not prepared".to_owned()))
+    }
+}
