@@ -480,10 +480,14 @@ impl Search<'_> {
     /// Rounding leaves a cloud of points where a multiple solution is, as wide as the root of its size of that order: one
     /// of them stays, a real one if there is one, the nearest to the middle.
     fn merge_multiple(&mut self) {
+        let is_cloudy = |mode: &Mode| mode.certificate.is_none() && mode.multiplicity >= 3;
+        if !self.assembly.modes.iter().any(is_cloudy) {
+            return;
+        }
         let variables = self.closed.variables;
         let mut left = std::mem::take(&mut self.assembly.modes);
         while let Some(mode) = left.pop() {
-            if mode.certificate.is_some() || mode.multiplicity < 3 {
+            if !is_cloudy(&mode) {
                 self.assembly.modes.push(mode);
                 continue;
             }

@@ -295,7 +295,9 @@ impl ShortLoop {
             }
             let mut found = self.candidates(rung, case, roots, most, workspace, assembly)?;
             let closed: Vec<Candidate> = found.iter().filter(|c| c.mode.residual < CLOSED).cloned().collect();
-            count = count.or_else(|| self.count(rung, case, total(&closed)));
+            // Large imaginary parts hide how far a solution is from closing: then all closure polynomials are asked.
+            let enough = if closed.iter().all(|candidate| candidate.mode.real) { total(&closed) } else { 0 };
+            count = count.or_else(|| self.count(rung, case, enough));
             self_motion = assembly.self_motion;
             if tight.is_empty() {
                 let is_tight = |c: &&Candidate| c.idle < ZERO || c.mode.residual <= CLOSED;
@@ -475,6 +477,14 @@ impl ShortLoop {
             Some(0) => (
                 Status::Unreachable,
                 "no solution: the closure polynomials for two choices of idle unknowns have no common root".to_owned(),
+            ),
+            // Large imaginary parts hide how far a solution is from closing, and the count is a bound.
+            Some(count) if count == total && found.iter().any(|c| !c.mode.real && !(c.idle < ZERO)) => (
+                Status::Incomplete,
+                format!(
+                    "not proved: complex solutions that close to rounding only, as many as the {count} common roots of the \
+                     closure polynomials for two choices of idle unknowns"
+                ),
             ),
             Some(count) if count == total => {
                 let status = if real == 0 { Status::Unreachable } else { Status::Complete };

@@ -246,7 +246,9 @@ fn local(germ: &Germ<Rational>) -> String {
     match &germ.local {
         Local::Curve => "a smooth curve of positions, zero through order 16".to_owned(),
         Local::Isolated { order } => format!("isolated, of order {order}"),
-        Local::Manifold { dimension } => format!("positions of dimension {dimension}"),
+        Local::Manifold { dimension } => {
+            format!("positions of dimension {dimension}, of joints that form a group of motions")
+        }
         Local::Open => "not closed".to_owned(),
         Local::Deficient => format!("not decided: rank {}", germ.rank),
     }

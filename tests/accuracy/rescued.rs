@@ -119,20 +119,21 @@ fn both_precisions_find_the_same_complex_poses() {
         let geometry = drawn.platform.map(|x| Rational::from_f64(*x)).unwrap();
         solver.rescue(&geometry, &rationals, count, &mut workspace, &mut exact);
         solver.solve(&squares.each_ref().map(Number::to_f64), Roots::All, &mut workspace, &mut fast);
-        assert_eq!((fast.total(), exact.total()), (count, count - fast.real()), "{set:?}");
+        assert_eq!((fast.total(), exact.total()), (count, count), "{set:?}");
         assert!(exact.modes.iter().all(|mode| mode.certificate.is_some()), "{set:?}");
     }
 }
 
 #[test]
 fn poses_almost_at_infinity_are_found_and_proved() {
-    for index in [22, 32, 111] {
-        let drawn = platform(PlatformSet::Hexapod, 1, index).unwrap();
+    let samples =
+        [(PlatformSet::Hexapod, 1, 22, 28), (PlatformSet::Hexapod, 1, 32, 28), (PlatformSet::Hexapod, 1, 111, 28)];
+    for (set, seed, index, count) in samples.into_iter().chain([(PlatformSet::Affine, 3, 401, 32)]) {
+        let drawn = platform(set, seed, index).unwrap();
         let mechanism = Mechanism::prepare(&drawn.entry).unwrap();
         let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
         let solution = mechanism.solve(&drawn.entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap();
         let verdict = &solution.verdict;
-        assert_eq!((verdict.complex, verdict.certified), (28, 28), "{index}: {}", verdict.reason);
-        assert!(verdict.reason.contains("384-bit"), "{index}: {}", verdict.reason);
+        assert_eq!((verdict.complex, verdict.certified), (count, count), "{index}: {}", verdict.reason);
     }
 }

@@ -127,7 +127,7 @@ fn a_root_that_may_be_real_is_not_called_complex() {
             let mut doubtful = list.assembly.clone();
             let mode = &mut doubtful.modes[k];
             let Some(claim) = mode.certificate.as_mut() else { continue };
-            claim.radius = 1.0 + mode.unknowns.iter().map(|x| x.im.abs()).fold(0.0, f64::max);
+            claim.proved = 1.0 + mode.unknowns.iter().map(|x| x.im.abs()).fold(0.0, f64::max);
             assert!(!is_claimed(judge(&list, &doubtful, Roots::All, 6)), "{}, mode {k}", list.name);
         }
     }
