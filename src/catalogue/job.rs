@@ -146,7 +146,9 @@ fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
     let joint_node = scope.need(&table, "joint")?;
     let joint = scope.count(joint_node, "joint")?;
     let Some(kind) = joint.checked_sub(1).and_then(|index| kinds.get(index)) else {
-        return Err(scope.fail(joint_node.line, format!("found joint {joint}, expected one from 1 to {}", kinds.len())));
+        let message =
+            format!("found joint {joint}, expected one from 1 to {}: the loop has {}", kinds.len(), Freedom::of(chain));
+        return Err(scope.fail(joint_node.line, message));
     };
     let value = match (table.get("angle"), table.get("tan_half"), table.get("distance")) {
         (Some(node), None, None) => InputValue::Angle(scope.angle(node, "angle")?),
@@ -168,7 +170,10 @@ fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
             JointKind::Spherical | JointKind::Universal => "expected a joint with one variable, or a C joint",
             _ => "expected `angle` or `tan_half`",
         };
-        let message = format!("found {found} as input of joint {joint}, which is {kind:?} and has none; {expected}");
+        let message = format!(
+            "found {found} as input of joint {joint}, which is {kind:?} and has none; {expected}: the loop has {}",
+            Freedom::of(chain)
+        );
         return Err(scope.fail(table.line(), message));
     }
     let expected = expected(scope, &table, &|scope, node| claim(scope, node, chain))?;

@@ -11,6 +11,7 @@ use looproot::catalogue::load;
 use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::closed_loop::Variable;
+use looproot::kinematics::freedom::Freedom;
 use looproot::report::picture::svg;
 use looproot::report::sweep::{self as report, Swept};
 use looproot::sweep::{Range, Sweep, sweep};
@@ -100,7 +101,9 @@ fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, 
     };
     let joint: usize = digits.parse().map_err(|_| found("expected the number of a joint, or q3, or d3"))?;
     let kind = joint.checked_sub(1).and_then(|index| kinds.get(index));
-    let kind = kind.ok_or_else(|| found(&format!("expected one from 1 to {}", kinds.len())))?;
+    let kind = kind.ok_or_else(|| {
+        found(&format!("expected one from 1 to {}: the loop has {}", kinds.len(), Freedom::of(chain)))
+    })?;
     let variable = match (kind, letter) {
         (JointKind::Revolute | JointKind::Cylindrical, "" | "q") => Variable::Rotation,
         (JointKind::Prismatic | JointKind::Cylindrical, _) => Variable::Translation,

@@ -6,6 +6,7 @@ use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue, Kind};
 use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, Placement};
 use looproot::kinematics::closed_loop::{Layout, Variable, angle_motion, distance_motion};
+use looproot::kinematics::freedom::Freedom;
 use looproot::kinematics::platform::Platform;
 use looproot::report::model::case_noun;
 use std::ops::Range;
@@ -76,7 +77,15 @@ fn given(chain: &Chain, joint: &str, value: &str) -> Result<Case, Error> {
     let is_length = Layout::variable_of(chain, joint, Variable::Rotation).is_none();
     if is_length && Layout::variable_of(chain, joint, Variable::Translation).is_none() {
         let count = chain.joint_kinds().len();
-        return Err(Error::Invalid(format!("found joint {joint} in --input, expected one from 1 to {count}")));
+        let expected = if (1..=count).contains(&joint) {
+            "a joint R, P or C".to_owned()
+        } else {
+            format!("one from 1 to {count}")
+        };
+        return Err(Error::Invalid(format!(
+            "found joint {joint} in --input, expected {expected}: the loop has {}",
+            Freedom::of(chain)
+        )));
     }
     let value = if is_length {
         InputValue::Distance(Number::parse(value, Quantity::Length, &reading)?)
