@@ -250,6 +250,7 @@ fn one_case_can_be_picked_or_given() {
         &["solve", "general_7r", "--input", "3"][..],
         &["solve", "general_7r", "--input", "0"],
         &["solve", "general_7r", "--input", "8=1"],
+        &["solve", "rssr", "--input", "2=1"],
         &["solve", "general_7r", "--input", "1=x"],
         &["solve", "general_7r", "--pose", "1"],
         &["solve", "general_7r", "--joints", "1"],

@@ -4,7 +4,7 @@ use super::arguments::CaseOptions;
 use looproot::algebra::number::{Angle, Number, Quantity, Reading};
 use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue, Kind};
 use looproot::error::Error;
-use looproot::kinematics::chain::{Chain, Placement};
+use looproot::kinematics::chain::{Chain, JointKind, Placement};
 use looproot::kinematics::closed_loop::{Layout, Variable, angle_motion, distance_motion};
 use looproot::kinematics::freedom::Freedom;
 use looproot::kinematics::platform::Platform;
@@ -74,19 +74,20 @@ fn given(chain: &Chain, joint: &str, value: &str) -> Result<Case, Error> {
         Error::Invalid(format!("found --input {joint}={value}, expected the number of a joint before `=`"))
     })?;
     let reading = Reading::default();
-    let is_length = Layout::variable_of(chain, joint, Variable::Rotation).is_none();
-    if is_length && Layout::variable_of(chain, joint, Variable::Translation).is_none() {
-        let count = chain.joint_kinds().len();
-        let expected = if (1..=count).contains(&joint) {
-            "a joint R, P or C".to_owned()
-        } else {
-            format!("one from 1 to {count}")
-        };
-        return Err(Error::Invalid(format!(
-            "found joint {joint} in --input, expected {expected}: the loop has {}",
-            Freedom::of(chain)
-        )));
-    }
+    let kinds = chain.joint_kinds();
+    let is_length = match joint.checked_sub(1).and_then(|index| kinds.get(index)) {
+        Some(JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical) => false,
+        Some(JointKind::Prismatic) => true,
+        kind => {
+            let count = kinds.len();
+            let expected =
+                if kind.is_some() { "a joint R, P or C".to_owned() } else { format!("one from 1 to {count}") };
+            return Err(Error::Invalid(format!(
+                "found joint {joint} in --input, expected {expected}: the loop has {}",
+                Freedom::of(chain)
+            )));
+        }
+    };
     let value = if is_length {
         InputValue::Distance(Number::parse(value, Quantity::Length, &reading)?)
     } else {
