@@ -296,7 +296,8 @@ impl ShortLoop {
             let mut found = self.candidates(rung, case, roots, most, workspace, assembly)?;
             let closed: Vec<Candidate> = found.iter().filter(|c| c.mode.residual < CLOSED).cloned().collect();
             // Large imaginary parts hide how far a solution is from closing: then all closure polynomials are asked.
-            let enough = if closed.iter().all(|candidate| candidate.mode.real) { total(&closed) } else { 0 };
+            let is_sure = |candidate: &Candidate| candidate.mode.real || candidate.idle < ZERO;
+            let enough = if closed.iter().all(is_sure) { total(&closed) } else { 0 };
             count = count.or_else(|| self.count(rung, case, enough));
             self_motion = assembly.self_motion;
             if tight.is_empty() {
