@@ -123,18 +123,21 @@ fn one(job: Job, index: u64, (workspace, assembly): &mut Memory) -> Result<Count
     Ok(counts)
 }
 
-/// How far the tool is from the pose at a mode, by forward kinematics alone: largest entry of the difference.
+/// How far the tool is from the pose at a mode, by forward kinematics alone: largest entry of the difference, that of the
+/// place as a part of the longest translation where this is above 1.
 fn miss(drawn: &Sample, mode: &FullMode) -> f64 {
     let motions = motions(&drawn.variables, &std::array::from_fn(|k| mode.q[k].re));
     let (Some(reached), Some(wanted)) = (drawn.chain.forward(&motions), &drawn.entry.cases[0].pose) else {
         return f64::INFINITY;
     };
+    let translations = drawn.variables.iter().zip(&mode.q).filter(|(variable, _)| **variable == Variable::Translation);
+    let far = translations.map(|(_, q)| q.re.abs()).fold(1.0, f64::max);
     let mut largest = 0.0_f64;
     for i in 0..3 {
         for j in 0..3 {
             largest = largest.max((reached.rotation[i][j] - wanted.float.rotation[i][j]).abs());
         }
-        largest = largest.max((reached.translation[i] - wanted.float.translation[i]).abs());
+        largest = largest.max((reached.translation[i] - wanted.float.translation[i]).abs() / far);
     }
     largest
 }
