@@ -14,5 +14,6 @@ mod shifted;
 mod solver;
 
 pub use axis_triples::AxisTriple;
+pub use ball::{Proof, proof};
 pub use mode::{Assembly, Hits, Mode, Roots, are_apart, distance, wrapped};
 pub use solver::{Gap, Solver, Workspace};

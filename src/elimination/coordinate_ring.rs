@@ -103,10 +103,28 @@ fn equations<F: Field>(closed: &ClosedLoop<F>) -> Vec<Sparse<F>> {
     (1..SIZE).flat_map(|i| [difference(&left, &near, i), difference(&far, &right, i)]).collect()
 }
 
-/// The monomials up to a degree, highest first.
-fn monomials(kinds: &[Variable; 5], most: u32) -> Vec<Monomial> {
+/// A polynomial with some unknowns, of a loop with these, at zero.
+fn at_zero<F: Field>(polynomial: Sparse<F>, kinds: &[Variable], is_zero: [bool; 5]) -> Sparse<F> {
+    let mut rest = Sparse::new();
+    'terms: for (mut monomial, c) in polynomial {
+        for unknown in (0..5).filter(|k| is_zero[*k]) {
+            let power = digit(monomial, unknown);
+            let vanishes = if kinds[unknown] == Variable::Rotation { power % 2 == 1 } else { power > 0 };
+            if vanishes {
+                continue 'terms;
+            }
+            monomial -= power << (8 * unknown);
+        }
+        let entry = rest.entry(monomial).or_insert_with(F::zero);
+        *entry = entry.add(&c);
+    }
+    rest
+}
+
+/// The monomials in unknowns that are not zero up to a degree, highest first.
+fn monomials(kinds: &[Variable; 5], is_zero: [bool; 5], most: u32) -> Vec<Monomial> {
     let mut all: Vec<Monomial> = vec![0];
-    for (unknown, kind) in kinds.iter().enumerate() {
+    for (unknown, kind) in kinds.iter().enumerate().filter(|(k, _)| !is_zero[*k]) {
         let powers: Vec<Monomial> =
             (0..=u64::from(2 * most)).filter(|d| *kind == Variable::Rotation || d % 2 == 0).collect();
         let longer = |m: &Monomial| powers.iter().map(|d| m + (d << (8 * unknown))).collect::<Vec<_>>();
@@ -128,6 +146,8 @@ enum Source {
 /// Relations between the monomials up to a degree, in echelon form.
 struct Relations<F> {
     kinds: [Variable; 5],
+    /// Unknowns that are zero.
+    is_zero: [bool; 5],
     most: u32,
     columns: Vec<Monomial>,
     places: HashMap<Monomial, usize>,
@@ -136,11 +156,11 @@ struct Relations<F> {
 }
 
 impl<F: Field> Relations<F> {
-    fn new(kinds: [Variable; 5], most: u32) -> Self {
-        let columns = monomials(&kinds, most);
+    fn new(kinds: [Variable; 5], is_zero: [bool; 5], most: u32) -> Self {
+        let columns = monomials(&kinds, is_zero, most);
         let places = columns.iter().enumerate().map(|(k, m)| (*m, k)).collect();
         let rows = columns.iter().map(|_| None).collect();
-        Self { kinds, most, columns, places, rows }
+        Self { kinds, is_zero, most, columns, places, rows }
     }
 
     /// Reduces a relation by those known already, up to a column if it is known that nothing is left before that one.
@@ -208,7 +228,8 @@ impl<F: Field> Relations<F> {
             let sines: &[bool] = if kind == Variable::Rotation { &[false, true] } else { &[false] };
             sines.iter().map(move |is_sine| (unknown, *is_sine))
         };
-        self.kinds.into_iter().enumerate().flat_map(move |(unknown, kind)| both(unknown, kind))
+        let unknowns = self.kinds.into_iter().enumerate().filter(|(unknown, _)| !self.is_zero[*unknown]);
+        unknowns.flat_map(move |(unknown, kind)| both(unknown, kind))
     }
 }
 
@@ -226,13 +247,28 @@ impl Plan {
     /// degree are needed to see that they do not.
     #[must_use]
     pub fn of<F: Field>(closed: &ClosedLoop<F>) -> Option<Self> {
-        let (_, closed) = turned(closed)?;
+        let (_, closed) = turned(closed, [false; 6])?;
         let equations = equations(&closed);
-        DEGREES.iter().find_map(|&most| Self::up_to(most, &closed, &equations))
+        DEGREES.iter().find_map(|&most| Self::up_to(most, &closed, [false; 5], &equations))
     }
 
-    fn up_to<F: Field>(most: u32, closed: &ClosedLoop<F>, equations: &[Sparse<F>]) -> Option<Self> {
-        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), most);
+    /// As [`Plan::of`] for the solutions at which these unknowns are zero, of which there need be none.
+    #[must_use]
+    pub fn at_zero<F: Field>(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<Self> {
+        let (rotation, closed) = turned(closed, is_zero)?;
+        let is_zero: [bool; 5] = std::array::from_fn(|k| is_zero[(rotation + k) % 6]);
+        let all = equations(&closed).into_iter();
+        let equations: Vec<_> = all.map(|equation| at_zero(equation, &closed.variables, is_zero)).collect();
+        DEGREES.iter().find_map(|&most| Self::up_to(most, &closed, is_zero, &equations))
+    }
+
+    fn up_to<F: Field>(
+        most: u32,
+        closed: &ClosedLoop<F>,
+        is_zero: [bool; 5],
+        equations: &[Sparse<F>],
+    ) -> Option<Self> {
+        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), is_zero, most);
         let mut steps = Vec::new();
         // Relations not multiplied yet.
         let mut fresh = Vec::new();
@@ -271,9 +307,9 @@ impl Plan {
     /// The ring of the same loop in another field; `None` where a number vanishes that should not.
     #[must_use]
     pub fn ring<F: Field>(&self, closed: &ClosedLoop<F>) -> Option<CoordinateRing<F>> {
-        let (rotation, closed) = turned(closed)?;
+        let (rotation, closed) = turned(closed, [false; 6])?;
         let equations = equations(&closed);
-        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), self.most);
+        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), [false; 5], self.most);
         for (source, column) in &self.steps {
             let relation = relations.relation(&equations, *source)?;
             let (column, row) = relations.reduced(&relation, Some(*column))?;
@@ -301,9 +337,10 @@ impl Plan {
     }
 }
 
-/// The loop with a rotation as its last unknown, and how many unknowns went from the head to the tail for that.
-fn turned<F: Ring>(closed: &ClosedLoop<F>) -> Option<(usize, ClosedLoop<F>)> {
-    let last = (0..6).rev().find(|&k| closed.variables[k] == Variable::Rotation)?;
+/// The loop with a rotation that is not zero as its last unknown, and how many unknowns went from the head to the tail for
+/// that.
+fn turned<F: Ring>(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<(usize, ClosedLoop<F>)> {
+    let last = (0..6).rev().find(|&k| closed.variables[k] == Variable::Rotation && !is_zero[k])?;
     let rotation = (last + 1) % 6;
     Some((rotation, Cut { rotation, reversed: false }.of(closed)))
 }
