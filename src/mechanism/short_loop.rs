@@ -9,7 +9,7 @@ use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
 use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, proof, wrapped};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::elimination::common_roots::common_roots;
-use crate::elimination::coordinate_ring::Plan;
+use crate::elimination::coordinate_ring::count_without;
 use crate::elimination::degree::{degree, general_filling};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
@@ -49,6 +49,9 @@ const POLISHINGS: usize = 4;
 /// Singular values below this part of the largest count as zero there.
 const RANK: f64 = 1e-9;
 
+/// Why there is no solution.
+const OPEN_BY_RING: &str = "no solution: 1 is a combination of the closure equations";
+
 /// One choice of idle unknowns, prepared.
 struct Rung {
     layout: Layout,
@@ -83,6 +86,14 @@ pub(super) struct ShortLoop {
     prepared: ByInput<Ladder>,
 }
 
+/// A bound on the number of solutions.
+#[derive(Clone, Copy)]
+struct Count {
+    most: usize,
+    /// Whether it is the dimension of the ring of the closure equations, not the number of common roots.
+    is_of_ring: bool,
+}
+
 /// What may be a solution.
 #[derive(Clone)]
 struct Candidate {
@@ -91,14 +102,6 @@ struct Candidate {
     q: Vec<Complex<f64>>,
     /// The largest of its idle unknowns, in radians and lengths over the mean link.
     idle: f64,
-}
-
-/// How many solutions there are, and by what.
-#[derive(Clone, Copy)]
-struct Count {
-    solutions: usize,
-    /// By the ring of the closure equations, else by common roots of closure polynomials.
-    by_ring: bool,
 }
 
 /// A verdict, and what it is about.
@@ -205,7 +208,14 @@ impl ShortLoop {
         let Prepared { of: ladder, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
         let start = Instant::now();
         let locked = ladder.layout.locked;
-        let moving = if locked.is_none() { self.motion(workspace, assembly)? } else { None };
+        // What does not close, or closes at points, need not be searched for a motion.
+        let is_asked = locked.is_none() && !self.is_rounded;
+        let points = if is_asked { self.count_by_ring(&ladder.layout, case) } else { None };
+        let moving = match points {
+            Some(0) => Some((outcome(Status::Unreachable, 0, OPEN_BY_RING.to_owned()), Vec::new())),
+            None if locked.is_none() => self.motion(workspace, assembly)?,
+            _ => None,
+        };
         let (verdict, modes) = match moving {
             Some(answer) => answer,
             None => self.isolated(ladder, case, roots, workspace, assembly)?,
@@ -321,35 +331,33 @@ impl ShortLoop {
             // Large imaginary parts hide how far a solution is from closing: then all closure polynomials are asked.
             let is_sure = |candidate: &Candidate| candidate.mode.real || candidate.idle < ZERO;
             let enough = if closed.iter().all(is_sure) { total(&closed) } else { 0 };
-            let by_roots = |solutions| Count { solutions, by_ring: false };
-            count = count.or_else(|| self.count(rung, case, enough).map(by_roots));
+            count = count.or_else(|| {
+                let common = self.count(rung, case, enough).map(|most| Count { most, is_of_ring: false });
+                if common.is_some_and(|common| common.most <= enough) {
+                    return common;
+                }
+                let ring = self.count_by_ring(&ladder.layout, case).map(|most| Count { most, is_of_ring: true });
+                common.into_iter().chain(ring).min_by_key(|count| count.most)
+            });
             self_motion = assembly.self_motion;
             if tight.is_empty() {
                 let is_tight = |c: &&Candidate| c.idle < ZERO || c.mode.residual <= CLOSED;
                 tight = found.iter().filter(is_tight).cloned().collect();
             }
             // Idle translations let solutions coincide that are simple; idle rotations do not.
-            found.truncate(count.map_or(found.len(), |count| fitting(&found, count.solutions)));
+            found.truncate(count.map_or(found.len(), |count| fitting(&found, count.most)));
             if total(&found) > total(&best) {
                 best = found;
             }
-            if roots == Roots::Real || count.is_some_and(|count| count.solutions == total(&best)) {
+            if roots == Roots::Real || count.is_some_and(|count| count.most == total(&best)) {
                 break;
             }
-        }
-        // Where cuts know of nothing, or of more than was found.
-        if count.is_none_or(|count| count.solutions > total(&best))
-            && let Some(solutions) = ladder.rungs.last().and_then(|rung| self.count_in_ring(rung, case))
-            && count.is_none_or(|count| solutions < count.solutions)
-        {
-            count = Some(Count { solutions, by_ring: true });
-            best.truncate(fitting(&best, solutions));
         }
         if count.is_none() && self_motion > 0 {
             let reason = format!("solutions form a self-motion of dimension {self_motion}");
             return Ok((outcome(Status::SelfMotion, self_motion, reason), Vec::new()));
         }
-        let doubt = self.is_rounded && count.is_some_and(|count| count.solutions == 0) && !tight.is_empty();
+        let doubt = self.is_rounded && count.is_some_and(|count| count.most == 0) && !tight.is_empty();
         if doubt {
             best = tight;
         } else if count.is_none() {
@@ -488,12 +496,16 @@ impl ShortLoop {
         common_roots(&one, &other, *is_idle, enough)
     }
 
-    /// As [`ShortLoop::count`], by the equations of the loop with its idle unknowns at zero.
-    fn count_in_ring(&self, rung: &Rung, case: &Case) -> Option<usize> {
-        let Counting { loops: [one, _], is_idle } =
-            rung.counting.get_or_init(|| self.counting(&rung.layout)).as_ref()?;
-        let filling: Motion<Mod> = filling(case).ok()?;
-        Plan::at_zero(&one.close(&filling), *is_idle).map(|plan| plan.count())
+    /// At most so many solutions there are by the closure equations, all of them at once; `None` where they form families, where
+    /// it is not seen that they do not, and for loops with a ball.
+    fn count_by_ring(&self, layout: &Layout, case: &Case) -> Option<usize> {
+        if layout.ball.is_some() {
+            return None;
+        }
+        let filled = layout.with_idle(layout.missing(), 0);
+        let is_idle = filled.joint_variables().map(|joint| joint.is_none());
+        let open = self.chain.try_open_loop::<Mod>(&filled).ok()??;
+        count_without(&open.close(&filling(case).ok()?), is_idle)
     }
 
     /// A bound on the number of solutions with idle unknowns at every input; `None` where the closure polynomials vanish.
@@ -521,43 +533,40 @@ impl ShortLoop {
         let total: usize = found.iter().map(|c| c.mode.multiplicity.max(1)).sum();
         let real = found.iter().filter(|c| c.mode.real).map(|c| c.mode.multiplicity.max(1)).sum();
         let certified = found.iter().filter(|c| c.mode.certificate.is_some()).count();
-        let (status, reason) = match count {
-            Some(Count { solutions: 0, by_ring }) => {
-                let because = if by_ring {
-                    "1 is a combination of the closure equations (modulo 2^61 - 1)"
-                } else {
-                    "the closure polynomials for two choices of idle unknowns have no common root"
-                };
-                (Status::Unreachable, format!("no solution: {because}"))
-            }
+        let is_of_ring = count.is_some_and(|count| count.is_of_ring);
+        let (status, reason) = match count.map(|count| count.most) {
+            Some(0) if is_of_ring => (Status::Unreachable, OPEN_BY_RING.to_owned()),
+            Some(0) => (
+                Status::Unreachable,
+                "no solution: the closure polynomials for two choices of idle unknowns have no common root".to_owned(),
+            ),
             // Large imaginary parts hide how far a solution is from closing, and the count is a bound.
-            Some(count)
-                if count.solutions == total && found.iter().any(|c| !c.mode.real && !(c.idle < ZERO)) =>
-            {
-                let what = if count.by_ring {
-                    format!("the dimension {total} of the ring of the closure equations")
-                } else {
-                    format!("the {total} common roots of the closure polynomials for two choices of idle unknowns")
-                };
-                let reason = format!("not proved: complex solutions that close to rounding only, as many as {what}");
-                (Status::Incomplete, reason)
-            }
-            Some(count) if count.solutions == total => {
+            Some(count) if count == total && found.iter().any(|c| !c.mode.real && !(c.idle < ZERO)) => (
+                Status::Incomplete,
+                format!(
+                    "not proved: complex solutions that close to rounding only, as many as the {count} {}",
+                    if is_of_ring {
+                        "of the closure equations"
+                    } else {
+                        "common roots of the closure polynomials for two choices of idle unknowns"
+                    }
+                ),
+            ),
+            Some(count) if count == total => {
                 let status = if real == 0 { Status::Unreachable } else { Status::Complete };
-                let reason = if count.by_ring {
-                    format!("{total} of {total}: the ring of the closure equations has dimension {total} (modulo 2^61 - 1)")
+                let all = if total == 1 { "the only common root" } else { "all common roots" };
+                let of = if is_of_ring {
+                    format!("all solutions of the closure equations, whose ring has dimension {count}")
                 } else {
-                    let all = if total == 1 { "the only common root" } else { "all common roots" };
                     format!(
-                        "{total} of {total}: {all} of the closure polynomials for two choices of idle unknowns in place of \
-                         the missing ones (modulo 2^61 - 1)"
+                        "{all} of the closure polynomials for two choices of idle unknowns in place of the missing ones"
                     )
                 };
-                (status, reason)
+                (status, format!("{total} of {count}: {of} (modulo 2^61 - 1)"))
             }
-            Some(Count { solutions, .. }) => {
+            Some(count) => {
                 let only = if roots == Roots::Real { "; only real roots were looked for" } else { "" };
-                (Status::Incomplete, format!("not proved: found {total} of up to {solutions} solutions{only}"))
+                (Status::Incomplete, format!("not proved: found {total} of up to {count} solutions{only}"))
             }
             None if self.is_rounded && total > 0 => (
                 Status::Incomplete,
