@@ -68,7 +68,12 @@ pub struct ReadOptions {
 impl ReadOptions {
     /// As the reader wants them.
     pub fn options(&self) -> Options {
-        Options { digits: self.digits, base_link: self.base_link.clone(), tip_link: self.tip_link.clone() }
+        Options {
+            digits: self.digits,
+            base_link: self.base_link.clone(),
+            tip_link: self.tip_link.clone(),
+            ..Options::default()
+        }
     }
 }
 

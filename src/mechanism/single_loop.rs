@@ -150,6 +150,10 @@ impl SingleLoop {
         let (mut verdict, solve_us) = question.answer(workspace, assembly);
         if solver.structural_rank() < 6 {
             verdict.reason += &dependent(&self.chain, &prepared.layout, solver.axis_triples());
+            if case.pose.is_none() {
+                verdict.reason +=
+                    &format!("; the loop has {}, as `looproot mobility` tells in full", Freedom::of(&self.chain));
+            }
         }
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {
