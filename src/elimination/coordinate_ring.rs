@@ -236,6 +236,8 @@ impl<F: Field> Relations<F> {
 /// How the relations of a loop follow from its equations.
 #[derive(Clone, Debug)]
 pub struct Plan {
+    /// Unknowns that are zero.
+    is_zero: [bool; 6],
     most: u32,
     /// Which relations lead to new ones, each with its leading column then.
     steps: Vec<(Source, usize)>,
@@ -247,28 +249,19 @@ impl Plan {
     /// degree are needed to see that they do not.
     #[must_use]
     pub fn of<F: Field>(closed: &ClosedLoop<F>) -> Option<Self> {
-        let (_, closed) = turned(closed, [false; 6])?;
-        let equations = equations(&closed);
-        DEGREES.iter().find_map(|&most| Self::up_to(most, &closed, [false; 5], &equations))
+        Self::at_zero(closed, [false; 6])
     }
 
     /// As [`Plan::of`] for the solutions at which these unknowns are zero, of which there need be none.
     #[must_use]
     pub fn at_zero<F: Field>(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<Self> {
-        let (rotation, closed) = turned(closed, is_zero)?;
-        let is_zero: [bool; 5] = std::array::from_fn(|k| is_zero[(rotation + k) % 6]);
-        let all = equations(&closed).into_iter();
-        let equations: Vec<_> = all.map(|equation| at_zero(equation, &closed.variables, is_zero)).collect();
-        DEGREES.iter().find_map(|&most| Self::up_to(most, &closed, is_zero, &equations))
+        let setting = Setting::of(closed, is_zero)?;
+        DEGREES.iter().find_map(|&most| Self::up_to(most, &setting, is_zero))
     }
 
-    fn up_to<F: Field>(
-        most: u32,
-        closed: &ClosedLoop<F>,
-        is_zero: [bool; 5],
-        equations: &[Sparse<F>],
-    ) -> Option<Self> {
-        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), is_zero, most);
+    fn up_to<F: Field>(most: u32, setting: &Setting<F>, is_zero: [bool; 6]) -> Option<Self> {
+        let equations = &setting.equations;
+        let mut relations = setting.relations(most);
         let mut steps = Vec::new();
         // Relations not multiplied yet.
         let mut fresh = Vec::new();
@@ -294,7 +287,7 @@ impl Plan {
             }
         }
         let count = relations.standard()?.len();
-        Some(Self { most, steps, count })
+        Some(Self { is_zero, most, steps, count })
     }
 
     /// An upper bound on the number of solutions, with multiplicity: their number, unless relations of a higher degree are
@@ -307,11 +300,10 @@ impl Plan {
     /// The ring of the same loop in another field; `None` where a number vanishes that should not.
     #[must_use]
     pub fn ring<F: Field>(&self, closed: &ClosedLoop<F>) -> Option<CoordinateRing<F>> {
-        let (rotation, closed) = turned(closed, [false; 6])?;
-        let equations = equations(&closed);
-        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), [false; 5], self.most);
+        let setting = Setting::of(closed, self.is_zero)?;
+        let mut relations = setting.relations(self.most);
         for (source, column) in &self.steps {
-            let relation = relations.relation(&equations, *source)?;
+            let relation = relations.relation(&setting.equations, *source)?;
             let (column, row) = relations.reduced(&relation, Some(*column))?;
             if !relations.take(column, &row) {
                 return None;
@@ -333,7 +325,32 @@ impl Plan {
             }
             normal[column] = sum;
         }
+        let Setting { rotation, closed, .. } = setting;
         Some(CoordinateRing { rotation, closed, relations, standard, normal })
+    }
+}
+
+/// A loop as its ring is computed.
+struct Setting<F> {
+    /// How many unknowns went from the head to the tail.
+    rotation: usize,
+    closed: ClosedLoop<F>,
+    /// Which of the first five unknowns are zero.
+    is_zero: [bool; 5],
+    equations: Vec<Sparse<F>>,
+}
+
+impl<F: Field> Setting<F> {
+    fn of(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<Self> {
+        let (rotation, closed) = turned(closed, is_zero)?;
+        let is_zero: [bool; 5] = std::array::from_fn(|k| is_zero[(rotation + k) % 6]);
+        let all = equations(&closed).into_iter();
+        let equations = all.map(|equation| at_zero(equation, &closed.variables, is_zero)).collect();
+        Some(Self { rotation, closed, is_zero, equations })
+    }
+
+    fn relations(&self, most: u32) -> Relations<F> {
+        Relations::new(std::array::from_fn(|k| self.closed.variables[k]), self.is_zero, most)
     }
 }
 
@@ -395,9 +412,14 @@ impl<F: Field> CoordinateRing<F> {
     pub fn unknowns(&self) -> (Vec<F>, [[Vec<F>; 2]; 5]) {
         let one = [(0, F::one())];
         let at = |unknown: usize, is_sine: bool| self.normal(&times(&one, unknown, is_sine));
+        let nought = || vec![F::zero(); self.standard.len()];
         let pair = |unknown: usize| match self.relations.kinds[unknown] {
+            Variable::Rotation if self.relations.is_zero[unknown] => {
+                [self.normal(&one.iter().cloned().collect()), nought()]
+            }
+            Variable::Translation if self.relations.is_zero[unknown] => [nought(), nought()],
             Variable::Rotation => [at(unknown, false), at(unknown, true)],
-            Variable::Translation => [at(unknown, false), vec![F::zero(); self.standard.len()]],
+            Variable::Translation => [at(unknown, false), nought()],
         };
         (self.normal(&one.iter().cloned().collect()), std::array::from_fn(pair))
     }

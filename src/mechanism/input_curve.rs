@@ -155,7 +155,8 @@ impl InputCurve {
             }
             Way::Loop { ball, .. } => {
                 let unknowns = self.layout.unknowns(q).expect("one value for every joint variable");
-                let is_ball = |k: usize| ball.as_ref().is_some_and(|ball| (ball.unknown..ball.unknown + 3).contains(&k));
+                let is_ball =
+                    |k: usize| ball.as_ref().is_some_and(|ball| (ball.unknown..ball.unknown + 3).contains(&k));
                 std::array::from_fn(|k| match k {
                     INPUT => given,
                     _ if is_ball(k) => 0.0,

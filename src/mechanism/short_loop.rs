@@ -4,9 +4,11 @@ use super::by_input::{ByInput, Prepared};
 use super::short_ball::{Positions, positions};
 use super::single_loop::{filling, full_mode, locked_value, within_limits};
 use super::{FullMode, Solution};
+use crate::algebra::long_float::LongFloat;
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
-use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, proof, wrapped};
+use crate::algebra::ring::Ring;
+use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, by_ring, proof, wrapped};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::elimination::common_roots::common_roots;
 use crate::elimination::coordinate_ring::Plan;
@@ -64,6 +66,8 @@ struct Rung {
 
 /// Two other choices of idle axes, modulo a prime.
 struct Counting {
+    /// That of the first loop.
+    layout: Layout,
     loops: [OpenLoop<Mod>; 2],
     is_idle: [bool; 6],
 }
@@ -339,11 +343,19 @@ impl ShortLoop {
         }
         // Where cuts know of nothing, or of more than was found.
         if count.is_none_or(|count| count.solutions > total(&best))
-            && let Some(solutions) = ladder.rungs.last().and_then(|rung| self.count_in_ring(rung, case))
-            && count.is_none_or(|count| solutions < count.solutions)
+            && let Some(counting) = ladder.rungs.last().and_then(|rung| self.counting_of(rung))
+            && let Some(plan) = counting.plan(case)
         {
-            count = Some(Count { solutions, by_ring: true });
-            best.truncate(fitting(&best, solutions));
+            if count.is_none_or(|count| plan.count() < count.solutions) {
+                count = Some(Count { solutions: plan.count(), by_ring: true });
+            }
+            best.truncate(fitting(&best, plan.count()));
+            if roots == Roots::All && plan.count() > total(&best) {
+                let found = self.by_ring(counting, case, &plan)?;
+                if total(&found) > total(&best) {
+                    best = found;
+                }
+            }
         }
         if count.is_none() && self_motion > 0 {
             let reason = format!("solutions form a self-motion of dimension {self_motion}");
@@ -457,43 +469,52 @@ impl ShortLoop {
             gap = last.map(|x| Some(nearest_f64(x))).map_or(gap, |last| solver.exact_gap(&last));
         }
         solver.solve_up_to(&gap, roots, &|| most.unwrap_or(usize::MAX), workspace, assembly);
-        let unit = self.chain.unit().to_f64();
-        let filling = Motion { translation: filling.translation.map(|x| x / unit), ..filling };
-        let closed = open.close(&filling);
-        let is_idle = layout.joint_variables().map(|joint| joint.is_none());
-        let locked = Complex::from(locked_value(case));
-        let units = closed.variables.map(|kind| if kind == Variable::Rotation { 1.0 } else { unit });
-        let mut candidates: Vec<Candidate> = Vec::new();
-        for mode in &assembly.modes {
-            let own = std::array::from_fn(|k| mode.unknowns[k] / units[k]);
-            let idle = (0..6).filter(|&k| is_idle[k]).map(|k| own[k].norm()).fold(0.0, f64::max);
-            if idle < NEARLY_ZERO {
-                let (unknowns, residual) = closer(&closed, &own, is_idle, mode.real);
-                if !(residual < OPEN) {
-                    continue;
-                }
-                let q = layout.assemble(&std::array::from_fn(|k| unknowns[k] * units[k]), locked);
-                candidates.push(Candidate { q, mode: Mode { residual, ..mode.clone() }, idle });
-            }
-        }
+        let setting = self.setting(layout, open, case)?;
+        let candidate = |mode: &Mode| {
+            let own = std::array::from_fn(|k| mode.unknowns[k] / setting.units[k]);
+            setting.candidate(mode, &own, NEARLY_ZERO)
+        };
+        let mut candidates: Vec<Candidate> = assembly.modes.iter().filter_map(candidate).collect();
         candidates.sort_by(|a, b| a.idle.total_cmp(&b.idle));
         Ok(candidates)
     }
 
     /// How many solutions there are, exactly: at most this many, by the common roots of two choices of idle unknowns.
     fn count(&self, rung: &Rung, case: &Case, enough: usize) -> Option<usize> {
-        let Counting { loops, is_idle } = rung.counting.get_or_init(|| self.counting(&rung.layout)).as_ref()?;
+        let Counting { loops, is_idle, .. } = self.counting_of(rung)?;
         let filling: Motion<Mod> = filling(case).ok()?;
         let [one, other] = loops.each_ref().map(|open| open.close(&filling));
         common_roots(&one, &other, *is_idle, enough)
     }
 
-    /// As [`ShortLoop::count`], by the equations of the loop with its idle unknowns at zero.
-    fn count_in_ring(&self, rung: &Rung, case: &Case) -> Option<usize> {
-        let Counting { loops: [one, _], is_idle } =
-            rung.counting.get_or_init(|| self.counting(&rung.layout)).as_ref()?;
-        let filling: Motion<Mod> = filling(case).ok()?;
-        Plan::at_zero(&one.close(&filling), *is_idle).map(|plan| plan.count())
+    fn counting_of<'a>(&self, rung: &'a Rung) -> Option<&'a Counting> {
+        rung.counting.get_or_init(|| self.counting(&rung.layout)).as_ref()
+    }
+
+    /// The solutions by the ring of the loop with its idle unknowns at zero, in longer numbers.
+    fn by_ring(&self, counting: &Counting, case: &Case, plan: &Plan) -> Result<Vec<Candidate>> {
+        let layout = &counting.layout;
+        let over = LongFloat::from(1.0 / self.chain.unit().to_f64());
+        let exact = self.chain.open_loop::<LongFloat>(layout)?.close(&filling(case)?);
+        let constants = exact.constants.each_ref().map(|motion| {
+            let translation = motion.translation.map(|x| x.mul(&over));
+            Motion { translation, ..motion.clone() }
+        });
+        let modes = by_ring(&ClosedLoop { variables: exact.variables, constants }, plan);
+        let open: OpenLoop<f64> = self.chain.open_loop(layout)?;
+        let setting = self.setting(layout, &scaled(&open, self.chain.unit().to_f64()), case)?;
+        Ok(modes.iter().filter_map(|mode| setting.candidate(mode, &mode.unknowns, ZERO)).collect())
+    }
+
+    /// The loop at an input, lengths over the mean link.
+    fn setting(&self, layout: &Layout, open: &OpenLoop<f64>, case: &Case) -> Result<Setting> {
+        let unit = self.chain.unit().to_f64();
+        let filling: Motion<f64> = filling(case)?;
+        let closed = open.close(&Motion { translation: filling.translation.map(|x| x / unit), ..filling });
+        let units = closed.variables.map(|kind| if kind == Variable::Rotation { 1.0 } else { unit });
+        let is_idle = layout.joint_variables().map(|joint| joint.is_none());
+        let locked = Complex::from(locked_value(case));
+        Ok(Setting { layout: layout.clone(), closed, is_idle, units, locked })
     }
 
     /// A bound on the number of solutions with idle unknowns at every input; `None` where the closure polynomials vanish.
@@ -514,7 +535,8 @@ impl ShortLoop {
         let idle = (idle + usize::from(rotations == 3)).min(plain.missing());
         let open = |choice| self.chain.try_open_loop::<Mod>(&plain.with_idle(idle, choice)).ok()?;
         let is_idle = plain.with_idle(idle, 0).joint_variables().map(|joint| joint.is_none());
-        Some(Counting { loops: [open(CHOICES)?, open(CHOICES + 1)?], is_idle })
+        let layout = plain.with_idle(idle, CHOICES);
+        Some(Counting { layout, loops: [open(CHOICES)?, open(CHOICES + 1)?], is_idle })
     }
 
     fn verdict(&self, found: &[Candidate], count: Option<Count>, roots: Roots) -> Verdict {
@@ -531,9 +553,7 @@ impl ShortLoop {
                 (Status::Unreachable, format!("no solution: {because}"))
             }
             // Large imaginary parts hide how far a solution is from closing, and the count is a bound.
-            Some(count)
-                if count.solutions == total && found.iter().any(|c| !c.mode.real && !(c.idle < ZERO)) =>
-            {
+            Some(count) if count.solutions == total && found.iter().any(|c| !c.mode.real && !(c.idle < ZERO)) => {
                 let what = if count.by_ring {
                     format!("the dimension {total} of the ring of the closure equations")
                 } else {
@@ -545,7 +565,9 @@ impl ShortLoop {
             Some(count) if count.solutions == total => {
                 let status = if real == 0 { Status::Unreachable } else { Status::Complete };
                 let reason = if count.by_ring {
-                    format!("{total} of {total}: the ring of the closure equations has dimension {total} (modulo 2^61 - 1)")
+                    format!(
+                        "{total} of {total}: the ring of the closure equations has dimension {total} (modulo 2^61 - 1)"
+                    )
                 } else {
                     let all = if total == 1 { "the only common root" } else { "all common roots" };
                     format!(
@@ -570,6 +592,38 @@ impl ShortLoop {
         };
         let certified = if status == Status::Incomplete { 0 } else { certified };
         Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }
+    }
+}
+
+impl Counting {
+    /// The ring of the loop at an input with its idle unknowns at zero.
+    fn plan(&self, case: &Case) -> Option<Plan> {
+        let filling: Motion<Mod> = filling(case).ok()?;
+        Plan::at_zero(&self.loops[0].close(&filling), self.is_idle)
+    }
+}
+
+/// A loop with idle unknowns at an input.
+struct Setting {
+    layout: Layout,
+    /// Lengths over the mean link.
+    closed: ClosedLoop<f64>,
+    is_idle: [bool; 6],
+    units: Six<f64>,
+    locked: Complex<f64>,
+}
+
+impl Setting {
+    /// What a mode with these unknowns, lengths over the mean link, is with its idle ones at zero, where they are below
+    /// `most` and the loop closes.
+    fn candidate(&self, mode: &Mode, own: &Six<Complex<f64>>, most: f64) -> Option<Candidate> {
+        let idle = (0..6).filter(|&k| self.is_idle[k]).map(|k| own[k].norm()).fold(0.0, f64::max);
+        if !(idle < most) {
+            return None;
+        }
+        let (unknowns, residual) = closer(&self.closed, own, self.is_idle, mode.real);
+        let q = self.layout.assemble(&std::array::from_fn(|k| unknowns[k] * self.units[k]), self.locked);
+        (residual < OPEN).then(|| Candidate { q, mode: Mode { residual, ..mode.clone() }, idle })
     }
 }
 

@@ -61,9 +61,8 @@ impl PlaneCurve {
             (Variable::Translation, 1) => scale,
             (Variable::Translation, _) => scale * scale,
         };
-        let scaled: [[f64; 3]; 3] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| coefficients[i][j] * power(unknown, i) * power(input, j))
-        });
+        let scaled: [[f64; 3]; 3] =
+            std::array::from_fn(|i| std::array::from_fn(|j| coefficients[i][j] * power(unknown, i) * power(input, j)));
         let largest = scaled.iter().flatten().map(|x| x.abs()).fold(0.0, f64::max);
         let over = if largest > 0.0 { largest } else { 1.0 };
         let variables = std::array::from_fn(|k| match k {
@@ -88,8 +87,7 @@ impl PlaneCurve {
 
     /// The left side of the equation over series.
     fn value<const N: usize>(&self, unknown: &Series<f64, N>, input: &Series<f64, N>) -> Series<f64, N> {
-        let [rows, columns] =
-            [monomials(self.variables[UNKNOWN], unknown), monomials(self.variables[INPUT], input)];
+        let [rows, columns] = [monomials(self.variables[UNKNOWN], unknown), monomials(self.variables[INPUT], input)];
         let mut sum = Series::zero();
         for (row, coefficients) in rows.iter().zip(&self.coefficients) {
             let mut inner = Series::zero();
