@@ -65,6 +65,7 @@ impl Search<'_> {
             arrangement: AS_IT_IS,
             gap_rounding: self.gap_rounding,
             roots: self.roots,
+            is_brief: false,
             eigen: &mut *self.eigen,
             assembly: &mut found,
         }

@@ -112,6 +112,7 @@ fn one<S: Scalar>(
         arrangement: AS_IT_IS,
         gap_rounding: 0.0,
         roots,
+        is_brief: false,
         eigen: workspace.eigen(),
         assembly: &mut found,
     }

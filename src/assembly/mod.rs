@@ -8,6 +8,7 @@ mod limits;
 mod mode;
 pub mod platform;
 mod prepared;
+mod proof;
 mod rescue;
 mod search;
 mod shifted;

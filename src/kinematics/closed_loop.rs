@@ -191,14 +191,16 @@ impl Layout {
                 }
                 JointKind::Spherical => {
                     return Err(Error::Unsupported(format!(
-                        "joint {}: a third S joint; solved are loops with one, or with two and one more unknown",
-                        i + 1
+                        "joint {}: a third S joint ({}); solved are loops with one, or with two and one more unknown",
+                        i + 1,
+                        Freedom::of(chain)
                     )));
                 }
                 other => {
                     return Err(Error::Unsupported(format!(
-                        "joint {}: {other:?} joints are read but not solved yet; solved are R, P, C and S",
-                        i + 1
+                        "joint {}: {other:?} joints are read but not solved yet ({}); solved are R, P, C and S",
+                        i + 1,
+                        Freedom::of(chain)
                     )));
                 }
             }
@@ -629,7 +631,15 @@ fn screw_steps<R: Ring>(kind: JointKind, steps: &mut Vec<Step<R>>) {
             steps.push(Step::Constant(to_x.inverse()));
             steps.push(Step::Unknown(Variable::Rotation));
         }
-        _ => steps.push(Step::Unknown(Variable::Rotation)),
+        JointKind::Universal => {
+            // About z, and about x.
+            let to_x = quarter_turn();
+            steps.push(Step::Unknown(Variable::Rotation));
+            steps.push(Step::Constant(to_x.clone()));
+            steps.push(Step::Unknown(Variable::Rotation));
+            steps.push(Step::Constant(to_x.inverse()));
+        }
+        JointKind::Revolute | JointKind::Helical => steps.push(Step::Unknown(Variable::Rotation)),
     }
 }
 

@@ -51,6 +51,9 @@ const POLISHINGS: usize = 4;
 /// Singular values below this part of the largest count as zero there.
 const RANK: f64 = 1e-9;
 
+/// Why there is no solution.
+const OPEN_BY_RING: &str = "no solution: 1 is a combination of the closure equations";
+
 /// One choice of idle unknowns, prepared.
 struct Rung {
     layout: Layout,
@@ -66,8 +69,6 @@ struct Rung {
 
 /// Two other choices of idle axes, modulo a prime.
 struct Counting {
-    /// That of the first loop.
-    layout: Layout,
     loops: [OpenLoop<Mod>; 2],
     is_idle: [bool; 6],
 }
@@ -87,6 +88,14 @@ pub(super) struct ShortLoop {
     prepared: ByInput<Ladder>,
 }
 
+/// A bound on the number of solutions.
+#[derive(Clone, Copy)]
+struct Count {
+    most: usize,
+    /// Whether it is the dimension of the ring of the closure equations, not the number of common roots.
+    is_of_ring: bool,
+}
+
 /// What may be a solution.
 #[derive(Clone)]
 struct Candidate {
@@ -95,14 +104,6 @@ struct Candidate {
     q: Vec<Complex<f64>>,
     /// The largest of its idle unknowns, in radians and lengths over the mean link.
     idle: f64,
-}
-
-/// How many solutions there are, and by what.
-#[derive(Clone, Copy)]
-struct Count {
-    solutions: usize,
-    /// By the ring of the closure equations, else by common roots of closure polynomials.
-    by_ring: bool,
 }
 
 /// A verdict, and what it is about.
@@ -209,7 +210,14 @@ impl ShortLoop {
         let Prepared { of: ladder, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
         let start = Instant::now();
         let locked = ladder.layout.locked;
-        let moving = if locked.is_none() { self.motion(workspace, assembly)? } else { None };
+        // What does not close, or closes at points, need not be searched for a motion.
+        let is_asked = locked.is_none() && !self.is_rounded;
+        let points = if is_asked { self.count_by_ring(&ladder.layout, case) } else { None };
+        let moving = match points {
+            Some(0) => Some((outcome(Status::Unreachable, 0, OPEN_BY_RING.to_owned()), Vec::new())),
+            None if locked.is_none() => self.motion(workspace, assembly)?,
+            _ => None,
+        };
         let (verdict, modes) = match moving {
             Some(answer) => answer,
             None => self.isolated(ladder, case, roots, workspace, assembly)?,
@@ -325,43 +333,43 @@ impl ShortLoop {
             // Large imaginary parts hide how far a solution is from closing: then all closure polynomials are asked.
             let is_sure = |candidate: &Candidate| candidate.mode.real || candidate.idle < ZERO;
             let enough = if closed.iter().all(is_sure) { total(&closed) } else { 0 };
-            let by_roots = |solutions| Count { solutions, by_ring: false };
-            count = count.or_else(|| self.count(rung, case, enough).map(by_roots));
+            count = count.or_else(|| {
+                let common = self.count(rung, case, enough).map(|most| Count { most, is_of_ring: false });
+                if common.is_some_and(|common| common.most <= enough) {
+                    return common;
+                }
+                let ring = self.count_by_ring(&ladder.layout, case).map(|most| Count { most, is_of_ring: true });
+                common.into_iter().chain(ring).min_by_key(|count| count.most)
+            });
             self_motion = assembly.self_motion;
             if tight.is_empty() {
                 let is_tight = |c: &&Candidate| c.idle < ZERO || c.mode.residual <= CLOSED;
                 tight = found.iter().filter(is_tight).cloned().collect();
             }
             // Idle translations let solutions coincide that are simple; idle rotations do not.
-            found.truncate(count.map_or(found.len(), |count| fitting(&found, count.solutions)));
+            found.truncate(count.map_or(found.len(), |count| fitting(&found, count.most)));
             if total(&found) > total(&best) {
                 best = found;
             }
-            if roots == Roots::Real || count.is_some_and(|count| count.solutions == total(&best)) {
+            if roots == Roots::Real || count.is_some_and(|count| count.most == total(&best)) {
                 break;
             }
         }
-        // Where cuts know of nothing, or of more than was found.
-        if count.is_none_or(|count| count.solutions > total(&best))
-            && let Some(counting) = ladder.rungs.last().and_then(|rung| self.counting_of(rung))
-            && let Some(plan) = counting.plan(case)
+        if roots == Roots::All
+            && count.is_some_and(|count| count.most > total(&best))
+            && let Some(plan) = self.plan(&ladder.layout, case)
         {
-            if count.is_none_or(|count| plan.count() < count.solutions) {
-                count = Some(Count { solutions: plan.count(), by_ring: true });
-            }
-            best.truncate(fitting(&best, plan.count()));
-            if roots == Roots::All && plan.count() > total(&best) {
-                let found = self.by_ring(counting, case, &plan)?;
-                if total(&found) > total(&best) {
-                    best = found;
-                }
+            // What idle unknowns in general position hide.
+            let found = self.by_ring(&ladder.layout, case, &plan)?;
+            if total(&found) > total(&best) {
+                best = found;
             }
         }
         if count.is_none() && self_motion > 0 {
             let reason = format!("solutions form a self-motion of dimension {self_motion}");
             return Ok((outcome(Status::SelfMotion, self_motion, reason), Vec::new()));
         }
-        let doubt = self.is_rounded && count.is_some_and(|count| count.solutions == 0) && !tight.is_empty();
+        let doubt = self.is_rounded && count.is_some_and(|count| count.most == 0) && !tight.is_empty();
         if doubt {
             best = tight;
         } else if count.is_none() {
@@ -481,28 +489,41 @@ impl ShortLoop {
 
     /// How many solutions there are, exactly: at most this many, by the common roots of two choices of idle unknowns.
     fn count(&self, rung: &Rung, case: &Case, enough: usize) -> Option<usize> {
-        let Counting { loops, is_idle, .. } = self.counting_of(rung)?;
+        let Counting { loops, is_idle } = rung.counting.get_or_init(|| self.counting(&rung.layout)).as_ref()?;
         let filling: Motion<Mod> = filling(case).ok()?;
         let [one, other] = loops.each_ref().map(|open| open.close(&filling));
         common_roots(&one, &other, *is_idle, enough)
     }
 
-    fn counting_of<'a>(&self, rung: &'a Rung) -> Option<&'a Counting> {
-        rung.counting.get_or_init(|| self.counting(&rung.layout)).as_ref()
+    /// At most so many solutions there are by the closure equations, all of them at once; `None` where they form families, where
+    /// it is not seen that they do not, and for loops with a ball.
+    fn count_by_ring(&self, layout: &Layout, case: &Case) -> Option<usize> {
+        self.plan(layout, case).map(|plan| plan.count())
     }
 
-    /// The solutions by the ring of the loop with its idle unknowns at zero, in longer numbers.
-    fn by_ring(&self, counting: &Counting, case: &Case, plan: &Plan) -> Result<Vec<Candidate>> {
-        let layout = &counting.layout;
+    /// How the ring of the closure equations is found.
+    fn plan(&self, layout: &Layout, case: &Case) -> Option<Plan> {
+        if layout.ball.is_some() {
+            return None;
+        }
+        let filled = layout.with_idle(layout.missing(), 0);
+        let is_idle = filled.joint_variables().map(|joint| joint.is_none());
+        let open = self.chain.try_open_loop::<Mod>(&filled).ok()??;
+        Plan::at_zero(&open.close(&filling(case).ok()?), is_idle)
+    }
+
+    /// The solutions by that ring, in longer numbers.
+    fn by_ring(&self, layout: &Layout, case: &Case, plan: &Plan) -> Result<Vec<Candidate>> {
+        let filled = layout.with_idle(layout.missing(), 0);
         let over = LongFloat::from(1.0 / self.chain.unit().to_f64());
-        let exact = self.chain.open_loop::<LongFloat>(layout)?.close(&filling(case)?);
+        let exact = self.chain.open_loop::<LongFloat>(&filled)?.close(&filling(case)?);
         let constants = exact.constants.each_ref().map(|motion| {
             let translation = motion.translation.map(|x| x.mul(&over));
             Motion { translation, ..motion.clone() }
         });
         let modes = by_ring(&ClosedLoop { variables: exact.variables, constants }, plan);
-        let open: OpenLoop<f64> = self.chain.open_loop(layout)?;
-        let setting = self.setting(layout, &scaled(&open, self.chain.unit().to_f64()), case)?;
+        let open: OpenLoop<f64> = self.chain.open_loop(&filled)?;
+        let setting = self.setting(&filled, &scaled(&open, self.chain.unit().to_f64()), case)?;
         Ok(modes.iter().filter_map(|mode| setting.candidate(mode, &mode.unknowns, ZERO)).collect())
     }
 
@@ -535,51 +556,47 @@ impl ShortLoop {
         let idle = (idle + usize::from(rotations == 3)).min(plain.missing());
         let open = |choice| self.chain.try_open_loop::<Mod>(&plain.with_idle(idle, choice)).ok()?;
         let is_idle = plain.with_idle(idle, 0).joint_variables().map(|joint| joint.is_none());
-        let layout = plain.with_idle(idle, CHOICES);
-        Some(Counting { layout, loops: [open(CHOICES)?, open(CHOICES + 1)?], is_idle })
+        Some(Counting { loops: [open(CHOICES)?, open(CHOICES + 1)?], is_idle })
     }
 
     fn verdict(&self, found: &[Candidate], count: Option<Count>, roots: Roots) -> Verdict {
         let total: usize = found.iter().map(|c| c.mode.multiplicity.max(1)).sum();
         let real = found.iter().filter(|c| c.mode.real).map(|c| c.mode.multiplicity.max(1)).sum();
         let certified = found.iter().filter(|c| c.mode.certificate.is_some()).count();
-        let (status, reason) = match count {
-            Some(Count { solutions: 0, by_ring }) => {
-                let because = if by_ring {
-                    "1 is a combination of the closure equations (modulo 2^61 - 1)"
-                } else {
-                    "the closure polynomials for two choices of idle unknowns have no common root"
-                };
-                (Status::Unreachable, format!("no solution: {because}"))
-            }
+        let is_of_ring = count.is_some_and(|count| count.is_of_ring);
+        let (status, reason) = match count.map(|count| count.most) {
+            Some(0) if is_of_ring => (Status::Unreachable, OPEN_BY_RING.to_owned()),
+            Some(0) => (
+                Status::Unreachable,
+                "no solution: the closure polynomials for two choices of idle unknowns have no common root".to_owned(),
+            ),
             // Large imaginary parts hide how far a solution is from closing, and the count is a bound.
-            Some(count) if count.solutions == total && found.iter().any(|c| !c.mode.real && !(c.idle < ZERO)) => {
-                let what = if count.by_ring {
-                    format!("the dimension {total} of the ring of the closure equations")
-                } else {
-                    format!("the {total} common roots of the closure polynomials for two choices of idle unknowns")
-                };
-                let reason = format!("not proved: complex solutions that close to rounding only, as many as {what}");
-                (Status::Incomplete, reason)
-            }
-            Some(count) if count.solutions == total => {
+            Some(count) if count == total && found.iter().any(|c| !c.mode.real && !(c.idle < ZERO)) => (
+                Status::Incomplete,
+                format!(
+                    "not proved: complex solutions that close to rounding only, as many as the {count} {}",
+                    if is_of_ring {
+                        "of the closure equations"
+                    } else {
+                        "common roots of the closure polynomials for two choices of idle unknowns"
+                    }
+                ),
+            ),
+            Some(count) if count == total => {
                 let status = if real == 0 { Status::Unreachable } else { Status::Complete };
-                let reason = if count.by_ring {
-                    format!(
-                        "{total} of {total}: the ring of the closure equations has dimension {total} (modulo 2^61 - 1)"
-                    )
+                let all = if total == 1 { "the only common root" } else { "all common roots" };
+                let of = if is_of_ring {
+                    format!("all solutions of the closure equations, whose ring has dimension {count}")
                 } else {
-                    let all = if total == 1 { "the only common root" } else { "all common roots" };
                     format!(
-                        "{total} of {total}: {all} of the closure polynomials for two choices of idle unknowns in place of \
-                         the missing ones (modulo 2^61 - 1)"
+                        "{all} of the closure polynomials for two choices of idle unknowns in place of the missing ones"
                     )
                 };
-                (status, reason)
+                (status, format!("{total} of {count}: {of} (modulo 2^61 - 1)"))
             }
-            Some(Count { solutions, .. }) => {
+            Some(count) => {
                 let only = if roots == Roots::Real { "; only real roots were looked for" } else { "" };
-                (Status::Incomplete, format!("not proved: found {total} of up to {solutions} solutions{only}"))
+                (Status::Incomplete, format!("not proved: found {total} of up to {count} solutions{only}"))
             }
             None if self.is_rounded && total > 0 => (
                 Status::Incomplete,
@@ -592,14 +609,6 @@ impl ShortLoop {
         };
         let certified = if status == Status::Incomplete { 0 } else { certified };
         Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }
-    }
-}
-
-impl Counting {
-    /// The ring of the loop at an input with its idle unknowns at zero.
-    fn plan(&self, case: &Case) -> Option<Plan> {
-        let filling: Motion<Mod> = filling(case).ok()?;
-        Plan::at_zero(&self.loops[0].close(&filling), self.is_idle)
     }
 }
 
