@@ -25,8 +25,8 @@ pub fn solve(
     workspace: &mut Workspace,
     assembly: &mut Assembly,
 ) -> Vec<[Angles; 2]> {
-    assembly.modes.clear();
-    (assembly.self_motion, assembly.clean, assembly.tries) = (0, true, 1);
+    assembly.clear();
+    (assembly.clean, assembly.tries) = (true, 1);
     let row = equation(coupled);
     let [constant, first, second] = row;
     let discriminant = match coupled.variable {
