@@ -396,8 +396,8 @@ fn the_verb_says_the_verdict_first() {
 }
 
 #[test]
-fn what_is_no_loop_is_refused() {
-    let (code, _, err) = run(&["mobility", "puma560"]);
+fn what_does_not_move_by_joints_is_refused() {
+    let (code, _, err) = run(&["mobility", "motion/bennett"]);
     assert_eq!(code, Some(1));
-    assert!(err.contains("found an arm, expected a loop"), "{err}");
+    assert!(err.contains("found a rational motion, expected a loop"), "{err}");
 }

@@ -256,6 +256,7 @@ impl Solver {
         assembly: &mut Assembly,
     ) {
         assembly.modes.clear();
+        assembly.real_clean = false;
         (assembly.self_motion, assembly.clean, assembly.tries, assembly.rescued) = (0, false, 0, 0);
         let closed = self.close(gap);
         let eigen = &mut workspace.eigen;

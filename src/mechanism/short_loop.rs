@@ -6,7 +6,7 @@ use super::single_loop::{filling, full_mode, locked_value, within_limits};
 use super::{FullMode, Solution};
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
-use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, wrapped};
+use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, proof, wrapped};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::elimination::common_roots::common_roots;
 use crate::elimination::coordinate_ring::count_without;
@@ -17,6 +17,7 @@ use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
 use crate::solve::newton::{Six, closure};
+use crate::solve::singular::structural_rank;
 use crate::verdict::{Status, Verdict};
 use nalgebra::{SMatrix, SVector};
 use num_complex::Complex;
@@ -116,19 +117,35 @@ pub(super) fn is_short(entry: &Entry, chain: &Chain) -> Result<bool> {
 /// where those are parallel to a plane.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for S joints, and where no choice of idle unknowns serves.
+/// [`Error::Unsupported`] where no choice of idle unknowns serves.
 pub(super) fn filled_up(chain: &Chain, layout: Layout) -> Result<Layout> {
     if layout.missing() == 0 {
         return Ok(layout);
     }
     if layout.ball.is_some() {
-        return Err(Error::Unsupported(format!(
-            "an overconstrained loop with an S joint, {}; such a loop is solved at an input only",
-            Freedom::of(chain)
-        )));
+        return with_idle_rotations(chain, &layout);
     }
     let last = rungs(chain, &layout)?.into_iter().next_back();
     Ok(last.map_or(layout, |rung| rung.layout))
+}
+
+/// The layout of a loop with a ball with idle rotations that are independent of its joints.
+fn with_idle_rotations(chain: &Chain, layout: &Layout) -> Result<Layout> {
+    for choice in 0..CHOICES {
+        let filled = layout.with_idle(layout.missing(), choice);
+        let open: OpenLoop<f64> = chain.open_loop(&filled)?;
+        if structural_rank(&open.close(&Motion::identity())) == 6 {
+            return Ok(filled);
+        }
+    }
+    Err(dependent(chain))
+}
+
+fn dependent(chain: &Chain) -> Error {
+    Error::Unsupported(format!(
+        "the joints of this loop are dependent in every position, so that part of it moves by itself: {}",
+        Freedom::of(chain)
+    ))
 }
 
 /// The choices of idle unknowns by which a loop can be solved: as many translations as leave the six unknowns
@@ -156,10 +173,7 @@ fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
         }
     }
     if rungs.is_empty() {
-        return Err(Error::Unsupported(format!(
-            "the joints of this loop are dependent in every position, so that part of it moves by itself: {}",
-            Freedom::of(chain)
-        )));
+        return Err(dependent(chain));
     }
     Ok(rungs)
 }
@@ -369,7 +383,7 @@ impl ShortLoop {
                 return Ok((outcome(Status::SelfMotion, 1, reason.to_owned()), Vec::new()));
             }
         };
-        let filled = layout.with_idle(layout.missing(), 0);
+        let filled = with_idle_rotations(&self.chain, layout).unwrap_or_else(|_| layout.with_idle(layout.missing(), 0));
         let unit = self.chain.unit().to_f64();
         let filling: Motion<f64> = filling(case)?;
         let filling = Motion { translation: filling.translation.map(|x| x / unit), ..filling };
@@ -385,6 +399,9 @@ impl ShortLoop {
                 if real { Complex::from(value.re) } else { value }
             });
             let (unknowns, residual) = closer(&closed, &own, joints.map(|joint| joint.is_none()), real);
+            // With idle rotations the closure equations are those of six unknowns, which a simple solution closes alone.
+            let ball = joints.iter().position(|joint| joint.is_some() && *joint == layout.ball);
+            let proof = ball.filter(|_| multiplicity == 1).and_then(|ball| proof(&closed, &unknowns, ball, real));
             let q = filled.assemble(&std::array::from_fn(|k| unknowns[k] * units[k]), locked);
             let within = (real && !self.limits.is_empty()).then(|| within_limits(&q, &layout.variables, &self.limits));
             modes.push(FullMode {
@@ -392,9 +409,9 @@ impl ShortLoop {
                 real,
                 multiplicity,
                 residual,
-                condition: f64::INFINITY,
-                certified: false,
-                radius: f64::INFINITY,
+                condition: proof.map_or(f64::INFINITY, |proof| proof.condition),
+                certified: proof.is_some(),
+                radius: proof.map_or(f64::INFINITY, |proof| proof.radius),
                 within_limits: within,
                 platform: None,
             });
@@ -422,7 +439,11 @@ impl ShortLoop {
                 (if real == 0 { Status::Unreachable } else { Status::Complete }, reason)
             }
         };
-        Ok((Verdict { complex: total, real, ..outcome(status, 0, reason) }, modes))
+        if status == Status::Incomplete {
+            modes.iter_mut().for_each(|mode| mode.certified = false);
+        }
+        let certified = modes.iter().filter(|mode| mode.certified).count();
+        Ok((Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }, modes))
     }
 
     /// What nearly closes the loop, by the size of its idle unknowns.

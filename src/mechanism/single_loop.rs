@@ -150,6 +150,10 @@ impl SingleLoop {
         let (mut verdict, solve_us) = question.answer(workspace, assembly);
         if solver.structural_rank() < 6 {
             verdict.reason += &dependent(&self.chain, &prepared.layout, solver.axis_triples());
+            if case.pose.is_none() {
+                verdict.reason +=
+                    &format!("; the loop has {}, as `looproot mobility` tells in full", Freedom::of(&self.chain));
+            }
         }
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {
@@ -188,8 +192,8 @@ impl SingleLoop {
             None => Bound::general(2),
         };
         let mut verdict = verdict(assembly, roots, 6, 2, bound, || Some(bound()), None);
-        verdict.reason += "; the link between the two S joints spins freely about the line of their centres, \
-                           and is shown at one position of that spin";
+        verdict.reason += "; ";
+        verdict.reason += &idle_spin(&self.chain, layout, coupled.indices[1]);
         let modes = assembly.modes.iter().zip(balls).map(|(mode, balls)| {
             let mut q = vec![Complex::from(locked_value(case)); layout.variables.len()];
             for (&at, angles) in coupled.indices.iter().zip(balls) {
@@ -373,11 +377,6 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
 /// Why six joints are dependent, where two triples of their axes say it.
 fn dependent(chain: &Chain, layout: &Layout, triples: &[AxisTriple]) -> String {
     let [one, two] = triples else { return String::new() };
-    let freedoms = |kind: JointKind| match kind {
-        JointKind::Cylindrical => 2,
-        JointKind::Spherical => 3,
-        _ => 1,
-    };
     let kinds = chain.joint_kinds().into_iter().enumerate();
     let joints: Vec<usize> = kinds.flat_map(|(k, kind)| std::iter::repeat_n(k + 1, freedoms(kind))).collect();
     let variables = layout.joint_variables();
@@ -387,6 +386,35 @@ fn dependent(chain: &Chain, layout: &Layout, triples: &[AxisTriple]) -> String {
         format!("the axes of joints {}, {}, {} {how}", joint(0), joint(1), joint(2))
     };
     format!("; {} and {}: their six screws are dependent in every position", name(one), name(two))
+}
+
+/// At which position of the idle spin a loop of two balls is shown, of which the second one begins at this variable.
+pub(super) fn idle_spin(chain: &Chain, layout: &Layout, second: usize) -> String {
+    let joint = |first: usize| {
+        let before = chain.joint_kinds().into_iter().scan(0, |sum, kind| {
+            let own = *sum;
+            *sum += freedoms(kind);
+            Some(own)
+        });
+        1 + before.take_while(|at| *at < first).count()
+    };
+    let balls = [layout.ball, layout.second_ball].map(|ball| joint(ball.unwrap_or(0)));
+    format!(
+        "the link between the S joints {} and {} spins freely about the line of their centres: it is shown where joint {} is a \
+         universal joint, one axis of it fixed in that link across the line, the other one along the z axis of the frame \
+         behind the joint",
+        balls[0],
+        balls[1],
+        joint(second)
+    )
+}
+
+fn freedoms(kind: JointKind) -> usize {
+    match kind {
+        JointKind::Cylindrical => 2,
+        JointKind::Spherical => 3,
+        _ => 1,
+    }
 }
 
 /// A mode as a user reads it.
