@@ -461,7 +461,7 @@ pub struct DisturbOptions {
 #[derive(Args)]
 pub struct SpeedOptions {
     /// general (arms); loops of all residual chains, short and planar loops of the library, and exact closure polynomials;
-    /// platform or another set of platforms
+    /// special-loops with right angles and parallel axes; platform or another set of platforms
     #[arg(long, default_value = "general")]
     pub set: String,
     /// Number of arms or platforms, or of loops per chain [default: 200; loops: 20]

@@ -225,13 +225,18 @@ impl Layout {
         let mut idle: Vec<Idle> = (0..missing)
             .zip(0..)
             .map(|(number, k)| Idle {
-                behind: (first + k.min(rotations)) % total,
+                behind: self.outside_ball((first + k.min(rotations)) % total),
                 variable: kind(k),
                 choice: choice * missing + number,
             })
             .collect();
         idle.sort_by_key(|idle| idle.behind);
         Self { idle, ..self.clone() }
+    }
+
+    /// The last variable of the ball in place of one inside: a ball stays one joint.
+    fn outside_ball(&self, at: usize) -> usize {
+        self.ball.filter(|ball| (*ball..ball + 2).contains(&at)).map_or(at, |ball| ball + 2)
     }
 
     /// What each of the six unknowns does and which joint variable it is, in loop order; none for idle unknowns.
