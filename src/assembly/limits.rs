@@ -53,3 +53,5 @@ pub const DEPENDENT: f64 = 1e-6;
 pub const SHARED_ANGLE: f64 = 1e-6;
 /// Sines below which a translation runs along an axis.
 pub const ALONG: f64 = 1e-12;
+/// Sines below this leave two axes of a ball one.
+pub const ONE_AXIS: f64 = 1e-9;

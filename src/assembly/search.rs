@@ -43,6 +43,8 @@ pub(super) struct Search<'a> {
     pub arrangement: ([usize; 6], bool),
     /// What is looked for.
     pub roots: Roots,
+    /// Whether one pencil is all that is asked, and nothing is decided of what it leaves open.
+    pub is_brief: bool,
     /// Memory of the eigenvalue routines.
     pub eigen: &'a mut EigenWorkspace,
     /// What was found.
@@ -57,6 +59,9 @@ impl Search<'_> {
             Some(2) => self.triangle(),
             Some(8) => self.four_bars(most),
             _ => self.all_cuts(most),
+        }
+        if self.is_brief {
+            return;
         }
         if !self.assembly.clean {
             self.cast_about();
@@ -152,6 +157,7 @@ impl Search<'_> {
     /// Whether more pencils are of no use.
     pub fn done(&self, most: &dyn Fn() -> usize, clean: bool) -> bool {
         match self.roots {
+            _ if self.is_brief => true,
             Roots::Real => clean,
             Roots::All => {
                 let proved = self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count();

@@ -3,6 +3,7 @@
 use super::entry::{Case, Claim, Design, Entry, Expected, Input, InputValue, Source};
 use super::geometry::{Mechanism, kinds, mechanism, variable_value, variables};
 use super::node::Node;
+use super::options::Chains;
 use super::platform;
 use super::scope::{Scope, Table};
 use crate::algebra::number::{Number, Quantity};
@@ -65,7 +66,10 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
             let message = "found no legs, expected `legs` or `legs_squared` in the [mechanism], [[legs]] or [[pose]]";
             return Err(scope.fail(table.line(), message));
         }
-        ([], None) if is_short(design) => return Ok(vec![Case::free(table.line())]),
+        ([], None) if matches!(design, Design::Arm(_)) && scope.chains == Chains::Any => return Ok(Vec::new()),
+        ([], None) if is_short(design) || scope.chains != Chains::Solved && matches!(design, Design::Loop(_)) => {
+            return Ok(vec![Case::free(table.line())]);
+        }
         ([], None) => match design {
             Design::Loop(chain) => {
                 let message = format!(
@@ -93,10 +97,13 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
     blocks.iter().map(read).collect()
 }
 
-/// Whether a loop has no more variables than equations, so that it needs no input.
+/// Whether a loop has no more variables than equations, so that it needs no input. The spin of a link between two S joints
+/// is no motion of the loop.
 fn is_short(design: &Design) -> bool {
     let Design::Loop(chain) = design else { return false };
-    kinds(chain).iter().map(|kind| variables(*kind).len()).sum::<usize>() < 7
+    let kinds = kinds(chain);
+    let spins = usize::from(kinds.iter().filter(|kind| **kind == JointKind::Spherical).count() == 2);
+    kinds.iter().map(|kind| variables(*kind).len()).sum::<usize>() < 7 + spins
 }
 
 pub(super) fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {

@@ -68,7 +68,12 @@ pub struct ReadOptions {
 impl ReadOptions {
     /// As the reader wants them.
     pub fn options(&self) -> Options {
-        Options { digits: self.digits, base_link: self.base_link.clone(), tip_link: self.tip_link.clone() }
+        Options {
+            digits: self.digits,
+            base_link: self.base_link.clone(),
+            tip_link: self.tip_link.clone(),
+            ..Options::default()
+        }
     }
 }
 
@@ -421,6 +426,9 @@ pub struct AccuracyOptions {
     /// Look for real solutions only
     #[arg(long)]
     pub real: bool,
+    /// Loops only: data of three decimals, and the exact closure polynomial beside the solutions of every loop
+    #[arg(long, conflicts_with = "real")]
+    pub exact: bool,
     /// A JSON document
     #[arg(long)]
     pub json: bool,
