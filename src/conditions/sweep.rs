@@ -6,8 +6,8 @@
 //! linearly dependent. What is found is a conjecture.
 
 use super::fit::{Draw, Place, Scouted, choices, fit, images, moves, over, random, scout, unknown_places};
-use super::lift;
 use crate::algebra::echelon::Echelon;
+use crate::algebra::lift;
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
