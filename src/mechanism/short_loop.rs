@@ -1,5 +1,7 @@
 //! Loops with fewer than six unknowns: overconstrained mechanisms and structures.
 
+mod few_turns;
+
 use super::by_input::{ByInput, Prepared};
 use super::short_ball::{Positions, positions};
 use super::single_loop::{filling, full_mode, locked_value, within_limits};
@@ -317,6 +319,9 @@ impl ShortLoop {
         if ladder.layout.ball.is_some() {
             return self.with_ball(&ladder.layout, case);
         }
+        if let Some(answer) = self.with_few_turns(&ladder.layout, case)? {
+            return Ok(answer);
+        }
         let mut best: Vec<Candidate> = Vec::new();
         let mut count: Option<Count> = None;
         let mut self_motion = 0;
@@ -452,7 +457,9 @@ impl ShortLoop {
             }
         };
         if status == Status::Incomplete {
-            modes.iter_mut().for_each(|mode| mode.certified = false);
+            for mode in &mut modes {
+                mode.certified = false;
+            }
         }
         let certified = modes.iter().filter(|mode| mode.certified).count();
         Ok((Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }, modes))
