@@ -452,7 +452,9 @@ impl ShortLoop {
             }
         };
         if status == Status::Incomplete {
-            modes.iter_mut().for_each(|mode| mode.certified = false);
+            for mode in &mut modes {
+                mode.certified = false;
+            }
         }
         let certified = modes.iter().filter(|mode| mode.certified).count();
         Ok((Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }, modes))
