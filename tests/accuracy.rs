@@ -18,7 +18,7 @@ use looproot::benchmark::sample::Set;
 
 /// Nothing lost, spurious or double, and every residual small.
 fn faultless(set: Set, count: u64, roots: Roots) -> Counts {
-    let counts = run(Job { set, count, seed: 2024, roots }, || true, || ()).unwrap();
+    let counts = run(Job { set, count, seed: 2024, roots, exact: false }, || true, || ()).unwrap();
     assert!(counts.is_faultless(), "{set:?}, {roots:?}:\n{counts}");
     assert_eq!(counts.solved as u64, count, "{set:?}, {roots:?}");
     let residual = counts.residuals.iter().copied().fold(0.0, f64::max);

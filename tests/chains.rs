@@ -2,10 +2,14 @@
 //! isolated never called complete.
 #![allow(clippy::unwrap_used)]
 
+#[path = "chains/agreement.rs"]
+mod agreement;
 #[path = "chains/sequences.rs"]
 mod sequences;
 #[path = "chains/short_loops.rs"]
 mod short_loops;
+#[path = "chains/special_pairs.rs"]
+mod special_pairs;
 
 mod arms;
 
@@ -71,7 +75,7 @@ fn turned(t: &Rational) -> Rational {
 #[test]
 fn planted_configurations_of_every_chain_are_found() {
     for (index, (name, count)) in CHAINS.into_iter().enumerate() {
-        let job = Job { set: Set::Chain(index), count: 8, seed: 2024, roots: Roots::All };
+        let job = Job { set: Set::Chain(index), count: 8, seed: 2024, roots: Roots::All, exact: false };
         let counts = run(job, || true, || ()).unwrap();
         assert!(counts.is_faultless(), "{name}:\n{counts}");
         assert_eq!(counts.complex.get(&count), Some(&8), "{name}:\n{counts}");
@@ -86,7 +90,7 @@ fn planted_configurations_of_every_chain_are_found() {
 #[test]
 fn real_solutions_alone_are_found_too() {
     for index in 0..CHAINS.len() {
-        let job = Job { set: Set::Chain(index), count: 4, seed: 5, roots: Roots::Real };
+        let job = Job { set: Set::Chain(index), count: 4, seed: 5, roots: Roots::Real, exact: false };
         let counts = run(job, || true, || ()).unwrap();
         assert!(counts.is_faultless(), "{}:\n{counts}", CHAINS[index].0);
     }

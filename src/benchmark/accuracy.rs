@@ -1,7 +1,9 @@
 //! Counting: what of the planted truth is found, and whether all that is found is true.
 
-use super::sample::{Sample, Set, motions, sample};
+use super::agreement::{Agreements, compare};
+use super::sample::{Sample, Set, motions, rational_sample, sample};
 use crate::assembly::{Assembly, Roots, Workspace, wrapped};
+use crate::derivation::derive;
 use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{FullMode, Mechanism, Solution};
@@ -9,6 +11,7 @@ use crate::verdict::Status;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
+use std::time::Instant;
 
 /// The counts of one run.
 #[derive(Clone, Debug, Default)]
@@ -47,6 +50,8 @@ pub struct Counts {
     pub reasons: BTreeMap<String, usize>,
     /// Modes found, and how many of them are certified.
     pub modes: (usize, usize),
+    /// The closure polynomials beside the solutions, where they were derived.
+    pub exact: Option<Agreements>,
 }
 
 /// What was asked for.
@@ -60,13 +65,15 @@ pub struct Job {
     pub seed: u64,
     /// All roots, or real ones only.
     pub roots: Roots,
+    /// Whether data are rational numbers of three decimals, and closure polynomials are derived as well.
+    pub exact: bool,
 }
 
 /// Runs a job on all threads of the pool it is called in; `tick` is called after every arm. Once `running` says no,
 /// the arms not begun are left out of the counts.
 ///
 /// # Errors
-/// None in practice, see [`sample`].
+/// Of the derivation of a closure polynomial; else none in practice, see [`sample`].
 pub fn run(job: Job, running: impl Fn() -> bool + Sync, tick: impl Fn() + Sync) -> Result<Counts> {
     over_all(job.count, running, tick, |index, memory| one(job, index, memory))
 }
@@ -93,10 +100,18 @@ pub(super) fn over_all(
 }
 
 fn one(job: Job, index: u64, (workspace, assembly): &mut Memory) -> Result<Counts> {
-    let drawn = sample(job.set, job.seed, index)?;
+    let draw = if job.exact { rational_sample } else { sample };
+    let drawn = draw(job.set, job.seed, index)?;
     let mechanism = Mechanism::prepare(&drawn.entry)?;
     let solution = mechanism.solve(&drawn.entry.cases[0], job.roots, workspace, assembly)?;
     let mut counts = Counts::of("arms", &solution);
+    if job.exact {
+        let start = Instant::now();
+        let derivation = derive(&drawn.entry, &drawn.entry.cases[0])?;
+        let time = start.elapsed().as_secs_f64();
+        let agreement = compare(&derivation, &drawn.chain, &solution);
+        counts.exact = Some(Agreements::of(index, agreement, derivation.proved, time));
+    }
     let real: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real).collect();
     let apart = |mode: &FullMode, q: &[f64; 6]| {
         let difference = |k: usize| match drawn.variables[k] {
@@ -186,13 +201,18 @@ impl Counts {
             *self.reasons.entry(key).or_default() += count;
         }
         self.modes = (self.modes.0 + other.modes.0, self.modes.1 + other.modes.1);
+        self.exact = match (self.exact, other.exact) {
+            (Some(one), Some(two)) => Some(one.and(two)),
+            (one, two) => one.or(two),
+        };
         self
     }
 
-    /// Whether nothing is lost, spurious, double or miscounted.
+    /// Whether nothing is lost, spurious, double or miscounted, or unlike the closure polynomial.
     #[must_use]
     pub fn is_faultless(&self) -> bool {
-        self.lost.is_empty() && self.spurious == 0 && self.duplicates == 0 && self.miscounted == 0
+        let alike = self.exact.as_ref().is_none_or(|exact| exact.differ.is_empty());
+        self.lost.is_empty() && self.spurious == 0 && self.duplicates == 0 && self.miscounted == 0 && alike
     }
 }
 

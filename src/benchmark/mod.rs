@@ -1,6 +1,7 @@
 //! The program measures itself: solutions found, lost, spurious, duplicated against planted truth, and its speed.
 
 pub mod accuracy;
+pub mod agreement;
 pub mod framework;
 pub mod mobility;
 pub mod platform;

@@ -4,7 +4,7 @@ use crate::algebra::number::{Angle, HalfTangent, Number, Reading};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
-use crate::kinematics::closed_loop::{Layout, OpenLoop, Variable};
+use crate::kinematics::closed_loop::{Layout, OpenLoop, Variable, angle_motion, distance_motion};
 use crate::kinematics::motion::Motion;
 use crate::solve::newton::closure;
 use nalgebra::Matrix6;
@@ -32,6 +32,37 @@ pub enum Set {
     /// Loops of one of the [`CHAINS`] with right angles, parallel and crossing axes, at angles that are mostly 0, right
     /// or pi.
     SpecialChain(usize),
+}
+
+/// What numbers the lengths, offsets, angles and planted joint variables are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Data {
+    /// Those drawn.
+    Floats,
+    /// Three decimals of the lengths and of the half-angle tangents, the pose exactly the one that these reach.
+    Decimals,
+}
+
+impl Data {
+    fn number(self, x: f64) -> Number {
+        match self {
+            Self::Floats => Number::from_f64(x),
+            Self::Decimals => Number::exact(thousandths(x)),
+        }
+    }
+
+    fn angle(self, radians: f64) -> Angle {
+        match self {
+            Self::Floats => Angle::from_radians(radians),
+            // Half turns are drawn as such.
+            Self::Decimals if radians.abs() == PI => Angle::from_half_tangent(HalfTangent::Infinite),
+            Self::Decimals => Angle::from_half_tangent(HalfTangent::Finite(thousandths((0.5 * radians).tan()))),
+        }
+    }
+}
+
+fn thousandths(x: f64) -> Rational {
+    Rational::from_f64((x * 1000.0).round()).expect("a finite number was drawn") / 1000
 }
 
 /// What is left of the single-loop mechanisms with one input when that is given: six joint variables of revolute,
@@ -136,11 +167,24 @@ pub struct Sample {
 /// # Errors
 /// None in practice: the numbers drawn are finite and the poses rigid.
 pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
+    draw(set, Data::Floats, seed, index)
+}
+
+/// Sample number `index` of a set with three decimals of all lengths and half-angle tangents, the planted ones too, and
+/// exactly the pose that these reach.
+///
+/// # Errors
+/// As [`sample`].
+pub fn rational_sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
+    draw(set, Data::Decimals, seed, index)
+}
+
+fn draw(set: Set, data: Data, seed: u64, index: u64) -> Result<Sample> {
     // One stream per sample: any of them can be drawn alone, on any thread.
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(index);
     loop {
-        let joints: Vec<Joint> = set.joints().into_iter().map(|kind| joint(set, kind, &mut random)).collect();
+        let joints: Vec<Joint> = set.joints().into_iter().map(|kind| joint(set, data, kind, &mut random)).collect();
         let chain = Chain { geometry: Geometry::Dh(joints), base: Placement::identity(), tool: Placement::identity() };
         let layout = Layout::of(&chain, None)?;
         let open: OpenLoop<f64> = chain.open_loop(&layout)?;
@@ -158,12 +202,19 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
             planted = singular;
             planted[joint] += away;
         }
+        if data == Data::Decimals {
+            for (q, variable) in planted.iter_mut().zip(variables) {
+                *q = match variable {
+                    Variable::Rotation => data.angle(*q).radians(),
+                    Variable::Translation => data.number(*q).to_f64(),
+                };
+            }
+        }
         let regularity = regularity(&open, &planted);
         if regularity < set.least_regularity() {
             continue;
         }
-        let Some(pose) = chain.forward::<f64>(&motions(&variables, &planted)) else { continue };
-        let (placement, _) = Placement::from_matrix(&matrix(&pose))?;
+        let Some(placement) = reached(data, &chain, &variables, &planted)? else { continue };
         let case = Case::at(placement, 0);
         let entry = Entry {
             name: format!("sample {index}"),
@@ -173,11 +224,25 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
             design: Design::Arm(chain.clone()),
             limits: Vec::new(),
             cases: vec![case],
-            rounded: true,
+            rounded: data == Data::Floats,
             reading: Reading::default(),
         };
         return Ok(Sample { entry, chain, planted, variables, regularity });
     }
+}
+
+/// The pose that an arm reaches.
+fn reached(data: Data, chain: &Chain, variables: &[Variable; 6], planted: &[f64; 6]) -> Result<Option<Placement>> {
+    if data == Data::Floats {
+        let pose = chain.forward::<f64>(&motions(variables, planted));
+        return pose.map(|pose| Ok(Placement::from_matrix(&matrix(&pose))?.0)).transpose();
+    }
+    let motion = |k: usize| match variables[k] {
+        Variable::Rotation => angle_motion(&data.angle(planted[k])),
+        Variable::Translation => distance_motion(&data.number(planted[k])),
+    };
+    let motions: Option<Vec<Motion<Rational>>> = (0..6).map(motion).collect();
+    Ok(motions.and_then(|motions| chain.forward(&motions)).map(Placement::from_motion_exact))
 }
 
 pub(super) fn matrix(pose: &Motion<f64>) -> [[Number; 4]; 4] {
@@ -209,7 +274,7 @@ fn value(set: Set, variable: Variable, random: &mut ChaCha8Rng) -> f64 {
     }
 }
 
-fn joint(set: Set, kind: JointKind, random: &mut ChaCha8Rng) -> Joint {
+fn joint(set: Set, data: Data, kind: JointKind, random: &mut ChaCha8Rng) -> Joint {
     let length = |random: &mut ChaCha8Rng| {
         let x: f64 = random.random_range(-1.0..1.0);
         match set {
@@ -227,7 +292,7 @@ fn joint(set: Set, kind: JointKind, random: &mut ChaCha8Rng) -> Joint {
         3..5 if structured => right(1),
         5..7 if structured => right(-1),
         7 if structured => Angle::from_half_tangent(HalfTangent::Infinite),
-        _ => Angle::from_radians(free),
+        _ => data.angle(free),
     };
     let mut off = |x: f64| if set == Set::Calibrated { x + random.random_range(-1e-6..1e-6) } else { x };
     let (a, d) = (off(a), off(d));
@@ -235,11 +300,11 @@ fn joint(set: Set, kind: JointKind, random: &mut ChaCha8Rng) -> Joint {
     // The constant angle of a prismatic joint; offsets of variables are left at zero.
     let theta0 = match kind {
         JointKind::Prismatic if structured && random.random_bool(0.6) => right(random.random_range(-1..2)),
-        JointKind::Prismatic => Angle::from_radians(random.random_range(-PI..PI)),
+        JointKind::Prismatic => data.angle(random.random_range(-PI..PI)),
         _ => Angle::zero(),
     };
-    let d = if kind == JointKind::Revolute { Number::from_f64(d) } else { Number::zero() };
-    Joint { kind, a: Number::from_f64(a), alpha, d, theta0, pitch: None }
+    let d = if kind == JointKind::Revolute { data.number(d) } else { Number::zero() };
+    Joint { kind, a: data.number(a), alpha, d, theta0, pitch: None }
 }
 
 /// The Jacobian at a configuration, as the twists of the axes in the base frame.

@@ -426,6 +426,9 @@ pub struct AccuracyOptions {
     /// Look for real solutions only
     #[arg(long)]
     pub real: bool,
+    /// Loops only: data of three decimals, and the exact closure polynomial beside the solutions of every loop
+    #[arg(long, conflicts_with = "real")]
+    pub exact: bool,
     /// A JSON document
     #[arg(long)]
     pub json: bool,

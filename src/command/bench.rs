@@ -61,6 +61,12 @@ fn families(name: &str) -> Result<Vec<(&'static str, Family)>, Error> {
 
 fn measure_accuracy(options: &AccuracyOptions) -> Result<Exit, Fault> {
     let families = families(&options.set)?;
+    let is_loop = |(_, family): &(_, Family)| matches!(family, Family::Arms(Set::Chain(_) | Set::SpecialChain(_)));
+    if options.exact && !families.iter().all(is_loop) {
+        let message = format!("found --exact with the set `{}`, expected it with loops or special-loops", options.set);
+        return Err(Error::Invalid(message).into());
+    }
+    let exact = options.exact;
     let roots = if options.real { Roots::Real } else { Roots::All };
     let (count, seed) = (options.count, options.seed);
     let stop = stop_on_interrupt();
@@ -74,7 +80,7 @@ fn measure_accuracy(options: &AccuracyOptions) -> Result<Exit, Fault> {
     let mut all = Vec::new();
     for (name, family) in families {
         let counts = pool.install(|| match family {
-            Family::Arms(set) => accuracy::run(Job { set, count, seed, roots }, running, tick),
+            Family::Arms(set) => accuracy::run(Job { set, count, seed, roots, exact }, running, tick),
             Family::Platforms(set) => platform::accuracy::run(PlatformJob { set, count, seed, roots }, running, tick),
         })?;
         all.push((name, counts));
@@ -89,11 +95,38 @@ fn measure_accuracy(options: &AccuracyOptions) -> Result<Exit, Fault> {
             let documents: Vec<_> = several.iter().map(|(name, counts)| document(counts, name, options)).collect();
             print(&format!("{}\n", serde_json::Value::from(documents)))?;
         }
+        several if exact => {
+            let foot = format!("{foot}  data of three decimals\n");
+            print(&format!("{}\n{}\n{foot}", accuracy::table(several), exact_table(several)))?;
+        }
         several => print(&format!("{}\n{foot}", accuracy::table(several)))?,
     }
     let faultless = all.iter().all(|(_, counts)| counts.is_faultless());
     let exit = if faultless { Exit::Complete } else { Exit::NotProved };
     Ok(if running() { exit } else { Exit::Interrupted })
+}
+
+/// Closure polynomials beside solutions: one line per family, then what differs.
+fn exact_table(rows: &[(&str, Counts)]) -> String {
+    let header = ["chain", "polynomials", "solutions", "values", "differ", "neither", "mod p", "mean ms", "longest ms"];
+    let mut table = Columns::new(&header, &["chain"]);
+    let mut notes = String::new();
+    for (name, counts) in rows {
+        let Some(exact) = &counts.exact else { continue };
+        let neither = exact.not_comparable.values().sum::<usize>();
+        let counted = [exact.count(), exact.solutions, exact.values, exact.differ.len(), neither, exact.unproved];
+        let times = [exact.time / exact.count().max(1) as f64, exact.longest].map(|time| format!("{:.2}", 1e3 * time));
+        table.row(std::iter::once((*name).to_owned()).chain(counted.map(|n| n.to_string())).chain(times));
+        for (reason, count) in &exact.not_comparable {
+            notes += &format!("  {name}: {count} with neither, {reason}\n");
+        }
+        for (index, how) in &exact.differ {
+            notes += &format!("  {name}, sample {index} differs: {how}\n");
+        }
+    }
+    let legend = "exact closure polynomials beside the solutions. solutions: simple roots, as many as solutions, and as many real ones;\n\
+                  values: shared or multiple roots, as many distinct ones as the solutions have values, and as many real ones\n";
+    legend.to_owned() + &table.text() + &notes
 }
 
 fn document(counts: &Counts, set: &str, options: &AccuracyOptions) -> serde_json::Value {
@@ -104,6 +137,14 @@ fn document(counts: &Counts, set: &str, options: &AccuracyOptions) -> serde_json
     let histogram = |map: &std::collections::BTreeMap<usize, usize>| -> serde_json::Value {
         map.iter().map(|(key, count)| (key.to_string(), json!(count))).collect::<serde_json::Map<_, _>>().into()
     };
+    let exact = counts.exact.as_ref().map(|exact| {
+        let differ = exact.differ.iter().map(|(index, how)| json!({ "sample": index, "how": how }));
+        json!({
+            "polynomials": exact.count(), "solutions": exact.solutions, "values": exact.values,
+            "differ": differ.collect::<Vec<_>>(), "not_comparable": exact.not_comparable, "modulo_a_prime": exact.unproved,
+            "mean_ms": 1e3 * exact.time / exact.count().max(1) as f64, "longest_ms": 1e3 * exact.longest,
+        })
+    });
     json!({
         "set": set, "seed": options.seed, "real_only": options.real,
         counts.noun: counts.solved, "found": counts.found, "lost": counts.lost.len(), "lost_samples": counts.lost,
@@ -114,6 +155,7 @@ fn document(counts: &Counts, set: &str, options: &AccuracyOptions) -> serde_json
         "verdicts": counts.verdicts, "reasons": counts.reasons,
         "residual": spread(&counts.residuals), "distance": spread(&counts.errors),
         "real": histogram(&counts.real), "complex": histogram(&counts.complex),
+        "exact": exact,
     })
 }
 

@@ -7,9 +7,9 @@
 //! are the solutions of linear equations.
 
 use super::finite_field::{Turn, half_tangent_turn, square_root, turn};
-use super::lift;
 use super::spherical::{Directions, Triad, triad};
 use crate::algebra::echelon::Echelon;
+use crate::algebra::lift;
 use crate::algebra::modp::ModP;
 use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;

@@ -14,7 +14,6 @@ pub mod formulas;
 pub mod four_bar;
 pub mod identity;
 pub mod implication;
-pub mod lift;
 pub mod multiplier;
 pub mod null_space;
 pub mod pattern;

@@ -9,9 +9,9 @@
 
 use super::curve_ansatz::canonical;
 use super::finite_field::{half_tangent_turn, square_root};
-use super::lift;
 use super::spherical::{Directions, closed_by};
 use crate::algebra::echelon::Echelon;
+use crate::algebra::lift;
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Field, Ring};

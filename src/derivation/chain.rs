@@ -1,12 +1,12 @@
 //! Arms and loops: which elimination.
 
-use super::polynomial::{ClosurePolynomial, Meaning, Removed};
+use super::polynomial::{ClosurePolynomial, Eliminant, Meaning, Removed};
 use super::symbols::{Symbols, joint_labels};
+use super::true_roots::{self, Settled};
 use super::{Derivation, Equation, cuts, four_bar, triangle, two_sides};
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::Case;
-use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::general_degree;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
@@ -44,33 +44,19 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
     if let Some(coupled) = coupled_loop::<Rational>(chain, case)? {
         let symbols = Symbols::single(chain, coupled.indices[2], coupled.variable);
         let eliminated = two_sides::coupled(&symbols, &joint_labels(chain), &coupled);
-        return derivation(&symbols, eliminated);
+        return derivation(&symbols, eliminated, |found| found.map(|(k, eliminant)| (k, Settled::as_it_is(eliminant))));
     }
     let exact = exact(chain, case)?;
-    let mut derivation = derivation(&exact.symbols, eliminate(&exact)?)?;
+    let eliminated = eliminate(&exact)?;
+    let per_root = eliminated.per_root;
+    let mut derivation = derivation(&exact.symbols, eliminated, |found| match found {
+        Some((unknown, eliminant)) => Some((unknown, true_roots::settled(&exact, unknown, eliminant, per_root))),
+        None => true_roots::by_ring(&exact),
+    })?;
     if let (Some(without), None) = (&mut derivation.without, &case.pose) {
         without.push_str(&format!("; {}", Freedom::of(chain)));
     }
-    if let Some(polynomial) = &derivation.polynomial {
-        derivation.warnings.extend(false_roots(&exact, polynomial.degree() + polynomial.at_pi));
-    }
     Ok(derivation)
-}
-
-/// How many of the roots, counted with multiplicity, belong to no solution, if the ring of the closure equations says so.
-fn false_roots(exact: &Exact, roots: usize) -> Option<String> {
-    // A ball is counted by its centre, and nothing is false of 16.
-    if exact.ball.is_some() || roots == 16 {
-        return None;
-    }
-    let count = Plan::of(exact.modular.as_ref()?)?.count();
-    (count < roots).then(|| {
-        let of_none = roots - count;
-        format!(
-            "{of_none} of its roots belong to no solution: the ring of the closure equations has dimension {count} \
-             (modulo 2^61 - 1)"
-        )
-    })
 }
 
 /// The loop of a case with one ball or none.
@@ -102,25 +88,37 @@ pub(super) fn eliminate(exact: &Exact) -> Result<Eliminated> {
     eliminated.ok_or_else(parallel)
 }
 
-fn derivation(symbols: &Symbols, eliminated: Eliminated) -> Result<Derivation> {
-    let polynomial = match eliminated.polynomial {
-        Some((unknown, polynomial, meaning)) if polynomial.degree().is_some() => {
-            let (variable, integers) = (Symbols::variable(unknown), polynomial.primitive_integers());
-            ClosurePolynomial::of(variable, integers, meaning, eliminated.removed)?
+fn derivation(
+    symbols: &Symbols,
+    eliminated: Eliminated,
+    settle: impl FnOnce(Option<(usize, Eliminant)>) -> Option<(usize, Settled)>,
+) -> Result<Derivation> {
+    let eliminant = eliminated.polynomial.and_then(|(unknown, polynomial, meaning)| {
+        let (variable, integers) = (Symbols::variable(unknown), polynomial.primitive_integers());
+        Some((unknown, Eliminant::of(variable, integers, meaning, eliminated.removed)?))
+    });
+    let mut steps = eliminated.steps;
+    let (mut polynomial, mut proved, mut per_root) = (None, true, eliminated.per_root);
+    if let Some((unknown, settled)) = settle(eliminant) {
+        polynomial = Some(ClosurePolynomial::of(Symbols::variable(unknown), settled.eliminant)?);
+        proved = settled.proved;
+        if let Some(step) = settled.step {
+            // From here on as often as there are solutions.
+            per_root = 1;
+            steps.push(step);
         }
-        _ => None,
-    };
+    }
     let without = polynomial
         .is_none()
         .then(|| "every elimination vanishes identically: a self-motion, or no isolated solution at all".to_owned());
     Ok(Derivation {
         names: symbols.names()?,
         equations: eliminated.equations,
-        steps: eliminated.steps,
+        steps,
         polynomial,
         without,
-        proved: true,
-        per_root: eliminated.per_root,
+        proved,
+        per_root,
         definition: None,
         warnings: Vec::new(),
     })

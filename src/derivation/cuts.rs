@@ -5,7 +5,7 @@ use super::chain::{Eliminated, Exact, Mod};
 use super::four_bar::quality;
 use super::polynomial::Meaning;
 use super::symbols::{Symbols, bilinear_form};
-use crate::algebra::determinant::modular;
+use crate::algebra::determinant::{by_interpolation, modular};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
@@ -16,7 +16,8 @@ use crate::closure::woernle_lee::{
 use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::degree::closure_polynomial;
 use crate::elimination::pencil::{Bilinear, before_second_link, bilinear, pencil};
-use crate::kinematics::closed_loop::ClosedLoop;
+use crate::elimination::rearranged::{Rearranged, rearranged};
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use rug::Rational;
 
 /// The invariants of two lines with a marked point each: n, n' their directions, r from one point to the other.
@@ -27,6 +28,10 @@ const TURNING: [&str; 4] = ["n'", "r", "r x n'", "(r.r) n' - 2 (n'.r) r"];
 /// The first cut that leaves the fewest roots, distinct if possible: of special loops some leave roots that belong to no
 /// solution, and look like the general case.
 pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
+    best(closed).map(|(_, cut, hidden)| (cut, hidden))
+}
+
+fn best(closed: &ClosedLoop<Mod>) -> Option<((usize, bool), Cut, Hidden)> {
     let mut best = None;
     for cut in Cut::ALL {
         for hidden in [Hidden::First, Hidden::Second] {
@@ -37,35 +42,92 @@ pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
             }
         }
     }
-    best.map(|(_, cut, hidden)| (cut, hidden))
+    best
+}
+
+/// A cut of a loop, or of the same loop with its translation elsewhere along parallel axes.
+struct Reading<'e> {
+    symbols: &'e Symbols,
+    cut: Cut,
+    /// The loop as the cut reads it.
+    view: ClosedLoop<Rational>,
+    /// Which unknown each of the loop's is.
+    order: [usize; 6],
+    /// Whether the translation counts the other way than in the loop itself.
+    flipped: bool,
+}
+
+impl<'e> Reading<'e> {
+    fn own(exact: &'e Exact, cut: Cut) -> Self {
+        let (symbols, view) = (&exact.symbols, cut.of(&exact.closed));
+        Self { symbols, cut, view, order: [0, 1, 2, 3, 4, 5], flipped: false }
+    }
+
+    fn moved(exact: &'e Exact, moved: &Rearranged<Rational>, cut: Cut) -> Self {
+        let (symbols, view) = (&exact.symbols, cut.of(&moved.closed));
+        Self { symbols, cut, view, order: moved.order, flipped: moved.flipped }
+    }
+
+    fn unknown(&self, j: usize) -> usize {
+        self.order[self.cut.unknown_index(j)]
+    }
+
+    fn is_negated(&self, j: usize) -> bool {
+        self.cut.reversed != (self.flipped && self.view.variables[j] == Variable::Translation)
+    }
+
+    fn label(&self, j: usize) -> &str {
+        self.symbols.label(self.unknown(j))
+    }
+
+    fn name(&self, j: usize) -> String {
+        self.symbols.name(self.unknown(j))
+    }
+
+    fn monomials(&self, j: usize) -> [Polynomial<Rational>; 3] {
+        self.symbols.monomials(self.unknown(j), self.is_negated(j))
+    }
+}
+
+/// The best cut: where all of them fail, of the loop with its translation elsewhere.
+fn reading(exact: &Exact) -> Option<(Reading<'_>, Hidden)> {
+    let Some(modular) = &exact.modular else {
+        let regular = |cut: &Cut| cut.fits(exact.closed.variables) && half_angle_form(&cut.of(&exact.closed)).is_some();
+        return Cut::ALL.into_iter().find(regular).map(|cut| (Reading::own(exact, cut), Hidden::First));
+    };
+    if let Some((cut, hidden)) = choice(modular) {
+        return Some((Reading::own(exact, cut), hidden));
+    }
+    let all = rearranged(modular, 0.0);
+    let found = all.iter().filter_map(|moved| Some((moved.order, best(&moved.closed)?)));
+    let (order, (_, cut, hidden)) = found.min_by_key(|(_, (quality, _, _))| *quality)?;
+    let exactly = rearranged(&exact.closed, 0.0);
+    let moved = exactly.iter().find(|moved| moved.order == order)?;
+    Some((Reading::moved(exact, moved, cut), hidden))
 }
 
 /// The equations of the best cut and the determinant of its pencil.
 pub(super) fn eliminate(exact: &Exact) -> Eliminated {
-    let chosen = exact.modular.as_ref().and_then(choice);
-    let regular = |cut: &Cut| cut.fits(exact.closed.variables) && half_angle_form(&cut.of(&exact.closed)).is_some();
-    let any = || Cut::ALL.into_iter().find(regular).map(|cut| (cut, Hidden::First));
-    let Some((cut, hidden)) = chosen.or_else(any) else {
-        let step = "Every cut of the loop loses equations.".to_owned();
-        return Eliminated {
-            equations: Vec::new(),
-            steps: vec![step],
-            polynomial: None,
-            removed: Vec::new(),
-            per_root: 1,
-        };
+    let eliminated = |equations: Vec<Equation>, steps: Vec<String>| Eliminated {
+        equations,
+        steps,
+        polynomial: None,
+        removed: Vec::new(),
+        per_root: 1,
     };
-    let view = cut.of(&exact.closed);
-    let mut equations = listed(&exact.symbols, cut, &view);
-    let Some(form) = half_angle_form(&view) else {
-        return Eliminated { equations, steps: Vec::new(), polynomial: None, removed: Vec::new(), per_root: 1 };
+    let Some((reading, hidden)) = reading(exact) else {
+        let cut = Cut::ALL.into_iter().find(|cut| cut.fits(exact.closed.variables));
+        let equations = cut.map(|cut| listed(&Reading::own(exact, cut))).unwrap_or_default();
+        return eliminated(equations, vec!["Every cut of the loop loses equations.".to_owned()]);
     };
-    let rows = bilinear(&before_second_link(&form, &view.constants[1]), &view);
-    equations.extend(reduced(&exact.symbols, cut, &rows));
-    let kept = cut.unknown_index(usize::from(hidden == Hidden::Second));
-    let determinant = determinant(cut, hidden, &rows);
+    let mut equations = listed(&reading);
+    let Some(form) = half_angle_form(&reading.view) else { return eliminated(equations, Vec::new()) };
+    let rows = bilinear(&before_second_link(&form, &reading.view.constants[1]), &reading.view);
+    equations.extend(reduced(&reading, &rows));
+    let kept = reading.unknown(usize::from(hidden == Hidden::Second));
+    let determinant = determinant(reading.cut, hidden, &rows);
     let polynomial = (!determinant.is_zero()).then_some((kept, determinant, Meaning::HalfTangent { degree: 16 }));
-    Eliminated { equations, steps: steps(&exact.symbols, cut, hidden), polynomial, removed: Vec::new(), per_root: 1 }
+    Eliminated { polynomial, ..eliminated(equations, steps(&reading, hidden)) }
 }
 
 /// The determinant of the pencil, in the half-angle tangent of the joint itself.
@@ -74,17 +136,35 @@ fn determinant(cut: Cut, hidden: Hidden, rows: &Bilinear<Rational>) -> Univariat
     if cut.reversed { mirrored(&determinant) } else { determinant }
 }
 
+/// The same polynomials of an unknown by all cuts, modulo the prime: every solution is a root of each.
+pub(super) fn eliminants(closed: &ClosedLoop<Mod>, unknown: usize) -> impl Iterator<Item = Univariate<Mod>> {
+    let kept = move |cut: &Cut, hidden| cut.unknown_index(usize::from(hidden == Hidden::Second)) == unknown;
+    let each = move |cut: Cut| {
+        [Hidden::First, Hidden::Second].into_iter().find(|hidden| kept(&cut, *hidden)).map(|h| (cut, h))
+    };
+    Cut::ALL.into_iter().filter_map(each).filter_map(|(cut, hidden)| {
+        if !cut.fits(closed.variables) {
+            return None;
+        }
+        let view = cut.of(closed);
+        let rows = bilinear(&before_second_link(&half_angle_form(&view)?, &view.constants[1]), &view);
+        let determinant = by_interpolation(&pencil(&rows, hidden).coefficients);
+        let polynomial = if cut.reversed { mirrored(&determinant) } else { determinant };
+        (!polynomial.is_zero()).then_some(polynomial)
+    })
+}
+
 /// `p(-x)`
-fn mirrored(polynomial: &Univariate<Rational>) -> Univariate<Rational> {
-    let signed = |(k, c): (usize, &Rational)| if k % 2 == 1 { Rational::from(-c) } else { c.clone() };
+fn mirrored<R: Ring>(polynomial: &Univariate<R>) -> Univariate<R> {
+    let signed = |(k, c): (usize, &R)| if k % 2 == 1 { c.neg() } else { c.clone() };
     Univariate::new(polynomial.coefficients().iter().enumerate().map(signed).collect())
 }
 
 /// The fourteen equations of a cut.
-fn listed(symbols: &Symbols, cut: Cut, view: &ClosedLoop<Rational>) -> Vec<Equation> {
-    let monomials: [[Polynomial<Rational>; 3]; 5] =
-        std::array::from_fn(|j| symbols.monomials(cut.unknown_index(j), cut.reversed));
-    let label = |j: usize| symbols.label(cut.unknown_index(j));
+fn listed(reading: &Reading<'_>) -> Vec<Equation> {
+    let view = &reading.view;
+    let monomials: [[Polynomial<Rational>; 3]; 5] = std::array::from_fn(|j| reading.monomials(j));
+    let label = |j: usize| reading.label(j);
     // All as seen from the axis of unknown 3: the left sides in unknowns 4 and 5, the right ones in 1, 2 and 3.
     let left: [MarkedLine<Rational>; 9] = left_columns(view).map(|column| act(&view.constants[2], &column));
     let back = view.constants[1].inverse();
@@ -110,10 +190,10 @@ fn listed(symbols: &Symbols, cut: Cut, view: &ClosedLoop<Rational>) -> Vec<Equat
 }
 
 /// The four equations without unknowns 4 to 6, linear in the half-angle tangent of unknown 3.
-fn reduced(symbols: &Symbols, cut: Cut, rows: &Bilinear<Rational>) -> Vec<Equation> {
-    let monomials = [0, 1].map(|j| symbols.monomials(cut.unknown_index(j), cut.reversed));
-    let tangent = Symbols::tangent(cut.unknown_index(2), cut.reversed);
-    let label = |j: usize| symbols.label(cut.unknown_index(j));
+fn reduced(reading: &Reading<'_>, rows: &Bilinear<Rational>) -> Vec<Equation> {
+    let monomials = [0, 1].map(|j| reading.monomials(j));
+    let tangent = Symbols::tangent(reading.unknown(2), reading.is_negated(2));
+    let label = |j: usize| reading.label(j);
     let one = |k: usize| {
         let form = |e: usize| bilinear_form(&rows[e], &monomials[0], &monomials[1]);
         let polynomial = form(k).add(&form(4 + k).mul(&tangent));
@@ -123,11 +203,19 @@ fn reduced(symbols: &Symbols, cut: Cut, rows: &Bilinear<Rational>) -> Vec<Equati
     (0..4).map(one).collect()
 }
 
-fn steps(symbols: &Symbols, cut: Cut, hidden: Hidden) -> Vec<String> {
-    let label = |j: usize| symbols.label(cut.unknown_index(j));
-    let name = |j: usize| symbols.name(cut.unknown_index(j));
+fn steps(reading: &Reading<'_>, hidden: Hidden) -> Vec<String> {
+    let (label, name) = (|j: usize| reading.label(j), |j: usize| reading.name(j));
     let (kept, other) = if hidden == Hidden::First { (0, 1) } else { (1, 0) };
-    vec![
+    let elsewhere = (reading.order != [0, 1, 2, 3, 4, 5]).then(|| {
+        let order: Vec<String> = (0..6).map(|j| reading.name(j)).collect();
+        let how = if reading.flipped { ", counted the other way" } else { "" };
+        format!(
+            "The translation runs along axes that are parallel: rotations about these and the translation{how} may change \
+             places. Every cut of the loop as it is loses equations; it is read in the order {}.",
+            order.join(", ")
+        )
+    });
+    let steps = [
         format!(
             "The loop is cut at the axes of joints {} and {}, of directions n, n', with r from a point of the first to one of \
              the second: seen from the first axis, each side of the loop gives the same line with a marked point. Six \
@@ -169,7 +257,8 @@ fn steps(symbols: &Symbols, cut: Cut, hidden: Hidden) -> Vec<String> {
             name(kept)
         ),
         format!("At a root the kernel gives {} and {}, then linear equations the other joints.", name(other), name(2)),
-    ]
+    ];
+    elsewhere.into_iter().chain(steps).collect()
 }
 
 #[cfg(test)]

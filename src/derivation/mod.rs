@@ -15,6 +15,7 @@ mod symbolic;
 mod symbols;
 pub mod transference;
 mod triangle;
+mod true_roots;
 mod two_sides;
 
 pub use equation::Equation;
@@ -28,6 +29,8 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::Names;
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::platform::Platform;
 use rug::Rational;
 
@@ -55,6 +58,15 @@ pub struct Derivation {
 }
 
 impl Derivation {
+    /// The variable of a loop's polynomial as an index among the joint variables of the chain, and what it measures.
+    #[must_use]
+    pub fn unknown(&self, chain: &Chain) -> Option<(usize, Variable)> {
+        let name = &self.names.list()[self.polynomial.as_ref()?.variable];
+        let named = |(_, (label, kind)): &(usize, (String, Variable))| *name == symbols::name(label, *kind);
+        let found = symbols::joint_variables(chain).into_iter().enumerate().find(named)?;
+        Some((found.0, found.1.1))
+    }
+
     /// The equations that hold the unknowns of the polynomial without cosines and sines, and the polynomial itself.
     #[must_use]
     pub fn system(&self) -> Vec<Polynomial<Rational>> {

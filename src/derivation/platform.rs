@@ -1,7 +1,7 @@
 //! Platforms: the legs and the Study condition, and the polynomial of a quotient of coordinates of the rotation, or of a
 //! coordinate of a point in which two legs meet.
 
-use super::polynomial::{ClosurePolynomial, Meaning};
+use super::polynomial::{ClosurePolynomial, Eliminant, Meaning};
 use super::pose::lift;
 use super::{Derivation, Equation};
 use crate::algebra::number::Number;
@@ -159,7 +159,8 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
     let (mut polynomial, mut without, mut defined, mut warnings) = (None, None, None, Vec::new());
     if let Some(found) = &found {
         steps.push(found.step());
-        polynomial = ClosurePolynomial::of(QUOTIENT, found.coefficients().to_vec(), Meaning::Plain, Vec::new())?;
+        let eliminant = Eliminant::of(QUOTIENT, found.coefficients().to_vec(), Meaning::Plain, Vec::new());
+        polynomial = eliminant.map(|eliminant| ClosurePolynomial::of(QUOTIENT, eliminant)).transpose()?;
         if let Some(polynomial) = &mut polynomial {
             if polynomial.distinct() < polynomial.degree() {
                 steps.push(

@@ -63,19 +63,19 @@ pub(super) enum Meaning {
     Plain,
 }
 
-impl ClosurePolynomial {
+/// What an elimination leaves: the coefficients, constant term first, of a polynomial without factors `1 + t^2`, how many more
+/// roots are at infinity, and what was divided out.
+pub(super) struct Eliminant {
+    pub coefficients: Univariate<Integer>,
+    pub at_pi: usize,
+    pub removed: Vec<Removed>,
+}
+
+impl Eliminant {
     /// The polynomial without factors `1 + t^2`; `None` for zero. Other factors are `removed` already.
-    ///
-    /// # Errors
-    /// Where isolation and Sturm's theorem disagree on the number of real roots, which neither can be wrong about.
-    pub(super) fn of(
-        variable: usize,
-        integers: Vec<Integer>,
-        meaning: Meaning,
-        mut removed: Vec<Removed>,
-    ) -> Result<Option<Self>> {
+    pub fn of(variable: usize, integers: Vec<Integer>, meaning: Meaning, mut removed: Vec<Removed>) -> Option<Self> {
         let mut coefficients = Univariate::new(integers);
-        let Some(degree) = coefficients.degree() else { return Ok(None) };
+        let degree = coefficients.degree()?;
         let mut at_pi = 0;
         if let Meaning::HalfTangent { degree: full } = meaning {
             let factor = Univariate::new([1, 0, 1].map(Integer::from).to_vec());
@@ -90,10 +90,17 @@ impl ClosurePolynomial {
             }
             at_pi = full.saturating_sub(degree);
         }
-        coefficients = coefficients.primitive_part();
-        if coefficients.coefficients().last().is_some_and(Integer::is_negative) {
-            coefficients = Univariate::new(coefficients.coefficients().iter().map(|c| Integer::from(-c)).collect());
-        }
+        Some(Self { coefficients, at_pi, removed })
+    }
+}
+
+impl ClosurePolynomial {
+    /// All there is to prove of an eliminant.
+    ///
+    /// # Errors
+    /// Where isolation and Sturm's theorem disagree on the number of real roots, which neither can be wrong about.
+    pub(super) fn of(variable: usize, Eliminant { coefficients, at_pi, removed }: Eliminant) -> Result<Self> {
+        let coefficients = coefficients.primitive_part();
         let factors = coefficients.square_free_decomposition();
         let factors = factors.iter().filter_map(|(factor, k)| Some((factor.degree()?, *k))).collect();
         let roots: Vec<Root> = coefficients.real_roots().into_iter().map(Root::of).collect();
@@ -102,7 +109,7 @@ impl ClosurePolynomial {
             let isolated = roots.len();
             return Err(Error::Invalid(format!("{isolated} real roots isolated, {counted} by Sturm's theorem")));
         }
-        Ok(Some(Self { variable, coefficients, removed, at_pi, factors, roots }))
+        Ok(Self { variable, coefficients, removed, at_pi, factors, roots })
     }
 
     /// The degree.
@@ -138,7 +145,7 @@ impl ClosurePolynomial {
     }
 }
 
-fn over_rationals(variable: usize, coefficients: &Univariate<Integer>) -> Polynomial<Rational> {
+pub(super) fn over_rationals(variable: usize, coefficients: &Univariate<Integer>) -> Polynomial<Rational> {
     let image: Vec<Rational> = coefficients.coefficients().iter().map(Rational::from).collect();
     Polynomial::from_univariate(variable, &Univariate::new(image))
 }

@@ -5,7 +5,7 @@ use crate::algebra::ring::Ring;
 use crate::algebra::text::Names;
 use crate::algebra::trigonometric::{Pair, half_tangents};
 use crate::error::Result;
-use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::closed_loop::{Layout, Variable};
 use rug::Rational;
 
@@ -68,8 +68,7 @@ impl Symbols {
 
     /// The name of that variable.
     pub fn name(&self, unknown: usize) -> String {
-        let letter = if self.kinds[unknown % self.kinds.len()] == Variable::Rotation { 't' } else { 'd' };
-        format!("{letter}{}", self.label(unknown))
+        name(self.label(unknown), self.kinds[unknown % self.kinds.len()])
     }
 
     /// The half-angle tangent or the distance of an unknown, or of its negative.
@@ -101,18 +100,34 @@ pub(super) fn half_angles(polynomial: &Polynomial<Rational>) -> Polynomial<Ratio
     half_tangents(polynomial, &pairs).polynomial
 }
 
-/// Per joint variable the number of its joint; the turns of a ball are told apart.
-pub(super) fn joint_labels(chain: &Chain) -> Vec<String> {
-    use crate::kinematics::chain::JointKind;
-    let mut labels = Vec::new();
+/// The name of the half-angle tangent or of the distance of a joint.
+pub(super) fn name(label: &str, kind: Variable) -> String {
+    let letter = if kind == Variable::Rotation { 't' } else { 'd' };
+    format!("{letter}{label}")
+}
+
+/// Per joint variable the number of its joint, that of the turn for a ball, and what it measures.
+pub(super) fn joint_variables(chain: &Chain) -> Vec<(String, Variable)> {
+    let mut variables = Vec::new();
     for (number, kind) in (1..).zip(chain.joint_kinds()) {
+        let label = number.to_string();
         match kind {
-            JointKind::Cylindrical => labels.extend([number.to_string(), number.to_string()]),
-            JointKind::Spherical => labels.extend((1..=3).map(|turn| format!("{number}_{turn}"))),
-            _ => labels.push(number.to_string()),
+            JointKind::Cylindrical => {
+                variables.extend([(label.clone(), Variable::Rotation), (label, Variable::Translation)]);
+            }
+            JointKind::Spherical => {
+                variables.extend((1..=3).map(|turn| (format!("{number}_{turn}"), Variable::Rotation)));
+            }
+            JointKind::Prismatic => variables.push((label, Variable::Translation)),
+            _ => variables.push((label, Variable::Rotation)),
         }
     }
-    labels
+    variables
+}
+
+/// Per joint variable the number of its joint; the turns of a ball are told apart.
+pub(super) fn joint_labels(chain: &Chain) -> Vec<String> {
+    joint_variables(chain).into_iter().map(|(label, _)| label).collect()
 }
 
 /// `sum coefficient * monomial`

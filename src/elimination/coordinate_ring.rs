@@ -185,8 +185,9 @@ impl<F: Field> Relations<F> {
                     }
                 }
                 (None, None) => return Some((column, row)),
-                // Rounding of zero.
-                (None, Some(_)) => {}
+                // Rounding of zero; or not zero, but divisible by the prime of the plan.
+                (None, Some(_)) if F::PIVOT_ZERO > 0.0 => {}
+                (None, Some(_)) => return None,
             }
         }
         None

@@ -151,7 +151,7 @@ pub fn false_roots<F: Field + Domain>(form: &LinkForm<F, 3, 3>, triangle: &Trian
     else {
         return none;
     };
-    if roots.is_zero() || determinant.is_zero() {
+    if roots.is_zero() {
         return none;
     }
     let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);

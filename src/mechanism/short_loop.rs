@@ -1,5 +1,7 @@
 //! Loops with fewer than six unknowns: overconstrained mechanisms and structures.
 
+mod few_turns;
+
 use super::by_input::{ByInput, Prepared};
 use super::short_ball::{Positions, positions};
 use super::single_loop::{filling, full_mode, locked_value, within_limits};
@@ -316,6 +318,9 @@ impl ShortLoop {
     ) -> Result<Answer> {
         if ladder.layout.ball.is_some() {
             return self.with_ball(&ladder.layout, case);
+        }
+        if let Some(answer) = self.with_few_turns(&ladder.layout, case)? {
+            return Ok(answer);
         }
         let mut best: Vec<Candidate> = Vec::new();
         let mut count: Option<Count> = None;

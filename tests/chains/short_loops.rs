@@ -297,3 +297,49 @@ fn velocities_of_a_bennett_loop_are_those_of_its_closed_form() {
         assert!((velocity - expected).abs() < 1e-12, "{velocity} {expected}");
     }
 }
+
+/// A loop given by its screws, which closes where all variables are 0.
+fn sliding(joints: &str, input: &str) -> Entry {
+    let text = format!(
+        "title = \"loop\"\n[mechanism]\nkind = \"loop\"\nconvention = \"screws\"\njoints = [\n{joints}]\n[[input]]\n{input}\n"
+    );
+    read(&text).unwrap()
+}
+
+#[test]
+fn loops_of_few_turns_are_solved_exactly() {
+    let slides = "{ type = \"P\", axis = [1, 0, 2] },\n{ type = \"P\", axis = [0, 3, 4] },\n{ type = \"P\", axis = [2, -1, 2] },\n";
+    let general = slides.to_owned() + "{ type = \"P\", axis = [-2, 3, 6] },\n";
+    let solution = solve(&sliding(&general, "joint = 4\ndistance = \"7/3\""), 0);
+    assert_eq!((solution.verdict.status, solution.verdict.real), (Status::Complete, 1), "{}", solution.verdict.reason);
+    let mode = &solution.modes[0];
+    assert!(mode.certified && mode.residual < 1e-15 && mode.q[0].norm() > 0.1, "{mode:?}");
+    // A turn in place of a slide has nowhere to go, unless it is 0.
+    let turning = slides.to_owned() + "{ type = \"R\", axis = [1, 1, 1], point = [0, 1, 0] },\n";
+    let solution = solve(&sliding(&turning, "joint = 4\ntan_half = \"1/5\""), 0);
+    assert_eq!(solution.verdict.status, Status::Unreachable, "{}", solution.verdict.reason);
+    let solution = solve(&sliding(&turning, "joint = 4\nangle = 0"), 0);
+    assert_eq!((solution.verdict.status, solution.verdict.real), (Status::Complete, 1), "{}", solution.verdict.reason);
+    // Two turns about axes at an angle stay where they are, and slides within a plane are one too many.
+    let plane = "{ type = \"R\", axis = [0, 0, 1], point = [0, 1, 0] },\n{ type = \"P\", axis = [1, 0, 0] },\n\
+                 { type = \"P\", axis = [0, 1, 0] },\n{ type = \"R\", axis = [1, 0, 0], point = [0, 0, 1] },\n\
+                 { type = \"P\", axis = [3, 4, 0] },\n{ type = \"P\", axis = [0, 4, 3] },\n";
+    let solution = solve(&sliding(plane, "joint = 6\ndistance = 0"), 0);
+    assert_eq!(solution.verdict.self_motion, 1, "{}", solution.verdict.reason);
+}
+
+#[test]
+fn two_balls_are_solved_in_any_unit() {
+    for unit in ["1e-9", "1e-3", "1", "1e7"] {
+        let joint = |kind: &str, a: &str, d: &str| {
+            let d = if kind == "R" { format!("d = \"{d}*{unit}\", ") } else { String::new() };
+            format!("{{ type = \"{kind}\", {d}a = \"{a}*{unit}\", alpha = 0.5 }},\n")
+        };
+        let joints = joint("R", "1", "1") + &joint("S", "2", "0") + &joint("S", "1", "0") + &joint("R", "2", "1");
+        let entry = read(&bennett(&joints, "[[input]]\njoint = 1\nangle = 1\n")).unwrap();
+        let solution = solve(&entry, 0);
+        let verdict = &solution.verdict;
+        assert_eq!((verdict.complex, verdict.certified), (2, 2), "{unit}: {}", verdict.reason);
+        assert!(solution.modes.iter().all(|mode| mode.residual < 1e-14), "{unit}");
+    }
+}

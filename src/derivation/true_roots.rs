@@ -1,0 +1,338 @@
+//! Which roots of an eliminant belong to solutions, and to how many.
+//!
+//! Every solution is a root of the eliminant, but of special loops there may be more roots. The ring of the closure equations
+//! has one dimension for every solution: in it the unknown is a matrix, whose characteristic polynomial counts each value as
+//! often as there are solutions. It is computed modulo a prime. The square-free factors of the eliminant, over the integers, are
+//! split as it says, by Hensel's lemma, and exact division confirms the split.
+
+use super::chain::{Exact, Mod};
+use super::cuts;
+use super::polynomial::{Eliminant, Removed, over_rationals};
+use super::symbols::Symbols;
+use crate::algebra::determinant::by_interpolation;
+use crate::algebra::modp::PRIME_61;
+use crate::algebra::residues::{MOST, Residues};
+use crate::algebra::ring::{Domain, Field, Ring};
+use crate::algebra::univariate::Univariate;
+use crate::elimination::coordinate_ring::Plan;
+use crate::elimination::cut::Cut;
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::motion::Motion;
+use rug::ops::RemRounding;
+use rug::{Integer, Rational};
+
+/// The number m below, which no tangent is minus the inverse of by chance.
+const MIXED: i32 = 1_234_577;
+
+/// The numbers of relations over the rationals become too long with more solutions than this.
+const SMALL: usize = 2;
+
+/// An eliminant of which nothing but the roots that belong to solutions is left.
+pub(super) struct Settled {
+    pub eliminant: Eliminant,
+    /// Whether it is proved that what was divided out belongs to no solution.
+    pub proved: bool,
+    /// What was done, if anything.
+    pub step: Option<String>,
+}
+
+impl Settled {
+    /// The eliminant as it is.
+    pub fn as_it_is(eliminant: Eliminant) -> Self {
+        Self { eliminant, proved: true, step: None }
+    }
+}
+
+/// Divides out of the eliminant of an unknown, at each root of which there are `per_root` solutions in general, what belongs to
+/// no solution.
+pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_root: usize) -> Settled {
+    let Some(ring) = SolutionRing::of(exact, unknown) else { return Settled::as_it_is(eliminant) };
+    let (count, roots) = (ring.count(), eliminant.coefficients.degree().unwrap_or(0) + eliminant.at_pi);
+    // With multiplicity no solution is missing: as many roots are the same ones.
+    if count == roots * per_root {
+        return Settled::as_it_is(eliminant);
+    }
+    let values = ring.values(&ring.view, |pencil| by_interpolation(pencil));
+    let Some(kept) = values.and_then(|values| kept(unknown, &eliminant, &values, &ring)) else {
+        return Settled { eliminant, proved: false, step: None };
+    };
+    let step = format!(
+        "The ring of the closure equations (modulo 2^61 - 1) has dimension {count}: so many solutions there are. The \
+         characteristic polynomial of multiplication by {} in it has their values as roots; what else there is of the {roots} \
+         roots is divided out.",
+        exact.symbols.name(unknown)
+    );
+    let removed = &kept.removed[eliminant.removed.len()..];
+    let proved = is_proved(exact, unknown, removed) || ring.holds_over_rationals(exact, unknown);
+    Settled { eliminant: kept, proved, step: Some(step) }
+}
+
+/// Whether each factor has no root in common with the polynomial of the same unknown by some cut.
+fn is_proved(exact: &Exact, unknown: usize, removed: &[Removed]) -> bool {
+    let Some(modular) = &exact.modular else { return false };
+    let all: Vec<Univariate<Mod>> = cuts::eliminants(modular, unknown).collect();
+    removed.iter().all(|one| {
+        let Some(factor) = &one.factor else { return all.iter().any(|other| other.degree() == Some(16)) };
+        let image = factor.to_univariate(Symbols::variable(unknown)).and_then(|factor| factor.map(Mod::from_rational));
+        let Some(image) = image else { return false };
+        all.iter().any(|other| other.gcd(&image).degree() == Some(0))
+    })
+}
+
+/// The polynomial of an unknown from the ring of the closure equations, for loops of which every elimination vanishes
+/// identically; `None` where solutions form families.
+pub(super) fn by_ring(exact: &Exact) -> Option<(usize, Settled)> {
+    let rotations = (0..6).filter(|k| exact.closed.variables[*k] == Variable::Rotation);
+    let rings = rotations.filter_map(|unknown| {
+        let ring = SolutionRing::of(exact, unknown)?;
+        let values = ring.values(&ring.view, |pencil| by_interpolation(pencil))?;
+        let distinct = values.square_free_part().degree()?;
+        Some((unknown, ring, distinct))
+    });
+    // Those with the most distinct values, and of these the first.
+    let (unknown, ring, _) = rings
+        .filter(|(_, ring, _)| ring.repeats == 1)
+        .reduce(|best, other| if other.2 > best.2 { other } else { best })?;
+    let count = ring.count();
+    let view = SolutionRing::view(&exact.closed, unknown);
+    let image = |k: usize| view.constants[k].map(Residues::from_rational);
+    let constants: Vec<Motion<Residues>> = (0..6).map(image).collect::<Option<_>>()?;
+    let residues = ClosedLoop { variables: view.variables, constants: constants.try_into().ok()? };
+    let values = ring.values(&residues, |pencil| by_interpolation(pencil))?.normalise();
+    let coefficients = Univariate::new(values.map(Residues::rational)?.primitive_integers());
+    let at_pi = count - coefficients.degree()?;
+    let step = format!(
+        "Relations between the monomials of the unknowns, consequences of the closure equations, leave {count} monomials \
+         independent: a ring of this dimension, in which multiplication by {} is a matrix. Its characteristic polynomial, \
+         computed modulo {MOST} primes below 2^62, is the closure polynomial.",
+        exact.symbols.name(unknown)
+    );
+    let eliminant = Eliminant { coefficients, at_pi, removed: Vec::new() };
+    let proved = ring.holds_over_rationals(exact, unknown);
+    Some((unknown, Settled { eliminant, proved, step: Some(step) }))
+}
+
+/// The ring of polynomials on the solutions of a loop, seen from one unknown.
+struct SolutionRing {
+    view: ClosedLoop<Mod>,
+    plan: Plan,
+    /// How often it counts each solution: the three angles of a ball are either of two for the same rotation.
+    repeats: usize,
+}
+
+impl SolutionRing {
+    /// The ring; `None` where solutions form families.
+    fn of(exact: &Exact, unknown: usize) -> Option<Self> {
+        let view = Self::view(exact.modular.as_ref()?, unknown);
+        let plan = Plan::of(&view)?;
+        Some(Self { view, plan, repeats: if exact.ball.is_some() { 2 } else { 1 } })
+    }
+
+    /// How many solutions there are.
+    fn count(&self) -> usize {
+        self.plan.count() / self.repeats
+    }
+
+    /// The loop with an unknown at its head.
+    fn view<F: Field>(closed: &ClosedLoop<F>, unknown: usize) -> ClosedLoop<F> {
+        Cut { rotation: unknown, reversed: false }.of(closed)
+    }
+
+    /// Whether the relations of the ring hold over the rationals as well as modulo the prime, so that nothing but its values
+    /// belongs to solutions. Asked of small rings only.
+    fn holds_over_rationals(&self, exact: &Exact, unknown: usize) -> bool {
+        self.count() <= SMALL && self.plan.ring(&Self::view(&exact.closed, unknown)).is_some()
+    }
+
+    /// The polynomial of the values of the unknown at all solutions that are not at the angle pi, a determinant linear in it.
+    fn values<F: Field>(
+        &self,
+        view: &ClosedLoop<F>,
+        determinant: impl Fn(&[Vec<Vec<F>>; 2]) -> Univariate<F>,
+    ) -> Option<Univariate<F>> {
+        let n = self.plan.count();
+        if n == 0 {
+            return Some(Univariate::one());
+        }
+        let ring = self.plan.ring(view)?;
+        let (rotated, turned) = ring.view();
+        // Cosine and sine, or the distance, as matrices.
+        let weights = |k: usize| if turned.variables[k] == Variable::Rotation { 2 } else { 1 };
+        let first: usize = (0..(6 - rotated) % 6).map(weights).sum();
+        let matrix = |at: usize| ring.multiplication(&std::array::from_fn(|k| F::from_integer(i32::from(k == at))));
+        let sum = |unit: i32, terms: &[(&[Vec<F>], i32)]| -> Vec<Vec<F>> {
+            let entry = |i: usize, j: usize| {
+                let start = F::from_integer(if i == j { unit } else { 0 });
+                let add = |sum: F, (m, c): &(&[Vec<F>], i32)| sum.add(&m[i][j].mul(&F::from_integer(*c)));
+                terms.iter().fold(start, add)
+            };
+            (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+        };
+        Some(determinant(&match view.variables[0] {
+            // t = sin/(1 + cos) = (1 - cos)/sin = (sin + m (1 - cos))/(1 + cos + m sin), 0/0 at one angle only.
+            Variable::Rotation => {
+                let (cos, sin) = (matrix(first), matrix(first + 1));
+                [sum(-MIXED, &[(&sin, -1), (&cos, MIXED)]), sum(1, &[(&cos, 1), (&sin, MIXED)])]
+            }
+            Variable::Translation => [sum(0, &[(&matrix(first), -1)]), sum(1, &[])],
+        }))
+    }
+}
+
+/// What is left of an eliminant with these values; `None` where it does not have all of them as roots.
+fn kept(unknown: usize, eliminant: &Eliminant, values: &Univariate<Mod>, ring: &SolutionRing) -> Option<Eliminant> {
+    let parts = values.square_free_decomposition();
+    let finite = values.degree()? / ring.repeats;
+    let at_pi = ring.count() - finite;
+    let mut removed = eliminant.removed.clone();
+    let mut remove = |factor: Option<&Univariate<Integer>>, multiplicity: usize, solutions: usize| {
+        let factor = factor.map(|factor| over_rationals(Symbols::variable(unknown), factor));
+        let fewer = if solutions == 0 { "no solution" } else { "fewer solutions" };
+        let reason = format!("{fewer} there in the ring of the closure equations");
+        removed.push(Removed { factor, multiplicity: multiplicity - solutions, reason });
+    };
+    let mut coefficients = Univariate::one();
+    for (factor, multiplicity) in eliminant.coefficients.square_free_decomposition() {
+        let mut rest = factor.map(modular)?.normalise();
+        for (part, times) in &parts {
+            let solutions = times / ring.repeats;
+            let common = rest.gcd(part);
+            if common.degree() == Some(0) {
+                continue;
+            }
+            rest = rest.div_exact(&common);
+            let lifted = lifted(&factor, &common)?;
+            coefficients = (0..solutions).fold(coefficients, |product, _| product.mul(&lifted));
+            if multiplicity > solutions {
+                remove(Some(&lifted), multiplicity, solutions);
+            }
+        }
+        if rest.degree() > Some(0) {
+            remove(Some(&lifted(&factor, &rest)?), multiplicity, 0);
+        }
+    }
+    if eliminant.at_pi > at_pi {
+        remove(None, eliminant.at_pi, at_pi);
+    }
+    (coefficients.degree() == Some(finite)).then_some(Eliminant { coefficients, at_pi, removed })
+}
+
+fn modular(c: &Integer) -> Option<Mod> {
+    Mod::from_rational(&Rational::from(c))
+}
+
+/// The factor over the integers that is a multiple of `part` modulo the prime, if there is one. The polynomial has no multiple
+/// root modulo the prime.
+///
+/// # Source
+/// Hensel's lemma with quadratic convergence: von zur Gathen and Gerhard, Modern Computer Algebra, section 15.4.
+fn lifted(polynomial: &Univariate<Integer>, part: &Univariate<Mod>) -> Option<Univariate<Integer>> {
+    let degree = polynomial.degree()?;
+    if part.degree() == Some(degree) {
+        return Some(polynomial.clone());
+    }
+    let leading = polynomial.coefficients().last()?.clone();
+    let other = polynomial.map(modular)?.normalise().checked_div_exact(part)?;
+    let (s, t) = bezout(part, &other)?;
+    let whole = |p: &Univariate<Mod>| p.map(|c| Some(Integer::from(c.value())));
+    let (mut g, mut h, mut s, mut t) = (whole(part)?, whole(&other)?, whole(&s)?, whole(&t)?);
+    let size = polynomial.coefficients().iter().map(Integer::significant_bits).max()?;
+    // Twice the largest coefficient that a divisor times the leading coefficient can have, by Mignotte's bound.
+    let enough = 2 * size + 2 * u32::try_from(degree).ok()? + 4;
+    let mut modulus = Integer::from(PRIME_61);
+    loop {
+        let symmetric = |c: &Integer| {
+            let c = Integer::from(c * &leading).rem_euc(&modulus);
+            Some(if Integer::from(&c * 2) > modulus { c - &modulus } else { c })
+        };
+        let candidate = g.map(symmetric)?.primitive_part();
+        if polynomial.quotient(&candidate).is_some() {
+            return Some(candidate);
+        }
+        if modulus.significant_bits() > enough {
+            return None;
+        }
+        modulus.square_mut();
+        let m = &modulus;
+        let inverse = leading.clone().invert(m).ok()?;
+        let f = reduced(&polynomial.scale(&inverse), m);
+        let error = reduced(&f.sub(&g.mul(&h)), m);
+        let (q, r) = divided(&s.mul(&error), &h, m);
+        g = reduced(&g.add(&t.mul(&error)).add(&q.mul(&g)), m);
+        h = reduced(&h.add(&r), m);
+        let error = reduced(&s.mul(&g).add(&t.mul(&h)).sub(&Univariate::one()), m);
+        let (q, r) = divided(&s.mul(&error), &h, m);
+        s = reduced(&s.sub(&r), m);
+        t = reduced(&t.sub(&t.mul(&error)).sub(&q.mul(&g)), m);
+    }
+}
+
+fn reduced(p: &Univariate<Integer>, modulus: &Integer) -> Univariate<Integer> {
+    Univariate::new(p.coefficients().iter().map(|c| Integer::from(c.rem_euc(modulus))).collect())
+}
+
+/// Quotient and remainder by a monic polynomial.
+fn divided(
+    p: &Univariate<Integer>,
+    divisor: &Univariate<Integer>,
+    modulus: &Integer,
+) -> (Univariate<Integer>, Univariate<Integer>) {
+    let mut rest = reduced(p, modulus).coefficients().to_vec();
+    let mut quotient = Vec::new();
+    while rest.len() >= divisor.coefficients().len() {
+        let shift = rest.len() - divisor.coefficients().len();
+        let top = rest.last().cloned().unwrap_or_default();
+        for (x, c) in rest[shift..].iter_mut().zip(divisor.coefficients()) {
+            *x = (&*x - Integer::from(&top * c)).rem_euc(modulus);
+        }
+        rest.pop();
+        quotient.push(top);
+    }
+    quotient.reverse();
+    (Univariate::new(quotient), Univariate::new(rest))
+}
+
+/// s and t of degrees below those of b and a with `s a + t b = 1`; `None` with a common factor.
+fn bezout(a: &Univariate<Mod>, b: &Univariate<Mod>) -> Option<(Univariate<Mod>, Univariate<Mod>)> {
+    let (mut old, mut new) = ((a.clone(), Univariate::one()), (b.clone(), Univariate::zero()));
+    while !new.0.is_zero() {
+        let (quotient, rest) = old.0.div_rem(&new.0);
+        let s = old.1.sub(&quotient.mul(&new.1));
+        (old, new) = (new, (rest, s));
+    }
+    if old.0.degree() != Some(0) {
+        return None;
+    }
+    let scale = old.0.coefficients().first().and_then(Field::inverse)?;
+    let s = old.1.scale(&scale);
+    let (t, rest) = Univariate::<Mod>::one().sub(&s.mul(a)).div_rem(b);
+    rest.is_zero().then_some((s, t))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn polynomial(coefficients: &[i64]) -> Univariate<Integer> {
+        Univariate::new(coefficients.iter().map(|&c| Integer::from(c)).collect())
+    }
+
+    #[test]
+    fn factors_are_lifted_from_the_prime_and_what_is_no_factor_is_refused() {
+        // Coefficients longer than the prime, leading ones other than 1.
+        let one = polynomial(&[-1_234_567_890_123_456_789, 17, 0, 6_000_000_000_000_000_077]);
+        let two = polynomial(&[4_611_686_018_427_387_847, -3, 10]);
+        let product = one.mul(&two);
+        let image = |p: &Univariate<Integer>| p.map(modular).unwrap().normalise();
+        assert_eq!(lifted(&product, &image(&one)).unwrap(), one);
+        assert_eq!(lifted(&product, &image(&two)).unwrap(), two);
+        assert_eq!(lifted(&product, &image(&product)).unwrap(), product);
+        // x^2 - 2 splits modulo the prime, of which 2 is a square: 2^61 = 1, so that (2^31)^2 = 2.
+        let root = Mod::new(1 << 31);
+        let linear = Univariate::new(vec![root.neg(), Mod::one()]);
+        assert!(polynomial(&[-2, 0, 1]).map(modular).unwrap().checked_div_exact(&linear).is_some());
+        assert_eq!(lifted(&polynomial(&[-2, 0, 1]), &linear), None);
+        assert_eq!(lifted(&product, &image(&polynomial(&[1, 1]))), None);
+    }
+}
