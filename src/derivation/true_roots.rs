@@ -16,6 +16,7 @@ use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::cut::Cut;
+use crate::elimination::point_reach;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::Motion;
 use rug::ops::RemRounding;
@@ -34,19 +35,26 @@ pub(super) struct Settled {
     pub proved: bool,
     /// What was done, if anything.
     pub step: Option<String>,
+    /// Whether the solutions are finite in number, as far as is known.
+    pub finite: bool,
 }
 
 impl Settled {
     /// The eliminant as it is.
     pub fn as_it_is(eliminant: Eliminant) -> Self {
-        Self { eliminant, proved: true, step: None }
+        Self { eliminant, proved: true, step: None, finite: true }
     }
 }
 
 /// Divides out of the eliminant of an unknown, at each root of which there are `per_root` solutions in general, what belongs to
 /// no solution.
 pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_root: usize) -> Settled {
-    let Some(ring) = SolutionRing::of(exact, unknown) else { return Settled::as_it_is(eliminant) };
+    let Some(ring) = SolutionRing::of(exact, unknown) else {
+        // The three angles of a ball may be a family where its centre is not.
+        let count = |ball| point_reach::count(exact.modular.as_ref()?, ball);
+        let finite = exact.modular.is_none() || exact.ball.and_then(count).is_some();
+        return Settled { finite, ..Settled::as_it_is(eliminant) };
+    };
     let (count, roots) = (ring.count(), eliminant.coefficients.degree().unwrap_or(0) + eliminant.at_pi);
     // With multiplicity no solution is missing: as many roots are the same ones.
     if count == roots * per_root {
@@ -54,7 +62,7 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
     }
     let values = ring.values(&ring.view, |pencil| by_interpolation(pencil));
     let Some(kept) = values.and_then(|values| kept(unknown, &eliminant, &values, &ring)) else {
-        return Settled { eliminant, proved: false, step: None };
+        return Settled { proved: false, ..Settled::as_it_is(eliminant) };
     };
     let step = format!(
         "The ring of the closure equations (modulo 2^61 - 1) has dimension {count}: so many solutions there are. The \
@@ -64,7 +72,7 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
     );
     let removed = &kept.removed[eliminant.removed.len()..];
     let proved = is_proved(exact, unknown, removed) || ring.holds_over_rationals(exact, unknown);
-    Settled { eliminant: kept, proved, step: Some(step) }
+    Settled { proved, step: Some(step), ..Settled::as_it_is(kept) }
 }
 
 /// Whether each factor has no root in common with the polynomial of the same unknown by some cut.
@@ -109,7 +117,7 @@ pub(super) fn by_ring(exact: &Exact) -> Option<(usize, Settled)> {
     );
     let eliminant = Eliminant { coefficients, at_pi, removed: Vec::new() };
     let proved = ring.holds_over_rationals(exact, unknown);
-    Some((unknown, Settled { eliminant, proved, step: Some(step) }))
+    Some((unknown, Settled { proved, step: Some(step), ..Settled::as_it_is(eliminant) }))
 }
 
 /// The ring of polynomials on the solutions of a loop, seen from one unknown.
