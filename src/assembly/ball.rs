@@ -5,11 +5,13 @@
 use super::limits;
 use super::mode::{Assembly, Mode, wrapped};
 use super::search::{AS_IT_IS, Family, RootOutcome, Search};
+use crate::certify::{certificate, certificate_in_any_frame};
 use crate::elimination::point_reach::Reach;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::link_form::product as matrix_product;
 use crate::kinematics::motion::Motion;
-use crate::solve::newton::{Six, coordinates, turn};
+use crate::solve::dense;
+use crate::solve::newton::{Six, closure, coordinates, turn};
 use crate::solve::scalar::Scalar;
 use crate::solve::separated::{SeparatedRoots, pair};
 use num_complex::Complex;
@@ -63,6 +65,7 @@ impl Search<'_> {
             arrangement: AS_IT_IS,
             gap_rounding: self.gap_rounding,
             roots: self.roots,
+            is_brief: false,
             eigen: &mut *self.eigen,
             assembly: &mut found,
         }
@@ -73,6 +76,50 @@ impl Search<'_> {
         }
         settled
     }
+}
+
+/// What was proved of a mode of a loop with a ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Proof {
+    /// Error bound of the unknowns.
+    pub radius: f64,
+    /// Row-sum condition number of the Jacobian.
+    pub condition: f64,
+}
+
+/// Proves that exactly one closure of a loop lies near these unknowns, where `ball` is the first one of a ball: in angles of
+/// the ball that are far from where they are not independent. None where that cannot be shown.
+#[must_use]
+pub fn proof(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>, ball: usize, real: bool) -> Option<Proof> {
+    if real {
+        return proof_in::<f64>(closed, &unknowns.map(|z| z.re), ball);
+    }
+    proof_in(closed, unknowns, ball)
+}
+
+fn proof_in<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>, ball: usize) -> Option<Proof> {
+    let rotation = ball_rotation([0, 1, 2].map(|k| unknowns[(ball + k) % 6]));
+    let own = ball_angles(&rotation).1;
+    let (mut closed, mut start, mut enlarged) = (closed.clone(), *unknowns, 1.0);
+    if !(own > limits::LOCKED) {
+        // X = X' Q for a quarter turn Q.
+        let turned = product_with_inverse(&rotation, &quarter());
+        place(&mut start, ball, ball_angles(&turned).0);
+        let constant = &mut closed.constants[(ball + 2) % 6];
+        *constant = Motion { rotation: quarter(), translation: [0.0; 3] }.then_after(constant);
+        // Near the lock the first and third angle are worse than the rotation; at the lock the third one is 0.
+        enlarged = if own > limits::ONE_AXIS { 4.0 / own } else { 4.0 };
+    }
+    let here = closure(&closed, &start);
+    let inverse = dense::inverse(&here.jacobian)?;
+    let certificate = certificate(&here, &inverse).or_else(|| certificate_in_any_frame(&closed, &start))?;
+    let condition = dense::norm(&here.jacobian) * dense::norm(&inverse);
+    Some(Proof { radius: certificate.radius * enlarged, condition })
+}
+
+/// `a b^-1` for rotations.
+fn product_with_inverse<S: Scalar>(a: &Rotation<S>, b: &Rotation<f64>) -> Rotation<S> {
+    matrix_product(a, &transposed(&b.map(|row| row.map(S::from_f64))))
 }
 
 pub(super) fn lifted<S: Scalar>(motion: &Motion<f64>) -> Motion<S> {

@@ -112,20 +112,46 @@ fn one<S: Scalar>(
         arrangement: AS_IT_IS,
         gap_rounding: 0.0,
         roots,
+        is_brief: false,
         eigen: workspace.eigen(),
         assembly: &mut found,
     }
     .admit(&start);
     for mode in found.modes {
         let [a, b, c, beta, gamma, _] = mode.unknowns;
-        let lift = |rotation: Rotation<f64>| rotation.map(|row| row.map(Complex::from));
         let one = product(&ball_rotation([a, b, c]), &lift(before));
-        // R_L Y = F Rx(beta) Rz(gamma) Q
-        let turned = product(&lift(frame), &ball_rotation([Complex::from(0.0), beta, gamma]));
-        let two = product(&transposed(&lift(coupled.link.rotation)), &product(&turned, &lift(behind)));
-        balls.push([one, two].map(|r| plain_angles(&r, mode.real)));
+        // F^-1 R_L Y = Rx(beta) Rz(gamma) Q
+        let turned = product(&ball_rotation([Complex::from(0.0), beta, gamma]), &lift(behind));
+        let balls_here = held(&one, &turned, &lift(frame), &lift(coupled.link.rotation));
+        balls.push(balls_here.map(|r| plain_angles(&r, mode.real)));
         assembly.modes.push(mode);
     }
+}
+
+fn lift(rotation: Rotation<f64>) -> Rotation<Complex<f64>> {
+    rotation.map(|row| row.map(Complex::from))
+}
+
+/// The rotations X and Y of both balls at the one position of the idle spin that is shown, from X and `F^-1 R_L Y` at any:
+/// the second ball is a universal joint with one axis along the x axis of the frame F of the link, whose z axis is the line
+/// of the centres, and one along the z axis of the frame behind that ball; along its x axis where that line is parallel to z.
+fn held(
+    one: &Rotation<Complex<f64>>,
+    turned: &Rotation<Complex<f64>>,
+    frame: &Rotation<Complex<f64>>,
+    link: &Rotation<Complex<f64>>,
+) -> [Rotation<Complex<f64>>; 2] {
+    let (angles, lock) = ball_angles(turned);
+    let spin = if lock > limits::ONE_AXIS {
+        angles[0]
+    } else {
+        ball_angles(&product(turned, &transposed(&lift(quarter())))).0[0]
+    };
+    let (cos, sin) = spin.cos_sin_of();
+    let turn = Motion::rotation_z(cos, sin).rotation;
+    let first = product(&product(one, &product(frame, &turn)), &transposed(frame));
+    let second = product(&product(&transposed(link), &product(frame, &transposed(&turn))), turned);
+    [first, second]
 }
 
 fn plain_angles(rotation: &Rotation<Complex<f64>>, real: bool) -> Angles {
@@ -136,6 +162,13 @@ fn plain_angles(rotation: &Rotation<Complex<f64>>, real: bool) -> Angles {
     }
 }
 
+/// The coordinate axis farthest from a direction, the first of those that are equally far but for rounding.
+#[must_use]
+pub fn farthest_axis(along: &Vector<f64>) -> Vector<f64> {
+    let smallest = (1..3).fold(0, |best, i| if along[i].abs() + limits::SAME < along[best].abs() { i } else { best });
+    std::array::from_fn(|i| if i == smallest { 1.0 } else { 0.0 })
+}
+
 /// A frame whose z axis lies along a vector; `None` for none.
 fn frame_along(v: &Vector<f64>) -> Option<Rotation<f64>> {
     let length = dot(v, v).sqrt();
@@ -143,10 +176,7 @@ fn frame_along(v: &Vector<f64>) -> Option<Rotation<f64>> {
         return None;
     }
     let z = v.map(|x| x / length);
-    // The coordinate axis farthest from it helps.
-    let smallest = (1..3).fold(0, |best, i| if z[i].abs() < z[best].abs() { i } else { best });
-    let helper: Vector<f64> = std::array::from_fn(|i| if i == smallest { 1.0 } else { 0.0 });
-    let x = cross(&helper, &z);
+    let x = cross(&farthest_axis(&z), &z);
     let size = dot(&x, &x).sqrt();
     let x = x.map(|c| c / size);
     let y = cross(&z, &x);

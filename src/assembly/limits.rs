@@ -33,6 +33,8 @@ pub const CLOUD: f64 = 32.0;
 pub const TOLD_APART: f64 = 1e-13;
 /// Starts of a search without a pencil to lead it.
 pub const CASTS: usize = 40;
+/// Closure beyond which such a search has led nowhere.
+pub const NEAR: f64 = 1e-2;
 /// Norm of the inverse Jacobian above which a solution may be one of a pair, to be proved together.
 pub const SINGULAR: f64 = 1e5;
 /// And below this they are rounding of a real double solution.
@@ -51,3 +53,5 @@ pub const DEPENDENT: f64 = 1e-6;
 pub const SHARED_ANGLE: f64 = 1e-6;
 /// Sines below which a translation runs along an axis.
 pub const ALONG: f64 = 1e-12;
+/// Sines below this leave two axes of a ball one.
+pub const ONE_AXIS: f64 = 1e-9;

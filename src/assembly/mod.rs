@@ -8,11 +8,13 @@ mod limits;
 mod mode;
 pub mod platform;
 mod prepared;
+mod proof;
 mod rescue;
 mod search;
 mod shifted;
 mod solver;
 
 pub use axis_triples::AxisTriple;
+pub use ball::{Proof, proof};
 pub use mode::{Assembly, Hits, Mode, Roots, are_apart, distance, wrapped};
 pub use solver::{Gap, Solver, Workspace};

@@ -39,8 +39,8 @@ type Pairs<R> = [(Complex<R>, Complex<R>); 6];
 const MOST_TRIES: usize = 6;
 
 /// Finds and proves the solutions of a loop with exact constants, lengths over the scale of the solver. Returns the
-/// modes, conjugates included, of the first closure polynomial that leads to `expected` of them, or else the most: then
-/// of the ring of the loop, too, if there is a plan for that.
+/// modes, conjugates included, of the first closure polynomial that leads to `expected` of them, or else the most: of
+/// the ring of the loop, too, if there is a plan for that, which comes behind the first polynomial.
 pub(super) fn rescue<R: Extended>(
     exact: &ClosedLoop<R>,
     ball: Option<usize>,
@@ -48,14 +48,18 @@ pub(super) fn rescue<R: Extended>(
     expected: usize,
 ) -> Vec<Mode> {
     let mut best = Vec::new();
-    let mut tries = 0;
-    let mut take = |candidates: Vec<Pairs<R>>| {
-        let modes = modes(exact, ball, &candidates);
+    let mut note = |candidates: &[Pairs<R>]| {
+        let modes = modes(exact, ball, candidates);
         if modes.len() > best.len() {
             best = modes;
         }
+        best.len() >= expected
+    };
+    let by_ring = || eigenvectors(&plan?.ring(exact)?);
+    let mut tries = 0;
+    let mut take = |candidates: Vec<Pairs<R>>| {
         tries += 1;
-        best.len() >= expected || tries >= MOST_TRIES
+        note(&candidates) || (tries == 1 && by_ring().is_some_and(|all| note(&all))) || tries >= MOST_TRIES
     };
     match (ball, general_degree(exact.variables)) {
         (Some(ball), _) => _ = take(centre(exact, ball).unwrap_or_default()),
@@ -63,13 +67,10 @@ pub(super) fn rescue<R: Extended>(
         (None, Some(8)) => four_bars(exact, &mut take),
         _ => cuts(exact, &mut take),
     }
-    if best.len() < expected
-        && let Some(ring) = plan.and_then(|plan| plan.ring(exact))
+    if tries == 0
+        && let Some(all) = by_ring()
     {
-        let modes = modes(exact, ball, &eigenvectors(&ring).unwrap_or_default());
-        if modes.len() > best.len() {
-            best = modes;
-        }
+        note(&all);
     }
     best
 }

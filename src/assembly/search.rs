@@ -4,6 +4,7 @@ use super::ball::canonical;
 use super::limits;
 use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
+use super::proof::certificate_in_reach;
 use super::shifted::Shifted;
 use crate::certify::{Certificate, Refined, certificate, certificate_in_any_frame, refined_certificate};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
@@ -42,6 +43,8 @@ pub(super) struct Search<'a> {
     pub arrangement: ([usize; 6], bool),
     /// What is looked for.
     pub roots: Roots,
+    /// Whether one pencil is all that is asked, and nothing is decided of what it leaves open.
+    pub is_brief: bool,
     /// Memory of the eigenvalue routines.
     pub eigen: &'a mut EigenWorkspace,
     /// What was found.
@@ -56,6 +59,9 @@ impl Search<'_> {
             Some(2) => self.triangle(),
             Some(8) => self.four_bars(most),
             _ => self.all_cuts(most),
+        }
+        if self.is_brief {
+            return;
         }
         if !self.assembly.clean {
             self.cast_about();
@@ -151,6 +157,7 @@ impl Search<'_> {
     /// Whether more pencils are of no use.
     pub fn done(&self, most: &dyn Fn() -> usize, clean: bool) -> bool {
         match self.roots {
+            _ if self.is_brief => true,
             Roots::Real => clean,
             Roots::All => {
                 let proved = self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
@@ -179,6 +186,7 @@ impl Search<'_> {
     /// Admits what the roots of a polynomial lead to. Whether all of them are accounted for.
     pub fn all_roots(&mut self, family: &mut impl Family, roots: &[Complex<f64>]) -> bool {
         let mut clean = true;
+        let (mut real_clean, mut closes) = (true, false);
         for &x in roots {
             let size = 1.0 + x.norm_sqr();
             if (1.0 + x * x).norm() < limits::INFINITE * size && x.im.abs() > limits::NEAR_REAL * size {
@@ -192,12 +200,15 @@ impl Search<'_> {
                 let outcome = family.real(self, x.re);
                 let settled = outcome.settled && !(self.roots == Roots::All && outcome.shared);
                 clean &= !outcome.unresolved;
+                closes |= outcome.settled;
+                // A pair of complex roots near the real axis does not close; anything else is a loss.
+                let lost = !outcome.settled && !(x.im != 0.0 && outcome.separation > limits::SHARED);
+                real_clean &= !outcome.unresolved && !lost;
                 if settled {
                     continue;
                 }
                 if self.roots == Roots::Real {
-                    // A pair of complex roots near the real axis does not close; anything else is a loss.
-                    clean &= outcome.settled || (x.im != 0.0 && outcome.separation > limits::SHARED);
+                    clean &= !lost;
                     continue;
                 }
             } else if self.roots == Roots::Real {
@@ -208,7 +219,10 @@ impl Search<'_> {
             }
             let outcome = family.complex(self, x);
             clean &= outcome.settled && !outcome.unresolved;
+            closes |= outcome.settled;
         }
+        // Roots of what vanishes but for rounding lead nowhere.
+        self.assembly.real_clean |= real_clean && closes;
         clean
     }
 
@@ -311,6 +325,9 @@ impl Search<'_> {
         if mode.certificate.is_none() && dense::norm(inverse) > limits::SINGULAR {
             return;
         }
+        if mode.certificate.is_none() {
+            mode.certificate = certificate_in_reach(self.closed, &polished.unknowns);
+        }
         if mode.certificate.is_none() && !S::REAL {
             mode.certificate = certificate_in_any_frame(self.closed, &polished.unknowns);
         }
@@ -361,9 +378,16 @@ impl Search<'_> {
 
     /// Where no pencil was clean solutions form families, as a rule: looks for points of them from everywhere.
     fn cast_about(&mut self) {
+        // What is missing has large imaginary parts: no start among real numbers leads there.
+        if self.assembly.real_clean {
+            return;
+        }
         for trial in 1..=limits::CASTS {
             let start = approach(self.closed, &spread(&self.closed.variables, trial));
-            self.admit::<f64>(&start);
+            // What ends far from closing has found a dead end.
+            if closure(self.closed, &start).defect < limits::NEAR {
+                self.admit::<f64>(&start);
+            }
         }
     }
 

@@ -237,7 +237,26 @@ impl Solver {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) {
+        self.search(gap, roots, Some(most), workspace, assembly);
+    }
+
+    /// All solutions as one pencil alone leads to them: most of those that f64 can tell apart. What has no proof is left
+    /// undecided.
+    pub fn solve_briefly(&self, gap: &Gap, workspace: &mut Workspace, assembly: &mut Assembly) {
+        self.search(gap, Roots::All, None, workspace, assembly);
+    }
+
+    /// Finds solutions, no more than `most()`; without that by one pencil.
+    fn search(
+        &self,
+        gap: &Gap,
+        roots: Roots,
+        most: Option<&dyn Fn() -> usize>,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) {
         assembly.modes.clear();
+        assembly.real_clean = false;
         (assembly.self_motion, assembly.clean, assembly.tries, assembly.rescued) = (0, false, 0, 0);
         let closed = self.close(gap);
         let eigen = &mut workspace.eigen;
@@ -248,10 +267,11 @@ impl Solver {
             arrangement: AS_IT_IS,
             gap_rounding: gap.rounding,
             roots,
+            is_brief: most.is_none(),
             eigen,
             assembly,
         }
-        .run(most);
+        .run(most.unwrap_or(&|| usize::MAX));
         self.finish(assembly);
     }
 

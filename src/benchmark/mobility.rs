@@ -1,18 +1,21 @@
 //! Overconstrained mechanisms with a small error: none of them may be called mobile, and what is left must be counted right.
 
+use crate::algebra::modp::{ModP, PRIME_62};
 use crate::algebra::number::Number;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
+use crate::elimination::coordinate_ring::Plan;
 use crate::kinematics::chain::{Chain, Geometry, Placement};
 use crate::kinematics::dual_quaternion::DualQuaternion;
 use crate::kinematics::motion::Motion;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, closed_loop};
 use crate::mobility::{self, Linkage, at_most, moves};
 use crate::verdict::{Status, Verdict};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use rug::{Integer, Rational};
+use std::cmp::Ordering;
 
 /// Powers of ten of the errors: 1e-3 to 1e-9.
 pub(super) const SIZES: std::ops::RangeInclusive<u32> = 3..=9;
@@ -140,6 +143,12 @@ pub fn run(
     (0..count).into_par_iter().filter_map(one).reduce(Tally::default, Tally::and)
 }
 
+/// A bound on the number of configurations by the ring of the loop: modulo a prime that `solve` knows nothing of.
+fn ring_modulo_another_prime(entry: &Entry) -> Option<usize> {
+    let (_, closed) = closed_loop::<ModP<PRIME_62>>(entry.chain()?, &entry.cases[0]).ok()??;
+    Plan::of(&closed).map(|plan| plan.count())
+}
+
 /// What becomes of one loop, by itself and by `solve`.
 fn judged(entry: &Entry, number: u64, is_solved: bool) -> Option<Tally> {
     let linkage = Linkage::of(entry.chain()?).ok()?;
@@ -161,10 +170,11 @@ fn judged(entry: &Entry, number: u64, is_solved: bool) -> Option<Tally> {
         mobility::count(&linkage).map(|exact| exact == verdict.complex)
     } else {
         // As many as there can be, and no more; certified ones are there.
-        at_most(&linkage, verdict.complex).and_then(|most| match verdict.complex.cmp(&most) {
-            std::cmp::Ordering::Equal => Some(true),
-            std::cmp::Ordering::Greater => Some(false),
-            std::cmp::Ordering::Less => None,
+        let most = ring_modulo_another_prime(entry).filter(|most| *most <= verdict.complex);
+        most.or_else(|| at_most(&linkage, verdict.complex)).and_then(|most| match verdict.complex.cmp(&most) {
+            Ordering::Equal => Some(true),
+            Ordering::Greater => Some(false),
+            Ordering::Less => None,
         })
     };
     match is_right {

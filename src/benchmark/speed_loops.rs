@@ -36,6 +36,8 @@ pub struct Spread {
     pub median: f64,
     /// The fastest of all.
     pub least: f64,
+    /// The median of an input that 99 % of the inputs are no slower than.
+    pub nearly_all: f64,
     /// The median of the slowest input.
     pub slowest: f64,
 }
@@ -54,6 +56,8 @@ pub struct LoopRow {
     /// The whole answer as `looproot solve` gives it: the input read from its exact value, all solutions, counted, and the
     /// verdict.
     pub answer: Spread,
+    /// The numbers of the slowest draw, and of its input from 1, in the time of the answer.
+    pub slowest: (u64, usize),
 }
 
 /// Times of exact closure polynomials.
@@ -97,6 +101,11 @@ impl Clock {
         sorted.sort_by(f64::total_cmp);
         sorted
     }
+
+    fn median(&self) -> Option<f64> {
+        let sorted = self.sorted();
+        sorted.get(sorted.len() / 2).copied()
+    }
 }
 
 fn spread<'a>(clocks: impl IntoIterator<Item = &'a Clock>) -> Option<Spread> {
@@ -109,7 +118,8 @@ fn spread<'a>(clocks: impl IntoIterator<Item = &'a Clock>) -> Option<Spread> {
         }
     }
     medians.sort_by(f64::total_cmp);
-    Some(Spread { median: *medians.get(medians.len() / 2)?, least, slowest: *medians.last()? })
+    let nearly_all = *medians.get((99 * medians.len()).div_ceil(100).checked_sub(1)?)?;
+    Some(Spread { median: *medians.get(medians.len() / 2)?, least, nearly_all, slowest: *medians.last()? })
 }
 
 /// One geometry with its inputs.
@@ -167,13 +177,18 @@ impl Row {
 
     fn timings(&self) -> Option<LoopRow> {
         let [real, all, answer] = [0, 1, 2].map(|k| spread(self.jobs.iter().flat_map(|job| &job.clocks[k])));
-        Some(LoopRow { name: self.name.clone(), solutions: self.solutions, real, all, answer: answer? })
+        let places = self.jobs.iter().zip(0..).flat_map(|(job, draw)| {
+            let medians = job.clocks[2].iter().zip(1..).map(move |(clock, input)| (clock.median(), (draw, input)));
+            medians.filter_map(|(median, place)| Some((median?, place)))
+        });
+        let (_, slowest) = places.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        Some(LoopRow { name: self.name.clone(), solutions: self.solutions, real, all, answer: answer?, slowest })
     }
 }
 
-/// A random loop of one of the chains, with poses that it reaches.
-fn random_job(index: usize, seed: u64, number: u64) -> Result<Job> {
-    let drawn = sample(Set::Chain(index), seed, number)?;
+/// A random loop of a set, with poses that it reaches.
+fn random_job(set: Set, seed: u64, number: u64) -> Result<Job> {
+    let drawn = sample(set, seed, number)?;
     let layout = Layout::of(&drawn.chain, None)?;
     let open: OpenLoop<f64> = drawn.chain.open_loop(&layout)?;
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ number.rotate_left(32));
@@ -292,23 +307,36 @@ fn reference(seed: u64) -> Result<[[f64; 16]; 16]> {
     matrix.ok_or_else(|| Error::Invalid(format!("the general arm of seed {seed} has a singular pencil")))
 }
 
-/// Times `count` loops of each residual chain at a few inputs, the loops of the library that are none of these, and the
-/// closure polynomials of `count` loops with exact data, `repeats` times over, all in turn within each repeat, so that a
-/// machine that changes its speed changes it for all of them.
+/// Whether the loops that are timed are general ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loops {
+    /// All lengths, twists and angles at random; also the library and exact polynomials.
+    General,
+    /// Right angles, zeros and parallel axes, the first input of each loop at angles that are mostly 0, right or pi.
+    Special,
+}
+
+/// Times `count` loops of each residual chain at a few inputs; in general geometry also the loops of the library that are
+/// none of these, and the closure polynomials of `count` loops with exact data; `repeats` times over, all in turn within each
+/// repeat, so that a machine that changes its speed changes it for all of them.
 ///
 /// # Errors
 /// None in practice, see [`sample`].
-pub fn run(count: u64, repeats: usize, seed: u64) -> Result<LoopTimings> {
+pub fn run(loops: Loops, count: u64, repeats: usize, seed: u64) -> Result<LoopTimings> {
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
     let mut rows = Vec::new();
     for (index, (name, _)) in CHAINS.iter().enumerate() {
-        let jobs = (0..count).map(|number| random_job(index, seed, number)).collect::<Result<Vec<Job>>>()?;
+        let set = if loops == Loops::General { Set::Chain(index) } else { Set::SpecialChain(index) };
+        let jobs = (0..count).map(|number| random_job(set, seed, number)).collect::<Result<Vec<Job>>>()?;
         rows.push(Row::warmed((*name).to_owned(), jobs, &mut workspace, &mut assembly)?);
     }
-    for (name, job) in library_jobs()? {
-        rows.push(Row::warmed(name, vec![job], &mut workspace, &mut assembly)?);
+    let mut exact = Vec::new();
+    if loops == Loops::General {
+        for (name, job) in library_jobs()? {
+            rows.push(Row::warmed(name, vec![job], &mut workspace, &mut assembly)?);
+        }
+        exact = DERIVED.iter().map(|name| Exact::new(name, seed, count)).collect::<Result<Vec<Exact>>>()?;
     }
-    let mut exact = DERIVED.iter().map(|name| Exact::new(name, seed, count)).collect::<Result<Vec<Exact>>>()?;
     let matrix = reference(seed)?;
     let (mut eigen, mut clock) = (EigenWorkspace::default(), Clock::default());
     for repeat in 0..repeats {

@@ -3,6 +3,7 @@
 use super::entry::{Case, Claim, Design, Entry, Expected, Input, InputValue, Source};
 use super::geometry::{Mechanism, kinds, mechanism, variable_value, variables};
 use super::node::Node;
+use super::options::Chains;
 use super::platform;
 use super::scope::{Scope, Table};
 use crate::algebra::number::{Number, Quantity};
@@ -65,7 +66,10 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
             let message = "found no legs, expected `legs` or `legs_squared` in the [mechanism], [[legs]] or [[pose]]";
             return Err(scope.fail(table.line(), message));
         }
-        ([], None) if is_short(design) => return Ok(vec![Case::free(table.line())]),
+        ([], None) if matches!(design, Design::Arm(_)) && scope.chains == Chains::Any => return Ok(Vec::new()),
+        ([], None) if is_short(design) || scope.chains != Chains::Solved && matches!(design, Design::Loop(_)) => {
+            return Ok(vec![Case::free(table.line())]);
+        }
         ([], None) => match design {
             Design::Loop(chain) => {
                 let message = format!(

@@ -26,6 +26,6 @@ pub use library::{
     namesakes,
 };
 pub use motion::MotionFile;
-pub use options::Options;
+pub use options::{Chains, Options};
 pub use source::{load, load_ansatz, load_any};
 pub use text::{Any, Format, ansatz_from_text, any_from_text, is_ansatz, load_text};

@@ -2,6 +2,18 @@
 
 use crate::algebra::number::DIGITS;
 
+/// Which chains are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Chains {
+    /// Those that are solved, with their poses or inputs.
+    #[default]
+    Solved,
+    /// The same; the input of a loop need not be given.
+    Swept,
+    /// Loops and arms of any number of joint variables, with poses or inputs or without.
+    Any,
+}
+
 /// How to read a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
@@ -11,11 +23,13 @@ pub struct Options {
     pub base_link: Option<String>,
     /// URDF: the link at the end of the chain; the only leaf of the robot if none is named.
     pub tip_link: Option<String>,
+    /// Which chains are read.
+    pub chains: Chains,
 }
 
 impl Default for Options {
-    /// 15 digits, no links named.
+    /// 15 digits, no links named, chains that are solved.
     fn default() -> Self {
-        Self { digits: DIGITS, base_link: None, tip_link: None }
+        Self { digits: DIGITS, base_link: None, tip_link: None, chains: Chains::Solved }
     }
 }

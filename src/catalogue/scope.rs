@@ -1,6 +1,7 @@
 //! Strict reading of nodes: every value has its expected shape, every key is known.
 
 use super::node::{Field, Node, Value};
+use super::options::Chains;
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Placement;
@@ -10,6 +11,8 @@ use std::cell::{Cell, RefCell};
 pub(super) struct Scope<'a> {
     pub(super) path: &'a str,
     pub(super) reading: Reading,
+    /// Which chains are read.
+    pub(super) chains: Chains,
     /// Whether some value had to be rounded to a rational.
     rounded: Cell<bool>,
     /// Warnings of the placements read since they were last taken.
@@ -25,7 +28,7 @@ pub(super) struct Table<'a> {
 
 impl<'a> Scope<'a> {
     pub(super) fn new(path: &'a str, reading: Reading) -> Self {
-        Self { path, reading, rounded: Cell::new(false), warnings: RefCell::default() }
+        Self { path, reading, chains: Chains::Solved, rounded: Cell::new(false), warnings: RefCell::default() }
     }
 
     pub(super) fn fail(&self, line: usize, message: impl Into<String>) -> Error {

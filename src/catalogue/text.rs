@@ -143,7 +143,9 @@ fn prepared<'a>(text: &'a str, path: &'a str, options: &Options) -> Result<(&'a 
     }
     let name = Path::new(path).file_stem().map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned());
     let reading = Reading { digits: options.digits, ..Reading::default() };
-    Ok((text, name, Scope::new(path, reading)))
+    let mut scope = Scope::new(path, reading);
+    scope.chains = options.chains;
+    Ok((text, name, scope))
 }
 
 /// The format that the beginning of a text shows.

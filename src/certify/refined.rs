@@ -33,7 +33,8 @@ type Pairs<R> = [(Complex<R>, Complex<R>); 6];
 pub fn exponential<R: Extended>(angle: Complex<f64>) -> Complex<R> {
     // From cosine and sine it would cancel for large imaginary parts.
     let (sin, cos) = angle.re.sin_cos();
-    extended(Complex::new(cos, sin) * (-angle.im).exp())
+    // Beyond this there is no f64, and no angle that one could tell.
+    extended(Complex::new(cos, sin) * (-angle.im).clamp(-700.0, 700.0).exp())
 }
 
 /// Cosine and sine of an angle q given as `w = e^(iq)`; `None` for 0.
@@ -142,7 +143,9 @@ fn rounded<S: Scalar>(proof: Certificate, unknowns: &Six<S>, drift: f64) -> Cert
 
 /// The inverse of a matrix, as good as f64 makes it.
 fn rough_inverse<R: Extended>(matrix: &Square<R>) -> Option<Square<R>> {
-    Some(inverse(&matrix.map(|row| row.map(narrowed)))?.map(|row| row.map(extended)))
+    let inverse = inverse(&matrix.map(|row| row.map(narrowed)))?;
+    let is_finite = inverse.as_flattened().iter().all(|x| x.is_finite());
+    is_finite.then(|| inverse.map(|row| row.map(extended)))
 }
 
 /// A proof in double-double arithmetic from unknowns known in f64.
@@ -279,7 +282,9 @@ pub fn from_pairs<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>) -> Opti
         if size < SETTLED
             && let Some(proof) = certificate(&here, &inverse).or_else(|| in_any_frame(closed, &pairs, at.reach))
         {
-            return Some(at.told(proof, norm(&here.jacobian) * norm(&inverse), 0.0));
+            let told = at.told(proof, norm(&here.jacobian) * norm(&inverse), 0.0);
+            // Unknowns without an f64 cannot be told.
+            return told.unknowns.iter().all(|z| z.is_finite()).then_some(told);
         }
         at.step_back(&step);
     }

@@ -68,7 +68,12 @@ pub struct ReadOptions {
 impl ReadOptions {
     /// As the reader wants them.
     pub fn options(&self) -> Options {
-        Options { digits: self.digits, base_link: self.base_link.clone(), tip_link: self.tip_link.clone() }
+        Options {
+            digits: self.digits,
+            base_link: self.base_link.clone(),
+            tip_link: self.tip_link.clone(),
+            ..Options::default()
+        }
     }
 }
 
@@ -459,7 +464,7 @@ pub struct DisturbOptions {
 #[derive(Args)]
 pub struct SpeedOptions {
     /// general (arms); loops of all residual chains, short and planar loops of the library, and exact closure polynomials;
-    /// platform or another set of platforms
+    /// special-loops with right angles and parallel axes; platform or another set of platforms
     #[arg(long, default_value = "general")]
     pub set: String,
     /// Number of arms or platforms, or of loops per chain [default: 200; loops: 20]

@@ -14,7 +14,7 @@ use looproot::benchmark::platform::accuracy::PlatformJob;
 use looproot::benchmark::platform::sample::PlatformSet;
 use looproot::benchmark::sample::{CHAINS, Set};
 use looproot::benchmark::speed::{self, Timings};
-use looproot::benchmark::speed_loops::{self, ExactRow, LoopRow, LoopTimings, Spread};
+use looproot::benchmark::speed_loops::{self, ExactRow, LoopRow, LoopTimings, Loops, Spread};
 use looproot::catalogue::entry::{Entry, Kind};
 use looproot::catalogue::{Any, FrameworkFile, Options, builtin_any, builtin_names, moving_names};
 use looproot::error::Error;
@@ -258,9 +258,14 @@ fn measure_mobility(options: &DisturbOptions) -> Result<Exit, Fault> {
 
 fn measure_speed(options: &SpeedOptions) -> Result<Exit, Fault> {
     let of = |count, repeats| (options.count.unwrap_or(count), options.repeats.unwrap_or(repeats).max(1), options.seed);
-    let written = if options.set == "loops" {
+    let loops = match options.set.as_str() {
+        "loops" => Some(Loops::General),
+        "special-loops" => Some(Loops::Special),
+        _ => None,
+    };
+    let written = if let Some(loops) = loops {
         let (count, repeats, seed) = of(20, 11);
-        let timings = speed_loops::run(count, repeats, seed)?;
+        let timings = speed_loops::run(loops, count, repeats, seed)?;
         if options.json { format!("{}\n", loops_document(&timings)) } else { loops_table(&timings) }
     } else {
         let (count, repeats, seed) = of(200, 101);
@@ -268,7 +273,10 @@ fn measure_speed(options: &SpeedOptions) -> Result<Exit, Fault> {
             [(_, Family::Arms(Set::General))] => speed::run(count, repeats, seed)?,
             [(_, Family::Platforms(set))] => platform::speed::run(*set, count, repeats, seed)?,
             _ => {
-                let message = format!("found the set `{}`, expected general, loops or a set of platforms", options.set);
+                let message = format!(
+                    "found the set `{}`, expected general, loops, special-loops or a set of platforms",
+                    options.set
+                );
                 return Err(Error::Invalid(message).into());
             }
         };
@@ -284,13 +292,13 @@ fn stages_document(timings: &Timings) -> serde_json::Value {
     json!({ "stages": timings.rows.iter().map(row).collect::<Vec<_>>() })
 }
 
-/// Three numbers of a spread: median, least, slowest.
+/// Three numbers of a spread: median, what 99 % stay below, slowest.
 fn cells(spread: Option<&Spread>) -> [String; 3] {
-    spread.map_or_else(Default::default, |s| [s.median, s.least, s.slowest].map(|time| format!("{time:.1}")))
+    spread.map_or_else(Default::default, |s| [s.median, s.nearly_all, s.slowest].map(|time| format!("{time:.1}")))
 }
 
 fn loops_table(timings: &LoopTimings) -> String {
-    const THREE: [&str; 3] = ["median", "least", "slowest"];
+    const THREE: [&str; 3] = ["median", "99 %", "slowest"];
     let header = |what: &[&str]| -> Vec<String> {
         what.iter().flat_map(|what| THREE.map(|of| format!("{what} {of}").trim().to_owned())).collect()
     };
@@ -307,24 +315,35 @@ fn loops_table(timings: &LoopTimings) -> String {
         let own = [row.name.to_owned(), row.degree.to_string()];
         polynomials.row(own.into_iter().chain([&row.derived, &row.isolated].into_iter().flat_map(|s| cells(Some(s)))));
     }
-    let [median, least, _] = cells(Some(&timings.reference));
+    let Spread { median, least, .. } = timings.reference;
+    let exact = if timings.exact.is_empty() {
+        String::new()
+    } else {
+        format!(
+            "\nexact, lengths and half-angle tangents of three decimals. derived: from data to polynomial and isolated real roots.\n\
+             roots: of this their isolation, and their number by Sturm's theorem\n{}",
+            polynomials.text()
+        )
+    };
     format!(
-        "microseconds, one core; faer, eigenvalues of one 16x16 matrix: median {median}, least {least}\n\n\
+        "microseconds, one core; faer, eigenvalues of one 16x16 matrix: median {median:.1}, least {least:.1}\n\n\
          f64, prepared once, many inputs. real, all: the numbers and the proof of each mode.\n\
-         answer: as `solve` gives it, from the exact input to the count of all solutions and the verdict\n{}\n\
-         exact, lengths and half-angle tangents of three decimals. derived: from data to polynomial and isolated real roots.\n\
-         roots: of this their isolation, and their number by Sturm's theorem\n{}",
-        table.text(),
-        polynomials.text()
+         answer: as `solve` gives it, from the exact input to the count of all solutions and the verdict\n{}{exact}",
+        table.text()
     )
 }
 
 fn loops_document(timings: &LoopTimings) -> serde_json::Value {
-    let spread = |s: &Spread| json!({ "median_us": s.median, "least_us": s.least, "slowest_us": s.slowest });
+    let spread = |s: &Spread| {
+        json!({
+            "median_us": s.median, "least_us": s.least, "nearly_all_us": s.nearly_all, "slowest_us": s.slowest,
+        })
+    };
     let row = |row: &LoopRow| {
         json!({
             "unknowns": row.name, "solutions": row.solutions, "real": row.real.as_ref().map(spread),
             "all": row.all.as_ref().map(spread), "answer": spread(&row.answer),
+            "slowest": { "sample": row.slowest.0, "input": row.slowest.1 },
         })
     };
     let exact = |row: &ExactRow| {

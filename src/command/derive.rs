@@ -4,7 +4,7 @@ use super::arguments::DeriveOptions;
 use super::bless;
 use super::exit::{Exit, Fault};
 use super::output::Output;
-use super::wanted::wanted;
+use super::wanted::{in_place, wanted};
 use looproot::catalogue::load;
 use looproot::derivation::{Derivation, derive, derive_symbolic};
 use looproot::error::Error;
@@ -29,7 +29,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     let case = &entry.cases[index];
     let (written, exit) = if let Some(list) = &options.symbolic {
         let names: Vec<String> = list.split(',').map(|name| name.trim().to_owned()).filter(|n| !n.is_empty()).collect();
-        let derivation = derive_symbolic(&entry, case, &names)?;
+        let derivation = derive_symbolic(&entry, case, &names).map_err(|error| in_place(error, mechanism, &entry))?;
         let written = if options.json {
             format!("{}\n", symbolic::json(&entry, index + 1, &derivation))
         } else if let Some(format) = options.format {
@@ -43,7 +43,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         };
         (written, Exit::Complete)
     } else {
-        let derivation = derive(&entry, case)?;
+        let derivation = derive(&entry, case).map_err(|error| in_place(error, mechanism, &entry))?;
         let written = if options.json {
             format!("{}\n", json(&entry, index + 1, &derivation))
         } else if let Some(format) = options.format {

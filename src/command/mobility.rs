@@ -3,19 +3,18 @@
 use super::arguments::MobilityOptions;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
-use looproot::catalogue::entry::Kind;
-use looproot::catalogue::{Any, FrameworkFile, load_any};
+use looproot::catalogue::{Any, Chains, FrameworkFile, Options, load_any};
 use looproot::mobility::{Mobility, Proof, mobility};
 use looproot::report::framework as report;
 use looproot::report::mobility::{json, text, verdict};
 use std::io::Write;
 
-/// Decides whether a loop moves.
+/// Decides whether a mechanism moves.
 pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
-    let entry = match load_any(&options.mechanism, &options.read.options())? {
-        Any::Entry(entry) if entry.kind() == Kind::Loop => entry,
+    let entry = match load_any(&options.mechanism, &Options { chains: Chains::Any, ..options.read.options() })? {
+        Any::Entry(entry) => entry,
         Any::Framework(file) => return of_framework(options, &file),
-        other => return Err(unexpected(&options.mechanism, other.kind(), "a loop or a framework")),
+        other => return Err(unexpected(&options.mechanism, other.kind(), "a loop, an arm, a platform or a framework")),
     };
     let answer = mobility(&entry)?;
     let written = if options.json {
@@ -47,11 +46,11 @@ fn of_framework(options: &MobilityOptions, file: &FrameworkFile) -> Result<Exit,
     Ok(if answer.is_proved() { Exit::Complete } else { Exit::NotProved })
 }
 
-/// Without a proof nothing is decided; a loop that closes nowhere has no real solution.
+/// Without a proof nothing is decided; a mechanism that can nowhere be assembled has no real solution.
 fn exit(answer: &Mobility) -> Exit {
     match answer.proof {
         Proof::None => Exit::NotProved,
-        _ if answer.mobility == Some(0) && answer.configurations.is_empty() => Exit::Unreachable,
+        _ if answer.mobility == Some(0) && answer.is_listed && answer.configurations.is_empty() => Exit::Unreachable,
         _ => Exit::Complete,
     }
 }

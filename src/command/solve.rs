@@ -3,7 +3,7 @@
 use super::arguments::{Limits, SolveOptions};
 use super::exit::{Exit, Fault};
 use super::output::{Output, pool};
-use super::wanted::wanted;
+use super::wanted::{in_place, wanted};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use looproot::assembly::{Assembly, Roots, Workspace};
 use looproot::catalogue::entry::{Entry, Kind};
@@ -38,11 +38,11 @@ pub fn run(options: &SolveOptions) -> Result<Exit, Fault> {
         // The document of a mechanism that cannot be solved says so, case by case.
         Err(error @ Error::Unsupported(_)) if report.is_json() => {
             for index in wanted {
-                report.add(index, &unsupported(&error), None)?;
+                report.add(index, &unsupported(&in_place(error.clone(), &options.mechanism, &entry)), None)?;
             }
             Exit::Unsupported
         }
-        Err(error) => return Err(error.into()),
+        Err(error) => return Err(in_place(error, &options.mechanism, &entry).into()),
     };
     report.close()?;
     Ok(exit)

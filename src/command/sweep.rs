@@ -4,10 +4,11 @@ use super::arguments::SweepOptions;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::{Output, pool};
 use super::solve::stop_on_interrupt;
+use super::wanted::in_place;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use looproot::algebra::number::{Angle, Number, Quantity, Reading};
 use looproot::catalogue::entry::{Design, Entry, InputValue};
-use looproot::catalogue::load;
+use looproot::catalogue::{Chains, Options, load};
 use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::closed_loop::Variable;
@@ -21,7 +22,9 @@ use std::sync::atomic::Ordering;
 
 /// Sweeps an input through its range and prints the branches.
 pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
-    let entry = load(&options.mechanism, &options.read.options())?;
+    // The input is that of the command line, where one is given.
+    let chains = if options.joint.is_some() { Chains::Swept } else { Chains::Solved };
+    let entry = load(&options.mechanism, &Options { chains, ..options.read.options() })?;
     let Design::Loop(chain) = &entry.design else {
         return Err(unexpected(&options.mechanism, entry.kind().into(), "a loop, which has an input to sweep"));
     };
@@ -48,7 +51,8 @@ pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
     let stop = stop_on_interrupt();
     let running = || !stop.load(Ordering::Relaxed);
     let pool = pool(options.threads)?;
-    let found = pool.install(|| sweep(&entry, swept.joint, swept.variable, range, running, || progress.inc(1)))?;
+    let found = pool.install(|| sweep(&entry, swept.joint, swept.variable, range, running, || progress.inc(1)));
+    let found = found.map_err(|error| in_place(error, &options.mechanism, &entry))?;
     progress.finish_and_clear();
     write(options, &entry, swept, &found, output)?;
     Ok(exit(&found))
@@ -66,6 +70,9 @@ fn write(options: &SweepOptions, entry: &Entry, swept: Swept, found: &Sweep, mut
         writeln!(out, "{}", report::verdict(found))?;
     } else {
         write!(out, "{}", report::text(entry, swept, found))?;
+        if let Some(chain) = entry.chain().filter(|_| found.branches.is_empty()) {
+            writeln!(out, "\nthe loop has {}; `looproot mobility` decides whether it moves", Freedom::of(chain))?;
+        }
     }
     Ok(out.flush()?)
 }
@@ -107,8 +114,18 @@ fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, 
     let variable = match (kind, letter) {
         (JointKind::Revolute | JointKind::Cylindrical, "" | "q") => Variable::Rotation,
         (JointKind::Prismatic | JointKind::Cylindrical, _) => Variable::Translation,
-        (JointKind::Revolute, _) => return Err(found("which turns and has no distance; expected q before its number")),
-        _ => return Err(found(&format!("which is {kind:?}; expected a joint R, P or C"))),
+        (JointKind::Revolute, _) => {
+            let freedom = Freedom::of(chain);
+            return Err(found(&format!(
+                "which turns and has no distance; expected q before its number: the loop has {freedom}"
+            )));
+        }
+        _ => {
+            return Err(found(&format!(
+                "which is {kind:?}; expected a joint R, P or C: the loop has {}",
+                Freedom::of(chain)
+            )));
+        }
     };
     Ok(Swept { joint, variable })
 }

@@ -43,6 +43,19 @@ pub fn wanted(options: &CaseOptions, mechanism: &str, entry: &mut Entry) -> Resu
     }
 }
 
+/// The same complaint with its place in the file, and with what the mobility of the loop is if it does not say so.
+pub fn in_place(error: Error, mechanism: &str, entry: &Entry) -> Error {
+    let Error::Unsupported(message) = error else { return error };
+    let message = match &entry.design {
+        Design::Loop(chain) if !message.contains("Gruebler") => {
+            format!("{message}; the loop has {}", Freedom::of(chain))
+        }
+        _ => message,
+    };
+    let line = entry.cases.first().map_or(1, |case| case.line.max(1));
+    Error::Unsupported(message).at(mechanism, line)
+}
+
 /// Refuses what is no option for this kind of mechanism.
 fn refuse(options: &CaseOptions, kind: Kind) -> Result<(), Error> {
     let given = [

@@ -103,10 +103,28 @@ fn equations<F: Field>(closed: &ClosedLoop<F>) -> Vec<Sparse<F>> {
     (1..SIZE).flat_map(|i| [difference(&left, &near, i), difference(&far, &right, i)]).collect()
 }
 
-/// The monomials up to a degree, highest first.
-fn monomials(kinds: &[Variable; 5], most: u32) -> Vec<Monomial> {
+/// A relation at the values of 0 of the idle unknowns.
+fn without_idle<F: Field>(relation: Sparse<F>, kinds: &[Variable; 6], is_idle: &[bool; 5]) -> Sparse<F> {
+    let mut rest = Sparse::new();
+    'terms: for (mut monomial, c) in relation {
+        for unknown in (0..5).filter(|k| is_idle[*k]) {
+            let power = digit(monomial, unknown);
+            // Of a distance, or of a sine.
+            if (kinds[unknown] == Variable::Translation && power > 0) || power % 2 == 1 {
+                continue 'terms;
+            }
+            monomial -= power << (8 * unknown);
+        }
+        let entry = rest.entry(monomial).or_insert_with(F::zero);
+        *entry = entry.add(&c);
+    }
+    rest
+}
+
+/// The monomials up to a degree, highest first, without the idle unknowns.
+fn monomials(kinds: &[Variable; 5], is_idle: &[bool; 5], most: u32) -> Vec<Monomial> {
     let mut all: Vec<Monomial> = vec![0];
-    for (unknown, kind) in kinds.iter().enumerate() {
+    for (unknown, kind) in kinds.iter().enumerate().filter(|(k, _)| !is_idle[*k]) {
         let powers: Vec<Monomial> =
             (0..=u64::from(2 * most)).filter(|d| *kind == Variable::Rotation || d % 2 == 0).collect();
         let longer = |m: &Monomial| powers.iter().map(|d| m + (d << (8 * unknown))).collect::<Vec<_>>();
@@ -128,6 +146,7 @@ enum Source {
 /// Relations between the monomials up to a degree, in echelon form.
 struct Relations<F> {
     kinds: [Variable; 5],
+    is_idle: [bool; 5],
     most: u32,
     columns: Vec<Monomial>,
     places: HashMap<Monomial, usize>,
@@ -136,11 +155,11 @@ struct Relations<F> {
 }
 
 impl<F: Field> Relations<F> {
-    fn new(kinds: [Variable; 5], most: u32) -> Self {
-        let columns = monomials(&kinds, most);
+    fn new(kinds: [Variable; 5], is_idle: [bool; 5], most: u32) -> Self {
+        let columns = monomials(&kinds, &is_idle, most);
         let places = columns.iter().enumerate().map(|(k, m)| (*m, k)).collect();
         let rows = columns.iter().map(|_| None).collect();
-        Self { kinds, most, columns, places, rows }
+        Self { kinds, is_idle, most, columns, places, rows }
     }
 
     /// Reduces a relation by those known already, up to a column if it is known that nothing is left before that one.
@@ -209,7 +228,8 @@ impl<F: Field> Relations<F> {
             let sines: &[bool] = if kind == Variable::Rotation { &[false, true] } else { &[false] };
             sines.iter().map(move |is_sine| (unknown, *is_sine))
         };
-        self.kinds.into_iter().enumerate().flat_map(move |(unknown, kind)| both(unknown, kind))
+        let active = self.kinds.into_iter().enumerate().filter(|(unknown, _)| !self.is_idle[*unknown]);
+        active.flat_map(move |(unknown, kind)| both(unknown, kind))
     }
 }
 
@@ -227,13 +247,21 @@ impl Plan {
     /// degree are needed to see that they do not.
     #[must_use]
     pub fn of<F: Field>(closed: &ClosedLoop<F>) -> Option<Self> {
-        let (_, closed) = turned(closed)?;
-        let equations = equations(&closed);
-        DEGREES.iter().find_map(|&most| Self::up_to(most, &closed, &equations))
+        Self::without(closed, [false; 6])
     }
 
-    fn up_to<F: Field>(most: u32, closed: &ClosedLoop<F>, equations: &[Sparse<F>]) -> Option<Self> {
-        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), most);
+    /// That of a loop in which some unknowns are idle, always 0.
+    fn without<F: Field>(closed: &ClosedLoop<F>, is_idle: [bool; 6]) -> Option<Self> {
+        let (first, closed) = turned(closed, is_idle)?;
+        let is_idle: [bool; 5] = std::array::from_fn(|k| is_idle[(first + k) % 6]);
+        let all = equations(&closed).into_iter();
+        let equations: Vec<_> = all.map(|relation| without_idle(relation, &closed.variables, &is_idle)).collect();
+        let kinds = std::array::from_fn(|k| closed.variables[k]);
+        DEGREES.iter().find_map(|&most| Self::up_to(Relations::new(kinds, is_idle, most), &equations))
+    }
+
+    fn up_to<F: Field>(mut relations: Relations<F>, equations: &[Sparse<F>]) -> Option<Self> {
+        let most = relations.most;
         let mut steps = Vec::new();
         // Relations not multiplied yet.
         let mut fresh = Vec::new();
@@ -272,9 +300,9 @@ impl Plan {
     /// The ring of the same loop in another field; `None` where a number vanishes that should not.
     #[must_use]
     pub fn ring<F: Field>(&self, closed: &ClosedLoop<F>) -> Option<CoordinateRing<F>> {
-        let (rotation, closed) = turned(closed)?;
+        let (rotation, closed) = turned(closed, [false; 6])?;
         let equations = equations(&closed);
-        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), self.most);
+        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), [false; 5], self.most);
         for (source, column) in &self.steps {
             let relation = relations.relation(&equations, *source)?;
             let (column, row) = relations.reduced(&relation, Some(*column))?;
@@ -302,9 +330,19 @@ impl Plan {
     }
 }
 
-/// The loop with a rotation as its last unknown, and how many unknowns went from the head to the tail for that.
-fn turned<F: Ring>(closed: &ClosedLoop<F>) -> Option<(usize, ClosedLoop<F>)> {
-    let last = (0..6).rev().find(|&k| closed.variables[k] == Variable::Rotation)?;
+/// An upper bound on the number of solutions, with multiplicity, of a loop in which some unknowns are idle, always 0:
+/// their number as in [`Plan::count`], and `None` as in [`Plan::of`]. No solution is left if it is 0, by proof also where
+/// the field is one of a prime: all monomials are then combinations of none, the number 1 among them, by equations whose
+/// determinant is not zero modulo that prime.
+#[must_use]
+pub fn count_without<F: Field>(closed: &ClosedLoop<F>, is_idle: [bool; 6]) -> Option<usize> {
+    Plan::without(closed, is_idle).map(|plan| plan.count())
+}
+
+/// The loop with a rotation that is not idle as its last unknown, and how many unknowns went from the head to the tail for
+/// that.
+fn turned<F: Ring>(closed: &ClosedLoop<F>, is_idle: [bool; 6]) -> Option<(usize, ClosedLoop<F>)> {
+    let last = (0..6).rev().find(|&k| closed.variables[k] == Variable::Rotation && !is_idle[k])?;
     let rotation = (last + 1) % 6;
     Some((rotation, Cut { rotation, reversed: false }.of(closed)))
 }

@@ -191,14 +191,16 @@ impl Layout {
                 }
                 JointKind::Spherical => {
                     return Err(Error::Unsupported(format!(
-                        "joint {}: a third S joint; solved are loops with one, or with two and one more unknown",
-                        i + 1
+                        "joint {}: a third S joint ({}); solved are loops with one, or with two and one more unknown",
+                        i + 1,
+                        Freedom::of(chain)
                     )));
                 }
                 other => {
                     return Err(Error::Unsupported(format!(
-                        "joint {}: {other:?} joints are read but not solved yet; solved are R, P, C and S",
-                        i + 1
+                        "joint {}: {other:?} joints are read but not solved yet ({}); solved are R, P, C and S",
+                        i + 1,
+                        Freedom::of(chain)
                     )));
                 }
             }
@@ -223,13 +225,18 @@ impl Layout {
         let mut idle: Vec<Idle> = (0..missing)
             .zip(0..)
             .map(|(number, k)| Idle {
-                behind: (first + k.min(rotations)) % total,
+                behind: self.outside_ball((first + k.min(rotations)) % total),
                 variable: kind(k),
                 choice: choice * missing + number,
             })
             .collect();
         idle.sort_by_key(|idle| idle.behind);
         Self { idle, ..self.clone() }
+    }
+
+    /// The last variable of the ball in place of one inside: a ball stays one joint.
+    fn outside_ball(&self, at: usize) -> usize {
+        self.ball.filter(|ball| (*ball..ball + 2).contains(&at)).map_or(at, |ball| ball + 2)
     }
 
     /// What each of the six unknowns does and which joint variable it is, in loop order; none for idle unknowns.
@@ -617,7 +624,15 @@ fn screw_steps<R: Ring>(kind: JointKind, steps: &mut Vec<Step<R>>) {
             steps.push(Step::Constant(to_x.inverse()));
             steps.push(Step::Unknown(Variable::Rotation));
         }
-        _ => steps.push(Step::Unknown(Variable::Rotation)),
+        JointKind::Universal => {
+            // About z, and about x.
+            let to_x = quarter_turn();
+            steps.push(Step::Unknown(Variable::Rotation));
+            steps.push(Step::Constant(to_x.clone()));
+            steps.push(Step::Unknown(Variable::Rotation));
+            steps.push(Step::Constant(to_x.inverse()));
+        }
+        JointKind::Revolute | JointKind::Helical => steps.push(Step::Unknown(Variable::Rotation)),
     }
 }
 

@@ -1,10 +1,11 @@
 //! How freely a loop may move: Gruebler's count, and the rank of the screws of its joints in general position.
 
-use super::chain::{Chain, JointKind};
+use super::chain::{Chain, Geometry, JointKind};
 use super::closed_loop::{Numbers, Variable};
 use super::motion::{Motion, Vector};
 use super::screw_system::{Screw, ScrewSystem};
 use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::number::Number;
 use crate::algebra::ring::{Field, Ring};
 use std::fmt;
 
@@ -17,7 +18,7 @@ pub struct Freedom {
     /// The number of joint variables.
     pub variables: usize,
     /// The rank of the joint screws at joint values in general position, closed or not: what the loop has to close against.
-    /// `None` for joints other than R, P, C and S.
+    /// `None` for an unlucky prime.
     pub rank: Option<usize>,
     /// Whether two S joints let the link between them spin.
     pub spins: bool,
@@ -42,15 +43,8 @@ impl Freedom {
     #[must_use]
     pub fn of(chain: &Chain) -> Self {
         let kinds = chain.joint_kinds();
-        let count = |kind: &JointKind| match kind {
-            JointKind::Revolute | JointKind::Prismatic | JointKind::Helical => 1,
-            JointKind::Cylindrical | JointKind::Universal => 2,
-            JointKind::Spherical => 3,
-        };
         let spins = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count() > 1;
-        let is_known = !kinds.iter().any(|kind| matches!(kind, JointKind::Helical | JointKind::Universal));
-        let rank = if is_known { rank(chain) } else { None };
-        Self { variables: kinds.iter().map(count).sum(), rank, spins }
+        Self { variables: kinds.iter().map(count).sum(), rank: rank(chain), spins }
     }
 
     /// Joint variables less equations, `n - 6`.
@@ -73,20 +67,53 @@ impl fmt::Display for Freedom {
     }
 }
 
+/// The variables of a joint.
+fn count(kind: &JointKind) -> usize {
+    match kind {
+        JointKind::Revolute | JointKind::Prismatic | JointKind::Helical => 1,
+        JointKind::Cylindrical | JointKind::Universal => 2,
+        JointKind::Spherical => 3,
+    }
+}
+
+/// The pitch that each joint variable has, none but those of H joints.
+fn pitches(chain: &Chain) -> Vec<Option<&Number>> {
+    let of_joints: Vec<Option<&Number>> = match &chain.geometry {
+        Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
+            joints.iter().map(|joint| joint.pitch.as_ref()).collect()
+        }
+        Geometry::Screws { joints, .. } => joints.iter().map(|joint| joint.pitch.as_ref()).collect(),
+    };
+    let kinds = chain.joint_kinds();
+    kinds.iter().zip(of_joints).flat_map(|(kind, pitch)| std::iter::repeat_n(pitch, count(kind))).collect()
+}
+
 /// The rank at pseudo-random joint values, modulo a prime.
 fn rank(chain: &Chain) -> Option<usize> {
+    let pitches = pitches(chain);
     let mut screws: Vec<Screw<Mod>> = Vec::new();
     let mut frame: Motion<Mod> = Motion::identity();
-    for (number, (variable, behind)) in (1..).zip(chain.cycle::<Mod>(&Numbers).unwrap_or_default()) {
+    let cycle = chain.cycle::<Mod>(&Numbers).unwrap_or_default();
+    for (number, ((variable, behind), pitch)) in (1..).zip(cycle.into_iter().zip(pitches)) {
         let axis: Vector<Mod> = std::array::from_fn(|i| frame.rotation[i][2]);
         // Any numbers without a relation between them.
         let value = Mod::new(1_000_003 * (number + 2) * (number + 2) * (number + 2) + 77_711 * number);
         let moved = match variable {
             Variable::Rotation => {
-                screws.push(Screw::rotation(&frame.translation, &axis));
+                let mut screw = Screw::rotation(&frame.translation, &axis);
+                // An angle and its tangent are independent: so are the rotation of an H joint and its translation.
+                let along = Mod::new(500_009 * (number + 3) * (number + 5));
+                let mut slide = Motion::identity();
+                if let Some(pitch) = pitch {
+                    let pitch = Mod::from_rational(pitch.rational())?;
+                    screw.moment = std::array::from_fn(|i| screw.moment[i].add(&pitch.mul(&axis[i])));
+                    slide = Motion::translation_z(pitch.mul(&along));
+                }
+                screws.push(screw);
                 let square = value.mul(&value);
                 let scale = Mod::one().add(&square).inverse()?;
                 Motion::rotation_z(Mod::one().sub(&square).mul(&scale), value.add(&value).mul(&scale))
+                    .then_after(&slide)
             }
             Variable::Translation => {
                 screws.push(Screw::translation(&axis));

@@ -1,12 +1,20 @@
 //! A loop followed through its input: velocities, accelerations and the points of its curve.
 
 use super::FullMode;
+use super::ball_angles::{Jet, TurnedBall, coupled_angles};
 use super::short_loop::filled_up;
-use super::single_loop::locked_variable;
-use crate::catalogue::entry::{Case, Design, Entry};
+use super::single_loop::{filling, idle_spin, locked_variable};
+use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::algebra::series::Series;
+use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue};
+use crate::elimination::spherical_pair;
 use crate::error::{Error, Result};
-use crate::kinematics::closed_loop::{Layout, Variable};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::{Layout, Numbers, OpenCoupled, OpenLoop, Variable};
+use crate::kinematics::idle::Idle;
+use crate::kinematics::motion::Motion;
 use crate::solve::curve::{ALONG_INPUT, Curve, INPUT, Point};
+use crate::solve::plane_curve::{PlaneCurve, UNKNOWN};
 
 /// Condition numbers beyond this leave no digit of a derivative.
 const SINGULAR: f64 = 1e13;
@@ -14,7 +22,7 @@ const SINGULAR: f64 = 1e13;
 /// How the joints of a loop move with its input at one mode, in joint order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivatives {
-    /// `dq/dx`: the rates of all joint variables at input rate 1.
+    /// `dq/dx`: the rates of all joint variables at input rate 1; not a number where the angles of a ball have none.
     pub velocity: Vec<f64>,
     /// `d2q/dx2`: their accelerations at input rate 1 and input acceleration 0. In general `q'' = d2q/dx2 w^2 + dq/dx a`.
     pub acceleration: Vec<f64>,
@@ -23,10 +31,36 @@ pub struct Derivatives {
 /// The curve of a loop, and its place among the joints.
 pub struct InputCurve {
     layout: Layout,
-    curve: Curve,
+    way: Way,
+}
+
+/// In what the curve lies.
+enum Way {
+    /// Six unknowns and the input.
+    Loop { curve: Curve, ball: Option<TurnedBall> },
+    /// The unknown between two balls and the input.
+    Pair(Box<Pair>),
+}
+
+/// Two balls: their distance couples one unknown to the input.
+struct Pair {
+    curve: PlaneCurve,
+    open: OpenCoupled<Jet>,
+    /// Indices of the first variables of the two balls, and of the unknown, in joint order.
+    indices: [usize; 3],
+    note: String,
 }
 
 impl InputCurve {
+    /// What to know of the angles of balls: at which position of their idle spin they are.
+    #[must_use]
+    pub fn note(&self) -> Option<&str> {
+        match &self.way {
+            Way::Loop { .. } => None,
+            Way::Pair(pair) => Some(&pair.note),
+        }
+    }
+
     /// The curve of the loop of an entry, moved by the input of a case.
     ///
     /// # Errors
@@ -42,9 +76,15 @@ impl InputCurve {
             .ok_or_else(|| Error::Invalid("found no input, expected an input of a loop".to_owned()))?;
         let layout = filled_up(chain, Layout::of(chain, Some(locked))?)?;
         let input = layout.variables[locked];
+        if layout.second_ball.is_some() {
+            let pair = Pair::of(chain, &layout, input)?;
+            return Ok(Self { layout, way: Way::Pair(Box::new(pair)) });
+        }
         let idle = layout.joint_variables().map(|joint| joint.is_none());
-        let curve = Curve::new(&chain.open_loop(&layout)?, idle, input);
-        Ok(Self { layout, curve })
+        let mut open = chain.open_loop(&layout)?;
+        let ball = layout.ball.map(|joint| turned(chain, &layout, joint, &mut open));
+        let curve = Curve::new(&open, idle, input);
+        Ok(Self { layout, way: Way::Loop { curve, ball } })
     }
 
     /// What each joint variable does, in joint order.
@@ -59,16 +99,31 @@ impl InputCurve {
         self.layout.locked.unwrap_or(0)
     }
 
-    /// The curve, which has its own order and scale.
+    /// What each variable of a point does.
     #[must_use]
-    pub fn curve(&self) -> &Curve {
-        &self.curve
+    pub fn kinds(&self) -> &[Variable; 7] {
+        match &self.way {
+            Way::Loop { curve, .. } => curve.variables(),
+            Way::Pair(pair) => pair.curve.variables(),
+        }
+    }
+
+    /// The unit of a variable of a point: 1 for angles, the scale of the loop for lengths.
+    #[must_use]
+    pub fn unit(&self, index: usize) -> f64 {
+        match &self.way {
+            Way::Loop { curve, .. } => curve.unit(index),
+            Way::Pair(pair) => pair.curve.unit(index),
+        }
     }
 
     /// Which variable of a point is the first of the three of a ball, if there is one.
     #[must_use]
     pub fn ball(&self) -> Option<usize> {
-        self.layout.ball_unknown()
+        match &self.way {
+            Way::Loop { ball, .. } => ball.as_ref().map(|ball| ball.unknown),
+            Way::Pair(_) => None,
+        }
     }
 
     /// A point of the curve from the joint variables in joint order.
@@ -77,15 +132,105 @@ impl InputCurve {
     /// When `q` is not as long as there are joint variables.
     #[must_use]
     pub fn point(&self, q: &[f64]) -> Point {
-        let unknowns = self.layout.unknowns(q).expect("one value for every joint variable");
-        std::array::from_fn(|k| if k < INPUT { unknowns[k] } else { q[self.input()] } / self.curve.unit(k))
+        let mut point = self.without_balls(q);
+        if let Way::Loop { ball: Some(ball), .. } = &self.way {
+            let inside = ball.inside([0, 1, 2].map(|k| q[ball.joint + k]));
+            point[ball.unknown..ball.unknown + 3].copy_from_slice(&inside);
+        }
+        point
+    }
+
+    /// As [`InputCurve::point`], with the angles of balls at 0: a linear function of the others, which tell modes apart.
+    ///
+    /// # Panics
+    /// When `q` is not as long as there are joint variables.
+    #[must_use]
+    pub fn without_balls(&self, q: &[f64]) -> Point {
+        let given = q[self.input()] / self.unit(INPUT);
+        match &self.way {
+            Way::Pair(pair) => {
+                let mut point = [0.0; 7];
+                (point[UNKNOWN], point[INPUT]) = (q[pair.indices[2]] / self.unit(UNKNOWN), given);
+                point
+            }
+            Way::Loop { ball, .. } => {
+                let unknowns = self.layout.unknowns(q).expect("one value for every joint variable");
+                let is_ball =
+                    |k: usize| ball.as_ref().is_some_and(|ball| (ball.unknown..ball.unknown + 3).contains(&k));
+                std::array::from_fn(|k| match k {
+                    INPUT => given,
+                    _ if is_ball(k) => 0.0,
+                    _ => unknowns[k] / self.unit(k),
+                })
+            }
+        }
     }
 
     /// The joint variables in joint order at a point of the curve, angles as they are.
     #[must_use]
     pub fn joints(&self, point: &Point) -> Vec<f64> {
-        let values: Point = std::array::from_fn(|k| point[k] * self.curve.unit(k));
-        self.layout.assemble(&std::array::from_fn(|k| values[k]), values[INPUT])
+        let jets = std::array::from_fn(|k| Series::constant(point[k] * self.unit(k)));
+        self.moving(&jets).iter().map(|jet| jet.coefficients[0]).collect()
+    }
+
+    /// The joint variables in joint order, with those of a point, in the units of the mechanism, as series.
+    fn moving(&self, values: &[Jet; 7]) -> Vec<Jet> {
+        match &self.way {
+            Way::Loop { ball, .. } => {
+                let mut q = self.layout.assemble(&std::array::from_fn(|k| values[k]), values[INPUT]);
+                if let Some(ball) = ball {
+                    let own = ball.outside(&[0, 1, 2].map(|k| values[ball.unknown + k]));
+                    q[ball.joint..ball.joint + 3].copy_from_slice(&own);
+                }
+                q
+            }
+            Way::Pair(pair) => {
+                let mut q = vec![values[INPUT]; self.layout.variables.len()];
+                let [unknown, given] = [&values[UNKNOWN], &values[INPUT]];
+                let balls = coupled_angles(&pair.open, self.layout.variables[self.input()], unknown, given);
+                for (at, angles) in pair.indices.into_iter().zip(balls) {
+                    q[at..at + 3].copy_from_slice(&angles);
+                }
+                q[pair.indices[2]] = *unknown;
+                q
+            }
+        }
+    }
+
+    /// Whether no curve leads away from a point, see [`Curve::is_rigid`].
+    #[must_use]
+    pub fn is_rigid(&self, at: &Point) -> bool {
+        match &self.way {
+            Way::Loop { curve, .. } => curve.is_rigid(at),
+            Way::Pair(_) => false,
+        }
+    }
+
+    /// The Taylor coefficients of the curve at a point of it, see [`Curve::taylor`].
+    #[must_use]
+    pub fn taylor<const N: usize>(&self, at: &Point, border: &Point) -> Option<[Point; N]> {
+        match &self.way {
+            Way::Loop { curve, .. } => curve.taylor(at, border),
+            Way::Pair(pair) => pair.curve.taylor(at, border),
+        }
+    }
+
+    /// The direction of the curve at a point of it, see [`Curve::tangent`].
+    #[must_use]
+    pub fn tangent(&self, at: &Point, towards: &Point) -> Option<Point> {
+        match &self.way {
+            Way::Loop { curve, .. } => curve.tangent(at, towards),
+            Way::Pair(pair) => pair.curve.tangent(at, towards),
+        }
+    }
+
+    /// The point of the curve with the same `border . q` as `start`, see [`Curve::corrected`].
+    #[must_use]
+    pub fn corrected(&self, start: &Point, border: &Point) -> Option<(Point, f64)> {
+        match &self.way {
+            Way::Loop { curve, .. } => curve.corrected(start, border),
+            Way::Pair(pair) => pair.curve.corrected(start, border),
+        }
     }
 
     /// Velocities and accelerations of all joints at a mode; `None` for complex and for singular ones.
@@ -99,12 +244,71 @@ impl InputCurve {
     /// Velocities and accelerations of all joints at a point of the curve; `None` where the input is no coordinate of it.
     #[must_use]
     pub fn derivatives_at(&self, at: &Point) -> Option<Derivatives> {
-        let [_, first, second] = self.curve.taylor::<3>(at, &ALONG_INPUT)?;
+        let [_, first, second] = self.taylor::<3>(at, &ALONG_INPUT)?;
         // From the input in the unit of the curve to the input as it is given.
-        let unit = self.curve.unit(INPUT);
+        let unit = self.unit(INPUT);
+        let series = |k: usize| {
+            let coefficients = [at[k], first[k] / unit, second[k] / (unit * unit)];
+            Series { coefficients: coefficients.map(|c| c * self.unit(k)) }
+        };
+        let moving = self.moving(&std::array::from_fn(series));
         Some(Derivatives {
-            velocity: self.joints(&first.map(|x| x / unit)),
-            acceleration: self.joints(&second.map(|x| 2.0 * x / (unit * unit))),
+            velocity: moving.iter().map(|jet| jet.coefficients[1]).collect(),
+            acceleration: moving.iter().map(|jet| 2.0 * jet.coefficients[2]).collect(),
         })
+    }
+}
+
+/// Turns the ball of a loop, whose first joint variable is `joint`, by rotations in general position.
+fn turned(chain: &Chain, layout: &Layout, joint: usize, open: &mut OpenLoop<f64>) -> TurnedBall {
+    let unknown = layout.joint_variables().iter().position(|own| *own == Some(joint)).unwrap_or(0);
+    let [before, behind] = [7, 11].map(|choice| {
+        let frame = Idle { behind: 0, variable: Variable::Rotation, choice }.frame(&chain.unit());
+        frame.rotation.map(|row| row.map(|x| x.to_f64()))
+    });
+    let motion = |rotation| Motion { rotation, translation: [0.0; 3] };
+    // V behind V1 V2 V3 of the ball, and what stands before them: `X' = A^-1 X B^-1`.
+    let first = match unknown.checked_sub(1) {
+        None => &mut open.after_gap,
+        Some(k) => &mut open.constants[k],
+    };
+    *first = first.then_after(&motion(before));
+    let last = if unknown + 2 == 5 { &mut open.before_gap } else { &mut open.constants[unknown + 2] };
+    *last = motion(behind).then_after(last);
+    TurnedBall { unknown, joint, before, behind }
+}
+
+impl Pair {
+    /// Two balls of a chain, coupled to the locked variable of a layout.
+    fn of(chain: &Chain, layout: &Layout, input: Variable) -> Result<Self> {
+        let open: OpenCoupled<f64> = chain.open_coupled(layout, &Numbers)?;
+        let unit = chain.unit();
+        let given = |value: InputValue| {
+            let case = Case::given(Input { joint: 1, value }, 0);
+            filling::<f64>(&case).map(|motion| open.close(&motion))
+        };
+        // The equation at three inputs tells its coefficients, which are linear in the monomials of the input.
+        let at = |k: i32| match input {
+            Variable::Rotation if k == 2 => InputValue::Angle(Angle::from_half_tangent(HalfTangent::Infinite)),
+            Variable::Rotation => InputValue::Angle(Angle::from_half_tangent(HalfTangent::Finite(k.into()))),
+            Variable::Translation => InputValue::Distance(Number::exact(unit.clone() * (k - 1))),
+        };
+        let [one, two, three] = [given(at(0))?, given(at(1))?, given(at(2))?];
+        let indices = one.indices;
+        let rows = [one, two, three].map(|coupled| spherical_pair::equation(&coupled));
+        let [low, middle, high] = rows;
+        let length = unit.to_f64();
+        let coefficients = std::array::from_fn(|i| {
+            let (even, odd) = (f64::midpoint(low[i], high[i]), f64::midpoint(low[i], -high[i]));
+            match input {
+                // At 0, a quarter turn and a half turn.
+                Variable::Rotation => [even, odd, middle[i] - even],
+                // At -1, 0 and 1 units.
+                Variable::Translation => [middle[i], -odd / length, (even - middle[i]) / (length * length)],
+            }
+        });
+        let curve = PlaneCurve::new(layout.variables[indices[2]], input, &coefficients, length);
+        let note = idle_spin(chain, layout, indices[1]);
+        Ok(Self { curve, open: chain.open_coupled(layout, &Numbers)?, indices, note })
     }
 }

@@ -6,9 +6,10 @@ use super::single_loop::{filling, full_mode, locked_value, within_limits};
 use super::{FullMode, Solution};
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
-use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, wrapped};
+use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, proof, wrapped};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::elimination::common_roots::common_roots;
+use crate::elimination::coordinate_ring::count_without;
 use crate::elimination::degree::{degree, general_filling};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
@@ -16,6 +17,7 @@ use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
 use crate::solve::newton::{Six, closure};
+use crate::solve::singular::structural_rank;
 use crate::verdict::{Status, Verdict};
 use nalgebra::{SMatrix, SVector};
 use num_complex::Complex;
@@ -46,6 +48,9 @@ const PLACES: i32 = 3;
 const POLISHINGS: usize = 4;
 /// Singular values below this part of the largest count as zero there.
 const RANK: f64 = 1e-9;
+
+/// Why there is no solution.
+const OPEN_BY_RING: &str = "no solution: 1 is a combination of the closure equations";
 
 /// One choice of idle unknowns, prepared.
 struct Rung {
@@ -81,6 +86,14 @@ pub(super) struct ShortLoop {
     prepared: ByInput<Ladder>,
 }
 
+/// A bound on the number of solutions.
+#[derive(Clone, Copy)]
+struct Count {
+    most: usize,
+    /// Whether it is the dimension of the ring of the closure equations, not the number of common roots.
+    is_of_ring: bool,
+}
+
 /// What may be a solution.
 #[derive(Clone)]
 struct Candidate {
@@ -104,19 +117,35 @@ pub(super) fn is_short(entry: &Entry, chain: &Chain) -> Result<bool> {
 /// where those are parallel to a plane.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for S joints, and where no choice of idle unknowns serves.
+/// [`Error::Unsupported`] where no choice of idle unknowns serves.
 pub(super) fn filled_up(chain: &Chain, layout: Layout) -> Result<Layout> {
     if layout.missing() == 0 {
         return Ok(layout);
     }
     if layout.ball.is_some() {
-        return Err(Error::Unsupported(format!(
-            "an overconstrained loop with an S joint, {}; such a loop is solved at an input only",
-            Freedom::of(chain)
-        )));
+        return with_idle_rotations(chain, &layout);
     }
     let last = rungs(chain, &layout)?.into_iter().next_back();
     Ok(last.map_or(layout, |rung| rung.layout))
+}
+
+/// The layout of a loop with a ball with idle rotations that are independent of its joints.
+fn with_idle_rotations(chain: &Chain, layout: &Layout) -> Result<Layout> {
+    for choice in 0..CHOICES {
+        let filled = layout.with_idle(layout.missing(), choice);
+        let open: OpenLoop<f64> = chain.open_loop(&filled)?;
+        if structural_rank(&open.close(&Motion::identity())) == 6 {
+            return Ok(filled);
+        }
+    }
+    Err(dependent(chain))
+}
+
+fn dependent(chain: &Chain) -> Error {
+    Error::Unsupported(format!(
+        "the joints of this loop are dependent in every position, so that part of it moves by itself: {}",
+        Freedom::of(chain)
+    ))
 }
 
 /// The choices of idle unknowns by which a loop can be solved: as many translations as leave the six unknowns
@@ -144,10 +173,7 @@ fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
         }
     }
     if rungs.is_empty() {
-        return Err(Error::Unsupported(format!(
-            "the joints of this loop are dependent in every position, so that part of it moves by itself: {}",
-            Freedom::of(chain)
-        )));
+        return Err(dependent(chain));
     }
     Ok(rungs)
 }
@@ -182,7 +208,14 @@ impl ShortLoop {
         let Prepared { of: ladder, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
         let start = Instant::now();
         let locked = ladder.layout.locked;
-        let moving = if locked.is_none() { self.motion(workspace, assembly)? } else { None };
+        // What does not close, or closes at points, need not be searched for a motion.
+        let is_asked = locked.is_none() && !self.is_rounded;
+        let points = if is_asked { self.count_by_ring(&ladder.layout, case) } else { None };
+        let moving = match points {
+            Some(0) => Some((outcome(Status::Unreachable, 0, OPEN_BY_RING.to_owned()), Vec::new())),
+            None if locked.is_none() => self.motion(workspace, assembly)?,
+            _ => None,
+        };
         let (verdict, modes) = match moving {
             Some(answer) => answer,
             None => self.isolated(ladder, case, roots, workspace, assembly)?,
@@ -283,7 +316,7 @@ impl ShortLoop {
             return self.with_ball(&ladder.layout, case);
         }
         let mut best: Vec<Candidate> = Vec::new();
-        let mut count: Option<usize> = None;
+        let mut count: Option<Count> = None;
         let mut self_motion = 0;
         let mut tight: Vec<Candidate> = Vec::new();
         let total = |list: &[Candidate]| list.iter().map(|c| c.mode.multiplicity.max(1)).sum::<usize>();
@@ -298,18 +331,25 @@ impl ShortLoop {
             // Large imaginary parts hide how far a solution is from closing: then all closure polynomials are asked.
             let is_sure = |candidate: &Candidate| candidate.mode.real || candidate.idle < ZERO;
             let enough = if closed.iter().all(is_sure) { total(&closed) } else { 0 };
-            count = count.or_else(|| self.count(rung, case, enough));
+            count = count.or_else(|| {
+                let common = self.count(rung, case, enough).map(|most| Count { most, is_of_ring: false });
+                if common.is_some_and(|common| common.most <= enough) {
+                    return common;
+                }
+                let ring = self.count_by_ring(&ladder.layout, case).map(|most| Count { most, is_of_ring: true });
+                common.into_iter().chain(ring).min_by_key(|count| count.most)
+            });
             self_motion = assembly.self_motion;
             if tight.is_empty() {
                 let is_tight = |c: &&Candidate| c.idle < ZERO || c.mode.residual <= CLOSED;
                 tight = found.iter().filter(is_tight).cloned().collect();
             }
             // Idle translations let solutions coincide that are simple; idle rotations do not.
-            found.truncate(count.map_or(found.len(), |count| fitting(&found, count)));
+            found.truncate(count.map_or(found.len(), |count| fitting(&found, count.most)));
             if total(&found) > total(&best) {
                 best = found;
             }
-            if roots == Roots::Real || count == Some(total(&best)) {
+            if roots == Roots::Real || count.is_some_and(|count| count.most == total(&best)) {
                 break;
             }
         }
@@ -317,7 +357,7 @@ impl ShortLoop {
             let reason = format!("solutions form a self-motion of dimension {self_motion}");
             return Ok((outcome(Status::SelfMotion, self_motion, reason), Vec::new()));
         }
-        let doubt = self.is_rounded && count == Some(0) && !tight.is_empty();
+        let doubt = self.is_rounded && count.is_some_and(|count| count.most == 0) && !tight.is_empty();
         if doubt {
             best = tight;
         } else if count.is_none() {
@@ -343,7 +383,7 @@ impl ShortLoop {
                 return Ok((outcome(Status::SelfMotion, 1, reason.to_owned()), Vec::new()));
             }
         };
-        let filled = layout.with_idle(layout.missing(), 0);
+        let filled = with_idle_rotations(&self.chain, layout).unwrap_or_else(|_| layout.with_idle(layout.missing(), 0));
         let unit = self.chain.unit().to_f64();
         let filling: Motion<f64> = filling(case)?;
         let filling = Motion { translation: filling.translation.map(|x| x / unit), ..filling };
@@ -359,6 +399,9 @@ impl ShortLoop {
                 if real { Complex::from(value.re) } else { value }
             });
             let (unknowns, residual) = closer(&closed, &own, joints.map(|joint| joint.is_none()), real);
+            // With idle rotations the closure equations are those of six unknowns, which a simple solution closes alone.
+            let ball = joints.iter().position(|joint| joint.is_some() && *joint == layout.ball);
+            let proof = ball.filter(|_| multiplicity == 1).and_then(|ball| proof(&closed, &unknowns, ball, real));
             let q = filled.assemble(&std::array::from_fn(|k| unknowns[k] * units[k]), locked);
             let within = (real && !self.limits.is_empty()).then(|| within_limits(&q, &layout.variables, &self.limits));
             modes.push(FullMode {
@@ -366,9 +409,9 @@ impl ShortLoop {
                 real,
                 multiplicity,
                 residual,
-                condition: f64::INFINITY,
-                certified: false,
-                radius: f64::INFINITY,
+                condition: proof.map_or(f64::INFINITY, |proof| proof.condition),
+                certified: proof.is_some(),
+                radius: proof.map_or(f64::INFINITY, |proof| proof.radius),
                 within_limits: within,
                 platform: None,
             });
@@ -396,7 +439,11 @@ impl ShortLoop {
                 (if real == 0 { Status::Unreachable } else { Status::Complete }, reason)
             }
         };
-        Ok((Verdict { complex: total, real, ..outcome(status, 0, reason) }, modes))
+        if status == Status::Incomplete {
+            modes.iter_mut().for_each(|mode| mode.certified = false);
+        }
+        let certified = modes.iter().filter(|mode| mode.certified).count();
+        Ok((Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }, modes))
     }
 
     /// What nearly closes the loop, by the size of its idle unknowns.
@@ -449,6 +496,18 @@ impl ShortLoop {
         common_roots(&one, &other, *is_idle, enough)
     }
 
+    /// At most so many solutions there are by the closure equations, all of them at once; `None` where they form families, where
+    /// it is not seen that they do not, and for loops with a ball.
+    fn count_by_ring(&self, layout: &Layout, case: &Case) -> Option<usize> {
+        if layout.ball.is_some() {
+            return None;
+        }
+        let filled = layout.with_idle(layout.missing(), 0);
+        let is_idle = filled.joint_variables().map(|joint| joint.is_none());
+        let open = self.chain.try_open_loop::<Mod>(&filled).ok()??;
+        count_without(&open.close(&filling(case).ok()?), is_idle)
+    }
+
     /// A bound on the number of solutions with idle unknowns at every input; `None` where the closure polynomials vanish.
     fn most(&self, layout: &Layout) -> Option<usize> {
         // Without input nothing is in general position.
@@ -470,11 +529,13 @@ impl ShortLoop {
         Some(Counting { loops: [open(CHOICES)?, open(CHOICES + 1)?], is_idle })
     }
 
-    fn verdict(&self, found: &[Candidate], count: Option<usize>, roots: Roots) -> Verdict {
+    fn verdict(&self, found: &[Candidate], count: Option<Count>, roots: Roots) -> Verdict {
         let total: usize = found.iter().map(|c| c.mode.multiplicity.max(1)).sum();
         let real = found.iter().filter(|c| c.mode.real).map(|c| c.mode.multiplicity.max(1)).sum();
         let certified = found.iter().filter(|c| c.mode.certificate.is_some()).count();
-        let (status, reason) = match count {
+        let is_of_ring = count.is_some_and(|count| count.is_of_ring);
+        let (status, reason) = match count.map(|count| count.most) {
+            Some(0) if is_of_ring => (Status::Unreachable, OPEN_BY_RING.to_owned()),
             Some(0) => (
                 Status::Unreachable,
                 "no solution: the closure polynomials for two choices of idle unknowns have no common root".to_owned(),
@@ -483,18 +544,25 @@ impl ShortLoop {
             Some(count) if count == total && found.iter().any(|c| !c.mode.real && !(c.idle < ZERO)) => (
                 Status::Incomplete,
                 format!(
-                    "not proved: complex solutions that close to rounding only, as many as the {count} common roots of the \
-                     closure polynomials for two choices of idle unknowns"
+                    "not proved: complex solutions that close to rounding only, as many as the {count} {}",
+                    if is_of_ring {
+                        "of the closure equations"
+                    } else {
+                        "common roots of the closure polynomials for two choices of idle unknowns"
+                    }
                 ),
             ),
             Some(count) if count == total => {
                 let status = if real == 0 { Status::Unreachable } else { Status::Complete };
                 let all = if total == 1 { "the only common root" } else { "all common roots" };
-                let reason = format!(
-                    "{total} of {count}: {all} of the closure polynomials for two choices of idle unknowns in place of \
-                     the missing ones (modulo 2^61 - 1)"
-                );
-                (status, reason)
+                let of = if is_of_ring {
+                    format!("all solutions of the closure equations, whose ring has dimension {count}")
+                } else {
+                    format!(
+                        "{all} of the closure polynomials for two choices of idle unknowns in place of the missing ones"
+                    )
+                };
+                (status, format!("{total} of {count}: {of} (modulo 2^61 - 1)"))
             }
             Some(count) => {
                 let only = if roots == Roots::Real { "; only real roots were looked for" } else { "" };

@@ -6,7 +6,7 @@ use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, AxisTriple, Mode, Roots, Solver, Workspace, coupler, wrapped};
+use crate::assembly::{Assembly, AxisTriple, Gap, Mode, Roots, Solver, Workspace, coupler, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::{Degree, degree, general_filling};
@@ -19,7 +19,7 @@ use crate::kinematics::closed_loop::{
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
 use crate::solve::scalar::Extended;
-use crate::verdict::{Bound, Status, verdict};
+use crate::verdict::{Bound, Status, Verdict, verdict};
 use num_complex::Complex;
 use rug::Rational;
 use std::cell::OnceCell;
@@ -48,6 +48,9 @@ struct Balls {
     open: OpenCoupled<f64>,
     modular: Option<OpenCoupled<Mod>>,
 }
+
+/// Modes of a lower condition number are those of the mechanism that rounded data stand for: these are off by 1e-17.
+const FIRM: f64 = 1e10;
 
 /// The field of exact degree counts.
 type Mod = ModP<PRIME_61>;
@@ -110,6 +113,7 @@ impl SixUnknowns {
 pub(super) struct SingleLoop {
     chain: Chain,
     limits: Vec<[f64; 2]>,
+    is_rounded: bool,
     prepared: ByInput<Way>,
 }
 
@@ -117,7 +121,7 @@ impl SingleLoop {
     /// Prepares the chain of an entry for all its cases.
     pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
         let prepared = ByInput::prepare(entry, chain, |layout| way(chain, layout))?;
-        Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), prepared })
+        Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), is_rounded: entry.rounded, prepared })
     }
 
     /// Solves one case.
@@ -141,64 +145,15 @@ impl SingleLoop {
             let rounded = last.map(|x| Some(nearest_f64(x)));
             gap = rounded.map_or(gap, |last| solver.exact_gap(&last));
         }
-        let most = || prepared.bound(&self.chain).count;
-        let start = Instant::now();
-        solver.solve_up_to(&gap, roots, &most, workspace, assembly);
-        let mut solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let modular = || prepared.modular(&self.chain, &filling::<Mod>(case).ok()?);
-        let (by_cuts, ring) = (OnceCell::new(), OnceCell::new());
-        let plan = || -> Option<&Plan> {
-            let with_ball = prepared.layout.ball_unknown().is_some();
-            ring.get_or_init(|| modular().filter(|_| !with_ball).and_then(|closed| Plan::of(&closed))).as_ref()
-        };
-        // The ring is asked where the cuts know of nothing, or of more than `found`.
-        let count_here = |found: usize| -> Option<Bound> {
-            let degree = *by_cuts.get_or_init(|| prepared.degree(&modular()?, None));
-            let bound = degree.map(|degree| bound_from(degree, "at this pose"));
-            if bound.as_ref().is_some_and(|bound| bound.count <= found) {
-                return bound;
-            }
-            let ring = plan().map(|plan| of_ring(plan.count()));
-            bound.into_iter().chain(ring).min_by_key(|bound| bound.count)
-        };
-        let judge = |assembly: &Assembly| {
-            verdict(
-                assembly,
-                roots,
-                solver.structural_rank(),
-                prepared.general(),
-                || {
-                    // The exact count costs more than a search for real roots, and rarely helps one.
-                    let skip = roots == Roots::Real && !solver.is_special();
-                    if skip { Bound::general(prepared.general()) } else { prepared.bound(&self.chain).clone() }
-                },
-                || count_here(assembly.total()),
-                solver.too_far(&gap),
-            )
-        };
-        let mut verdict = judge(assembly);
-        let expected = match verdict.status {
-            _ if roots == Roots::Real || solver.structural_rank() < 6 => None,
-            Status::Incomplete => {
-                let everywhere = prepared.bound(&self.chain).count;
-                Some(count_here(assembly.total()).map_or(everywhere, |here| here.count.min(everywhere)))
-            }
-            // The exact count of three rotations knows of every self-motion: what f64 took for one is none.
-            Status::SelfMotion if prepared.general() == 2 => count_here(2).map(|here| here.count),
-            _ => None,
-        };
-        if let Some(expected) = expected {
-            self.rescue::<LongFloat>(prepared, case, plan(), expected, assembly);
-            verdict = judge(assembly);
-            if verdict.status == Status::Incomplete {
-                // Solutions that only the rounding of the data keeps from infinity.
-                self.rescue::<LongerFloat>(prepared, case, plan(), expected, assembly);
-                verdict = judge(assembly);
-            }
-            solve_us = start.elapsed().as_secs_f64() * 1e6;
-        }
+        let question =
+            Question { of: self, prepared, case, roots, gap: &gap, by_cuts: OnceCell::new(), ring: OnceCell::new() };
+        let (mut verdict, solve_us) = question.answer(workspace, assembly);
         if solver.structural_rank() < 6 {
             verdict.reason += &dependent(&self.chain, &prepared.layout, solver.axis_triples());
+            if case.pose.is_none() {
+                verdict.reason +=
+                    &format!("; the loop has {}, as `looproot mobility` tells in full", Freedom::of(&self.chain));
+            }
         }
         let locked_value = Complex::from(locked_value(case));
         let modes = assembly.modes.iter().map(|mode| {
@@ -213,21 +168,6 @@ impl SingleLoop {
             solve_us,
             platform: None,
         })
-    }
-
-    /// Looks again for what is missing of a list, in longer numbers.
-    fn rescue<R: Extended>(
-        &self,
-        prepared: &SixUnknowns,
-        case: &Case,
-        plan: Option<&Plan>,
-        expected: usize,
-        assembly: &mut Assembly,
-    ) {
-        let open: Option<OpenLoop<R>> = self.chain.try_open_loop(&prepared.layout).ok().flatten();
-        if let (Some(open), Ok(filling)) = (open, filling(case)) {
-            prepared.solver.rescue(&open.close(&filling), plan, expected, assembly);
-        }
     }
 
     /// Solves a loop with two balls.
@@ -252,8 +192,8 @@ impl SingleLoop {
             None => Bound::general(2),
         };
         let mut verdict = verdict(assembly, roots, 6, 2, bound, || Some(bound()), None);
-        verdict.reason += "; the link between the two S joints spins freely about the line of their centres, \
-                           and is shown at one position of that spin";
+        verdict.reason += "; ";
+        verdict.reason += &idle_spin(&self.chain, layout, coupled.indices[1]);
         let modes = assembly.modes.iter().zip(balls).map(|(mode, balls)| {
             let mut q = vec![Complex::from(locked_value(case)); layout.variables.len()];
             for (&at, angles) in coupled.indices.iter().zip(balls) {
@@ -270,6 +210,142 @@ impl SingleLoop {
             solve_us,
             platform: None,
         })
+    }
+}
+
+/// One case, and what is found out about it when first asked for.
+struct Question<'a> {
+    of: &'a SingleLoop,
+    prepared: &'a SixUnknowns,
+    case: &'a Case,
+    roots: Roots,
+    gap: &'a Gap,
+    /// The exact count of all cuts.
+    by_cuts: OnceCell<Option<Degree>>,
+    /// How the ring of the loop is found.
+    ring: OnceCell<Option<Plan>>,
+}
+
+impl Question<'_> {
+    fn modular(&self) -> Option<ClosedLoop<Mod>> {
+        self.prepared.modular(&self.of.chain, &filling::<Mod>(self.case).ok()?)
+    }
+
+    fn plan(&self) -> Option<&Plan> {
+        let has_ball = self.prepared.layout.ball_unknown().is_some();
+        self.ring.get_or_init(|| Plan::of(&self.modular().filter(|_| !has_ball)?)).as_ref()
+    }
+
+    /// A bound at this pose: the ring is asked where the cuts know of nothing, or of more than `found`.
+    fn count_here(&self, found: usize) -> Option<Bound> {
+        let degree = *self.by_cuts.get_or_init(|| self.prepared.degree(&self.modular()?, None));
+        let bound = degree.map(|degree| bound_from(degree, "at this pose"));
+        if bound.as_ref().is_some_and(|bound| bound.count <= found) {
+            return bound;
+        }
+        let ring = self.plan().map(|plan| of_ring(plan.count()));
+        bound.into_iter().chain(ring).min_by_key(|bound| bound.count)
+    }
+
+    fn judge(&self, assembly: &Assembly) -> Verdict {
+        let SixUnknowns { solver, .. } = self.prepared;
+        let everywhere = || {
+            // The exact count costs more than a search for real roots, and rarely helps one.
+            let skip = self.roots == Roots::Real && !solver.is_special();
+            if skip { Bound::general(self.prepared.general()) } else { self.prepared.bound(&self.of.chain).clone() }
+        };
+        let (rank, general) = (solver.structural_rank(), self.prepared.general());
+        let here = || self.count_here(assembly.total());
+        verdict(assembly, self.roots, rank, general, everywhere, here, solver.too_far(self.gap))
+    }
+
+    /// How many solutions there are, where all are wanted and not found.
+    fn expected(&self, verdict: &Verdict) -> Option<usize> {
+        if self.roots == Roots::Real || self.prepared.solver.structural_rank() < 6 {
+            return None;
+        }
+        // What moves in f64 does not by its exact equations, unless rounded data made that so.
+        let is_refuted = || self.case.pose.is_none() && !self.of.is_rounded && self.plan().is_some();
+        let here = || self.count_here(0).map(|here| here.count);
+        match verdict.status {
+            Status::Incomplete => {
+                let everywhere = self.prepared.bound(&self.of.chain).count;
+                Some(here().map_or(everywhere, |here| here.min(everywhere)))
+            }
+            // The exact count of three rotations knows of every self-motion: what f64 took for one is none.
+            Status::SelfMotion if self.prepared.general() == 2 || is_refuted() => here(),
+            _ => None,
+        }
+    }
+
+    /// The verdict after a look in longer numbers for what is missing; `None` where nothing is.
+    fn completed(&self, verdict: &Verdict, assembly: &mut Assembly) -> Option<Verdict> {
+        let expected = self.expected(verdict)?;
+        self.rescue::<LongFloat>(expected, assembly);
+        let verdict = self.judge(assembly);
+        if verdict.status != Status::Incomplete {
+            return Some(verdict);
+        }
+        // Solutions that only the rounding of the data keeps from infinity.
+        self.rescue::<LongerFloat>(expected, assembly);
+        Some(self.judge(assembly))
+    }
+
+    /// Looks again for what is missing of a list, in longer numbers.
+    fn rescue<R: Extended>(&self, expected: usize, assembly: &mut Assembly) {
+        let open: Option<OpenLoop<R>> = self.of.chain.try_open_loop(&self.prepared.layout).ok().flatten();
+        if let (Some(open), Ok(filling)) = (open, filling(self.case)) {
+            self.prepared.solver.rescue(&open.close(&filling), self.plan(), expected, assembly);
+        }
+    }
+
+    /// The answer to a loop without input by one pencil in f64 and longer numbers; `None` where they do not settle it.
+    ///
+    /// Solutions are crowded there where a mechanism was that moved before it was made with an error: f64 cannot tell them
+    /// apart, and to let it try costs more than longer numbers.
+    fn by_longer_numbers(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> Option<Verdict> {
+        let SixUnknowns { solver, .. } = self.prepared;
+        let is_structure = self.case.pose.is_none() && self.case.input.is_empty();
+        if self.roots == Roots::Real || !is_structure || solver.structural_rank() < 6 {
+            return None;
+        }
+        solver.solve_briefly(self.gap, workspace, assembly);
+        let mut verdict = self.judge(assembly);
+        if verdict.status == Status::Incomplete {
+            self.plan()?;
+            verdict = self.completed(&verdict, assembly)?;
+        }
+        // No mode would be elsewhere, or none at all, had the data been rounded in another way.
+        let is_firm = || !self.of.is_rounded || assembly.modes.iter().all(|mode| mode.condition < FIRM);
+        (verdict.status != Status::Incomplete && is_firm()).then_some(verdict)
+    }
+
+    /// The verdict, and microseconds for the search.
+    fn answer(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> (Verdict, f64) {
+        let start = Instant::now();
+        let elapsed_us = || start.elapsed().as_secs_f64() * 1e6;
+        if let Some(verdict) = self.by_longer_numbers(workspace, assembly) {
+            return (verdict, elapsed_us());
+        }
+        let most = || self.prepared.bound(&self.of.chain).count;
+        self.prepared.solver.solve_up_to(self.gap, self.roots, &most, workspace, assembly);
+        let mut solve_us = elapsed_us();
+        let mut verdict = self.judge(assembly);
+        if let Some(completed) = self.completed(&verdict, assembly) {
+            (verdict, solve_us) = (completed, elapsed_us());
+        }
+        if verdict.status == Status::SelfMotion
+            && self.of.is_rounded
+            && self.case.pose.is_none()
+            && let Some(plan) = self.plan()
+        {
+            let count = plan.count();
+            verdict.reason += &format!(
+                "; to rounding, that is: the equations of the rational numbers that the data were rounded to have \
+                 isolated solutions only, at most {count}"
+            );
+        }
+        (verdict, solve_us)
     }
 }
 
@@ -301,11 +377,6 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
 /// Why six joints are dependent, where two triples of their axes say it.
 fn dependent(chain: &Chain, layout: &Layout, triples: &[AxisTriple]) -> String {
     let [one, two] = triples else { return String::new() };
-    let freedoms = |kind: JointKind| match kind {
-        JointKind::Cylindrical => 2,
-        JointKind::Spherical => 3,
-        _ => 1,
-    };
     let kinds = chain.joint_kinds().into_iter().enumerate();
     let joints: Vec<usize> = kinds.flat_map(|(k, kind)| std::iter::repeat_n(k + 1, freedoms(kind))).collect();
     let variables = layout.joint_variables();
@@ -315,6 +386,35 @@ fn dependent(chain: &Chain, layout: &Layout, triples: &[AxisTriple]) -> String {
         format!("the axes of joints {}, {}, {} {how}", joint(0), joint(1), joint(2))
     };
     format!("; {} and {}: their six screws are dependent in every position", name(one), name(two))
+}
+
+/// At which position of the idle spin a loop of two balls is shown, of which the second one begins at this variable.
+pub(super) fn idle_spin(chain: &Chain, layout: &Layout, second: usize) -> String {
+    let joint = |first: usize| {
+        let before = chain.joint_kinds().into_iter().scan(0, |sum, kind| {
+            let own = *sum;
+            *sum += freedoms(kind);
+            Some(own)
+        });
+        1 + before.take_while(|at| *at < first).count()
+    };
+    let balls = [layout.ball, layout.second_ball].map(|ball| joint(ball.unwrap_or(0)));
+    format!(
+        "the link between the S joints {} and {} spins freely about the line of their centres: it is shown where joint {} is a \
+         universal joint, one axis of it fixed in that link across the line, the other one along the z axis of the frame \
+         behind the joint",
+        balls[0],
+        balls[1],
+        joint(second)
+    )
+}
+
+fn freedoms(kind: JointKind) -> usize {
+    match kind {
+        JointKind::Cylindrical => 2,
+        JointKind::Spherical => 3,
+        _ => 1,
+    }
 }
 
 /// A mode as a user reads it.

@@ -79,8 +79,13 @@ pub type Held = Vec<(usize, f64)>;
 /// Whether and how a loop moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mobility {
-    /// The joint variables.
+    /// The joint variables; of a platform the lengths of its legs.
     pub variables: Vec<JointVariable>,
+    /// How many equations bind them in general: six round a loop, none in an open chain, of a platform one for every leg.
+    pub equations: usize,
+    /// The rank of the screws where it is known without a configuration: of an arm in general position, of a platform that of the
+    /// lines of its legs.
+    pub general_rank: Option<usize>,
     /// The dimension of the largest motion found: 0 when the loop is immobile, `None` when that is not decided.
     pub mobility: Option<usize>,
     /// How that is known.
@@ -100,16 +105,18 @@ pub struct Mobility {
 }
 
 impl Mobility {
-    /// Gruebler's count of a single loop: the freedoms of its joints less six.
+    /// Gruebler's count: of a single loop the freedoms of its joints less six.
     #[must_use]
     pub fn gruebler(&self) -> i64 {
-        i64::try_from(self.variables.len()).map_or(i64::MAX, |freedoms| freedoms - 6)
+        let [freedoms, equations] =
+            [self.variables.len(), self.equations].map(|n| i64::try_from(n).unwrap_or(i64::MAX));
+        freedoms - equations
     }
 
     /// The rank of the joint screws along the motion: the largest found, as every rank but that of special configurations.
     #[must_use]
     pub fn screw_rank(&self) -> Option<usize> {
-        self.configurations.iter().map(|configuration| configuration.rank).max()
+        self.configurations.iter().map(|configuration| configuration.rank).max().or(self.general_rank)
     }
 
     /// The number of different real branches through what is held; 0 of an immobile loop.

@@ -47,7 +47,7 @@ pub(super) fn branches(linkage: &Linkage<Rational>, configurations: &[Configurat
 }
 
 /// The loop in floating point, axes of length 1 and each link over its largest coordinate.
-fn floating(linkage: &Linkage<Rational>) -> Linkage<f64> {
+pub(super) fn floating(linkage: &Linkage<Rational>) -> Linkage<f64> {
     let link = |link: &DualQuaternion<Rational>| {
         let (x, y) = link.study();
         let largest = x.iter().chain(&y).map(|c| c.clone().abs()).max().unwrap_or_else(|| Rational::from(1));
@@ -70,9 +70,9 @@ fn floating(linkage: &Linkage<Rational>) -> Linkage<f64> {
 }
 
 /// A curve of configurations.
-struct Curve<'a> {
-    linkage: &'a Linkage<f64>,
-    unit: f64,
+pub(super) struct Curve<'a> {
+    pub(super) linkage: &'a Linkage<f64>,
+    pub(super) unit: f64,
 }
 
 impl Curve<'_> {
@@ -128,7 +128,7 @@ impl Curve<'_> {
     }
 
     /// The joint screws at a place, as many rows as columns at least, and what is left of the closure equations.
-    fn equations(&self, at: &DVector<f64>) -> (DMatrix<f64>, DVector<f64>) {
+    pub(super) fn equations(&self, at: &DVector<f64>) -> (DMatrix<f64>, DVector<f64>) {
         let value = |(x, variable): (&f64, &Variable)| -> JointValue<f64> {
             match variable {
                 Variable::Rotation => [x.cos(), x.sin()],

@@ -3,24 +3,23 @@
 use super::answer::{Configuration, JointVariable, Mobility, Proof};
 use super::branches::branches;
 use super::linkage::{Axis, JointValue, Linkage};
+use super::open::{of_arm, of_platform};
 use super::order::{Germ, Local, MOST_SOLUTIONS};
 use super::positions::Conjugates;
 use super::rounded::{Closing, closing, has_long_decimals, is_exact};
 use super::search::{Outcome, Search, at, decide, is_open_everywhere, search};
 use super::stillness::all_stand_still;
-use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::algebra::number::Number;
 use crate::assembly::{Assembly, Roots, Workspace};
-use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue};
-use crate::error::{Error, Result};
+use crate::catalogue::entry::{Case, Design, Entry};
+use crate::error::Result;
 use crate::kinematics::chain::{Chain, JointKind, Placement};
-use crate::kinematics::closed_loop::{Layout, Variable};
+use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screw_system::ScrewSystem;
 use crate::mechanism::{FullMode, Mechanism, Solution};
 use crate::verdict::Status;
 use rug::{Float, Rational};
 
-/// Tangents of half the angles at which a joint of a loop of seven variables or more is held.
-const TANGENTS: [(i32, i32); 6] = [(1, 2), (-1, 3), (4, 3), (-7, 3), (-5, 7), (8, 3)];
 /// Theorem 4 in words.
 const NO_CURVE: &str = "no curve of configurations: held at some value of any one of its joints, the loop has no configuration, \
                         nor a limit of any";
@@ -30,11 +29,11 @@ const STILL: &str =
 /// Decimal digits in which a singular solution known in floating point is compared with simple rationals.
 const SIMPLE: u32 = 6;
 
-/// Decides whether the loop of an entry moves; inputs of the file are not looked at.
+/// Decides whether the mechanism of an entry moves: a loop, whatever inputs its file gives; an arm, whose base is the only
+/// thing held; a platform with its legs locked.
 ///
 /// # Errors
-/// [`Error::Invalid`] for arms and platforms, [`Error::Unsupported`] for joints other than R, P, C and S, and for more
-/// than eight joint variables.
+/// [`crate::error::Error::Unsupported`] for H joints.
 ///
 /// # Example
 /// ```
@@ -45,12 +44,13 @@ const SIMPLE: u32 = 6;
 /// # Ok::<(), looproot::error::Error>(())
 /// ```
 pub fn mobility(entry: &Entry) -> Result<Mobility> {
-    let Design::Loop(chain) = &entry.design else {
-        let what = if matches!(entry.design, Design::Arm(_)) { "an arm" } else { "a platform" };
-        return Err(Error::Invalid(format!("found {what}, expected a loop")));
+    let chain = match &entry.design {
+        Design::Loop(chain) => chain,
+        Design::Arm(chain) => return Ok(of_arm(chain, variables(chain))),
+        Design::Platform(_) => return of_platform(entry),
     };
     let subject = Subject { entry, chain, linkage: Linkage::of(chain)?, variables: variables(chain) };
-    let mut answer = if subject.variables.len() > 6 { subject.free()? } else { subject.overconstrained()? };
+    let mut answer = if subject.variables.len() > 6 { subject.free() } else { subject.overconstrained()? };
     let found = branches(&subject.linkage, &answer.configurations);
     for (configuration, branch) in answer.configurations.iter_mut().zip(found) {
         configuration.branch = branch;
@@ -65,7 +65,8 @@ fn variables(chain: &Chain) -> Vec<JointVariable> {
             JointKind::Prismatic => &[Variable::Translation],
             JointKind::Cylindrical => &[Variable::Rotation, Variable::Translation],
             JointKind::Spherical => &[Variable::Rotation; 3],
-            _ => &[Variable::Rotation],
+            JointKind::Universal => &[Variable::Rotation; 2],
+            JointKind::Revolute | JointKind::Helical => &[Variable::Rotation],
         };
         variables.iter().map(move |variable| JointVariable { joint: k + 1, variable: *variable })
     };
@@ -73,18 +74,20 @@ fn variables(chain: &Chain) -> Vec<JointVariable> {
 }
 
 /// A loop in question.
-struct Subject<'a> {
-    entry: &'a Entry,
-    chain: &'a Chain,
-    linkage: Linkage<Rational>,
-    variables: Vec<JointVariable>,
+pub(super) struct Subject<'a> {
+    pub(super) entry: &'a Entry,
+    pub(super) chain: &'a Chain,
+    pub(super) linkage: Linkage<Rational>,
+    pub(super) variables: Vec<JointVariable>,
 }
 
 impl Subject<'_> {
     /// An answer without configurations.
-    fn answer(&self, mobility: Option<usize>, proof: Proof, reason: String) -> Mobility {
+    pub(super) fn answer(&self, mobility: Option<usize>, proof: Proof, reason: String) -> Mobility {
         Mobility {
             variables: self.variables.clone(),
+            equations: 6,
+            general_rank: None,
             mobility,
             proof,
             shaky: None,
@@ -165,7 +168,7 @@ impl Subject<'_> {
     }
 
     /// The names of the joint variables held.
-    fn held(&self, found: &Search) -> String {
+    pub(super) fn held(&self, found: &Search) -> String {
         let name = |(k, value): &(usize, f64)| {
             let JointVariable { joint, variable } = self.variables[*k];
             match variable {
@@ -176,7 +179,7 @@ impl Subject<'_> {
         found.held.iter().map(name).collect::<Vec<_>>().join(", ")
     }
 
-    fn mobile(&self, found: Search) -> Mobility {
+    pub(super) fn mobile(&self, found: Search) -> Mobility {
         let moving: Vec<&Configuration> = found.configurations.iter().filter(|c| c.dimension() > Some(0)).collect();
         let dimension = moving.iter().filter_map(|c| c.dimension()).max().unwrap_or(0);
         let first = moving.first();
@@ -307,21 +310,8 @@ impl Subject<'_> {
     }
 
     /// A configuration as it is in floating point.
-    fn measured(&self, mode: &FullMode) -> Configuration {
-        let value = |(k, z): (usize, &num_complex::Complex<f64>)| -> JointValue<f64> {
-            let length = self.linkage.axes[k].length(53).to_f64();
-            match self.variables[k].variable {
-                Variable::Rotation => [(z.re / 2.0).cos(), (z.re / 2.0).sin() / length],
-                Variable::Translation => [1.0, z.re / 2.0 / length],
-            }
-        };
-        let values: Vec<JointValue<f64>> = mode.q.iter().enumerate().map(value).collect();
-        let linkage: Option<Linkage<f64>> = self.linkage.map();
-        let germ = linkage.map(|linkage| Germ::of(&linkage.at(&values)));
-        let system = germ.as_ref().map(Germ::system);
-        let freedom = system.as_ref().map(ScrewSystem::loop_freedom);
+    pub(super) fn measured(&self, mode: &FullMode) -> Configuration {
         let n = self.variables.len();
-        let rank = freedom.as_ref().map_or(0, |freedom| freedom.order);
         // Certified solutions of six equations in six unknowns are regular: rank 6.
         let local = match (mode.certified, n) {
             (true, 6) => Local::Isolated { order: 1 },
@@ -329,94 +319,36 @@ impl Subject<'_> {
             (false, _) if mode.multiplicity > 0 => Local::Isolated { order: mode.multiplicity },
             _ => Local::Deficient,
         };
+        self.placed(mode.q.iter().map(|z| z.re).collect(), local)
+    }
+
+    /// The same of these joint values, near which the configurations form what `local` says.
+    pub(super) fn placed(&self, q: Vec<f64>, local: Local) -> Configuration {
+        let value = |(k, q): (usize, &f64)| -> JointValue<f64> {
+            let length = self.linkage.axes[k].length(53).to_f64();
+            match self.variables[k].variable {
+                Variable::Rotation => [(q / 2.0).cos(), (q / 2.0).sin() / length],
+                Variable::Translation => [1.0, q / 2.0 / length],
+            }
+        };
+        let values: Vec<JointValue<f64>> = q.iter().enumerate().map(value).collect();
+        let linkage: Option<Linkage<f64>> = self.linkage.map();
+        let germ = linkage.map(|linkage| Germ::of(&linkage.at(&values)));
+        let system = germ.as_ref().map(Germ::system);
+        let freedom = system.as_ref().map(ScrewSystem::loop_freedom);
+        let rank = freedom.as_ref().map_or(0, |freedom| freedom.order);
         let moves = |k: usize| freedom.as_ref().is_some_and(|freedom| !freedom.locked.contains(&k));
         Configuration {
-            q: mode.q.iter().map(|z| z.re).collect(),
             degree: 0,
             rank,
             local,
-            moving: (0..n).map(moves).collect(),
+            moving: (0..q.len()).map(moves).collect(),
+            q,
             branch: None,
             system: system.as_ref().map(ScrewSystem::description).unwrap_or_default(),
             redundant: freedom.map(|freedom| freedom.redundant.basis()).unwrap_or_default(),
         }
     }
-
-    /// Loops of seven variables and more, which in general move.
-    fn free(&self) -> Result<Mobility> {
-        let n = self.variables.len();
-        if let Outcome::Mobile(found) = search_group(&self.linkage) {
-            return Ok(self.mobile(found));
-        }
-        let layout = Layout::of(self.chain, None)?;
-        if n > 7 && layout.second_ball.is_none() {
-            return Err(Error::Unsupported(format!(
-                "{n} joint variables: whether a loop moves is decided for up to seven, and for two S joints with two more \
-                 variables"
-            )));
-        }
-        let mut last = None;
-        for (k, JointVariable { joint, variable }) in self.variables.iter().copied().enumerate() {
-            if matches!(self.chain.joint_kinds()[joint - 1], JointKind::Spherical) {
-                continue;
-            }
-            for tangent in TANGENTS.map(Rational::from) {
-                let (value, held) = match variable {
-                    Variable::Rotation => {
-                        let angle = Angle::from_half_tangent(HalfTangent::Finite(tangent));
-                        let radians = angle.radians();
-                        (InputValue::Angle(angle), radians)
-                    }
-                    Variable::Translation => {
-                        let distance = Number::exact(tangent * 2 * self.linkage.unit());
-                        let length = distance.to_f64();
-                        (InputValue::Distance(distance), length)
-                    }
-                };
-                let solution = solve(self.entry, Case::given(Input { joint, value }, 0))?;
-                let certified: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real && m.certified).collect();
-                if !certified.is_empty() {
-                    let configurations: Vec<Configuration> = certified.into_iter().map(|m| self.measured(m)).collect();
-                    let found = Search { held: vec![(k, held)], configurations, complex: solution.verdict.complex };
-                    return Ok(self.certified(found));
-                }
-                last = Some(solution);
-            }
-        }
-        let reason = last.map_or_else(|| "no joint to hold".to_owned(), |solution: Solution| solution.verdict.reason);
-        let reason = format!("no regular real configuration was found at the values tried; the last one: {reason}");
-        Ok(self.answer(None, Proof::None, reason))
-    }
-
-    /// Certified regular configurations of a loop with more variables than equations.
-    fn certified(&self, found: Search) -> Mobility {
-        let n = self.variables.len();
-        let idle = if n == 8 {
-            "; one of the two freedoms is the spin of the link between the two S joints about the line of their centres"
-        } else {
-            ""
-        };
-        let reason = format!(
-            "{n} joint variables, six independent equations at a certified regular configuration, with {} held (theorem \
-             1){idle}",
-            self.held(&found)
-        );
-        Mobility {
-            held: found.held,
-            configurations: found.configurations,
-            complex: found.complex,
-            ..self.answer(Some(n - 6), Proof::Exact, reason)
-        }
-    }
-}
-
-/// The motion of loops of many variables whose links move in a group, which no six equations bind.
-fn search_group(linkage: &Linkage<Rational>) -> Outcome {
-    let is_group = |outcome: &Outcome| {
-        let manifold = |c: &Configuration| matches!(c.local, Local::Manifold { .. }) && c.rank < 6;
-        matches!(outcome, Outcome::Mobile(found) if found.configurations.iter().any(manifold))
-    };
-    Some(search(linkage)).filter(is_group).unwrap_or(Outcome::Nothing)
 }
 
 /// The multiplicity of an isolated configuration.
@@ -432,7 +364,7 @@ fn order_clause(shaky: Option<usize>) -> String {
 }
 
 /// Solves one case of a mechanism.
-fn solve(entry: &Entry, case: Case) -> Result<Solution> {
+pub(super) fn solve(entry: &Entry, case: Case) -> Result<Solution> {
     let entry = Entry { cases: vec![case], ..entry.clone() };
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
     Mechanism::prepare(&entry)?.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly)

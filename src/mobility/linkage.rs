@@ -3,8 +3,9 @@
 use crate::algebra::ring::{Field, Ring};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, Geometry, JointKind};
-use crate::kinematics::closed_loop::{Layout, Variable};
+use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
+use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::{Motion, cross, dot};
 use rug::{Float, Integer, Rational};
 
@@ -73,13 +74,20 @@ impl Linkage<Rational> {
     /// The loop of a mechanism file, exactly, with all its joint variables: a C joint has two and an S joint three.
     ///
     /// # Errors
-    /// For joints other than R, P, C and S, and for a third S joint.
+    /// For H joints.
     pub fn of(chain: &Chain) -> Result<Self> {
         if let Some(linkage) = Self::about_given_axes(chain) {
             return Ok(linkage);
         }
-        let layout = Layout::of(chain, None)?;
-        let (_, mut motions) = chain
+        if let Some(k) = chain.joint_kinds().iter().position(|kind| *kind == JointKind::Helical) {
+            return Err(Error::Unsupported(format!(
+                "joint {}: H joints are read, but whether a loop of them moves is not decided: they turn by angles and shift by \
+                 these angles times a pitch, which no algebra holds together; the loop has {}",
+                k + 1,
+                Freedom::of(chain)
+            )));
+        }
+        let (variables, mut motions) = chain
             .unknowns_and_constants::<Rational>()
             .ok_or_else(|| Error::Unsupported("a constant of the loop without a rational value".to_owned()))?;
         // What stands before the first variable comes behind the last one: conjugation.
@@ -88,7 +96,7 @@ impl Linkage<Rational> {
             *last = last.then_after(&first);
         }
         let links = motions.iter().map(|motion| primitive(&dual_quaternion(motion))).collect();
-        Ok(Self::about_z(layout.variables, links))
+        Ok(Self::about_z(variables, links))
     }
 
     /// The loop of a list of screw axes of R, P and C joints some of which are along vectors of irrational length: there is

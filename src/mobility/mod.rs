@@ -1,12 +1,14 @@
-//! Does a closed chain move: decided from exact configurations, with proofs written out in docs/mobility.md.
+//! Does a mechanism, a closed chain above all, move: decided from exact configurations, with proofs written out in docs/mobility.md.
 
 mod answer;
 mod branches;
 mod count;
 mod cut;
 mod decision;
+mod free;
 pub mod linkage;
 mod multiplicity;
+mod open;
 pub mod order;
 mod positions;
 mod rounded;

@@ -15,8 +15,8 @@ pub const MOST_SOLUTIONS: usize = 16;
 pub enum Local {
     /// The chain does not close here.
     Open,
-    /// The screws of the joint variables that can move span the Lie algebra of a group of motions: the positions near this
-    /// one form a smooth manifold of this dimension, as many as the joint variables are more than the rank.
+    /// The screws of the joint variables that can move span the Lie algebra of a group of motions, or those of two groups in
+    /// two arcs of the loop: the positions near this one form a smooth manifold of this dimension, as many as the joint variables are more than the rank.
     Manifold {
         /// Its dimension.
         dimension: usize,
@@ -94,6 +94,8 @@ impl<F: Field> Germ<F> {
         } else if let [free] = free[..] {
             germ.local = expansion.solve(&solved, &left_over, free, MOST_SOLUTIONS / conjugates);
             germ.series = expansion.series;
+        } else if germ.is_product_of_groups() {
+            germ.local = Local::Manifold { dimension: n - rank };
         } else if F::PIVOT_ZERO == 0.0
             && let Some(order) = multiplicity(position)
         {
@@ -119,24 +121,37 @@ impl<F: Field> Germ<F> {
         ScrewSystem::of(&self.screws.iter().cloned().map(screw).collect::<Vec<_>>())
     }
 
-    /// Whether the joint variables that move to first order, and all others in the algebra that their screws generate, span
-    /// this algebra and have all first-order motions among them.
+    /// Whether the links move in a group: see [`Self::moves_in_groups`], with one arc.
     fn is_group(&self) -> bool {
-        if self.rank == 6 {
-            return true;
-        }
+        self.rank == 6 || self.moves_in_groups(|_| false)
+    }
+
+    /// Whether the loop has two arcs whose links each move in a group of their own.
+    fn is_product_of_groups(&self) -> bool {
+        let n = self.screws.len();
+        (0..n).any(|first| (first + 1..n).any(|behind| self.moves_in_groups(|k| (first..behind).contains(&k))))
+    }
+
+    /// Whether the joint variables that move to first order, and all others whose screws lie in the algebra that those of
+    /// their arc generate, span the sum of the two algebras and have all first-order motions among them.
+    fn moves_in_groups(&self, is_second: impl Fn(usize) -> bool) -> bool {
         let columns = self.screws.len();
         let transposed = (0..6).map(|i| self.screws.iter().map(|s| s[i].clone()).collect()).collect();
         let rates = Echelon::of(transposed, columns).null_space();
-        let moving = (0..columns).filter(|k| rates.iter().any(|rate| is_unit(&rate[*k])));
-        let algebra = generated(moving.map(|k| self.screws[k].to_vec()).collect());
-        let inside = self.screws.iter().filter(|screw| {
-            let rows = algebra.rows().iter().cloned().chain([screw.to_vec()]).collect();
+        let moving: Vec<usize> = (0..columns).filter(|k| rates.iter().any(|rate| is_unit(&rate[*k]))).collect();
+        let algebras = [false, true].map(|second| {
+            let own = moving.iter().filter(|k| is_second(**k) == second);
+            generated(own.map(|k| self.screws[*k].to_vec()).collect())
+        });
+        let sum = Echelon::of(algebras.iter().flat_map(Echelon::rows).cloned().collect(), 6).rank();
+        let inside = (0..columns).filter(|k| {
+            let algebra = &algebras[usize::from(is_second(*k))];
+            let rows = algebra.rows().iter().cloned().chain([self.screws[*k].to_vec()]).collect();
             Echelon::of(rows, 6).rank() == algebra.rank()
         });
-        let inside: Vec<Vec<F>> = inside.map(|screw| screw.to_vec()).collect();
+        let inside: Vec<Vec<F>> = inside.map(|k| self.screws[k].to_vec()).collect();
         let count = inside.len();
-        Echelon::of(inside, 6).rank() == algebra.rank() && count - algebra.rank() == columns - self.rank
+        Echelon::of(inside, 6).rank() == sum && count - sum == columns - self.rank
     }
 }
 

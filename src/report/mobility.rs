@@ -4,8 +4,9 @@ use super::json::{kind, number};
 use super::number::{counted, short};
 use super::table::{Columns, paragraph};
 use super::text::variables;
-use crate::catalogue::entry::Entry;
+use crate::catalogue::entry::{Design, Entry};
 use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Vector;
 use crate::kinematics::screw_system::{PrincipalScrew, Screw, ScrewSystem};
 use crate::mobility::{Configuration, Local, Mobility};
@@ -27,7 +28,7 @@ pub fn verdict(answer: &Mobility) -> String {
         (Some(0), None) => {
             let none = if !answer.configurations.is_empty() || !answer.is_listed {
                 String::new()
-            } else if answer.complex == 0 {
+            } else if answer.complex == 0 && answer.gruebler() <= 0 {
                 ": no configuration".to_owned()
             } else {
                 ": no real configuration".to_owned()
@@ -54,7 +55,15 @@ pub fn text(entry: &Entry, answer: &Mobility) -> String {
     let mut text = verdict(answer) + "\n";
     paragraph(&mut text, &answer.reason);
     let freedoms = answer.variables.len();
-    let _ = writeln!(text, "Gruebler: {} less 6 = {}", counted(freedoms, "joint freedom"), answer.gruebler());
+    let count = answer.gruebler();
+    let _ = match (&entry.design, entry.chain().and_then(|chain| Freedom::of(chain).rank)) {
+        (Design::Platform(_), _) => writeln!(text, "Gruebler: 6 freedoms of the plate less 6 legs = {count}"),
+        (Design::Arm(_), _) => writeln!(text, "Gruebler: {}, none bound", counted(freedoms, "joint freedom")),
+        (Design::Loop(_), rank) => {
+            let rank = rank.map_or_else(String::new, |rank| format!("; screw rank {rank} in general position"));
+            writeln!(text, "Gruebler: {} less 6 = {count}{rank}", counted(freedoms, "joint freedom"))
+        }
+    };
     let names: Vec<(String, Variable)> = entry.chain().map(variables).unwrap_or_default();
     for (number, configuration) in answer.configurations.iter().enumerate() {
         let Configuration { rank, .. } = configuration;
@@ -149,8 +158,10 @@ fn described(screw: &Screw<f64>) -> String {
 /// The document that equations/mobility.schema.json describes.
 #[must_use]
 pub fn json(entry: &Entry, answer: &Mobility) -> Value {
-    let names: Vec<String> =
-        entry.chain().map(variables).unwrap_or_default().into_iter().map(|(name, _)| name).collect();
+    let names: Vec<String> = match entry.chain() {
+        Some(chain) => variables(chain).into_iter().map(|(name, _)| name).collect(),
+        None => answer.variables.iter().map(|leg| format!("leg {}", leg.joint)).collect(),
+    };
     let held = answer.held.iter().map(|(k, value)| json!({ "variable": names.get(*k), "value": number(*value) }));
     json!({
         "title": entry.title,

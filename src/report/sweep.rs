@@ -70,6 +70,7 @@ fn words(end: &End, swept: Swept) -> String {
         End::Range => "end of range".to_owned(),
         End::Closed(turns) => format!("closed after {}", counted(*turns, "turn")),
         End::Infinite(input) => format!("to infinity near {}", shown(*input, swept.variable)),
+        End::Isolated => "isolated".to_owned(),
         End::Unresolved([one, two]) => {
             format!("unresolved {} to {}", shown(*one, swept.variable), shown(*two, swept.variable))
         }
@@ -146,6 +147,14 @@ fn remarks(sweep: &Sweep, swept: Swept) -> String {
         let inputs: Vec<String> = samples.iter().take(NAMED).map(|s| shown(s.input, swept.variable)).collect();
         let more = if samples.len() > NAMED { format!(" and {} more", samples.len() - NAMED) } else { String::new() };
         paragraph(&mut text, &format!("{words}: input {}{more} ({})", inputs.join(", "), first.reason));
+    }
+    if sweep.is_overconstrained && sweep.branches.is_empty() {
+        let note = "fewer than seven joint variables: such a loop may close at single inputs between these, which a sweep does not \
+                    look for; `looproot solve` finds the positions of a loop without input";
+        paragraph(&mut text, note);
+    }
+    if let Some(note) = &sweep.note {
+        paragraph(&mut text, note);
     }
     text
 }
@@ -226,6 +235,7 @@ fn end_json(end: &End) -> Value {
         End::Range => json!({ "kind": "range" }),
         End::Closed(turns) => json!({ "kind": "closed", "turns": turns }),
         End::Infinite(input) => json!({ "kind": "infinity", "near": number(*input) }),
+        End::Isolated => json!({ "kind": "isolated" }),
         End::Unresolved(between) => json!({ "kind": "unresolved", "between": between.map(number) }),
     }
 }

@@ -233,7 +233,10 @@ pub fn variables(chain: &Chain) -> Vec<(String, Variable)> {
         match kind {
             JointKind::Prismatic => names.push((format!("q{joint}"), Variable::Translation)),
             JointKind::Cylindrical => names.extend([angle, (format!("d{joint}"), Variable::Translation)]),
-            JointKind::Universal => names.extend([angle.clone(), angle]),
+            // About z and x.
+            JointKind::Universal => {
+                names.extend(["z", "x"].map(|axis| (format!("q{joint}{axis}"), Variable::Rotation)));
+            }
             // About z, x and z again.
             JointKind::Spherical => {
                 names.extend(["z", "x", "z'"].map(|axis| (format!("q{joint}{axis}"), Variable::Rotation)));

@@ -241,6 +241,23 @@ impl Curve {
         Some(if side < 0.0 { tangent.map(|x| -x) } else { tangent })
     }
 
+    /// Whether no curve leads away from a point at which the loop closes: the twists of its variables are independent, by a
+    /// margin far beyond rounding, as they may be where some unknowns are idle.
+    #[must_use]
+    pub fn is_rigid(&self, at: &Point) -> bool {
+        /// The least singular value, in parts of the largest, that tells independent twists.
+        const CLEAR: f64 = 1e-6;
+        let moving = self.idle.iter().filter(|idle| !**idle).count();
+        if moving == 7 {
+            return false;
+        }
+        let jacobian = self.here(at).jacobian;
+        let matrix = SMatrix::<f64, 6, 7>::from_fn(|i, j| if self.idle[j] { 0.0 } else { jacobian[i][j] });
+        let mut values: Vec<f64> = matrix.singular_values().iter().copied().collect();
+        values.sort_by(|a, b| b.total_cmp(a));
+        values[moving - 1] > CLEAR * values[0]
+    }
+
     /// The point of the curve with the same `border . q` as `start`, by Newton's method, and the length of the first step.
     /// `None` where that does not converge quickly. Near a singular position steps stop shrinking where the rounding of the
     /// closure, enlarged by the inverse matrix, hides the rest: that is as far as double precision goes.

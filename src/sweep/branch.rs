@@ -20,6 +20,8 @@ pub enum End {
     Closed(usize),
     /// A translation grows beyond all bounds near this input.
     Infinite(f64),
+    /// Where it is: the loop closes at this input alone and does not move there.
+    Isolated,
     /// Not known, what becomes of it between these two inputs.
     Unresolved([f64; 2]),
 }
@@ -255,6 +257,8 @@ impl Found<'_> {
         let web = self.web;
         let own = web.samples[node.0].0.input;
         match web.fate(node, forwards) {
+            Some((_, Fate::Still)) => (End::Isolated, own),
+            None if self.curve.is_rigid(&web.samples[node.0].0.points[node.1]) => (End::Isolated, own),
             None => {
                 let border = self.borders[usize::from(forwards)];
                 let step = (self.range.to - self.range.from) / self.range.steps as f64;
@@ -328,7 +332,7 @@ impl Found<'_> {
                 *value = wrapped(*value);
             }
         }
-        let mut input = fold.point[INPUT] * self.curve.curve().unit(INPUT);
+        let mut input = fold.point[INPUT] * self.curve.unit(INPUT);
         let span = self.range.to - self.range.from;
         if (input - self.range.to) * span > 0.0 {
             // Between the end of a full turn and its beginning.

@@ -23,6 +23,8 @@ pub(super) enum Fate {
     Back(usize, Vec<usize>),
     /// To infinity near this input; limit positions passed on the way.
     Infinite(f64, Vec<usize>),
+    /// Nowhere: it is an isolated position of a loop that does not move there.
+    Still,
     /// Not known.
     Lost,
 }
@@ -56,7 +58,7 @@ pub(super) fn apart(curve: &InputCurve, a: &Point, b: &Point) -> f64 {
         let mut size = 1.0_f64;
         for k in 0..INPUT {
             let difference = a[k] - b[k];
-            largest = largest.max(match curve.curve().variables()[k] {
+            largest = largest.max(match curve.kinds()[k] {
                 Variable::Rotation => wrapped(difference).abs(),
                 Variable::Translation => {
                     size = size.max(b[k].abs());
@@ -92,9 +94,12 @@ pub(super) fn mode_at(curve: &InputCurve, sample: &Sample, point: &Point) -> Opt
 /// [`Fate::Lost`].
 pub(super) fn bridge(curve: &InputCurve, low: &Sample, high: &Sample) -> Bridge {
     let mut folds: Vec<Fold> = Vec::new();
-    let unit = curve.curve().unit(INPUT);
+    let unit = curve.unit(INPUT);
     let mut fates = |own: &Sample, other: &Sample| -> Vec<Fate> {
         let one = |point: &Point| {
+            if curve.is_rigid(point) {
+                return Fate::Still;
+            }
             let Track { destination, folds: passed } = follow(curve, point, other.input / unit);
             let numbers = passed.iter().map(|fold| {
                 let known = folds.iter().position(|known| {
@@ -131,7 +136,7 @@ pub(super) fn bridge(curve: &InputCurve, low: &Sample, high: &Sample) -> Bridge 
             let same = matches!(&own[*next], Fate::Back(back, same) if *back == mode && same.len() == folds.len());
             folds.len() % 2 == 1 && *next != mode && same
         }
-        Fate::Infinite(..) => true,
+        Fate::Infinite(..) | Fate::Still => true,
         Fate::Lost => false,
     };
     let doubtful = |own: &[Fate], other: &[Fate]| -> Vec<usize> {

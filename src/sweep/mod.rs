@@ -65,6 +65,10 @@ pub struct Sweep {
     pub limits: Vec<Limit>,
     /// Whether the range is a full turn, whose end is its beginning.
     pub is_full_turn: bool,
+    /// Whether the loop has fewer than seven joint variables, so that it may close at single inputs.
+    pub is_overconstrained: bool,
+    /// What to know of the angles of balls.
+    pub note: Option<String>,
 }
 
 impl Sweep {
@@ -126,7 +130,8 @@ pub fn sweep(
     let is_full_turn = turn && is_whole;
     let web = connect(&swept, range, &samples, is_full_turn)?;
     let (branches, limits) = web.branches(&curve, &samples, range);
-    Ok(Sweep { range, samples, branches, limits, is_full_turn })
+    let note = curve.note().map(ToOwned::to_owned);
+    Ok(Sweep { range, samples, branches, limits, is_full_turn, is_overconstrained, note })
 }
 
 /// Follows all modes between all neighbouring samples.

@@ -102,18 +102,18 @@ impl Swept<'_> {
             // As it was asked for, not modulo a full turn.
             mode[self.curve.input()] = input;
         }
-        let unit = self.curve.curve().unit(INPUT);
-        let point = |q: &Vec<f64>| {
-            let mut point = self.curve.point(q);
+        let unit = self.curve.unit(INPUT);
+        let here = |mut point: Point| {
             point[INPUT] = input / unit;
             point
         };
-        let points = modes.iter().map(&point).collect();
+        let points = modes.iter().map(|q| here(self.curve.point(q))).collect();
         let pair = |q: &Vec<Complex<f64>>| {
             let upper = q.iter().map(|z| z.im).find(|im| *im != 0.0).is_some_and(|im| im > 0.0);
             let part = |of: fn(&Complex<f64>) -> f64| q.iter().map(of).collect::<Vec<f64>>();
-            let spread = self.curve.point(&part(|z| z.im))[..INPUT].iter().map(|im| im * im).sum();
-            upper.then(|| Pair { centre: point(&part(|z| z.re)), spread })
+            let [re, im] = [part(|z| z.re), part(|z| z.im)].map(|q| self.curve.without_balls(&q));
+            let spread = im[..INPUT].iter().map(|im| im * im).sum();
+            upper.then(|| Pair { centre: here(re), spread })
         };
         let pairs = solution.modes.iter().filter(|mode| !mode.real).filter_map(|mode| pair(&mode.q)).collect();
         let (status, reason) = (solution.verdict.status, solution.verdict.reason);

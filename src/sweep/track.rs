@@ -2,7 +2,7 @@
 
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::InputCurve;
-use crate::solve::curve::{ALONG_INPUT, Curve, INPUT, Point};
+use crate::solve::curve::{ALONG_INPUT, INPUT, Point};
 
 /// The longest step, in radians or scaled lengths.
 const LONGEST: f64 = 0.1;
@@ -82,7 +82,7 @@ fn along(at: &Point, step: &Point, bend: &Point, h: f64) -> Point {
 /// Follows the branch of a point at input `point[INPUT]` to the input `target`, both in the unit of the curve.
 pub(super) fn follow(curve: &InputCurve, point: &Point, target: f64) -> Track {
     let mut track = Track { destination: Destination::Lost, folds: Vec::new() };
-    let walk = Walk { curve: curve.curve(), begin: point[INPUT], target };
+    let walk = Walk { curve, begin: point[INPUT], target };
     if let Some(destination) = walk.run(point, &mut track.folds) {
         track.destination = destination;
     }
@@ -91,7 +91,7 @@ pub(super) fn follow(curve: &InputCurve, point: &Point, target: f64) -> Track {
 
 /// The way between two inputs.
 struct Walk<'a> {
-    curve: &'a Curve,
+    curve: &'a InputCurve,
     begin: f64,
     target: f64,
 }
@@ -110,7 +110,7 @@ impl Walk<'_> {
             }
             let far = here.point[..INPUT]
                 .iter()
-                .zip(self.curve.variables())
+                .zip(self.curve.kinds())
                 .any(|(x, variable)| *variable == Variable::Translation && x.abs() > FAR);
             if far {
                 return Some(Destination::Infinite(here.point[INPUT]));
@@ -132,7 +132,7 @@ impl Walk<'_> {
 
     /// The translation that is largest, and its size.
     fn largest(&self, place: &Place) -> (usize, f64) {
-        let translations = (0..INPUT).filter(|&k| self.curve.variables()[k] == Variable::Translation);
+        let translations = (0..INPUT).filter(|&k| self.curve.kinds()[k] == Variable::Translation);
         let sizes = translations.map(|k| (k, place.point[k].abs()));
         sizes.fold((0, 0.0), |best, other| if other.1 > best.1 { other } else { best })
     }
