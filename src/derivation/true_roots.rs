@@ -25,8 +25,9 @@ use rug::{Integer, Rational};
 /// The number m below, which no tangent is minus the inverse of by chance.
 const MIXED: i32 = 1_234_577;
 
-/// The numbers of relations over the rationals become too long with more solutions than this.
-const SMALL: usize = 2;
+/// With longer numbers in a loop, in bits, or with more solutions the relations over the rationals take long.
+const SHORT: u32 = 64;
+const FEW: usize = 8;
 
 /// An eliminant of which nothing but the roots that belong to solutions is left.
 pub(super) struct Settled {
@@ -49,12 +50,16 @@ impl Settled {
 /// Divides out of the eliminant of an unknown, at each root of which there are `per_root` solutions in general, what belongs to
 /// no solution.
 pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_root: usize) -> Settled {
+    let reach = exact.ball.zip(exact.modular.as_ref()).map(|(ball, modular)| point_reach::count(modular, ball));
     let Some(ring) = SolutionRing::of(exact, unknown) else {
         // The three angles of a ball may be a family where its centre is not.
-        let count = |ball| point_reach::count(exact.modular.as_ref()?, ball);
-        let finite = exact.modular.is_none() || exact.ball.and_then(count).is_some();
+        let finite = exact.modular.is_none() || reach.flatten().is_some();
         return Settled { finite, ..Settled::as_it_is(eliminant) };
     };
+    // Some complex rotations of a ball have no three angles: where its centre is counted, less than that says nothing.
+    if reach.flatten().is_some() && ring.count() > 0 {
+        return Settled::as_it_is(eliminant);
+    }
     let (count, roots) = (ring.count(), eliminant.coefficients.degree().unwrap_or(0) + eliminant.at_pi);
     // With multiplicity no solution is missing: as many roots are the same ones.
     if count == roots * per_root {
@@ -71,7 +76,8 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
         exact.symbols.name(unknown)
     );
     let removed = &kept.removed[eliminant.removed.len()..];
-    let proved = is_proved(exact, unknown, removed) || ring.holds_over_rationals(exact, unknown);
+    let proved =
+        exact.ball.is_none() && (is_proved(exact, unknown, removed) || ring.holds_over_rationals(exact, unknown));
     Settled { proved, step: Some(step), ..Settled::as_it_is(kept) }
 }
 
@@ -116,7 +122,7 @@ pub(super) fn by_ring(exact: &Exact) -> Option<(usize, Settled)> {
         exact.symbols.name(unknown)
     );
     let eliminant = Eliminant { coefficients, at_pi, removed: Vec::new() };
-    let proved = ring.holds_over_rationals(exact, unknown);
+    let proved = count <= 2 && ring.holds_over_rationals(exact, unknown);
     Some((unknown, Settled { proved, step: Some(step), ..Settled::as_it_is(eliminant) }))
 }
 
@@ -147,9 +153,12 @@ impl SolutionRing {
     }
 
     /// Whether the relations of the ring hold over the rationals as well as modulo the prime, so that nothing but its values
-    /// belongs to solutions. Asked of small rings only.
+    /// belongs to solutions. Asked only where their numbers stay short.
     fn holds_over_rationals(&self, exact: &Exact, unknown: usize) -> bool {
-        self.count() <= SMALL && self.plan.ring(&Self::view(&exact.closed, unknown)).is_some()
+        let bits = |x: &Rational| x.numer().significant_bits().max(x.denom().significant_bits());
+        let numbers = exact.closed.constants.iter().flat_map(|g| g.rotation.iter().flatten().chain(&g.translation));
+        let is_short = numbers.map(bits).max() <= Some(SHORT) && self.count() <= FEW;
+        (is_short || self.count() <= 2) && self.plan.ring(&Self::view(&exact.closed, unknown)).is_some()
     }
 
     /// The polynomial of the values of the unknown at all solutions that are not at the angle pi, a determinant linear in it.
