@@ -19,7 +19,7 @@ use looproot::conditions::search::{FamilyProof, search};
 use looproot::conditions::spherical::{Directions, closed_by};
 use looproot::conditions::sweep::sweep;
 use looproot::conditions::symmetry::{Slice, slices};
-use looproot::conditions::verification::{closed_positions, germ, modular_members, rational_member};
+use looproot::conditions::verification::{closed_positions, germ, held_member, modular_members, rational_member};
 use looproot::kinematics::motion::Motion;
 use looproot::mobility::Local;
 use rand::SeedableRng;
@@ -568,4 +568,75 @@ fn screw_axes_give_twists_lengths_and_offsets_where_they_are_rational() {
     let irrational = text.replacen("axis = [\"0\", \"0\", \"1\"]", "axis = [1, 0, 1]", 1);
     let (code, _, err) = conditions(&["-", "-q"], &irrational);
     assert!(code == 4 && err.contains("no rational root"), "{err}");
+}
+
+#[test]
+fn symbols_that_relations_give_by_square_roots_and_quotients_are_solved_for() {
+    let text = r#"
+[symbols]
+angles = ["alpha", "beta", "gamma"]
+lengths = ["a", "b", "c"]
+[mechanism]
+kind = "loop"
+convention = "dh"
+joints = [
+    { type = "R", a = "a", alpha = "alpha", d = 0 },
+    { type = "R", a = "b", alpha = "beta", d = 0 },
+    { type = "R", a = "c", alpha = "gamma", d = 0 },
+    { type = "R", a = "a", alpha = "alpha", d = 0 },
+    { type = "R", a = "b", alpha = "beta", d = 0 },
+    { type = "R", a = "c", alpha = "gamma", d = 0 },
+]
+[ansatz]
+relations = [
+    "3*cos(beta) + 4*sin(beta) = 5*cos(alpha)",
+    "tan_half(gamma)*(1 + sin(alpha)) = cos(beta)",
+    "c*a = 7*b^2",
+]
+"#;
+    let ansatz = ansatz_from_text(text, "own.toml", FileFormat::Toml, &Options::default()).unwrap();
+    assert!(ansatz.has_solved_symbols());
+    assert_eq!((ansatz.free_angles(), ansatz.free_lengths()), (&[0][..], vec![0, 1]));
+    let members = ansatz.with_roots::<ModP<103>>(|x| square_root(*x)).unwrap();
+    let mut found = 0;
+    for t in 2..60 {
+        let draw = [ModP::new(t)];
+        let Some(values) = members.values(&draw, &[ModP::new(5), ModP::new(8)]) else { continue };
+        found += 1;
+        let [alpha, beta, gamma] =
+            [0, 1, 2].map(|k| [values[Symbols::cos(k)], values[Symbols::sin(k)], values[Symbols::tan_half(k)]]);
+        let times = |n: i32, x: ModP<103>| ModP::from_integer(n).mul(&x);
+        assert_eq!(times(3, beta[0]).add(&times(4, beta[1])), times(5, alpha[0]));
+        assert_eq!(gamma[2].mul(&ModP::one().add(&alpha[1])), beta[0]);
+        let length = |k: usize| values[ansatz.symbols.length(k)];
+        assert_eq!(length(2).mul(&length(0)), times(7, length(1).mul(&length(1))));
+    }
+    // A square root there is for about half of the values.
+    assert!((15..45).contains(&found), "{found}");
+}
+
+#[test]
+fn the_hybrid_of_two_bennett_loops_moves_where_its_two_shifts_agree() {
+    let ansatz = builtin("waldron_6r");
+    let found = sweep(&ansatz, 1).unwrap();
+    let sum = variable(&ansatz, "s").add(&variable(&ansatz, "t"));
+    assert!(found.relations == [sum.clone()] || found.relations == [sum.neg()], "{:?}", found.relations);
+    assert!(found.trial.unwrap().agrees());
+    let text =
+        text_of("waldron_6r").replace("unknown = [\"t\"]", "").replace("relations = [", "relations = [\"t = -s\",");
+    let family = ansatz_from_text(&text, "waldron.toml", FileFormat::Toml, &Options::default()).unwrap();
+    let member = held_member(&family, 1).unwrap();
+    assert_eq!((member.germ.rank, member.germ.local), (5, Local::Curve));
+}
+
+#[test]
+fn a_member_of_the_double_goldberg_loops_is_proved_at_a_position_with_a_joint_held() {
+    let [right, wrong] = ["a5 = k*sin(alpha) + k*sin(gamma)", "a5 = k*sin(alpha) - k*sin(gamma)"].map(|relation| {
+        let text =
+            text_of("double_goldberg_6r").replace("unknown = [\"a5\"]", &format!("relations = [\"{relation}\"]"));
+        ansatz_from_text(&text, "goldberg.toml", FileFormat::Toml, &Options::default()).unwrap()
+    });
+    let member = held_member(&right, 1).unwrap();
+    assert_eq!((member.germ.rank, member.germ.local), (5, Local::Curve));
+    assert!(held_member(&wrong, 1).is_none());
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::catalogue::{Any, Format, FrameworkFile, Options, any_from_text, builtin_any, moving_names};
+use looproot::kinematics::framework::cycle::stands_still;
 use looproot::kinematics::framework::{Framework, Mobility, Proof, SliceKind, Verdict, mobility};
 use proptest::prelude::*;
 use rug::Rational;
@@ -123,10 +124,40 @@ fn small_errors_of_all_sizes_stop_every_motion() {
             continue;
         }
         let tally = looproot::benchmark::framework::run(&file, 7, 1, || true, || ());
-        assert_eq!((tally.count, tally.mobile.len()), (7, 0), "{name}");
-        // Lengths of a polyhedron alone: rigid as far as f64 can tell.
-        let is_proved = name != "framework/steffen";
-        assert!(!is_proved || tally.immobile == 7, "{name}: {tally:?}");
+        assert_eq!((tally.count, tally.mobile.len(), tally.immobile), (7, 0, 7), "{name}: {tally:?}");
+    }
+}
+
+#[test]
+fn lengths_alone_prove_that_a_polyhedron_is_rigid() {
+    let file = builtin("steffen");
+    let lengths = file.squares.clone().unwrap();
+    let bar = |a: &str, b: &str| {
+        let [a, b] = [a, b].map(|name| file.names.iter().position(|known| known == name).unwrap());
+        file.framework.bars.iter().position(|bar| *bar == [a.min(b), a.max(b)]).unwrap()
+    };
+    let with = |changes: &[(&str, &str, i32)]| {
+        let mut squares = lengths.clone();
+        for (a, b, millionths) in changes {
+            squares[bar(a, b)] += Rational::from((*millionths, 1_000_000));
+        }
+        stands_still(&file.framework, &squares)
+    };
+    // It moves as it is, at any size, and with any distance of A and A2: nothing may be proved then.
+    assert!(!with(&[]) && !with(&[("A", "A2", 1)]) && !with(&[("A", "A2", 300_000)]));
+    let doubled: Vec<Rational> = lengths.iter().map(|square| Rational::from(square * 2)).collect();
+    assert!(!stands_still(&file.framework, &doubled));
+    // Opposite edges of an octahedron changed alike keep it movable, with BE of the length of DP and D2P2.
+    assert!(!with(&[("B", "P", 5), ("D", "E", 5)]) && !with(&[("D", "P", 7), ("D2", "P2", 7)]));
+    assert!(with(&[("B", "P", 5), ("D", "E", 6), ("A", "B", 3)]));
+    // One octahedron off, the other one as it was: the distance of B and E could stay at 11, but then the first does not move.
+    assert!(with(&[("A", "B", 1)]) && with(&[("C", "E", -1)]));
+    // Both off.
+    assert!(with(&[("A", "B", 1), ("A2", "E", 2), ("D", "P", 1), ("C", "D2", 3)]));
+    let mut other = file.clone();
+    other.squares.as_mut().unwrap()[bar("A", "B")] += Rational::from((1, 1_000_000_000));
+    if let Ok(answer) = other.mobility(1) {
+        assert_eq!((answer.verdict, answer.proof), (Verdict::Rigid, Proof::Cycle));
     }
 }
 

@@ -111,7 +111,7 @@ fn modes_crowded_by_a_small_error_are_told_apart() {
         ("bricard_plane_symmetric_a", 0, 8),
         ("bricard_plane_symmetric_a", 1, 12),
         ("motion_polynomial_6r", 1, 16),
-        ("double_goldberg", 0, 8),
+        ("double_goldberg", 1, 8),
         ("rrcrp_a", 0, 2),
     ];
     for (name, number, count) in cases {

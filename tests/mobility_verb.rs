@@ -195,3 +195,23 @@ fn a_sweep_brings_its_own_input() {
         assert_eq!(document["variables"].as_array().unwrap().len(), freedoms);
     }
 }
+
+#[test]
+fn data_of_few_digits_do_not_move_and_are_said_to_be_near_what_does() {
+    // Bennett's loop of twists 30 and 60 degrees, to six digits, and the same with a link that does not fit.
+    let typed = |second: &str| {
+        let links = [("1.0", "0.523599"), (second, "1.047198"), ("1.0", "0.523599"), ("1.732051", "1.047198")];
+        let joints = links.map(|(a, alpha)| format!("{{ type = \"R\", a = {a}, alpha = {alpha}, d = 0 }}"));
+        decided(&chain("loop", &joints, ""))
+    };
+    let near = typed("1.732051");
+    assert_eq!((near.mobility, near.proof), (Some(0), Proof::Exact), "{}", near.reason);
+    assert!(near.reason.contains("the loop as given is immobile, but near a mobile one"), "{}", near.reason);
+    let number =
+        |before: &str| -> f64 { near.reason.split(before).nth(1).unwrap().split(' ').next().unwrap().parse().unwrap() };
+    let (turn, shift) = (number("turned by at most "), number("shifted by at most "));
+    assert!(turn < 1e-6 && shift < 1e-6 && turn.max(shift) > 1e-8, "{}", near.reason);
+    let far = typed("1.9");
+    assert_eq!((far.mobility, far.proof), (Some(0), Proof::Exact), "{}", far.reason);
+    assert!(!far.reason.contains("near a mobile one"), "{}", far.reason);
+}

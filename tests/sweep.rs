@@ -4,9 +4,10 @@
 use looproot::assembly::{Assembly, Roots, Workspace, wrapped};
 use looproot::catalogue::entry::Entry;
 use looproot::catalogue::{Format, Options, load, load_text};
+use looproot::elimination::spherical_pair;
 use looproot::kinematics::closed_loop::Variable;
 use looproot::kinematics::motion::Motion;
-use looproot::mechanism::{Derivatives, InputCurve, Mechanism, Solution};
+use looproot::mechanism::{Derivatives, InputCurve, Mechanism, Solution, coupled_loop};
 use looproot::sweep::{End, Range, Sweep, case, sweep};
 use std::f64::consts::PI;
 use std::process::{Command, Output};
@@ -15,8 +16,31 @@ fn entry(name: &str) -> Entry {
     load(name, &Options::default()).unwrap()
 }
 
-fn swept(name: &str, joint: usize, variable: Variable, [from, to]: [f64; 2], steps: usize) -> Sweep {
-    sweep(&entry(name), joint, variable, Range { from, to, steps }, || true, || {}).unwrap()
+fn swept(name: &str, joint: usize, variable: Variable, range: [f64; 2], steps: usize) -> Sweep {
+    swept_entry(&entry(name), joint, variable, range, steps)
+}
+
+fn swept_entry(entry: &Entry, joint: usize, variable: Variable, [from, to]: [f64; 2], steps: usize) -> Sweep {
+    sweep(entry, joint, variable, Range { from, to, steps }, || true, || {}).unwrap()
+}
+
+/// A loop of joints of these kinds with data of its own.
+fn own(kinds: &str) -> Entry {
+    let joint = |(kind, k): (char, usize)| {
+        let (a, twist) = (1 + k * k % 4, ["1/2", "-2/3", "3/4", "-1/3"][k % 4]);
+        let rest = match kind {
+            'P' => "tan_half_theta = \"1/3\"".to_owned(),
+            'C' => "d0 = 0".to_owned(),
+            _ => format!("d = \"{}/2\"", k % 3),
+        };
+        format!("{{ type = \"{kind}\", a = {a}, tan_half_alpha = \"{twist}\", {rest} }},\n")
+    };
+    let joints: String = kinds.chars().zip(0..).map(joint).collect();
+    let first = kinds.find(['R', 'P']).unwrap();
+    let value = if kinds[first..].starts_with('R') { "angle = 1" } else { "distance = 1" };
+    let (head, input) = ("[mechanism]\nkind = \"loop\"\nconvention = \"dh\"", first + 1);
+    let text = format!("{head}\njoints = [\n{joints}]\n[[input]]\njoint = {input}\n{value}\n");
+    load_text(&text, "own.toml", Format::Toml, &Options::default()).unwrap()
 }
 
 /// A loop at one input, its curve, and what is found there.
@@ -26,7 +50,10 @@ struct At {
 }
 
 fn at(name: &str, joint: usize, variable: Variable, input: f64) -> At {
-    let mut entry = entry(name);
+    at_entry(entry(name), joint, variable, input)
+}
+
+fn at_entry(mut entry: Entry, joint: usize, variable: Variable, input: f64) -> At {
     entry.cases = vec![case(joint, variable, input)];
     let mechanism = Mechanism::prepare(&entry).unwrap();
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
@@ -63,6 +90,9 @@ fn derivatives_agree_with_finite_differences_of_the_solver() {
     for (name, joint, variable, input) in [
         ("crcrr_2_angle", 2, Variable::Rotation, 1.176_005_207_095_135),
         ("rrsrr", 1, Variable::Rotation, 2.5),
+        ("rscr", 3, Variable::Translation, -1.5),
+        ("rssr", 1, Variable::Rotation, 1.0),
+        ("rssr", 4, Variable::Rotation, -2.5),
         ("general_7r", 1, Variable::Rotation, -1.080_839_000_541_168),
         ("cprcr_2_distance", 2, Variable::Translation, 0.75),
     ] {
@@ -423,4 +453,149 @@ fn poles_of_large_residue_are_told() {
         let found = swept(name, joint, Variable::Rotation, [-PI, PI], 72);
         assert_eq!(found.unresolved(), 0, "{name}");
     }
+}
+
+/// The discriminant of the one equation of two balls, A^2 + B^2 - C^2 of an angle, at an input.
+fn discriminant(entry: &Entry, joint: usize, variable: Variable, input: f64) -> f64 {
+    let coupled = coupled_loop::<f64>(entry.chain().unwrap(), &case(joint, variable, input)).unwrap().unwrap();
+    let [c, a, b] = spherical_pair::equation(&coupled);
+    match coupled.variable {
+        Variable::Rotation => a * a + b * b - c * c,
+        Variable::Translation => 0.25 * a * a - c * b,
+    }
+}
+
+/// Loops of two balls, both of their other joints as input: a rotation or a translation on the same side of the balls or one
+/// on each side.
+#[test]
+fn limit_positions_of_two_balls_are_where_a_discriminant_vanishes() {
+    let mut found_any = 0;
+    for kinds in ["rssr", "RSSR", "PSSR", "RSSP", "PSSP", "RSRS", "RSPS", "PSPS"] {
+        let entry = if kinds == "rssr" { entry(kinds) } else { own(kinds) };
+        for (joint, kind) in (1..).zip(kinds.to_uppercase().chars()).filter(|(_, kind)| *kind != 'S') {
+            let (variable, range) = match kind {
+                'R' => (Variable::Rotation, [-PI, PI]),
+                _ => (Variable::Translation, [-12.0, 12.0]),
+            };
+            let swept = swept_entry(&entry, joint, variable, range, 90);
+            assert_eq!(swept.unresolved(), 0, "{kinds} {joint}");
+            assert!(swept.samples.iter().all(looproot::sweep::Sample::is_complete), "{kinds} {joint}");
+            let at = |input: f64| discriminant(&entry, joint, variable, input);
+            let largest = (0..=90).map(|step| at(swept.range.input(step)).abs()).fold(0.0, f64::max);
+            for limit in &swept.limits {
+                assert!(at(limit.input).abs() < 1e-11 * largest, "{kinds} {joint}: {}", at(limit.input) / largest);
+            }
+            let fine = Range { from: range[0], to: range[1], steps: 2000 };
+            let signs: Vec<bool> = (0..=2000).map(|step| at(fine.input(step)) > 0.0).collect();
+            let changes = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
+            assert_eq!(swept.limits.len(), changes, "{kinds} {joint}");
+            found_any += changes;
+            assert!(swept.note.as_ref().is_some_and(|note| note.contains("universal joint")));
+        }
+    }
+    assert!(found_any > 10, "{found_any}");
+}
+
+/// All joints of all modes close the loop, and a branch is continuous in all of them, the idle spin included.
+#[test]
+fn branches_of_two_balls_are_continuous_in_every_joint() {
+    for (entry, joint) in [(entry("rssr"), 1), (entry("rssr"), 4), (own("RSSR"), 1), (own("RSPS"), 1)] {
+        let swept = swept_entry(&entry, joint, Variable::Rotation, [-PI, PI], 720);
+        let mut met: Vec<Vec<usize>> = swept.samples.iter().map(|sample| vec![0; sample.modes.len()]).collect();
+        for branch in &swept.branches {
+            for row in &branch.rows {
+                met[row.step][row.mode] += 1;
+            }
+            let turns = |row: &looproot::sweep::Row| {
+                let q = &swept.samples[row.step].modes[row.mode];
+                q.iter().flat_map(|x| [x.cos(), x.sin()]).collect::<Vec<f64>>()
+            };
+            let jumps = branch.rows.windows(2).map(|pair| {
+                let (one, two) = (turns(&pair[0]), turns(&pair[1]));
+                one.iter().zip(two).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+            });
+            // Steep beside limit positions only.
+            let large = jumps.filter(|jump| *jump > 0.2).count();
+            assert!(large <= 2, "{joint}: {large}");
+        }
+        assert!(met.iter().flatten().all(|count| *count == 1), "{joint}");
+    }
+}
+
+#[test]
+fn derivatives_of_two_balls_agree_with_finite_differences() {
+    const STEP: f64 = 1e-4;
+    let mut compared = 0;
+    for (kinds, joint, variable) in [
+        ("PSSR", 4, Variable::Rotation),
+        ("RSSP", 4, Variable::Translation),
+        ("RSRS", 1, Variable::Rotation),
+        ("RSPS", 3, Variable::Translation),
+    ] {
+        for input in [-2.0, -0.7, 0.4, 1.3, 2.6] {
+            let there = |h: f64| at_entry(own(kinds), joint, variable, input + h);
+            let here = there(0.0);
+            for (q, derivatives) in here.real().iter().zip(here.derivatives()) {
+                let [behind, ahead] = [there(-STEP), there(STEP)].map(|there| there.change(q));
+                let size = 1.0 + derivatives.acceleration.iter().map(|x| x.abs()).fold(0.0, f64::max).powi(2);
+                for k in 0..q.len() {
+                    let velocity = (ahead[k] - behind[k]) / (2.0 * STEP);
+                    let acceleration = (ahead[k] + behind[k]) / (STEP * STEP);
+                    let (v, w) = (derivatives.velocity[k], derivatives.acceleration[k]);
+                    assert!((v - velocity).abs() < 1e-6 * size, "{kinds} {input} variable {k}: {v} {velocity}");
+                    assert!((w - acceleration).abs() < 1e-4 * size, "{kinds} {input} variable {k}: {w} {acceleration}");
+                }
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 10, "{compared}");
+}
+
+/// A ball in place of a revolute joint of a planar four-bar turns about one axis only: its other angles stay where the three of
+/// them are not independent.
+#[test]
+fn a_ball_that_turns_about_one_axis_only_is_followed() {
+    let four_bar = |kinds: &str| {
+        let joint = |(kind, a)| format!("{{ type = \"{kind}\", a = {a}, alpha = 0, d = 0 }},\n");
+        let joints: String = kinds.chars().zip([3, 2, 3, 3]).map(joint).collect();
+        let head = "[mechanism]\nkind = \"loop\"\nconvention = \"dh\"";
+        let text = format!("{head}\njoints = [\n{joints}]\n[[input]]\njoint = 1\nangle = 1\n");
+        load_text(&text, "own.toml", Format::Toml, &Options::default()).unwrap()
+    };
+    let plain = swept_entry(&four_bar("RRRR"), 1, Variable::Rotation, [-PI, PI], 60);
+    assert!(!plain.limits.is_empty() && plain.unresolved() == 0);
+    for kinds in ["RSRR", "RRSR", "RRRS"] {
+        let entry = four_bar(kinds);
+        let swept = swept_entry(&entry, 1, Variable::Rotation, [-PI, PI], 60);
+        assert_eq!((swept.branches.len(), swept.unresolved()), (plain.branches.len(), 0), "{kinds}");
+        assert_eq!(swept.limits.len(), plain.limits.len(), "{kinds}");
+        for (one, two) in swept.limits.iter().zip(&plain.limits) {
+            assert!((one.input - two.input).abs() < 1e-10, "{kinds}: {} {}", one.input, two.input);
+        }
+        let here = at_entry(entry, 1, Variable::Rotation, 1.0);
+        for derivatives in here.derivatives() {
+            assert!(derivatives.velocity.iter().chain(&derivatives.acceleration).all(|x| x.is_finite()), "{kinds}");
+        }
+    }
+}
+
+/// A structure closes at one of the inputs and does not move there.
+#[test]
+fn a_position_of_a_structure_is_isolated() {
+    for name in ["structure_4r", "structure_6r"] {
+        let found = swept(name, 1, Variable::Rotation, [-PI, PI], 12);
+        assert_eq!((found.branches.len(), found.unresolved()), (1, 0), "{name}");
+        let branch = &found.branches[0];
+        assert_eq!((&branch.begin, &branch.end, branch.rows.len()), (&End::Isolated, &End::Isolated, 1), "{name}");
+    }
+}
+
+/// With its slider d3 given, no two of the closure polynomials of this loop count its solutions: the ring of its equations
+/// does, and leads to the complex ones beyond the limit positions.
+#[test]
+fn a_loop_of_parallel_pairs_is_followed_by_its_translation() {
+    let found = swept("rrcrp_a", 3, Variable::Translation, [-10.0, 10.0], 60);
+    assert!(found.samples.iter().all(looproot::sweep::Sample::is_complete));
+    assert_eq!((found.branches.len(), found.limits.len(), found.unresolved()), (2, 2, 0));
 }

@@ -168,7 +168,10 @@ pub(super) fn ball_angles<S: Scalar>(r: &Rotation<S>) -> ([S; 3], f64) {
     if !(lock > 1e-9) {
         return ([S::angle_of(r[0][0], r[1][0]), S::angle_of(cos, S::zero()), S::zero()], lock);
     }
-    ([S::angle_of(r[1][2].neg(), r[0][2]), S::angle_of(cos, sin), S::angle_of(r[2][1], r[2][0])], lock)
+    // Of a complex sine only this one of both roots belongs to the other two angles.
+    let over = |x: S| if S::REAL { x } else { x.over(sin) };
+    let first = S::angle_of(over(r[1][2].neg()), over(r[0][2]));
+    ([first, S::angle_of(cos, sin), S::angle_of(over(r[2][1]), over(r[2][0]))], lock)
 }
 
 /// A mode of the turned ball in the angles of the ball as it is.

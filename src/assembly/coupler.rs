@@ -25,9 +25,10 @@ pub fn solve(
     workspace: &mut Workspace,
     assembly: &mut Assembly,
 ) -> Vec<[Angles; 2]> {
-    assembly.modes.clear();
-    (assembly.self_motion, assembly.clean, assembly.tries) = (0, true, 1);
-    let row = equation(coupled);
+    assembly.clear();
+    (assembly.clean, assembly.tries) = (true, 1);
+    let (scale, coupled) = scaled(coupled);
+    let row = equation(&coupled);
     let [constant, first, second] = row;
     let discriminant = match coupled.variable {
         Variable::Rotation => first * first + second * second - constant * constant,
@@ -36,14 +37,30 @@ pub fn solve(
     let mut balls = Vec::new();
     if discriminant >= 0.0 {
         for m in zeros::<f64>(coupled.variable, &row).into_iter().flatten() {
-            one(coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut balls);
+            one(&coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut balls);
         }
     } else if roots == Roots::All
         && let Some(m) = zeros::<Complex<f64>>(coupled.variable, &row.map(Complex::from))[0]
     {
-        one(coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut balls);
+        one(&coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut balls);
+    }
+    if coupled.variable == Variable::Translation {
+        for mode in &mut assembly.modes {
+            mode.unknowns[5] *= scale;
+        }
     }
     balls
+}
+
+/// The mean length of the links as a power of two, 1 without lengths, and the loop with lengths over it: what counts as
+/// small is so in proportion.
+fn scaled(coupled: &Coupled<f64>) -> (f64, Coupled<f64>) {
+    let links = [&coupled.link, &coupled.before, &coupled.behind];
+    let mean = links.map(|motion| dot(&motion.translation, &motion.translation)).iter().sum::<f64>() / 3.0;
+    let scale = if mean > 0.0 { mean.sqrt().log2().round().exp2() } else { 1.0 };
+    let [link, before, behind] =
+        links.map(|motion| Motion { translation: motion.translation.map(|x| x / scale), ..motion.clone() });
+    (scale, Coupled { link, before, behind, ..coupled.clone() })
 }
 
 /// Admits one position.

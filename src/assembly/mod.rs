@@ -17,4 +17,5 @@ mod solver;
 pub use axis_triples::AxisTriple;
 pub use ball::{Proof, proof};
 pub use mode::{Assembly, Hits, Mode, Roots, are_apart, distance, wrapped};
+pub use rescue::by_ring;
 pub use solver::{Gap, Solver, Workspace};

@@ -80,6 +80,13 @@ pub struct Assembly {
 }
 
 impl Assembly {
+    /// Forgets what was found.
+    pub fn clear(&mut self) {
+        self.modes.clear();
+        self.real_clean = false;
+        (self.self_motion, self.clean, self.tries, self.rescued) = (0, false, 0, 0);
+    }
+
     /// Number of isolated solutions, with multiplicity.
     #[must_use]
     pub fn total(&self) -> usize {

@@ -75,6 +75,14 @@ pub(super) fn rescue<R: Extended>(
     best
 }
 
+/// Finds and proves the simple solutions of a loop at which the unknowns of a plan that are zero are so, from exact
+/// constants, conjugates included.
+#[must_use]
+pub fn by_ring<R: Extended>(exact: &ClosedLoop<R>, plan: &coordinate_ring::Plan) -> Vec<Mode> {
+    let candidates = plan.ring(exact).and_then(|ring| eigenvectors(&ring));
+    modes(exact, None, &candidates.unwrap_or_default())
+}
+
 /// A loop over complex numbers.
 fn complex<R: Extended>(closed: &ClosedLoop<R>) -> ClosedLoop<Complex<R>> {
     let lift = |motion: &Motion<R>| Motion {

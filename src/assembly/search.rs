@@ -202,7 +202,7 @@ impl Search<'_> {
                 clean &= !outcome.unresolved;
                 closes |= outcome.settled;
                 // A pair of complex roots near the real axis does not close; anything else is a loss.
-                let lost = !outcome.settled && !(x.im != 0.0 && outcome.separation > limits::SHARED);
+                let lost = !(outcome.settled || x.im != 0.0 && outcome.separation > limits::SHARED);
                 real_clean &= !outcome.unresolved && !lost;
                 if settled {
                     continue;

@@ -255,9 +255,7 @@ impl Solver {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) {
-        assembly.modes.clear();
-        assembly.real_clean = false;
-        (assembly.self_motion, assembly.clean, assembly.tries, assembly.rescued) = (0, false, 0, 0);
+        assembly.clear();
         let closed = self.close(gap);
         let eigen = &mut workspace.eigen;
         Search {

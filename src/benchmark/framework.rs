@@ -3,6 +3,7 @@
 use super::mobility::{SIZES, Tally, stream};
 use crate::algebra::number::nearest_f64;
 use crate::catalogue::FrameworkFile;
+use crate::kinematics::framework::cycle::stands_still;
 use crate::kinematics::framework::octahedron::{Diagonal, Octahedron};
 use crate::kinematics::framework::{Framework, Verdict, mobility};
 use rand::Rng;
@@ -59,7 +60,7 @@ fn moves(file: &FrameworkFile) -> Option<bool> {
             let octahedron = Octahedron::of(&start, squares);
             let is_fixed =
                 |octahedron: &Octahedron| (0..3).all(|axis| octahedron.diagonal(axis, &start) == Diagonal::Fixed);
-            if octahedron.as_ref().is_some_and(is_fixed) {
+            if octahedron.as_ref().is_some_and(is_fixed) || stands_still(&start, squares) {
                 return Some(false);
             }
             file.mobility(1).ok()

@@ -97,10 +97,13 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
     blocks.iter().map(read).collect()
 }
 
-/// Whether a loop has no more variables than equations, so that it needs no input.
+/// Whether a loop has no more variables than equations, so that it needs no input. The spin of a link between two S joints
+/// is no motion of the loop.
 fn is_short(design: &Design) -> bool {
     let Design::Loop(chain) = design else { return false };
-    kinds(chain).iter().map(|kind| variables(*kind).len()).sum::<usize>() < 7
+    let kinds = kinds(chain);
+    let spins = usize::from(kinds.iter().filter(|kind| **kind == JointKind::Spherical).count() == 2);
+    kinds.iter().map(|kind| variables(*kind).len()).sum::<usize>() < 7 + spins
 }
 
 pub(super) fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {

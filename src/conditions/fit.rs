@@ -2,7 +2,7 @@
 
 use super::configurations::configurations;
 use super::curve_ansatz::canonical;
-use super::finite_field::random_unit;
+use super::finite_field::{random_unit, square_root};
 use crate::algebra::echelon::Echelon;
 use crate::algebra::modp::ModP;
 use crate::algebra::polynomial::Polynomial;
@@ -49,6 +49,9 @@ pub(super) fn unknown_places(ansatz: &Ansatz) -> Vec<Place> {
     of_lengths.chain(ansatz.unknown_angles.iter().filter_map(|k| place(angles, k).map(Place::Tangent))).collect()
 }
 
+/// Choices of angles before one is left without the square roots that it needs.
+const TRIES: usize = 64;
+
 /// A choice of all free parameters.
 pub(super) struct Draw<F> {
     pub(super) tangents: Vec<F>,
@@ -56,11 +59,16 @@ pub(super) struct Draw<F> {
 }
 
 impl<const P: u64> Draw<ModP<P>> {
-    pub(super) fn random(ansatz: &Ansatz, rng: &mut ChaCha8Rng) -> Self {
-        Self {
-            tangents: ansatz.free_angles().iter().map(|_| random_unit(rng)).collect(),
-            lengths: ansatz.free_lengths().iter().map(|_| random_unit(rng)).collect(),
+    /// A random choice; where square roots are needed, the last of a few if none of them has these.
+    pub(super) fn random(ansatz: &Ansatz, members: &Members<'_, ModP<P>>, rng: &mut ChaCha8Rng) -> Self {
+        let mut tangents: Vec<ModP<P>> = Vec::new();
+        for _ in 0..TRIES {
+            tangents = ansatz.free_angles().iter().map(|_| random_unit(rng)).collect();
+            if !ansatz.has_solved_symbols() || members.has_angles(&tangents) {
+                break;
+            }
         }
+        Self { tangents, lengths: ansatz.free_lengths().iter().map(|_| random_unit(rng)).collect() }
     }
 
     /// The same with the values number `choice` of the symbols that run.
@@ -89,7 +97,7 @@ pub(super) fn random<const P: u64>(seed: u64, number: usize) -> ChaCha8Rng {
 
 /// The ansatz over a field.
 pub(super) fn over<const P: u64>(ansatz: &Ansatz) -> Result<Members<'_, ModP<P>>> {
-    ansatz.over().ok_or_else(unlucky::<P>)
+    ansatz.with_roots(|x| square_root(*x)).ok_or_else(unlucky::<P>)
 }
 
 /// Polynomials over a field.
@@ -135,7 +143,8 @@ pub(super) enum Scouted {
 /// Looks at some draws before many are made.
 pub(super) fn scout<const P: u64>(ansatz: &Ansatz, places: &[Place], draws: usize, seed: u64) -> Result<Scouted> {
     let members = over::<P>(ansatz)?;
-    let one = |number: usize| mobile(&members, places, Draw::random(ansatz, &mut random::<P>(seed, number))).len();
+    let one =
+        |number: usize| mobile(&members, places, Draw::random(ansatz, &members, &mut random::<P>(seed, number))).len();
     let found: Vec<usize> = (0..draws).into_par_iter().map(one).collect();
     let many = usize::try_from(choices::<P>(places) * 3 / 4).unwrap_or(usize::MAX);
     let all = found.iter().filter(|&&count| count > many).count();
@@ -167,7 +176,7 @@ pub(super) fn fit<const P: u64>(
     let mut typical = 0;
     while draws.len() < PATIENCE * wanted {
         let start = draws.len();
-        let one = |number| mobile(&members, places, Draw::random(ansatz, &mut random::<P>(seed, number)));
+        let one = |number| mobile(&members, places, Draw::random(ansatz, &members, &mut random::<P>(seed, number)));
         draws.par_extend((start..start + batch).into_par_iter().map(one));
         typical = usual(&draws);
         let kept = draws.iter().filter(|found| typical > 0 && found.len() == typical).count();

@@ -10,7 +10,7 @@ use super::pattern::{TwistPattern, patterns};
 use super::sweep::{Sweep, sweep};
 use super::symmetry::{Slice, SymmetricSlice, slices};
 use super::verification::{
-    Closed, ModularMembers, RationalMember, closed_positions, germ, modular_members, rational_member,
+    Closed, ModularMembers, RationalMember, closed_positions, germ, held_member, modular_members, rational_member,
 };
 use crate::algebra::echelon::Echelon;
 use crate::algebra::polynomial::Polynomial;
@@ -204,6 +204,8 @@ pub fn search(ansatz: &Ansatz, seed: u64) -> Result<Search> {
     let curves = (joints == 5).then(|| curve_search(of_family.as_ref().unwrap_or(ansatz), seed)).flatten();
     let as_it_is = joints == 6 && !has_unknown && is_special;
     let member = as_it_is.then(|| rational_member(ansatz, &[], DRAWS, seed)).flatten();
+    let held = (as_it_is && !moves(member.as_ref())).then(|| held_member(ansatz, seed)).flatten();
+    let member = held.or(member);
     let modular = as_it_is.then(|| modular_members(ansatz, &[], MEMBERS, seed));
     let proof = if as_it_is { FamilyProof::of_all(ansatz, seed) } else { None };
     let patterns = if is_special { patterns(ansatz, &mobile_slices) } else { Vec::new() };
@@ -237,11 +239,21 @@ fn fitted(ansatz: &Ansatz, seed: u64) -> Result<Fitted> {
     let conditions: Vec<Polynomial<Rational>> = condition.iter().cloned().collect();
     fitted.member = rational_member(ansatz, &conditions, DRAWS, seed);
     fitted.modular = Some(modular_members(ansatz, &conditions, MEMBERS, seed));
+    if !moves(fitted.member.as_ref())
+        && let Some(member) = fitted.all_relations().and_then(|all| held_member(&all, seed))
+    {
+        fitted.member = Some(member);
+    }
     if condition.is_some() {
         fitted.closed = closed_positions(ansatz, &conditions, CLOSED, seed);
     }
     fitted.proof = FamilyProof::find(ansatz, condition.as_ref(), seed);
     Ok(fitted)
+}
+
+/// Whether a member is proved to move.
+fn moves(member: Option<&RationalMember>) -> bool {
+    member.is_some_and(|member| member.germ.local == Local::Curve)
 }
 
 /// The curve ansatz at the twists of the ansatz, free angles chosen at random.
@@ -303,7 +315,10 @@ fn curve_search(ansatz: &Ansatz, seed: u64) -> Option<CurveSearch> {
             formulas: None,
         });
     }
-    for found in loops.iter_mut().filter(|found| found.is_proper() && found.lengths.len() == 1) {
+    // Formulas are in free symbols alone.
+    let is_plain =
+        |found: &&mut CurveLoop| found.is_proper() && found.lengths.len() == 1 && !ansatz.has_solved_symbols();
+    for found in loops.iter_mut().filter(is_plain) {
         found.formulas = found.curves.iter().find_map(|curve| formulas(ansatz, &tangents, curve, seed));
     }
     Some(CurveSearch { chosen: !tangents.is_empty(), twists, loops })

@@ -191,7 +191,7 @@ fn independent(ansatz: &Ansatz, terms: &[Polynomial<Rational>], seed: u64) -> Re
     let images = images::<PRIME_61>(terms)?;
     let wanted = terms.len() + 4;
     let row = |number: usize| {
-        let draw = Draw::<ModP<PRIME_61>>::random(ansatz, &mut random::<PRIME_61>(seed, number));
+        let draw = Draw::<ModP<PRIME_61>>::random(ansatz, &members, &mut random::<PRIME_61>(seed, number));
         let values = members.values(&draw.tangents, &draw.lengths)?;
         Some(images.iter().map(|term| term.evaluate(&values)).collect::<Vec<_>>())
     };
@@ -265,7 +265,7 @@ fn implied<const P: u64>(
     let vanish = |list: &[Polynomial<ModP<P>>], values: &[ModP<P>]| list.iter().all(|p| p.evaluate(values).is_zero());
     let (mut common, mut also) = (0_usize, 0_usize);
     for number in 0..SAMPLES {
-        let mut draw = Draw::<ModP<P>>::random(ansatz, &mut random::<P>(seed, number));
+        let mut draw = Draw::<ModP<P>>::random(ansatz, &members, &mut random::<P>(seed, number));
         for choice in 0..choices::<P>(running) {
             draw.set(running, choice);
             let Some(values) = members.values(&draw.tangents, &draw.lengths) else { continue };
@@ -292,7 +292,7 @@ fn trial<const P: u64>(
     let none = Trial { prime: P, on: 0, mobile_on: 0, off: 0, mobile_off: 0 };
     let one = |number: usize| {
         let mut rng = random::<P>(seed, number);
-        let mut draw = Draw::<ModP<P>>::random(ansatz, &mut rng);
+        let mut draw = Draw::<ModP<P>>::random(ansatz, &members, &mut rng);
         let mut trial = none;
         for choice in 0..choices {
             draw.set(running, choice);

@@ -11,7 +11,7 @@ use crate::algebra::ring::{Field, Ring};
 use crate::catalogue::ansatz::{Ansatz, Link, Members};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
-use crate::mobility::{Germ, Linkage, Local};
+use crate::mobility::{Germ, Linkage, Local, Positions, positions};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rug::Rational;
@@ -19,19 +19,24 @@ use rug::Rational;
 /// What the positions near one position of a loop form, as power series.
 #[must_use]
 pub fn germ<F: Field>(links: &[Link<F>], turns: &[Turn<F>]) -> Germ<F> {
-    // Cosine and sine of half the angle, up to a factor.
-    let half = |cos: &F, sin: &F| {
-        let cos = cos.add(&F::one());
-        if cos.is_zero() { [F::zero(), F::one()] } else { [cos, sin.clone()] }
-    };
+    let values: Vec<[F; 2]> = turns.iter().map(|(cos, sin)| half(cos, sin)).collect();
+    Germ::of(&linkage(links).at(&values))
+}
+
+/// Cosine and sine of half an angle, up to a factor.
+fn half<F: Field>(cos: &F, sin: &F) -> [F; 2] {
+    let cos = cos.add(&F::one());
+    if cos.is_zero() { [F::zero(), F::one()] } else { [cos, sin.clone()] }
+}
+
+/// The loop of revolute joints with these links.
+fn linkage<F: Field>(links: &[Link<F>]) -> Linkage<F> {
     let link = |link: &Link<F>| {
         let [c, s] = half(&link.cos, &link.sin);
         let translation = DualQuaternion::translation(&[link.a.clone(), F::zero(), link.d.clone()]);
         translation.mul(&DualQuaternion::rotation_x(c, s))
     };
-    let linkage = Linkage::about_z(vec![Variable::Rotation; links.len()], links.iter().map(link).collect());
-    let values: Vec<[F; 2]> = turns.iter().map(|(cos, sin)| half(cos, sin)).collect();
-    Germ::of(&linkage.at(&values))
+    Linkage::about_z(vec![Variable::Rotation; links.len()], links.iter().map(link).collect())
 }
 
 /// Closed positions of random members of an ansatz, looked at for a relation.
@@ -51,7 +56,8 @@ pub struct Closed {
 /// three rotations and all twists at random, and lengths at random among those that close there.
 ///
 /// The relation is a polynomial of a degree below 200 at points of a variety parametrised by the draws, so if it did not
-/// vanish on it, one draw would say so but for a probability below `2^-50`.
+/// vanish on it, one draw would say so but for a probability below `2^-50`. That bound is for relations that are linear: where
+/// others give symbols, nothing is drawn.
 ///
 /// # Panics
 /// Unless there are six joints.
@@ -63,6 +69,9 @@ pub fn closed_positions(
     seed: u64,
 ) -> Option<Closed> {
     assert_eq!(ansatz.joints.len(), 6, "six joints");
+    if ansatz.has_solved_symbols() {
+        return None;
+    }
     let members = ansatz.over::<ModP<PRIME_61>>()?;
     let images: Vec<Polynomial<ModP<PRIME_61>>> =
         relations.iter().map(|relation| relation.map(ModP::from_rational)).collect::<Option<_>>()?;
@@ -197,13 +206,17 @@ impl ModularMembers {
 /// below `2^21` (docs/conditions_search.md). If general members did not move, one of these functions would not vanish, and a
 /// random draw over the field of p elements would be a zero of it with a probability below `2^21 / p < 2^-39`. Draws are as
 /// in [`closed_positions`]; relations that are not linear in the lengths are left to chance. Draws whose members are not
-/// general, by a count of dimensions, do not count.
+/// general, by a count of dimensions, do not count. The degrees are those of linear relations: where others give symbols, no
+/// member is drawn.
 ///
 /// # Panics
 /// Unless there are six joints.
 #[must_use]
 pub fn modular_members(ansatz: &Ansatz, relations: &[Polynomial<Rational>], draws: usize, seed: u64) -> ModularMembers {
     assert_eq!(ansatz.joints.len(), 6, "six joints");
+    if ansatz.has_solved_symbols() {
+        return ModularMembers { members: 0, mobile: 0 };
+    }
     let one = modular::<PRIME_61>(ansatz, relations, draws, seed);
     let other = modular::<PRIME_62>(ansatz, relations, draws, seed);
     // An unlucky prime, or no members, is no evidence.
@@ -287,6 +300,9 @@ pub fn rational_member(
     seed: u64,
 ) -> Option<RationalMember> {
     assert_eq!(ansatz.joints.len(), 6, "six joints");
+    if ansatz.has_solved_symbols() {
+        return None;
+    }
     let members = ansatz.over::<Rational>()?;
     let modular = ansatz.over::<ModP<PRIME_61>>()?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -324,6 +340,63 @@ pub fn rational_member(
         }
     }
     rigid.pop()
+}
+
+/// Members over the rationals that are looked at with a joint held.
+const HELD: usize = 24;
+/// Draws among which such members are sought.
+const DRAWN: usize = 20_000;
+
+/// A member of an ansatz without further conditions with an exact position of screw rank 5 that lies on a curve: random
+/// members are held at rational values of their first joint, and their positions found exactly. `None` where no position met
+/// is rational.
+///
+/// # Panics
+/// Unless there are six joints.
+#[must_use]
+pub fn held_member(ansatz: &Ansatz, seed: u64) -> Option<RationalMember> {
+    assert_eq!(ansatz.joints.len(), 6, "six joints");
+    let members = ansatz.with_roots::<Rational>(rational_square_root)?;
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut looked_at = 0;
+    for _ in 0..DRAWN {
+        if looked_at == HELD {
+            break;
+        }
+        let places = rand::seq::index::sample(&mut rng, TANGENTS.len(), TANGENTS.len()).into_vec();
+        let tangents: Vec<Rational> =
+            (0..ansatz.free_angles().len()).map(|k| Rational::from(TANGENTS[places[k % TANGENTS.len()]])).collect();
+        let lengths: Vec<Rational> =
+            ansatz.free_lengths().iter().map(|_| Rational::from(rng.random_range(1..9))).collect();
+        // Where square roots are needed, they are seldom rational.
+        let Some(links) = members.member(&tangents, &lengths) else { continue };
+        looked_at += 1;
+        for tangent in &TANGENTS[..ROTATIONS] {
+            let held = [Rational::from(1), Rational::from(*tangent)];
+            let Positions::Finite { found, .. } = positions(&linkage(&links).locked(&[(0, held.clone())])) else {
+                continue;
+            };
+            for position in found.iter().filter(|position| position.polynomial.is_none()) {
+                let rest = position.values.iter().map(|[c, s]| Some([c.rational()?, s.rational()?]));
+                let Some(values) = std::iter::once(Some(held.clone())).chain(rest).collect::<Option<Vec<_>>>() else {
+                    continue;
+                };
+                let turns: Vec<Turn<Rational>> = values.iter().map(|[c, s]| whole(c, s)).collect();
+                let germ = germ(&links, &turns);
+                if germ.rank == 5 && germ.local == Local::Curve {
+                    return Some(RationalMember { links, turns, germ });
+                }
+            }
+        }
+    }
+    None
+}
+
+/// Cosine and sine of an angle from those of its half, up to a factor.
+fn whole(c: &Rational, s: &Rational) -> Turn<Rational> {
+    let (cc, ss) = (Rational::from(c.square_ref()), Rational::from(s.square_ref()));
+    let norm = Rational::from(&cc + &ss);
+    ((cc - ss) / &norm, Rational::from(c * s) * 2 / norm)
 }
 
 /// Whether the discriminant is a square modulo a prime, as it is if it is one: half of the rest is told apart without

@@ -103,14 +103,14 @@ fn equations<F: Field>(closed: &ClosedLoop<F>) -> Vec<Sparse<F>> {
     (1..SIZE).flat_map(|i| [difference(&left, &near, i), difference(&far, &right, i)]).collect()
 }
 
-/// A relation at the values of 0 of the idle unknowns.
-fn without_idle<F: Field>(relation: Sparse<F>, kinds: &[Variable; 6], is_idle: &[bool; 5]) -> Sparse<F> {
+/// A polynomial with some unknowns, of a loop with these, at zero.
+fn at_zero<F: Field>(polynomial: Sparse<F>, kinds: &[Variable], is_zero: [bool; 5]) -> Sparse<F> {
     let mut rest = Sparse::new();
-    'terms: for (mut monomial, c) in relation {
-        for unknown in (0..5).filter(|k| is_idle[*k]) {
+    'terms: for (mut monomial, c) in polynomial {
+        for unknown in (0..5).filter(|k| is_zero[*k]) {
             let power = digit(monomial, unknown);
-            // Of a distance, or of a sine.
-            if (kinds[unknown] == Variable::Translation && power > 0) || power % 2 == 1 {
+            let vanishes = if kinds[unknown] == Variable::Rotation { power % 2 == 1 } else { power > 0 };
+            if vanishes {
                 continue 'terms;
             }
             monomial -= power << (8 * unknown);
@@ -121,10 +121,10 @@ fn without_idle<F: Field>(relation: Sparse<F>, kinds: &[Variable; 6], is_idle: &
     rest
 }
 
-/// The monomials up to a degree, highest first, without the idle unknowns.
-fn monomials(kinds: &[Variable; 5], is_idle: &[bool; 5], most: u32) -> Vec<Monomial> {
+/// The monomials in unknowns that are not zero up to a degree, highest first.
+fn monomials(kinds: &[Variable; 5], is_zero: [bool; 5], most: u32) -> Vec<Monomial> {
     let mut all: Vec<Monomial> = vec![0];
-    for (unknown, kind) in kinds.iter().enumerate().filter(|(k, _)| !is_idle[*k]) {
+    for (unknown, kind) in kinds.iter().enumerate().filter(|(k, _)| !is_zero[*k]) {
         let powers: Vec<Monomial> =
             (0..=u64::from(2 * most)).filter(|d| *kind == Variable::Rotation || d % 2 == 0).collect();
         let longer = |m: &Monomial| powers.iter().map(|d| m + (d << (8 * unknown))).collect::<Vec<_>>();
@@ -146,7 +146,8 @@ enum Source {
 /// Relations between the monomials up to a degree, in echelon form.
 struct Relations<F> {
     kinds: [Variable; 5],
-    is_idle: [bool; 5],
+    /// Unknowns that are zero.
+    is_zero: [bool; 5],
     most: u32,
     columns: Vec<Monomial>,
     places: HashMap<Monomial, usize>,
@@ -155,11 +156,11 @@ struct Relations<F> {
 }
 
 impl<F: Field> Relations<F> {
-    fn new(kinds: [Variable; 5], is_idle: [bool; 5], most: u32) -> Self {
-        let columns = monomials(&kinds, &is_idle, most);
+    fn new(kinds: [Variable; 5], is_zero: [bool; 5], most: u32) -> Self {
+        let columns = monomials(&kinds, is_zero, most);
         let places = columns.iter().enumerate().map(|(k, m)| (*m, k)).collect();
         let rows = columns.iter().map(|_| None).collect();
-        Self { kinds, is_idle, most, columns, places, rows }
+        Self { kinds, is_zero, most, columns, places, rows }
     }
 
     /// Reduces a relation by those known already, up to a column if it is known that nothing is left before that one.
@@ -228,14 +229,16 @@ impl<F: Field> Relations<F> {
             let sines: &[bool] = if kind == Variable::Rotation { &[false, true] } else { &[false] };
             sines.iter().map(move |is_sine| (unknown, *is_sine))
         };
-        let active = self.kinds.into_iter().enumerate().filter(|(unknown, _)| !self.is_idle[*unknown]);
-        active.flat_map(move |(unknown, kind)| both(unknown, kind))
+        let unknowns = self.kinds.into_iter().enumerate().filter(|(unknown, _)| !self.is_zero[*unknown]);
+        unknowns.flat_map(move |(unknown, kind)| both(unknown, kind))
     }
 }
 
 /// How the relations of a loop follow from its equations.
 #[derive(Clone, Debug)]
 pub struct Plan {
+    /// Unknowns that are zero.
+    is_zero: [bool; 6],
     most: u32,
     /// Which relations lead to new ones, each with its leading column then.
     steps: Vec<(Source, usize)>,
@@ -247,21 +250,19 @@ impl Plan {
     /// degree are needed to see that they do not.
     #[must_use]
     pub fn of<F: Field>(closed: &ClosedLoop<F>) -> Option<Self> {
-        Self::without(closed, [false; 6])
+        Self::at_zero(closed, [false; 6])
     }
 
-    /// That of a loop in which some unknowns are idle, always 0.
-    fn without<F: Field>(closed: &ClosedLoop<F>, is_idle: [bool; 6]) -> Option<Self> {
-        let (first, closed) = turned(closed, is_idle)?;
-        let is_idle: [bool; 5] = std::array::from_fn(|k| is_idle[(first + k) % 6]);
-        let all = equations(&closed).into_iter();
-        let equations: Vec<_> = all.map(|relation| without_idle(relation, &closed.variables, &is_idle)).collect();
-        let kinds = std::array::from_fn(|k| closed.variables[k]);
-        DEGREES.iter().find_map(|&most| Self::up_to(Relations::new(kinds, is_idle, most), &equations))
+    /// As [`Plan::of`] for the solutions at which these unknowns are zero, of which there need be none.
+    #[must_use]
+    pub fn at_zero<F: Field>(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<Self> {
+        let setting = Setting::of(closed, is_zero)?;
+        DEGREES.iter().find_map(|&most| Self::up_to(most, &setting, is_zero))
     }
 
-    fn up_to<F: Field>(mut relations: Relations<F>, equations: &[Sparse<F>]) -> Option<Self> {
-        let most = relations.most;
+    fn up_to<F: Field>(most: u32, setting: &Setting<F>, is_zero: [bool; 6]) -> Option<Self> {
+        let equations = &setting.equations;
+        let mut relations = setting.relations(most);
         let mut steps = Vec::new();
         // Relations not multiplied yet.
         let mut fresh = Vec::new();
@@ -287,7 +288,7 @@ impl Plan {
             }
         }
         let count = relations.standard()?.len();
-        Some(Self { most, steps, count })
+        Some(Self { is_zero, most, steps, count })
     }
 
     /// An upper bound on the number of solutions, with multiplicity: their number, unless relations of a higher degree are
@@ -300,11 +301,10 @@ impl Plan {
     /// The ring of the same loop in another field; `None` where a number vanishes that should not.
     #[must_use]
     pub fn ring<F: Field>(&self, closed: &ClosedLoop<F>) -> Option<CoordinateRing<F>> {
-        let (rotation, closed) = turned(closed, [false; 6])?;
-        let equations = equations(&closed);
-        let mut relations = Relations::<F>::new(std::array::from_fn(|k| closed.variables[k]), [false; 5], self.most);
+        let setting = Setting::of(closed, self.is_zero)?;
+        let mut relations = setting.relations(self.most);
         for (source, column) in &self.steps {
-            let relation = relations.relation(&equations, *source)?;
+            let relation = relations.relation(&setting.equations, *source)?;
             let (column, row) = relations.reduced(&relation, Some(*column))?;
             if !relations.take(column, &row) {
                 return None;
@@ -326,7 +326,32 @@ impl Plan {
             }
             normal[column] = sum;
         }
+        let Setting { rotation, closed, .. } = setting;
         Some(CoordinateRing { rotation, closed, relations, standard, normal })
+    }
+}
+
+/// A loop as its ring is computed.
+struct Setting<F> {
+    /// How many unknowns went from the head to the tail.
+    rotation: usize,
+    closed: ClosedLoop<F>,
+    /// Which of the first five unknowns are zero.
+    is_zero: [bool; 5],
+    equations: Vec<Sparse<F>>,
+}
+
+impl<F: Field> Setting<F> {
+    fn of(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<Self> {
+        let (rotation, closed) = turned(closed, is_zero)?;
+        let is_zero: [bool; 5] = std::array::from_fn(|k| is_zero[(rotation + k) % 6]);
+        let all = equations(&closed).into_iter();
+        let equations = all.map(|equation| at_zero(equation, &closed.variables, is_zero)).collect();
+        Some(Self { rotation, closed, is_zero, equations })
+    }
+
+    fn relations(&self, most: u32) -> Relations<F> {
+        Relations::new(std::array::from_fn(|k| self.closed.variables[k]), self.is_zero, most)
     }
 }
 
@@ -336,13 +361,13 @@ impl Plan {
 /// determinant is not zero modulo that prime.
 #[must_use]
 pub fn count_without<F: Field>(closed: &ClosedLoop<F>, is_idle: [bool; 6]) -> Option<usize> {
-    Plan::without(closed, is_idle).map(|plan| plan.count())
+    Plan::at_zero(closed, is_idle).map(|plan| plan.count())
 }
 
-/// The loop with a rotation that is not idle as its last unknown, and how many unknowns went from the head to the tail for
+/// The loop with a rotation that is not zero as its last unknown, and how many unknowns went from the head to the tail for
 /// that.
-fn turned<F: Ring>(closed: &ClosedLoop<F>, is_idle: [bool; 6]) -> Option<(usize, ClosedLoop<F>)> {
-    let last = (0..6).rev().find(|&k| closed.variables[k] == Variable::Rotation && !is_idle[k])?;
+fn turned<F: Ring>(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<(usize, ClosedLoop<F>)> {
+    let last = (0..6).rev().find(|&k| closed.variables[k] == Variable::Rotation && !is_zero[k])?;
     let rotation = (last + 1) % 6;
     Some((rotation, Cut { rotation, reversed: false }.of(closed)))
 }
@@ -397,9 +422,14 @@ impl<F: Field> CoordinateRing<F> {
     pub fn unknowns(&self) -> (Vec<F>, [[Vec<F>; 2]; 5]) {
         let one = [(0, F::one())];
         let at = |unknown: usize, is_sine: bool| self.normal(&times(&one, unknown, is_sine));
+        let nought = || vec![F::zero(); self.standard.len()];
         let pair = |unknown: usize| match self.relations.kinds[unknown] {
+            Variable::Rotation if self.relations.is_zero[unknown] => {
+                [self.normal(&one.iter().cloned().collect()), nought()]
+            }
+            Variable::Translation if self.relations.is_zero[unknown] => [nought(), nought()],
             Variable::Rotation => [at(unknown, false), at(unknown, true)],
-            Variable::Translation => [at(unknown, false), vec![F::zero(); self.standard.len()]],
+            Variable::Translation => [at(unknown, false), nought()],
         };
         (self.normal(&one.iter().cloned().collect()), std::array::from_fn(pair))
     }

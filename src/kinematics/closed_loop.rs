@@ -507,9 +507,16 @@ impl Chain {
         let is_ball = |at: usize| balls.contains(&Some(at));
         let found = items.iter().position(|(at, _)| !is_ball(*at)).filter(|_| items.len() == 3);
         let Some(position) = found else {
+            let found = match items.len() {
+                2 => {
+                    "nothing is left to find but the spin of the link between the S joints, whose distance is right at some \
+                      inputs or at none"
+                }
+                _ => "the distance of the S joints is one equation, for one unknown",
+            };
             return Err(Error::Unsupported(format!(
-                "{} joint variables with two S joints, {}: solved are loops with two S joints and two more joint variables, one of \
-                 them given, as RSSR",
+                "{} joint variables with two S joints, {}: {found}; solved are loops with two S joints and one more joint variable \
+                 that is not given, as RSSR with an input, or RSS without",
                 layout.variables.len(),
                 Freedom::of(self)
             )));

@@ -37,7 +37,7 @@ pub struct InputCurve {
 /// In what the curve lies.
 enum Way {
     /// Six unknowns and the input.
-    Loop { curve: Curve, ball: Option<TurnedBall> },
+    Loop { curve: Box<Curve>, ball: Option<TurnedBall> },
     /// The unknown between two balls and the input.
     Pair(Box<Pair>),
 }
@@ -83,7 +83,7 @@ impl InputCurve {
         let idle = layout.joint_variables().map(|joint| joint.is_none());
         let mut open = chain.open_loop(&layout)?;
         let ball = layout.ball.map(|joint| turned(chain, &layout, joint, &mut open));
-        let curve = Curve::new(&open, idle, input);
+        let curve = Box::new(Curve::new(&open, idle, input));
         Ok(Self { layout, way: Way::Loop { curve, ball } })
     }
 

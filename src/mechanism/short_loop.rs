@@ -1,15 +1,19 @@
 //! Loops with fewer than six unknowns: overconstrained mechanisms and structures.
 
+mod few_turns;
+
 use super::by_input::{ByInput, Prepared};
 use super::short_ball::{Positions, positions};
 use super::single_loop::{filling, full_mode, locked_value, within_limits};
 use super::{FullMode, Solution};
+use crate::algebra::long_float::LongFloat;
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
-use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, proof, wrapped};
+use crate::algebra::ring::Ring;
+use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, by_ring, proof, wrapped};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::elimination::common_roots::common_roots;
-use crate::elimination::coordinate_ring::count_without;
+use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::{degree, general_filling};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
@@ -315,6 +319,9 @@ impl ShortLoop {
         if ladder.layout.ball.is_some() {
             return self.with_ball(&ladder.layout, case);
         }
+        if let Some(answer) = self.with_few_turns(&ladder.layout, case)? {
+            return Ok(answer);
+        }
         let mut best: Vec<Candidate> = Vec::new();
         let mut count: Option<Count> = None;
         let mut self_motion = 0;
@@ -351,6 +358,16 @@ impl ShortLoop {
             }
             if roots == Roots::Real || count.is_some_and(|count| count.most == total(&best)) {
                 break;
+            }
+        }
+        if roots == Roots::All
+            && count.is_some_and(|count| count.most > total(&best))
+            && let Some(plan) = self.plan(&ladder.layout, case)
+        {
+            // What idle unknowns in general position hide.
+            let found = self.by_ring(&ladder.layout, case, &plan)?;
+            if total(&found) > total(&best) {
+                best = found;
             }
         }
         if count.is_none() && self_motion > 0 {
@@ -440,7 +457,9 @@ impl ShortLoop {
             }
         };
         if status == Status::Incomplete {
-            modes.iter_mut().for_each(|mode| mode.certified = false);
+            for mode in &mut modes {
+                mode.certified = false;
+            }
         }
         let certified = modes.iter().filter(|mode| mode.certified).count();
         Ok((Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }, modes))
@@ -465,25 +484,12 @@ impl ShortLoop {
             gap = last.map(|x| Some(nearest_f64(x))).map_or(gap, |last| solver.exact_gap(&last));
         }
         solver.solve_up_to(&gap, roots, &|| most.unwrap_or(usize::MAX), workspace, assembly);
-        let unit = self.chain.unit().to_f64();
-        let filling = Motion { translation: filling.translation.map(|x| x / unit), ..filling };
-        let closed = open.close(&filling);
-        let is_idle = layout.joint_variables().map(|joint| joint.is_none());
-        let locked = Complex::from(locked_value(case));
-        let units = closed.variables.map(|kind| if kind == Variable::Rotation { 1.0 } else { unit });
-        let mut candidates: Vec<Candidate> = Vec::new();
-        for mode in &assembly.modes {
-            let own = std::array::from_fn(|k| mode.unknowns[k] / units[k]);
-            let idle = (0..6).filter(|&k| is_idle[k]).map(|k| own[k].norm()).fold(0.0, f64::max);
-            if idle < NEARLY_ZERO {
-                let (unknowns, residual) = closer(&closed, &own, is_idle, mode.real);
-                if !(residual < OPEN) {
-                    continue;
-                }
-                let q = layout.assemble(&std::array::from_fn(|k| unknowns[k] * units[k]), locked);
-                candidates.push(Candidate { q, mode: Mode { residual, ..mode.clone() }, idle });
-            }
-        }
+        let setting = self.setting(layout, open, case)?;
+        let candidate = |mode: &Mode| {
+            let own = std::array::from_fn(|k| mode.unknowns[k] / setting.units[k]);
+            setting.candidate(mode, &own, NEARLY_ZERO)
+        };
+        let mut candidates: Vec<Candidate> = assembly.modes.iter().filter_map(candidate).collect();
         candidates.sort_by(|a, b| a.idle.total_cmp(&b.idle));
         Ok(candidates)
     }
@@ -499,13 +505,44 @@ impl ShortLoop {
     /// At most so many solutions there are by the closure equations, all of them at once; `None` where they form families, where
     /// it is not seen that they do not, and for loops with a ball.
     fn count_by_ring(&self, layout: &Layout, case: &Case) -> Option<usize> {
+        self.plan(layout, case).map(|plan| plan.count())
+    }
+
+    /// How the ring of the closure equations is found.
+    fn plan(&self, layout: &Layout, case: &Case) -> Option<Plan> {
         if layout.ball.is_some() {
             return None;
         }
         let filled = layout.with_idle(layout.missing(), 0);
         let is_idle = filled.joint_variables().map(|joint| joint.is_none());
         let open = self.chain.try_open_loop::<Mod>(&filled).ok()??;
-        count_without(&open.close(&filling(case).ok()?), is_idle)
+        Plan::at_zero(&open.close(&filling(case).ok()?), is_idle)
+    }
+
+    /// The solutions by that ring, in longer numbers.
+    fn by_ring(&self, layout: &Layout, case: &Case, plan: &Plan) -> Result<Vec<Candidate>> {
+        let filled = layout.with_idle(layout.missing(), 0);
+        let over = LongFloat::from(1.0 / self.chain.unit().to_f64());
+        let exact = self.chain.open_loop::<LongFloat>(&filled)?.close(&filling(case)?);
+        let constants = exact.constants.each_ref().map(|motion| {
+            let translation = motion.translation.map(|x| x.mul(&over));
+            Motion { translation, ..motion.clone() }
+        });
+        let modes = by_ring(&ClosedLoop { variables: exact.variables, constants }, plan);
+        let open: OpenLoop<f64> = self.chain.open_loop(&filled)?;
+        let setting = self.setting(&filled, &scaled(&open, self.chain.unit().to_f64()), case)?;
+        Ok(modes.iter().filter_map(|mode| setting.candidate(mode, &mode.unknowns, ZERO)).collect())
+    }
+
+    /// The loop at an input, lengths over the mean link.
+    fn setting(&self, layout: &Layout, open: &OpenLoop<f64>, case: &Case) -> Result<Setting> {
+        let unit = self.chain.unit().to_f64();
+        let filling: Motion<f64> = filling(case)?;
+        let closed = open.close(&Motion { translation: filling.translation.map(|x| x / unit), ..filling });
+        let units = closed.variables.map(|kind| if kind == Variable::Rotation { 1.0 } else { unit });
+        let is_idle = layout.joint_variables().map(|joint| joint.is_none());
+        let locked = Complex::from(locked_value(case));
+        Ok(Setting { layout: layout.clone(), closed, is_idle, units, locked })
     }
 
     /// A bound on the number of solutions with idle unknowns at every input; `None` where the closure polynomials vanish.
@@ -579,6 +616,30 @@ impl ShortLoop {
         };
         let certified = if status == Status::Incomplete { 0 } else { certified };
         Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }
+    }
+}
+
+/// A loop with idle unknowns at an input.
+struct Setting {
+    layout: Layout,
+    /// Lengths over the mean link.
+    closed: ClosedLoop<f64>,
+    is_idle: [bool; 6],
+    units: Six<f64>,
+    locked: Complex<f64>,
+}
+
+impl Setting {
+    /// What a mode with these unknowns, lengths over the mean link, is with its idle ones at zero, where they are below
+    /// `most` and the loop closes.
+    fn candidate(&self, mode: &Mode, own: &Six<Complex<f64>>, most: f64) -> Option<Candidate> {
+        let idle = (0..6).filter(|&k| self.is_idle[k]).map(|k| own[k].norm()).fold(0.0, f64::max);
+        if !(idle < most) {
+            return None;
+        }
+        let (unknowns, residual) = closer(&self.closed, own, self.is_idle, mode.real);
+        let q = self.layout.assemble(&std::array::from_fn(|k| unknowns[k] * self.units[k]), self.locked);
+        (residual < OPEN).then(|| Candidate { q, mode: Mode { residual, ..mode.clone() }, idle })
     }
 }
 

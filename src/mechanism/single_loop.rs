@@ -183,11 +183,20 @@ impl SingleLoop {
         let start = Instant::now();
         let layout = &prepared.layout;
         let coupled = prepared.open.close(&filling(case)?);
-        let balls = coupler::solve(&coupled, roots, workspace, assembly);
-        let solve_us = start.elapsed().as_secs_f64() * 1e6;
         let modular = prepared.modular.as_ref().zip(filling::<Mod>(case).ok());
-        let count = modular.and_then(|(open, filling)| spherical_pair::count(&open.close(&filling)));
-        let bound = || match count {
+        let count = modular.map(|(open, filling)| spherical_pair::count(&open.close(&filling)));
+        // Where the equation is free of its unknown rounding would lead to roots.
+        let balls = if matches!(count, Some(None | Some(0))) {
+            assembly.clear();
+            Vec::new()
+        } else {
+            coupler::solve(&coupled, roots, workspace, assembly)
+        };
+        if count == Some(None) {
+            assembly.self_motion = 1;
+        }
+        let solve_us = start.elapsed().as_secs_f64() * 1e6;
+        let bound = || match count.flatten() {
             Some(count) => bound_from(Degree { solutions: count, left_out: 2 - count }, "at this input"),
             None => Bound::general(2),
         };

@@ -3,6 +3,7 @@
 use super::answer::{Configuration, JointVariable, Mobility, Proof};
 use super::branches::branches;
 use super::linkage::{Axis, JointValue, Linkage};
+use super::nearby::{Nearby, nearby};
 use super::open::{of_arm, of_platform};
 use super::order::{Germ, Local, MOST_SOLUTIONS};
 use super::positions::Conjugates;
@@ -12,7 +13,7 @@ use super::stillness::all_stand_still;
 use crate::algebra::number::Number;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind, Placement};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screw_system::ScrewSystem;
@@ -101,6 +102,27 @@ impl Subject<'_> {
 
     /// Loops of up to six variables, which in general do not move.
     fn overconstrained(&self) -> Result<Mobility> {
+        let answer = self.as_given()?;
+        if answer.mobility > Some(0) {
+            return Ok(answer);
+        }
+        let Some(Nearby { held, values, turn, shift }) = nearby(&self.linkage) else { return Ok(answer) };
+        let joint = self.variables[held].joint;
+        let immobile = if answer.mobility == Some(0) {
+            "the loop as given is immobile, but near a mobile one"
+        } else {
+            "it is near a mobile one"
+        };
+        let reason = format!(
+            "{}; {immobile}: with its links turned by at most {turn:.1e} rad and shifted by at most {shift:.1e} m it closes at {values} \
+             values of joint {joint}, one behind the other (in floating point, no proof)",
+            answer.reason
+        );
+        Ok(Mobility { reason, ..answer })
+    }
+
+    /// The same of nothing but the loop as given.
+    fn as_given(&self) -> Result<Mobility> {
         let answer = self.exactly()?;
         let moves = answer.mobility > Some(0);
         let is_rounded = !is_exact(self.chain);
@@ -244,7 +266,18 @@ impl Subject<'_> {
         // A loop is an arm that holds its own base.
         let mut arm = self.entry.clone();
         arm.design = Design::Arm(self.chain.clone());
-        let solution = solve(&arm, Case::at(Placement::identity(), 0))?;
+        let solution = match solve(&arm, Case::at(Placement::identity(), 0)) {
+            Ok(solution) => solution,
+            Err(Error::Unsupported(_)) => {
+                let proof = if why.is_some() { Proof::Exact } else { Proof::None };
+                let nothing = why.unwrap_or(
+                    "no motion was found through any value of a joint, but that there is none is not proved",
+                );
+                let reason = format!("{nothing}; the configurations of loops of such joints are not listed");
+                return Ok(Mobility { is_listed: false, ..self.answer(why.map(|_| 0), proof, reason) });
+            }
+            Err(error) => return Err(error),
+        };
         let verdict = &solution.verdict;
         let is_complete = matches!(verdict.status, Status::Complete | Status::Unreachable);
         // As many isolated configurations as there can be leave none for a curve. They are those of unit axes: of axes of

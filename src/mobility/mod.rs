@@ -8,6 +8,7 @@ mod decision;
 mod free;
 pub mod linkage;
 mod multiplicity;
+mod nearby;
 mod open;
 pub mod order;
 mod positions;

@@ -66,12 +66,23 @@ pub fn text(
     if !numbers.is_empty() {
         let _ = writeln!(text, "singular, without derivatives by {input_name}: mode {}", numbers.join(", "));
     }
+    if modes.iter().copied().flatten().any(|d| d.velocity.iter().any(|x| x.is_nan())) {
+        text.push_str(
+            "-: the angles of an S joint have no rates where its second angle is 0 or 180 deg and moves on\n",
+        );
+    }
     text
 }
 
-/// Six decimals, or an exponent where these say little.
+/// Six decimals, or an exponent where these say little; a dash for none.
 fn shown_rate(x: f64) -> String {
-    if x.abs() >= 1e6 { format!("{x:.6e}") } else { format!("{:.6}", x + 0.0) }
+    if x.is_nan() {
+        "-".to_owned()
+    } else if x.abs() >= 1e6 {
+        format!("{x:.6e}")
+    } else {
+        format!("{:.6}", x + 0.0)
+    }
 }
 
 #[cfg(test)]
@@ -83,5 +94,6 @@ mod tests {
         assert_eq!(shown_rate(-0.0), "0.000000");
         assert_eq!(shown_rate(1.0 / 3.0), "0.333333");
         assert_eq!(shown_rate(-2.5e7), "-2.500000e7");
+        assert_eq!(shown_rate(f64::NAN), "-");
     }
 }

@@ -72,6 +72,9 @@ fn reason(file: &FrameworkFile, answer: &Mobility) -> String {
                 list[1..].join("; ")
             )
         }
+        Proof::Cycle => "two octahedra and a bar about a pair of vertices: neither its distance nor that of any other two vertices can \
+                         change, by the closures of both octahedra"
+            .to_owned(),
         Proof::Order(order) => format!("the lengths cannot be kept in order {order} of the only first-order motion"),
         Proof::Series(order, most) => format!(
             "all lengths are kept through order {order} over the rationals, and no isolated realisation is more than {most}-fold"

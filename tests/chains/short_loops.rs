@@ -1,11 +1,16 @@
 //! Loops of fewer than six unknowns: overconstrained mechanisms, their controls, and structures.
 
-use looproot::algebra::number::Number;
+use looproot::algebra::modp::{ModP, PRIME_61};
+use looproot::algebra::number::{Angle, HalfTangent, Number};
 use looproot::assembly::{Assembly, Roots, Workspace};
-use looproot::catalogue::entry::{Design, Entry};
+use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue};
 use looproot::catalogue::{Format, Options, builtin, load_text};
+use looproot::elimination::coordinate_ring::Plan;
+use looproot::elimination::degree::half_tangent_pair;
 use looproot::kinematics::chain::Geometry;
-use looproot::mechanism::{InputCurve, Mechanism, Solution};
+use looproot::kinematics::closed_loop::{Layout, OpenLoop};
+use looproot::kinematics::motion::Motion;
+use looproot::mechanism::{InputCurve, Mechanism, Solution, locked_variable};
 use looproot::verdict::Status;
 use rug::Rational;
 
@@ -116,6 +121,7 @@ fn an_overconstrained_loop_with_a_ball_is_solved_by_its_centre() {
         let third = if ball == 2 { 4 } else { 2 };
         for mode in &found.modes {
             assert!(mode.residual < 1e-14 && mode.multiplicity == 1, "{ball}: {:e}", mode.residual);
+            assert!(mode.certified && mode.radius < 1e-12 && mode.condition < 1e3, "{ball}: {:e}", mode.radius);
             if ball != 3 {
                 let turn = mode.q[third].re.abs();
                 assert!((turn - (std::f64::consts::PI - inner)).abs() < 1e-12, "{ball}: {turn} {inner}");
@@ -127,6 +133,66 @@ fn an_overconstrained_loop_with_a_ball_is_solved_by_its_centre() {
         assert_eq!((verdict.status, verdict.complex), (Status::Unreachable, 0), "{}", verdict.reason);
         let verdict = solve(&read(&bennett(&links, "")).unwrap(), 0).verdict;
         assert_eq!(verdict.status, Status::SelfMotion, "{}", verdict.reason);
+    }
+}
+
+/// Common roots of two closure polynomials, and the dimension of the ring of the equations themselves: two counts of the
+/// solutions of an overconstrained loop that have nothing in common.
+#[test]
+fn two_exact_counts_agree() {
+    for name in [
+        "bennett_a",
+        "goldberg_a",
+        "myard_a",
+        "bricard_trihedral_a",
+        "rrcrp_a",
+        "rrrrp_parallel_pairs",
+        "bennett_broken",
+    ] {
+        let entry = builtin(name, &Options::default()).unwrap();
+        let chain = entry.chain().unwrap();
+        let locked = locked_variable(chain, &entry.cases[0]).unwrap();
+        let layout = Layout::of(chain, locked).unwrap();
+        let filled = layout.with_idle(layout.missing(), 5);
+        let open: OpenLoop<ModP<PRIME_61>> = chain.open_loop(&filled).unwrap();
+        let half_tangent = ModP::new(3);
+        let (cos, sin) = half_tangent_pair(&half_tangent).unwrap();
+        let is_idle = filled.joint_variables().map(|joint| joint.is_none());
+        let count = Plan::at_zero(&open.close(&Motion::rotation_z(cos, sin)), is_idle).map(|plan| plan.count());
+        let mut entry = entry;
+        entry.cases = vec![Case::given(
+            Input { joint: 1, value: InputValue::Angle(Angle::from_half_tangent(HalfTangent::Finite(3.into()))) },
+            0,
+        )];
+        let found = solve(&entry, 0).verdict;
+        assert_eq!(count, Some(found.complex), "{name}: {}", found.reason);
+    }
+}
+
+/// A triangle of a revolute joint and two balls: the two positions of its closed form, without input, and no other way to
+/// close.
+#[test]
+fn a_structure_of_two_balls_needs_no_input() {
+    let joints = "{ type = \"R\", a = 3, alpha = 0, d = 0 },\n{ type = \"S\", a = 4, alpha = 0 },\n{ type = \"S\", a = 2, alpha = 0 },\n";
+    let found = solve(&read(&bennett(joints, "")).unwrap(), 0);
+    let verdict = &found.verdict;
+    assert_eq!((verdict.status, verdict.real, verdict.certified), (Status::Complete, 2, 2), "{}", verdict.reason);
+    // 16 = 9 + 4 + 12 cos q1.
+    for mode in &found.modes {
+        assert!((mode.q[0].re.cos() - 0.25).abs() < 1e-14 && mode.residual < 1e-14);
+    }
+    let message = Mechanism::prepare(&read(&bennett(joints, &at("1"))).unwrap()).map(|_| ()).unwrap_err();
+    assert!(message.exit_code() == 4 && message.to_string().contains("or RSS without"), "{message}");
+}
+
+/// The second ball on the axis of the last joint: the input alone decides whether the loop closes, and then that joint turns on.
+#[test]
+fn a_ball_on_the_axis_of_its_neighbour_turns_on_or_never_closes() {
+    let joint = |kind: char, a: i32| format!("{{ type = \"{kind}\", a = {a}, alpha = 0, d = 0 }},\n");
+    let joints: String = [('R', 3), ('S', 5), ('S', 0), ('R', 4)].into_iter().map(|(kind, a)| joint(kind, a)).collect();
+    for (angle, status) in [("\"pi/2\"", Status::SelfMotion), ("1", Status::Unreachable)] {
+        let verdict = solve(&read(&bennett(&joints, &at(angle))).unwrap(), 0).verdict;
+        assert_eq!((verdict.status, verdict.complex), (status, 0), "{}", verdict.reason);
     }
 }
 
@@ -164,6 +230,7 @@ fn planted_positions_of_a_ball_are_found() {
         assert_eq!(found.verdict.complex, complex, "{links}{}", found.verdict.reason);
         for mode in &found.modes {
             assert!(mode.residual < 1e-13, "{links}{:e}", mode.residual);
+            assert!(mode.certified && mode.multiplicity == 1, "{links}");
         }
     }
 }
@@ -228,5 +295,51 @@ fn velocities_of_a_bennett_loop_are_those_of_its_closed_form() {
     let rate = 5.0 * (1.0 + x * x) / (x * x + 25.0);
     for (velocity, expected) in derivatives.velocity.iter().zip([1.0, rate, -1.0, -rate]) {
         assert!((velocity - expected).abs() < 1e-12, "{velocity} {expected}");
+    }
+}
+
+/// A loop given by its screws, which closes where all variables are 0.
+fn sliding(joints: &str, input: &str) -> Entry {
+    let text = format!(
+        "title = \"loop\"\n[mechanism]\nkind = \"loop\"\nconvention = \"screws\"\njoints = [\n{joints}]\n[[input]]\n{input}\n"
+    );
+    read(&text).unwrap()
+}
+
+#[test]
+fn loops_of_few_turns_are_solved_exactly() {
+    let slides = "{ type = \"P\", axis = [1, 0, 2] },\n{ type = \"P\", axis = [0, 3, 4] },\n{ type = \"P\", axis = [2, -1, 2] },\n";
+    let general = slides.to_owned() + "{ type = \"P\", axis = [-2, 3, 6] },\n";
+    let solution = solve(&sliding(&general, "joint = 4\ndistance = \"7/3\""), 0);
+    assert_eq!((solution.verdict.status, solution.verdict.real), (Status::Complete, 1), "{}", solution.verdict.reason);
+    let mode = &solution.modes[0];
+    assert!(mode.certified && mode.residual < 1e-15 && mode.q[0].norm() > 0.1, "{mode:?}");
+    // A turn in place of a slide has nowhere to go, unless it is 0.
+    let turning = slides.to_owned() + "{ type = \"R\", axis = [1, 1, 1], point = [0, 1, 0] },\n";
+    let solution = solve(&sliding(&turning, "joint = 4\ntan_half = \"1/5\""), 0);
+    assert_eq!(solution.verdict.status, Status::Unreachable, "{}", solution.verdict.reason);
+    let solution = solve(&sliding(&turning, "joint = 4\nangle = 0"), 0);
+    assert_eq!((solution.verdict.status, solution.verdict.real), (Status::Complete, 1), "{}", solution.verdict.reason);
+    // Two turns about axes at an angle stay where they are, and slides within a plane are one too many.
+    let plane = "{ type = \"R\", axis = [0, 0, 1], point = [0, 1, 0] },\n{ type = \"P\", axis = [1, 0, 0] },\n\
+                 { type = \"P\", axis = [0, 1, 0] },\n{ type = \"R\", axis = [1, 0, 0], point = [0, 0, 1] },\n\
+                 { type = \"P\", axis = [3, 4, 0] },\n{ type = \"P\", axis = [0, 4, 3] },\n";
+    let solution = solve(&sliding(plane, "joint = 6\ndistance = 0"), 0);
+    assert_eq!(solution.verdict.self_motion, 1, "{}", solution.verdict.reason);
+}
+
+#[test]
+fn two_balls_are_solved_in_any_unit() {
+    for unit in ["1e-9", "1e-3", "1", "1e7"] {
+        let joint = |kind: &str, a: &str, d: &str| {
+            let d = if kind == "R" { format!("d = \"{d}*{unit}\", ") } else { String::new() };
+            format!("{{ type = \"{kind}\", {d}a = \"{a}*{unit}\", alpha = 0.5 }},\n")
+        };
+        let joints = joint("R", "1", "1") + &joint("S", "2", "0") + &joint("S", "1", "0") + &joint("R", "2", "1");
+        let entry = read(&bennett(&joints, "[[input]]\njoint = 1\nangle = 1\n")).unwrap();
+        let solution = solve(&entry, 0);
+        let verdict = &solution.verdict;
+        assert_eq!((verdict.complex, verdict.certified), (2, 2), "{unit}: {}", verdict.reason);
+        assert!(solution.modes.iter().all(|mode| mode.residual < 1e-14), "{unit}");
     }
 }

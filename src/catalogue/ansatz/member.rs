@@ -1,6 +1,6 @@
 //! Members of the family that an ansatz describes, over any field.
 
-use super::{Ansatz, Symbols, Twist};
+use super::{Ansatz, Solved, Symbols, Twist};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Field;
 
@@ -24,21 +24,49 @@ pub struct Members<'a, F> {
     joints: Vec<[Polynomial<F>; 2]>,
     /// The relations that are linear in the lengths.
     relations: Vec<Polynomial<F>>,
-    /// Those that are not, which hold or do not.
+    /// Those that are not and give no symbol, which hold or do not.
     others: Vec<Polynomial<F>>,
+    /// What the others give.
+    solved: Vec<Given<F>>,
+    /// A square root, where there is one.
+    root: fn(&F) -> Option<F>,
+}
+
+/// A symbol that a relation gives.
+enum Given<F> {
+    Angle(usize, Polynomial<F>),
+    Length(usize, Polynomial<F>),
 }
 
 impl Ansatz {
-    /// The ansatz over a field; `None` for an unlucky prime.
+    /// The ansatz over a field; `None` for an unlucky prime. Angles that need a square root have no value.
     #[must_use]
     pub fn over<F: Field>(&self) -> Option<Members<'_, F>> {
+        self.with_roots(|_| None)
+    }
+
+    /// The ansatz over a field with square roots; `None` for an unlucky prime.
+    #[must_use]
+    pub fn with_roots<F: Field>(&self, root: fn(&F) -> Option<F>) -> Option<Members<'_, F>> {
         let image = |p: &Polynomial<rug::Rational>| p.map(F::from_rational);
         let joints =
             self.joints.iter().map(|joint| Some([image(&joint.a)?, image(&joint.d)?])).collect::<Option<_>>()?;
-        let (linear, others): (Vec<_>, Vec<_>) = self.polynomials().partition(|polynomial| self.is_linear(polynomial));
+        let of_solved = |solved: &Solved| match solved {
+            Solved::Angle(_, polynomial) | Solved::Length(_, polynomial) => polynomial.clone(),
+        };
+        let used: Vec<_> = self.solved.iter().map(of_solved).collect();
+        let unused = self.polynomials().filter(|polynomial| !used.contains(polynomial));
+        let (linear, others): (Vec<_>, Vec<_>) = unused.partition(|polynomial| self.is_linear(polynomial));
         let relations = linear.into_iter().map(image).collect::<Option<_>>()?;
         let others = others.into_iter().map(image).collect::<Option<_>>()?;
-        Some(Members { ansatz: self, joints, relations, others })
+        let given = |solved: &Solved| {
+            Some(match solved {
+                Solved::Angle(k, polynomial) => Given::Angle(*k, image(polynomial)?),
+                Solved::Length(k, polynomial) => Given::Length(*k, image(polynomial)?),
+            })
+        };
+        let solved = self.solved.iter().map(given).collect::<Option<_>>()?;
+        Some(Members { ansatz: self, joints, relations, others, solved, root })
     }
 }
 
@@ -86,20 +114,87 @@ impl<F: Field> Members<'_, F> {
         links.collect()
     }
 
-    /// The values of all variables, and what is left of the relations that give no length.
+    /// The values of all variables, and what is left of the relations that give no symbol.
     fn solved(&self, tangents: &[F], lengths: &[F]) -> Option<(Vec<F>, Vec<F>)> {
         let (symbols, free) = (&self.ansatz.symbols, self.ansatz.free_lengths());
-        assert_eq!(tangents.len(), self.ansatz.free_angles.len(), "one tangent for every free angle");
         assert_eq!(lengths.len(), free.len(), "one value for every free length");
-        let mut known = vec![(F::one(), F::zero()); symbols.angles.len()];
-        for (&angle, t) in self.ansatz.free_angles.iter().zip(tangents) {
+        let mut values = self.angles(tangents)?;
+        for (&length, value) in free.iter().zip(lengths) {
+            values[symbols.length(length)] = value.clone();
+        }
+        let residuals = self.solve(&mut values)?;
+        for solved in &self.solved {
+            let Given::Length(length, polynomial) = solved else { continue };
+            let variable = symbols.length(*length);
+            values[variable] = zero_of(polynomial, variable, &mut values)?;
+        }
+        let others = self.others.iter().map(|other| other.evaluate(&values));
+        let all = residuals.into_iter().chain(others).collect();
+        Some((values, all))
+    }
+
+    /// Whether the angles that relations give have values over the field.
+    ///
+    /// # Panics
+    /// When the number of values is wrong.
+    #[must_use]
+    pub fn has_angles(&self, tangents: &[F]) -> bool {
+        self.angles(tangents).is_some()
+    }
+
+    /// The values of the functions of all angles, lengths 0.
+    fn angles(&self, tangents: &[F]) -> Option<Vec<F>> {
+        let symbols = &self.ansatz.symbols;
+        assert_eq!(tangents.len(), self.ansatz.free_angles.len(), "one tangent for every free angle");
+        let turn = |t: &F| -> Option<(F, F)> {
             let square = t.mul(t);
             let inverse = F::one().add(&square).inverse()?;
-            known[angle] = (F::one().sub(&square).mul(&inverse), t.add(t).mul(&inverse));
+            Some((F::one().sub(&square).mul(&inverse), t.add(t).mul(&inverse)))
+        };
+        let mut known = vec![(F::one(), F::zero()); symbols.angles.len()];
+        for (&angle, t) in self.ansatz.free_angles.iter().zip(tangents) {
+            known[angle] = turn(t)?;
         }
+        let mut values = self.functions(&known)?;
+        for solved in &self.solved {
+            let Given::Angle(angle, polynomial) = solved else { continue };
+            known[*angle] = turn(&self.tangent_of(*angle, polynomial, &mut values)?)?;
+            values = self.functions(&known)?;
+        }
+        Some(values)
+    }
+
+    /// The half-angle tangent that makes a polynomial of the first power in the functions of an angle vanish.
+    fn tangent_of(&self, angle: usize, polynomial: &Polynomial<F>, values: &mut [F]) -> Option<F> {
+        let tangent = Symbols::tan_half(angle);
+        if polynomial.degree(tangent) > 0 {
+            return zero_of(polynomial, tangent, values);
+        }
+        let [cos, sin] = [Symbols::cos(angle), Symbols::sin(angle)];
+        let mut at = |c: F, s: F| {
+            (values[cos], values[sin]) = (c, s);
+            polynomial.evaluate(values)
+        };
+        let constant = at(F::zero(), F::zero());
+        let a = at(F::one(), F::zero()).sub(&constant);
+        let b = at(F::zero(), F::one()).sub(&constant);
+        // a cos + b sin + c = 0 is (c - a) t^2 + 2 b t + (c + a) = 0.
+        let (high, low) = (constant.sub(&a), constant.add(&a));
+        match high.inverse() {
+            Some(inverse) => {
+                let discriminant = b.mul(&b).sub(&high.mul(&low));
+                let root = if discriminant.is_zero() { F::zero() } else { (self.root)(&discriminant)? };
+                Some(root.sub(&b).mul(&inverse))
+            }
+            None => Some(low.neg().mul(&b.add(&b).inverse()?)),
+        }
+    }
+
+    /// The values of the functions of all angles from cosines and sines of the free ones and of those that are solved for.
+    fn functions(&self, known: &[(F, F)]) -> Option<Vec<F>> {
         let angles: Vec<(F, F)> =
-            self.ansatz.angles.iter().map(|angle: &Twist| angle.cos_sin(&known)).collect::<Option<_>>()?;
-        let mut values = vec![F::zero(); symbols.names().list().len()];
+            self.ansatz.angles.iter().map(|angle: &Twist| angle.cos_sin(known)).collect::<Option<_>>()?;
+        let mut values = vec![F::zero(); self.ansatz.symbols.names().list().len()];
         for (k, (cos, sin)) in angles.iter().enumerate() {
             values[Symbols::cos(k)] = cos.clone();
             values[Symbols::sin(k)] = sin.clone();
@@ -110,18 +205,14 @@ impl<F: Field> Members<'_, F> {
                 None => F::zero(),
             };
         }
-        for (&length, value) in free.iter().zip(lengths) {
-            values[symbols.length(length)] = value.clone();
-        }
-        let residuals = self.solve(&mut values)?;
-        Some((values, residuals))
+        Some(values)
     }
 
     fn uses(&self, variable: usize) -> bool {
         self.joints.iter().flatten().chain(&self.relations).chain(&self.others).any(|p| p.degree(variable) > 0)
     }
 
-    /// Solves the relations for the lengths that they give; what is left of the others.
+    /// Solves the linear relations for the lengths that they give; what is left of those that give none.
     fn solve(&self, values: &mut [F]) -> Option<Vec<F>> {
         let given: Vec<usize> = self.ansatz.given_lengths.iter().map(|&k| self.ansatz.symbols.length(k)).collect();
         // Each relation is linear in the lengths that relations give: its value with all of them 0 or one of them 1.
@@ -155,6 +246,15 @@ impl<F: Field> Members<'_, F> {
             values[variable] = row[given.len()].clone();
         }
         let rest = rows[given.len()..].iter().map(|row| row[given.len()].clone());
-        Some(rest.chain(self.others.iter().map(|other| other.evaluate(values))).collect())
+        Some(rest.collect())
     }
+}
+
+/// The value of a variable, which a polynomial has to the first power, that makes it vanish.
+fn zero_of<F: Field>(polynomial: &Polynomial<F>, variable: usize, values: &mut [F]) -> Option<F> {
+    values[variable] = F::zero();
+    let constant = polynomial.evaluate(values);
+    values[variable] = F::one();
+    let slope = polynomial.evaluate(values).sub(&constant);
+    Some(constant.neg().mul(&slope.inverse()?))
 }

@@ -119,6 +119,15 @@ pub enum Meaning {
     Polynomial(Polynomial<Rational>),
 }
 
+/// A symbol that a relation gives by what is known before it, though not linearly.
+#[derive(Clone, Debug, PartialEq)]
+enum Solved {
+    /// An angle whose cosine and sine, or half-angle tangent, the polynomial has to the first power.
+    Angle(usize, Polynomial<Rational>),
+    /// A length that the polynomial has to the first power.
+    Length(usize, Polynomial<Rational>),
+}
+
 /// A closed chain of revolute joints with symbols for parameters.
 #[derive(Clone, Debug)]
 pub struct Ansatz {
@@ -150,6 +159,8 @@ pub struct Ansatz {
     free_angles: Vec<usize>,
     /// The lengths that relations give by the others.
     given_lengths: Vec<usize>,
+    /// What other relations give, one after the other: angles first.
+    solved: Vec<Solved>,
     /// Why no real numbers satisfy the relations, where that is proved.
     empty: Option<String>,
 }
@@ -185,6 +196,7 @@ impl Ansatz {
             fit: Vec::new(),
             rounded: false,
             given_lengths: Vec::new(),
+            solved: Vec::new(),
             empty: None,
         }
     }
@@ -198,7 +210,15 @@ impl Ansatz {
     /// The lengths, by number, to which no relation gives a value; those sought are among them.
     #[must_use]
     pub fn free_lengths(&self) -> Vec<usize> {
-        (0..self.symbols.lengths.len()).filter(|k| !self.given_lengths.contains(k)).collect()
+        let is_solved = |k: usize| self.solved.iter().any(|solved| matches!(solved, Solved::Length(j, _) if *j == k));
+        (0..self.symbols.lengths.len()).filter(|k| !self.given_lengths.contains(k) && !is_solved(*k)).collect()
+    }
+
+    /// Whether relations that are not linear give some symbols: over a field there is not always a member with given values of
+    /// the others.
+    #[must_use]
+    pub fn has_solved_symbols(&self) -> bool {
+        !self.solved.is_empty()
     }
 
     /// The twist of the link behind a joint in terms of the free angles.

@@ -81,6 +81,9 @@ impl Ansatz {
     /// half-angle tangent of an angle that is replaced.
     #[must_use]
     pub fn without_relations(&self) -> Option<Replaced> {
+        if self.has_solved_symbols() {
+            return None;
+        }
         let list = self.replacements();
         let is_replaced = |variable: usize| list.iter().any(|(other, _)| *other == variable);
         if self.given_lengths.iter().any(|&k| !is_replaced(self.symbols.length(k))) {

@@ -1,7 +1,7 @@
 //! Relations solved: which symbols they give by the others, whether they contradict one another, whether any real
 //! numbers satisfy them.
 
-use super::{Ansatz, Meaning, Relation, Symbols, Twist};
+use super::{Ansatz, Meaning, Relation, Solved, Symbols, Twist};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Field, Ring};
 use crate::catalogue::scope::Scope;
@@ -45,6 +45,7 @@ impl Ansatz {
     /// The line and what it contradicts, or what about it cannot be solved.
     pub(super) fn resolve(&mut self) -> std::result::Result<(), (usize, Error)> {
         self.resolve_angles()?;
+        self.resolve_others();
         self.resolve_lengths()?;
         self.contradiction()?;
         self.empty = self.relations.iter().find_map(|relation| relation.without_real_solution(self));
@@ -109,10 +110,95 @@ impl Ansatz {
         Ok(())
     }
 
+    /// Chooses a symbol for each relation that is not linear in lengths to give it: the first named that is in no relation
+    /// before it and has the first power.
+    fn resolve_others(&mut self) {
+        self.solved.clear();
+        let (angles, lengths) = (self.symbols.angles.len(), self.symbols.lengths.len());
+        let others: Vec<(String, Polynomial<Rational>)> = self
+            .relations
+            .iter()
+            .filter_map(|relation| match &relation.meaning {
+                Meaning::Polynomial(polynomial) if !self.is_linear(polynomial) || !self.has_length(polynomial) => {
+                    Some((relation.text.clone(), polynomial.clone()))
+                }
+                _ => None,
+            })
+            .collect();
+        // Of what is in a relation before, the value is needed there.
+        let mut known = vec![false; angles + lengths];
+        let (mut of_angles, mut of_lengths) = (Vec::new(), Vec::new());
+        for (text, polynomial) in others {
+            let uses = |k: usize| match k.checked_sub(angles) {
+                None => self.depends(&polynomial, k),
+                Some(length) => polynomial.degree(self.symbols.length(length)) > 0,
+            };
+            let is_candidate = |k: &usize| match k.checked_sub(angles) {
+                None => {
+                    !self.has_length(&polynomial)
+                        && self.free_angles.contains(k)
+                        && !self.unknown_angles.contains(k)
+                        && self.is_of_first_power(&polynomial, *k)
+                }
+                Some(length) => {
+                    let is_in = |linear: &Polynomial<Rational>| linear.degree(self.symbols.length(length)) > 0;
+                    let mut linear = self.polynomials().filter(|p| self.is_linear(p) && self.has_length(p));
+                    polynomial.degree(self.symbols.length(length)) == 1
+                        && !self.unknown.contains(&length)
+                        && !linear.any(is_in)
+                }
+            };
+            let place = |k: &usize| {
+                let name = k.checked_sub(angles).map_or_else(|| &self.symbols.angles[*k], |l| &self.symbols.lengths[l]);
+                text.find(name.as_str()).unwrap_or(usize::MAX)
+            };
+            let chosen = (0..angles + lengths).filter(|k| !known[*k]).filter(is_candidate).min_by_key(place);
+            for (k, known) in known.iter_mut().enumerate() {
+                *known |= uses(k);
+            }
+            match chosen.map(|k| (k, k.checked_sub(angles))) {
+                Some((k, None)) => of_angles.push(Solved::Angle(k, polynomial)),
+                Some((_, Some(length))) => of_lengths.push(Solved::Length(length, polynomial)),
+                None => {}
+            }
+        }
+        let is_solved = |k: &usize| of_angles.iter().any(|solved| matches!(solved, Solved::Angle(j, _) if j == k));
+        self.free_angles.retain(|k| !is_solved(k));
+        self.solved = of_angles.into_iter().chain(of_lengths).collect();
+    }
+
+    fn has_length(&self, polynomial: &Polynomial<Rational>) -> bool {
+        (0..self.symbols.lengths.len()).any(|k| polynomial.degree(self.symbols.length(k)) > 0)
+    }
+
+    /// Whether a polynomial is in functions of an angle, or of one that is a sum with it.
+    fn depends(&self, polynomial: &Polynomial<Rational>, angle: usize) -> bool {
+        (0..self.angles.len()).any(|k| self.angles[k].multiples[angle] != 0 && uses_angle(polynomial, k))
+    }
+
+    /// Whether a polynomial has cosine and sine of an angle, or its half-angle tangent, to the first power, and is in no other
+    /// angle that is a sum with it.
+    fn is_of_first_power(&self, polynomial: &Polynomial<Rational>, angle: usize) -> bool {
+        let others = (0..self.angles.len()).filter(|&k| k != angle);
+        let is_alone = others.into_iter().all(|k| self.angles[k].multiples[angle] == 0 || !uses_angle(polynomial, k));
+        let degrees = |exponents: &[u32]| {
+            let at = |variable: usize| exponents.get(variable).copied().unwrap_or(0);
+            (at(Symbols::cos(angle)) + at(Symbols::sin(angle)), at(Symbols::tan_half(angle)))
+        };
+        let all: Vec<(u32, u32)> = polynomial.terms().map(|(exponents, _)| degrees(&exponents)).collect();
+        let (circle, tangent) = all.iter().fold((0, 0), |(c, t), (d, e)| (c.max(*d), t.max(*e)));
+        is_alone && matches!((circle, tangent), (1, 0) | (0, 1))
+    }
+
     /// The values of cosine, sine and half-angle tangent of all angles at chosen free ones.
     fn sample(&self, shift: usize) -> Vec<(usize, Polynomial<Rational>)> {
         let mut known = vec![(Rational::from(1), Rational::new()); self.symbols.angles.len()];
-        for (n, &angle) in self.free_angles.iter().enumerate() {
+        // Symbols that relations give have any values here: the lengths do not depend on which.
+        let solved = self.solved.iter().filter_map(|solved| match solved {
+            Solved::Angle(angle, _) => Some(angle),
+            Solved::Length(..) => None,
+        });
+        for (n, &angle) in self.free_angles.iter().chain(solved).enumerate() {
             let [p, q] = TANGENTS[(n + shift) % TANGENTS.len()];
             let t = Rational::from((p + i32::try_from(n / TANGENTS.len()).unwrap_or(0), q));
             let square = Rational::from(t.square_ref());
@@ -212,6 +298,11 @@ fn gives_unknown(relation: &Relation, name: &str) -> Error {
         "found `{}`, which gives a value to `{name}`: it contradicts `unknown`, expected `{name}` to be free",
         relation.text
     ))
+}
+
+/// Whether a polynomial is in cosine, sine or half-angle tangent of an angle.
+fn uses_angle(polynomial: &Polynomial<Rational>, angle: usize) -> bool {
+    [Symbols::cos(angle), Symbols::sin(angle), Symbols::tan_half(angle)].into_iter().any(|k| polynomial.degree(k) > 0)
 }
 
 /// Whether a length is in a relation as it is written.

@@ -67,7 +67,9 @@ impl<'c> Table<'c> {
     /// input. Their variables are numbered from `first`.
     pub fn of(chain: &Chain, case: &'c Case, wanted: &[String], first: usize, with_input: bool) -> Result<Self> {
         let (Geometry::Dh(joints) | Geometry::ModifiedDh(joints)) = &chain.geometry else {
-            let message = "symbols for screw axes: only loops with DH parameters have parameters to keep as symbols";
+            let message = "symbols for screw axes: the coordinates of a unit vector and of a point on its axis are not independent, so \
+                           that they cannot be kept as symbols; give the loop by DH parameters (convention = \"dh\"), whose \
+                           twists, lengths and offsets can";
             return Err(Error::Unsupported(message.to_owned()));
         };
         let mut table = Self { case, symbols: Vec::new(), numbers: Vec::new(), names: Vec::new() };

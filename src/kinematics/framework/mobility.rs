@@ -1,6 +1,7 @@
 //! Does a framework move: what can be proved, and what is seen.
 
 use super::Framework;
+use super::cycle::stands_still;
 use super::flex::{Flex, flex, settled};
 use super::octahedron::{Diagonal, Octahedron};
 use super::order::{Order, order};
@@ -44,6 +45,8 @@ pub enum Proof {
     NoDiagonal,
     /// Octahedra that move about one edge, and bars: the edge first, then the vertices of each part.
     Parts(Vec<Vec<usize>>),
+    /// Two octahedra and a bar about a pair of vertices whose distances cannot change.
+    Cycle,
     /// The lengths cannot be kept in this order.
     Order(usize),
     /// All lengths are kept through this order, which is greater than the multiplicity of any isolated realisation, at most the
@@ -147,7 +150,10 @@ pub fn mobility_with_lengths(
     }
     let proved = match Octahedron::of(&here, exact) {
         Some(octahedron) => of_octahedron(&octahedron, &here),
-        None => parts(&here, exact).map(|parts| (Verdict::Mobile, Proof::Parts(parts))),
+        None => match parts(&here, exact) {
+            Some(parts) => Some((Verdict::Mobile, Proof::Parts(parts))),
+            None => stands_still(&here, exact).then_some((Verdict::Rigid, Proof::Cycle)),
+        },
     };
     if let Some((verdict, proof)) = proved {
         (found.verdict, found.proof) = (verdict, proof);

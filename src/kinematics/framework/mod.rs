@@ -1,5 +1,6 @@
 //! Frameworks: bars between ball joints, rods and bodies with several joints, and whether they move.
 
+pub mod cycle;
 pub mod flex;
 mod mobility;
 pub mod octahedron;

@@ -82,6 +82,16 @@ impl Octahedron {
         Self { vertices, squares: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))) }
     }
 
+    /// The closure of the ring about the diagonal of `axis` and `axis + 3`, a polynomial in the square of its length that vanishes
+    /// at all realisations.
+    ///
+    /// # Panics
+    /// When the axis is not 0, 1 or 2.
+    #[must_use]
+    pub fn closure(&self, axis: usize) -> Univariate<Rational> {
+        Condition::of(self, axis).norm()
+    }
+
     /// Whether the diagonal of `axis` and `axis + 3` changes in a motion of this realisation.
     ///
     /// # Panics
