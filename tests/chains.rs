@@ -8,8 +8,6 @@ mod agreement;
 mod sequences;
 #[path = "chains/short_loops.rs"]
 mod short_loops;
-#[path = "chains/special_pairs.rs"]
-mod special_pairs;
 
 mod arms;
 

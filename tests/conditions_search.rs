@@ -589,7 +589,7 @@ joints = [
 ]
 [ansatz]
 relations = [
-    "3*cos(beta) + 4*sin(beta) = 5*cos(alpha)",
+    "3*cos(beta) + 4*sin(beta) = 2*cos(alpha)",
     "tan_half(gamma)*(1 + sin(alpha)) = cos(beta)",
     "c*a = 7*b^2",
 ]
@@ -606,7 +606,7 @@ relations = [
         let [alpha, beta, gamma] =
             [0, 1, 2].map(|k| [values[Symbols::cos(k)], values[Symbols::sin(k)], values[Symbols::tan_half(k)]]);
         let times = |n: i32, x: ModP<103>| ModP::from_integer(n).mul(&x);
-        assert_eq!(times(3, beta[0]).add(&times(4, beta[1])), times(5, alpha[0]));
+        assert_eq!(times(3, beta[0]).add(&times(4, beta[1])), times(2, alpha[0]));
         assert_eq!(gamma[2].mul(&ModP::one().add(&alpha[1])), beta[0]);
         let length = |k: usize| values[ansatz.symbols.length(k)];
         assert_eq!(length(2).mul(&length(0)), times(7, length(1).mul(&length(1))));

@@ -92,7 +92,7 @@ fn derivatives_agree_with_finite_differences_of_the_solver() {
         ("rrsrr", 1, Variable::Rotation, 2.5),
         ("rscr", 3, Variable::Translation, -1.5),
         ("rssr", 1, Variable::Rotation, 1.0),
-        ("rssr", 4, Variable::Rotation, -2.5),
+        ("rssr", 4, Variable::Rotation, 2.5),
         ("general_7r", 1, Variable::Rotation, -1.080_839_000_541_168),
         ("cprcr_2_distance", 2, Variable::Translation, 0.75),
     ] {

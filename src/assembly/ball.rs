@@ -188,10 +188,16 @@ fn back(mode: &mut Mode, ball: usize) {
     place(&mut mode.unknowns, ball, angles);
 }
 
-/// The angles of a ball with the second one from 0 to pi, the same rotation.
+/// A real part this near to 0 or pi does not tell an angle from its negative.
+const EDGE: f64 = 1e-9;
+
+/// The angles of a ball with the second one from 0 to pi, the same rotation; where its real part is either of them, with a
+/// positive imaginary part.
 pub(super) fn canonical(unknowns: &mut Six<Complex<f64>>, ball: usize) {
     let index = |k: usize| (ball + k) % 6;
-    if wrapped(unknowns[index(1)].re) < 0.0 {
+    let (second, real) = (unknowns[index(1)], wrapped(unknowns[index(1)].re));
+    let on_edge = real.abs().min(PI - real.abs()) < EDGE && second.im.abs() > EDGE;
+    if if on_edge { second.im < 0.0 } else { real < 0.0 } {
         unknowns[index(1)] = -unknowns[index(1)];
         for k in [0, 2] {
             let angle = &mut unknowns[index(k)];

@@ -40,6 +40,9 @@ pub fn compare(derivation: &Derivation, chain: &Chain, solution: &Solution) -> A
         }
         return Agreement::NotComparable("no polynomial, and no solution found".to_owned());
     };
+    if !derivation.finite && verdict.status == Status::Incomplete {
+        return Agreement::NotComparable("solutions that are not isolated, and a list not called complete".to_owned());
+    }
     let degree = polynomial.degree() + polynomial.at_pi;
     if derivation.per_root == 1 && degree != verdict.complex {
         return Agreement::Differs(format!("degree {degree}, {} solutions", verdict.complex));

@@ -18,6 +18,9 @@ use rug::Rational;
 /// The field in which ways to eliminate are compared before the best one is taken over the rationals.
 pub(super) type Mod = ModP<PRIME_61>;
 
+/// What there is to say of a polynomial where solutions are not isolated.
+const FAMILY: &str = "the solutions are not known to be finite in number: a root may belong to a self-motion";
+
 /// What an elimination hands over.
 pub(super) struct Eliminated {
     pub equations: Vec<Equation>,
@@ -99,9 +102,10 @@ fn derivation(
     });
     let mut steps = eliminated.steps;
     let (mut polynomial, mut proved, mut per_root) = (None, true, eliminated.per_root);
+    let mut finite = true;
     if let Some((unknown, settled)) = settle(eliminant) {
         polynomial = Some(ClosurePolynomial::of(Symbols::variable(unknown), settled.eliminant)?);
-        proved = settled.proved;
+        (proved, finite) = (settled.proved, settled.finite);
         if let Some(step) = settled.step {
             // From here on as often as there are solutions.
             per_root = 1;
@@ -119,7 +123,8 @@ fn derivation(
         without,
         proved,
         per_root,
+        finite,
         definition: None,
-        warnings: Vec::new(),
+        warnings: if finite { Vec::new() } else { vec![FAMILY.to_owned()] },
     })
 }

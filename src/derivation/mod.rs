@@ -51,6 +51,8 @@ pub struct Derivation {
     pub proved: bool,
     /// At most so many solutions belong to a simple root in general.
     pub per_root: usize,
+    /// Whether the solutions are finite in number, as far as is known; a root may belong to a self-motion else.
+    pub finite: bool,
     /// What the variable of the polynomial is, as an equation; none where the equations have it.
     pub definition: Option<Polynomial<Rational>>,
     /// What the reader wants known.

@@ -196,6 +196,7 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
         without,
         proved: found.as_ref().is_some_and(Found::is_proved),
         per_root: found.as_ref().map_or(1, Found::per_root),
+        finite: true,
         definition: defined,
         warnings,
     })

@@ -16,6 +16,7 @@ use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::cut::Cut;
+use crate::elimination::point_reach;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::Motion;
 use rug::ops::RemRounding;
@@ -24,8 +25,9 @@ use rug::{Integer, Rational};
 /// The number m below, which no tangent is minus the inverse of by chance.
 const MIXED: i32 = 1_234_577;
 
-/// The numbers of relations over the rationals become too long with more solutions than this.
-const SMALL: usize = 2;
+/// With longer numbers in a loop, in bits, or with more solutions the relations over the rationals take long.
+const SHORT: u32 = 64;
+const FEW: usize = 8;
 
 /// An eliminant of which nothing but the roots that belong to solutions is left.
 pub(super) struct Settled {
@@ -34,19 +36,30 @@ pub(super) struct Settled {
     pub proved: bool,
     /// What was done, if anything.
     pub step: Option<String>,
+    /// Whether the solutions are finite in number, as far as is known.
+    pub finite: bool,
 }
 
 impl Settled {
     /// The eliminant as it is.
     pub fn as_it_is(eliminant: Eliminant) -> Self {
-        Self { eliminant, proved: true, step: None }
+        Self { eliminant, proved: true, step: None, finite: true }
     }
 }
 
 /// Divides out of the eliminant of an unknown, at each root of which there are `per_root` solutions in general, what belongs to
 /// no solution.
 pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_root: usize) -> Settled {
-    let Some(ring) = SolutionRing::of(exact, unknown) else { return Settled::as_it_is(eliminant) };
+    let reach = exact.ball.zip(exact.modular.as_ref()).map(|(ball, modular)| point_reach::count(modular, ball));
+    let Some(ring) = SolutionRing::of(exact, unknown) else {
+        // The three angles of a ball may be a family where its centre is not.
+        let finite = exact.modular.is_none() || reach.flatten().is_some();
+        return Settled { finite, ..Settled::as_it_is(eliminant) };
+    };
+    // Some complex rotations of a ball have no three angles: where its centre is counted, less than that says nothing.
+    if reach.flatten().is_some() && ring.count() > 0 {
+        return Settled::as_it_is(eliminant);
+    }
     let (count, roots) = (ring.count(), eliminant.coefficients.degree().unwrap_or(0) + eliminant.at_pi);
     // With multiplicity no solution is missing: as many roots are the same ones.
     if count == roots * per_root {
@@ -54,7 +67,7 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
     }
     let values = ring.values(&ring.view, |pencil| by_interpolation(pencil));
     let Some(kept) = values.and_then(|values| kept(unknown, &eliminant, &values, &ring)) else {
-        return Settled { eliminant, proved: false, step: None };
+        return Settled { proved: false, ..Settled::as_it_is(eliminant) };
     };
     let step = format!(
         "The ring of the closure equations (modulo 2^61 - 1) has dimension {count}: so many solutions there are. The \
@@ -63,8 +76,9 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
         exact.symbols.name(unknown)
     );
     let removed = &kept.removed[eliminant.removed.len()..];
-    let proved = is_proved(exact, unknown, removed) || ring.holds_over_rationals(exact, unknown);
-    Settled { eliminant: kept, proved, step: Some(step) }
+    let proved =
+        exact.ball.is_none() && (is_proved(exact, unknown, removed) || ring.holds_over_rationals(exact, unknown));
+    Settled { proved, step: Some(step), ..Settled::as_it_is(kept) }
 }
 
 /// Whether each factor has no root in common with the polynomial of the same unknown by some cut.
@@ -108,8 +122,8 @@ pub(super) fn by_ring(exact: &Exact) -> Option<(usize, Settled)> {
         exact.symbols.name(unknown)
     );
     let eliminant = Eliminant { coefficients, at_pi, removed: Vec::new() };
-    let proved = ring.holds_over_rationals(exact, unknown);
-    Some((unknown, Settled { eliminant, proved, step: Some(step) }))
+    let proved = count <= 2 && ring.holds_over_rationals(exact, unknown);
+    Some((unknown, Settled { proved, step: Some(step), ..Settled::as_it_is(eliminant) }))
 }
 
 /// The ring of polynomials on the solutions of a loop, seen from one unknown.
@@ -139,9 +153,12 @@ impl SolutionRing {
     }
 
     /// Whether the relations of the ring hold over the rationals as well as modulo the prime, so that nothing but its values
-    /// belongs to solutions. Asked of small rings only.
+    /// belongs to solutions. Asked only where their numbers stay short.
     fn holds_over_rationals(&self, exact: &Exact, unknown: usize) -> bool {
-        self.count() <= SMALL && self.plan.ring(&Self::view(&exact.closed, unknown)).is_some()
+        let bits = |x: &Rational| x.numer().significant_bits().max(x.denom().significant_bits());
+        let numbers = exact.closed.constants.iter().flat_map(|g| g.rotation.iter().flatten().chain(&g.translation));
+        let is_short = numbers.map(bits).max() <= Some(SHORT) && self.count() <= FEW;
+        (is_short || self.count() <= 2) && self.plan.ring(&Self::view(&exact.closed, unknown)).is_some()
     }
 
     /// The polynomial of the values of the unknown at all solutions that are not at the angle pi, a determinant linear in it.

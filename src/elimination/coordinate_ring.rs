@@ -355,15 +355,6 @@ impl<F: Field> Setting<F> {
     }
 }
 
-/// An upper bound on the number of solutions, with multiplicity, of a loop in which some unknowns are idle, always 0:
-/// their number as in [`Plan::count`], and `None` as in [`Plan::of`]. No solution is left if it is 0, by proof also where
-/// the field is one of a prime: all monomials are then combinations of none, the number 1 among them, by equations whose
-/// determinant is not zero modulo that prime.
-#[must_use]
-pub fn count_without<F: Field>(closed: &ClosedLoop<F>, is_idle: [bool; 6]) -> Option<usize> {
-    Plan::at_zero(closed, is_idle).map(|plan| plan.count())
-}
-
 /// The loop with a rotation that is not zero as its last unknown, and how many unknowns went from the head to the tail for
 /// that.
 fn turned<F: Ring>(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<(usize, ClosedLoop<F>)> {

@@ -52,7 +52,7 @@ impl Subject<'_> {
         if let Some(reason) = self.too_wide() {
             return self.answer(Some(0), Proof::Exact, reason);
         }
-        let assembler = Assembler::of(self);
+        let mut assembler = Assembler::of(self);
         if let Some(found) = self.by_input().or_else(|| assembler.assembled()) {
             return self.certified(found);
         }
@@ -197,16 +197,14 @@ struct Assembler<'a> {
     subject: &'a Subject<'a>,
     floating: Linkage<f64>,
     unit: f64,
-    /// The smallest closure residual met from each start.
+    /// Where the starts that were tried have ended, and what is left of the equations there.
     ends: Vec<(DVector<f64>, f64)>,
 }
 
 impl<'a> Assembler<'a> {
     fn of(subject: &'a Subject<'a>) -> Self {
         let (floating, unit) = (floating(&subject.linkage), subject.linkage.unit().to_f64());
-        let mut assembler = Self { subject, floating, unit, ends: Vec::new() };
-        assembler.ends = (0..STARTS).map(|start| assembler.approached(start)).collect();
-        assembler
+        Self { subject, floating, unit, ends: Vec::new() }
     }
 
     fn curve(&self) -> Curve<'_> {
@@ -254,10 +252,15 @@ impl<'a> Assembler<'a> {
         best
     }
 
-    /// Certified configurations with some joints held at simple values.
-    fn assembled(&self) -> Option<Search> {
-        let mut closed = self.ends.iter().filter(|(_, residual)| *residual < CLOSED);
-        closed.find_map(|(at, _)| self.proved(at, &self.to_hold(at)?))
+    /// Certified configurations with some joints held at simple values, from the first start that leads to one.
+    fn assembled(&mut self) -> Option<Search> {
+        (0..STARTS).find_map(|start| {
+            let (at, residual) = self.approached(start);
+            let held = (residual < CLOSED).then(|| self.to_hold(&at)).flatten();
+            let found = held.and_then(|held| self.proved(&at, &held));
+            self.ends.push((at, residual));
+            found
+        })
     }
 
     /// Values at which some joints are held, and the number of configurations there, one of which is certified and complex.

@@ -170,8 +170,8 @@ fn point(unknown: f64, input: f64) -> Point {
 
 #[cfg(test)]
 mod tests {
-    use super::super::curve::ALONG_INPUT;
     use super::*;
+    use crate::solve::curve::ALONG_INPUT;
 
     /// `cos v = 2 cos x`: at `cos x = 1/4` the unknown is 60 degrees, and at `cos x = 1/2` the input turns back.
     fn curve() -> PlaneCurve {

@@ -114,6 +114,10 @@ impl Ansatz {
     /// before it and has the first power.
     fn resolve_others(&mut self) {
         self.solved.clear();
+        // Of four joints, relations are conditions beside those that are derived.
+        if self.joints.len() < 5 {
+            return;
+        }
         let (angles, lengths) = (self.symbols.angles.len(), self.symbols.lengths.len());
         let others: Vec<(String, Polynomial<Rational>)> = self
             .relations
@@ -263,7 +267,8 @@ impl Ansatz {
                 if Ring::is_zero(&row[count]) {
                     continue;
                 }
-                if !relation_has_length(relation, &self.symbols) && !self.free_angles.is_empty() {
+                let is_decided = self.free_angles.is_empty() && self.solved.is_empty();
+                if !relation_has_length(relation, &self.symbols) && !is_decided {
                     // A condition on angles only: members satisfy it or not.
                     continue;
                 }
