@@ -33,8 +33,9 @@ type Pairs<R> = [(Complex<R>, Complex<R>); 6];
 pub fn exponential<R: Extended>(angle: Complex<f64>) -> Complex<R> {
     // From cosine and sine it would cancel for large imaginary parts.
     let (sin, cos) = angle.re.sin_cos();
-    // Beyond this there is no f64, and no angle that one could tell.
-    extended(Complex::new(cos, sin) * (-angle.im).clamp(-700.0, 700.0).exp())
+    let w = Complex::new(cos, sin) * (-angle.im).exp();
+    // What has no f64 is no angle, as 0 is none.
+    if w.is_finite() { extended(w) } else { Complex::zero() }
 }
 
 /// Cosine and sine of an angle q given as `w = e^(iq)`; `None` for 0.
