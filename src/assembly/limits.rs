@@ -33,6 +33,8 @@ pub const CLOUD: f64 = 32.0;
 pub const TOLD_APART: f64 = 1e-13;
 /// Starts of a search without a pencil to lead it.
 pub const CASTS: usize = 40;
+/// Closure beyond which such a search has led nowhere.
+pub const NEAR: f64 = 1e-2;
 /// Norm of the inverse Jacobian above which a solution may be one of a pair, to be proved together.
 pub const SINGULAR: f64 = 1e5;
 /// And below this they are rounding of a real double solution.

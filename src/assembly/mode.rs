@@ -68,6 +68,9 @@ pub struct Assembly {
     pub self_motion: usize,
     /// Whether some cut gave a pencil whose every root was accounted for.
     pub clean: bool,
+    /// Whether some cut gave a pencil whose every root near the real axis was accounted for, and one root at least led
+    /// to a solution.
+    pub real_clean: bool,
     /// How many pencils were solved.
     pub tries: usize,
     /// How many modes were found or proved in longer numbers only.
@@ -80,6 +83,7 @@ impl Assembly {
     /// Forgets what was found.
     pub fn clear(&mut self) {
         self.modes.clear();
+        self.real_clean = false;
         (self.self_motion, self.clean, self.tries, self.rescued) = (0, false, 0, 0);
     }
 

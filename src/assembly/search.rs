@@ -186,6 +186,7 @@ impl Search<'_> {
     /// Admits what the roots of a polynomial lead to. Whether all of them are accounted for.
     pub fn all_roots(&mut self, family: &mut impl Family, roots: &[Complex<f64>]) -> bool {
         let mut clean = true;
+        let (mut real_clean, mut closes) = (true, false);
         for &x in roots {
             let size = 1.0 + x.norm_sqr();
             if (1.0 + x * x).norm() < limits::INFINITE * size && x.im.abs() > limits::NEAR_REAL * size {
@@ -199,8 +200,10 @@ impl Search<'_> {
                 let outcome = family.real(self, x.re);
                 let settled = outcome.settled && !(self.roots == Roots::All && outcome.shared);
                 clean &= !outcome.unresolved;
+                closes |= outcome.settled;
                 // A pair of complex roots near the real axis does not close; anything else is a loss.
                 let lost = !(outcome.settled || x.im != 0.0 && outcome.separation > limits::SHARED);
+                real_clean &= !outcome.unresolved && !lost;
                 if settled {
                     continue;
                 }
@@ -216,7 +219,10 @@ impl Search<'_> {
             }
             let outcome = family.complex(self, x);
             clean &= outcome.settled && !outcome.unresolved;
+            closes |= outcome.settled;
         }
+        // Roots of what vanishes but for rounding lead nowhere.
+        self.assembly.real_clean |= real_clean && closes;
         clean
     }
 
@@ -372,9 +378,16 @@ impl Search<'_> {
 
     /// Where no pencil was clean solutions form families, as a rule: looks for points of them from everywhere.
     fn cast_about(&mut self) {
+        // What is missing has large imaginary parts: no start among real numbers leads there.
+        if self.assembly.real_clean {
+            return;
+        }
         for trial in 1..=limits::CASTS {
             let start = approach(self.closed, &spread(&self.closed.variables, trial));
-            self.admit::<f64>(&start);
+            // What ends far from closing has found a dead end.
+            if closure(self.closed, &start).defect < limits::NEAR {
+                self.admit::<f64>(&start);
+            }
         }
     }
 

@@ -303,11 +303,20 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
 #[must_use]
 pub fn approach(closed: &ClosedLoop<f64>, start: &Six<f64>) -> Six<f64> {
     const STEPS: usize = 60;
+    /// So many steps that bring no progress end the search.
+    const IDLE: usize = 10;
     let mut unknowns = *start;
-    for _ in 0..STEPS {
+    let mut before = f64::INFINITY;
+    for count in 0..STEPS {
         let mut here = closure(closed, &unknowns);
         if here.defect < 1e-6 {
             break;
+        }
+        if count % IDLE == 0 {
+            if !(here.defect < 0.9 * before) {
+                break;
+            }
+            before = here.defect;
         }
         let [x, y, z, ..] = here.residual;
         let sine = (x * x + y * y + z * z).sqrt();
