@@ -52,22 +52,15 @@ fn member([t1, t2, t4, t3, t6, b, chi, kappa]: &[Rational; 8]) -> Member {
         number = quotient(&number, &(one(), factor.clone()));
     }
     let (mu, wqq) = number;
-    let other = Rational::from(b * sine(t1)) * sine(t2) / (sine(t4) * sine(&t5));
+    let other = b * sine(t1) * sine(t2) / (sine(t4) * sine(&t5));
     let (c3, c6) = (cosine(t3), cosine(t6));
     let w = wqq / ((one() + &c3) * (one() + &c6));
-    let omega = Rational::from(&w * (Rational::from(&c6 - &c3) / 2));
+    let omega = &w * (Rational::from(&c6 - &c3) / 2);
     let turned = w * (one() + Rational::from(&c3 + &c6) / 2);
     let first = -Rational::from(b * chi) - &turned;
     let second = -Rational::from(&other * chi) - turned;
     Member {
-        lengths: [
-            Rational::from(b * sine(t1)),
-            Rational::from(b * sine(t2)),
-            Rational::from(&mu * t3),
-            Rational::from(&other * sine(t4)),
-            Rational::from(&other * sine(&t5)),
-            mu * t6,
-        ],
+        lengths: [b * sine(t1), b * sine(t2), Rational::from(&mu * t3), &other * sine(t4), &other * sine(&t5), mu * t6],
         offsets: [
             Rational::from(&first + &omega),
             Rational::new(),
@@ -81,13 +74,14 @@ fn member([t1, t2, t4, t3, t6, b, chi, kappa]: &[Rational; 8]) -> Member {
 }
 
 fn decided(member: &Member) -> Mobility {
-    let joints: String = (0..6)
+    let joints = (0..6)
         .map(|k| {
             let (t, a, d) = (&member.tangents[k], &member.lengths[k], &member.offsets[k]);
-            format!("{{ type = \"R\", a = \"{a}\", tan_half_alpha = \"{t}\", d = \"{d}\" }},\n")
+            format!("{{ type = \"R\", a = \"{a}\", tan_half_alpha = \"{t}\", d = \"{d}\" }}")
         })
-        .collect();
-    let text = format!("[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [\n{joints}]\n");
+        .collect::<Vec<_>>()
+        .join(",\n");
+    let text = format!("[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [\n{joints},\n]\n");
     mobility(&load_text(&text, "member.toml", Format::Toml, &Options::default()).unwrap()).unwrap()
 }
 
