@@ -114,3 +114,25 @@ proptest! {
         }
     }
 }
+
+/// The translations lie in a plane wherever the rotations close: the polynomial of the numbers has lost its roots.
+#[test]
+fn roots_lost_at_the_numbers_are_no_fault_of_the_symbols() {
+    let text = r#"
+        [mechanism]
+        kind = "loop"
+        convention = "dh"
+        joints = [
+            { type = "R", a = 0, tan_half_alpha = 0, d = 0 },
+            { type = "P", a = 0, tan_half_alpha = 0, d0 = 0, tan_half_theta = 0 },
+            { type = "P", a = 0, tan_half_alpha = 1, d0 = 0, tan_half_theta = 0 },
+            { type = "C", a = 0, tan_half_alpha = 1, d0 = 0 },
+            { type = "R", a = 0, tan_half_alpha = 1, d = 1 },
+        ]
+    "#;
+    let entry = load_text(text, "any.toml", Format::Toml, &Options::default()).unwrap();
+    let exact = derive(&entry, &entry.cases[0]).unwrap().polynomial.unwrap();
+    assert_eq!(exact.degree(), 0);
+    let symbolic = derive_symbolic(&entry, &entry.cases[0], &["a1".to_owned(), "alpha1".to_owned()]).unwrap();
+    assert!(symbolic.polynomial.is_some());
+}

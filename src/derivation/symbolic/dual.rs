@@ -200,6 +200,7 @@ pub(super) fn neighbours(
         equations: pair.listed([label(2), label(3)]),
         steps,
         compare: vec![(polynomial.clone(), number)],
+        removed: Polynomial::one(),
         polynomial: Some((kept, polynomial, over_names)),
         translations: Vec::new(),
         compared: "the closure polynomial derived from the numbers, with coplanar translations for g".to_owned(),
@@ -267,6 +268,7 @@ pub(super) fn four_revolutes(chain: &Chain, table: &Table<'_>, symbols: &Symbols
         polynomial: Some(polynomial),
         translations: Vec::new(),
         compare,
+        removed: Polynomial::one(),
         compared: "the same equations over the rationals".to_owned(),
     })
 }

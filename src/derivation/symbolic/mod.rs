@@ -143,12 +143,14 @@ fn finished(table: &Table<'_>, symbols: &Symbols, outcome: Outcome) -> Result<Sy
     let unknowns = 3 * symbols.len();
     let values: Vec<(usize, Polynomial<Rational>)> =
         table.values().into_iter().map(|(variable, value)| (variable, Polynomial::constant(value))).collect();
+    let are_equal = |left: &Polynomial<Rational>, right: &Polynomial<Rational>| match (left.is_zero(), right.is_zero())
+    {
+        (false, false) => super::equation::primitive(left) == super::equation::primitive(right),
+        (left, right) => left == right,
+    };
     for (symbolic, number) in &outcome.compare {
         let at = symbolic.substitute_all(&values);
-        let equal = match (at.is_zero(), number.is_zero()) {
-            (false, false) => super::equation::primitive(&at) == super::equation::primitive(number),
-            (left, right) => left == right,
-        };
+        let equal = are_equal(&at, number) || are_equal(&at, &number.mul(&outcome.removed));
         if !equal {
             let message = "the polynomial with symbols does not become that of the numbers: a fault of this program";
             return Err(Error::Invalid(message.to_owned()));

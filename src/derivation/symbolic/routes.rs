@@ -38,6 +38,8 @@ pub(super) struct Outcome {
     pub translations: Vec<Quotient>,
     /// Results with symbols, and what they should become at the numbers of the file.
     pub compare: Vec<(Polynomial<Rational>, Polynomial<Rational>)>,
+    /// What may have been divided out of those: roots that belong to no solution at these numbers, but do at others.
+    pub removed: Polynomial<Rational>,
     pub compared: String,
 }
 
@@ -195,6 +197,10 @@ fn finish(
         Some((_, polynomial, _)) => Polynomial::from_univariate(variable, polynomial),
         None => Polynomial::zero(),
     };
+    let factors = eliminated.removed.iter().filter_map(|one| Some((one.factor.as_ref()?, one.multiplicity)));
+    let removed = factors.fold(Polynomial::one(), |product, (factor, multiplicity)| {
+        (0..multiplicity).fold(product, |product, _| product.mul(factor))
+    });
     if polynomial.is_zero() {
         return Err(vanishing());
     }
@@ -206,6 +212,7 @@ fn finish(
         equations: names.zip(equations).collect(),
         steps: eliminated.steps.clone(),
         compare: vec![(polynomial.clone(), number)],
+        removed,
         polynomial: Some((variable, polynomial, Some(over_names))),
         translations: Vec::new(),
         compared: "the closure polynomial derived from the numbers".to_owned(),
