@@ -50,9 +50,17 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
         return derivation(&symbols, eliminated, |found| found.map(|(k, eliminant)| (k, Settled::as_it_is(eliminant))));
     }
     let exact = exact(chain, case)?;
-    let eliminated = eliminate(&exact)?;
+    // Of six unknown rotations, or all but one, the ring takes as long as the elimination.
+    let is_long = exact.ball.is_none() && general_degree(exact.closed.variables) == Some(16);
+    let (eliminated, count) =
+        rayon::join(|| eliminate(&exact), || if is_long { true_roots::count(&exact) } else { None });
+    let eliminated = eliminated?;
     let per_root = eliminated.per_root;
     let mut derivation = derivation(&exact.symbols, eliminated, |found| match found {
+        // With multiplicity no solution is missing: as many roots are the same ones.
+        Some((unknown, eliminant)) if count == Some(eliminant.roots() * per_root) => {
+            Some((unknown, Settled::as_it_is(eliminant)))
+        }
         Some((unknown, eliminant)) => Some((unknown, true_roots::settled(&exact, unknown, eliminant, per_root))),
         None => true_roots::by_ring(&exact),
     })?;

@@ -72,6 +72,11 @@ pub(super) struct Eliminant {
 }
 
 impl Eliminant {
+    /// The number of roots with multiplicity, among them the angle pi.
+    pub fn roots(&self) -> usize {
+        self.coefficients.degree().unwrap_or(0) + self.at_pi
+    }
+
     /// The polynomial without factors `1 + t^2`; `None` for zero. Other factors are `removed` already.
     pub fn of(variable: usize, integers: Vec<Integer>, meaning: Meaning, mut removed: Vec<Removed>) -> Option<Self> {
         let mut coefficients = Univariate::new(integers);

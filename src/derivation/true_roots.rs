@@ -47,6 +47,11 @@ impl Settled {
     }
 }
 
+/// How many solutions a loop without a ball has, by the ring of its closure equations; `None` where they form families.
+pub(super) fn count(exact: &Exact) -> Option<usize> {
+    Some(Plan::of(exact.modular.as_ref()?)?.count())
+}
+
 /// Divides out of the eliminant of an unknown, at each root of which there are `per_root` solutions in general, what belongs to
 /// no solution.
 pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_root: usize) -> Settled {
@@ -60,7 +65,7 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
     if reach.flatten().is_some() && ring.count() > 0 {
         return Settled::as_it_is(eliminant);
     }
-    let (count, roots) = (ring.count(), eliminant.coefficients.degree().unwrap_or(0) + eliminant.at_pi);
+    let (count, roots) = (ring.count(), eliminant.roots());
     // With multiplicity no solution is missing: as many roots are the same ones.
     if count == roots * per_root {
         return Settled::as_it_is(eliminant);
