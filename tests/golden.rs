@@ -8,7 +8,7 @@ use looproot::kinematics::velocity::Velocity;
 use looproot::mechanism::{FullMode, PlatformAnswer, PlatformMode, Solution};
 use looproot::report::text::{View, solution};
 use looproot::report::{json, model};
-use looproot::verdict::{Status, Verdict};
+use looproot::verdict::{Code, Proof, Status, Verdict};
 use num_complex::Complex;
 use std::fs;
 use std::path::PathBuf;
@@ -66,6 +66,9 @@ fn answer(status: Status, modes: Vec<FullMode>, reason: &str) -> Solution {
     let count = |real: bool| modes.iter().filter(|m| m.real || !real).map(|m| m.multiplicity.max(1)).sum();
     let verdict = Verdict {
         status,
+        proof: if status == Status::Complete { Proof::Proved } else { Proof::None },
+        code: Code::GeneralBoundMet,
+        complex_complete: status == Status::Complete,
         complex: count(false),
         real: count(true),
         at_infinity: if status == Status::Complete { 12 } else { 0 },

@@ -3,6 +3,7 @@
 mod approximation;
 pub mod determinant;
 pub mod double_double;
+pub mod drawn;
 pub mod dual;
 pub mod echelon;
 mod expression;

@@ -10,11 +10,11 @@ use std::process::ExitCode;
 /// The exit codes, from harmless to grave: of several answers the gravest counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Exit {
-    /// Complete and certified.
+    /// Answered and proved.
     Complete,
-    /// No real solution.
+    /// No real solution, and that is proved.
     Unreachable,
-    /// Not complete or not certified.
+    /// Any other answer: incomplete, probable, of rounded data, or a self-motion.
     NotProved,
     /// Beyond what is implemented.
     Unsupported,
@@ -45,12 +45,13 @@ impl From<std::io::Error> for Fault {
 }
 
 impl Exit {
-    /// The code of an answer. A multiple solution has no certificate: a list with one is complete, but not certified.
+    /// The code of an answer: what is not proved is never told as an answer without doubt.
     pub fn of(solution: &Solution) -> Self {
+        let is_proved = solution.verdict.proof.is_proved();
         match solution.verdict.status {
-            Status::Complete if solution.modes.iter().all(|mode| mode.certified) => Self::Complete,
-            Status::Unreachable => Self::Unreachable,
-            Status::Complete | Status::Incomplete | Status::SelfMotion => Self::NotProved,
+            Status::Complete if is_proved => Self::Complete,
+            Status::Unreachable if is_proved => Self::Unreachable,
+            Status::Complete | Status::Unreachable | Status::Incomplete | Status::SelfMotion => Self::NotProved,
             Status::Unsupported => Self::Unsupported,
         }
     }

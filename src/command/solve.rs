@@ -15,7 +15,7 @@ use looproot::report::json;
 use looproot::report::model::case_noun;
 use looproot::report::number::{counted, duration};
 use looproot::report::text::{self, View};
-use looproot::verdict::{Status, Verdict};
+use looproot::verdict::{Code, Proof, Status, Verdict};
 use rayon::prelude::*;
 use std::io::Write;
 use std::ops::Range;
@@ -126,7 +126,18 @@ fn unsupported(error: &Error) -> Solution {
         other => other.to_string(),
     };
     let status = Status::Unsupported;
-    let verdict = Verdict { status, complex: 0, real: 0, at_infinity: 0, self_motion: 0, certified: 0, reason };
+    let verdict = Verdict {
+        status,
+        proof: Proof::None,
+        code: Code::Unsupported,
+        complex_complete: false,
+        complex: 0,
+        real: 0,
+        at_infinity: 0,
+        self_motion: 0,
+        certified: 0,
+        reason,
+    };
     Solution { verdict, modes: Vec::new(), warnings: Vec::new(), prepare_us: 0.0, solve_us: 0.0, platform: None }
 }
 

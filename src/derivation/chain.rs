@@ -4,7 +4,7 @@ use super::polynomial::{ClosurePolynomial, Eliminant, Meaning, Removed};
 use super::symbols::{Symbols, joint_labels};
 use super::true_roots::{self, Settled};
 use super::{Derivation, Equation, cuts, four_bar, triangle, two_sides};
-use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::drawn::Drawn;
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::Case;
 use crate::elimination::degree::general_degree;
@@ -16,7 +16,7 @@ use crate::mechanism::{closed_loop, coupled_loop};
 use rug::Rational;
 
 /// The field in which ways to eliminate are compared before the best one is taken over the rationals.
-pub(super) type Mod = ModP<PRIME_61>;
+pub(super) type Mod = Drawn;
 
 /// What there is to say of a polynomial where solutions are not isolated.
 const FAMILY: &str = "the solutions are not known to be finite in number: a root may belong to a self-motion";

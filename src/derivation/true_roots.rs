@@ -10,7 +10,7 @@ use super::cuts;
 use super::polynomial::{Eliminant, Removed, over_rationals};
 use super::symbols::Symbols;
 use crate::algebra::determinant::by_interpolation;
-use crate::algebra::modp::PRIME_61;
+use crate::algebra::drawn;
 use crate::algebra::residues::{MOST, Residues};
 use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
@@ -75,7 +75,7 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
         return Settled { proved: false, ..Settled::as_it_is(eliminant) };
     };
     let step = format!(
-        "The ring of the closure equations (modulo 2^61 - 1) has dimension {count}: so many solutions there are. The \
+        "The ring of the closure equations (modulo a prime drawn at run time) has dimension {count}: so many solutions there are. The \
          characteristic polynomial of multiplication by {} in it has their values as roots; what else there is of the {roots} \
          roots is divided out.",
         exact.symbols.name(unknown)
@@ -261,7 +261,7 @@ fn lifted(polynomial: &Univariate<Integer>, part: &Univariate<Mod>) -> Option<Un
     let size = polynomial.coefficients().iter().map(Integer::significant_bits).max()?;
     // Twice the largest coefficient that a divisor times the leading coefficient can have, by Mignotte's bound.
     let enough = 2 * size + 2 * u32::try_from(degree).ok()? + 4;
-    let mut modulus = Integer::from(PRIME_61);
+    let mut modulus = Integer::from(drawn::prime());
     loop {
         let symmetric = |c: &Integer| {
             let c = Integer::from(c * &leading).rem_euc(&modulus);
@@ -350,11 +350,19 @@ mod tests {
         assert_eq!(lifted(&product, &image(&one)).unwrap(), one);
         assert_eq!(lifted(&product, &image(&two)).unwrap(), two);
         assert_eq!(lifted(&product, &image(&product)).unwrap(), product);
-        // x^2 - 2 splits modulo the prime, of which 2 is a square: 2^61 = 1, so that (2^31)^2 = 2.
-        let root = Mod::new(1 << 31);
+        // Of 2, 3 and 6 one is a square modulo the prime, by which its polynomial splits; none is over the integers.
+        let root = |n: i32| {
+            let n = Mod::from_integer(n);
+            let root = (0..(drawn::prime() + 1).ilog2()).fold((Mod::one(), n), |(power, square), bit| {
+                let is_set = ((drawn::prime() + 1) / 4) >> bit & 1 == 1;
+                (if is_set { power.mul(&square) } else { power }, square.mul(&square))
+            });
+            (root.0.mul(&root.0) == n).then_some(root.0)
+        };
+        let (n, root) = [2, 3, 6].into_iter().find_map(|n| Some((n, root(n)?))).unwrap();
         let linear = Univariate::new(vec![root.neg(), Mod::one()]);
-        assert!(polynomial(&[-2, 0, 1]).map(modular).unwrap().checked_div_exact(&linear).is_some());
-        assert_eq!(lifted(&polynomial(&[-2, 0, 1]), &linear), None);
+        assert!(polynomial(&[-i64::from(n), 0, 1]).map(modular).unwrap().checked_div_exact(&linear).is_some());
+        assert_eq!(lifted(&polynomial(&[-i64::from(n), 0, 1]), &linear), None);
         assert_eq!(lifted(&product, &image(&polynomial(&[1, 1]))), None);
     }
 }

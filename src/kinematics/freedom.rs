@@ -4,13 +4,13 @@ use super::chain::{Chain, Geometry, JointKind};
 use super::closed_loop::{Numbers, Variable};
 use super::motion::{Motion, Vector};
 use super::screw_system::{Screw, ScrewSystem};
-use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::drawn::Drawn;
 use crate::algebra::number::Number;
 use crate::algebra::ring::{Field, Ring};
 use std::fmt;
 
 /// The field of the rank, in which a wrong one has a probability below `1e-16`.
-type Mod = ModP<PRIME_61>;
+type Mod = Drawn;
 
 /// The freedoms of a chain read as a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

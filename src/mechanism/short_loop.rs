@@ -6,8 +6,8 @@ use super::by_input::{ByInput, Prepared};
 use super::short_ball::{Positions, positions};
 use super::single_loop::{filling, full_mode, locked_value, within_limits};
 use super::{FullMode, Solution};
+use crate::algebra::drawn::Drawn;
 use crate::algebra::long_float::LongFloat;
-use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
 use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, by_ring, proof, wrapped};
@@ -22,7 +22,7 @@ use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
 use crate::solve::newton::{Six, closure};
 use crate::solve::singular::structural_rank;
-use crate::verdict::{Status, Verdict};
+use crate::verdict::{Code, Proof, Status, Verdict};
 use nalgebra::{SMatrix, SVector};
 use num_complex::Complex;
 use rug::Rational;
@@ -31,7 +31,7 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 /// The field of exact counts.
-type Mod = ModP<PRIME_61>;
+type Mod = Drawn;
 
 /// Idle unknowns up to this, in radians and lengths over the mean link, may be rounding of zero; how many of them are,
 /// the exact count says.
@@ -599,7 +599,7 @@ impl ShortLoop {
                         "{all} of the closure polynomials for two choices of idle unknowns in place of the missing ones"
                     )
                 };
-                (status, format!("{total} of {count}: {of} (modulo 2^61 - 1)"))
+                (status, format!("{total} of {count}: {of} (modulo a prime drawn at run time)"))
             }
             Some(count) => {
                 let only = if roots == Roots::Real { "; only real roots were looked for" } else { "" };
@@ -696,5 +696,23 @@ fn fitting(candidates: &[Candidate], count: usize) -> usize {
 
 /// A verdict without solutions.
 fn outcome(status: Status, self_motion: usize, reason: String) -> Verdict {
-    Verdict { status, complex: 0, real: 0, at_infinity: 0, self_motion, certified: 0, reason }
+    let (code, complex_complete) = match status {
+        Status::Complete => (Code::CountMet, true),
+        Status::Unreachable => (Code::NoSolution, true),
+        Status::SelfMotion => (Code::SelfMotion, false),
+        Status::Incomplete => (Code::TooFew, false),
+        Status::Unsupported => (Code::Unsupported, false),
+    };
+    Verdict {
+        status,
+        proof: Proof::None,
+        code,
+        complex_complete,
+        complex: 0,
+        real: 0,
+        at_infinity: 0,
+        self_motion,
+        certified: 0,
+        reason,
+    }
 }

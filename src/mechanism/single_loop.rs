@@ -2,8 +2,8 @@
 
 use super::by_input::{ByInput, Prepared};
 use super::{FullMode, Solution};
+use crate::algebra::drawn::Drawn;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
-use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, AxisTriple, Gap, Mode, Roots, Solver, Workspace, coupler, wrapped};
@@ -19,7 +19,7 @@ use crate::kinematics::closed_loop::{
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
 use crate::solve::scalar::Extended;
-use crate::verdict::{Bound, Status, Verdict, verdict};
+use crate::verdict::{Bound, Code, Proof, Status, Verdict, verdict};
 use num_complex::Complex;
 use rug::Rational;
 use std::cell::OnceCell;
@@ -53,7 +53,7 @@ struct Balls {
 const FIRM: f64 = 1e10;
 
 /// The field of exact degree counts.
-type Mod = ModP<PRIME_61>;
+type Mod = Drawn;
 
 fn bound_from(degree: Degree, place: &str) -> Bound {
     let all = degree.solutions + degree.left_out;
@@ -61,21 +61,23 @@ fn bound_from(degree: Degree, place: &str) -> Bound {
         format!("a closure polynomial of degree {all} {place}")
     } else {
         format!(
-            "a closure polynomial of degree {all}, of whose roots {} belong to no solution {place} (modulo 2^61 - 1)",
+            "a closure polynomial of degree {all}, of whose roots {} belong to no solution {place} (modulo a prime drawn at run time)",
             degree.left_out
         )
     };
-    Bound { count: degree.solutions, because }
+    Bound { count: degree.solutions, proof: Proof::None, code: Code::CountMet, because }
 }
 
 /// The dimension of the ring of a loop as a bound.
 fn of_ring(count: usize) -> Bound {
     let because = if count == 0 {
-        "the closure equations, of which 1 is a combination at this pose (modulo 2^61 - 1)".to_owned()
+        "the closure equations, of which 1 is a combination at this pose (modulo a prime drawn at run time)".to_owned()
     } else {
-        format!("the closure equations, whose ring has dimension {count} at this pose (modulo 2^61 - 1)")
+        format!(
+            "the closure equations, whose ring has dimension {count} at this pose (modulo a prime drawn at run time)"
+        )
     };
-    Bound { count, because }
+    Bound { count, proof: Proof::None, code: Code::CountMet, because }
 }
 
 impl SixUnknowns {

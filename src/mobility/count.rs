@@ -4,14 +4,14 @@ use super::linkage::{JointValue, Linkage};
 use super::positions::{Conjugates, Positions, positions};
 use super::stillness::conditions;
 use crate::algebra::determinant::{by_interpolation, determinant};
-use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::drawn::Drawn;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 use crate::kinematics::closed_loop::Variable;
 use rug::Rational;
 
 /// The field of the counts.
-type Mod = ModP<PRIME_61>;
+type Mod = Drawn;
 /// The conditions have this degree at most in the variable held.
 const DEGREE: usize = 4;
 

@@ -3,6 +3,7 @@
 use super::text::View;
 use crate::catalogue::entry::{Entry, Kind};
 use crate::mechanism::{FullMode, Solution};
+use crate::verdict::Proof;
 use num_complex::Complex;
 use serde_json::{Value, json};
 
@@ -30,6 +31,9 @@ pub fn result(case: usize, solution: &Solution, view: &View) -> Value {
         "case": case,
         "verdict": {
             "status": verdict.status.word(),
+            "proof": verdict.proof.word(),
+            "code": verdict.code.word(),
+            "complex_complete": verdict.complex_complete,
             "complex": verdict.complex,
             "real": verdict.real,
             "at_infinity": verdict.at_infinity,
@@ -38,6 +42,10 @@ pub fn result(case: usize, solution: &Solution, view: &View) -> Value {
             "reason": verdict.reason,
         },
     });
+    if let Proof::Probable { error, seed } = verdict.proof {
+        result["verdict"]["probability_of_error"] = number(error);
+        result["verdict"]["seed"] = json!(seed);
+    }
     if let Some(platform) = &solution.platform {
         result["legs"] = json!(platform.legs.map(number));
         result["route"] = json!(platform.route);

@@ -1,8 +1,10 @@
 //! The verdict on a list of modes: is it complete, and why.
 
 mod platform;
+mod proof;
 
 pub use platform::platform_verdict;
+pub use proof::{Code, Proof};
 
 use crate::assembly::{Assembly, Mode, Roots, are_apart};
 use crate::kinematics::closed_loop::Variable;
@@ -42,6 +44,12 @@ impl Status {
 pub struct Verdict {
     /// The outcome.
     pub status: Status,
+    /// What the outcome rests on.
+    pub proof: Proof,
+    /// The reason as a code.
+    pub code: Code,
+    /// Whether the list is complete in complex solutions, too.
+    pub complex_complete: bool,
     /// Isolated complex solutions found, with multiplicity.
     pub complex: usize,
     /// Real ones among them, with multiplicity.
@@ -57,10 +65,14 @@ pub struct Verdict {
 }
 
 /// An upper bound on the number of isolated solutions, and where it comes from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Bound {
     /// At most this many, with multiplicity.
     pub count: usize,
+    /// What the bound rests on.
+    pub proof: Proof,
+    /// The code of a verdict that rests on it.
+    pub code: Code,
     /// A clause such as `the closure polynomial of this arm has degree 8 (mod p)`.
     pub because: String,
 }
@@ -69,7 +81,8 @@ impl Bound {
     /// What holds for every loop whose closure polynomial has this degree in general.
     #[must_use]
     pub fn general(degree: usize) -> Self {
-        Self { count: degree, because: format!("a degree-{degree} closure polynomial") }
+        let because = format!("a degree-{degree} closure polynomial");
+        Self { count: degree, proof: Proof::Proved, code: Code::GeneralBoundMet, because }
     }
 }
 
@@ -85,21 +98,23 @@ pub fn verdict(
     too_far: Option<(f64, f64)>,
 ) -> Verdict {
     let mut judged = if assembly.self_motion > 0 {
-        Judged { status: Status::SelfMotion, ..Judged::unproved(self_motion(assembly, structural_rank)) }
+        let reason = self_motion(assembly, structural_rank);
+        Judged { status: Status::SelfMotion, ..Judged::unproved(Code::SelfMotion, reason) }
     } else if structural_rank < 6 {
         let none = if assembly.modes.is_empty() { pose().filter(|here| here.count == 0) } else { None };
         match none {
-            Some(here) => Judged {
-                status: Status::Unreachable,
-                ..Judged::unproved(format!("{}; {}", deficient(structural_rank), accounted(&[], &here)))
-            },
-            None if assembly.modes.is_empty() => {
-                Judged::unproved(format!("{}; no solution was found", deficient(structural_rank)))
+            Some(here) => {
+                let reason = format!("{}; {}", deficient(structural_rank), accounted(&[], &here));
+                Judged { code: Code::NoSolution, ..Judged::by(Status::Unreachable, &here, reason) }
             }
-            None => Judged::unproved(format!("{}; the list is not proved complete", deficient(structural_rank))),
+            None => {
+                let list =
+                    if assembly.modes.is_empty() { "no solution was found" } else { "the list is not proved complete" };
+                Judged::unproved(Code::StructurallyDeficient, format!("{}; {list}", deficient(structural_rank)))
+            }
         }
-    } else if let Some(doubt) = doubt(&assembly.modes) {
-        Judged::unproved(format!("not proved: {doubt}"))
+    } else if let Some((code, doubt)) = doubt(&assembly.modes) {
+        Judged::unproved(code, format!("not proved: {doubt}"))
     } else {
         count(assembly, roots, general, geometry, pose)
     };
@@ -109,10 +124,14 @@ pub fn verdict(
     }
     if let (Some((gap, links)), Status::Incomplete, 0) = (too_far, judged.status, assembly.real()) {
         judged.status = Status::Unreachable;
+        (judged.proof, judged.code) = (Proof::Proved, Code::OutOfReach);
         judged.reason = format!("out of reach: {gap:.4e} has to be bridged by links of {links:.4e} together");
     }
     Verdict {
         status: judged.status,
+        proof: judged.proof,
+        code: judged.code,
+        complex_complete: judged.is_complete() && judged.code != Code::OutOfReach,
         complex: assembly.total(),
         real: assembly.real(),
         at_infinity: judged.at_infinity,
@@ -122,16 +141,27 @@ pub fn verdict(
     }
 }
 
-/// A status and its reason.
+/// A status, what it rests on, and its reason.
 struct Judged {
     status: Status,
+    proof: Proof,
+    code: Code,
     at_infinity: usize,
     reason: String,
 }
 
 impl Judged {
-    fn unproved(reason: String) -> Self {
-        Self { status: Status::Incomplete, at_infinity: 0, reason }
+    fn unproved(code: Code, reason: String) -> Self {
+        Self { status: Status::Incomplete, proof: Proof::None, code, at_infinity: 0, reason }
+    }
+
+    /// A status that rests on a bound that is met.
+    fn by(status: Status, bound: &Bound, reason: String) -> Self {
+        Self { status, proof: bound.proof, code: bound.code, at_infinity: 0, reason }
+    }
+
+    fn is_complete(&self) -> bool {
+        matches!(self.status, Status::Complete | Status::Unreachable)
     }
 }
 
@@ -156,20 +186,20 @@ fn self_motion(assembly: &Assembly, structural_rank: usize) -> String {
 }
 
 /// What speaks against counting these modes at all.
-fn doubt(modes: &[Mode]) -> Option<String> {
+fn doubt(modes: &[Mode]) -> Option<(Code, String)> {
     if let Some(mode) = modes.iter().find(|m| m.multiplicity == 0) {
         let kind = if mode.real { "real" } else { "complex" };
-        return Some(format!("a singular {kind} solution of unknown multiplicity"));
+        return Some((Code::UnknownMultiplicity, format!("a singular {kind} solution of unknown multiplicity")));
     }
     let unproved = modes.iter().filter(|m| m.multiplicity == 1 && m.certificate.is_none()).count();
     if unproved > 0 {
-        return Some(format!("{unproved} of {} roots have no certificate", modes.len()));
+        return Some((Code::NoCertificate, format!("{unproved} of {} roots have no certificate", modes.len())));
     }
     if (1..modes.len()).any(|k| modes[..k].iter().any(|other| !are_distinct(other, &modes[k]))) {
-        return Some("two roots are not proved to be distinct".to_owned());
+        return Some((Code::NotDistinct, "two roots are not proved to be distinct".to_owned()));
     }
     let undecided = modes.iter().any(|mode| !mode.real && !is_proved_complex(mode));
-    undecided.then(|| "a root is neither proved real nor proved complex".to_owned())
+    undecided.then(|| (Code::RealOrComplex, "a root is neither proved real nor proved complex".to_owned()))
 }
 
 /// Compares the number of modes with what is known of the number of solutions.
@@ -183,22 +213,25 @@ fn count(
     let found = assembly.total();
     let bound = if found == general { Bound::general(general) } else { geometry() };
     if found > bound.count {
-        return Judged::unproved(format!("contradiction: {found} roots found, but {}", bound.because));
+        let reason = format!("contradiction: {found} roots found, but {}", bound.because);
+        return Judged::unproved(Code::TooMany, reason);
     }
     let status = if assembly.real() == 0 { Status::Unreachable } else { Status::Complete };
     if found == bound.count {
-        return Judged { status, at_infinity: 0, reason: accounted(&assembly.modes, &bound) };
+        return Judged::by(status, &bound, accounted(&assembly.modes, &bound));
     }
     if roots == Roots::Real {
-        return Judged::unproved("not proved: only real roots were looked for".to_owned());
+        return Judged::unproved(Code::OnlyReal, "not proved: only real roots were looked for".to_owned());
     }
     match pose() {
         Some(here) if here.count == found => {
-            Judged { status, at_infinity: bound.count - found, reason: accounted(&assembly.modes, &here) }
+            let at_infinity = bound.count - found;
+            Judged { at_infinity, ..Judged::by(status, &here, accounted(&assembly.modes, &here)) }
         }
         here => {
             let bound = here.filter(|here| here.count < bound.count).unwrap_or(bound);
-            Judged::unproved(format!("not proved: found {found} of up to {} roots of {}", bound.count, bound.because))
+            let reason = format!("not proved: found {found} of up to {} roots of {}", bound.count, bound.because);
+            Judged::unproved(Code::TooFew, reason)
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The verdict on the poses of a platform.
 
-use super::{Bound, Judged, Status, Verdict, accounted_for};
+use super::{Bound, Code, Judged, Proof, Status, Verdict, accounted_for};
 use crate::assembly::Roots;
 use crate::assembly::platform::{PlatformAssembly, PlatformMode};
 use crate::certify::pose::{are_apart, is_complex};
@@ -40,9 +40,9 @@ pub fn platform_verdict(
         let reason = format!(
             "poses form a self-motion of dimension {dimension}{how}; the isolated ones are listed, not proved complete"
         );
-        Judged { status: Status::SelfMotion, ..Judged::unproved(reason) }
-    } else if let Some(doubt) = doubt(assembly, study) {
-        Judged::unproved(format!("not proved: {doubt}"))
+        Judged { status: Status::SelfMotion, ..Judged::unproved(Code::SelfMotion, reason) }
+    } else if let Some((code, doubt)) = doubt(assembly, study) {
+        Judged::unproved(code, format!("not proved: {doubt}"))
     } else {
         count(assembly, roots, exact)
     };
@@ -51,6 +51,9 @@ pub fn platform_verdict(
     }
     Verdict {
         status: judged.status,
+        proof: judged.proof,
+        code: judged.code,
+        complex_complete: judged.is_complete(),
         complex: assembly.total(),
         real: assembly.real(),
         at_infinity: judged.at_infinity,
@@ -65,40 +68,40 @@ fn certified(modes: &[PlatformMode]) -> usize {
 }
 
 /// What speaks against counting these modes at all.
-fn doubt(assembly: &PlatformAssembly, study: &[Study]) -> Option<String> {
+fn doubt(assembly: &PlatformAssembly, study: &[Study]) -> Option<(Code, String)> {
     let modes = &assembly.modes;
     if let Some(mode) = modes.iter().find(|mode| mode.multiplicity == 0) {
         let kind = if mode.real { "real" } else { "complex" };
-        return Some(format!("a singular {kind} pose of unknown multiplicity"));
+        return Some((Code::UnknownMultiplicity, format!("a singular {kind} pose of unknown multiplicity")));
     }
     let unproved = modes.iter().filter(|mode| mode.multiplicity == 1 && mode.certificate.is_none()).count();
     if unproved > 0 {
-        return Some(format!("{unproved} of {} roots have no certificate", modes.len()));
+        return Some((Code::NoCertificate, format!("{unproved} of {} roots have no certificate", modes.len())));
     }
     let radius = |mode: &PlatformMode| mode.certificate.map_or(0.0, |certificate| certificate.radius);
     let apart = |j: usize, k: usize| are_apart(&study[j], radius(&modes[j]), &study[k], radius(&modes[k]));
     // A check of the list as a whole: the solver has merged what is one already.
     if (1..modes.len()).any(|k| (0..k).any(|j| !apart(j, k))) {
-        return Some("two roots are not proved to be distinct".to_owned());
+        return Some((Code::NotDistinct, "two roots are not proved to be distinct".to_owned()));
     }
     let undecided = modes.iter().zip(study).any(|(mode, v)| !mode.real && !is_complex(v, radius(mode)));
-    undecided.then(|| "a root is neither proved real nor proved complex".to_owned())
+    undecided.then(|| (Code::RealOrComplex, "a root is neither proved real nor proved complex".to_owned()))
 }
 
 /// Compares the number of modes with what is known of the number of poses.
 fn count(assembly: &PlatformAssembly, roots: Roots, exact: Option<PlatformDegree>) -> Judged {
     let found = assembly.total();
     let status = if assembly.real() == 0 { Status::Unreachable } else { Status::Complete };
-    let settled = |because: String| {
+    let settled = |proof: Proof, code: Code, because: String| {
         let multiple: Vec<usize> = assembly.modes.iter().map(|mode| mode.multiplicity).filter(|&m| m > 1).collect();
-        let bound = Bound { count: found, because };
-        Judged { status, at_infinity: 0, reason: accounted_for(certified(&assembly.modes), &multiple, &bound) }
+        let bound = Bound { count: found, proof, code, because };
+        Judged::by(status, &bound, accounted_for(certified(&assembly.modes), &multiple, &bound))
     };
     if found == MOST && exact.is_none() {
-        return settled("at most 40 that six legs can have".to_owned());
+        return settled(Proof::Proved, Code::GeneralBoundMet, "at most 40 that six legs can have".to_owned());
     }
     if roots == Roots::Real {
-        return Judged::unproved("not proved: only real roots were looked for".to_owned());
+        return Judged::unproved(Code::OnlyReal, "not proved: only real roots were looked for".to_owned());
     }
     match exact {
         Some(PlatformDegree::Finite { poses, null, curves }) => {
@@ -109,15 +112,18 @@ fn count(assembly: &PlatformAssembly, roots: Roots, exact: Option<PlatformDegree
             };
             let because = format!("{poses} poses by an exact count (modulo a prime){beside}");
             match found.cmp(&poses) {
-                std::cmp::Ordering::Equal => settled(because),
-                std::cmp::Ordering::Less => Judged::unproved(format!("not proved: found {found} of {because}")),
+                std::cmp::Ordering::Equal => settled(Proof::None, Code::CountMet, because),
+                std::cmp::Ordering::Less => {
+                    Judged::unproved(Code::TooFew, format!("not proved: found {found} of {because}"))
+                }
                 std::cmp::Ordering::Greater => {
-                    Judged::unproved(format!("contradiction: {found} roots found, but there are {because}"))
+                    let reason = format!("contradiction: {found} roots found, but there are {because}");
+                    Judged::unproved(Code::TooMany, reason)
                 }
             }
         }
         Some(PlatformDegree::Infinite { .. }) | None => {
-            Judged::unproved(format!("not proved: found {found} of up to 40 roots"))
+            Judged::unproved(Code::TooFew, format!("not proved: found {found} of up to 40 roots"))
         }
     }
 }

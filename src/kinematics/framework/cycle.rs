@@ -16,13 +16,13 @@
 use super::Framework;
 use super::octahedron::Octahedron;
 use crate::algebra::determinant::determinant;
-use crate::algebra::modp::{ModP, PRIME_61};
+use crate::algebra::drawn::Drawn;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 use rug::Rational;
 
 /// The field of the proofs: what is not 0 there is not 0 over the rationals.
-type Mod = ModP<PRIME_61>;
+type Mod = Drawn;
 
 /// The degree of the closure of a ring in the square of a length between neighbours in the ring.
 const DEGREE: usize = 4;

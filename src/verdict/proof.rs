@@ -1,0 +1,110 @@
+//! What a verdict rests on, and a stable code for the reason that its text gives.
+
+/// What a verdict rests on, in one word. It stands beside [`super::Status`] and is never mixed with it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Proof {
+    /// A theorem whose every assumption was checked on the data: facts of the form "not 0 modulo p", "not 0 in an
+    /// interval", identities over the integers. It holds for every value of the numbers that had to be rounded.
+    Proved,
+    /// A count modulo primes drawn at run time.
+    Probable {
+        /// Upper bound on the probability that the verdict is wrong.
+        error: f64,
+        /// The seed of the primes: the same seed repeats the count.
+        seed: u64,
+    },
+    /// A theorem on the rounded numbers of the file, not on the numbers that were rounded.
+    RoundedData,
+    /// A measurement.
+    None,
+}
+
+impl Proof {
+    /// The word of the JSON output.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Proved => "proved",
+            Self::Probable { .. } => "probable",
+            Self::RoundedData => "rounded-data",
+            Self::None => "none",
+        }
+    }
+
+    /// Whether a theorem holds of the data as they are.
+    #[must_use]
+    pub fn is_proved(self) -> bool {
+        self == Self::Proved
+    }
+
+    /// The same proof of data of which some numbers had to be rounded, where the verdict rests on their exact values.
+    #[must_use]
+    pub fn of_rounded(self, is_rounded: bool) -> Self {
+        if is_rounded && self.is_proved() { Self::RoundedData } else { self }
+    }
+}
+
+/// The reason of a verdict as a code that scripts can rely on. The text beside it may be reworded at any time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Code {
+    /// As many certified solutions as mechanisms of this kind can have at all.
+    GeneralBoundMet,
+    /// As many certified solutions as the geometry allows at any pose or input, by exact incidences of its axes.
+    GeometryBoundMet,
+    /// Every root of the exact closure polynomial of this case belongs to exactly one listed solution.
+    ExactRootsMatched,
+    /// As many solutions as a count modulo primes gives.
+    CountMet,
+    /// The closure equations have no solution at all.
+    NoSolution,
+    /// The links together are too short for the pose or input.
+    OutOfReach,
+    /// No pose of the moving platform has legs of these lengths.
+    NoPoseHasLegs,
+    /// The solutions form a self-motion.
+    SelfMotion,
+    /// The joint axes are dependent in every configuration.
+    StructurallyDeficient,
+    /// A singular solution has an unknown multiplicity.
+    UnknownMultiplicity,
+    /// A solution has no certificate.
+    NoCertificate,
+    /// Two solutions are not proved to be distinct.
+    NotDistinct,
+    /// A solution is neither proved real nor proved complex.
+    RealOrComplex,
+    /// More solutions were found than there can be.
+    TooMany,
+    /// Fewer solutions were found than there may be.
+    TooFew,
+    /// Only real solutions were looked for, and their number is not known.
+    OnlyReal,
+    /// The mechanism is beyond what is implemented.
+    Unsupported,
+}
+
+impl Code {
+    /// The code of the JSON output.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::GeneralBoundMet => "general-bound-met",
+            Self::GeometryBoundMet => "geometry-bound-met",
+            Self::ExactRootsMatched => "exact-roots-matched",
+            Self::CountMet => "count-met",
+            Self::NoSolution => "no-solution",
+            Self::OutOfReach => "out-of-reach",
+            Self::NoPoseHasLegs => "no-pose-has-legs",
+            Self::SelfMotion => "self-motion",
+            Self::StructurallyDeficient => "structurally-deficient",
+            Self::UnknownMultiplicity => "unknown-multiplicity",
+            Self::NoCertificate => "no-certificate",
+            Self::NotDistinct => "not-distinct",
+            Self::RealOrComplex => "real-or-complex",
+            Self::TooMany => "too-many",
+            Self::TooFew => "too-few",
+            Self::OnlyReal => "only-real",
+            Self::Unsupported => "unsupported",
+        }
+    }
+}
