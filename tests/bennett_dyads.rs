@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::catalogue::{Format, Options, load_text};
-use looproot::mobility::{Mobility, Proof, mobility};
+use looproot::mobility::{Mobility, mobility};
+use looproot::verdict::Proof;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rug::Rational;
@@ -105,7 +106,7 @@ fn random_members_move_and_broken_ones_do_not() {
             assert!(complex < 6, "members without a real position should be rare");
             continue;
         }
-        assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::Exact), "{parameters:?}");
+        assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::Proved), "{parameters:?}");
         assert_eq!(answer.screw_rank(), Some(5), "{parameters:?}");
         let joint = 2 * random.random_range(0..3);
         let mut broken = member;

@@ -234,11 +234,11 @@ fn the_program_says_what_moves() {
     let (code, out) = run(&["mobility", "steffen"]);
     assert_eq!(code, 0);
     assert!(
-        out.starts_with("mobile: mobility 1 (Maxwell's count 0), 1 motion to first order; proof: exact\n"),
+        out.starts_with("mobile: mobility 1 (Maxwell's count 0), 1 motion to first order; proof: proved\n"),
         "{out}"
     );
     let (code, out) = run(&["mobility", "octahedron_control", "--quiet"]);
-    assert_eq!((code, out.as_str()), (0, "rigid (Maxwell's count 0), 0 motions to first order; proof: exact\n"));
+    assert_eq!((code, out.as_str()), (0, "rigid (Maxwell's count 0), 0 motions to first order; proof: proved\n"));
     let (code, out) = run(&["mobility", "flat_tripod", "--json"]);
     let answer: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!((code, &answer["shaky"], &answer["mobility"]), (0, &true.into(), &0.into()));

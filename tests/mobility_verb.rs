@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::catalogue::{Chains, Format, Options, builtin, load_text};
-use looproot::mobility::{Local, Mobility, Proof, mobility};
+use looproot::mobility::{Local, Mobility, mobility};
+use looproot::verdict::Proof;
 use std::fs;
 use std::process::Command;
 
@@ -53,7 +54,7 @@ fn loops_without_input_move_by_as_many_freedoms_as_they_have() {
     for (joints, freedoms) in loops {
         let answer = decided(&chain("loop", &joints, ""));
         let found = (answer.mobility, answer.gruebler(), answer.screw_rank(), answer.proof);
-        let expected = (Some(freedoms), i64::try_from(freedoms).unwrap(), Some(6), Proof::Exact);
+        let expected = (Some(freedoms), i64::try_from(freedoms).unwrap(), Some(6), Proof::Proved);
         assert_eq!(found, expected, "{joints:?}: {}", answer.reason);
         assert!(!answer.configurations.is_empty() && answer.held.len() <= freedoms);
     }
@@ -73,13 +74,13 @@ fn idle_spins_are_named() {
 #[test]
 fn links_that_move_in_groups_have_more_freedoms_than_the_count_says() {
     let one = decided(&chain("loop", &parallel(&["1", "1.2", "0.8", "1.1", "0.9", "1.3", "0.7"]), ""));
-    assert_eq!((one.mobility, one.gruebler(), one.screw_rank(), one.proof), (Some(4), 1, Some(3), Proof::Exact));
+    assert_eq!((one.mobility, one.gruebler(), one.screw_rank(), one.proof), (Some(4), 1, Some(3), Proof::Proved));
     // Four parallel axes, then three of another direction: Sarrus's linkage with one joint more.
     let mut two = parallel(&["1", "1.1", "0.9", "0.5", "1", "1.2", "0.4"]);
     two[3] = revolute("0.5", 90, "0");
     two[6] = revolute("0.4", -90, "0");
     let two = decided(&chain("loop", &two, ""));
-    assert_eq!((two.mobility, two.gruebler(), two.screw_rank(), two.proof), (Some(2), 1, Some(5), Proof::Exact));
+    assert_eq!((two.mobility, two.gruebler(), two.screw_rank(), two.proof), (Some(2), 1, Some(5), Proof::Proved));
     assert!(two.configurations.iter().any(|c| c.local == Local::Manifold { dimension: 2 }), "{}", two.reason);
 }
 
@@ -87,7 +88,7 @@ fn links_that_move_in_groups_have_more_freedoms_than_the_count_says() {
 fn a_link_longer_than_all_others_is_never_closed() {
     let joints = [vec![revolute("50", 60, "1")], general(6)].concat();
     let answer = decided(&chain("loop", &joints, ""));
-    assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Exact));
+    assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Proved));
     assert!(answer.configurations.is_empty() && answer.reason.contains("one link spans"), "{}", answer.reason);
 }
 
@@ -104,11 +105,11 @@ fn where_nothing_real_is_found_it_is_not_decided() {
 #[test]
 fn an_arm_moves_freely_and_a_platform_on_locked_legs_does_not() {
     let arm = decided(&chain("arm", &general(7), ""));
-    assert_eq!((arm.mobility, arm.gruebler(), arm.screw_rank(), arm.proof), (Some(7), 7, Some(6), Proof::Exact));
+    assert_eq!((arm.mobility, arm.gruebler(), arm.screw_rank(), arm.proof), (Some(7), 7, Some(6), Proof::Proved));
     assert!(arm.reason.contains("with the tool held 1 remain"), "{}", arm.reason);
     let platform = mobility(&builtin("platform_02real", &Options::default()).unwrap()).unwrap();
     let found = (platform.mobility, platform.gruebler(), platform.screw_rank(), platform.proof);
-    assert_eq!(found, (Some(0), 0, Some(6), Proof::Exact), "{}", platform.reason);
+    assert_eq!(found, (Some(0), 0, Some(6), Proof::Proved), "{}", platform.reason);
     let free = mobility(&builtin("bricard_octahedron", &Options::default()).unwrap()).unwrap();
     assert!(free.proof == Proof::None && free.mobility != Some(0), "{}", free.reason);
 }
@@ -205,13 +206,13 @@ fn data_of_few_digits_do_not_move_and_are_said_to_be_near_what_does() {
         decided(&chain("loop", &joints, ""))
     };
     let near = typed("1.732051");
-    assert_eq!((near.mobility, near.proof), (Some(0), Proof::Exact), "{}", near.reason);
+    assert_eq!((near.mobility, near.proof), (Some(0), Proof::Proved), "{}", near.reason);
     assert!(near.reason.contains("the loop as given is immobile, but near a mobile one"), "{}", near.reason);
     let number =
         |before: &str| -> f64 { near.reason.split(before).nth(1).unwrap().split(' ').next().unwrap().parse().unwrap() };
     let (turn, shift) = (number("turned by at most "), number("shifted by at most "));
     assert!(turn < 1e-6 && shift < 1e-6 && turn.max(shift) > 1e-8, "{}", near.reason);
     let far = typed("1.9");
-    assert_eq!((far.mobility, far.proof), (Some(0), Proof::Exact), "{}", far.reason);
+    assert_eq!((far.mobility, far.proof), (Some(0), Proof::Proved), "{}", far.reason);
     assert!(!far.reason.contains("near a mobile one"), "{}", far.reason);
 }

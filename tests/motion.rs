@@ -8,8 +8,9 @@ use looproot::factoring::{Factored, factor};
 use looproot::kinematics::dual_quaternion::DualQuaternion;
 use looproot::kinematics::motion_polynomial::{Linkage, factorisations, from_parts, parts, product, quadratic_factors};
 use looproot::kinematics::screw_system::ScrewSystem;
-use looproot::mobility::{Proof, mobility};
+use looproot::mobility::mobility;
 use looproot::report::motion::toml;
+use looproot::verdict::Proof;
 use proptest::prelude::*;
 use rug::Rational;
 use std::process::Command;
@@ -166,7 +167,7 @@ fn the_program_factors_and_its_loop_is_a_mechanism_file() {
     let (code, out, _) = run(&["factor", "motion/bennett"]);
     assert_eq!(code, 0);
     let verdict = "2 factorisations over the rationals; 1 and 2 close a 4R loop (Bennett), mobile: mobility 1, screw rank 3; \
-                   proof: exact\n";
+                   proof: proved\n";
     assert!(out.starts_with(verdict), "{out}");
     let (code, out, _) = run(&["factor", "six_revolutes", "--json"]);
     let answer: serde_json::Value = serde_json::from_str(&out).unwrap();
@@ -194,7 +195,7 @@ fn printed_loops_are_proved_to_move() {
             let closed = factored.closed_loop(Some((i, j))).unwrap().unwrap();
             let Any::Entry(entry) = read(&toml(&file, &closed)).unwrap() else { panic!("a loop") };
             let answer = mobility(&entry).unwrap();
-            let expected = (Some(closed.mobility().0), Some(closed.order), Proof::Exact);
+            let expected = (Some(closed.mobility().0), Some(closed.order), Proof::Proved);
             assert_eq!(
                 (answer.mobility, answer.screw_rank(), answer.proof),
                 expected,

@@ -8,7 +8,7 @@ use looproot::catalogue::load_ansatz;
 use looproot::conditions::decide::{Decision, decide};
 use looproot::conditions::four_bar::{FourBar, derive};
 use looproot::error::{Error, Result};
-use looproot::report::conditions::{json, markdown, system, text, verdict};
+use looproot::report::conditions::{json, markdown, proof, system, text, verdict};
 use looproot::report::json::tenths;
 use looproot::report::number::duration;
 use std::io::Write;
@@ -61,11 +61,11 @@ fn read(options: &ConditionsOptions) -> Result<Ansatz> {
 
 /// Nothing that moves is an answer like no real solution.
 fn exit(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Exit {
+    if !proof(theorem, ansatz, decision).is_proved() {
+        return Exit::NotProved;
+    }
     if ansatz.empty().is_some() {
         return Exit::Unreachable;
-    }
-    if !theorem.is_proved() || decision.confirmed == Some(false) {
-        return Exit::NotProved;
     }
     if decision.families.is_empty() { Exit::Unreachable } else { Exit::Complete }
 }

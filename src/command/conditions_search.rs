@@ -6,7 +6,7 @@ use super::output::Output;
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use looproot::catalogue::ansatz::Ansatz;
 use looproot::conditions::search::search;
-use looproot::report::conditions_search::{empty, is_proved, json, markdown, system, text, verdict};
+use looproot::report::conditions_search::{empty, json, markdown, proof, system, text, verdict};
 use std::io::Write;
 use std::time::Duration;
 
@@ -36,11 +36,11 @@ pub fn run(options: &ConditionsOptions, ansatz: &Ansatz) -> Result<Exit, Fault> 
     let mut output = Output::open(&options.output, &options.mechanism)?;
     output.writer.write_all(written.as_bytes())?;
     output.writer.flush()?;
-    Ok(if empty(ansatz, &found).is_some() {
-        Exit::Unreachable
-    } else if is_proved(&found) {
-        Exit::Complete
-    } else {
+    Ok(if !proof(ansatz, &found).is_proved() {
         Exit::NotProved
+    } else if empty(ansatz, &found).is_some() {
+        Exit::Unreachable
+    } else {
+        Exit::Complete
     })
 }

@@ -4,7 +4,7 @@ use super::arguments::MobilityOptions;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use looproot::catalogue::{Any, Chains, FrameworkFile, Options, load_any};
-use looproot::mobility::{Mobility, Proof, mobility};
+use looproot::mobility::{Mobility, mobility};
 use looproot::report::framework as report;
 use looproot::report::mobility::{json, text, verdict};
 use std::io::Write;
@@ -48,9 +48,11 @@ fn of_framework(options: &MobilityOptions, file: &FrameworkFile) -> Result<Exit,
 
 /// Without a proof nothing is decided; a mechanism that can nowhere be assembled has no real solution.
 fn exit(answer: &Mobility) -> Exit {
-    match answer.proof {
-        Proof::None => Exit::NotProved,
-        _ if answer.mobility == Some(0) && answer.is_listed && answer.configurations.is_empty() => Exit::Unreachable,
-        _ => Exit::Complete,
+    if !answer.proof.is_proved() {
+        Exit::NotProved
+    } else if answer.mobility == Some(0) && answer.is_listed && answer.configurations.is_empty() {
+        Exit::Unreachable
+    } else {
+        Exit::Complete
     }
 }

@@ -350,6 +350,10 @@ impl ScrewSystem<f64> {
         let scale = moment.amax().max(direction.amax());
         let is_translation = |k: usize| gram.eigenvalues[k] <= TRANSLATION * largest.max(TRANSLATION * scale * scale);
         let (still, turning): (Vec<usize>, Vec<usize>) = (0..size).partition(|&k| is_translation(k));
+        if turning.is_empty() {
+            // Translations alone have no principal screws, and matrices without columns no eigenvalues.
+            return (Vec::new(), still.len());
+        }
         let translations = &moment * gram.eigenvectors.select_columns(&still);
         let unit = DMatrix::from_fn(size, turning.len(), |i, j| {
             gram.eigenvectors[(i, turning[j])] / gram.eigenvalues[turning[j]].sqrt()

@@ -3,29 +3,7 @@
 use super::order::Local;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screw_system::Screw;
-
-/// How an answer is known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Proof {
-    /// By exact arithmetic and the theorems of docs/mobility.md, or by certified solutions.
-    Exact,
-    /// Data that are rounded themselves: the loop closes to rounding through the whole range of its input.
-    CertifiedSweep,
-    /// Not at all.
-    None,
-}
-
-impl Proof {
-    /// The words of reports.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::CertifiedSweep => "certified sweep",
-            Self::None => "none",
-        }
-    }
-}
+use crate::verdict::{Code, Proof};
 
 /// One joint variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,8 +66,10 @@ pub struct Mobility {
     pub general_rank: Option<usize>,
     /// The dimension of the largest motion found: 0 when the loop is immobile, `None` when that is not decided.
     pub mobility: Option<usize>,
-    /// How that is known.
+    /// What that rests on.
     pub proof: Proof,
+    /// The reason as a code.
+    pub code: Code,
     /// The order to which an immobile loop is shaky: the multiplicity of its configuration, 2 or more.
     pub shaky: Option<usize>,
     /// What was held.

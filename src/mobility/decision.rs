@@ -1,6 +1,6 @@
 //! Whether the loop of an entry moves.
 
-use super::answer::{Configuration, JointVariable, Mobility, Proof};
+use super::answer::{Configuration, JointVariable, Mobility};
 use super::branches::branches;
 use super::linkage::{Axis, JointValue, Linkage};
 use super::nearby::{Nearby, nearby};
@@ -18,7 +18,7 @@ use crate::kinematics::chain::{Chain, JointKind, Placement};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screw_system::ScrewSystem;
 use crate::mechanism::{FullMode, Mechanism, Solution};
-use crate::verdict::{Status, Verdict};
+use crate::verdict::{Code, Proof, Status, Verdict};
 use rug::{Float, Rational};
 
 /// Theorem 4 in words.
@@ -51,7 +51,8 @@ pub fn mobility(entry: &Entry) -> Result<Mobility> {
         Design::Platform(_) => return of_platform(entry),
     };
     let subject = Subject { entry, chain, linkage: Linkage::of(chain)?, variables: variables(chain) };
-    let mut answer = if subject.variables.len() > 6 { subject.free() } else { subject.overconstrained()? };
+    let mut answer =
+        if subject.variables.len() > 6 { subject.rounded(subject.free()) } else { subject.overconstrained()? };
     let found = branches(&subject.linkage, &answer.configurations);
     for (configuration, branch) in answer.configurations.iter_mut().zip(found) {
         configuration.branch = branch;
@@ -84,13 +85,14 @@ pub(super) struct Subject<'a> {
 
 impl Subject<'_> {
     /// An answer without configurations.
-    pub(super) fn answer(&self, mobility: Option<usize>, proof: Proof, reason: String) -> Mobility {
+    pub(super) fn answer(&self, mobility: Option<usize>, (proof, code): (Proof, Code), reason: String) -> Mobility {
         Mobility {
             variables: self.variables.clone(),
             equations: 6,
             general_rank: None,
             mobility,
             proof,
+            code,
             shaky: None,
             held: Vec::new(),
             configurations: Vec::new(),
@@ -98,6 +100,17 @@ impl Subject<'_> {
             is_listed: true,
             reason,
         }
+    }
+
+    /// The same of data some of which may have been rounded.
+    fn rounded(&self, answer: Mobility) -> Mobility {
+        let proof = answer.proof.of_rounded(!is_exact(self.chain));
+        if proof == answer.proof {
+            return answer;
+        }
+        let reason =
+            format!("{}; this holds for the loop with its irrational numbers rounded (--digits)", answer.reason);
+        Mobility { proof, reason, ..answer }
     }
 
     /// Loops of up to six variables, which in general do not move.
@@ -139,7 +152,8 @@ impl Subject<'_> {
             }
             None => return Ok(answer),
         };
-        Ok(Mobility { reason: format!("{}; {remark}", answer.reason), ..answer })
+        let proof = answer.proof.of_rounded(is_rounded);
+        Ok(Mobility { reason: format!("{}; {remark}", answer.reason), proof, ..answer })
     }
 
     /// A loop that closes to rounding.
@@ -161,7 +175,7 @@ impl Subject<'_> {
             held: vec![closing.held],
             configurations,
             complex,
-            ..self.answer(Some(1), Proof::CertifiedSweep, reason)
+            ..self.answer(Some(1), (Proof::None, Code::CertifiedSweep), reason)
         }
     }
 
@@ -180,7 +194,11 @@ impl Subject<'_> {
                     self.held(&found),
                     found.complex
                 );
-                Ok(Mobility { held: found.held, complex: found.complex, ..self.answer(None, Proof::None, reason) })
+                Ok(Mobility {
+                    held: found.held,
+                    complex: found.complex,
+                    ..self.answer(None, (Proof::None, Code::ComplexMotion), reason)
+                })
             }
             Outcome::Nothing => {
                 let why = is_open_everywhere(&self.linkage).then_some(NO_CURVE);
@@ -213,16 +231,22 @@ impl Subject<'_> {
         } else {
             format!("a configuration over a number field of degree {degree}")
         };
-        let why = match first.map(|c| &c.local) {
-            Some(Local::Manifold { .. }) => format!(
-                "at {place} the screws of the joints that can move span the Lie algebra of a group of motions, so that {} \
-                 variables less screw rank {rank} move (theorem 1)",
-                self.variables.len()
-            ),
-            _ => format!(
-                "at {place} the joint screws have rank {rank} and the reduced closure equations vanish beyond the order \
-                 that an isolated solution can have (theorem 2)"
-            ),
+        let (code, why) = match first.map(|c| &c.local) {
+            Some(Local::Manifold { .. }) => {
+                let why = format!(
+                    "at {place} the screws of the joints that can move span the Lie algebra of a group of motions, so that {} \
+                     variables less screw rank {rank} move (theorem 1)",
+                    self.variables.len()
+                );
+                (Code::GroupOfMotions, why)
+            }
+            _ => {
+                let why = format!(
+                    "at {place} the joint screws have rank {rank} and the reduced closure equations vanish beyond the order \
+                     that an isolated solution can have (theorem 2)"
+                );
+                (Code::OrderExceedsBound, why)
+            }
         };
         let idle = if still > 0 { format!("; {still} joint variables stand still") } else { String::new() };
         let reason = format!("{why}; {} held{idle}", self.held(&found));
@@ -230,18 +254,18 @@ impl Subject<'_> {
             held: found.held,
             configurations: found.configurations,
             complex: found.complex,
-            ..self.answer(Some(dimension), Proof::Exact, reason)
+            ..self.answer(Some(dimension), (Proof::Proved, code), reason)
         }
     }
 
     /// Loops of up to five variables in which no curve was found: all their configurations. `why` says how it is known that
     /// there is none, if it is.
     fn immobile(&self, why: Option<&str>) -> Mobility {
-        let (mobility, proof) = (why.map(|_| 0), if why.is_some() { Proof::Exact } else { Proof::None });
+        let mobility = why.map(|_| 0);
         let nothing = why.unwrap_or("no motion was found through any value of a joint");
         let Some(found) = at(&self.linkage, &[]) else {
             let reason = format!("{nothing}; the configurations could not be separated");
-            return Mobility { is_listed: false, ..self.answer(mobility, proof, reason) };
+            return Mobility { is_listed: false, ..self.answer(mobility, rests_on(why.is_some()), reason) };
         };
         let complex: usize = found.iter().map(Conjugates::count).sum();
         let Search { configurations, .. } = decide(&self.linkage, &[], &found);
@@ -258,7 +282,7 @@ impl Subject<'_> {
                 format!("{real} real of {complex} complex configurations, all of them isolated{clause}{unknown}")
             }
         };
-        Mobility { shaky, configurations, complex, ..self.answer(Some(0), Proof::Exact, reason) }
+        Mobility { shaky, configurations, complex, ..self.answer(Some(0), rests_on(true), reason) }
     }
 
     /// Loops of six variables in which no curve was found; `why` as above.
@@ -275,12 +299,14 @@ impl Subject<'_> {
                 longer.filter(|longer| is_complete(&longer.verdict)).unwrap_or(solution)
             }
             Err(Error::Unsupported(_)) => {
-                let proof = if why.is_some() { Proof::Exact } else { Proof::None };
                 let nothing = why.unwrap_or(
                     "no motion was found through any value of a joint, but that there is none is not proved",
                 );
                 let reason = format!("{nothing}; the configurations of loops of such joints are not listed");
-                return Ok(Mobility { is_listed: false, ..self.answer(why.map(|_| 0), proof, reason) });
+                return Ok(Mobility {
+                    is_listed: false,
+                    ..self.answer(why.map(|_| 0), rests_on(why.is_some()), reason)
+                });
             }
             Err(error) => return Err(error),
         };
@@ -290,19 +316,25 @@ impl Subject<'_> {
         // irrational length rounded ones.
         let is_full =
             is_complete && verdict.certified == MOST_SOLUTIONS && self.linkage.axes.iter().all(|axis| *axis == Axis::Z);
-        let proof = if is_full || why.is_some() { Proof::Exact } else { Proof::None };
+        let is_proved = is_full || why.is_some();
         let mut configurations = Vec::new();
         for mode in solution.modes.iter().filter(|mode| mode.real) {
             configurations.push(self.singular(mode).unwrap_or_else(|| self.measured(mode)));
         }
         if !is_complete {
-            let (mobility, reason) = match proof {
-                Proof::None => (None, "no motion was found through any value of a joint"),
-                _ => (Some(0), why.unwrap_or(NO_CURVE)),
+            let (mobility, reason) = if is_proved {
+                (Some(0), why.unwrap_or(NO_CURVE))
+            } else {
+                (None, "no motion was found through any value of a joint")
             };
             let reason = format!("{reason}; the isolated configurations: {}", verdict.reason);
             let (complex, is_listed) = (verdict.complex, false);
-            return Ok(Mobility { configurations, complex, is_listed, ..self.answer(mobility, proof, reason) });
+            return Ok(Mobility {
+                configurations,
+                complex,
+                is_listed,
+                ..self.answer(mobility, rests_on(is_proved), reason)
+            });
         }
         let shaky = configurations.iter().filter_map(order).max().filter(|order| *order > 1);
         let (complex, real) = (verdict.complex, configurations.len());
@@ -311,13 +343,15 @@ impl Subject<'_> {
             (_, 0) => format!("no real configuration, {complex} complex ones"),
             _ => format!("{real} isolated real configurations{}", order_clause(shaky)),
         };
-        let curves = match proof {
-            Proof::None => "no motion was found through any value of a joint, but that there is none is not proved",
-            _ if is_full => "as many as there can be",
-            _ => why.unwrap_or(NO_CURVE),
+        let curves = if is_full {
+            "as many as there can be"
+        } else {
+            why.unwrap_or("no motion was found through any value of a joint, but that there is none is not proved")
         };
         let reason = format!("{what}: {}; {curves}", verdict.reason);
-        Ok(Mobility { shaky, configurations, complex, ..self.answer(Some(0), proof, reason) })
+        // Which configurations there are is another question than whether one of them moves.
+        let is_listed = verdict.proof.is_proved();
+        Ok(Mobility { shaky, configurations, complex, is_listed, ..self.answer(Some(0), rests_on(is_proved), reason) })
     }
 
     /// The exact configuration near a multiple solution, if one of its joints stands at a simple value.
@@ -388,6 +422,11 @@ impl Subject<'_> {
             redundant: freedom.map(|freedom| freedom.redundant.basis()).unwrap_or_default(),
         }
     }
+}
+
+/// What it rests on that there is no curve of configurations.
+fn rests_on(is_proved: bool) -> (Proof, Code) {
+    if is_proved { (Proof::Proved, Code::NoCurve) } else { (Proof::None, Code::NotDecided) }
 }
 
 /// The multiplicity of an isolated configuration.

@@ -1,7 +1,7 @@
 //! Loops of seven joint variables and more, which in general move: a real configuration is found, proved and seen to be
 //! regular.
 
-use super::answer::{Configuration, Held, JointVariable, Mobility, Proof};
+use super::answer::{Configuration, Held, JointVariable, Mobility};
 use super::branches::{Curve, floating};
 use super::decision::{Subject, solve};
 use super::linkage::{Axis, JointValue, Linkage};
@@ -17,6 +17,7 @@ use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::{Motion, Vector, dot};
 use crate::mechanism::FullMode;
 use crate::solve::newton::approach;
+use crate::verdict::{Code, Proof};
 use nalgebra::DVector;
 use num_complex::Complex;
 use rug::{Float, Rational};
@@ -50,7 +51,7 @@ impl Subject<'_> {
             return self.mobile(found);
         }
         if let Some(reason) = self.too_wide() {
-            return self.answer(Some(0), Proof::Exact, reason);
+            return self.answer(Some(0), (Proof::Proved, Code::LinkTooLong), reason);
         }
         let mut assembler = Assembler::of(self);
         if let Some(found) = self.by_input().or_else(|| assembler.assembled()) {
@@ -69,7 +70,11 @@ impl Subject<'_> {
                 "{none}; complex ones there are: {complex} with {held} held, some of them certified and regular, so that {n} - 6 \
                  variables move over the complex numbers (theorem 1)"
             );
-            return Mobility { held: found.held, complex, ..self.answer(None, Proof::None, reason) };
+            return Mobility {
+                held: found.held,
+                complex,
+                ..self.answer(None, (Proof::None, Code::ComplexMotion), reason)
+            };
         }
         let rank = Freedom::of(self.chain).rank;
         let general = match rank.filter(|rank| *rank < 6) {
@@ -79,7 +84,7 @@ impl Subject<'_> {
             ),
             None => String::new(),
         };
-        self.answer(None, Proof::None, none + &general)
+        self.answer(None, (Proof::None, Code::NotDecided), none + &general)
     }
 
     /// Certified regular configurations of a loop with more variables than equations.
@@ -95,7 +100,7 @@ impl Subject<'_> {
             held: found.held,
             configurations: found.configurations,
             complex: found.complex,
-            ..self.answer(Some(n - 6), Proof::Exact, reason)
+            ..self.answer(Some(n - 6), (Proof::Proved, Code::RegularConfiguration), reason)
         }
     }
 

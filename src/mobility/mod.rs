@@ -16,7 +16,7 @@ mod rounded;
 mod search;
 mod stillness;
 
-pub use answer::{Configuration, Held, JointVariable, Mobility, Proof};
+pub use answer::{Configuration, Held, JointVariable, Mobility};
 pub use count::{at_most, count};
 pub use decision::mobility;
 pub use linkage::{Axis, JointValue, Linkage, Position};

@@ -1,20 +1,20 @@
 //! What moves without closing a loop of its own: arms, and platforms with locked legs.
 
-use super::answer::{JointVariable, Mobility, Proof};
+use super::answer::{JointVariable, Mobility};
 use super::decision::solve;
 use crate::catalogue::entry::Entry;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::freedom::Freedom;
-use crate::verdict::Status;
+use crate::verdict::{Code, Proof, Status};
 
 /// An answer without configurations.
 fn answer(
     variables: Vec<JointVariable>,
     equations: usize,
     mobility: Option<usize>,
-    proof: Proof,
+    (proof, code): (Proof, Code),
     reason: String,
 ) -> Mobility {
     Mobility {
@@ -23,6 +23,7 @@ fn answer(
         general_rank: None,
         mobility,
         proof,
+        code,
         shaky: None,
         held: Vec::new(),
         configurations: Vec::new(),
@@ -44,7 +45,7 @@ pub(super) fn of_arm(chain: &Chain, variables: Vec<JointVariable>) -> Mobility {
         format!("; screw rank {rank} in general position: so many freedoms has the tool, and {held}")
     });
     let reason = format!("an open chain, whose {n} joint variables nothing binds{of_tool}");
-    Mobility { general_rank: freedom.rank, ..answer(variables, 0, Some(n), Proof::Exact, reason) }
+    Mobility { general_rank: freedom.rank, ..answer(variables, 0, Some(n), (Proof::Proved, Code::OpenChain), reason) }
 }
 
 /// A platform on legs of the lengths of its first case.
@@ -55,9 +56,9 @@ pub(super) fn of_platform(entry: &Entry) -> Result<Mobility> {
     let verdict = &solution.verdict;
     let are_regular = solution.modes.iter().all(|mode| mode.certified);
     let (mobility, proof, what) = match verdict.status {
-        Status::Complete if are_regular => (Some(0), Proof::Exact, "every pose is isolated and regular"),
+        Status::Complete if are_regular => (Some(0), verdict.proof, "every pose is isolated and regular"),
         Status::Complete => (Some(0), Proof::None, "every pose is isolated, but one of them is singular or not proved"),
-        Status::Unreachable => (Some(0), Proof::Exact, "no pose has legs of these lengths"),
+        Status::Unreachable => (Some(0), verdict.proof, "no pose has legs of these lengths"),
         Status::SelfMotion => (Some(verdict.self_motion), Proof::None, "a self-motion"),
         Status::Incomplete | Status::Unsupported => (None, Proof::None, "whether all poses are isolated is not known"),
     };
@@ -72,6 +73,6 @@ pub(super) fn of_platform(entry: &Entry) -> Result<Mobility> {
         held: legs.into_iter().enumerate().collect(),
         complex: verdict.complex,
         is_listed: verdict.real == 0,
-        ..answer(variables, 6, mobility, proof, reason)
+        ..answer(variables, 6, mobility, (proof, verdict.code), reason)
     })
 }

@@ -8,6 +8,7 @@ use crate::conditions::decide::{Class, Decision, Family};
 use crate::conditions::four_bar::FourBar;
 use crate::conditions::step::{factored, plain, product, rational};
 use crate::error::{Error, Result};
+use crate::verdict::Proof;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -25,12 +26,24 @@ fn class(class: Class) -> &'static str {
     }
 }
 
+/// What the answer rests on. Numbers that were rounded satisfy or break an equality that the true ones may not.
+#[must_use]
+pub fn proof(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Proof {
+    if !theorem.is_proved() || decision.confirmed == Some(false) {
+        return Proof::None;
+    }
+    Proof::Proved.of_rounded(ansatz.rounded)
+}
+
 /// `moves as Bennett (+), Bennett (-), spherical, planar, and in no other way: proved, 11 of 11 steps`
 #[must_use]
 pub fn verdict(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> String {
     let held = theorem.steps.iter().filter(|step| step.holds).count();
     let total = theorem.steps.len();
     let proof = match (theorem.is_proved(), decision.confirmed) {
+        _ if proof(theorem, ansatz, decision) == Proof::RoundedData => {
+            format!("NOT proved: this holds for the rounded numbers of the file, {held} of {total} steps")
+        }
         (true, Some(false)) => "NOT proved: the linear conditions at the numbers disagree".to_owned(),
         (true, Some(true)) => format!("proved, {held} of {total} steps, and by the linear conditions at the numbers"),
         (true, None) => format!("proved, {held} of {total} steps"),
@@ -168,7 +181,8 @@ pub fn json(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Value {
         "title": ansatz.title,
         "joints": ansatz.joints.len(),
         "verdict": verdict(theorem, ansatz, decision),
-        "proved": theorem.is_proved() && decision.confirmed != Some(false),
+        "proved": proof(theorem, ansatz, decision).is_proved(),
+        "proof": proof(theorem, ansatz, decision).word(),
         "complete": true,
         "symbols": names.list(),
         "oblique_links": decision.oblique,

@@ -14,6 +14,7 @@ use crate::conditions::symmetry::{Signs, Slice};
 use crate::conditions::verification::{ModularMembers, RationalMember};
 use crate::error::{Error, Result};
 use crate::mobility::{Germ, Local};
+use crate::verdict::Proof;
 use rug::Rational;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -112,6 +113,14 @@ pub fn is_proved(search: &Search) -> bool {
         return own_certainty(search) == Certainty::Family;
     }
     search.mobile_slices.iter().all(|slice| slice.proof.is_some()) && proper_slices(search).count() > 0
+}
+
+/// What the answer rests on. A bound on the probability of error comes from primes that are not drawn: nothing here is
+/// `probable`.
+#[must_use]
+pub fn proof(ansatz: &Ansatz, search: &Search) -> Proof {
+    let proof = if is_proved(search) || empty(ansatz, search).is_some() { Proof::Proved } else { Proof::None };
+    proof.of_rounded(ansatz.rounded)
 }
 
 /// Why no real mechanism has what was asked for, or what was found; `None` where that is not proved.
@@ -588,7 +597,8 @@ pub fn json(ansatz: &Ansatz, search: &Search) -> Value {
         "title": ansatz.title,
         "joints": ansatz.joints.len(),
         "verdict": verdict(ansatz, search),
-        "proved": is_proved(search),
+        "proved": proof(ansatz, search).is_proved(),
+        "proof": proof(ansatz, search).word(),
         "complete": false,
         "certainty": certainty(search).map(|certainty| json!({
             "name": certainty.name(),

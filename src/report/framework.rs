@@ -9,7 +9,7 @@ use crate::kinematics::framework::{Mobility, Proof, SliceKind, Verdict};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// `mobile: 1 degree of freedom (Maxwell's count 0), infinitesimally 1; proof: exact`
+/// `mobile: 1 degree of freedom (Maxwell's count 0), infinitesimally 1; proof: proved`
 #[must_use]
 pub fn verdict(answer: &Mobility) -> String {
     let what = match (&answer.verdict, answer.freedom()) {
@@ -24,7 +24,7 @@ pub fn verdict(answer: &Mobility) -> String {
 }
 
 fn proof_word(answer: &Mobility) -> &'static str {
-    if answer.is_proved() { "exact" } else { "none" }
+    if answer.is_proved() { "proved" } else { "none" }
 }
 
 /// Why the verdict is right, or what it rests on.

@@ -13,7 +13,7 @@ use crate::mobility::{Configuration, Local, Mobility};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// `mobile: mobility 1 (Gruebler's count -2), screw rank 3, 1 branch; proof: exact`
+/// `mobile: mobility 1 (Gruebler's count -2), screw rank 3, 1 branch; proof: proved`
 #[must_use]
 pub fn verdict(answer: &Mobility) -> String {
     let gruebler = answer.gruebler();
@@ -170,6 +170,7 @@ pub fn json(entry: &Entry, answer: &Mobility) -> Value {
         "gruebler": answer.gruebler(),
         "screw_rank": answer.screw_rank(),
         "proof": answer.proof.word(),
+        "code": answer.code.word(),
         "shaky": answer.shaky.is_some(),
         "order": answer.shaky,
         "branches": answer.branches(),

@@ -21,7 +21,7 @@ pub fn verdict(factored: &Factored, closed: Option<&Loop>) -> String {
             let (least, most) = closed.mobility();
             let mobility = if least == most { least.to_string() } else { format!("{least} to {most}") };
             format!(
-                "{count} over the rationals; {} and {} close a {} loop{name}, mobile: mobility {mobility}, screw rank {}; proof: exact",
+                "{count} over the rationals; {} and {} close a {} loop{name}, mobile: mobility {mobility}, screw rank {}; proof: proved",
                 i + 1,
                 j + 1,
                 closed.letters,
@@ -158,7 +158,7 @@ pub fn json(file: &MotionFile, factored: &Factored, closed: Option<&Loop>) -> Va
             "mobility": if least == most { json!(least) } else { json!([least, most]) },
             "screw_rank": closed.order,
             "system": closed.system,
-            "proof": "exact",
+            "proof": "proved",
             "bennett_ratio_squared": closed.bennett.as_ref().map(ToString::to_string),
             "axes": closed.axes.iter().map(|(screw, _)| text(screw)).collect::<Vec<_>>(),
             "dh": links,

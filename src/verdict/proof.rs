@@ -81,6 +81,26 @@ pub enum Code {
     OnlyReal,
     /// The mechanism is beyond what is implemented.
     Unsupported,
+    /// Nothing binds the joints of an open chain.
+    OpenChain,
+    /// The joint screws span the algebra of a group of motions, or of two, at a configuration.
+    GroupOfMotions,
+    /// The closure equations vanish beyond the order that an isolated configuration can have.
+    OrderExceedsBound,
+    /// At a certified configuration the six closure equations are independent.
+    RegularConfiguration,
+    /// The parameters satisfy the conditions of a family of loops that move.
+    FamilyOfMobileLoops,
+    /// No curve of configurations: every joint variable takes finitely many values.
+    NoCurve,
+    /// One link spans more than all others together.
+    LinkTooLong,
+    /// The loop closes to rounding through a range of a joint. This is a measurement.
+    CertifiedSweep,
+    /// The motion that was found has no real configuration where it was looked.
+    ComplexMotion,
+    /// Neither a motion nor its absence was proved.
+    NotDecided,
 }
 
 impl Code {
@@ -105,6 +125,16 @@ impl Code {
             Self::TooFew => "too-few",
             Self::OnlyReal => "only-real",
             Self::Unsupported => "unsupported",
+            Self::OpenChain => "open-chain",
+            Self::GroupOfMotions => "group-of-motions",
+            Self::OrderExceedsBound => "order-exceeds-bound",
+            Self::RegularConfiguration => "regular-configuration",
+            Self::FamilyOfMobileLoops => "family-of-mobile-loops",
+            Self::NoCurve => "no-curve",
+            Self::LinkTooLong => "link-too-long",
+            Self::CertifiedSweep => "certified-sweep",
+            Self::ComplexMotion => "complex-motion",
+            Self::NotDecided => "not-decided",
         }
     }
 }
