@@ -69,11 +69,7 @@ fn loops_with_enough_freedoms_move_by_a_certified_configuration() {
     let cases = [("cccr_1_angle", 1, Proof::Proved), ("rscr", 1, Proof::Proved), ("rssr", 2, Proof::RoundedData)];
     for (name, freedoms, proof) in cases {
         let answer = answer(name);
-        assert_eq!(
-            (answer.mobility, answer.screw_rank(), answer.proof),
-            (Some(freedoms), Some(6), proof),
-            "{name}"
-        );
+        assert_eq!((answer.mobility, answer.screw_rank(), answer.proof), (Some(freedoms), Some(6), proof), "{name}");
     }
 }
 
