@@ -6,7 +6,7 @@ use looproot::assembly::{Assembly, Roots, Solver, Workspace};
 use looproot::elimination::degree::{degree, general_filling};
 use looproot::kinematics::chain::Chain;
 use looproot::kinematics::motion::Motion;
-use looproot::verdict::{Bound, Status, verdict};
+use looproot::verdict::{Bound, Code, Proof, Status, verdict};
 use rug::Rational;
 
 type Mod = ModP<PRIME_61>;
@@ -44,7 +44,8 @@ fn lists() -> Vec<List> {
 }
 
 fn judge(list: &List, assembly: &Assembly, roots: Roots, rank: usize) -> Status {
-    let bound = |count| Bound { count, because: "a test".to_owned() };
+    let (proof, code) = (Proof::Proved, Code::GeometryBoundMet);
+    let bound = |count| Bound { count, proof, code, because: "a test".to_owned() };
     verdict(assembly, roots, rank, 16, || bound(list.everywhere), || Some(bound(list.here)), None).status
 }
 
