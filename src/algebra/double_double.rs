@@ -60,6 +60,8 @@ impl From<f64> for DoubleDouble {
 }
 
 impl Ring for DoubleDouble {
+    const DIGITS: Option<u32> = Some(106);
+
     fn zero() -> Self {
         Self::from(0.0)
     }

@@ -162,6 +162,8 @@ impl<const LIMBS: usize> From<f64> for LongNumber<LIMBS> {
 }
 
 impl<const LIMBS: usize> Ring for LongNumber<LIMBS> {
+    const DIGITS: Option<u32> = Some(Self::BITS);
+
     fn zero() -> Self {
         Self::ZERO
     }

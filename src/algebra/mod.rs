@@ -6,6 +6,7 @@ pub mod double_double;
 pub mod drawn;
 pub mod dual;
 pub mod echelon;
+pub mod enclosure;
 mod expression;
 pub mod factors;
 mod half_tangent;

@@ -1,7 +1,9 @@
 //! Numbers and angles as a mechanism file gives them: exact where they can be, correctly rounded where not.
 
 use super::approximation::simplest_within;
+use super::enclosure::Enclosure;
 use super::expression::{Quantified, Unit, evaluate, shortened};
+use super::ring::Ring;
 use super::value::{BITS, Value};
 use crate::error::{Error, Result};
 use rug::{Float, Rational, ops::Pow};
@@ -42,21 +44,25 @@ impl Default for Reading {
     }
 }
 
-/// A real number of a file: its exact rational value, or a rational within 1e-17 (relative) of an irrational one.
+/// A real number of a file: its exact rational value, or a rational within 1e-17 (relative) of an irrational one and an
+/// enclosure of that.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number {
     rational: Rational,
     exact: bool,
     float: f64,
+    enclosed: Option<Box<Enclosure>>,
 }
 
-/// An angle of a file, known twice: correctly rounded in f64, and as an exact rational half-angle tangent.
+/// An angle of a file, known twice: correctly rounded in f64, and as an exact rational half-angle tangent, beside which
+/// stand enclosures of cosine and sine where that is not the angle's own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Angle {
     radians: f64,
     cos_sin: (f64, f64),
     half_tangent: HalfTangent,
     exact: bool,
+    enclosed: Option<Box<(Enclosure, Enclosure)>>,
 }
 
 /// The f64 nearest to a rational (rug's own `to_f64` truncates).
@@ -70,13 +76,20 @@ impl Number {
     #[must_use]
     pub fn exact(rational: Rational) -> Self {
         let float = nearest_f64(&rational);
-        Self { rational, exact: true, float }
+        Self { rational, exact: true, float, enclosed: None }
+    }
+
+    /// A rational that stands for a nearby real number of which no more is known.
+    #[must_use]
+    pub fn rounded(rational: Rational) -> Self {
+        Self { exact: false, ..Self::exact(rational) }
     }
 
     /// A rational that stands for a nearby real number.
     #[must_use]
-    pub fn rounded(rational: Rational) -> Self {
-        Self { exact: false, ..Self::exact(rational) }
+    pub fn standing_for(rational: Rational, real: Enclosure) -> Self {
+        let float = if real.holds_zero() { 0.0 } else { real.middle().to_f64() };
+        Self { rational, exact: false, float, enclosed: Some(Box::new(real)) }
     }
 
     /// The simplest rational within `10^-digits` (relative) of a float.
@@ -92,7 +105,11 @@ impl Number {
     #[must_use]
     pub fn squared(&self) -> Self {
         let square = Rational::from(self.rational.square_ref());
-        if self.exact { Self::exact(square) } else { Self::rounded(square) }
+        match self.enclosed() {
+            Some(real) => Self::standing_for(square, real.mul(real)),
+            None if self.exact => Self::exact(square),
+            None => Self::rounded(square),
+        }
     }
 
     /// The number 0.
@@ -108,7 +125,7 @@ impl Number {
     #[must_use]
     pub fn from_f64(float: f64) -> Self {
         let rational = Rational::from_f64(float).expect("a finite number was promised");
-        Self { rational, exact: true, float }
+        Self { rational, exact: true, float, enclosed: None }
     }
 
     /// Reads the text of a number: an integer, a decimal or an expression, with or without a unit.
@@ -140,14 +157,10 @@ impl Number {
             _ => return Err(Error::Invalid(format!("found `{}`, expected {expected}", shortened(text)))),
         };
         let value = value.mul(&Value::from_rational(scale));
-        check_size(&value.float, text)?;
+        check_size(&value.float(), text)?;
         Ok(match value.rational {
             Some(rational) => Self::exact(rational),
-            None => Self {
-                rational: Self::near(&value.float, 17.max(reading.digits + 2)),
-                exact: false,
-                float: value.float.to_f64(),
-            },
+            None => Self::standing_for(Self::near(&value.float(), 17.max(reading.digits + 2)), value.real),
         })
     }
 
@@ -167,6 +180,12 @@ impl Number {
     #[must_use]
     pub fn to_f64(&self) -> f64 {
         self.float
+    }
+
+    /// An enclosure of the value, where the rational is not the value itself.
+    #[must_use]
+    pub fn enclosed(&self) -> Option<&Enclosure> {
+        self.enclosed.as_deref()
     }
 }
 
@@ -190,7 +209,7 @@ impl Angle {
                 ((Float::with_val(BITS, t).atan() * 2_u32).to_f64(), (cos, sin))
             }
         };
-        Self { radians, cos_sin, half_tangent, exact: true }
+        Self { radians, cos_sin, half_tangent, exact: true, enclosed: None }
     }
 
     /// The angle that a float is, radians; its half-angle tangent rounded to 15 digits.
@@ -200,7 +219,7 @@ impl Angle {
     #[must_use]
     pub fn from_radians(radians: f64) -> Self {
         assert!(radians.is_finite(), "a finite angle was promised, got {radians}");
-        Self::rounded(&Float::with_val(BITS, radians), DIGITS)
+        Self::rounded(&Enclosure::of_float(&Float::with_val(53, radians)), DIGITS)
     }
 
     /// Reads the text of an angle: an expression, with or without a unit.
@@ -235,10 +254,10 @@ impl Angle {
             Some(_) => return Err(Error::Invalid(format!("found `{}`, expected an angle", found()))),
         };
         let value = if degrees { value.mul(&Value::from_turns(Rational::from((1, 180)), true)) } else { value };
-        check_size(&value.float, text)?;
+        check_size(&value.float(), text)?;
         Ok(match value.half_tangent() {
-            Some(half_tangent) => Self { radians: value.float.to_f64(), ..Self::from_half_tangent(half_tangent) },
-            None => Self::rounded(&value.float, reading.digits),
+            Some(half_tangent) => Self { radians: value.float().to_f64(), ..Self::from_half_tangent(half_tangent) },
+            None => Self::rounded(&value.real, reading.digits),
         })
     }
 
@@ -251,28 +270,34 @@ impl Angle {
             return Ok(Self::from_half_tangent(HalfTangent::Infinite));
         }
         let number = Number::parse(text, Quantity::Ratio, reading)?;
+        let enclosed = match number.enclosed() {
+            None => None,
+            Some(t) => Some(Box::new(from_tangent(t).ok_or_else(|| {
+                Error::Invalid(format!("found `{}`, expected a number that is known better", shortened(text)))
+            })?)),
+        };
         let exact = number.exact;
-        Ok(Self { exact, ..Self::from_half_tangent(HalfTangent::Finite(number.rational)) })
+        Ok(Self { exact, enclosed, ..Self::from_half_tangent(HalfTangent::Finite(number.rational)) })
     }
 
     /// An angle without a known rational half-angle tangent.
-    fn rounded(radians: &Float, digits: u32) -> Self {
+    fn rounded(enclosed: &Enclosure, digits: u32) -> Self {
+        let radians = &Float::with_val(BITS, enclosed.middle());
         let tolerance = relative(digits + 1);
         let tangent = Float::with_val(BITS, radians / 2_u32).tan();
-        // An error of d in the half-angle tangent t turns the angle by 2 d / (1 + t^2).
+        // An error of d in the half-angle tangent t turns the angle by 2 d / (1 + t^2). Small angles are rounded in parts of
+        // themselves: a twist of 1e-17 is none of 0.
         let distance_from_pi = Float::with_val(BITS, 2 / &tangent).abs();
         let half_tangent = if tangent.is_infinite() || distance_from_pi < tolerance {
             HalfTangent::Infinite
         } else {
-            let allowed = (Float::with_val(BITS, tangent.square_ref()) + 1_u32) / 2_u32 * tolerance;
-            HalfTangent::Finite(simplest_within(&tangent, &allowed))
+            let allowed = (Float::with_val(BITS, tangent.square_ref()) + 1_u32) / 2_u32;
+            let allowed = if tangent.clone().abs() < 1 { tangent.clone().abs() } else { allowed };
+            HalfTangent::Finite(simplest_within(&tangent, &(allowed * tolerance)))
         };
-        Self {
-            radians: radians.to_f64(),
-            cos_sin: (radians.clone().cos().to_f64(), radians.clone().sin().to_f64()),
-            half_tangent,
-            exact: false,
-        }
+        let enclosed = enclosed.cos_sin_of();
+        let cos_sin = (enclosed.0.middle().to_f64(), enclosed.1.middle().to_f64());
+        Self { radians: radians.to_f64(), cos_sin, half_tangent, exact: false, enclosed: Some(Box::new(enclosed)) }
     }
 
     /// The angle, correctly rounded, as given (not reduced modulo 2 pi). Radians.
@@ -293,11 +318,24 @@ impl Angle {
         &self.half_tangent
     }
 
+    /// Enclosures of cosine and sine, where the half-angle tangent is not the angle's own.
+    #[must_use]
+    pub fn enclosed(&self) -> Option<&(Enclosure, Enclosure)> {
+        self.enclosed.as_deref()
+    }
+
     /// Whether the half-angle tangent is the angle's own and not an approximation.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         self.exact
     }
+}
+
+/// Cosine and sine from the tangent of half the angle.
+fn from_tangent(t: &Enclosure) -> Option<(Enclosure, Enclosure)> {
+    let (one, square) = (Enclosure::one(), t.mul(t));
+    let length = one.add(&square);
+    Some((one.sub(&square).over(&length)?, t.add(t).over(&length)?))
 }
 
 /// `10^-digits`

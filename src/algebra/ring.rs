@@ -3,6 +3,7 @@
 //! Methods instead of operators: rug's reference operators return incomplete values, and a local trait can be
 //! implemented for foreign types.
 
+use super::enclosure::Enclosure;
 use super::number::{Angle, HalfTangent};
 use num_complex::Complex;
 use rug::Rational;
@@ -77,6 +78,20 @@ pub trait Ring: Clone + PartialEq + Debug {
     fn from_number(number: &super::number::Number) -> Option<Self> {
         Self::from_rational(number.rational())
     }
+
+    /// The image of a number that a rational stands for, and that an enclosure holds unless the rational is exact.
+    /// `None` for an unlucky prime.
+    #[must_use]
+    fn from_known(q: &Rational, _known: Option<&Enclosure>) -> Option<Self> {
+        Self::from_rational(q)
+    }
+
+    /// Whether elements enclose what rationals only stand for.
+    const ENCLOSES: bool = false;
+
+    /// Digits in base 2 of a ring of floating-point numbers; none in all other rings. What is derived from the data of a
+    /// mechanism is computed exactly, or enclosed, and rounded to them once.
+    const DIGITS: Option<u32> = None;
 }
 
 /// `((1 - t^2)/(1 + t^2), 2t/(1 + t^2))`, cosine and sine of an angle from its rational half-angle tangent t.
@@ -142,6 +157,8 @@ pub trait Field: Ring {
 }
 
 impl Ring for f64 {
+    const DIGITS: Option<u32> = Some(f64::MANTISSA_DIGITS);
+
     fn zero() -> Self {
         0.0
     }

@@ -1,12 +1,12 @@
-//! Values of expressions: 256 bits always, and beside them whatever is known exactly.
+//! Values of expressions: enclosed always, and beside that whatever is known exactly.
 
+use super::enclosure::Enclosure;
 use super::half_tangent::{Direction, HalfTangent, square_root};
+use super::ring::Ring;
 use rug::{Float, Integer, Rational, float::Constant, ops::Pow};
 
-/// Working precision: far more than any result keeps, so that results are correctly rounded.
+/// Bits of what is told of an irrational value beside its enclosure: far more than any result keeps.
 pub(super) const BITS: u32 = 256;
-/// Sums that lose this many bits to cancellation are zero.
-const CANCELLED: i32 = 220;
 /// Numerators and denominators beyond this many bits are refused.
 const LONGEST: u32 = 20_000;
 /// Largest multiple of an angle followed exactly.
@@ -15,7 +15,7 @@ const MULTIPLE: i32 = 256;
 /// A real number with its exact forms, as far as they are known.
 #[derive(Clone, Debug)]
 pub(super) struct Value {
-    pub(super) float: Float,
+    pub(super) real: Enclosure,
     /// The value itself.
     pub(super) rational: Option<Rational>,
     /// The value as a multiple of pi.
@@ -31,19 +31,28 @@ impl Value {
         if rational.is_zero() {
             return Self::from_turns(rational, false);
         }
-        let float = Float::with_val(BITS, &rational);
-        Self { float, rational: Some(rational), turns: None, direction: None, radians: false }
+        Self { real: Enclosure::of(&rational), rational: Some(rational), turns: None, direction: None, radians: false }
     }
 
     /// `turns * pi`
     pub(super) fn from_turns(turns: Rational, radians: bool) -> Self {
-        let float = Float::with_val(BITS, Constant::Pi) * &turns;
         let rational = turns.is_zero().then(Rational::new);
-        Self { float, rational, direction: Direction::of_turns(&turns), turns: Some(turns), radians }
+        Self {
+            real: Enclosure::pi().scaled(&turns),
+            rational,
+            direction: Direction::of_turns(&turns),
+            turns: Some(turns),
+            radians,
+        }
     }
 
-    fn inexact(float: Float, radians: bool) -> Self {
-        Self { float, rational: None, turns: None, direction: None, radians }
+    fn inexact(real: Enclosure, radians: bool) -> Self {
+        Self { real, rational: None, turns: None, direction: None, radians }
+    }
+
+    /// The value, to far more digits than any result keeps.
+    pub(super) fn float(&self) -> Float {
+        Float::with_val(BITS, self.real.middle())
     }
 
     /// The exact half-angle tangent of the value taken as an angle, where it is rational.
@@ -57,7 +66,7 @@ impl Value {
         if self.rational.as_ref().is_some_and(long) || self.turns.as_ref().is_some_and(long) {
             return Err("a number with too many digits".to_owned());
         }
-        if !self.float.is_finite() || self.float.get_exp().is_some_and(|exponent| exponent > 4000) {
+        if !self.real.middle().is_finite() || self.real.size() > 4000 {
             return Err("a value that is not finite or absurdly large".to_owned());
         }
         Ok(self)
@@ -71,19 +80,16 @@ impl Value {
         if let (Some(x), Some(y)) = (&self.turns, &other.turns) {
             return Self::from_turns(Rational::from(x + y), radians);
         }
-        let mut float = Float::with_val(BITS, &self.float + &other.float);
-        let exponent = |x: &Float| x.get_exp().unwrap_or(i32::MIN / 2);
-        if exponent(&float) < exponent(&self.float).max(exponent(&other.float)).saturating_sub(CANCELLED) {
-            float = Float::new(BITS);
-        }
+        // What cannot be told from 0 is 0.
+        let real = self.real.add(&other.real).settled();
         let direction = self.direction.as_ref().zip(other.direction.as_ref()).and_then(|(x, y)| x.plus(y));
-        Self { float, rational: None, turns: None, direction, radians }
+        Self { real, rational: None, turns: None, direction, radians }
     }
 
     pub(super) fn neg(&self) -> Self {
         let flip = |q: &Rational| Rational::from(-q);
         Self {
-            float: -self.float.clone(),
+            real: self.real.neg(),
             rational: self.rational.as_ref().map(flip),
             turns: self.turns.as_ref().map(flip),
             direction: self.direction.as_ref().map(Direction::opposite),
@@ -97,7 +103,7 @@ impl Value {
             (Some(x), Some(y)) => Self { radians, ..Self::from_rational(Rational::from(x * y)) },
             (Some(factor), None) => other.scaled(factor),
             (None, Some(factor)) => self.scaled(factor),
-            (None, None) => Self::inexact(Float::with_val(BITS, &self.float * &other.float), radians),
+            (None, None) => Self::inexact(self.real.mul(&other.real), radians),
         }
     }
 
@@ -105,25 +111,25 @@ impl Value {
         if let Some(turns) = &self.turns {
             return Self::from_turns(Rational::from(turns * factor), self.radians);
         }
-        let float = Float::with_val(BITS, &self.float * factor);
+        let real = self.real.scaled(factor);
+        let half_turn = Float::with_val(BITS, Constant::Pi);
         let direction = self.direction.as_ref().and_then(|direction| {
             let numerator = factor.numer().to_i32().filter(|n| n.abs() <= MULTIPLE)?;
             let multiple = direction.times(numerator)?;
             match factor.denom().to_u32()? {
                 1 => Some(multiple),
                 // Half an angle is half the one in (-pi, pi] only if that is what is halved.
-                2 if Float::with_val(BITS, &float * 2).abs() <= Float::with_val(BITS, Constant::Pi) => {
-                    multiple.halved()
-                }
+                2 if Float::with_val(BITS, real.middle() * 2).abs() <= half_turn => multiple.halved(),
                 _ => None,
             }
         });
-        Self { float, rational: None, turns: None, direction, radians: self.radians }
+        Self { real, rational: None, turns: None, direction, radians: self.radians }
     }
 
     pub(super) fn div(&self, other: &Self) -> Result<Self, String> {
-        if other.float.is_zero() {
-            return Err("a division by zero".to_owned());
+        let by_zero = || "a division by zero".to_owned();
+        if other.real.holds_zero() {
+            return Err(by_zero());
         }
         if let Some(divisor) = &other.rational {
             return Ok(self.mul(&Self::from_rational(divisor.clone().recip())));
@@ -131,17 +137,16 @@ impl Value {
         if let (Some(x), Some(y)) = (&self.turns, &other.turns) {
             return Ok(Self::from_rational(Rational::from(x / y)));
         }
-        Ok(Self::inexact(Float::with_val(BITS, &self.float / &other.float), self.radians || other.radians))
+        let ratio = self.real.over(&other.real).ok_or_else(by_zero)?;
+        Ok(Self::inexact(ratio, self.radians || other.radians))
     }
 
     pub(super) fn sqrt(&self) -> Result<Self, String> {
-        if self.float.is_sign_negative() && !self.float.is_zero() {
-            return Err(format!("the square root of {}, a negative number", self.float.to_f64()));
-        }
+        let negative = || format!("the square root of {}, a negative number", self.real.middle().to_f64());
         if let Some(root) = self.rational.as_ref().and_then(square_root) {
             return Ok(Self::from_rational(root));
         }
-        Ok(Self::inexact(self.float.clone().sqrt(), false))
+        Ok(Self::inexact(self.real.sqrt().ok_or_else(negative)?, false))
     }
 
     /// Cosine and sine, exact where rational.
@@ -161,9 +166,9 @@ impl Value {
         };
         let exact = |turns: Option<Rational>| turns.and_then(cosine_of_turns).map(Self::from_rational);
         let complement = self.turns.as_ref().map(|turns| Rational::from((1, 2)) - turns);
-        let cos = exact(self.turns.clone()).unwrap_or_else(|| Self::inexact(self.float.clone().cos(), false));
-        let sin = exact(complement).unwrap_or_else(|| Self::inexact(self.float.clone().sin(), false));
-        (cos, sin)
+        let (cos, sin) = self.real.cos_sin_of();
+        let either = |known: Option<Self>, real| known.unwrap_or_else(|| Self::inexact(real, false));
+        (either(exact(self.turns.clone()), cos), either(exact(complement), sin))
     }
 
     pub(super) fn cos(&self) -> Self {
@@ -192,7 +197,8 @@ impl Value {
             }
         }
         let direction = self.rational.as_ref().and_then(|x| Direction::new(x.clone(), complement(x)?));
-        Ok(Self { direction, ..Self::inexact(self.float.clone().acos(), true) })
+        let angle = self.real.acos().ok_or_else(|| self.outside("acos"))?;
+        Ok(Self { direction, ..Self::inexact(angle, true) })
     }
 
     pub(super) fn asin(&self) -> Result<Self, String> {
@@ -205,33 +211,33 @@ impl Value {
             }
         }
         let direction = self.rational.as_ref().and_then(|y| Direction::new(complement(y)?, y.clone()));
-        Ok(Self { direction, ..Self::inexact(self.float.clone().asin(), true) })
+        let angle = self.real.asin().ok_or_else(|| self.outside("asin"))?;
+        Ok(Self { direction, ..Self::inexact(angle, true) })
     }
 
     /// The angle of the direction (x, y); `atan(y)` is `atan2(y, 1)`.
     pub(super) fn atan2(&self, x: &Self) -> Result<Self, String> {
-        if self.float.is_zero() && x.float.is_zero() {
-            return Err("atan2(0, 0)".to_owned());
-        }
+        let real = self.real.atan2(&x.real).ok_or_else(|| "atan2(0, 0)".to_owned())?;
         let direction = self.rational.clone().zip(x.rational.clone()).and_then(|(y, x)| Direction::new(x, y));
-        let float = self.float.clone().atan2(&x.float);
         if let (Some(y), Some(x)) = (&self.rational, &x.rational) {
             let steep = y.clone().abs() == x.clone().abs();
             if steep || y.is_zero() || x.is_zero() {
-                let quarters = Float::with_val(BITS, &float * 4) / Float::with_val(BITS, Constant::Pi);
+                let quarters = Float::with_val(BITS, real.middle() * 4) / Float::with_val(BITS, Constant::Pi);
                 if let Some(quarters) = quarters.round().to_i32_saturating() {
                     return Ok(Self::from_turns(Rational::from((quarters, 4)), true));
                 }
             }
         }
-        Ok(Self { direction, ..Self::inexact(float, true) })
+        Ok(Self { direction, ..Self::inexact(real, true) })
     }
 
     fn within_one(&self, function: &str) -> Result<(), String> {
-        if self.float > 1 || self.float < -1 {
-            return Err(format!("{function} of {}, outside [-1, 1]", self.float.to_f64()));
-        }
-        Ok(())
+        let is_within = *self.real.middle() <= 1 && *self.real.middle() >= -1;
+        is_within.then_some(()).ok_or_else(|| self.outside(function))
+    }
+
+    fn outside(&self, function: &str) -> String {
+        format!("{function} of {}, outside [-1, 1]", self.real.middle().to_f64())
     }
 }
 

@@ -5,6 +5,7 @@ use super::geometry::check_count;
 use super::node::{Node, Value};
 use super::options::Options;
 use super::scope::Scope;
+use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number, Quantity};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
@@ -26,9 +27,11 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
     }
     let chain = between(scope, robot, options)?;
     let (mut joints, mut limits) = (Vec::new(), Vec::new());
-    let mut home = Motion::<Rational>::identity();
+    let (mut home, mut enclosed) = (Motion::<Rational>::identity(), Motion::<Enclosure>::identity());
     for joint in chain {
-        home = home.then_after(&origin(scope, joint)?);
+        let origin = origin(scope, joint)?;
+        home = home.then_after(&origin.exact);
+        enclosed = enclosed.then_after(&origin.enclosed);
         let kind = match joint.attribute("type") {
             Some("fixed") => continue,
             Some("revolute" | "continuous") => JointKind::Revolute,
@@ -44,12 +47,15 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
             return Err(Error::Unsupported(message).at(scope.path, line(mimic)));
         }
         let axis = axis(scope, joint)?;
-        let rounded = |v: [Rational; 3]| v.map(Number::rounded);
-        let (axis, point) = (rounded(home.rotate(&axis)), rounded(home.translation.clone()));
+        let known = |x: &Number| Enclosure::from_number(x).unwrap_or_else(Enclosure::zero);
+        let direction = enclosed.rotate(&axis.each_ref().map(known));
+        let rational = home.rotate(&axis.each_ref().map(|x| x.rational().clone()));
+        let (axis, point) =
+            (standing_for(rational, direction), standing_for(home.translation.clone(), enclosed.translation.clone()));
         joints.push(ScrewJoint { kind, axis, point, pitch: None });
         limits.push(limit(scope, joint)?);
     }
-    let home = Placement::from_motion_exact(home);
+    let home = Placement::standing_for(home, enclosed, true);
     let geometry = Geometry::Screws { joints, home: Box::new(home) };
     let chain = Chain { geometry, base: Placement::identity(), tool: Placement::identity() };
     check_count(scope, &chain, line(robot), (6, "expected 6 for an arm; name the chain by its base and tip links"))?;
@@ -173,48 +179,62 @@ fn triple(scope: &Scope<'_>, element: Element<'_, '_>, name: &str) -> Result<Opt
         .map_err(|_| scope.fail(line(element), format!("found {count} numbers in `{name}`, expected 3")))
 }
 
+/// The motion of an `<origin>`: by rational numbers, and enclosed.
+struct Origin {
+    exact: Motion<Rational>,
+    enclosed: Motion<Enclosure>,
+}
+
+fn standing_for(rational: [Rational; 3], enclosed: [Enclosure; 3]) -> [Number; 3] {
+    let mut enclosed = enclosed.into_iter();
+    rational.map(|q| Number::standing_for(q, enclosed.next().unwrap_or_else(Enclosure::zero)))
+}
+
 /// The motion of `<origin xyz rpy>`: translation after roll about x, pitch about y, yaw about z.
-fn origin(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<Motion<Rational>> {
-    let Some(element) = child(joint, "origin") else { return Ok(Motion::identity()) };
-    let mut motion = Motion::identity();
+fn origin(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<Origin> {
+    let mut origin = Origin { exact: Motion::identity(), enclosed: Motion::identity() };
+    let Some(element) = child(joint, "origin") else { return Ok(origin) };
     if let Some(angles) = triple(scope, element, "rpy")? {
         for (axis, node) in angles.iter().enumerate() {
-            motion = about(axis, &scope.angle(node, "rpy")?).then_after(&motion);
+            let angle = scope.angle(node, "rpy")?;
+            origin.exact = about(axis, &angle).then_after(&origin.exact);
+            origin.enclosed = about(axis, &angle).then_after(&origin.enclosed);
         }
     }
     if let Some(xyz) = triple(scope, element, "xyz")? {
-        for (image, node) in motion.translation.iter_mut().zip(&xyz) {
-            image.clone_from(scope.length(node, "xyz")?.rational());
+        for (k, node) in xyz.iter().enumerate() {
+            let length = scope.length(node, "xyz")?;
+            origin.exact.translation[k].clone_from(length.rational());
+            origin.enclosed.translation[k] = Enclosure::from_number(&length).unwrap_or_else(Enclosure::zero);
         }
     }
-    Ok(motion)
+    Ok(origin)
 }
 
 /// The rotation about a coordinate axis.
-fn about(axis: usize, angle: &Angle) -> Motion<Rational> {
-    let (cos, sin) =
-        Rational::cos_sin(angle).expect("the rationals have every cosine of a rational half-angle tangent");
+fn about<R: Ring>(axis: usize, angle: &Angle) -> Motion<R> {
+    let (cos, sin) = R::cos_sin(angle).expect("numbers without a prime have every cosine");
     match axis {
         0 => Motion::rotation_x(cos, sin),
         1 => {
             let mut motion = Motion::identity();
-            motion.rotation[0] = [cos.clone(), Rational::new(), sin.clone()];
-            motion.rotation[2] = [-sin, Rational::new(), cos];
+            motion.rotation[0] = [cos.clone(), R::zero(), sin.clone()];
+            motion.rotation[2] = [sin.neg(), R::zero(), cos];
             motion
         }
         _ => Motion::rotation_z(cos, sin),
     }
 }
 
-fn axis(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<[Rational; 3]> {
-    let standard = || [Rational::from(1), Rational::new(), Rational::new()];
+fn axis(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<[Number; 3]> {
+    let standard = || [1, 0, 0].map(|n| Number::exact(Rational::from(n)));
     let Some(element) = child(joint, "axis") else { return Ok(standard()) };
     let Some(nodes) = triple(scope, element, "xyz")? else { return Ok(standard()) };
     let mut axis = standard();
     for (image, node) in axis.iter_mut().zip(&nodes) {
-        image.clone_from(scope.number(node, Quantity::Ratio, "axis")?.rational());
+        *image = scope.number(node, Quantity::Ratio, "axis")?;
     }
-    if axis.iter().all(Ring::is_zero) {
+    if axis.iter().all(|x| x.rational().is_zero()) {
         return Err(scope.fail(line(element), "found the axis 0 0 0, expected a direction"));
     }
     Ok(axis)

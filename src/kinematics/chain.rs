@@ -1,6 +1,7 @@
 //! Open chains and closed loops as a mechanism file gives them.
 
 use super::motion::Motion;
+use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number};
 use rug::Rational;
 
@@ -51,11 +52,22 @@ pub struct ScrewJoint {
     pub pitch: Option<Number>,
 }
 
+/// A motion as it was given, enclosed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Given {
+    /// Its entries.
+    pub motion: Motion<Enclosure>,
+    /// Whether its rotation is one; else the nearest one is meant.
+    pub is_rotation: bool,
+}
+
 /// A constant rigid motion of a file (base, tool, home, pose): exactly rigid over the rationals, and in f64.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// The exact motion: the one given where that is exactly rigid, else the nearest one found with rational entries.
     pub exact: Motion<Rational>,
+    /// What was given, where the exact motion only stands for it.
+    pub given: Option<Box<Given>>,
     /// The correctly rounded image of the motion, its rotation orthogonal to rounding.
     pub float: Motion<f64>,
     /// How far the given rotation was from a rotation: the largest entry of |R - nearest rotation|.

@@ -4,10 +4,12 @@
 //! at a pose, a loop with one joint given, joints of type R, P, C and S: nothing else about them survives, so that one code
 //! path serves all. \[LeeLiang1988\]
 
-use super::chain::{Chain, Geometry, Joint, JointKind, ScrewJoint};
+use super::axis_frame::axis_frame;
+use super::chain::{Chain, Geometry, Joint, JointKind};
 use super::freedom::Freedom;
 use super::idle::Idle;
-use super::motion::{Motion, dot};
+use super::motion::Motion;
+use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number};
 use crate::algebra::ring::Ring;
 use crate::error::Error;
@@ -79,17 +81,17 @@ pub struct Coupled<R> {
 /// A loop of two balls and one unknown before its locked variable is given.
 #[derive(Clone, Debug)]
 pub struct OpenCoupled<R> {
-    variable: Variable,
+    pub(super) variable: Variable,
     /// The link, and the constants before and behind the unknown.
-    stretches: [Stretch<R>; 3],
-    indices: [usize; 3],
+    pub(super) stretches: [Stretch<R>; 3],
+    pub(super) indices: [usize; 3],
 }
 
 /// A constant motion, or two with the locked variable between them.
 #[derive(Clone, Debug)]
-struct Stretch<R> {
-    before: Motion<R>,
-    after: Option<Motion<R>>,
+pub(super) struct Stretch<R> {
+    pub(super) before: Motion<R>,
+    pub(super) after: Option<Motion<R>>,
 }
 
 impl<R: Ring> Stretch<R> {
@@ -342,8 +344,17 @@ impl Chain {
     ///
     /// # Errors
     /// As [`Chain::open_loop`].
+    ///
+    /// Constants in floating-point numbers are enclosed first and rounded once; `None` also where they are not known to
+    /// so many digits.
     pub fn try_open_loop<R: Ring>(&self, layout: &Layout) -> Result<Option<OpenLoop<R>>, Error> {
-        self.open_loop_over(layout, &Numbers)
+        match R::DIGITS {
+            None => self.open_loop_over(layout, &Numbers),
+            Some(digits) => {
+                let enclosed: Option<OpenLoop<Enclosure>> = self.open_loop_over(layout, &Numbers)?;
+                Ok(enclosed.and_then(|open| open.rounded(digits)))
+            }
+        }
     }
 
     /// As [`Chain::try_open_loop`], with these constants of the joints.
@@ -548,8 +559,7 @@ impl Chain {
 
     /// Everything from base to tool in order; `None` for an unlucky prime.
     fn steps<R: Ring>(&self, parameters: &impl Parameters<R>) -> Option<Vec<Step<R>>> {
-        let image = |m: &Motion<Rational>| m.map(R::from_rational);
-        let mut steps = vec![Step::Constant(image(&self.base.exact)?)];
+        let mut steps = vec![Step::Constant(self.base.image()?)];
         match &self.geometry {
             Geometry::Dh(joints) => {
                 for (at, joint) in joints.iter().enumerate() {
@@ -565,15 +575,16 @@ impl Chain {
             }
             Geometry::Screws { joints, home } => {
                 for joint in joints {
-                    let frame = axis_frame(joint);
-                    steps.push(Step::Constant(image(&frame)?));
+                    let frame = axis_frame(joint)?;
+                    let back = frame.inverse();
+                    steps.push(Step::Constant(frame));
                     screw_steps(joint.kind, &mut steps);
-                    steps.push(Step::Constant(image(&frame.inverse())?));
+                    steps.push(Step::Constant(back));
                 }
-                steps.push(Step::Constant(image(&home.exact)?));
+                steps.push(Step::Constant(home.image()?));
             }
         }
-        steps.push(Step::Constant(image(&self.tool.exact)?));
+        steps.push(Step::Constant(self.tool.image()?));
         Some(steps)
     }
 
@@ -650,59 +661,6 @@ fn quarter_turn<R: Ring>() -> Motion<R> {
         rotation: [[nought(), nought(), one()], [nought(), one(), nought()], [one().neg(), nought(), nought()]],
         translation: std::array::from_fn(|_| nought()),
     }
-}
-
-/// A rational frame whose z axis lies along the axis of a screw joint and whose origin is its given point.
-///
-/// The rotation is that of the quaternion `(1 + n_z, -n_y, n_x, 0)`, rational for a unit vector n with rational
-/// coordinates; a direction of irrational length is first replaced by a rational unit vector within rounding of it.
-fn axis_frame(joint: &ScrewJoint) -> Motion<Rational> {
-    let n = rational_direction(&joint.axis.each_ref().map(|x| x.rational().clone()));
-    let origin = joint.point.each_ref().map(|x| x.rational().clone());
-    let mut frame = Motion::translation(origin);
-    let w = Rational::from(&n[2] + 1);
-    if w.is_zero() {
-        // Pointing straight down: a half turn about x.
-        frame.rotation[1][1] = Rational::from(-1);
-        frame.rotation[2][2] = Rational::from(-1);
-        return frame;
-    }
-    // Columns of the shortest rotation from e_z to n.
-    let (x, y) = (&n[0], &n[1]);
-    frame.rotation[0][0] = 1 - Rational::from(x * x) / &w;
-    frame.rotation[0][1] = -Rational::from(x * y) / &w;
-    frame.rotation[1][0] = frame.rotation[0][1].clone();
-    frame.rotation[1][1] = 1 - Rational::from(y * y) / &w;
-    for i in 0..3 {
-        frame.rotation[i][2] = n[i].clone();
-    }
-    frame.rotation[2][0] = -x.clone();
-    frame.rotation[2][1] = -y.clone();
-    frame
-}
-
-/// The unit vector along `axis`: exact where its length is rational, else a rational unit vector within rounding.
-fn rational_direction(axis: &[Rational; 3]) -> [Rational; 3] {
-    let square = dot(axis, axis);
-    let (numerator, denominator) = (square.numer(), square.denom());
-    if numerator.is_perfect_square() && denominator.is_perfect_square() {
-        let length = Rational::from((numerator.clone().sqrt(), denominator.clone().sqrt()));
-        return axis.each_ref().map(|x| Rational::from(x / &length));
-    }
-    // Stereographic projection from the pole farther away: rational points of the sphere.
-    let length = rug::Float::with_val(160, &square).sqrt();
-    let unit = axis.each_ref().map(|x| rug::Float::with_val(160, x) / &length);
-    let flip = unit[2] < 0;
-    let below = if flip { rug::Float::with_val(160, 1 - &unit[2]) } else { rug::Float::with_val(160, 1 + &unit[2]) };
-    let rounded = |x: &rug::Float| {
-        let scaled = rug::Float::with_val(160, x / &below) * (1_u64 << 60);
-        Rational::from((scaled.to_integer().unwrap_or_default(), 1_u64 << 60))
-    };
-    let (u, v) = (rounded(&unit[0]), rounded(&unit[1]));
-    let norm = Rational::from(&u * &u) + Rational::from(&v * &v);
-    let scale = Rational::from(&norm + 1).recip();
-    let z: Rational = (1 - norm) * &scale;
-    [u * 2 * &scale, v * 2 * &scale, if flip { -z } else { z }]
 }
 
 /// The motion of one joint variable: `Rz(angle)` or `Tz(distance)`.

@@ -1,8 +1,10 @@
 //! Geometry over any ring: rigid motions, chains and loops.
 
+mod axis_frame;
 pub mod chain;
 pub mod closed_loop;
 pub mod dual_quaternion;
+mod enclosed;
 pub mod framework;
 pub mod freedom;
 pub mod idle;

@@ -1,10 +1,13 @@
 //! Rigid motions as files give them: as a matrix, or as a quaternion and a position.
 
-use super::chain::Placement;
+use super::chain::{Given, Placement};
 use super::motion::Motion;
+use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Number, nearest_f64};
+use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
 use rug::{Float, Rational};
+use std::ops::Range;
 
 /// Working precision of projections, bits.
 const BITS: u32 = 192;
@@ -15,13 +18,16 @@ const NOTED: f64 = 1e-12;
 /// Digits to which the ratios of the quaternion of a projected rotation are kept.
 const DIGITS: u32 = 18;
 
+/// Steps to the polar factor: from 1e-4 off, each doubles the digits until all are there.
+const POLAR_STEPS: usize = 9;
+
 type Matrix3<T> = [[T; 3]; 3];
 
 impl Placement {
     /// The placement that leaves everything where it is.
     #[must_use]
     pub fn identity() -> Self {
-        Self { exact: Motion::identity(), float: Motion::identity(), defect: 0.0 }
+        Self { exact: Motion::identity(), given: None, float: Motion::identity(), defect: 0.0 }
     }
 
     /// The placement by a motion known exactly; its rotation must be one.
@@ -30,7 +36,25 @@ impl Placement {
         let row = |v: &[Rational; 3]| std::array::from_fn(|k| nearest_f64(&v[k]));
         let float =
             Motion { rotation: std::array::from_fn(|k| row(&exact.rotation[k])), translation: row(&exact.translation) };
-        Self { exact, float, defect: 0.0 }
+        Self { exact, given: None, float, defect: 0.0 }
+    }
+
+    /// The placement by a rational motion that stands for this one.
+    #[must_use]
+    pub fn standing_for(exact: Motion<Rational>, motion: Motion<Enclosure>, is_rotation: bool) -> Self {
+        Self { given: Some(Box::new(Given { motion, is_rotation })), ..Self::from_motion_exact(exact) }
+    }
+
+    /// The motion over any ring; `None` for an unlucky prime.
+    #[must_use]
+    pub fn image<R: Ring>(&self) -> Option<Motion<R>> {
+        image(&self.exact, || Some(self.given.as_deref()?.nearest()))
+    }
+
+    /// The inverse motion over any ring; `None` for an unlucky prime.
+    #[must_use]
+    pub fn inverse_image<R: Ring>(&self) -> Option<Motion<R>> {
+        image(&self.exact.inverse(), || Some(self.given.as_deref()?.nearest().inverse()))
     }
 
     /// The placement nearest to a homogeneous 4x4 matrix, and a warning where that is not the matrix to rounding.
@@ -55,9 +79,16 @@ impl Placement {
                 "found a rotation with determinant {found:.6}, expected 1 (a reflection is no rotation)"
             )));
         }
-        let exact = (0..3).all(|i| (0..3).all(|j| rows[i][j].is_exact()));
-        if exact && is_orthonormal(&given) {
-            return Ok((Self::from_motion_exact(Motion { rotation: given, translation }), None));
+        let enclosed = |i: usize, j: usize| Enclosure::from_number(&rows[i][j]).unwrap_or_else(Enclosure::zero);
+        let is_exact = |columns: Range<usize>| (0..3).all(|i| columns.clone().all(|j| rows[i][j].is_exact()));
+        if is_exact(0..3) && is_orthonormal(&given) {
+            let motion = Motion { rotation: given, translation };
+            if is_exact(3..4) {
+                return Ok((Self::from_motion_exact(motion), None));
+            }
+            let rotation = motion.rotation.each_ref().map(|row| row.each_ref().map(Enclosure::of));
+            let translation = std::array::from_fn(|i| enclosed(i, 3));
+            return Ok((Self::standing_for(motion, Motion { rotation, translation }, true), None));
         }
         let rotation = nearest_rotation(&given)?;
         let mut defect = 0.0_f64;
@@ -69,7 +100,11 @@ impl Placement {
         if defect > REFUSED {
             return Err(not_a_rotation(defect));
         }
-        let placement = Self { defect, ..Self::from_motion_exact(Motion { rotation, translation }) };
+        let given = Motion {
+            rotation: std::array::from_fn(|i| std::array::from_fn(|j| enclosed(i, j))),
+            translation: std::array::from_fn(|i| enclosed(i, 3)),
+        };
+        let placement = Self { defect, ..Self::standing_for(Motion { rotation, translation }, given, false) };
         Ok((placement, noted(defect, "the rotation matrix is off by")))
     }
 
@@ -93,9 +128,87 @@ impl Placement {
         }
         let translation = std::array::from_fn(|k| position[k].rational().clone());
         let motion = Motion { rotation: rotation_of([w, x, y, z]), translation };
-        let placement = Self { defect, ..Self::from_motion_exact(motion) };
+        let is_exact = quaternion.iter().chain(position).all(Number::is_exact);
+        let enclosed = if is_exact { None } else { enclosed_rotation(quaternion).map(|rotation| (rotation, position)) };
+        let placed = match enclosed {
+            None => Self::from_motion_exact(motion),
+            Some((rotation, position)) => {
+                let translation =
+                    position.each_ref().map(|x| Enclosure::from_number(x).unwrap_or_else(Enclosure::zero));
+                Self::standing_for(motion, Motion { rotation, translation }, true)
+            }
+        };
+        let placement = Self { defect, ..placed };
         Ok((placement, noted(defect, "the norm of the quaternion is off by")))
     }
+}
+
+impl Given {
+    /// The motion given, or the nearest one.
+    fn nearest(&self) -> Motion<Enclosure> {
+        if self.is_rotation {
+            return self.motion.clone();
+        }
+        Motion { rotation: polar_factor(self.motion.rotation.clone()), translation: self.motion.translation.clone() }
+    }
+}
+
+/// A motion over any ring, by its rational entries or by what they stand for.
+pub(super) fn image<R: Ring>(
+    exact: &Motion<Rational>,
+    enclosed: impl FnOnce() -> Option<Motion<Enclosure>>,
+) -> Option<Motion<R>> {
+    let Some(enclosed) = R::ENCLOSES.then(enclosed).flatten() else { return exact.map(R::from_rational) };
+    let vector = |q: &[Rational; 3], known: &[Enclosure; 3]| -> Option<[R; 3]> {
+        let entry = |k: usize| R::from_known(&q[k], Some(&known[k]));
+        Some([entry(0)?, entry(1)?, entry(2)?])
+    };
+    let row = |i: usize| vector(&exact.rotation[i], &enclosed.rotation[i]);
+    Some(Motion {
+        rotation: [row(0)?, row(1)?, row(2)?],
+        translation: vector(&exact.translation, &enclosed.translation)?,
+    })
+}
+
+/// The rotation of a quaternion of any length; `None` where that may be zero.
+fn enclosed_rotation(quaternion: &[Number; 4]) -> Option<Matrix3<Enclosure>> {
+    let known: Vec<Enclosure> = quaternion.iter().filter_map(Enclosure::from_number).collect();
+    let [w, x, y, z] = known.as_slice() else { return None };
+    let square = |a: &Enclosure| a.mul(a);
+    let (ww, xx, yy, zz) = (square(w), square(x), square(y), square(z));
+    let norm = ww.add(&xx).add(&yy).add(&zz);
+    let diagonal = |a: &Enclosure, b: &Enclosure, c: &Enclosure| ww.add(a).sub(b).sub(c).over(&norm);
+    let beside = |a: Enclosure, b: Enclosure| a.add(&b).mul(&Enclosure::from_integer(2)).over(&norm);
+    let (wx, wy, wz) = (w.mul(x), w.mul(y), w.mul(z));
+    let (xy, xz, yz) = (x.mul(y), x.mul(z), y.mul(z));
+    Some([
+        [diagonal(&xx, &yy, &zz)?, beside(xy.clone(), wz.neg())?, beside(xz.clone(), wy.clone())?],
+        [beside(xy, wz)?, diagonal(&yy, &xx, &zz)?, beside(yz.clone(), wx.neg())?],
+        [beside(xz, wy.neg())?, beside(yz, wx)?, diagonal(&zz, &xx, &yy)?],
+    ])
+}
+
+/// The polar factor of a matrix that is nearly a rotation.
+///
+/// A step `M (3 - M^T M) / 2` keeps the polar factor and takes every singular value s to `s (3 - s^2) / 2`. Where
+/// `|M^T M - 1| <= e` no singular value is farther than e from 1, and M no farther than e from its polar factor.
+fn polar_factor(mut m: Matrix3<Enclosure>) -> Matrix3<Enclosure> {
+    let dot =
+        |a: [&Enclosure; 3], b: [&Enclosure; 3]| (0..3).fold(Enclosure::zero(), |sum, k| sum.add(&a[k].mul(b[k])));
+    let half = Enclosure::of(&Rational::from((1, 2)));
+    for _ in 0..POLAR_STEPS {
+        let column = |j: usize| [&m[0][j], &m[1][j], &m[2][j]];
+        let factor: Matrix3<Enclosure> = std::array::from_fn(|i| {
+            std::array::from_fn(|j| Enclosure::from_integer(if i == j { 3 } else { 0 }).sub(&dot(column(i), column(j))))
+        });
+        let column = |j: usize| [&factor[0][j], &factor[1][j], &factor[2][j]];
+        m = std::array::from_fn(|i| std::array::from_fn(|j| dot(m[i].each_ref(), column(j)).mul(&half)));
+    }
+    let column = |j: usize| [&m[0][j], &m[1][j], &m[2][j]];
+    let gram = |i: usize, j: usize| dot(column(i), column(j)).sub(&Enclosure::from_integer(i32::from(i == j)));
+    // Rows have three entries, each below a power of two.
+    let off = (0..9).map(|k| gram(k / 3, k % 3)).map(|x| x.off().max(x.size())).fold(i32::MIN, i32::max);
+    m.map(|row| row.map(|x| x.widened(off.saturating_add(2))))
 }
 
 fn noted(defect: f64, what: &str) -> Option<String> {

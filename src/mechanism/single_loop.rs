@@ -3,8 +3,8 @@
 use super::by_input::{ByInput, Prepared};
 use super::{FullMode, Solution};
 use crate::algebra::drawn::Drawn;
+use crate::algebra::enclosure::Enclosure;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
-use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, AxisTriple, Gap, Mode, Roots, Solver, Workspace, coupler, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
@@ -21,7 +21,6 @@ use crate::kinematics::motion::Motion;
 use crate::solve::scalar::Extended;
 use crate::verdict::{Bound, Code, Proof, Status, Verdict, verdict};
 use num_complex::Complex;
-use rug::Rational;
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
@@ -39,6 +38,8 @@ struct SixUnknowns {
     solver: Solver,
     /// The loop modulo a prime, when first asked for; none for an unlucky prime.
     modular: OnceLock<Option<OpenLoop<Mod>>>,
+    /// The loop, enclosed, when first asked for.
+    enclosed: OnceLock<Option<OpenLoop<Enclosure>>>,
     bound: OnceLock<Bound>,
 }
 
@@ -85,6 +86,12 @@ impl SixUnknowns {
     fn modular(&self, chain: &Chain, filling: &Motion<Mod>) -> Option<ClosedLoop<Mod>> {
         let open = self.modular.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
         Some(open.as_ref()?.close(filling))
+    }
+
+    /// The loop of a case, enclosed.
+    fn enclosed(&self, chain: &Chain, case: &Case) -> Result<Option<ClosedLoop<Enclosure>>> {
+        let open = self.enclosed.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
+        open.as_ref().map(|open| Ok(open.close(&filling(case)?))).transpose()
     }
 
     /// The bound on the number of solutions at every pose or input, computed when first asked for.
@@ -142,10 +149,8 @@ impl SingleLoop {
         let solver = &prepared.solver;
         let mut gap = solver.gap(&filling(case)?);
         if gap.is_rough() {
-            let open: OpenLoop<Rational> = self.chain.open_loop(&prepared.layout)?;
-            let [.., last] = open.close(&filling(case)?).constants;
-            let rounded = last.map(|x| Some(nearest_f64(x)));
-            gap = rounded.map_or(gap, |last| solver.exact_gap(&last));
+            let closed = prepared.enclosed(&self.chain, case)?.and_then(|closed| closed.rounded(f64::MANTISSA_DIGITS));
+            gap = closed.map_or(gap, |ClosedLoop { constants: [.., last], .. }| solver.exact_gap(&last));
         }
         let question =
             Question { of: self, prepared, case, roots, gap: &gap, by_cuts: OnceCell::new(), ring: OnceCell::new() };
@@ -304,9 +309,9 @@ impl Question<'_> {
 
     /// Looks again for what is missing of a list, in longer numbers.
     fn rescue<R: Extended>(&self, expected: usize, assembly: &mut Assembly) {
-        let open: Option<OpenLoop<R>> = self.of.chain.try_open_loop(&self.prepared.layout).ok().flatten();
-        if let (Some(open), Ok(filling)) = (open, filling(self.case)) {
-            self.prepared.solver.rescue(&open.close(&filling), self.plan(), expected, assembly);
+        let enclosed = self.prepared.enclosed(&self.of.chain, self.case).ok().flatten();
+        if let Some(closed) = enclosed.and_then(|closed| closed.rounded::<R>(R::BITS)) {
+            self.prepared.solver.rescue(&closed, self.plan(), expected, assembly);
         }
     }
 
@@ -363,7 +368,10 @@ impl Question<'_> {
 /// The way to solve a loop, prepared.
 fn way(chain: &Chain, layout: Layout) -> Result<Way> {
     if layout.second_ball.is_some() {
-        let (open, modular) = (chain.open_coupled(&layout, &Numbers)?, chain.open_coupled(&layout, &Numbers).ok());
+        let enclosed: OpenCoupled<Enclosure> = chain.open_coupled(&layout, &Numbers)?;
+        let open = enclosed.rounded(f64::MANTISSA_DIGITS);
+        let open = open.ok_or_else(|| Error::Unsupported("numbers that are not known to 16 digits".into()))?;
+        let modular = chain.open_coupled(&layout, &Numbers).ok();
         return Ok(Way::Balls(Box::new(Balls { layout, open, modular })));
     }
     let open: OpenLoop<f64> = chain.open_loop(&layout)?;
@@ -382,7 +390,8 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
             Freedom::of(chain)
         )));
     }
-    Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular: OnceLock::new(), bound: OnceLock::new() })))
+    let (modular, enclosed, bound) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+    Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular, enclosed, bound })))
 }
 
 /// Why six joints are dependent, where two triples of their axes say it.
@@ -453,11 +462,16 @@ fn layout_rotations(open: &OpenLoop<f64>) -> usize {
 /// For chains that are not solved, and for a case without pose and input.
 pub fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<(Layout, ClosedLoop<R>)>> {
     let layout = Layout::of(chain, locked_variable(chain, case)?)?;
-    let open: Option<OpenLoop<R>> = chain.try_open_loop(&layout)?;
-    Ok(match (open, filling(case)) {
-        (Some(open), Ok(filling)) => Some((layout, open.close(&filling))),
-        _ => None,
-    })
+    let closed = match R::DIGITS {
+        None => closed_over::<R>(chain, &layout, case)?,
+        Some(digits) => closed_over::<Enclosure>(chain, &layout, case)?.and_then(|closed| closed.rounded(digits)),
+    };
+    Ok(closed.map(|closed| (layout, closed)))
+}
+
+fn closed_over<R: Ring>(chain: &Chain, layout: &Layout, case: &Case) -> Result<Option<ClosedLoop<R>>> {
+    let open: Option<OpenLoop<R>> = chain.try_open_loop(layout)?;
+    Ok(open.and_then(|open| Some(open.close(&filling(case).ok()?))))
 }
 
 /// The loop of two balls of one case over a ring; `None` for chains without two balls.
@@ -502,7 +516,7 @@ pub(super) fn filling<R: Ring>(case: &Case) -> Result<Motion<R>> {
     if case.pose.is_none() && case.input.is_empty() {
         return Ok(Motion::identity());
     }
-    let motion = case.pose.as_ref().and_then(|pose| pose.exact.inverse().map(R::from_rational));
+    let motion = case.pose.as_ref().and_then(|pose| pose.inverse_image());
     let motion = motion.or_else(|| {
         case.input.first().and_then(|input| match &input.value {
             InputValue::Angle(angle) => angle_motion(angle),
