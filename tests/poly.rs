@@ -216,3 +216,26 @@ fn help_and_completions_know_the_verbs() {
     assert!(completions.contains("factor-free") && completions.contains("macaulay2"));
     assert_eq!(json(&answer(&["evaluate", "x", "--at", "x=1/4", "--json"]))["f64"], 0.25);
 }
+
+#[test]
+fn real_roots_are_isolated_from_degree_200_on() {
+    // Roots of x^n - 2; of Mignotte's polynomial two roots are nearer to each other than 2^-2900.
+    let cases: [(&str, &[f64]); 4] = [
+        ("x^200-3", &[-1.005_508_175_967_681_4, 1.005_508_175_967_681_4]),
+        ("x^400-2", &[-1.001_734_370_234_696, 1.001_734_370_234_696]),
+        ("x^401-2", &[1.001_730_041_382_737_5]),
+        (
+            "x^290-2*(2^20*x-1)^2",
+            &[-1.103_709_974_172_892_8, 9.536_743_164_062_5e-7, 9.536_743_164_062_5e-7, 1.103_709_960_927_416_4],
+        ),
+    ];
+    for (polynomial, expected) in cases {
+        let document = json(&run(&["roots", polynomial, "--json"]).out);
+        let roots = document["roots"].as_array().unwrap();
+        assert_eq!(roots.len(), expected.len(), "{polynomial}");
+        for (root, expected) in roots.iter().zip(expected) {
+            let value = root["value"].as_f64().unwrap();
+            assert!((value / expected - 1.0).abs() < 1e-12, "{polynomial}: {value} {expected}");
+        }
+    }
+}

@@ -86,6 +86,11 @@ impl Source {
         i64::try_from(self.degree()).expect("degrees are small")
     }
 
+    /// How many bits rounding and binomial sums may spoil, see [`Source::expand_to`].
+    fn spoilt(&self) -> i64 {
+        self.weight_bits + self.degree_bits() + self.count_bits + 4
+    }
+
     /// The length of the largest of the numbers `c_i 2^(k i)`.
     fn reach(&self, k: i64) -> i64 {
         let terms = (0_i64..).zip(&self.lengths).filter_map(|(i, length)| length.map(|length| length + k * i));
@@ -110,13 +115,13 @@ impl Source {
         Expansion { coefficients: b, error: FRESH_ERROR }
     }
 
-    /// The Bernstein coefficients on a cell right of 0, wrong by less than `FRESH_ERROR`, such that the largest `c_i x^i`
-    /// on the cell has `bits` bits.
+    /// The Bernstein coefficients on a cell right of 0, wrong by less than `FRESH_ERROR` whatever the degree, such that the
+    /// largest `c_i x^i` on the cell has `bits` bits. The weights of binomials lengthen the coefficients by more than the
+    /// degree in bits, so that `bits` may be negative; it must be above `-spoilt`.
     fn expand_to(&self, cell: &Cell, bits: i64) -> Vec<Integer> {
         let depth = length(&cell.numerator);
         let k = cell.exponent + depth;
-        // What rounding and binomial sums may spoil, see below.
-        let spoilt = self.weight_bits + self.degree_bits() + self.count_bits + 4;
+        let spoilt = self.spoilt();
         let shift = bits + spoilt - self.reach(k);
         let terms = (0_i64..).zip(&self.coefficients).map(|(i, c)| shifted(c, k * i + shift));
         let mut b: Vec<Integer> = terms.collect();
@@ -173,11 +178,13 @@ impl Source {
     /// The Bernstein coefficients on a cell right of 0, the largest of at least `wanted` bits. Starts with the
     /// precision `bits` and leaves there what would have done.
     pub(super) fn expand_long(&self, cell: &Cell, wanted: i64, bits: &mut i64) -> Vec<Integer> {
+        let spoilt = self.spoilt();
         loop {
+            *bits = (*bits).max(1 - spoilt);
             let b = self.expand_to(cell, *bits);
             let largest = b.iter().map(length).max().unwrap_or(0);
-            // What is all error says nothing of how much is missing.
-            *bits = if largest > 2 { *bits + wanted - largest } else { 2 * *bits };
+            // What is all error says nothing of how much is missing: twice the precision of the terms is tried.
+            *bits += if largest > 2 { wanted - largest } else { *bits + spoilt };
             if largest >= wanted {
                 return b;
             }
@@ -297,5 +304,62 @@ impl Expansion {
     /// The first sign that is certain.
     pub(super) fn first_sign(&self) -> i8 {
         self.coefficients.iter().map(|b| b.sign_beyond(self.error)).find(|&sign| sign != 0).unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::real_roots::cell::dyadic;
+    use rug::Rational;
+
+    /// `l b_j` on a cell for `p(x) = sum c_i x^i`, exactly: `sum_i C(j,i) w_i q_i` with `q(y) = p(x_0 + w y)`.
+    fn exactly(source: &Source, cell: &Cell) -> Vec<Rational> {
+        let (start, width) = (cell.lo(), Rational::from(cell.hi() - cell.lo()));
+        let mut q: Vec<Rational> = source.coefficients.iter().map(Rational::from).collect();
+        let n = q.len() - 1;
+        for from in 0..n {
+            for j in (from..n).rev() {
+                let carried = Rational::from(&q[j + 1] * &start);
+                q[j] += carried;
+            }
+        }
+        let mut power = Rational::from(1);
+        for (q, weight) in q.iter_mut().zip(&source.weights) {
+            *q *= Rational::from(weight) * &power;
+            power *= &width;
+        }
+        for i in 1..q.len() {
+            for j in (i..q.len()).rev() {
+                let carried = q[j - 1].clone();
+                q[j] += carried;
+            }
+        }
+        q
+    }
+
+    #[test]
+    fn expansions_are_wrong_by_less_than_the_stated_error_at_any_degree() {
+        for degree in [1_usize, 7, 40, 127, 200, 260] {
+            let mut coefficients = vec![Integer::new(); degree + 1];
+            coefficients[degree] = Integer::from(1);
+            coefficients[0] = Integer::from(-2);
+            coefficients[degree / 2] += Integer::from(7) << 20_u32;
+            let source = Source::new(coefficients);
+            for (numerator, exponent) in [(0, 1), (0, -3), (1, 0), (3, -2), (1025, -10), (5, -30)] {
+                let cell = Cell::new(Integer::from(numerator), exponent);
+                let exact = exactly(&source, &cell);
+                let depth = length(&cell.numerator);
+                // Of the scaling of `expand_to` all but `spoilt` is left.
+                for bits in [1 - source.spoilt(), -100, 60, 300].map(|bits| bits.max(1 - source.spoilt())) {
+                    let unit = bits - source.reach(cell.exponent + depth);
+                    for (found, exact) in source.expand_to(&cell, bits).iter().zip(&exact) {
+                        let expected = dyadic(&Integer::from(1), unit) * exact;
+                        let error = (expected - found).abs();
+                        assert!(error < FRESH_ERROR, "{degree} {numerator} {exponent} {bits}: {error}");
+                    }
+                }
+            }
+        }
     }
 }
