@@ -43,6 +43,9 @@ pub enum Error {
     /// Well-formed, but beyond what is implemented.
     #[error("unsupported: {0}")]
     Unsupported(String),
+    /// The same of a chain of joints; the message names its mobility.
+    #[error("unsupported: {0}")]
+    UnsupportedMobility(String),
 }
 
 impl Error {
@@ -53,6 +56,7 @@ impl Error {
         match self {
             Self::Invalid(message) => Self::File { path: path.to_owned(), line, message },
             Self::Unsupported(message) => Self::Unsupported(format!("{path}:{line}: {message}")),
+            Self::UnsupportedMobility(message) => Self::UnsupportedMobility(format!("{path}:{line}: {message}")),
             other => other,
         }
     }
@@ -61,8 +65,17 @@ impl Error {
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Unsupported(_) => 4,
-            _ => 1,
+            Self::Unsupported(_) | Self::UnsupportedMobility(_) => 4,
+            Self::File { .. } | Self::Io { .. } | Self::UnknownEntry { .. } | Self::Invalid(_) => 1,
+        }
+    }
+
+    /// What is beyond what is implemented; `None` for any other error.
+    #[must_use]
+    pub fn unsupported(&self) -> Option<&str> {
+        match self {
+            Self::Unsupported(message) | Self::UnsupportedMobility(message) => Some(message),
+            Self::File { .. } | Self::Io { .. } | Self::UnknownEntry { .. } | Self::Invalid(_) => None,
         }
     }
 }

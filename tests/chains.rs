@@ -8,6 +8,8 @@ mod agreement;
 mod sequences;
 #[path = "chains/short_loops.rs"]
 mod short_loops;
+#[path = "chains/universal.rs"]
+mod universal;
 
 mod arms;
 

@@ -16,7 +16,6 @@ use looproot::catalogue::{Options, load};
 use looproot::derivation::{ClosurePolynomial, Derivation, Removed, RootPose, derive};
 use looproot::elimination::degree::degree;
 use looproot::elimination::triangle_platform::{Triangle, pairs};
-use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::closed_loop::Layout;
 use looproot::kinematics::dual_quaternion::Quaternion;
@@ -117,7 +116,7 @@ fn check(entry: &Entry) {
     let (name, chain) = (&entry.name, entry.chain().unwrap());
     let derivation = match derive(entry, &entry.cases[0]) {
         // Loops of fewer unknowns are solved by other means.
-        Err(Error::Unsupported(_)) if Layout::of(chain, None).unwrap().variables.len() < 6 => return,
+        Err(error) if error.unsupported().is_some() && Layout::of(chain, None).unwrap().variables.len() < 6 => return,
         derivation => derivation.unwrap(),
     };
     let solution = solved(entry);

@@ -67,7 +67,7 @@ fn answer(status: Status, modes: Vec<FullMode>, reason: &str) -> Solution {
     let verdict = Verdict {
         status,
         proof: if status == Status::Complete { Proof::Proved } else { Proof::None },
-        code: Code::GeneralBoundMet,
+        code: Code::CountMet,
         complex_complete: status == Status::Complete,
         complex: count(false),
         real: count(true),
@@ -77,7 +77,7 @@ fn answer(status: Status, modes: Vec<FullMode>, reason: &str) -> Solution {
         reason: reason.to_owned(),
     };
     let warnings = vec!["the rotation matrix is off by 3e-7; the nearest rotation was taken".to_owned()];
-    Solution { verdict, modes, warnings, prepare_us: 71.25, solve_us: 46.0, platform: None }
+    Solution { families: Vec::new(), verdict, modes, warnings, prepare_us: 71.25, solve_us: 46.0, platform: None }
 }
 
 fn answers() -> Vec<(&'static str, Solution)> {
@@ -116,9 +116,11 @@ fn solutions_read_as_agreed() {
 
 #[test]
 fn documents_read_as_agreed() {
-    let mut text = json::head(&entry()) + "\n";
+    let mut text = json::head(&entry(), &looproot::report::document::keys(&entry())) + "\n";
+    let labels = looproot::report::document::labels(&entry());
+    let view = View { complex: true, ..View::default() };
     for (_, answer) in answers() {
-        text += &format!("{}\n", json::result(1, &answer, &View { complex: true, ..View::default() }));
+        text += &format!("{}\n", json::result(1, &entry().cases[0], &answer, &labels, &view));
     }
     compare("results.json.txt", &text);
 }
@@ -189,6 +191,7 @@ fn platforms_read_as_agreed() {
     let entry = platform();
     let legs = [1.0, 2.0, 2.0_f64.sqrt(), 1.5, 1.0, 0.0];
     let answered = |status, modes, reason: &str| Solution {
+        families: Vec::new(),
         platform: Some(PlatformAnswer { legs, route: "the only one".to_owned() }),
         ..answer(status, modes, reason)
     };
@@ -204,7 +207,8 @@ fn platforms_read_as_agreed() {
     for answer in &answers {
         let answer = Solution { verdict: Verdict { at_infinity: 0, ..answer.verdict.clone() }, ..answer.clone() };
         text += &format!("===\n{}", solution(&entry, 1, &entry.cases[0], &answer, &View::default()));
-        text += &format!("{}\n", json::result(1, &answer, &View { complex: true, ..View::default() }));
+        let view = View { complex: true, ..View::default() };
+        text += &format!("{}\n", json::result(1, &entry.cases[0], &answer, &[], &view));
     }
     text += &format!("===\n{:#}\n", model::json(&entry));
     compare("platforms.txt", &text);

@@ -54,6 +54,12 @@ pub fn seed() -> u64 {
     draw().seed
 }
 
+/// The seed of the prime of this run, if it was drawn.
+#[must_use]
+pub fn seed_used() -> Option<u64> {
+    DRAW.get().map(|draw| draw.seed)
+}
+
 /// The prime of this run, between `2^61` and `2^62` and congruent to 3 modulo 4.
 #[must_use]
 pub fn prime() -> u64 {

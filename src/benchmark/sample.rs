@@ -1,7 +1,7 @@
 //! Random arms with a planted configuration, the same ones for the same seed.
 
 use crate::algebra::number::{Angle, HalfTangent, Number, Reading};
-use crate::catalogue::entry::{Case, Design, Entry};
+use crate::catalogue::entry::{Case, Design, Entry, Labels};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
 use crate::kinematics::closed_loop::{Layout, OpenLoop, Variable, angle_motion, distance_motion};
@@ -122,13 +122,8 @@ impl Set {
     /// The joints of a chain of this set.
     pub(super) fn joints(self) -> Vec<JointKind> {
         let (Self::Chain(index) | Self::SpecialChain(index)) = self else { return vec![JointKind::Revolute; 6] };
-        let kind = |letter| match letter {
-            'P' => JointKind::Prismatic,
-            'C' => JointKind::Cylindrical,
-            'S' => JointKind::Spherical,
-            _ => JointKind::Revolute,
-        };
-        CHAINS[index].0.chars().map(kind).collect()
+        let letters = CHAINS[index].0;
+        (0..letters.len()).filter_map(|at| JointKind::from_letter(&letters[at..=at])).collect()
     }
 
     /// Whether lengths vanish and angles are right often.
@@ -226,6 +221,7 @@ fn draw(set: Set, data: Data, seed: u64, index: u64) -> Result<Sample> {
             cases: vec![case],
             rounded: data == Data::Floats,
             reading: Reading::default(),
+            labels: Labels::default(),
         };
         return Ok(Sample { entry, chain, planted, variables, regularity });
     }

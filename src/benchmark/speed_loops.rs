@@ -3,7 +3,7 @@
 use super::sample::{CHAINS, Set, matrix, motions, sample};
 use crate::algebra::number::{Angle, HalfTangent, Number, Reading};
 use crate::assembly::{Assembly, Roots, Solver, Workspace};
-use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue, Kind};
+use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue, Kind, Labels};
 use crate::catalogue::{Options, builtin, builtin_names};
 use crate::derivation::derive;
 use crate::error::{Error, Result};
@@ -260,6 +260,7 @@ fn rational_loop(index: usize, seed: u64, number: u64) -> Entry {
         cases: vec![Case::given(Input { joint: inputs, value }, 0)],
         rounded: false,
         reading: Reading::default(),
+        labels: Labels::default(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! DH tables as CSV: a header `type,a,alpha,d,theta0`, then one joint per line, classic convention.
 
-use super::entry::{Design, Entry};
-use super::geometry::check_count;
+use super::entry::{Design, Entry, Labels};
+use super::geometry::{check_count, joint_kind};
 use super::node::{Node, Value};
 use super::scope::Scope;
 use crate::algebra::number::Number;
@@ -38,6 +38,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str) -> Result<Entry> 
         cases: Vec::new(),
         rounded: scope.is_rounded(),
         reading: scope.reading.clone(),
+        labels: Labels::default(),
     })
 }
 
@@ -49,11 +50,7 @@ fn joint(scope: &Scope<'_>, line: &str, at: usize) -> Result<Joint> {
     let Ok([kind, a, alpha, d, theta0]) = <[Node; 5]>::try_from(cells) else {
         return Err(scope.fail(at, format!("found {} values, expected 5", line.split(',').count())));
     };
-    let kind = match scope.word(&kind, "type", &["R", "P", "C"])? {
-        "R" => JointKind::Revolute,
-        "P" => JointKind::Prismatic,
-        _ => JointKind::Cylindrical,
-    };
+    let kind = joint_kind(scope, &kind, &[JointKind::Revolute, JointKind::Prismatic, JointKind::Cylindrical])?;
     let length = |node: &Node, what: &str| -> Result<Number> { scope.length(node, what) };
     Ok(Joint {
         kind,

@@ -2,6 +2,7 @@
 
 use crate::algebra::number::{Angle, Number, Reading};
 use crate::kinematics::chain::{Chain, Placement};
+use crate::kinematics::joint::Variable;
 use crate::kinematics::platform::Platform;
 
 /// The kind of a mechanism.
@@ -42,6 +43,17 @@ pub enum InputValue {
     Angle(Angle),
     /// The displacement of a P or C joint.
     Distance(Number),
+}
+
+impl InputValue {
+    /// What the given joint variable measures.
+    #[must_use]
+    pub fn variable(&self) -> Variable {
+        match self {
+            Self::Angle(_) => Variable::Rotation,
+            Self::Distance(_) => Variable::Translation,
+        }
+    }
 }
 
 /// The given joint variable of a loop.
@@ -167,6 +179,17 @@ pub struct Entry {
     pub rounded: bool,
     /// How numbers without a unit are read in the file.
     pub reading: Reading,
+    /// What the file calls the parts of a chain.
+    pub labels: Labels,
+}
+
+/// What a file calls the parts of a chain.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Labels {
+    /// The names of the joints, in joint order; empty where the file names none.
+    pub joints: Vec<Option<String>>,
+    /// The base link and the tip link of a robot description.
+    pub links: Option<[String; 2]>,
 }
 
 impl Entry {

@@ -1,7 +1,7 @@
 //! The `[mechanism]` table: joints, base, tool and limits.
 
-use super::entry::{Case, Design, Kind};
-use super::node::Node;
+use super::entry::{Case, Design, Kind, Labels};
+use super::node::{Node, Value};
 use super::options::Chains;
 use super::platform::platform;
 use super::scope::{Scope, Table};
@@ -9,6 +9,7 @@ use crate::algebra::number::{Angle, Number, Quantity};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use crate::kinematics::freedom::Freedom;
+use crate::kinematics::joint::Variable;
 use rug::Rational;
 
 /// The mechanism of a file.
@@ -17,33 +18,8 @@ pub(super) struct Mechanism {
     pub(super) limits: Vec<[f64; 2]>,
     /// The legs of a platform, where they stand beside its points.
     pub(super) case: Option<Case>,
-}
-
-/// What one joint variable measures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Variable {
-    Rotation,
-    Translation,
-}
-
-/// The variables of a joint, in the order in which solutions list them.
-pub(super) fn variables(kind: JointKind) -> &'static [Variable] {
-    use Variable::{Rotation, Translation};
-    match kind {
-        JointKind::Revolute | JointKind::Helical => &[Rotation],
-        JointKind::Prismatic => &[Translation],
-        JointKind::Cylindrical => &[Rotation, Translation],
-        JointKind::Universal => &[Rotation, Rotation],
-        JointKind::Spherical => &[Rotation, Rotation, Rotation],
-    }
-}
-
-/// The joint kinds of a chain, in joint order.
-pub(super) fn kinds(chain: &Chain) -> Vec<JointKind> {
-    match &chain.geometry {
-        Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => joints.iter().map(|joint| joint.kind).collect(),
-        Geometry::Screws { joints, .. } => joints.iter().map(|joint| joint.kind).collect(),
-    }
+    /// What the file calls its joints.
+    pub(super) labels: Labels,
 }
 
 /// Reads the `[mechanism]` table.
@@ -55,7 +31,8 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
         "loop" => Kind::Loop,
         _ => {
             let (platform, case) = platform(scope, node)?;
-            return Ok(Mechanism { design: Design::Platform(Box::new(platform)), limits: Vec::new(), case });
+            let (design, labels) = (Design::Platform(Box::new(platform)), Labels::default());
+            return Ok(Mechanism { design, limits: Vec::new(), case, labels });
         }
     };
     let table = match kind {
@@ -96,13 +73,32 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     check_count(scope, &chain, joints.line, expected)?;
     let limits = table.get("limits").map_or(Ok(Vec::new()), |node| limits(scope, node, &chain))?;
     let design = if kind == Kind::Arm { Design::Arm(chain) } else { Design::Loop(chain) };
-    Ok(Mechanism { design, limits, case: None })
+    let joints =
+        if nodes.iter().any(|node| label(node).is_some()) { nodes.iter().map(label).collect() } else { vec![] };
+    Ok(Mechanism { design, limits, case: None, labels: Labels { joints, links: None } })
+}
+
+/// The name of a joint, where it has one.
+fn label(node: &Node) -> Option<String> {
+    let Value::Table(fields) = &node.value else { return None };
+    let name = fields.iter().find(|field| field.key == "name")?;
+    if let Value::Text(name) = &name.node.value { Some(name.clone()) } else { None }
 }
 
 /// Refuses a chain whose number of joint variables does not fit its kind.
 pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expected: (usize, &str)) -> Result<()> {
-    let kinds = kinds(chain);
-    let count: usize = kinds.iter().map(|kind| variables(*kind).len()).sum();
+    check_kinds(scope, &chain.joint_kinds(), || Freedom::of(chain), line, expected)
+}
+
+/// The same, of joints of which no more than the kinds need be known.
+pub(super) fn check_kinds(
+    scope: &Scope<'_>,
+    kinds: &[JointKind],
+    freedom: impl Fn() -> Freedom,
+    line: usize,
+    expected: (usize, &str),
+) -> Result<()> {
+    let count: usize = kinds.iter().map(|kind| kind.freedoms()).sum();
     let balls = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
     // The spin of a link between two balls is a freedom that moves nothing else.
     let is_short_loop = expected.0 == 7 && (2..7).contains(&count);
@@ -119,13 +115,10 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
             let off = off - usize::from(balls == 2);
             let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
             let constants = if off == 1 { "one variable" } else { "as many variables" };
-            format!("{}: {freedoms} too many for one input; make {constants} constant", Freedom::of(chain))
+            format!("{}: {freedoms} too many for one input; make {constants} constant", freedom())
         }
         (7, false) => {
-            format!(
-                "{}: no loop of them can close in more than one way; a loop has two joints at least",
-                Freedom::of(chain)
-            )
+            format!("{}: no loop of them can close in more than one way; a loop has two joints at least", freedom())
         }
         (_, true) => format!("a pose leaves {freedoms} undetermined"),
         (_, false) => format!("{freedoms} missing for a pose"),
@@ -139,21 +132,18 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
     ))
 }
 
-fn joint_kind(scope: &Scope<'_>, node: &Node) -> Result<JointKind> {
-    Ok(match scope.word(node, "type", &["R", "P", "C", "H", "U", "S"])? {
-        "R" => JointKind::Revolute,
-        "P" => JointKind::Prismatic,
-        "C" => JointKind::Cylindrical,
-        "H" => JointKind::Helical,
-        "U" => JointKind::Universal,
-        _ => JointKind::Spherical,
-    })
+/// The kind of a joint that is one of these.
+pub(super) fn joint_kind(scope: &Scope<'_>, node: &Node, known: &[JointKind]) -> Result<JointKind> {
+    let letters: Vec<&str> = known.iter().map(|kind| kind.letter()).collect();
+    let letter = scope.word(node, "type", &letters)?;
+    let kind = known.iter().copied().find(|kind| kind.letter() == letter);
+    kind.ok_or_else(|| scope.fail(node.line, format!("found the joint type {letter}, expected another one")))
 }
 
 /// The kind of a joint, read before its other keys are judged by it.
 fn kind_of(scope: &Scope<'_>, node: &Node, known: &[&str]) -> Result<JointKind> {
     let table = scope.table(node, "a joint", known)?;
-    joint_kind(scope, scope.need(&table, "type")?)
+    joint_kind(scope, scope.need(&table, "type")?, &JointKind::ALL)
 }
 
 const DH_KEYS: [&str; 12] = [
@@ -195,7 +185,9 @@ fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
     let theta0 = match kind {
         JointKind::Prismatic => angle(scope, &table, "theta", "tan_half_theta", true)?,
         JointKind::Universal | JointKind::Spherical => Angle::zero(),
-        _ => angle(scope, &table, "theta0", "tan_half_theta0", false)?,
+        JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical => {
+            angle(scope, &table, "theta0", "tan_half_theta0", false)?
+        }
     };
     Ok(Joint { kind, a, alpha, d, theta0, pitch: pitch(scope, &table, kind)? })
 }
@@ -238,7 +230,9 @@ fn screw_joint(scope: &Scope<'_>, node: &Node) -> Result<ScrewJoint> {
         JointKind::Universal => {
             return Err(scope.fail(node.line, "found a U joint among screw axes, expected its two R joints"));
         }
-        _ => &["type", "name", "axis", "point"],
+        JointKind::Revolute | JointKind::Prismatic | JointKind::Cylindrical | JointKind::Spherical => {
+            &["type", "name", "axis", "point"]
+        }
     };
     let table = scope.table(node, "a screw joint", allowed)?;
     let axis_node = scope.need(&table, "axis")?;
@@ -258,7 +252,7 @@ fn screw_joint(scope: &Scope<'_>, node: &Node) -> Result<ScrewJoint> {
 }
 
 fn limits(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Vec<[f64; 2]>> {
-    let variables: Vec<Variable> = kinds(chain).iter().flat_map(|kind| variables(*kind)).copied().collect();
+    let variables = chain.variables();
     let nodes = scope.list(node, "limits")?;
     if nodes.len() != variables.len() {
         let (found, expected) = (nodes.len(), variables.len());
@@ -268,7 +262,7 @@ fn limits(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Vec<[f64; 2]>
     let mut limits = Vec::with_capacity(nodes.len());
     for (pair, variable) in nodes.iter().zip(variables) {
         let [low, high] = scope.exactly::<2>(pair, "limits")?;
-        let read = |node| variable_value(scope, node, variable, "limits");
+        let read = |node| variable_value(scope, node, variable.variable, "limits");
         let (low, high) = (read(low)?, read(high)?);
         if low > high {
             return Err(

@@ -1,7 +1,7 @@
 //! Poses, inputs and the claims made of them.
 
 use super::entry::{Case, Claim, Design, Entry, Expected, Input, InputValue, Source};
-use super::geometry::{Mechanism, kinds, mechanism, variable_value, variables};
+use super::geometry::{Mechanism, mechanism, variable_value};
 use super::node::Node;
 use super::options::Chains;
 use super::platform;
@@ -27,7 +27,7 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
     };
     let source = table.get("source").map(|node| source(scope, node)).transpose()?;
     let notes = table.get("notes").map(|node| scope.text(node, "notes").map(str::to_owned)).transpose()?;
-    let Mechanism { design, limits, case } = mechanism(scope, scope.need(&table, "mechanism")?)?;
+    let Mechanism { design, limits, case, labels } = mechanism(scope, scope.need(&table, "mechanism")?)?;
     let shared = scope.take_warnings();
     let mut cases = cases(scope, &table, &design, case)?;
     for case in &mut cases {
@@ -43,7 +43,7 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
         first.expected = top;
     }
     let (rounded, reading) = (scope.is_rounded(), scope.reading.clone());
-    Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, cases, rounded, reading })
+    Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, cases, rounded, reading, labels })
 }
 
 /// The poses of an arm, the inputs of a loop, the legs of a platform: one at least, or a loop that needs no input.
@@ -62,11 +62,11 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
     let (key, node) = match (given.as_slice(), own) {
         ([], Some(case)) => return Ok(vec![case]),
         ([(key, node)], None) => (*key, *node),
+        ([], None) if scope.chains != Chains::Solved && !matches!(design, Design::Loop(_)) => return Ok(Vec::new()),
         ([], None) if matches!(design, Design::Platform(_)) => {
             let message = "found no legs, expected `legs` or `legs_squared` in the [mechanism], [[legs]] or [[pose]]";
             return Err(scope.fail(table.line(), message));
         }
-        ([], None) if matches!(design, Design::Arm(_)) && scope.chains == Chains::Any => return Ok(Vec::new()),
         ([], None) if is_short(design) || scope.chains != Chains::Solved && matches!(design, Design::Loop(_)) => {
             return Ok(vec![Case::free(table.line())]);
         }
@@ -101,9 +101,9 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
 /// is no motion of the loop.
 fn is_short(design: &Design) -> bool {
     let Design::Loop(chain) = design else { return false };
-    let kinds = kinds(chain);
+    let kinds = chain.joint_kinds();
     let spins = usize::from(kinds.iter().filter(|kind| **kind == JointKind::Spherical).count() == 2);
-    kinds.iter().map(|kind| variables(*kind).len()).sum::<usize>() < 7 + spins
+    chain.freedoms() < 7 + spins
 }
 
 pub(super) fn units(scope: &mut Scope<'_>, node: &Node) -> Result<()> {
@@ -149,7 +149,7 @@ fn pose(scope: &Scope<'_>, node: &Node, design: &Design) -> Result<Case> {
 
 fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
     let table = scope.table(node, "[[input]]", &["joint", "angle", "tan_half", "distance", "expected", "solution"])?;
-    let kinds = kinds(chain);
+    let kinds = chain.joint_kinds();
     let joint_node = scope.need(&table, "joint")?;
     let joint = scope.count(joint_node, "joint")?;
     let Some(kind) = joint.checked_sub(1).and_then(|index| kinds.get(index)) else {
@@ -166,16 +166,12 @@ fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
             return Err(scope.fail(table.line(), message));
         }
     };
-    let fits = match value {
-        InputValue::Angle(_) => matches!(kind, JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical),
-        InputValue::Distance(_) => matches!(kind, JointKind::Prismatic | JointKind::Cylindrical),
-    };
-    if !fits {
+    if !kind.takes(value.variable()) {
         let found = if matches!(value, InputValue::Angle(_)) { "an angle" } else { "a distance" };
         let expected = match kind {
             JointKind::Prismatic => "expected `distance`",
             JointKind::Spherical | JointKind::Universal => "expected a joint with one variable, or a C joint",
-            _ => "expected `angle` or `tan_half`",
+            JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical => "expected `angle` or `tan_half`",
         };
         let message = format!(
             "found {found} as input of joint {joint}, which is {kind:?} and has none; {expected}: the loop has {}",
@@ -229,7 +225,7 @@ fn claim(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Claim> {
     let table = scope.table(node, "[[solution]]", &["q", "digits"])?;
     let list = scope.need(&table, "q")?;
     let nodes = scope.list(list, "q")?;
-    let variables: Vec<_> = kinds(chain).iter().flat_map(|kind| variables(*kind)).copied().collect();
+    let variables = chain.variables();
     if nodes.len() != variables.len() {
         let (found, expected) = (nodes.len(), variables.len());
         return Err(
@@ -238,7 +234,8 @@ fn claim(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Claim> {
     }
     // Claims are compared in f64: they do not make the mechanism a rounded one.
     let own = Scope::new(scope.path, scope.reading.clone());
-    let values = nodes.iter().zip(variables).map(|(node, variable)| variable_value(&own, node, variable, "q"));
+    let values =
+        nodes.iter().zip(variables).map(|(node, own_variable)| variable_value(&own, node, own_variable.variable, "q"));
     let q = values.collect::<Result<_>>()?;
     Ok(Claim { q, digits: digits(scope, &table)?, line: table.line() })
 }

@@ -8,7 +8,7 @@ pub enum Chains {
     /// Those that are solved, with their poses or inputs.
     #[default]
     Solved,
-    /// The same; the input of a loop need not be given.
+    /// The same; poses, inputs and legs need not be given: they come from elsewhere.
     Swept,
     /// Loops and arms of any number of joint variables, with poses or inputs or without.
     Any,

@@ -5,7 +5,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use looproot::algebra::text::Format;
-use looproot::catalogue::Options;
+use looproot::catalogue::{Chains, Options};
 use looproot::report::paper::Style;
 use std::path::PathBuf;
 
@@ -83,10 +83,10 @@ pub struct CaseOptions {
     /// This pose (of a platform: set of legs) of the file only, counted from 1
     #[arg(long, value_name = "K")]
     pub pose: Option<usize>,
-    /// This input of the file only, counted from 1, or another one: 7="90 deg", 3="20 mm"
+    /// This input of the file only, counted from 1, or another one: 7="90 deg", 3="20 mm"; without a unit in those of the file
     #[arg(long, value_name = "K|JOINT=VALUE", conflicts_with = "pose")]
     pub input: Option<String>,
-    /// The pose that these joint values reach: "10 deg, 0.3, pi/2, ..."
+    /// The pose that these joint values reach: "10 deg, 0.3, pi/2, ..."; without a unit in those of the file
     #[arg(long, value_name = "Q", conflicts_with_all = ["pose", "input"], allow_hyphen_values = true)]
     pub joints: Option<String>,
     /// Platform: legs of these lengths: "1, 1.2, 900 mm, ..."
@@ -95,6 +95,15 @@ pub struct CaseOptions {
     /// Platform: the legs that this pose asks for: "x, y, z; w, x, y, z", position and quaternion
     #[arg(long, value_name = "POSE", conflicts_with_all = ["pose", "legs"], allow_hyphen_values = true)]
     pub at: Option<String>,
+}
+
+impl CaseOptions {
+    /// Which files are read: those without a case where the command line gives one.
+    pub fn chains(&self) -> Chains {
+        let is_value = self.input.as_ref().is_some_and(|input| input.contains('='));
+        let is_given = is_value || self.joints.is_some() || self.legs.is_some() || self.at.is_some();
+        if is_given { Chains::Swept } else { Chains::Solved }
+    }
 }
 
 /// Where the output goes.
@@ -153,6 +162,9 @@ pub struct SolveOptions {
     /// Solutions outside the joint limits
     #[arg(long, value_name = "HOW", default_value = "mark")]
     pub limits: Limits,
+    /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
+    pub seed: Option<u64>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
@@ -215,6 +227,9 @@ pub struct DeriveOptions {
     /// all parameters symbols: rccc, ccrr, 4r, hooke
     #[arg(long, conflicts_with_all = ["explain", "symbolic", "bless", "pose", "input", "joints", "legs", "at"])]
     pub transference: bool,
+    /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
+    pub seed: Option<u64>,
     /// Print the verdict only
     #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
     pub quiet: bool,
@@ -235,7 +250,7 @@ pub struct SweepOptions {
     /// file]
     #[arg(long, value_name = "JOINT")]
     pub joint: Option<String>,
-    /// Where the input begins: "-180 deg", "pi/3", "20 mm"; plain numbers are radians or metres
+    /// Where the input begins: "-180 deg", "pi/3", "20 mm"; without a unit in those of the file
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub from: String,
     /// Where it ends; a full turn joins up
@@ -253,6 +268,9 @@ pub struct SweepOptions {
     /// One JSON document
     #[arg(long)]
     pub json: bool,
+    /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
+    pub seed: Option<u64>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,

@@ -34,8 +34,9 @@ fn blessed(path: &Path) -> Result<String> {
     let target = path.with_extension("eqs");
     let text = match atlas(&load(&path.display().to_string(), &Options::default())?) {
         Ok(text) => text,
-        Err(Error::Unsupported(reason)) => return Ok(format!("no equations, {reason}")),
-        Err(error) => return Err(error),
+        Err(error) => {
+            return error.unsupported().map(|reason| format!("no equations, {reason}")).ok_or(error.clone());
+        }
     };
     let before = fs::read_to_string(&target).ok();
     match (text, before) {

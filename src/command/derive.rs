@@ -4,12 +4,16 @@ use super::arguments::DeriveOptions;
 use super::bless;
 use super::exit::{Exit, Fault};
 use super::output::Output;
+use super::seed::plant;
 use super::wanted::{in_place, wanted};
-use looproot::catalogue::load;
+use looproot::catalogue::entry::Entry;
+use looproot::catalogue::{Options, load};
 use looproot::derivation::{Derivation, derive, derive_symbolic};
 use looproot::error::Error;
 use looproot::report::derivation::{json, paper, system, text, verdict};
+use looproot::report::document::complete;
 use looproot::report::symbolic;
+use serde_json::Value;
 use std::io::Write;
 
 /// Derives closure equations and closure polynomial of the case asked for, else of the first one.
@@ -24,14 +28,17 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     if options.transference {
         return super::transference::run(options, mechanism);
     }
-    let mut entry = load(mechanism, &options.read.options())?;
+    plant(options.seed);
+    let read = Options { chains: options.asked.chains(), ..options.read.options() };
+    let mut entry = load(mechanism, &read)?;
+    let whole = entry.clone();
     let index = wanted(&options.asked, mechanism, &mut entry)?.start;
     let case = &entry.cases[index];
     let (written, exit) = if let Some(list) = &options.symbolic {
         let names: Vec<String> = list.split(',').map(|name| name.trim().to_owned()).filter(|n| !n.is_empty()).collect();
         let derivation = derive_symbolic(&entry, case, &names).map_err(|error| in_place(error, mechanism, &entry))?;
         let written = if options.json {
-            format!("{}\n", symbolic::json(&entry, index + 1, &derivation))
+            document(symbolic::json(&entry, index + 1, &derivation), &whole)
         } else if let Some(format) = options.format {
             symbolic::system(&derivation, format)?
         } else if let Some(style) = options.explain {
@@ -45,7 +52,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     } else {
         let derivation = derive(&entry, case).map_err(|error| in_place(error, mechanism, &entry))?;
         let written = if options.json {
-            format!("{}\n", json(&entry, index + 1, &derivation))
+            document(json(&entry, index + 1, &derivation), &whole)
         } else if let Some(format) = options.format {
             system(&derivation, format)?
         } else if let Some(style) = options.explain {
@@ -61,6 +68,12 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     output.writer.write_all(written.as_bytes())?;
     output.writer.flush()?;
     Ok(exit)
+}
+
+/// A document with the keys of every document.
+fn document(mut value: Value, entry: &Entry) -> String {
+    complete(&mut value, entry);
+    format!("{value}\n")
 }
 
 /// Without a polynomial nothing is proved; without a real root nothing is reached.

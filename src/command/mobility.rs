@@ -5,6 +5,7 @@ use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use looproot::catalogue::{Any, Chains, FrameworkFile, Options, load_any};
 use looproot::mobility::{Mobility, mobility};
+use looproot::report::document::complete;
 use looproot::report::framework as report;
 use looproot::report::mobility::{json, text, verdict};
 use std::io::Write;
@@ -18,7 +19,9 @@ pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
     };
     let answer = mobility(&entry)?;
     let written = if options.json {
-        format!("{:#}\n", json(&entry, &answer))
+        let mut document = json(&entry, &answer);
+        complete(&mut document, &entry);
+        format!("{document:#}\n")
     } else if options.quiet {
         verdict(&answer) + "\n"
     } else {

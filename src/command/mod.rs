@@ -14,6 +14,7 @@ pub mod list;
 pub mod mobility;
 pub mod output;
 pub mod poly;
+pub mod seed;
 pub mod show;
 pub mod solve;
 pub mod sweep;

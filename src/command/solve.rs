@@ -3,20 +3,24 @@
 use super::arguments::{Limits, SolveOptions};
 use super::exit::{Exit, Fault};
 use super::output::{Output, pool};
+use super::seed::plant;
 use super::wanted::{in_place, wanted};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use looproot::algebra::drawn::seed_used;
 use looproot::assembly::{Assembly, Roots, Workspace};
 use looproot::catalogue::entry::{Entry, Kind};
-use looproot::catalogue::load;
+use looproot::catalogue::{Options, load};
 use looproot::error::Error;
 use looproot::mechanism::{Derivatives, InputCurve, Mechanism, Solution};
 use looproot::report::derivatives;
+use looproot::report::document;
 use looproot::report::json;
 use looproot::report::model::case_noun;
 use looproot::report::number::{counted, duration};
 use looproot::report::text::{self, View};
 use looproot::verdict::{Code, Proof, Status, Verdict};
 use rayon::prelude::*;
+use serde_json::{Map, Value};
 use std::io::Write;
 use std::ops::Range;
 use std::sync::Arc;
@@ -25,18 +29,21 @@ use std::time::Instant;
 
 /// Finds every solution of every case, or of the one asked for, and prints them in the order of the file.
 pub fn run(options: &SolveOptions) -> Result<Exit, Fault> {
-    let mut entry = load(&options.mechanism, &options.read.options())?;
+    let read = Options { chains: options.asked.chains(), ..options.read.options() };
+    let mut entry = load(&options.mechanism, &read)?;
+    plant(options.seed);
+    let keys = if options.json { document::keys(&entry) } else { Map::new() };
     let wanted = wanted(&options.asked, &options.mechanism, &mut entry)?;
     if options.derivatives && entry.kind() != Kind::Loop {
         let what = if entry.kind() == Kind::Arm { "an arm" } else { "a platform" };
         let message = format!("found --derivatives for {what}, expected a loop: derivatives are by its input");
         return Err(Error::Invalid(message).into());
     }
-    let mut report = Report::open(options, &entry, wanted.len())?;
+    let mut report = Report::open(options, &entry, keys, wanted.len())?;
     let exit = match Mechanism::prepare(&entry) {
         Ok(mechanism) => solve(options, &entry, &mechanism, wanted, &mut report)?,
         // The document of a mechanism that cannot be solved says so, case by case.
-        Err(error @ Error::Unsupported(_)) if report.is_json() => {
+        Err(error) if error.unsupported().is_some() && report.is_json() => {
             for index in wanted {
                 report.add(index, &unsupported(&in_place(error.clone(), &options.mechanism, &entry)), None)?;
             }
@@ -73,7 +80,7 @@ fn solve(
         for (index, solution) in chunk.iter().zip(solutions) {
             let Some(solution) = solution else { return Ok(Exit::Interrupted) };
             let (solution, derivatives) = match solution {
-                Err(error @ Error::Unsupported(_)) => (unsupported(&error), None),
+                Err(error) if error.unsupported().is_some() => (unsupported(&error), None),
                 other => other?,
             };
             exit = exit.max(Exit::of(&solution));
@@ -121,10 +128,7 @@ pub fn stop_on_interrupt() -> Arc<AtomicBool> {
 
 /// The answer where there is no solver.
 fn unsupported(error: &Error) -> Solution {
-    let reason = match error {
-        Error::Unsupported(reason) => reason.clone(),
-        other => other.to_string(),
-    };
+    let reason = error.unsupported().map_or_else(|| error.to_string(), str::to_owned);
     let status = Status::Unsupported;
     let verdict = Verdict {
         status,
@@ -138,7 +142,8 @@ fn unsupported(error: &Error) -> Solution {
         certified: 0,
         reason,
     };
-    Solution { verdict, modes: Vec::new(), warnings: Vec::new(), prepare_us: 0.0, solve_us: 0.0, platform: None }
+    let (modes, families) = (Vec::new(), Vec::new());
+    Solution { verdict, modes, families, warnings: Vec::new(), prepare_us: 0.0, solve_us: 0.0, platform: None }
 }
 
 /// The form of the output.
@@ -152,6 +157,8 @@ enum Form {
 /// The results, written as they come.
 struct Report<'a> {
     entry: &'a Entry,
+    keys: Map<String, Value>,
+    labels: Vec<String>,
     output: Output,
     form: Form,
     view: View,
@@ -163,7 +170,8 @@ struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    fn open(options: &SolveOptions, entry: &'a Entry, total: usize) -> Result<Self, Fault> {
+    fn open(options: &SolveOptions, entry: &'a Entry, keys: Map<String, Value>, total: usize) -> Result<Self, Fault> {
+        let labels = document::labels(entry);
         let output = Output::open(&options.output, &options.mechanism)?;
         let form = match (options.json, options.jsonl) {
             (true, _) => Form::Document,
@@ -186,7 +194,8 @@ impl<'a> Report<'a> {
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta}") {
             progress.set_style(style);
         }
-        Ok(Self { entry, output, form, view, written: 0, total, tally: [0; 5], start: Instant::now(), progress })
+        let start = Instant::now();
+        Ok(Self { entry, keys, labels, output, form, view, written: 0, total, tally: [0; 5], start, progress })
     }
 
     fn is_json(&self) -> bool {
@@ -200,7 +209,7 @@ impl<'a> Report<'a> {
         derivatives: Option<&[Option<Derivatives>]>,
     ) -> Result<(), Fault> {
         let document = || {
-            let mut result = json::result(index + 1, solution, &self.view);
+            let mut result = json::result(index + 1, &self.entry.cases[index], solution, &self.labels, &self.view);
             if let Some(derivatives) = derivatives {
                 derivatives::insert(&mut result, solution, derivatives, &self.view);
             }
@@ -208,7 +217,7 @@ impl<'a> Report<'a> {
         };
         let out = &mut self.output.writer;
         match self.form {
-            Form::Document if self.written == 0 => write!(out, "{}\n  ", json::head(self.entry))?,
+            Form::Document if self.written == 0 => write!(out, "{}\n  ", json::head(self.entry, &self.keys))?,
             Form::Document => write!(out, ",\n  ")?,
             Form::Text if self.written > 0 && !self.view.quiet => writeln!(out)?,
             _ => {}
@@ -239,8 +248,10 @@ impl<'a> Report<'a> {
         self.progress.finish_and_clear();
         let out = &mut self.output.writer;
         match self.form {
-            Form::Document if self.written == 0 => writeln!(out, "{}] }}", json::head(self.entry))?,
-            Form::Document => writeln!(out, "\n] }}")?,
+            Form::Document if self.written == 0 => {
+                writeln!(out, "{}{}", json::head(self.entry, &self.keys), json::foot(seed_used()))?;
+            }
+            Form::Document => writeln!(out, "\n{}", json::foot(seed_used()))?,
             Form::Text if self.total > 1 => {
                 let noun = case_noun(self.entry);
                 let words = ["complete", "incomplete", "unreachable", "self-motion", "unsupported"];

@@ -3,16 +3,18 @@
 use super::arguments::SweepOptions;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::{Output, pool};
+use super::seed::plant;
 use super::solve::stop_on_interrupt;
 use super::wanted::in_place;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use looproot::algebra::number::{Angle, Number, Quantity, Reading};
-use looproot::catalogue::entry::{Design, Entry, InputValue};
+use looproot::catalogue::entry::{Design, Entry};
 use looproot::catalogue::{Chains, Options, load};
 use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::closed_loop::Variable;
 use looproot::kinematics::freedom::Freedom;
+use looproot::report::document::complete;
 use looproot::report::picture::svg;
 use looproot::report::sweep::{self as report, Swept};
 use looproot::sweep::{Range, Sweep, sweep};
@@ -22,6 +24,7 @@ use std::sync::atomic::Ordering;
 
 /// Sweeps an input through its range and prints the branches.
 pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
+    plant(options.seed);
     // The input is that of the command line, where one is given.
     let chains = if options.joint.is_some() { Chains::Swept } else { Chains::Solved };
     let entry = load(&options.mechanism, &Options { chains, ..options.read.options() })?;
@@ -61,7 +64,9 @@ pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
 fn write(options: &SweepOptions, entry: &Entry, swept: Swept, found: &Sweep, mut output: Output) -> Result<(), Fault> {
     let out = &mut output.writer;
     if options.json {
-        writeln!(out, "{}", report::json(entry, swept, found))?;
+        let mut document = report::json(entry, swept, found);
+        complete(&mut document, entry);
+        writeln!(out, "{document}")?;
     } else if options.svg {
         write!(out, "{}", svg(entry, swept, found))?;
     } else if options.csv {
@@ -94,11 +99,7 @@ fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, 
     let Some(name) = &options.joint else {
         let input = entry.cases.first().and_then(|case| case.input.first());
         let input = input.ok_or_else(|| Error::Invalid("found no input in the file, expected --joint".to_owned()))?;
-        let variable = match input.value {
-            InputValue::Angle(_) => Variable::Rotation,
-            InputValue::Distance(_) => Variable::Translation,
-        };
-        return Ok(Swept { joint: input.joint, variable });
+        return Ok(Swept { joint: input.joint, variable: input.value.variable() });
     };
     let kinds = chain.joint_kinds();
     let found = |what: &str| Error::Invalid(format!("found --joint {name}, {what}"));
@@ -120,7 +121,7 @@ fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, 
                 "which turns and has no distance; expected q before its number: the loop has {freedom}"
             )));
         }
-        _ => {
+        (JointKind::Helical | JointKind::Universal | JointKind::Spherical, _) => {
             return Err(found(&format!(
                 "which is {kind:?}; expected a joint R, P or C: the loop has {}",
                 Freedom::of(chain)

@@ -11,19 +11,21 @@ use looproot::kinematics::platform::Platform;
 use looproot::report::model::case_noun;
 use std::ops::Range;
 
-/// The cases asked for. A case given on the command line takes the place of those of the file.
+/// The cases asked for. A case given on the command line takes the place of those of the file; its numbers follow the units
+/// of the file.
 pub fn wanted(options: &CaseOptions, mechanism: &str, entry: &mut Entry) -> Result<Range<usize>, Error> {
     refuse(options, entry.kind())?;
+    let reading = &entry.reading;
     let (own, number) = match &entry.design {
-        Design::Arm(chain) => (options.joints.as_ref().map(|joints| reached(chain, joints)), options.pose),
+        Design::Arm(chain) => (options.joints.as_ref().map(|joints| reached(chain, joints, reading)), options.pose),
         Design::Loop(chain) => match options.input.as_ref().map(|input| (input, input.split_once('='))) {
-            Some((_, Some((joint, value)))) => (Some(given(chain, joint, value)), None),
+            Some((_, Some((joint, value)))) => (Some(given(chain, joint, value, reading)), None),
             Some((input, None)) => (None, Some(number_of(input)?)),
             None => (None, None),
         },
         Design::Platform(platform) => match (&options.legs, &options.at) {
-            (Some(legs), _) => (Some(of_lengths(legs)), None),
-            (None, Some(pose)) => (Some(placed(platform, pose)), None),
+            (Some(legs), _) => (Some(of_lengths(legs, reading)), None),
+            (None, Some(pose)) => (Some(placed(platform, pose, reading)), None),
             (None, None) => (None, options.pose),
         },
     };
@@ -43,17 +45,18 @@ pub fn wanted(options: &CaseOptions, mechanism: &str, entry: &mut Entry) -> Resu
     }
 }
 
-/// The same complaint with its place in the file, and with what the mobility of the loop is if it does not say so.
+/// The same complaint with its place in the file, and with the mobility of the loop where the message does not name it.
 pub fn in_place(error: Error, mechanism: &str, entry: &Entry) -> Error {
-    let Error::Unsupported(message) = error else { return error };
-    let message = match &entry.design {
-        Design::Loop(chain) if !message.contains("Gruebler") => {
-            format!("{message}; the loop has {}", Freedom::of(chain))
+    let error = match (error, &entry.design) {
+        (Error::Unsupported(message), Design::Loop(chain)) => {
+            Error::UnsupportedMobility(format!("{message}; the loop has {}", Freedom::of(chain)))
         }
-        _ => message,
+        (error, _) => error,
     };
-    let line = entry.cases.first().map_or(1, |case| case.line.max(1));
-    Error::Unsupported(message).at(mechanism, line)
+    if error.unsupported().is_none() {
+        return error;
+    }
+    error.at(mechanism, entry.cases.first().map_or(1, |case| case.line.max(1)))
 }
 
 /// Refuses what is no option for this kind of mechanism.
@@ -82,16 +85,15 @@ fn number_of(input: &str) -> Result<usize, Error> {
 }
 
 /// A case that locks a joint at a value of the command line.
-fn given(chain: &Chain, joint: &str, value: &str) -> Result<Case, Error> {
+fn given(chain: &Chain, joint: &str, value: &str, reading: &Reading) -> Result<Case, Error> {
     let joint: usize = joint.trim().trim_start_matches('q').parse().map_err(|_| {
         Error::Invalid(format!("found --input {joint}={value}, expected the number of a joint before `=`"))
     })?;
-    let reading = Reading::default();
     let kinds = chain.joint_kinds();
     let is_length = match joint.checked_sub(1).and_then(|index| kinds.get(index)) {
         Some(JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical) => false,
         Some(JointKind::Prismatic) => true,
-        kind => {
+        kind @ (None | Some(JointKind::Universal | JointKind::Spherical)) => {
             let count = kinds.len();
             let expected =
                 if kind.is_some() { "a joint R, P or C".to_owned() } else { format!("one from 1 to {count}") };
@@ -102,15 +104,15 @@ fn given(chain: &Chain, joint: &str, value: &str) -> Result<Case, Error> {
         }
     };
     let value = if is_length {
-        InputValue::Distance(Number::parse(value, Quantity::Length, &reading)?)
+        InputValue::Distance(Number::parse(value, Quantity::Length, reading)?)
     } else {
-        InputValue::Angle(Angle::parse(value, &reading)?)
+        InputValue::Angle(Angle::parse(value, reading)?)
     };
     Ok(Case::given(Input { joint, value }, 1))
 }
 
 /// A case that asks for the pose which these joint values reach.
-fn reached(chain: &Chain, joints: &str) -> Result<Case, Error> {
+fn reached(chain: &Chain, joints: &str, reading: &Reading) -> Result<Case, Error> {
     let variables = Layout::of(chain, None)?.variables;
     let texts: Vec<&str> = joints.split(',').map(str::trim).collect();
     if texts.len() != variables.len() {
@@ -119,12 +121,11 @@ fn reached(chain: &Chain, joints: &str) -> Result<Case, Error> {
             "found {found} values in --joints, expected {expected}, separated by commas"
         )));
     }
-    let reading = Reading::default();
     let mut motions = Vec::new();
     for (text, variable) in texts.into_iter().zip(variables) {
         let motion = match variable {
-            Variable::Rotation => angle_motion(&Angle::parse(text, &reading)?),
-            Variable::Translation => distance_motion(&Number::parse(text, Quantity::Length, &reading)?),
+            Variable::Rotation => angle_motion(&Angle::parse(text, reading)?),
+            Variable::Translation => distance_motion(&Number::parse(text, Quantity::Length, reading)?),
         };
         motions.extend(motion);
     }
@@ -134,10 +135,14 @@ fn reached(chain: &Chain, joints: &str) -> Result<Case, Error> {
 }
 
 /// So many numbers, separated by commas.
-fn numbers<const N: usize>(text: &str, quantity: Quantity, option: &str) -> Result<[Number; N], Error> {
-    let reading = Reading::default();
+fn numbers<const N: usize>(
+    text: &str,
+    quantity: Quantity,
+    option: &str,
+    reading: &Reading,
+) -> Result<[Number; N], Error> {
     let numbers: Vec<Number> =
-        text.split(',').map(|part| Number::parse(part.trim(), quantity, &reading)).collect::<Result<_, _>>()?;
+        text.split(',').map(|part| Number::parse(part.trim(), quantity, reading)).collect::<Result<_, _>>()?;
     numbers.try_into().map_err(|numbers: Vec<_>| {
         let found = numbers.len();
         Error::Invalid(format!("found {found} values in {option}, expected {N}, separated by commas"))
@@ -145,8 +150,8 @@ fn numbers<const N: usize>(text: &str, quantity: Quantity, option: &str) -> Resu
 }
 
 /// A case with legs of these lengths.
-fn of_lengths(text: &str) -> Result<Case, Error> {
-    let lengths: [Number; 6] = numbers(text, Quantity::Length, "--legs")?;
+fn of_lengths(text: &str, reading: &Reading) -> Result<Case, Error> {
+    let lengths: [Number; 6] = numbers(text, Quantity::Length, "--legs", reading)?;
     if let Some(leg) = lengths.iter().position(|length| *length.rational() < 0) {
         let (number, length) = (leg + 1, lengths[leg].to_f64());
         return Err(Error::Invalid(format!("found the negative length {length} of leg {number}, expected 0 or more")));
@@ -155,12 +160,12 @@ fn of_lengths(text: &str) -> Result<Case, Error> {
 }
 
 /// A case with the legs that this pose of the plate asks for.
-fn placed(platform: &Platform<Number>, text: &str) -> Result<Case, Error> {
+fn placed(platform: &Platform<Number>, text: &str, reading: &Reading) -> Result<Case, Error> {
     let Some((position, quaternion)) = text.split_once(';') else {
         return Err(Error::Invalid(format!("found --at \"{text}\", expected \"x, y, z; w, x, y, z\"")));
     };
-    let position: [Number; 3] = numbers(position, Quantity::Length, "the position of --at")?;
-    let quaternion: [Number; 4] = numbers(quaternion, Quantity::Ratio, "the quaternion of --at")?;
+    let position: [Number; 3] = numbers(position, Quantity::Length, "the position of --at", reading)?;
+    let quaternion: [Number; 4] = numbers(quaternion, Quantity::Ratio, "the quaternion of --at", reading)?;
     let (pose, warning) = Placement::from_quaternion_position(&quaternion, &position)?;
     let mut case = Case::legs_at(platform, pose, 1);
     case.warnings.extend(warning);

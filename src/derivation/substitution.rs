@@ -7,7 +7,8 @@ use crate::algebra::text::Names;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, JointKind};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::mechanism::Mechanism;
 use num_complex::Complex;
@@ -166,20 +167,11 @@ fn joints(chain: &Chain, q: &[Complex<f64>]) -> Values {
             values.insert(format!("t{label}"), half);
         }
     };
-    for (joint, kind) in (1..).zip(chain.joint_kinds()) {
-        if kind == JointKind::Spherical {
-            for turn in 1..=3 {
-                rotation(&mut values, &format!("{joint}_{turn}"), q.next());
-            }
-            continue;
-        }
-        if kind != JointKind::Prismatic {
-            rotation(&mut values, &joint.to_string(), q.next());
-        }
-        if matches!(kind, JointKind::Prismatic | JointKind::Cylindrical)
-            && let Some(distance) = q.next()
-        {
-            values.insert(format!("d{joint}"), *distance);
+    for variable in chain.variables() {
+        let number = variable.number();
+        match variable.variable {
+            Variable::Rotation => rotation(&mut values, &number, q.next()),
+            Variable::Translation => values.extend(q.next().map(|distance| (format!("d{number}"), *distance))),
         }
     }
     values

@@ -5,7 +5,7 @@ use crate::algebra::ring::Ring;
 use crate::algebra::text::Names;
 use crate::algebra::trigonometric::{Pair, half_tangents};
 use crate::error::Result;
-use crate::kinematics::chain::{Chain, JointKind};
+use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{Layout, Variable};
 use rug::Rational;
 
@@ -31,7 +31,7 @@ impl Symbols {
         Self { kinds: vec![kind], labels: vec![joint_labels(chain).get(index).cloned().unwrap_or_default()] }
     }
 
-    /// The number of the joint of an unknown, with that of the turn for a ball.
+    /// The number of the joint of an unknown, for a U or S joint with that of the rotation.
     pub fn label(&self, unknown: usize) -> &str {
         &self.labels[unknown % self.labels.len()]
     }
@@ -106,26 +106,12 @@ pub(super) fn name(label: &str, kind: Variable) -> String {
     format!("{letter}{label}")
 }
 
-/// Per joint variable the number of its joint, that of the turn for a ball, and what it measures.
+/// Per joint variable the number of its joint, for a U or S joint with that of the rotation, and what it measures.
 pub(super) fn joint_variables(chain: &Chain) -> Vec<(String, Variable)> {
-    let mut variables = Vec::new();
-    for (number, kind) in (1..).zip(chain.joint_kinds()) {
-        let label = number.to_string();
-        match kind {
-            JointKind::Cylindrical => {
-                variables.extend([(label.clone(), Variable::Rotation), (label, Variable::Translation)]);
-            }
-            JointKind::Spherical => {
-                variables.extend((1..=3).map(|turn| (format!("{number}_{turn}"), Variable::Rotation)));
-            }
-            JointKind::Prismatic => variables.push((label, Variable::Translation)),
-            _ => variables.push((label, Variable::Rotation)),
-        }
-    }
-    variables
+    chain.variables().into_iter().map(|variable| (variable.number(), variable.variable)).collect()
 }
 
-/// Per joint variable the number of its joint; the turns of a ball are told apart.
+/// Per joint variable the number of its joint; the rotations of a U or S joint are told apart.
 pub(super) fn joint_labels(chain: &Chain) -> Vec<String> {
     joint_variables(chain).into_iter().map(|(label, _)| label).collect()
 }

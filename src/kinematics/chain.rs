@@ -1,26 +1,11 @@
 //! Open chains and closed loops as a mechanism file gives them.
 
+pub use super::joint::JointKind;
+use super::joint::JointVariable;
 use super::motion::Motion;
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number};
 use rug::Rational;
-
-/// What a joint lets through.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JointKind {
-    /// R: one rotation.
-    Revolute,
-    /// P: one translation.
-    Prismatic,
-    /// C: rotation about and translation along one axis.
-    Cylindrical,
-    /// H: a screw, its translation proportional to its rotation.
-    Helical,
-    /// S: a ball.
-    Spherical,
-    /// U: two crossing revolutes.
-    Universal,
-}
 
 /// A joint with the link that follows (DH) or precedes (modified DH) it.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,4 +84,27 @@ pub struct Chain {
     pub base: Placement,
     /// From the last link to the tool.
     pub tool: Placement,
+}
+
+impl Chain {
+    /// The kinds of the joints from base to tool.
+    #[must_use]
+    pub fn joint_kinds(&self) -> Vec<JointKind> {
+        match &self.geometry {
+            Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => joints.iter().map(|j| j.kind).collect(),
+            Geometry::Screws { joints, .. } => joints.iter().map(|j| j.kind).collect(),
+        }
+    }
+
+    /// The variables of the joints, in joint order.
+    #[must_use]
+    pub fn variables(&self) -> Vec<JointVariable> {
+        JointVariable::of(&self.joint_kinds())
+    }
+
+    /// How many variables the joints have.
+    #[must_use]
+    pub fn freedoms(&self) -> usize {
+        self.joint_kinds().into_iter().map(JointKind::freedoms).sum()
+    }
 }

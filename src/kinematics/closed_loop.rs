@@ -8,21 +8,13 @@ use super::axis_frame::axis_frame;
 use super::chain::{Chain, Geometry, Joint, JointKind};
 use super::freedom::Freedom;
 use super::idle::Idle;
+pub use super::joint::Variable;
 use super::motion::Motion;
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number};
 use crate::algebra::ring::Ring;
 use crate::error::Error;
 use rug::Rational;
-
-/// What one unknown does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Variable {
-    /// Rotation about the z axis, an angle in radians.
-    Rotation,
-    /// Translation along the z axis, a length.
-    Translation,
-}
 
 /// A loop of six unknowns, `prod V_j G_j = I`.
 #[derive(Clone, Debug, PartialEq)]
@@ -179,33 +171,28 @@ impl Layout {
     /// The variables of a chain in joint order.
     ///
     /// # Errors
-    /// For joints that are not R, P, C or S, and for a third S joint: a message that names the joint.
+    /// For H joints, and for a third S joint: a message that names the joint.
     pub fn of(chain: &Chain, locked: Option<usize>) -> Result<Self, Error> {
         let (mut variables, mut ball, mut second_ball) = (Vec::new(), None, None);
-        for (i, kind) in chain.joint_kinds().into_iter().enumerate() {
+        for (joint, kind) in (1..).zip(chain.joint_kinds()) {
             match kind {
-                JointKind::Revolute => variables.push(Variable::Rotation),
-                JointKind::Prismatic => variables.push(Variable::Translation),
-                JointKind::Cylindrical => variables.extend([Variable::Rotation, Variable::Translation]),
-                JointKind::Spherical if second_ball.is_none() => {
-                    if ball.is_none() { &mut ball } else { &mut second_ball }.replace(variables.len());
-                    variables.extend([Variable::Rotation; 3]);
-                }
+                JointKind::Revolute | JointKind::Prismatic | JointKind::Cylindrical | JointKind::Universal => {}
+                JointKind::Spherical if ball.is_none() => ball = Some(variables.len()),
+                JointKind::Spherical if second_ball.is_none() => second_ball = Some(variables.len()),
                 JointKind::Spherical => {
-                    return Err(Error::Unsupported(format!(
-                        "joint {}: a third S joint ({}); solved are loops with one, or with two and one more unknown",
-                        i + 1,
+                    return Err(Error::UnsupportedMobility(format!(
+                        "joint {joint}: a third S joint ({}); solved are loops with one, or with two and one more unknown",
                         Freedom::of(chain)
                     )));
                 }
-                other => {
-                    return Err(Error::Unsupported(format!(
-                        "joint {}: {other:?} joints are read but not solved yet ({}); solved are R, P, C and S",
-                        i + 1,
+                JointKind::Helical => {
+                    return Err(Error::UnsupportedMobility(format!(
+                        "joint {joint}: {kind:?} joints are read but not solved yet ({}); solved are R, P, C, U and S",
                         Freedom::of(chain)
                     )));
                 }
             }
+            variables.extend(kind.variables());
         }
         Ok(Self { variables, locked, ball, second_ball, idle: Vec::new() })
     }
@@ -273,20 +260,7 @@ impl Layout {
     /// Index of the variable that locking `joint` (from 1) by an angle or a distance locks.
     #[must_use]
     pub fn variable_of(chain: &Chain, joint: usize, wanted: Variable) -> Option<usize> {
-        let mut index = 0;
-        for (i, kind) in chain.joint_kinds().into_iter().enumerate() {
-            let of_joint: &[Variable] = match kind {
-                JointKind::Cylindrical => &[Variable::Rotation, Variable::Translation],
-                JointKind::Prismatic => &[Variable::Translation],
-                JointKind::Spherical => &[Variable::Rotation; 3],
-                _ => &[Variable::Rotation],
-            };
-            if i + 1 == joint {
-                return of_joint.iter().position(|v| *v == wanted).map(|k| index + k);
-            }
-            index += of_joint.len();
-        }
-        None
+        chain.variables().iter().position(|own| own.joint == joint && own.variable == wanted)
     }
 
     /// The joint variables in joint order from the six unknowns in loop order and the locked value.
@@ -317,15 +291,6 @@ impl Layout {
 }
 
 impl Chain {
-    /// The kinds of the joints from base to tool.
-    #[must_use]
-    pub fn joint_kinds(&self) -> Vec<JointKind> {
-        match &self.geometry {
-            Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => joints.iter().map(|j| j.kind).collect(),
-            Geometry::Screws { joints, .. } => joints.iter().map(|j| j.kind).collect(),
-        }
-    }
-
     /// The open loop of this chain: of an arm the gap is where the inverse of the pose goes, of a loop the locked
     /// variable.
     ///
@@ -377,7 +342,7 @@ impl Chain {
         let total = unknowns.len();
         let expected = if locked.is_some() { 7 } else { 6 };
         if total != expected {
-            return Err(Error::Unsupported(format!(
+            return Err(Error::UnsupportedMobility(format!(
                 "{total} joint variables, {expected} expected: {}; overconstrained loops are solved and swept, and their \
                  mobility is decided, but there is no single closure polynomial",
                 Freedom::of(self)
@@ -525,7 +490,7 @@ impl Chain {
                 }
                 _ => "the distance of the S joints is one equation, for one unknown",
             };
-            return Err(Error::Unsupported(format!(
+            return Err(Error::UnsupportedMobility(format!(
                 "{} joint variables with two S joints, {}: {found}; solved are loops with two S joints and one more joint variable \
                  that is not given, as RSSR with an input, or RSS without",
                 layout.variables.len(),

@@ -44,7 +44,7 @@ impl Freedom {
     pub fn of(chain: &Chain) -> Self {
         let kinds = chain.joint_kinds();
         let spins = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count() > 1;
-        Self { variables: kinds.iter().map(count).sum(), rank: rank(chain), spins }
+        Self { variables: chain.freedoms(), rank: rank(chain), spins }
     }
 
     /// Joint variables less equations, `n - 6`.
@@ -67,15 +67,6 @@ impl fmt::Display for Freedom {
     }
 }
 
-/// The variables of a joint.
-fn count(kind: &JointKind) -> usize {
-    match kind {
-        JointKind::Revolute | JointKind::Prismatic | JointKind::Helical => 1,
-        JointKind::Cylindrical | JointKind::Universal => 2,
-        JointKind::Spherical => 3,
-    }
-}
-
 /// The pitch that each joint variable has, none but those of H joints.
 fn pitches(chain: &Chain) -> Vec<Option<&Number>> {
     let of_joints: Vec<Option<&Number>> = match &chain.geometry {
@@ -85,7 +76,7 @@ fn pitches(chain: &Chain) -> Vec<Option<&Number>> {
         Geometry::Screws { joints, .. } => joints.iter().map(|joint| joint.pitch.as_ref()).collect(),
     };
     let kinds = chain.joint_kinds();
-    kinds.iter().zip(of_joints).flat_map(|(kind, pitch)| std::iter::repeat_n(pitch, count(kind))).collect()
+    kinds.iter().zip(of_joints).flat_map(|(kind, pitch)| std::iter::repeat_n(pitch, kind.freedoms())).collect()
 }
 
 /// The rank at pseudo-random joint values, modulo a prime.

@@ -8,6 +8,7 @@ mod enclosed;
 pub mod framework;
 pub mod freedom;
 pub mod idle;
+pub mod joint;
 pub mod link_form;
 pub mod motion;
 pub mod motion_polynomial;

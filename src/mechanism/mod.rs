@@ -2,12 +2,15 @@
 
 mod ball_angles;
 mod by_input;
+mod family;
 mod input_curve;
 mod platform;
 mod short_ball;
 mod short_loop;
 mod single_loop;
+mod turns;
 
+pub use family::Family;
 pub use input_curve::{Derivatives, InputCurve};
 
 use crate::assembly::{Assembly, Roots, Workspace};
@@ -21,6 +24,7 @@ pub use platform::over as platform_over;
 use short_loop::ShortLoop;
 use single_loop::SingleLoop;
 pub use single_loop::{closed_loop, coupled_loop, locked_variable};
+use turns::Turns;
 
 /// One solution as a user reads it.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +44,8 @@ pub struct FullMode {
     pub certified: bool,
     /// Error bound of every joint variable (radians; lengths over the scale of the mechanism); infinite without proof.
     pub radius: f64,
-    /// Whether a real solution respects the joint limits; `None` for complex ones or without limits.
+    /// Whether a real solution respects the joint limits; `None` for complex ones or without limits. Where it does, its
+    /// angles lie within them, which may be outside `(-pi, pi]`.
     pub within_limits: Option<bool>,
     /// What only a platform has.
     pub platform: Option<PlatformMode>,
@@ -62,6 +67,8 @@ pub struct Solution {
     pub verdict: Verdict,
     /// Isolated solutions, real ones first.
     pub modes: Vec<FullMode>,
+    /// Solutions that form a curve or more, as far as they were followed.
+    pub families: Vec<Family>,
     /// What the reader of the file and the solver want known.
     pub warnings: Vec<String>,
     /// Microseconds for the preparation of the geometry, spent once for all cases.
@@ -82,7 +89,10 @@ pub struct PlatformAnswer {
 }
 
 /// A mechanism file, prepared. Shared between threads; every thread brings its own [`Workspace`].
-pub struct Mechanism(Solver);
+pub struct Mechanism {
+    solver: Solver,
+    turns: Turns,
+}
 
 /// Who solves it.
 enum Solver {
@@ -95,9 +105,9 @@ impl Mechanism {
     /// Prepares an entry for all its cases.
     ///
     /// # Errors
-    /// [`crate::error::Error::Unsupported`] for joints other than R, P and C, and for too many translations.
+    /// [`crate::error::Error::UnsupportedMobility`] for H joints, for a third S joint, and for too many translations.
     pub fn prepare(entry: &Entry) -> Result<Self> {
-        Ok(Self(match &entry.design {
+        let solver = match &entry.design {
             Design::Loop(chain) if short_loop::is_short(entry, chain)? => {
                 Solver::ShortLoop(Box::new(ShortLoop::prepare(entry, chain)?))
             }
@@ -105,7 +115,8 @@ impl Mechanism {
                 Solver::SingleLoop(Box::new(SingleLoop::prepare(entry, chain)?))
             }
             Design::Platform(geometry) => Solver::Platform(Box::new(PreparedPlatform::prepare(geometry)?)),
-        }))
+        };
+        Ok(Self { solver, turns: Turns::of(entry.chain(), &entry.limits) })
     }
 
     /// Solves one case.
@@ -119,10 +130,12 @@ impl Mechanism {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
-        match &self.0 {
+        let mut solution = match &self.solver {
             Solver::SingleLoop(solver) => solver.solve(case, roots, workspace, assembly),
             Solver::ShortLoop(solver) => solver.solve(case, roots, workspace, assembly),
             Solver::Platform(solver) => solver.solve(case, roots, workspace),
-        }
+        }?;
+        solution.modes.iter_mut().for_each(|mode| self.turns.apply(mode));
+        Ok(solution)
     }
 }

@@ -124,6 +124,7 @@ impl PreparedPlatform {
         let legs = squares.map(f64::sqrt);
         let short = platform::out_of_reach(self.solver.platform(), &legs).map(|why| format!("no pose is real: {why}"));
         Ok(Solution {
+            families: Vec::new(),
             verdict,
             modes: modes.collect(),
             warnings: case.warnings.iter().cloned().chain(short).collect(),

@@ -16,7 +16,7 @@ use crate::elimination::common_roots::common_roots;
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::{degree, general_filling};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, JointKind};
+use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
@@ -146,7 +146,7 @@ fn with_idle_rotations(chain: &Chain, layout: &Layout) -> Result<Layout> {
 }
 
 fn dependent(chain: &Chain) -> Error {
-    Error::Unsupported(format!(
+    Error::UnsupportedMobility(format!(
         "the joints of this loop are dependent in every position, so that part of it moves by itself: {}",
         Freedom::of(chain)
     ))
@@ -233,6 +233,7 @@ impl ShortLoop {
             ));
         }
         Ok(Solution {
+            families: Vec::new(),
             verdict,
             modes,
             warnings,
@@ -285,16 +286,7 @@ impl ShortLoop {
 
     /// The number of the joint that a variable belongs to.
     fn joint_of(&self, variable: usize) -> usize {
-        let kinds = self.chain.joint_kinds();
-        let ends = kinds.iter().scan(0, |end, kind| {
-            *end += match kind {
-                JointKind::Cylindrical => 2,
-                JointKind::Spherical => 3,
-                _ => 1,
-            };
-            Some(*end)
-        });
-        1 + ends.take_while(|end| *end <= variable).count()
+        self.chain.variables().get(variable).map_or(1, |own| own.joint)
     }
 
     /// The loop held at one of its joint variables, at a place in general position.

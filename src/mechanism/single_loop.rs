@@ -12,7 +12,7 @@ use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, JointKind};
+use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{
     ClosedLoop, Coupled, Layout, Numbers, OpenCoupled, OpenLoop, Variable, angle_motion, distance_motion,
 };
@@ -168,6 +168,7 @@ impl SingleLoop {
             full_mode(mode, q, &prepared.layout.variables, &self.limits)
         });
         Ok(Solution {
+            families: Vec::new(),
             verdict,
             modes: modes.collect(),
             warnings: case.warnings.clone(),
@@ -219,6 +220,7 @@ impl SingleLoop {
             full_mode(mode, q, &layout.variables, &self.limits)
         });
         Ok(Solution {
+            families: Vec::new(),
             verdict,
             modes: modes.collect(),
             warnings: case.warnings.clone(),
@@ -382,7 +384,7 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
     if solver.is_out_of_reach() {
         let rotations = layout_rotations(&open);
         let rank = solver.structural_rank();
-        return Err(Error::Unsupported(format!(
+        return Err(Error::UnsupportedMobility(format!(
             "{rotations} unknown rotations: with fewer than three, links move in parallel planes or without turning; the \
              screw rank is {rank} of 6, so that {} of the six unknowns stay free or the loop does not close ({} of the \
              whole loop); solved are loops with three unknown rotations at least: give a distance in place of an angle",
@@ -397,11 +399,10 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
 /// Why six joints are dependent, where two triples of their axes say it.
 fn dependent(chain: &Chain, layout: &Layout, triples: &[AxisTriple]) -> String {
     let [one, two] = triples else { return String::new() };
-    let kinds = chain.joint_kinds().into_iter().enumerate();
-    let joints: Vec<usize> = kinds.flat_map(|(k, kind)| std::iter::repeat_n(k + 1, freedoms(kind))).collect();
+    let joints = chain.variables();
     let variables = layout.joint_variables();
     let name = |triple: &AxisTriple| {
-        let joint = |k: usize| variables[triple.first + k].and_then(|v| joints.get(v)).copied().unwrap_or(0);
+        let joint = |k: usize| variables[triple.first + k].and_then(|v| joints.get(v)).map_or(0, |own| own.joint);
         let how = if triple.parallel { "are parallel" } else { "meet in a point" };
         format!("the axes of joints {}, {}, {} {how}", joint(0), joint(1), joint(2))
     };
@@ -410,14 +411,8 @@ fn dependent(chain: &Chain, layout: &Layout, triples: &[AxisTriple]) -> String {
 
 /// At which position of the idle spin a loop of two balls is shown, of which the second one begins at this variable.
 pub(super) fn idle_spin(chain: &Chain, layout: &Layout, second: usize) -> String {
-    let joint = |first: usize| {
-        let before = chain.joint_kinds().into_iter().scan(0, |sum, kind| {
-            let own = *sum;
-            *sum += freedoms(kind);
-            Some(own)
-        });
-        1 + before.take_while(|at| *at < first).count()
-    };
+    let variables = chain.variables();
+    let joint = |first: usize| variables.get(first).map_or(1, |own| own.joint);
     let balls = [layout.ball, layout.second_ball].map(|ball| joint(ball.unwrap_or(0)));
     format!(
         "the link between the S joints {} and {} spins freely about the line of their centres: it is shown where joint {} is a \
@@ -427,14 +422,6 @@ pub(super) fn idle_spin(chain: &Chain, layout: &Layout, second: usize) -> String
         balls[1],
         joint(second)
     )
-}
-
-fn freedoms(kind: JointKind) -> usize {
-    match kind {
-        JointKind::Cylindrical => 2,
-        JointKind::Spherical => 3,
-        _ => 1,
-    }
 }
 
 /// A mode as a user reads it.
@@ -503,11 +490,7 @@ pub fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
             case.input.len()
         )));
     };
-    let wanted = match input.value {
-        InputValue::Angle(_) => Variable::Rotation,
-        InputValue::Distance(_) => Variable::Translation,
-    };
-    let variable = Layout::variable_of(chain, input.joint, wanted);
+    let variable = Layout::variable_of(chain, input.joint, input.value.variable());
     variable.map(Some).ok_or_else(|| Error::Invalid(format!("joint {} has no such variable", input.joint)))
 }
 

@@ -14,7 +14,7 @@ use crate::algebra::number::Number;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, JointKind, Placement};
+use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screw_system::ScrewSystem;
 use crate::mechanism::{FullMode, Mechanism, Solution};
@@ -62,17 +62,7 @@ pub fn mobility(entry: &Entry) -> Result<Mobility> {
 
 /// The joint variables of a chain in joint order.
 fn variables(chain: &Chain) -> Vec<JointVariable> {
-    let of_joint = |(k, kind): (usize, JointKind)| {
-        let variables: &[Variable] = match kind {
-            JointKind::Prismatic => &[Variable::Translation],
-            JointKind::Cylindrical => &[Variable::Rotation, Variable::Translation],
-            JointKind::Spherical => &[Variable::Rotation; 3],
-            JointKind::Universal => &[Variable::Rotation; 2],
-            JointKind::Revolute | JointKind::Helical => &[Variable::Rotation],
-        };
-        variables.iter().map(move |variable| JointVariable { joint: k + 1, variable: *variable })
-    };
-    chain.joint_kinds().into_iter().enumerate().flat_map(of_joint).collect()
+    chain.variables().into_iter().map(|own| JointVariable { joint: own.joint, variable: own.variable }).collect()
 }
 
 /// A loop in question.
@@ -298,7 +288,7 @@ impl Subject<'_> {
                 let longer = solve(self.entry, Case::free(0)).ok();
                 longer.filter(|longer| is_complete(&longer.verdict)).unwrap_or(solution)
             }
-            Err(Error::Unsupported(_)) => {
+            Err(Error::Unsupported(_) | Error::UnsupportedMobility(_)) => {
                 let nothing = why.unwrap_or(
                     "no motion was found through any value of a joint, but that there is none is not proved",
                 );

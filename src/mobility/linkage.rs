@@ -80,7 +80,7 @@ impl Linkage<Rational> {
             return Ok(linkage);
         }
         if let Some(k) = chain.joint_kinds().iter().position(|kind| *kind == JointKind::Helical) {
-            return Err(Error::Unsupported(format!(
+            return Err(Error::UnsupportedMobility(format!(
                 "joint {}: H joints are read, but whether a loop of them moves is not decided: they turn by angles and shift by \
                  these angles times a pitch, which no algebra holds together; the loop has {}",
                 k + 1,
@@ -112,16 +112,13 @@ impl Linkage<Rational> {
         let mut motions: Vec<Motion<Rational>> = vec![Motion::identity()];
         let mut here: [Rational; 3] = std::array::from_fn(|_| Rational::new());
         for (joint, vector) in joints.iter().zip(vectors) {
-            let variables: &[Variable] = match joint.kind {
-                JointKind::Revolute => &[Variable::Rotation],
-                JointKind::Prismatic => &[Variable::Translation],
-                JointKind::Cylindrical => &[Variable::Rotation, Variable::Translation],
-                _ => return None,
-            };
+            if !joint.kind.has_one_axis() || joint.kind == JointKind::Helical {
+                return None;
+            }
             let step = std::array::from_fn(|i| Rational::from(joint.point[i].rational() - &here[i]));
             *motions.last_mut()? = Motion::translation(step);
             here = joint.point.each_ref().map(|x| x.rational().clone());
-            for variable in variables {
+            for variable in joint.kind.variables() {
                 linkage.variables.push(*variable);
                 linkage.axes.push(Axis::Along(vector.clone()));
                 motions.push(Motion::identity());

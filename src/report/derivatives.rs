@@ -3,7 +3,7 @@
 use super::json::number;
 use super::table::Columns;
 use super::text::{View, variables};
-use crate::catalogue::entry::{Case, Entry, InputValue};
+use crate::catalogue::entry::{Case, Entry};
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{Derivatives, Solution};
 use serde_json::Value;
@@ -31,10 +31,7 @@ pub fn text(
     view: &View,
 ) -> String {
     let (Some(chain), Some(input)) = (entry.chain(), case.input.first()) else { return String::new() };
-    let of = match input.value {
-        InputValue::Angle(_) => Variable::Rotation,
-        InputValue::Distance(_) => Variable::Translation,
-    };
+    let of = input.value.variable();
     let unit = |variable: Variable| if variable == Variable::Rotation { "rad" } else { "m" };
     let names = variables(chain);
     let place = |(name, variable): &&(String, Variable)| *variable == of && name[1..] == input.joint.to_string();

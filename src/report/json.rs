@@ -1,11 +1,12 @@
 //! JSON as equations/result.schema.json describes it: radians, lengths in metres, finite numbers only.
 
+use super::model::asked;
 use super::text::View;
-use crate::catalogue::entry::{Entry, Kind};
-use crate::mechanism::{FullMode, Solution};
+use crate::catalogue::entry::{Case, Entry, Kind};
+use crate::mechanism::{Family, FullMode, Solution};
 use crate::verdict::Proof;
 use num_complex::Complex;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// The word of a kind.
 #[must_use]
@@ -17,18 +18,30 @@ pub fn kind(kind: Kind) -> &'static str {
     }
 }
 
-/// What stands before the results of the document: everything up to the opening bracket of the list.
+/// What stands before the results of the document, everything up to the opening bracket of the list. `keys` are those of
+/// every document.
 #[must_use]
-pub fn head(entry: &Entry) -> String {
-    format!("{{ \"title\": {}, \"kind\": \"{}\", \"results\": [", json!(entry.title), kind(entry.kind()))
+pub fn head(entry: &Entry, keys: &Map<String, Value>) -> String {
+    let mut text = format!("{{ \"title\": {}, \"kind\": \"{}\",", json!(entry.title), kind(entry.kind()));
+    for (key, value) in keys {
+        text += &format!(" {}: {value},", json!(key));
+    }
+    text + " \"results\": ["
 }
 
-/// The answer to one case; `case` is its number in the file, from 1.
+/// What stands behind the results of the document: the closing bracket, and the seed of the primes if any was drawn.
 #[must_use]
-pub fn result(case: usize, solution: &Solution, view: &View) -> Value {
+pub fn foot(seed: Option<u64>) -> String {
+    seed.map_or_else(|| "] }".to_owned(), |seed| format!("], \"seed\": {seed} }}"))
+}
+
+/// The answer to one case; `number` is its number in the file, from 1, and `labels` those of the joint variables.
+#[must_use]
+pub fn result(number: usize, case: &Case, solution: &Solution, labels: &[String], view: &View) -> Value {
     let verdict = &solution.verdict;
     let mut result = json!({
-        "case": case,
+        "case": number,
+        "asked": Value::Object(asked(case)),
         "verdict": {
             "status": verdict.status.word(),
             "proof": verdict.proof.word(),
@@ -43,23 +56,48 @@ pub fn result(case: usize, solution: &Solution, view: &View) -> Value {
         },
     });
     if let Proof::Probable { error, seed } = verdict.proof {
-        result["verdict"]["probability_of_error"] = number(error);
+        result["verdict"]["probability_of_error"] = self::number(error);
         result["verdict"]["seed"] = json!(seed);
     }
     if let Some(platform) = &solution.platform {
-        result["legs"] = json!(platform.legs.map(number));
+        result["legs"] = json!(platform.legs.map(self::number));
         result["route"] = json!(platform.route);
     }
-    result["modes"] = solution.modes.iter().filter(|mode| view.shows(mode)).map(mode).collect();
+    let numbered = (1..).zip(&solution.modes).filter(|(_, mode)| view.shows(mode));
+    result["modes"] = numbered.map(|(id, mode)| self::mode(id, mode)).collect();
+    let is_platform = solution.platform.is_some();
+    result["families"] = solution.families.iter().map(|one| family(one, labels, is_platform)).collect();
     result["warnings"] = json!(solution.warnings);
     result["timings_us"] = json!({ "prepare": tenths(solution.prepare_us), "solve": tenths(solution.solve_us) });
     result
 }
 
-fn mode(mode: &FullMode) -> Value {
+/// A set of solutions of dimension 1 and more; joint variables are numbered from 1.
+fn family(family: &Family, labels: &[String], is_platform: bool) -> Value {
+    let configuration = |q: &Vec<f64>| {
+        let values = |part: &[f64]| part.iter().map(|x| number(*x)).collect::<Value>();
+        match q.split_at_checked(4) {
+            Some((quaternion, position)) if is_platform => {
+                json!({ "quaternion": values(quaternion), "position": values(position) })
+            }
+            _ => json!({ "q": values(q) }),
+        }
+    };
+    json!({
+        "dimension": family.dimension,
+        "joints": family.moving.iter().map(|variable| variable + 1).collect::<Vec<_>>(),
+        "labels": family.moving.iter().filter_map(|variable| labels.get(*variable)).collect::<Vec<_>>(),
+        "distance": number(family.distance),
+        "sample": configuration(&family.sample),
+        "samples": family.samples.iter().map(configuration).collect::<Vec<_>>(),
+    })
+}
+
+/// A mode; `id` is its number among all modes, listed or not.
+fn mode(id: usize, mode: &FullMode) -> Value {
     let value = |z: &Complex<f64>| if mode.real { number(z.re) } else { json!([number(z.re), number(z.im)]) };
     let values = |part: &[Complex<f64>]| part.iter().map(value).collect::<Value>();
-    let mut object = json!({ "real": mode.real });
+    let mut object = json!({ "id": id, "real": mode.real });
     match (&mode.platform, mode.q.split_at_checked(4)) {
         (Some(_), Some((quaternion, position))) => {
             object["quaternion"] = values(quaternion);

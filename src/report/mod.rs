@@ -5,6 +5,7 @@ pub mod conditions;
 pub mod conditions_search;
 pub mod derivation;
 pub mod derivatives;
+pub mod document;
 pub mod framework;
 pub mod json;
 pub mod mobility;

@@ -4,10 +4,10 @@ use super::model::case_noun;
 use super::number::{at_most, counted, duration, magnitude, short};
 use super::table::{Columns, paragraph};
 use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
-use crate::kinematics::chain::{Chain, JointKind};
+use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{FullMode, Solution};
-use crate::verdict::Status;
+use crate::verdict::{Code, Status};
 use num_complex::Complex;
 use std::fmt::Write;
 
@@ -59,9 +59,7 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
             };
             let found = match (found, kind) {
                 // A pose out of reach is known to be one without any root.
-                (0, Kind::Arm | Kind::Loop) if verdict.reason.starts_with("out of reach") => {
-                    "at most 16 roots".to_owned()
-                }
+                (0, Kind::Arm | Kind::Loop) if verdict.code == Code::OutOfReach => "at most 16 roots".to_owned(),
                 (0, _) => "0 roots".to_owned(),
                 _ => format!("{found} roots, {}", certified(solution)),
             };
@@ -202,10 +200,7 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
     }
     let proved = matches!(solution.verdict.status, Status::Complete | Status::Unreachable);
     // Fewer roots than there are in general are complete by exact work on the geometry only.
-    let exact = match solution.platform {
-        Some(_) => solution.verdict.complex < 40,
-        None => !solution.verdict.reason.contains(" roots of a degree-"),
-    };
+    let exact = solution.verdict.code != Code::GeneralBoundMet;
     if entry.rounded && proved && exact {
         text.push_str("note: irrational numbers of the file were rounded for exact work (--digits)\n");
     }
@@ -223,28 +218,10 @@ fn limits(entry: &Entry) -> String {
     pairs.collect::<Vec<_>>().join(", ")
 }
 
-/// The name of every joint variable and what it measures: `q1`, ..., of a C joint `q3` and `d3`.
+/// The name of every joint variable and what it measures: `q1`, ..., of a C joint `q3` and `d3`, of a U joint `q3z` and `q3x`.
 #[must_use]
 pub fn variables(chain: &Chain) -> Vec<(String, Variable)> {
-    let mut names = Vec::new();
-    for (index, kind) in chain.joint_kinds().into_iter().enumerate() {
-        let joint = index + 1;
-        let angle = (format!("q{joint}"), Variable::Rotation);
-        match kind {
-            JointKind::Prismatic => names.push((format!("q{joint}"), Variable::Translation)),
-            JointKind::Cylindrical => names.extend([angle, (format!("d{joint}"), Variable::Translation)]),
-            // About z and x.
-            JointKind::Universal => {
-                names.extend(["z", "x"].map(|axis| (format!("q{joint}{axis}"), Variable::Rotation)));
-            }
-            // About z, x and z again.
-            JointKind::Spherical => {
-                names.extend(["z", "x", "z'"].map(|axis| (format!("q{joint}{axis}"), Variable::Rotation)));
-            }
-            JointKind::Revolute | JointKind::Helical => names.push(angle),
-        }
-    }
-    names
+    chain.variables().into_iter().map(|variable| (variable.name(), variable.variable)).collect()
 }
 
 /// What a column of the table of modes measures.

@@ -105,6 +105,8 @@ pub fn sweep(
         return Err(Error::Invalid(format!("{message}, expected two different ends and a step at least")));
     }
     let mut entry = entry.clone();
+    // Branches are followed through angles in (-pi, pi].
+    entry.limits.clear();
     entry.cases = vec![case(joint, variable, range.from)];
     let curve = InputCurve::of(&entry, &entry.cases[0])?;
     let mechanism = Mechanism::prepare(&entry)?;

@@ -6,7 +6,7 @@ use looproot::algebra::determinant::determinant;
 use looproot::algebra::number::{Angle, HalfTangent, Number, Reading};
 use looproot::algebra::ring::Ring;
 use looproot::assembly::{Assembly, Roots, Workspace};
-use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue};
+use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue, Labels};
 use looproot::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use looproot::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion};
 use looproot::kinematics::motion::{Motion, cross};
@@ -176,6 +176,7 @@ pub fn entry(design: Design, cases: Vec<Case>) -> Entry {
         cases,
         rounded: false,
         reading: Reading::default(),
+        labels: Labels::default(),
     }
 }
 

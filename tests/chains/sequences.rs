@@ -60,7 +60,7 @@ fn assert_of_use(letters: &str, error: &Error) {
         Error::File { .. } => {
             assert!(message.contains("found") && message.contains("expected"), "{letters}: {message}");
         }
-        Error::Unsupported(_) => {
+        Error::Unsupported(_) | Error::UnsupportedMobility(_) => {
             let words = ["mobility", "too large for symbols", "rotations", "parallel", "symbols", "S joint"];
             assert!(words.iter().any(|word| message.contains(word)), "{letters}: {message}");
         }

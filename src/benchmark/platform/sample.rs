@@ -2,7 +2,7 @@
 //! special geometries are so exactly.
 
 use crate::algebra::number::{Number, Reading};
-use crate::catalogue::entry::{Case, Design, Entry};
+use crate::catalogue::entry::{Case, Design, Entry, Labels};
 use crate::error::Result;
 use crate::kinematics::chain::Placement;
 use crate::kinematics::motion::Motion;
@@ -180,6 +180,7 @@ pub fn sample(set: PlatformSet, seed: u64, index: u64) -> Result<PlatformSample>
             cases: vec![case],
             rounded: false,
             reading: Reading::default(),
+            labels: Labels::default(),
         };
         return Ok(PlatformSample { entry, platform, planted, regularity });
     }

@@ -163,8 +163,8 @@ fn all(joints: &[Joint], input: Option<&Input>) -> Vec<Entry> {
             JointKind::Prismatic => {
                 angle(Parameter::Angle, format!("theta{n}"), [format!("c{n}"), format!("s{n}")], &joint.theta0);
             }
-            JointKind::Spherical => {}
-            _ => {
+            JointKind::Spherical | JointKind::Universal => {}
+            JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical => {
                 let letters = [format!("c0_{n}"), format!("s0_{n}")];
                 angle(Parameter::Angle, format!("theta0_{n}"), letters, &joint.theta0);
             }

@@ -8,25 +8,12 @@ use crate::kinematics::closed_loop::Variable;
 use crate::report::json::number;
 use crate::report::number::short;
 use crate::report::table::Columns;
-use crate::report::text::variables;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// The letter of a joint kind.
-fn letter(kind: JointKind) -> &'static str {
-    match kind {
-        JointKind::Revolute => "R",
-        JointKind::Prismatic => "P",
-        JointKind::Cylindrical => "C",
-        JointKind::Helical => "H",
-        JointKind::Spherical => "S",
-        JointKind::Universal => "U",
-    }
-}
-
 /// The letters of its joints.
 pub(super) fn letters(chain: &Chain) -> String {
-    chain.joint_kinds().into_iter().map(letter).collect()
+    chain.joint_kinds().into_iter().map(JointKind::letter).collect()
 }
 
 /// The name of a convention and its formula.
@@ -71,7 +58,7 @@ fn joint_table(entry: &Entry, chain: &Chain) -> Columns {
             for (index, joint) in list.iter().enumerate() {
                 let mut row = vec![
                     (index + 1).to_string(),
-                    letter(joint.kind).to_owned(),
+                    joint.kind.letter().to_owned(),
                     metres(joint.a.to_f64()),
                     degrees(joint.alpha.radians()),
                     metres(joint.d.to_f64()),
@@ -91,7 +78,7 @@ fn joint_table(entry: &Entry, chain: &Chain) -> Columns {
             finish(&mut header);
             table = Columns::new(&header, &["type", "limits"]);
             for (index, joint) in list.iter().enumerate() {
-                let mut row = vec![(index + 1).to_string(), letter(joint.kind).to_owned()];
+                let mut row = vec![(index + 1).to_string(), joint.kind.letter().to_owned()];
                 row.extend(joint.axis.iter().chain(&joint.point).map(|x| metres(x.to_f64())));
                 if limited {
                     row.push(limits[index].clone());
@@ -106,13 +93,12 @@ fn joint_table(entry: &Entry, chain: &Chain) -> Columns {
 /// The limits of each joint in words.
 fn limits_of_joints(entry: &Entry, chain: &Chain) -> Vec<String> {
     let mut texts = vec![String::new(); chain.joint_kinds().len()];
-    for ((name, variable), [low, high]) in variables(chain).iter().zip(&entry.limits) {
-        let text = match variable {
+    for (variable, [low, high]) in chain.variables().iter().zip(&entry.limits) {
+        let text = match variable.variable {
             Variable::Rotation => format!("{}..{} deg", short(low.to_degrees(), 2), short(high.to_degrees(), 2)),
             Variable::Translation => format!("{}..{} m", short(*low, 4), short(*high, 4)),
         };
-        let joint: usize = name[1..].parse().unwrap_or(1);
-        let cell = &mut texts[joint - 1];
+        let cell = &mut texts[variable.joint - 1];
         if !cell.is_empty() {
             cell.push_str(", ");
         }
@@ -142,7 +128,7 @@ pub(super) fn insert(object: &mut Map<String, Value>, entry: &Entry, chain: &Cha
             .iter()
             .map(|joint| {
                 json!({
-                    "type": letter(joint.kind),
+                    "type": joint.kind.letter(),
                     "a": number(joint.a.to_f64()),
                     "alpha": number(joint.alpha.radians()),
                     "d": number(joint.d.to_f64()),
@@ -157,7 +143,7 @@ pub(super) fn insert(object: &mut Map<String, Value>, entry: &Entry, chain: &Cha
             list.iter()
                 .map(|joint| {
                     json!({
-                        "type": letter(joint.kind),
+                        "type": joint.kind.letter(),
                         "axis": vector(&joint.axis),
                         "point": vector(&joint.point),
                         "pitch": pitch(&joint.pitch),

@@ -211,6 +211,13 @@ fn labels(name: &str, title: &str, kind: &str, kinds: &str, source: Option<&Sour
 }
 
 fn case(case: &Case) -> Value {
+    let mut object = asked(case);
+    object.insert("expected".into(), expected(&case.expected, case.legs_squared.is_some()));
+    Value::Object(object)
+}
+
+/// What a case asks for: a pose, the value of a joint, the lengths of legs.
+pub(super) fn asked(case: &Case) -> Map<String, Value> {
     let mut object = Map::new();
     if let Some(pose) = &case.pose {
         object.insert("matrix".into(), json!(matrix(pose)));
@@ -225,8 +232,7 @@ fn case(case: &Case) -> Value {
     if let Some(squares) = &case.legs_squared {
         object.insert("legs".into(), json!(platform::lengths(squares).map(number)));
     }
-    object.insert("expected".into(), expected(&case.expected, case.legs_squared.is_some()));
-    Value::Object(object)
+    object
 }
 
 /// The claims of a case.
