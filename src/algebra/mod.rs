@@ -14,6 +14,7 @@ pub mod int;
 mod integer_polynomial;
 pub mod interval;
 pub mod lift;
+pub mod local_multiplicity;
 pub mod long_float;
 mod minors;
 pub mod modp;

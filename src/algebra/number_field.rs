@@ -211,6 +211,20 @@ impl Algebraic {
         }
     }
 
+    /// The coefficients of the powers of t.
+    #[must_use]
+    pub fn coefficients(&self) -> Vec<Rational> {
+        let one = Integer::from(1);
+        let leading = self.field.as_ref().map_or(&one, |field| &field.leading);
+        let mut power = Integer::from(1);
+        let mut coefficients = Vec::new();
+        for c in &self.numerator {
+            coefficients.push(Rational::from((Integer::from(c * &power), &self.denominator)));
+            power *= leading;
+        }
+        coefficients
+    }
+
     /// The value where t has this value.
     #[must_use]
     pub fn at(&self, t: &Float) -> Float {

@@ -89,6 +89,8 @@ pub struct Workspace {
     pub platform: PlatformWorkspace,
     /// What was found last of a platform.
     pub platform_assembly: PlatformAssembly,
+    /// Whether a list is complete once its real solutions are, though complex ones may be missing.
+    pub only_real_list: bool,
 }
 
 impl Workspace {

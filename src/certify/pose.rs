@@ -4,6 +4,8 @@
 //! `2 sum_r (1 + sum_c |M_rc|)^2 + 8 L^2` for a leg (here halved, as the equations are) and 8 for the Study condition. With
 //! an approximate inverse A of the Jacobian, `Y >= |A F|`, `Z0 >= |I - A J|` and `Z2` the largest row of `|A|` times those
 //! bounds, every r with `Y + Z0 r + Z2 r^2 / 2 <= r` has exactly one solution within r of the point. \[Krawczyk1969\]
+//!
+//! The legs are those of the file: a bound on what their rounding changes in the equations is part of Y and Z0.
 
 use super::Certificate;
 use crate::closure::study::Leg;
@@ -17,6 +19,10 @@ const VALUE_ROUNDINGS: f64 = 32.0;
 const PRODUCT_ROUNDINGS: f64 = 96.0;
 /// Margin on bounds that are themselves computed in f64.
 const MARGIN: f64 = 1.01;
+/// Roundings of the data in a value, relative to `w^2 + L^2 |x|^2 / 2`. Every entry of M is a sum of two coordinates, off by
+/// three roundings of the larger one, and that is at most the largest row sum of M: so every entry of w is off by `3 |M| |x|`,
+/// at most 12 roundings of the bound w; the value, half the square of four of them, by 48 of its square.
+const DATA_ROUNDINGS: f64 = 50.0;
 
 /// Bounds on the second derivatives of the equations, from the legs alone.
 #[derive(Clone, Copy, Debug)]
@@ -25,13 +31,15 @@ pub struct Curvature {
     bounds: Eight<f64>,
     /// `sum_c |M_rc|` of each leg, the largest row.
     reach: [f64; 6],
+    /// Bound on the relative rounding of the points and squared lengths that the legs were made from, as f64.
+    rounding: f64,
 }
 
 impl Curvature {
-    /// The bounds of six legs.
+    /// The bounds of six legs whose numbers were rounded so much, relative to themselves, when they became f64.
     #[must_use]
-    pub fn new(legs: &[Leg<f64>; 6]) -> Self {
-        let mut curvature = Self { bounds: [0.0; 8], reach: [0.0; 6] };
+    pub fn new(legs: &[Leg<f64>; 6], rounding: f64) -> Self {
+        let mut curvature = Self { bounds: [0.0; 8], reach: [0.0; 6], rounding };
         for (i, leg) in legs.iter().enumerate() {
             let sums = leg.matrix.map(|row| row.iter().map(|m| m.abs()).sum::<f64>());
             curvature.bounds[i] =
@@ -53,6 +61,8 @@ pub fn pose_certificate<S: Number>(
     at: &Equations<S>,
     approximate_inverse: &[Eight<S>; 8],
 ) -> Option<Certificate> {
+    // More digits come with data of as many digits.
+    let data = if S::UNIT_ROUNDOFF < f64::UNIT_ROUNDOFF { S::UNIT_ROUNDOFF } else { curvature.rounding };
     let (x, y) = parts(v);
     let (size_x, size_y) = (x.map(Number::bound), y.map(Number::bound));
     let (most_x, most_y) = (size_x.iter().sum::<f64>(), size_y.iter().fold(0.0, |a: f64, &b| a.max(b)));
@@ -63,7 +73,11 @@ pub fn pose_certificate<S: Number>(
         errors[i] = 2.0 * w * w + 0.5 * legs[i].square.abs() * most_x * most_x;
     }
     errors[6] = size_x.iter().zip(&size_y).map(|(a, b)| a * b).sum();
-    let errors = errors.map(|e| VALUE_ROUNDINGS * S::UNIT_ROUNDOFF * e);
+    let mut errors = errors.map(|e| VALUE_ROUNDINGS * S::UNIT_ROUNDOFF * e);
+    for i in 0..6 {
+        let w = most_y + curvature.reach[i] * size_x.iter().fold(0.0, |a: f64, &b| a.max(b));
+        errors[i] += DATA_ROUNDINGS * data * (w * w + 0.5 * legs[i].square.abs() * most_x * most_x);
+    }
     let (mut step, mut deviation, mut bend) = (0.0_f64, 0.0_f64, 0.0_f64);
     for (i, row) in approximate_inverse.iter().enumerate() {
         let mut moved = S::zero();
@@ -100,7 +114,7 @@ pub fn pose_certificate<S: Number>(
             };
             sizes += row[k].bound() * column;
         }
-        let row_deviation = sum + PRODUCT_ROUNDINGS * S::UNIT_ROUNDOFF * sizes;
+        let row_deviation = sum + PRODUCT_ROUNDINGS * (S::UNIT_ROUNDOFF + data) * sizes;
         if !row_deviation.is_finite() {
             return None;
         }

@@ -69,7 +69,11 @@ fn solve(
     let mut exit = Exit::Complete;
     let indices: Vec<usize> = wanted.collect();
     for chunk in indices.chunks(chunk) {
-        let memory = || (Workspace::default(), Assembly::default());
+        let memory = || {
+            let mut workspace = Workspace::default();
+            workspace.only_real_list = !options.complex;
+            (workspace, Assembly::default())
+        };
         let solutions: Vec<Option<Result<Answer, Error>>> = pool.install(|| {
             let one = |memory: &mut (Workspace, Assembly), index: &usize| {
                 let stopped = stop.load(Ordering::Relaxed);

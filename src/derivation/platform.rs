@@ -168,7 +168,11 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
                         .to_owned(),
                 );
             }
-            warnings = lift(&platform, &squares, poses, polynomial, |x, y| found.fraction::<Rational>(&platform, x, y));
+            let known = match found {
+                Found::Quotient(known) => Some(known),
+                Found::Corner(_) => None,
+            };
+            warnings = lift(&platform, &squares, known, polynomial, |x, y| found.fraction::<Rational>(&platform, x, y));
             steps.push(
                 "The poses at the real roots are those of the numeric solution at which k is the root, refined with exact \
                  residuals."

@@ -3,11 +3,12 @@
 use super::polynomial::{ClosurePolynomial, Root};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
-use crate::assembly::Roots;
-use crate::assembly::platform::{PlatformAssembly, PlatformMode, PlatformSolver, PlatformWorkspace};
+use crate::assembly::platform::PlatformMode;
 use crate::closure::study::{Leg, scalar};
+use crate::elimination::platform_polynomial::PlatformPolynomial;
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
+use crate::mechanism::platform_modes;
 use crate::solve::dense::{inverse, times};
 use crate::solve::pose::{Eight, equations, patch};
 use rug::{Float, Rational};
@@ -40,15 +41,11 @@ type Exact = Eight<Rational>;
 pub(super) fn lift(
     platform: &Platform<Rational>,
     squares: &[Rational; 6],
-    poses: Option<usize>,
+    known: Option<&PlatformPolynomial>,
     polynomial: &mut ClosurePolynomial,
     coordinate: impl Fn(&Quaternion<Rational>, &Quaternion<Rational>) -> [Rational; 2],
 ) -> Vec<String> {
-    let Some(numbers) = platform.map(|x| Some(nearest_f64(x))) else { return Vec::new() };
-    let mut assembly = PlatformAssembly::default();
-    let lengths = squares.each_ref().map(nearest_f64);
-    let mut memory = PlatformWorkspace::default();
-    PlatformSolver::prepare(&numbers).solve_up_to(&lengths, Roots::All, poses, &mut memory, &mut assembly);
+    let modes = platform_modes(platform, squares, known);
     let unit = unit(platform, squares);
     let small = |x: &Rational| Rational::from(x / &unit);
     let legs: [Leg<Rational>; 6] = std::array::from_fn(|i| {
@@ -56,7 +53,7 @@ pub(super) fn lift(
         Leg::new(&platform.base[i].each_ref().map(small), &platform.plate[i].each_ref().map(small), square)
     });
     let mut homeless = 0;
-    for mode in assembly.modes.iter().filter(|mode| mode.real) {
+    for mode in modes.iter().filter(|mode| mode.real && mode.certificate.is_some()) {
         let start = start(mode, unit.to_f64());
         let point = refined(&legs, &start).unwrap_or_else(|| start.map(exact));
         let [w, i, j, k] = [0, 1, 2, 3].map(|index: usize| point[index].clone());
@@ -75,6 +72,10 @@ pub(super) fn lift(
     let mut complaints = Vec::new();
     if homeless > 0 {
         complaints.push(format!("{homeless} poses of the numeric solution belong to no root of the polynomial"));
+    }
+    let empty = polynomial.roots.iter().filter(|root| root.poses.is_empty()).count();
+    if empty > 0 {
+        complaints.push(format!("no pose was found at {empty} of the real roots"));
     }
     complaints
 }

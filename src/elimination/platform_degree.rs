@@ -7,7 +7,8 @@ use super::border::{
     Arithmetic, BorderBasis, DIMENSION, MOST_DIRECTIONS, Residues, Setting, SideBySide, exact_directions,
 };
 use super::graded_quotient::GradedQuotient;
-use crate::algebra::modp::{Modulus, primes};
+use crate::algebra::drawn;
+use crate::algebra::modp::Modulus;
 use crate::algebra::ring::Ring;
 use crate::closure::study::{Form, LinearLegs, linear_legs};
 use crate::kinematics::dual_quaternion::Quaternion;
@@ -131,11 +132,12 @@ pub(super) fn turns<R: Ring>(choice: usize) -> [Quaternion<R>; 2] {
     })
 }
 
-/// Counts the poses of a platform with legs of these squared lengths, modulo a prime of 62 bits. `None` where the prime
+/// Counts the poses of a platform with legs of these squared lengths, modulo a prime of 62 bits that is drawn at run time:
+/// no more than there are, and fewer with a chance below [`drawn::PROBABILITY_OF_ERROR`]. `None` where the prime
 /// is unlucky or the points are too special (all on two lines, or all in one point).
 #[must_use]
 pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<PlatformDegree> {
-    let modulus = primes().next()?;
+    let modulus = Modulus::new(drawn::prime());
     let mut settings = Vec::new();
     for choice in 0..TURNS.len() {
         let legs = linear_legs(&turned(platform, choice));
@@ -219,7 +221,7 @@ pub fn row_times<A: Arithmetic>(field: &A, v: &[A::Element], matrix: &[Vec<A::El
 }
 
 /// Reduced echelon form, rows of zeros dropped; the columns of the pivots.
-fn echelon<A: Arithmetic>(
+pub(super) fn echelon<A: Arithmetic>(
     field: &A,
     inverse: impl Fn(A::Element) -> Option<A::Element>,
     rows: &mut Vec<Vec<A::Element>>,

@@ -10,6 +10,7 @@ use super::platform_degree::{
     special_products,
 };
 use super::platform_height::PlatformHeight;
+use crate::algebra::drawn;
 use crate::algebra::modp::{Modulus, primes};
 use crate::algebra::modular::primes::{PRIME_BITS, largest_primes};
 use crate::algebra::ring::Ring;
@@ -27,6 +28,8 @@ pub struct PlatformPolynomial {
     pub coefficients: Vec<Integer>,
     /// What its variable is.
     pub coordinate: Coordinate,
+    /// Whether solutions with `N = 0` form curves, so that the algebra was taken from the graded ring.
+    pub special: bool,
     /// How many primes agree with it in all coefficients.
     pub primes: usize,
     /// Whether it is proved that its roots are those of all isolated poses, with multiplicity: the product of the primes
@@ -61,9 +64,23 @@ impl Coordinate {
     /// The value of the coordinate at a rotation, a quaternion (w, x, y, z) of any length.
     #[must_use]
     pub fn at(&self, x: &[Complex<f64>; 4]) -> Complex<f64> {
-        let [w, i, j, k] = *x;
-        let [above, below] = self.fraction(&Quaternion { scalar: w, vector: [i, j, k] });
+        let [above, below] = self.parts(x);
         above / below
+    }
+
+    /// Numerator and denominator of the coordinate at a rotation of any length.
+    #[must_use]
+    pub fn parts(&self, x: &[Complex<f64>; 4]) -> [Complex<f64>; 2] {
+        let [w, i, j, k] = *x;
+        self.fraction(&Quaternion { scalar: w, vector: [i, j, k] })
+    }
+
+    /// The sums of the absolute values of coefficients of numerator and denominator as linear forms in the rotation.
+    #[must_use]
+    pub fn sizes(&self) -> [f64; 2] {
+        let turn: f64 = self.turn.iter().map(|&c| f64::from(c).abs()).sum();
+        let weights: f64 = self.weights.iter().map(|&w| f64::from(w).abs()).sum();
+        [turn * weights, turn]
     }
 
     /// Numerator and denominator of the coordinate at a rotation of any length, over any ring.
@@ -158,6 +175,54 @@ impl Modular<'_> {
     }
 }
 
+/// The quotient algebra in which a polynomial was found.
+pub(super) struct PlatformAlgebra {
+    legs: LinearLegs<Rational>,
+    squares: [Rational; 6],
+    special: bool,
+    weights: [i32; 3],
+}
+
+impl PlatformAlgebra {
+    /// The algebra of the polynomial of a platform.
+    pub(super) fn new(platform: &Platform<Rational>, squares: &[Rational; 6], polynomial: &PlatformPolynomial) -> Self {
+        let (mut legs, mut squares) = (linear_legs(&polynomial.coordinate.turned(platform)), squares.clone());
+        clear(&mut legs, &mut squares);
+        Self { legs, squares, special: polynomial.special, weights: polynomial.coordinate.weights }
+    }
+
+    /// Multiplication by `z_i / z_0`, i = 1..3, on what has N != 0; `None` for an unlucky prime.
+    pub(super) fn products(&self, modulus: &Modulus) -> Option<Products<u64>> {
+        let setting = modular_setting(modulus, &self.legs, &self.squares)?;
+        let products = if self.special {
+            special_products(modulus, &setting)?
+        } else {
+            general_products(modulus, &setting, &mut BorderBasis::new(modulus))?
+        };
+        let regular = regular_part(modulus, |x| inverse(modulus, x), &products)?;
+        Some(products.each_ref().map(|matrix| {
+            let image = |v: &Vec<u64>| {
+                let product = row_times(modulus, v, matrix);
+                regular.pivots.iter().map(|&p| product[p]).collect()
+            };
+            regular.basis.iter().map(image).collect()
+        }))
+    }
+
+    /// Multiplication by the variable of the polynomial.
+    pub(super) fn variable(&self, modulus: &Modulus, products: &Products<u64>) -> Vec<Vec<u64>> {
+        let n = products[0].len();
+        let mut sum = vec![vec![0; n]; n];
+        for (matrix, weight) in products.iter().zip(self.weights) {
+            let weight = modulus.reduce(&Integer::from(weight));
+            for (row, other) in sum.iter_mut().zip(matrix) {
+                modulus.add_multiple(row, weight, other);
+            }
+        }
+        sum
+    }
+}
+
 /// Whether a monic polynomial modulo a prime has only simple roots.
 fn is_square_free(modulus: &Modulus, polynomial: &[u64]) -> bool {
     let mut a = polynomial.to_vec();
@@ -210,7 +275,7 @@ fn polynomial_in(
     legs_squared: &[Rational; 6],
     accepts: impl Fn(&Modulus, &[u64]) -> bool,
 ) -> Option<PlatformPolynomial> {
-    let modulus = primes().next()?;
+    let modulus = Modulus::new(drawn::prime());
     let mut memory = BorderBasis::new(&modulus);
     let mut in_general = false;
     for special in [false, true] {
@@ -251,7 +316,7 @@ fn clear(legs: &mut LinearLegs<Rational>, squares: &mut [Rational; 6]) {
 fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<PlatformPolynomial> {
     let (mut all, prime_bits) = prime_numbers(modular);
     let proof = Proof::new(modular, length, prime_bits);
-    let mut combined = Combined { residues: vec![Integer::new(); length], product: Integer::from(1) };
+    let mut combined = Combined::new(length);
     // Images that are not combined yet, because the guess agrees with them.
     let mut spare: Vec<(Modulus, Vec<u64>)> = Vec::new();
     let mut guess: Option<Vec<Integer>> = None;
@@ -279,10 +344,13 @@ fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<Pl
             && proof.missing(Some(polynomial), used) == 0
         {
             let coefficients = guess.take()?;
-            return Some(PlatformPolynomial { coefficients, coordinate, primes: used, proved: proof.bits.is_some() });
+            let special = modular.special;
+            let proved = proof.bits.is_some();
+            return Some(PlatformPolynomial { coefficients, coordinate, special, primes: used, proved });
         }
     }
-    guess.map(|coefficients| PlatformPolynomial { coefficients, coordinate, primes: used, proved: false })
+    let special = modular.special;
+    guess.map(|coefficients| PlatformPolynomial { coefficients, coordinate, special, primes: used, proved: false })
 }
 
 /// The primes that are worked with, largest first, and less than the binary logarithm of each: short ones where these
@@ -369,14 +437,19 @@ fn agrees(modulus: &Modulus, polynomial: &[Integer], image: &[u64]) -> bool {
 }
 
 /// Coefficients modulo the product of the primes so far.
-struct Combined {
+pub(super) struct Combined {
     residues: Vec<Integer>,
     product: Integer,
 }
 
 impl Combined {
+    /// So many coefficients, of which nothing is known.
+    pub(super) fn new(length: usize) -> Self {
+        Self { residues: vec![Integer::new(); length], product: Integer::from(1) }
+    }
+
     /// Takes one more prime in.
-    fn add(&mut self, modulus: &Modulus, image: &[u64]) {
+    pub(super) fn add(&mut self, modulus: &Modulus, image: &[u64]) {
         let inverse = modulus.inverse(modulus.reduce(&self.product));
         for (residue, &value) in self.residues.iter_mut().zip(image) {
             let gap = Modulus::sub(modulus, value, modulus.reduce(residue));
@@ -388,7 +461,7 @@ impl Combined {
 
     /// The coefficients as integers without common factor, if they fit with room for chance to be ruled out: the
     /// residues, in every prime, times their last one.
-    fn primitive(&self) -> Option<Vec<Integer>> {
+    pub(super) fn primitive(&self) -> Option<Vec<Integer>> {
         let bits = self.product.significant_bits();
         let mut denominator = Integer::from(1);
         // One denominator for all coefficients, which grows as it must: a wrong one leaves numerators of all the bits.

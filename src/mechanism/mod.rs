@@ -20,7 +20,7 @@ use crate::kinematics::velocity::Velocity;
 use crate::verdict::Verdict;
 use num_complex::Complex;
 use platform::PreparedPlatform;
-pub use platform::over as platform_over;
+pub use platform::{exact_modes as platform_modes, over as platform_over};
 use short_loop::ShortLoop;
 use single_loop::SingleLoop;
 pub use single_loop::{closed_loop, coupled_loop, locked_variable};

@@ -1,25 +1,33 @@
 //! Stewart platforms: one geometry, one set of leg lengths after the other.
 
+mod exact;
+mod roots;
+
 use super::{FullMode, PlatformAnswer, PlatformMode, Solution};
 use crate::algebra::number::Number;
 use crate::algebra::ring::Ring;
-use crate::assembly::platform::{self, PlatformAssembly, PlatformSolver};
+use crate::assembly::platform::{self, Distances, PlatformAssembly, PlatformSolver, PlatformWorkspace};
 use crate::assembly::{Roots, Workspace};
 use crate::catalogue::entry::Case;
 use crate::elimination::border::DIMENSION;
-use crate::elimination::platform_degree::{PlatformDegree, platform_degree};
+use crate::elimination::platform_incidence::most_poses;
+use crate::elimination::platform_polynomial::PlatformPolynomial;
 use crate::error::{Error, Result};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::platform::Platform;
 use crate::kinematics::velocity::velocity;
-use crate::verdict::{Status, platform_verdict};
+use crate::verdict::{PlatformKnowledge, platform_verdict};
+use exact::{ExactSide, Search};
 use rug::Rational;
 use std::time::Instant;
 
 /// A platform, prepared.
 pub(super) struct PreparedPlatform {
-    geometry: Platform<Number>,
+    exact: Platform<Rational>,
+    distances: Distances,
+    /// A bound on the number of poses, whatever the legs are, and why.
+    incidence: Option<(usize, &'static str)>,
     solver: PlatformSolver,
     prepare_us: f64,
 }
@@ -40,45 +48,33 @@ fn is_settled(assembly: &PlatformAssembly) -> bool {
     assembly.modes.len() == DIMENSION && assembly.modes.iter().all(|mode| mode.certificate.is_some())
 }
 
-/// What an exact count tells of singular poses: points of a curve of poses are no isolated ones, and a single singular pose
-/// beside simple ones counts as many times as these leave over.
-fn account_for_singular(assembly: &mut PlatformAssembly, exact: Option<PlatformDegree>) {
-    match exact {
-        // All of them are proved to be isolated.
-        Some(PlatformDegree::Finite { poses, .. }) if certified(assembly) == poses => assembly.self_motion = 0,
-        Some(PlatformDegree::Finite { poses, .. }) if assembly.self_motion == 0 => {
-            let known: usize = assembly.modes.iter().map(|mode| mode.multiplicity).sum();
-            let mut unknown = assembly.modes.iter_mut().filter(|mode| mode.multiplicity == 0);
-            if let (Some(mode), None) = (unknown.next(), unknown.next())
-                && poses >= known + 2
-            {
-                mode.multiplicity = poses - known;
-            }
-        }
-        None if assembly.self_motion == 0 => {}
-        _ => {
-            let before = assembly.modes.len();
-            assembly.modes.retain(|mode| mode.certificate.is_some());
-            if assembly.modes.len() < before {
-                // Their numbers have changed.
-                assembly.modes.iter_mut().for_each(|mode| mode.mirror = None);
-            }
-        }
+/// All poses of a platform whose polynomial is known, as far as they are found.
+#[must_use]
+pub fn exact_modes(
+    platform: &Platform<Rational>,
+    squares: &[Rational; 6],
+    known: Option<&PlatformPolynomial>,
+) -> Vec<platform::PlatformMode> {
+    let solver = PlatformSolver::prepare_exact(platform);
+    let (mut memory, mut assembly) = (PlatformWorkspace::default(), PlatformAssembly::default());
+    solver.solve_up_to(squares, Roots::All, None, &mut memory, &mut assembly);
+    if !is_settled(&assembly) {
+        let side = ExactSide { platform, squares, incidence: most_poses(platform), complex: false };
+        side.settle(&mut Search { solver: &solver, memory: &mut memory, assembly: &mut assembly }, known);
     }
-}
-
-fn certified(assembly: &PlatformAssembly) -> usize {
-    assembly.modes.iter().filter(|mode| mode.certificate.is_some()).count()
+    assembly.modes
 }
 
 impl PreparedPlatform {
     /// Prepares the geometry.
     pub(super) fn prepare(geometry: &Platform<Number>) -> Result<Self> {
-        let image = over(geometry).ok_or_else(|| Error::Invalid("a coordinate without value".to_owned()))?;
+        let exact: Platform<Rational> =
+            over(geometry).ok_or_else(|| Error::Invalid("a coordinate without value".to_owned()))?;
         let start = Instant::now();
-        let solver = PlatformSolver::prepare(&image);
+        let solver = PlatformSolver::prepare_exact(&exact);
         let prepare_us = start.elapsed().as_secs_f64() * 1e6;
-        Ok(Self { geometry: geometry.clone(), solver, prepare_us })
+        let (distances, incidence) = (Distances::new(&exact), most_poses(&exact));
+        Ok(Self { exact, distances, incidence, solver, prepare_us })
     }
 
     /// Finds all poses with the legs of one case.
@@ -86,43 +82,28 @@ impl PreparedPlatform {
         let case_squares = case.legs_squared.as_ref();
         let case_squares =
             case_squares.ok_or_else(|| Error::Invalid("a case of a platform without legs".to_owned()))?;
-        let squares = case_squares.each_ref().map(Number::to_f64);
+        let squares = case_squares.each_ref().map(|square| square.rational().clone());
+        let complex = !workspace.only_real_list;
         let (memory, assembly) = (&mut workspace.platform, &mut workspace.platform_assembly);
         let start = Instant::now();
-        self.solver.solve(&squares, roots, memory, assembly);
+        self.solver.solve_up_to(&squares, roots, None, memory, assembly);
         let mut solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let rationals = case_squares.each_ref().map(|square| square.rational().clone());
-        let exact = match roots {
-            Roots::All if !is_settled(assembly) => self.degree(&rationals),
-            _ => None,
-        };
-        // Knowing how many poses there are, it looks for those it missed.
-        if let Some(PlatformDegree::Finite { poses, .. }) = exact
-            && assembly.total() < poses
-        {
+        let short = self.distances.out_of_reach(&squares);
+        let mut knowledge = PlatformKnowledge::default();
+        let is_asked = complex || short.is_none();
+        if roots == Roots::All && is_asked && !is_settled(assembly) {
             let start = Instant::now();
-            self.solver.solve_up_to(&squares, roots, Some(poses), memory, assembly);
+            let (platform, squares, incidence) = (&self.exact, &squares, self.incidence);
+            let side = ExactSide { platform, squares, incidence, complex };
+            knowledge = side.settle(&mut Search { solver: &self.solver, memory, assembly }, None);
             solve_us += start.elapsed().as_secs_f64() * 1e6;
         }
-        let judge = |assembly: &PlatformAssembly| {
-            let study: Vec<_> = assembly.modes.iter().map(|mode| self.solver.study(mode)).collect();
-            platform_verdict(assembly, &study, roots, exact)
-        };
-        account_for_singular(assembly, exact);
-        let mut verdict = judge(assembly);
-        if let (Status::Incomplete, Some(PlatformDegree::Finite { poses, .. })) = (verdict.status, exact)
-            && let Some(platform) = over(&self.geometry)
-        {
-            // What f64 does not reach, the exact data do.
-            let start = Instant::now();
-            self.solver.rescue(&platform, &rationals, poses, memory, assembly);
-            account_for_singular(assembly, exact);
-            verdict = judge(assembly);
-            solve_us += start.elapsed().as_secs_f64() * 1e6;
-        }
+        knowledge.complex_asked = complex && roots == Roots::All;
+        knowledge.no_real_pose = short.is_some();
+        let verdict = platform_verdict(assembly, roots, &knowledge);
         let modes = assembly.modes.iter().map(|mode| self.full(mode));
-        let legs = squares.map(f64::sqrt);
-        let short = platform::out_of_reach(self.solver.platform(), &legs).map(|why| format!("no pose is real: {why}"));
+        let legs = case_squares.each_ref().map(|square| square.to_f64().sqrt());
+        let short = short.map(|why| format!("no pose is real: {why}"));
         Ok(Solution {
             families: Vec::new(),
             verdict,
@@ -132,11 +113,6 @@ impl PreparedPlatform {
             solve_us,
             platform: Some(PlatformAnswer { legs, route: assembly.route.to_string() }),
         })
-    }
-
-    /// The exact number of poses.
-    fn degree(&self, squares: &[Rational; 6]) -> Option<PlatformDegree> {
-        platform_degree(&over(&self.geometry)?, squares)
     }
 
     fn full(&self, mode: &platform::PlatformMode) -> FullMode {

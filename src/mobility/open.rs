@@ -54,11 +54,12 @@ pub(super) fn of_platform(entry: &Entry) -> Result<Mobility> {
     let case = entry.cases.first().ok_or_else(|| Error::Invalid("a platform without legs".to_owned()))?;
     let solution = solve(entry, case.clone())?;
     let verdict = &solution.verdict;
-    let are_regular = solution.modes.iter().all(|mode| mode.certified);
+    let are_regular = solution.modes.iter().all(|mode| mode.certified && mode.multiplicity == 1);
+    let proof = verdict.proof;
     let (mobility, proof, what) = match verdict.status {
-        Status::Complete if are_regular => (Some(0), verdict.proof, "every pose is isolated and regular"),
-        Status::Complete => (Some(0), Proof::None, "every pose is isolated, but one of them is singular or not proved"),
-        Status::Unreachable => (Some(0), verdict.proof, "no pose has legs of these lengths"),
+        Status::Complete if are_regular => (Some(0), proof, "every real pose is isolated and regular"),
+        Status::Complete => (Some(0), proof, "every real pose is isolated, but one of them is singular"),
+        Status::Unreachable => (Some(0), proof, "no pose has legs of these lengths"),
         Status::SelfMotion => (Some(verdict.self_motion), Proof::None, "a self-motion"),
         Status::Incomplete | Status::Unsupported => (None, Proof::None, "whether all poses are isolated is not known"),
     };
@@ -69,7 +70,11 @@ pub(super) fn of_platform(entry: &Entry) -> Result<Mobility> {
     );
     let legs = solution.platform.as_ref().map(|platform| platform.legs).unwrap_or_default();
     Ok(Mobility {
-        general_rank: solution.modes.iter().any(|mode| mode.real && mode.certified).then_some(6),
+        general_rank: solution
+            .modes
+            .iter()
+            .any(|mode| mode.real && mode.certified && mode.multiplicity == 1)
+            .then_some(6),
         held: legs.into_iter().enumerate().collect(),
         complex: verdict.complex,
         is_listed: verdict.real == 0,

@@ -54,8 +54,27 @@ pub fn hermitian<S: Scalar>(v: &[S]) -> f64 {
 /// The equations at a point, with the patch `patch.x = const` through that point.
 #[inline(always)]
 pub fn equations<S: Number<Real: From<f64>>>(legs: &[Leg<f64>; 6], v: &Eight<S>, patch: &Four<S>) -> Equations<S> {
+    equations_with(legs, v, patch, |x, c| x.times((*c).into()), |c| c.abs())
+}
+
+/// The same for legs of more digits than f64 has.
+pub fn extended_equations<R: Extended>(
+    legs: &[Leg<R>; 6],
+    v: &Eight<Complex<R>>,
+    patch: &Four<Complex<R>>,
+) -> Equations<Complex<R>> {
+    equations_with(legs, v, patch, |x, c| x.times(*c), |c| c.to_f64().abs())
+}
+
+#[inline(always)]
+fn equations_with<S: Number, C: Ring>(
+    legs: &[Leg<C>; 6],
+    v: &Eight<S>,
+    patch: &Four<S>,
+    times: impl Fn(&S, &C) -> S + Copy,
+    absolute: impl Fn(&C) -> f64,
+) -> Equations<S> {
     let (x, y) = parts(v);
-    let times = |x: &S, c: &f64| x.times((*c).into());
     let square = |v: &Four<S>| v.iter().map(|x| x.size() * x.size()).sum::<f64>();
     let norm = scalar(&x, &x);
     let length = square(&x);
@@ -66,7 +85,7 @@ pub fn equations<S: Number<Real: From<f64>>>(legs: &[Leg<f64>; 6], v: &Eight<S>,
         let by_x = leg.half_slope(&w, &x, times);
         equations.jacobian[i][..4].copy_from_slice(&by_x);
         equations.jacobian[i][4..].copy_from_slice(&w);
-        equations.sizes[i] = 0.5 * (square(&w) + (leg.square.abs() + SHORT) * length);
+        equations.sizes[i] = 0.5 * (square(&w) + (absolute(&leg.square) + SHORT) * length);
     }
     equations.values[6] = scalar(&x, &y);
     equations.jacobian[6][..4].copy_from_slice(&y);
@@ -182,7 +201,7 @@ pub fn complex<S: Scalar>(v: &Eight<S>) -> Eight<Complex<f64>> {
 /// settle at, and its equations; `None` where they do not.
 #[must_use]
 pub fn refine(
-    legs: &[Leg<f64>; 6],
+    legs: &[Leg<DoubleDouble>; 6],
     v: &Eight<Complex<f64>>,
     inverse: &[Eight<Complex<f64>>; 8],
 ) -> Option<(Eight<Wide>, Equations<Wide>)> {
@@ -191,7 +210,7 @@ pub fn refine(
     let narrow = |z: &Wide| Complex::new(z.re.to_f64(), z.im.to_f64());
     let mut before = f64::INFINITY;
     for _ in 0..MOST_STEPS {
-        let here = equations(legs, &point, &patch);
+        let here = extended_equations(legs, &point, &patch);
         let step = times(inverse, &here.values.each_ref().map(narrow));
         let size = step.iter().map(|x| x.size()).fold(0.0, f64::max);
         if size < REFINED {
@@ -214,7 +233,7 @@ pub type ExtendedPose<R> = (Eight<Complex<R>>, Equations<Complex<R>>, [Eight<Com
 /// Newton's method in more digits all along, for poses very far away, where `N = x.x` is tiny; `None` where it does not
 /// settle.
 #[must_use]
-pub fn polish_extended<R: Extended>(legs: &[Leg<f64>; 6], start: &Eight<Complex<R>>) -> Option<ExtendedPose<R>> {
+pub fn polish_extended<R: Extended>(legs: &[Leg<R>; 6], start: &Eight<Complex<R>>) -> Option<ExtendedPose<R>> {
     let length: f64 = start[..4].iter().map(|x| x.square_size()).sum();
     let scale = R::from(1.0 / length.sqrt().max(f64::MIN_POSITIVE));
     let mut point = start.map(|x| x.times(scale));
@@ -222,7 +241,7 @@ pub fn polish_extended<R: Extended>(legs: &[Leg<f64>; 6], start: &Eight<Complex<
     let mut before = f64::INFINITY;
     let mut growing = 0;
     for _ in 0..2 * MOST_STEPS {
-        let here = equations(legs, &point, &patch);
+        let here = extended_equations(legs, &point, &patch);
         let step = solve_one(&here.jacobian, &here.values)?;
         let reach = point.iter().map(|x| x.size()).fold(1.0, f64::max);
         let size = step.iter().map(|x| x.size()).fold(0.0, f64::max);

@@ -4,48 +4,51 @@ use super::{Bound, Code, Judged, Proof, Status, Verdict, accounted_for};
 use crate::assembly::Roots;
 use crate::assembly::platform::{PlatformAssembly, PlatformMode};
 use crate::certify::pose::{are_apart, is_complex};
-use crate::elimination::platform_degree::PlatformDegree;
-use num_complex::Complex;
 
 /// The most isolated poses that six legs can have.
-const MOST: usize = 40;
+pub const MOST_POSES: usize = 40;
 
-/// Study's parameters of a mode, as its certificate bounds them.
-type Study = [Complex<f64>; 8];
+/// What is known of the poses of one set of legs beside the list.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlatformKnowledge {
+    /// How many isolated poses there are, with multiplicity.
+    pub count: Option<Bound>,
+    /// The dimension of a family of poses, complex ones included, as it was counted; no more than a measurement.
+    pub infinite: Option<usize>,
+    /// What it rests on that no real pose is missing: every real root of the exact polynomial belongs to listed real poses
+    /// that count as often.
+    pub reals: Option<Proof>,
+    /// Whether two legs alone show that no pose is real.
+    pub no_real_pose: bool,
+    /// Whether the list is asked for complex poses, too.
+    pub complex_asked: bool,
+}
 
-/// Judges the poses of a platform. `study` holds Study's parameters of every mode, `exact` the exact number of poses where
-/// that was asked for.
+/// Judges the poses of a platform.
 #[must_use]
-pub fn platform_verdict(
-    assembly: &PlatformAssembly,
-    study: &[Study],
-    roots: Roots,
-    exact: Option<PlatformDegree>,
-) -> Verdict {
-    let dimension = match exact {
-        Some(PlatformDegree::Infinite { dimension }) if assembly.self_motion == 0 => dimension,
+pub fn platform_verdict(assembly: &PlatformAssembly, roots: Roots, knowledge: &PlatformKnowledge) -> Verdict {
+    let dimension = match knowledge.infinite {
         // Where solutions are multiple, a pose gives way in more directions than it can move.
-        Some(PlatformDegree::Infinite { dimension }) => assembly.self_motion.min(dimension),
-        _ => assembly.self_motion,
+        Some(counted) => assembly.self_motion.min(counted),
+        None => assembly.self_motion,
     };
+    let mut complex_complete = false;
     let mut judged = if dimension > 0 {
-        let how = match exact {
-            Some(PlatformDegree::Infinite { .. }) if assembly.self_motion > 0 => String::new(),
-            Some(PlatformDegree::Finite { poses, .. }) => format!(
-                ", to within rounding (of exactly these data {poses} isolated poses, by a count modulo a prime)"
-            ),
-            Some(PlatformDegree::Infinite { .. }) => ", real or complex, by an exact count (modulo a prime)".to_owned(),
-            None => ", as far as f64 tells".to_owned(),
-        };
         let reason = format!(
-            "poses form a self-motion of dimension {dimension}{how}; the isolated ones are listed, not proved complete"
+            "poses form a self-motion of dimension {dimension}, as far as f64 tells; the isolated ones are listed, not proved \
+             complete"
         );
         Judged { status: Status::SelfMotion, ..Judged::unproved(Code::SelfMotion, reason) }
-    } else if let Some((code, doubt)) = doubt(assembly, study) {
+    } else if let Some((code, doubt)) = doubt(assembly) {
         Judged::unproved(code, format!("not proved: {doubt}"))
     } else {
-        count(assembly, roots, exact)
+        let judged = count(assembly, roots, knowledge);
+        complex_complete = judged.is_complete();
+        judged
     };
+    if !judged.is_complete() && !knowledge.complex_asked {
+        judged = real_list(assembly, knowledge).unwrap_or(judged);
+    }
     if assembly.rescued > 0 {
         judged.reason += &format!("; {} of them found or proved in 384-bit arithmetic only", assembly.rescued);
     }
@@ -53,7 +56,7 @@ pub fn platform_verdict(
         status: judged.status,
         proof: judged.proof,
         code: judged.code,
-        complex_complete: judged.is_complete(),
+        complex_complete,
         complex: assembly.total(),
         real: assembly.real(),
         at_infinity: judged.at_infinity,
@@ -67,63 +70,80 @@ fn certified(modes: &[PlatformMode]) -> usize {
     modes.iter().filter(|mode| mode.certificate.is_some()).count()
 }
 
+/// What is known of the real poses alone.
+fn real_list(assembly: &PlatformAssembly, knowledge: &PlatformKnowledge) -> Option<Judged> {
+    if knowledge.no_real_pose && assembly.real() == 0 {
+        let reason = "no pose has legs of these lengths: two of them alone show it".to_owned();
+        let bound = Bound { count: 0, proof: Proof::Proved, code: Code::NoPoseHasLegs, because: reason.clone() };
+        return Some(Judged::by(Status::Unreachable, &bound, reason));
+    }
+    let proof = knowledge.reals?;
+    let real = assembly.real();
+    let because = "every real root of the exact polynomial of all poses belongs to listed ones";
+    let (status, reason) = match real {
+        0 => (Status::Unreachable, "no pose is real: the exact polynomial of all poses has no real root".to_owned()),
+        _ => (Status::Complete, format!("{real} real poses, with multiplicity, are all that there are: {because}")),
+    };
+    let bound = Bound { count: real, proof, code: Code::ExactRootsMatched, because: because.to_owned() };
+    Some(Judged::by(status, &bound, reason))
+}
+
 /// What speaks against counting these modes at all.
-fn doubt(assembly: &PlatformAssembly, study: &[Study]) -> Option<(Code, String)> {
+fn doubt(assembly: &PlatformAssembly) -> Option<(Code, String)> {
     let modes = &assembly.modes;
     if let Some(mode) = modes.iter().find(|mode| mode.multiplicity == 0) {
         let kind = if mode.real { "real" } else { "complex" };
         return Some((Code::UnknownMultiplicity, format!("a singular {kind} pose of unknown multiplicity")));
     }
-    let unproved = modes.iter().filter(|mode| mode.multiplicity == 1 && mode.certificate.is_none()).count();
+    // How often a pose counts is proved or not listed as certified.
+    let unproved = modes.iter().filter(|mode| mode.certificate.is_none()).count();
     if unproved > 0 {
         return Some((Code::NoCertificate, format!("{unproved} of {} roots have no certificate", modes.len())));
     }
-    let radius = |mode: &PlatformMode| mode.certificate.map_or(0.0, |certificate| certificate.radius);
-    let apart = |j: usize, k: usize| are_apart(&study[j], radius(&modes[j]), &study[k], radius(&modes[k]));
+    let radius = |mode: &PlatformMode| mode.certificate.map_or(f64::INFINITY, |certificate| certificate.radius);
+    let apart = |one: &PlatformMode, two: &PlatformMode| are_apart(&one.study, radius(one), &two.study, radius(two));
     // A check of the list as a whole: the solver has merged what is one already.
-    if (1..modes.len()).any(|k| (0..k).any(|j| !apart(j, k))) {
+    if (1..modes.len()).any(|k| (0..k).any(|j| !apart(&modes[j], &modes[k]))) {
         return Some((Code::NotDistinct, "two roots are not proved to be distinct".to_owned()));
     }
-    let undecided = modes.iter().zip(study).any(|(mode, v)| !mode.real && !is_complex(v, radius(mode)));
+    let undecided = modes.iter().any(|mode| !mode.real && !is_complex(&mode.study, radius(mode)));
     undecided.then(|| (Code::RealOrComplex, "a root is neither proved real nor proved complex".to_owned()))
 }
 
 /// Compares the number of modes with what is known of the number of poses.
-fn count(assembly: &PlatformAssembly, roots: Roots, exact: Option<PlatformDegree>) -> Judged {
+fn count(assembly: &PlatformAssembly, roots: Roots, knowledge: &PlatformKnowledge) -> Judged {
     let found = assembly.total();
     let status = if assembly.real() == 0 { Status::Unreachable } else { Status::Complete };
-    let settled = |proof: Proof, code: Code, because: String| {
+    let settled = |bound: &Bound| {
         let multiple: Vec<usize> = assembly.modes.iter().map(|mode| mode.multiplicity).filter(|&m| m > 1).collect();
-        let bound = Bound { count: found, proof, code, because };
-        Judged::by(status, &bound, accounted_for(certified(&assembly.modes), &multiple, &bound))
+        Judged::by(status, bound, accounted_for(certified(&assembly.modes) - multiple.len(), &multiple, bound))
     };
-    if found == MOST && exact.is_none() {
-        return settled(Proof::Proved, Code::GeneralBoundMet, "at most 40 that six legs can have".to_owned());
-    }
-    if roots == Roots::Real {
-        return Judged::unproved(Code::OnlyReal, "not proved: only real roots were looked for".to_owned());
-    }
-    match exact {
-        Some(PlatformDegree::Finite { poses, null, curves }) => {
-            let beside = match (null, curves) {
-                (_, true) => ", beside curves of solutions with N = 0, which are no poses".to_owned(),
-                (0, false) => String::new(),
-                (null, false) => format!(", beside {null} solutions with N = 0, which are no poses"),
-            };
-            let because = format!("{poses} poses by an exact count (modulo a prime){beside}");
-            match found.cmp(&poses) {
-                std::cmp::Ordering::Equal => settled(Proof::None, Code::CountMet, because),
-                std::cmp::Ordering::Less => {
-                    Judged::unproved(Code::TooFew, format!("not proved: found {found} of {because}"))
-                }
-                std::cmp::Ordering::Greater => {
-                    let reason = format!("contradiction: {found} roots found, but there are {because}");
-                    Judged::unproved(Code::TooMany, reason)
-                }
+    let bound = match &knowledge.count {
+        Some(bound) if found != MOST_POSES => bound,
+        _ => {
+            if found == MOST_POSES {
+                let because = format!("at most {MOST_POSES} that six legs can have");
+                let (count, proof, code) = (MOST_POSES, Proof::Proved, Code::GeneralBoundMet);
+                return settled(&Bound { count, proof, code, because });
             }
+            if roots == Roots::Real {
+                return Judged::unproved(Code::OnlyReal, "not proved: only real roots were looked for".to_owned());
+            }
+            let reason = match knowledge.infinite {
+                Some(_) => "not proved: there seem to be infinitely many poses, real or complex".to_owned(),
+                None => format!("not proved: found {found} of up to {MOST_POSES} roots"),
+            };
+            return Judged::unproved(Code::TooFew, reason);
         }
-        Some(PlatformDegree::Infinite { .. }) | None => {
-            Judged::unproved(Code::TooFew, format!("not proved: found {found} of up to 40 roots"))
+    };
+    match found.cmp(&bound.count) {
+        std::cmp::Ordering::Equal => settled(bound),
+        std::cmp::Ordering::Less => {
+            Judged::unproved(Code::TooFew, format!("not proved: found {found} of {}", bound.because))
+        }
+        std::cmp::Ordering::Greater => {
+            let reason = format!("contradiction: {found} roots found, but there are {}", bound.because);
+            Judged::unproved(Code::TooMany, reason)
         }
     }
 }

@@ -7,7 +7,7 @@ use looproot::benchmark::accuracy::Counts;
 use looproot::benchmark::platform::accuracy::{PlatformJob, run};
 use looproot::benchmark::platform::sample::{PlatformSet, sample};
 use looproot::elimination::platform_degree::{PlatformDegree, platform_degree};
-use looproot::verdict::{Status, platform_verdict};
+use looproot::verdict::{Bound, Code, PlatformKnowledge, Proof, Status, platform_verdict};
 use rug::Rational;
 
 fn counts(set: PlatformSet, count: u64, roots: Roots) -> Counts {
@@ -67,19 +67,20 @@ fn a_pose_where_a_chart_ends_is_no_curve_of_poses() {
 }
 
 /// A platform with all its poses.
-fn list(set: PlatformSet, index: u64) -> (PlatformSolver, PlatformAssembly) {
+fn list(set: PlatformSet, index: u64) -> PlatformAssembly {
     let drawn = sample(set, 5, index).unwrap();
     let solver = PlatformSolver::prepare(&drawn.platform);
     let squares = drawn.entry.cases[0].legs_squared.as_ref().unwrap().each_ref().map(Number::to_f64);
     let mut assembly = PlatformAssembly::default();
     solver.solve(&squares, Roots::All, &mut PlatformWorkspace::default(), &mut assembly);
-    (solver, assembly)
+    assembly
 }
 
-fn judge(solver: &PlatformSolver, assembly: &PlatformAssembly, poses: usize) -> Status {
-    let study: Vec<_> = assembly.modes.iter().map(|mode| solver.study(mode)).collect();
-    let exact = (poses < 40).then_some(PlatformDegree::Finite { poses, null: 40 - poses, curves: false });
-    platform_verdict(assembly, &study, Roots::All, exact).status
+fn judge(assembly: &PlatformAssembly, poses: usize) -> Status {
+    let because = format!("{poses} that there are");
+    let count = Bound { count: poses, proof: Proof::Proved, code: Code::ExactRootsMatched, because };
+    let knowledge = PlatformKnowledge { count: (poses < 40).then_some(count), ..PlatformKnowledge::default() };
+    platform_verdict(assembly, Roots::All, &knowledge).status
 }
 
 fn is_claimed(status: Status) -> bool {
@@ -90,13 +91,13 @@ fn is_claimed(status: Status) -> bool {
 fn no_crippled_list_is_called_complete() {
     let sets = [(PlatformSet::General, 40), (PlatformSet::PlanarBoth, 40), (PlatformSet::Hexapod, 28)];
     for (set, poses) in sets {
-        let (solver, whole) = list(set, 1);
-        assert!(is_claimed(judge(&solver, &whole, poses)), "{set:?}: not complete to begin with");
+        let whole = list(set, 1);
+        assert!(is_claimed(judge(&whole, poses)), "{set:?}: not complete to begin with");
         for k in 0..whole.modes.len() {
             let refused = |what: &str, cripple: &dyn Fn(&mut PlatformAssembly)| {
                 let mut crippled = whole.clone();
                 cripple(&mut crippled);
-                let status = judge(&solver, &crippled, poses);
+                let status = judge(&crippled, poses);
                 assert!(!is_claimed(status), "{set:?}: {status:?} although mode {k} {what}");
             };
             refused("is missing", &|list| {
@@ -122,8 +123,12 @@ fn no_crippled_list_is_called_complete() {
 
 #[test]
 fn a_curve_of_poses_is_a_self_motion() {
-    let (solver, whole) = list(PlatformSet::General, 2);
-    let study: Vec<_> = whole.modes.iter().map(|mode| solver.study(mode)).collect();
-    let verdict = platform_verdict(&whole, &study, Roots::All, Some(PlatformDegree::Infinite { dimension: 2 }));
+    let whole = list(PlatformSet::General, 2);
+    // What is counted alone is no self-motion: the count is a measurement.
+    let counted = PlatformKnowledge { infinite: Some(2), ..PlatformKnowledge::default() };
+    let list = PlatformAssembly { modes: whole.modes[..30].to_vec(), ..whole.clone() };
+    assert_eq!(platform_verdict(&list, Roots::All, &counted).status, Status::Incomplete);
+    let moving = PlatformAssembly { self_motion: 3, ..whole };
+    let verdict = platform_verdict(&moving, Roots::All, &counted);
     assert_eq!((verdict.status, verdict.self_motion), (Status::SelfMotion, 2));
 }

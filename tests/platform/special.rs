@@ -153,7 +153,7 @@ fn the_dimension_of_a_self_motion_is_not_its_corank() {
 }
 
 #[test]
-fn coordinates_rounded_to_15_digits_still_show_a_self_motion() {
+fn coordinates_rounded_to_15_digits_have_no_self_motion_and_none_is_claimed() {
     let rounded = |x: f64| Rational::from_f64((x * 1e13).round() / 1e13).unwrap();
     let hexagon = |radius: f64| -> [[Rational; 3]; 6] {
         std::array::from_fn(|k| {
@@ -164,9 +164,9 @@ fn coordinates_rounded_to_15_digits_still_show_a_self_motion() {
     let platform = Platform { base: hexagon(100.0), plate: hexagon(50.0) };
     let squares = platform.legs_squared(&turned_about_z([0, 0, 100]));
     let solution = answer(&platform, &squares);
-    assert_eq!((solution.verdict.status, solution.verdict.self_motion), (Status::SelfMotion, 1));
+    // Of exactly these data all poses are isolated, though f64 cannot tell them from a curve.
+    assert!(solution.verdict.status != Status::SelfMotion && solution.verdict.self_motion == 0);
     assert!(solution.verdict.complex <= 40 && solution.modes.iter().all(|mode| mode.certified));
-    assert!(solution.verdict.reason.contains("to within rounding"), "{}", solution.verdict.reason);
 }
 
 #[test]
@@ -187,7 +187,8 @@ fn poses_where_the_ends_of_legs_coincide_are_found_with_their_multiplicity() {
             mode.real && apart.fold(0.0, f64::max) < 1e-9
         });
         let planted = planted.unwrap();
-        assert_eq!((planted.multiplicity, planted.certified), (multiplicity, zero == 0), "{zero}");
+        assert_eq!((planted.multiplicity, planted.certified), (multiplicity, true), "{zero}");
+        assert!(solution.verdict.proof.is_proved(), "{zero}: {}", solution.verdict.reason);
     }
 }
 
@@ -209,8 +210,9 @@ fn six_legs_that_meet_one_line_make_a_double_pose() {
         let identity = Quaternion { scalar: Rational::from(1), vector: [0; 3].map(Rational::from) };
         let pose = Motion { rotation: identity.scaled_rotation(), translation: [0; 3].map(Rational::from) };
         let solution = answer(&platform, &platform.legs_squared(&pose));
-        assert_eq!((solution.verdict.complex, solution.verdict.certified), (40, 38), "{}", solution.verdict.reason);
+        assert_eq!((solution.verdict.complex, solution.verdict.certified), (40, 39), "{}", solution.verdict.reason);
+        assert!(solution.verdict.proof.is_proved(), "{}", solution.verdict.reason);
         let double: Vec<_> = solution.modes.iter().filter(|mode| mode.multiplicity == 2).collect();
-        assert!(double.len() == 1 && double[0].real && double[0].q[4..].iter().all(|p| p.norm() < 1e-6));
+        assert!(double.len() == 1 && double[0].real && double[0].q[4..].iter().all(|p| p.norm() == 0.0));
     }
 }

@@ -33,7 +33,7 @@ impl Search<'_> {
             return true;
         }
         let polished = polish(self.legs, start).filter(|p| !near_null(p));
-        if polished.is_none() && !near_real && self.far_away(&start.map(wide)) {
+        if polished.is_none() && !near_real && self.far_away(self.wide, &start.map(wide)) {
             return true;
         }
         if let Some(polished) = &polished {

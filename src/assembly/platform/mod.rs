@@ -3,6 +3,7 @@
 mod arrival;
 mod candidate;
 mod coincident;
+mod exact;
 mod homotopy;
 mod mode;
 mod prepared;
@@ -15,5 +16,5 @@ mod solver;
 mod triangle;
 
 pub use mode::{PlatformAssembly, PlatformMode, Route};
-pub use reach::out_of_reach;
+pub use reach::Distances;
 pub use solver::{PlatformSolver, PlatformWorkspace};

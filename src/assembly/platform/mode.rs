@@ -10,6 +10,9 @@ pub struct PlatformMode {
     /// The rotation as a quaternion (w, x, y, z) of hermitian norm 1; of a real pose real with its first nonzero part
     /// positive, of a complex one with its largest part real and positive.
     pub quaternion: [Complex<f64>; 4],
+    /// Study's parameters as the certificate bounds them: x as above, lengths about the centre of the platform and over its
+    /// scale.
+    pub study: [Complex<f64>; 8],
     /// The translation p, in the unit of the mechanism: point b of the plate is at `p + R b`.
     pub position: [Complex<f64>; 3],
     /// Whether the pose is real.

@@ -1,13 +1,17 @@
 //! What of a platform is computed once for all leg lengths.
 
+use crate::algebra::double_double::DoubleDouble;
+use crate::algebra::long_float::LongFloat;
+use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
+use crate::certify::pose::Curvature;
 use crate::closure::study::{Form, Four, Leg, left, leg_matrix, linear_legs, right, scalar};
 use crate::elimination::border::{Directions, Reals, Setting, weak_directions};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::motion::Vector;
 use crate::kinematics::platform::Platform;
 use crate::solve::scalar::Scalar;
-use num_complex::Complex;
+use rug::Rational;
 
 /// Turns of base and plate, so that no solution of a real mechanism lies where a chart ends: (w, x, y, z).
 const TURNS: [[[f64; 4]; 2]; 2] = [
@@ -108,7 +112,8 @@ pub fn size(platform: &Platform<f64>) -> f64 {
     if size > 0.0 && size.is_finite() { size } else { 1.0 }
 }
 
-/// The platform as it is polished: about its centre, and in a unit that is a power of two.
+/// The platform as it is polished: about its centre, and in a unit that is a power of two. The points are moved exactly, and
+/// rounded once.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The unit.
@@ -119,21 +124,128 @@ pub struct Frame {
     pub platform: Platform<f64>,
     /// The legs so, of length zero.
     pub legs: [Leg<f64>; 6],
+    /// The same with twice the digits.
+    pub wide: [Leg<DoubleDouble>; 6],
+    /// The same, exact.
+    pub exact: [Leg<Rational>; 6],
+    /// Bound on the relative rounding of the points of `legs`.
+    pub rounding: f64,
+}
+
+/// Bound on the relative rounding of a number that becomes f64.
+pub const ROUNDING: f64 = f64::EPSILON / 2.0;
+
+/// Squared lengths of legs, in the unit of the platform as given.
+pub struct Squares {
+    /// As f64.
+    narrow: [f64; 6],
+    wide: [DoubleDouble; 6],
+    rounding: f64,
+}
+
+impl Squares {
+    /// Numbers that are exact.
+    pub fn of_floats(squares: &[f64; 6]) -> Self {
+        Self { narrow: *squares, wide: squares.map(Into::into), rounding: 0.0 }
+    }
+
+    /// Numbers that are rounded.
+    pub fn of(squares: &[Rational; 6]) -> Self {
+        let narrow = squares.each_ref().map(rounded);
+        let rounding = if narrow.iter().zip(squares).all(|(x, q)| *q == *x) { 0.0 } else { ROUNDING };
+        let wide = squares.each_ref().map(|q| DoubleDouble::from_rational(q).unwrap_or_else(DoubleDouble::zero));
+        Self { narrow, wide, rounding }
+    }
+}
+
+/// The legs of one set of lengths, in the frame of polishing.
+pub struct LegNumbers {
+    /// As f64.
+    pub legs: [Leg<f64>; 6],
+    /// With twice the digits.
+    pub wide: [Leg<DoubleDouble>; 6],
+    /// What proofs need of them.
+    pub curvature: Curvature,
+}
+
+impl LegNumbers {
+    /// Legs that are exact as f64.
+    pub fn of_floats(legs: [Leg<f64>; 6]) -> Self {
+        let wide = legs
+            .each_ref()
+            .map(|leg| Leg { matrix: leg.matrix.map(|row| row.map(Into::into)), square: leg.square.into() });
+        let curvature = Curvature::new(&legs, 0.0);
+        Self { legs, wide, curvature }
+    }
+}
+
+/// A leg in numbers of another kind.
+pub fn leg_in<R: Ring>(leg: &Leg<Rational>) -> Leg<R> {
+    let image = |x: &Rational| R::from_rational(x).unwrap_or_else(R::zero);
+    Leg { matrix: leg.matrix.each_ref().map(|row| row.each_ref().map(image)), square: image(&leg.square) }
+}
+
+/// The nearest f64, or 0 for what has none.
+fn rounded(x: &Rational) -> f64 {
+    let x = nearest_f64(x);
+    if x.is_finite() { x } else { 0.0 }
 }
 
 impl Frame {
-    /// The frame of a platform. Points near the origin stay as they are: shifting them would round.
-    pub fn new(platform: &Platform<f64>) -> Self {
-        let scale = size(platform).log2().ceil().exp2();
-        let grid = 8.0 * scale;
-        let origins = [&platform.base, &platform.plate].map(|p| centroid(p).map(|c| (c / grid).round() * grid));
-        let moved = |p: &Vector<f64>, origin: &Vector<f64>| std::array::from_fn(|k| (p[k] - origin[k]) / scale);
-        let platform = Platform {
-            base: platform.base.map(|a| moved(&a, &origins[0])),
-            plate: platform.plate.map(|b| moved(&b, &origins[1])),
+    /// The legs of these squared lengths.
+    pub fn with_legs(&self, squares: &Squares) -> LegNumbers {
+        let unit = self.scale * self.scale;
+        let (mut legs, mut wide) = (self.legs.clone(), self.wide.clone());
+        for i in 0..6 {
+            legs[i].square = squares.narrow[i] / unit;
+            wide[i].square = squares.wide[i].mul(&DoubleDouble::from(1.0 / unit));
+        }
+        let curvature = Curvature::new(&legs, self.rounding.max(squares.rounding));
+        LegNumbers { legs, wide, curvature }
+    }
+
+    /// The same in numbers of 384 bits.
+    pub fn long_legs(&self, squares: &[Rational; 6]) -> [Leg<LongFloat>; 6] {
+        let unit = Rational::from_f64(self.scale).map_or_else(|| Rational::from(1), |s| s.square());
+        std::array::from_fn(|i| {
+            let leg = Leg { square: Rational::from(&squares[i] / &unit), ..self.exact[i].clone() };
+            leg_in(&leg)
+        })
+    }
+
+    /// The frame of a platform. Points near the origin stay where they are.
+    pub fn new(platform: &Platform<Rational>) -> Self {
+        let centred = |points: &[Vector<Rational>; 6]| {
+            let centre: Vector<Rational> =
+                std::array::from_fn(|k| points.iter().map(|p| &p[k]).sum::<Rational>() / Rational::from(6));
+            let local =
+                points.each_ref().map(|p| std::array::from_fn(|k| rounded(&Rational::from(&p[k] - &centre[k]))));
+            (centre.map(|c| rounded(&c)), local)
         };
+        let ((base_centre, base), (plate_centre, plate)) = (centred(&platform.base), centred(&platform.plate));
+        let scale = size(&Platform { base, plate }).log2().ceil().exp2();
+        let grid = 8.0 * scale;
+        let origins = [base_centre, plate_centre].map(|centre| centre.map(|c| (c / grid).round() * grid));
+        let exact = |x: f64| Rational::from_f64(x).unwrap_or_default();
+        let moved = |p: &Vector<Rational>, origin: &Vector<f64>| -> Vector<Rational> {
+            std::array::from_fn(|k| Rational::from(&p[k] - &exact(origin[k])) / exact(scale))
+        };
+        let moved = Platform {
+            base: platform.base.each_ref().map(|a| moved(a, &origins[0])),
+            plate: platform.plate.each_ref().map(|b| moved(b, &origins[1])),
+        };
+        let points = |points: &[Vector<Rational>; 6]| points.each_ref().map(|p| p.each_ref().map(rounded));
+        let platform = Platform { base: points(&moved.base), plate: points(&moved.plate) };
         let legs = std::array::from_fn(|i| Leg::new(&platform.base[i], &platform.plate[i], 0.0));
-        Self { scale, origins, platform, legs }
+        let leg = |i: usize| Leg::new(&moved.base[i], &moved.plate[i], Rational::new());
+        let exact_legs: [Leg<Rational>; 6] = std::array::from_fn(leg);
+        let wide = exact_legs.each_ref().map(leg_in);
+        let is_exact = legs.iter().zip(&exact_legs).all(|(leg, other)| {
+            let pairs = leg.matrix.iter().flatten().zip(other.matrix.iter().flatten());
+            pairs.into_iter().all(|(x, y)| *y == *x)
+        });
+        let rounding = if is_exact { 0.0 } else { ROUNDING };
+        Self { scale, origins, platform, legs, wide, exact: exact_legs, rounding }
     }
 
     /// A general platform not far from this one: `run` numbers the ways to move the points.
@@ -168,22 +280,6 @@ impl Frame {
             let moved = vector[k].times(self.scale).sub(&turned[k]).over(norm);
             moved.add(&S::from_f64(self.origins[0][k]))
         })
-    }
-}
-
-impl Frame {
-    /// Study's parameters, in the unit and about the origin of this frame, of a pose in those of the platform as given.
-    pub fn study(&self, rotation: &[Complex<f64>; 4], position: &[Complex<f64>; 3]) -> [Complex<f64>; 8] {
-        let pure = |vector: [Complex<f64>; 3]| Quaternion { scalar: Complex::from(0.0), vector };
-        let [w, x, y, z] = *rotation;
-        let x = Quaternion { scalar: w, vector: [x, y, z] };
-        // y = p' x with p' = (p - o + R o') / scale, and R o' x = x o'.
-        let moved = std::array::from_fn(|k| position[k] - self.origins[0][k]);
-        let (base, plate) = (pure(moved).mul(&x), x.mul(&pure(self.origins[1].map(Complex::from))));
-        let dual = |a: Complex<f64>, b: Complex<f64>| (a + b) / self.scale;
-        let [v, u] = [base.vector, plate.vector];
-        let y = [dual(base.scalar, plate.scalar), dual(v[0], u[0]), dual(v[1], u[1]), dual(v[2], u[2])];
-        std::array::from_fn(|k| if k < 4 { rotation[k] } else { y[k - 4] })
     }
 }
 

@@ -1,19 +1,51 @@
 //! Legs of which two alone show that no real pose exists.
 
+use crate::algebra::number::nearest_f64;
 use crate::kinematics::motion::Vector;
 use crate::kinematics::platform::Platform;
+use rug::Rational;
 
-/// Room for rounding, relative to the lengths compared.
+/// Room for rounding, relative to the lengths compared: each is a square root of an exact number.
 const ROOM: f64 = 1e-12;
 
-/// Why no real pose can have legs of these lengths, if two of them tell: their ends and they themselves are the sides of a
-/// quadrangle, each at most as long as the others together.
-#[must_use]
-pub fn out_of_reach(platform: &Platform<f64>, lengths: &[f64; 6]) -> Option<String> {
-    let distance = |p: &Vector<f64>, q: &Vector<f64>| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
-    (1..6).flat_map(|j| (0..j).map(move |i| (i, j))).find_map(|(i, j)| {
-        let base = distance(&platform.base[i], &platform.base[j]);
-        let plate = distance(&platform.plate[i], &platform.plate[j]);
+/// The distances of the points of base and plate.
+#[derive(Clone, Debug)]
+pub struct Distances {
+    base: [[f64; 6]; 6],
+    plate: [[f64; 6]; 6],
+}
+
+/// The square root of an exact number.
+fn root(square: &Rational) -> f64 {
+    nearest_f64(square).sqrt()
+}
+
+impl Distances {
+    /// The distances of a platform.
+    #[must_use]
+    pub fn new(platform: &Platform<Rational>) -> Self {
+        let distance = |p: &Vector<Rational>, q: &Vector<Rational>| {
+            root(&(0..3).map(|k| Rational::from(&p[k] - &q[k]).square()).sum())
+        };
+        let all = |points: &[Vector<Rational>; 6]| {
+            std::array::from_fn(|i| std::array::from_fn(|j| distance(&points[i], &points[j])))
+        };
+        Self { base: all(&platform.base), plate: all(&platform.plate) }
+    }
+
+    /// Why no real pose can have legs of these squared lengths, if one or two of them tell: no square is negative, and the ends
+    /// of two legs and they themselves are the sides of a quadrangle, each at most as long as the others together.
+    #[must_use]
+    pub fn out_of_reach(&self, squares: &[Rational; 6]) -> Option<String> {
+        if let Some(leg) = squares.iter().position(|square| *square < 0) {
+            return Some(format!("the square of leg {} is negative", leg + 1));
+        }
+        let lengths = squares.each_ref().map(root);
+        (1..6).flat_map(|j| (0..j).map(move |i| (i, j))).find_map(|(i, j)| self.pair_out_of_reach(&lengths, i, j))
+    }
+
+    fn pair_out_of_reach(&self, lengths: &[f64; 6], i: usize, j: usize) -> Option<String> {
+        let (base, plate) = (self.base[i][j], self.plate[i][j]);
         let (one, two) = (lengths[i], lengths[j]);
         let whole = base + plate + one + two;
         let exceeds = |side: f64| side > (whole - side) + ROOM * whole;
@@ -44,5 +76,5 @@ pub fn out_of_reach(platform: &Platform<f64>, lengths: &[f64; 6]) -> Option<Stri
         } else {
             None
         }
-    })
+    }
 }

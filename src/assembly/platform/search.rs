@@ -3,8 +3,9 @@
 use super::candidate::candidates;
 use super::coincident::has_point_leg;
 use super::mode::{PlatformAssembly, PlatformMode};
-use super::prepared::{Chart, Frame, norm};
+use super::prepared::{Chart, Frame, LegNumbers, norm};
 use super::self_motion::self_motion;
+use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::Ring;
 use crate::assembly::Roots;
 use crate::certify::Certificate;
@@ -55,12 +56,32 @@ pub struct Found {
     pub eigenvalues: usize,
     /// The last one of them.
     last: usize,
+    /// How many solutions coincide here, where that is proved.
+    exact: Option<usize>,
 }
 
 impl Found {
-    /// How many solutions coincide here: 1 where that is proved.
+    /// How many solutions coincide here: 1 where it is proved that a single one does.
     fn multiplicity(&self) -> usize {
-        if self.certificate.is_some() { 1 } else { self.eigenvalues }
+        match (self.exact, self.certificate) {
+            (Some(exact), _) => exact,
+            (None, Some(_)) => 1,
+            (None, None) => self.eigenvalues,
+        }
+    }
+
+    /// A multiple solution that is known exactly.
+    pub fn exact(study: Eight<Complex<f64>>, real: bool, radius: f64, multiplicity: usize) -> Self {
+        Self {
+            study,
+            real,
+            certificate: Some(Certificate { radius, isolation: radius, proved: radius }),
+            residual: 0.0,
+            condition: f64::INFINITY,
+            eigenvalues: multiplicity,
+            last: usize::MAX,
+            exact: Some(multiplicity),
+        }
     }
 }
 
@@ -78,6 +99,8 @@ pub struct Source<'a> {
 pub struct Search<'a> {
     /// The legs, polished on.
     pub legs: &'a [Leg<f64>; 6],
+    /// The same with twice the digits.
+    pub wide: &'a [Leg<DoubleDouble>; 6],
     /// Bounds on the second derivatives of their equations.
     pub curvature: &'a Curvature,
     /// What is looked for.
@@ -108,28 +131,17 @@ enum Outcome {
 
 impl<'a> Search<'a> {
     /// The search with nothing found yet.
-    pub fn new(
-        legs: &'a [Leg<f64>; 6],
-        curvature: &'a Curvature,
-        roots: Roots,
-        expected: Option<usize>,
-        found: &'a mut Vec<Found>,
-    ) -> Self {
+    pub fn new(numbers: &'a LegNumbers, roots: Roots, expected: Option<usize>, found: &'a mut Vec<Found>) -> Self {
         found.clear();
-        Self::going_on(legs, curvature, roots, expected, found)
+        Self::going_on(numbers, roots, expected, found)
     }
 
     /// The search with what is found already.
-    pub fn going_on(
-        legs: &'a [Leg<f64>; 6],
-        curvature: &'a Curvature,
-        roots: Roots,
-        expected: Option<usize>,
-        found: &'a mut Vec<Found>,
-    ) -> Self {
+    pub fn going_on(numbers: &'a LegNumbers, roots: Roots, expected: Option<usize>, found: &'a mut Vec<Found>) -> Self {
         Self {
-            legs,
-            curvature,
+            legs: &numbers.legs,
+            wide: &numbers.wide,
+            curvature: &numbers.curvature,
             roots,
             expected,
             found,
@@ -270,7 +282,7 @@ impl<'a> Search<'a> {
             }
             let polished = polish(self.legs, &start).filter(|p| !near_null(p));
             let Some(polished) = polished else {
-                if raw < NEARLY_NULL && !multiple && self.far_away(&start.map(wide)) {
+                if raw < NEARLY_NULL && !multiple && self.far_away(self.wide, &start.map(wide)) {
                     outcome = Outcome::Pose;
                 }
                 continue;
@@ -291,9 +303,9 @@ impl<'a> Search<'a> {
     }
 
     /// Solutions near points known in more digits; those that were found but not proved are proved.
-    pub fn proved_near<R: Extended>(&mut self, starts: &[Eight<Complex<R>>]) {
+    pub fn proved_near<R: Extended>(&mut self, legs: &[Leg<R>; 6], starts: &[Eight<Complex<R>>]) {
         for start in starts {
-            self.far_away(start);
+            self.far_away(legs, start);
         }
         if self.lacks_known_poses() || self.expected.is_none() {
             return;
@@ -307,12 +319,12 @@ impl<'a> Search<'a> {
     }
 
     /// Takes in a pose so far away that it needs more digits; whether there is one, proved.
-    pub fn far_away<R: Extended>(&mut self, start: &Eight<Complex<R>>) -> bool {
-        let found = self.proved(start, false).or_else(|| {
+    pub fn far_away<R: Extended>(&mut self, legs: &[Leg<R>; 6], start: &Eight<Complex<R>>) -> bool {
+        let found = self.proved(legs, start, false).or_else(|| {
             // A ball about a real point holds one solution only if that is real.
             let best = largest(start).conjugate();
             let real = start.map(|z| Complex::<R>::from_real(z.mul(&best).re));
-            self.proved(&real, true)
+            self.proved(legs, &real, true)
         });
         let Some(found) = found else { return false };
         let radius = found.certificate.map_or(SINGULAR, |certificate| certificate.radius);
@@ -327,8 +339,8 @@ impl<'a> Search<'a> {
     }
 
     /// The pose near a point in more digits, if there is one and it is proved to be real or complex, as it should be.
-    fn proved<R: Extended>(&self, start: &Eight<Complex<R>>, real: bool) -> Option<Found> {
-        let (point, there, inverse) = polish_extended(self.legs, start)?;
+    fn proved<R: Extended>(&self, legs: &[Leg<R>; 6], start: &Eight<Complex<R>>, real: bool) -> Option<Found> {
+        let (point, there, inverse) = polish_extended(legs, start)?;
         let proof = pose_certificate(self.legs, self.curvature, &point, &there, &inverse)?;
         let study = point.map(narrowed);
         let certificate = rounded(proof, &study);
@@ -346,6 +358,7 @@ impl<'a> Search<'a> {
             condition: here.condition(&inverse),
             eigenvalues: 1,
             last: usize::MAX,
+            exact: None,
         })
     }
 
@@ -378,7 +391,7 @@ impl<'a> Search<'a> {
         if certificate.is_none() {
             // Once more with twice the digits.
             let inverse = polished.inverse.map(|row| row.map(Scalar::to_complex));
-            certificate = refine(legs, &study, &inverse).and_then(|(point, there)| {
+            certificate = refine(self.wide, &study, &inverse).and_then(|(point, there)| {
                 let inverse = inverse.map(|row| row.map(wide));
                 let proof = pose_certificate(legs, curvature, &point, &there, &inverse)?;
                 study = point.map(narrowed);
@@ -403,6 +416,7 @@ impl<'a> Search<'a> {
             condition: polished.equations.condition(&polished.inverse),
             eigenvalues: 0,
             last: usize::MAX,
+            exact: None,
         });
         self.count(self.found.len() - 1, eigenvalue);
     }
@@ -415,22 +429,34 @@ impl<'a> Search<'a> {
             found.last = eigenvalue;
         }
     }
+}
 
-    /// Writes the list, real poses first.
-    pub fn tell(&self, frame: &Frame, assembly: &mut PlatformAssembly) {
-        for real in [true, false] {
-            for found in self.found.iter().filter(|f| f.real == real) {
-                assembly.modes.push(mode(found, frame, false));
-                if !real {
-                    assembly.modes.push(mode(found, frame, true));
-                }
+/// Takes in a pose that is proved, if it is none of those in the list.
+pub fn take_in(list: &mut Vec<Found>, pose: Found) {
+    let radius = |found: &Found| found.certificate.map_or(SINGULAR, |c| c.radius);
+    let is_apart = |other: &Found| {
+        let apart = |w: &Eight<Complex<f64>>| are_apart(&pose.study, radius(&pose), w, radius(other));
+        apart(&other.study) && apart(&other.study.map(|z| z.conj()))
+    };
+    if list.iter().all(is_apart) {
+        list.push(pose);
+    }
+}
+
+/// Writes the list, real poses first.
+pub fn tell(found: &[Found], frame: &Frame, assembly: &mut PlatformAssembly) {
+    for real in [true, false] {
+        for found in found.iter().filter(|f| f.real == real) {
+            assembly.modes.push(mode(found, frame, false));
+            if !real {
+                assembly.modes.push(mode(found, frame, true));
             }
         }
     }
 }
 
 /// Rounding of coordinates of a point of hermitian norm 1 to f64, generously.
-const ROUNDED: f64 = 1e-15;
+pub const ROUNDED: f64 = 1e-15;
 
 /// Whether a polished solution may belong to a family with `N = 0`.
 pub fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
@@ -502,6 +528,7 @@ fn mode(found: &Found, frame: &Frame, conjugate: bool) -> PlatformMode {
     let quaternion = std::array::from_fn(|k| clean(turned[k]));
     PlatformMode {
         quaternion,
+        study: turned.map(clean),
         position: frame.position(&turned).map(clean),
         real: found.real,
         multiplicity: found.multiplicity(),

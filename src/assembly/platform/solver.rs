@@ -1,19 +1,21 @@
 //! A platform prepared once and solved for one set of leg lengths after the other.
 
+use super::exact::exact_modes;
 use super::homotopy::{End, Homotopy};
-use super::mode::{PlatformAssembly, PlatformMode, Route};
-use super::prepared::{Chart, Frame};
+use super::mode::{PlatformAssembly, Route};
+use super::prepared::{Chart, Frame, LegNumbers, Squares};
 use super::reflection::Reflection;
 use super::rescue::starts;
-use super::search::{Found, Search, Source, real_parts};
+use super::search::{Found, Search, Source, real_parts, take_in, tell};
 use super::self_motion::self_motion;
 use super::triangle::TriangleRoute;
 use crate::algebra::number::nearest_f64;
 use crate::assembly::Roots;
-use crate::certify::pose::Curvature;
 use crate::closure::study::Leg;
 use crate::elimination::border::{BorderBasis, DIMENSION, Reals};
+use crate::elimination::multiple_pose::ExactPoses;
 use crate::elimination::pencil::Square;
+use crate::kinematics::motion::Vector;
 use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
 use crate::solve::spectrum::Spectrum;
@@ -22,6 +24,9 @@ use rug::Rational;
 
 /// Homotopies from different general platforms, at most.
 const MOST_RUNS: usize = 2;
+
+/// A radius above this is wide: two poses that are nearly one may differ by less.
+const WIDE_BALL: f64 = 1e-10;
 
 /// So many times more are where it is known that poses are missing.
 const PATIENCE: usize = 4;
@@ -60,10 +65,19 @@ impl PlatformSolver {
     /// Prepares a geometry. Any finite coordinates will do; degenerate ones show in the answers.
     #[must_use]
     pub fn prepare(platform: &Platform<f64>) -> Self {
+        let exact = |points: &[Vector<f64>; 6]| points.map(|p| p.map(|x| Rational::from_f64(x).unwrap_or_default()));
+        Self::prepare_exact(&Platform { base: exact(&platform.base), plate: exact(&platform.plate) })
+    }
+
+    /// Prepares a geometry whose numbers are not all f64.
+    #[must_use]
+    pub fn prepare_exact(platform: &Platform<Rational>) -> Self {
         let frame = Frame::new(platform);
         let charts = std::array::from_fn(|choice| Chart::new(&frame.platform, choice));
-        let (reflection, triangle) = (Reflection::of(platform), TriangleRoute::of(&frame.platform));
-        Self { platform: platform.clone(), frame, charts, reflection, triangle }
+        let nearest = |points: &[Vector<Rational>; 6]| points.each_ref().map(|p| p.each_ref().map(nearest_f64));
+        let platform = Platform { base: nearest(&platform.base), plate: nearest(&platform.plate) };
+        let (reflection, triangle) = (Reflection::of(&platform), TriangleRoute::of(&frame.platform));
+        Self { platform, frame, charts, reflection, triangle }
     }
 
     /// The geometry as given.
@@ -81,13 +95,6 @@ impl PlatformSolver {
         workspace.basis.products[0].as_slice().try_into().ok()
     }
 
-    /// Study's parameters of a mode as its certificate bounds them, where it has one: about the centre of the platform,
-    /// lengths over the scale.
-    #[must_use]
-    pub fn study(&self, mode: &PlatformMode) -> [Complex<f64>; 8] {
-        self.frame.study(&mode.quaternion, &mode.position)
-    }
-
     /// All poses with legs of these squared lengths (negative ones are meant as written: no pose is real then). With
     /// [`Roots::Real`] only real ones.
     pub fn solve(
@@ -97,17 +104,8 @@ impl PlatformSolver {
         workspace: &mut PlatformWorkspace,
         assembly: &mut PlatformAssembly,
     ) {
-        self.solve_up_to(legs_squared, roots, None, workspace, assembly);
-    }
-
-    /// The legs in the frame of polishing.
-    fn legs(&self, legs_squared: &[f64; 6]) -> [Leg<f64>; 6] {
-        let unit = self.frame.scale * self.frame.scale;
-        let mut legs = self.frame.legs.clone();
-        for (leg, square) in legs.iter_mut().zip(legs_squared) {
-            leg.square = square / unit;
-        }
-        legs
+        workspace.found.clear();
+        self.run(&Squares::of_floats(legs_squared), roots, None, workspace, assembly);
     }
 
     /// Looks again for what is missing of the list solved last in this workspace, in numbers of 384 bits: `platform` and
@@ -120,20 +118,21 @@ impl PlatformSolver {
         workspace: &mut PlatformWorkspace,
         assembly: &mut PlatformAssembly,
     ) {
-        let legs = self.legs(&legs_squared.each_ref().map(nearest_f64));
-        let curvature = Curvature::new(&legs);
+        let numbers = self.frame.with_legs(&Squares::of(legs_squared));
         let proved = |assembly: &PlatformAssembly| assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
         let before = proved(assembly);
-        let known = workspace.found.clone();
-        let mut search = Search::going_on(&legs, &curvature, Roots::All, Some(expected), &mut workspace.found);
-        let poses = search.poses();
-        search.proved_near(&starts(platform, legs_squared, &self.frame));
-        if search.poses() < poses {
-            // Of several that coincide, or nearly so, one was proved and the others were not found.
-            *search.found = known;
+        // Those with a wide ball come again with a narrow one, as a rule.
+        let is_wide = |found: &Found| found.certificate.is_some_and(|c| c.radius > WIDE_BALL);
+        let wide: Vec<Found> = workspace.found.iter().copied().filter(is_wide).collect();
+        workspace.found.retain(|found| found.certificate.is_some() && !is_wide(found));
+        let mut search = Search::going_on(&numbers, Roots::All, Some(expected), &mut workspace.found);
+        let legs = self.frame.long_legs(legs_squared);
+        search.proved_near(&legs, &starts(platform, legs_squared, &self.frame));
+        for found in wide {
+            take_in(search.found, found);
         }
         assembly.modes.clear();
-        search.tell(&self.frame, assembly);
+        tell(search.found, &self.frame, assembly);
         assembly.unresolved = search.unresolved();
         assembly.rescued = proved(assembly).saturating_sub(before);
         if let Some(reflection) = &self.reflection {
@@ -141,12 +140,70 @@ impl PlatformSolver {
         }
     }
 
-    /// As [`PlatformSolver::solve`]; where the number of poses is known (see
+    /// As [`PlatformSolver::solve`], for numbers that are not all f64; where the number of poses is known (see
     /// [`platform_degree`](crate::elimination::platform_degree::platform_degree)), special geometries are searched until
     /// all of them are found, and not longer.
     pub fn solve_up_to(
         &self,
-        legs_squared: &[f64; 6],
+        legs_squared: &[Rational; 6],
+        roots: Roots,
+        expected: Option<usize>,
+        workspace: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) {
+        workspace.found.clear();
+        self.run(&Squares::of(legs_squared), roots, expected, workspace, assembly);
+    }
+
+    /// Looks for more poses than those proved of the list solved last in this workspace, until there are as many as expected.
+    pub fn solve_further(
+        &self,
+        legs_squared: &[Rational; 6],
+        expected: usize,
+        workspace: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) {
+        workspace.found.retain(|found| found.certificate.is_some());
+        self.run(&Squares::of(legs_squared), Roots::All, Some(expected), workspace, assembly);
+    }
+
+    /// Replaces what is not proved of the list solved last in this workspace by multiple poses that are known exactly.
+    /// `false` where their values are not computed to the last digit: then nothing has changed.
+    pub fn add_exact(
+        &self,
+        poses: &[ExactPoses],
+        workspace: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) -> bool {
+        let Some(exact) = poses.iter().map(|poses| exact_modes(poses, &self.frame)).collect::<Option<Vec<_>>>() else {
+            return false;
+        };
+        workspace.found.retain(|found| found.certificate.is_some());
+        // A singular pose is none of those proved before; a regular one may be.
+        for pose in exact.into_iter().flatten() {
+            take_in(&mut workspace.found, pose);
+        }
+        self.list(workspace, assembly);
+        true
+    }
+
+    /// Drops what is not proved of the list solved last in this workspace.
+    pub fn keep_proved(&self, workspace: &mut PlatformWorkspace, assembly: &mut PlatformAssembly) {
+        workspace.found.retain(|found| found.certificate.is_some());
+        self.list(workspace, assembly);
+    }
+
+    fn list(&self, workspace: &PlatformWorkspace, assembly: &mut PlatformAssembly) {
+        assembly.modes.clear();
+        tell(&workspace.found, &self.frame, assembly);
+        if let Some(reflection) = &self.reflection {
+            reflection.mark(&mut assembly.modes);
+        }
+    }
+
+    fn run(
+        &self,
+        given: &Squares,
         roots: Roots,
         expected: Option<usize>,
         workspace: &mut PlatformWorkspace,
@@ -158,11 +215,10 @@ impl PlatformSolver {
         assembly.rank = self.charts[0].directions.rank;
         assembly.self_motion = 0;
         assembly.rescued = 0;
-        let legs = self.legs(legs_squared);
-        let squares = legs.each_ref().map(|leg| leg.square);
-        let curvature = Curvature::new(&legs);
+        let numbers = self.frame.with_legs(given);
+        let squares = numbers.legs.each_ref().map(|leg| leg.square);
         let PlatformWorkspace { basis, spectrum, found, general } = workspace;
-        let mut search = Search::new(&legs, &curvature, roots, expected, found);
+        let mut search = Search::going_on(&numbers, roots, expected, found);
         if let Some(triangle) = &self.triangle
             && triangle.solve(&self.frame.platform, &squares, &mut search)
             && search.is_done()
@@ -191,12 +247,16 @@ impl PlatformSolver {
                 let before = search.found.len();
                 let start = self.frame.general(runs);
                 let begin = std::array::from_fn(|i| Leg::new(&start.base[i], &start.plate[i], squares[i]));
-                let curvature = Curvature::new(&begin);
-                let mut first = Search::new(&begin, &curvature, Roots::All, None, general);
+                let begin = LegNumbers::of_floats(begin);
+                let mut first = Search::new(&begin, Roots::All, None, general);
                 runs += 1;
                 if by_border_basis(&Chart::new(&start, 0), &squares, basis, spectrum, &mut first).is_ok() {
                     let bend = Complex::from_polar(1.0, BENDS[(runs - 1) % BENDS.len()]);
-                    by_homotopy(&Homotopy { target: &legs, start: &begin, bend }, first.found, &mut search);
+                    by_homotopy(
+                        &Homotopy { target: &numbers.legs, start: &begin.legs, bend },
+                        first.found,
+                        &mut search,
+                    );
                 }
                 unchanged = if search.found.len() == before { unchanged + 1 } else { 0 };
             }
@@ -205,7 +265,7 @@ impl PlatformSolver {
         }
         assembly.null = search.null;
         assembly.unresolved = search.unresolved();
-        search.tell(&self.frame, assembly);
+        tell(search.found, &self.frame, assembly);
         if let Some(reflection) = &self.reflection {
             reflection.mark(&mut assembly.modes);
         }

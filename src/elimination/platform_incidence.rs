@@ -1,0 +1,57 @@
+//! Points of a platform that coincide exactly, and what that says of the number of its poses, whatever the lengths of the
+//! legs are. docs/platforms.md, theorem 3, has the proof.
+
+use super::triangle_platform::pairs;
+use crate::kinematics::motion::{Vector, cross};
+use crate::kinematics::platform::Platform;
+use rug::Rational;
+
+/// Poses where three legs meet, or where all legs meet in pairs in the corners of a triangle.
+const POSES: usize = 16;
+
+/// At most so many isolated poses, counted with multiplicity, and why; `None` where no such incidence is known.
+#[must_use]
+pub fn most_poses(platform: &Platform<Rational>) -> Option<(usize, &'static str)> {
+    let meet =
+        |points: &[Vector<Rational>; 6]| (0..6).any(|i| (i + 1..6).filter(|&j| points[j] == points[i]).count() >= 2);
+    if meet(&platform.plate) || meet(&platform.base) {
+        return Some((POSES, "three legs meet in a point"));
+    }
+    let pairs = pairs(platform)?;
+    let points = if pairs.at_base { &platform.base } else { &platform.plate };
+    let [a, b, c] = pairs.legs.map(|[leg, _]| &points[leg]);
+    let side = |p: &Vector<Rational>| -> Vector<Rational> { std::array::from_fn(|k| Rational::from(&p[k] - &a[k])) };
+    let is_triangle = cross(&side(b), &side(c)).iter().any(|x| *x != 0);
+    is_triangle.then_some((POSES, "the legs meet in pairs in the corners of a triangle"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(points: [[i32; 3]; 6]) -> [Vector<Rational>; 6] {
+        points.map(|p| p.map(Rational::from))
+    }
+
+    const GENERAL: [[i32; 3]; 6] = [[0, 0, 0], [3, 1, 0], [4, 5, 1], [1, 4, 2], [-2, 3, 1], [-1, 1, 5]];
+
+    #[test]
+    fn three_equal_points_are_met_in_either_body() {
+        let mut triple = GENERAL;
+        (triple[2], triple[5]) = (triple[0], triple[0]);
+        let platform = Platform { base: points(GENERAL), plate: points(triple) };
+        assert_eq!(most_poses(&platform).map(|most| most.0), Some(16));
+        let platform = Platform { base: points(triple), plate: points(GENERAL) };
+        assert_eq!(most_poses(&platform).map(|most| most.0), Some(16));
+        assert_eq!(most_poses(&Platform { base: points(GENERAL), plate: points(GENERAL) }), None);
+    }
+
+    #[test]
+    fn pairs_need_a_triangle() {
+        let corners = |c: [[i32; 3]; 3]| points([c[0], c[0], c[1], c[1], c[2], c[2]]);
+        let triangle = Platform { base: points(GENERAL), plate: corners([[0, 0, 0], [1, 0, 0], [0, 1, 0]]) };
+        assert_eq!(most_poses(&triangle).map(|most| most.0), Some(16));
+        let line = Platform { base: points(GENERAL), plate: corners([[0, 0, 0], [1, 0, 0], [2, 0, 0]]) };
+        assert_eq!(most_poses(&line), None);
+    }
+}

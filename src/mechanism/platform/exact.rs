@@ -1,0 +1,161 @@
+//! What the exact side knows of one set of legs: how many poses there are, and where.
+
+use super::roots::are_all_matched;
+use crate::algebra::drawn;
+use crate::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
+use crate::elimination::multiple_pose::multiple_poses;
+use crate::elimination::platform_degree::{PlatformDegree, platform_degree};
+use crate::elimination::platform_polynomial::{PlatformPolynomial, multiple_platform_polynomial, platform_polynomial};
+use crate::kinematics::platform::Platform;
+use crate::verdict::{Bound, Code, MOST_POSES, PlatformKnowledge, Proof};
+use rug::Rational;
+
+/// One set of legs, exact.
+pub struct ExactSide<'a> {
+    /// The points.
+    pub platform: &'a Platform<Rational>,
+    /// The squared lengths of the legs.
+    pub squares: &'a [Rational; 6],
+    /// A bound on the number of poses that holds for all legs of this geometry, and why.
+    pub incidence: Option<(usize, &'static str)>,
+    /// Whether complex poses are looked for beside the real ones.
+    pub complex: bool,
+}
+
+/// The memory of one solver.
+pub struct Search<'a> {
+    /// The solver.
+    pub solver: &'a PlatformSolver,
+    /// Its memory, which holds what was found.
+    pub memory: &'a mut PlatformWorkspace,
+    /// The list.
+    pub assembly: &'a mut PlatformAssembly,
+}
+
+impl Search<'_> {
+    /// Poses that are proved, with multiplicity.
+    fn proved(&self) -> usize {
+        let proved = self.assembly.modes.iter().filter(|mode| mode.certificate.is_some());
+        proved.map(|mode| mode.multiplicity).sum()
+    }
+
+    fn keep_proved(&mut self) {
+        self.solver.keep_proved(self.memory, self.assembly);
+    }
+}
+
+impl ExactSide<'_> {
+    /// Finds what is missing of a list, as far as that is known, and says what is known of the number of poses. A polynomial
+    /// that is known already is not computed again.
+    pub fn settle(&self, search: &mut Search, known: Option<&PlatformPolynomial>) -> PlatformKnowledge {
+        let degree = platform_degree(self.platform, self.squares);
+        let Some(PlatformDegree::Finite { poses, null, curves }) = degree else {
+            let infinite = match degree {
+                Some(PlatformDegree::Infinite { dimension }) => Some(dimension),
+                _ => None,
+            };
+            return PlatformKnowledge { infinite, ..PlatformKnowledge::default() };
+        };
+        // Poses are isolated: none lies on a curve of them.
+        search.assembly.self_motion = 0;
+        if search.proved() == poses
+            && let Some((most, why)) = self.incidence.filter(|(most, _)| *most == poses)
+        {
+            search.keep_proved();
+            let because = format!("at most {most} that such a platform can have: {why}");
+            let count = Bound { count: most, proof: Proof::Proved, code: Code::GeometryBoundMet, because };
+            return PlatformKnowledge { count: Some(count), ..PlatformKnowledge::default() };
+        }
+        let mut is_rescued = false;
+        if poses == MOST_POSES && known.is_none() {
+            // What f64 does not reach, the exact data do.
+            self.rescue(search, poses);
+            is_rescued = true;
+            if search.proved() == poses {
+                search.keep_proved();
+                let count = Some(counted(poses, null, curves));
+                return PlatformKnowledge { count, ..PlatformKnowledge::default() };
+            }
+        }
+        let found = if known.is_some() { None } else { polynomial(self.platform, self.squares) };
+        let polynomial = known.or(found.as_ref());
+        let count = polynomial
+            .map_or_else(|| counted(poses, null, curves), |polynomial| by_polynomial(polynomial, poses, null, curves));
+        let proof = count.proof;
+        let total = count.count;
+        let mut knowledge = PlatformKnowledge { count: Some(count), ..PlatformKnowledge::default() };
+        let reals = |search: &Search| {
+            let matched = |polynomial: &PlatformPolynomial| are_all_matched(polynomial, &search.assembly.modes);
+            polynomial.is_some_and(matched).then_some(proof)
+        };
+        let is_done =
+            |search: &Search, reals: Option<Proof>| search.proved() == total || (!self.complex && reals.is_some());
+        knowledge.reals = reals(search);
+        if !is_rescued && !is_done(search, knowledge.reals) {
+            self.rescue(search, total);
+            knowledge.reals = reals(search);
+        }
+        if !is_done(search, knowledge.reals)
+            && let Some(polynomial) = polynomial
+        {
+            self.add_multiple(search, polynomial);
+            knowledge.reals = reals(search);
+        }
+        if !is_done(search, knowledge.reals) {
+            search.solver.solve_further(self.squares, total, search.memory, search.assembly);
+            search.assembly.self_motion = 0;
+            knowledge.reals = reals(search);
+        }
+        if is_done(search, knowledge.reals) || search.assembly.total() > total {
+            search.keep_proved();
+        }
+        knowledge
+    }
+
+    fn rescue(&self, search: &mut Search, expected: usize) {
+        search.solver.rescue(self.platform, self.squares, expected, search.memory, search.assembly);
+    }
+
+    /// Puts multiple poses that are known exactly into the list.
+    fn add_multiple(&self, search: &mut Search, polynomial: &PlatformPolynomial) {
+        let simple = search.proved();
+        let poses = multiple_poses(self.platform, self.squares, polynomial);
+        if !poses.is_empty() && search.solver.add_exact(&poses, search.memory, search.assembly) {
+            search.assembly.rescued = search.assembly.rescued.min(simple);
+        }
+    }
+}
+
+/// The polynomial of a set of legs, in a variable that tells all poses apart if there is one.
+fn polynomial(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Option<PlatformPolynomial> {
+    platform_polynomial(platform, squares).or_else(|| multiple_platform_polynomial(platform, squares))
+}
+
+/// What is said of solutions that are no poses.
+fn beside(null: usize, curves: bool) -> String {
+    match (null, curves) {
+        (_, true) => ", beside curves of solutions with N = 0, which are no poses".to_owned(),
+        (0, false) => String::new(),
+        (null, false) => format!(", beside {null} solutions with N = 0, which are no poses"),
+    }
+}
+
+/// The number of poses as it is known from one prime.
+fn counted(poses: usize, null: usize, curves: bool) -> Bound {
+    let because = format!("{poses} poses, counted modulo a prime drawn at random{}", beside(null, curves));
+    if poses == MOST_POSES {
+        return Bound { count: poses, proof: Proof::Proved, code: Code::GeneralBoundMet, because };
+    }
+    let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
+    Bound { count: poses, proof, code: Code::CountMet, because }
+}
+
+/// The number of poses as the degree of their polynomial.
+fn by_polynomial(polynomial: &PlatformPolynomial, poses: usize, null: usize, curves: bool) -> Bound {
+    let degree = polynomial.coefficients.len() - 1;
+    if !polynomial.proved {
+        return counted(degree.max(poses), null, curves);
+    }
+    let because = format!("{degree} that there are, the degree of their exact polynomial{}", beside(null, curves));
+    Bound { count: degree, proof: Proof::Proved, code: Code::ExactRootsMatched, because }
+}
