@@ -36,6 +36,11 @@ impl Direction {
         short.then_some(Self { x, y })
     }
 
+    /// The coordinates of a vector in this direction.
+    pub(super) fn coordinates(&self) -> (&Rational, &Rational) {
+        (&self.x, &self.y)
+    }
+
     /// The direction of `turns * pi`, rational for multiples of a quarter of pi.
     pub(super) fn of_turns(turns: &Rational) -> Option<Self> {
         let quarters = Rational::from(turns * 4);

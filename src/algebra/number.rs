@@ -4,9 +4,11 @@ use super::approximation::simplest_within;
 use super::enclosure::Enclosure;
 use super::expression::{Quantified, Unit, evaluate, shortened};
 use super::ring::Ring;
+use super::surd::{Closed, Phase};
 use super::value::{BITS, Value};
 use crate::error::{Error, Result};
 use rug::{Float, Rational, ops::Pow};
+use std::sync::Arc;
 
 pub use super::half_tangent::HalfTangent;
 
@@ -52,6 +54,8 @@ pub struct Number {
     exact: bool,
     float: f64,
     enclosed: Option<Box<Enclosure>>,
+    /// The number itself, where it is not rational but a closed form of it is known.
+    closed: Option<Arc<Closed>>,
 }
 
 /// An angle of a file, known twice: correctly rounded in f64, and as an exact rational half-angle tangent, beside which
@@ -63,6 +67,8 @@ pub struct Angle {
     half_tangent: HalfTangent,
     exact: bool,
     enclosed: Option<Box<(Enclosure, Enclosure)>>,
+    /// Cosine and sine themselves, where the half-angle tangent is not rational but closed forms are known.
+    phase: Option<Arc<Phase>>,
 }
 
 /// The f64 nearest to a rational (rug's own `to_f64` truncates).
@@ -76,7 +82,7 @@ impl Number {
     #[must_use]
     pub fn exact(rational: Rational) -> Self {
         let float = nearest_f64(&rational);
-        Self { rational, exact: true, float, enclosed: None }
+        Self { rational, exact: true, float, enclosed: None, closed: None }
     }
 
     /// A rational that stands for a nearby real number of which no more is known.
@@ -89,7 +95,7 @@ impl Number {
     #[must_use]
     pub fn standing_for(rational: Rational, real: Enclosure) -> Self {
         let float = if real.holds_zero() { 0.0 } else { real.middle().to_f64() };
-        Self { rational, exact: false, float, enclosed: Some(Box::new(real)) }
+        Self { rational, exact: false, float, enclosed: Some(Box::new(real)), closed: None }
     }
 
     /// The simplest rational within `10^-digits` (relative) of a float.
@@ -106,7 +112,10 @@ impl Number {
     pub fn squared(&self) -> Self {
         let square = Rational::from(self.rational.square_ref());
         match self.enclosed() {
-            Some(real) => Self::standing_for(square, real.mul(real)),
+            Some(real) => {
+                let closed = self.closed.as_ref().and_then(|closed| closed.mul(closed)).map(Arc::new);
+                Self { closed, ..Self::standing_for(square, real.mul(real)) }
+            }
             None if self.exact => Self::exact(square),
             None => Self::rounded(square),
         }
@@ -125,7 +134,7 @@ impl Number {
     #[must_use]
     pub fn from_f64(float: f64) -> Self {
         let rational = Rational::from_f64(float).expect("a finite number was promised");
-        Self { rational, exact: true, float, enclosed: None }
+        Self { rational, exact: true, float, enclosed: None, closed: None }
     }
 
     /// Reads the text of a number: an integer, a decimal or an expression, with or without a unit.
@@ -158,9 +167,13 @@ impl Number {
         };
         let value = value.mul(&Value::from_rational(scale));
         check_size(&value.float(), text)?;
+        let closed = value.closed().map(Arc::new);
         Ok(match value.rational {
             Some(rational) => Self::exact(rational),
-            None => Self::standing_for(Self::near(&value.float(), 17.max(reading.digits + 2)), value.real),
+            None => {
+                let near = Self::near(&value.float(), 17.max(reading.digits + 2));
+                Self { closed, ..Self::standing_for(near, value.real) }
+            }
         })
     }
 
@@ -168,6 +181,13 @@ impl Number {
     #[must_use]
     pub fn rational(&self) -> &Rational {
         &self.rational
+    }
+
+    /// The number itself as a rational or in closed form, by cosines of parts of a turn and square roots; `None` where
+    /// nothing but an approximation is known.
+    #[must_use]
+    pub fn closed(&self) -> Option<Closed> {
+        if self.exact { Some(Closed::rational(self.rational.clone())) } else { self.closed.as_deref().cloned() }
     }
 
     /// Whether `rational` is the value itself and not an approximation.
@@ -209,7 +229,7 @@ impl Angle {
                 ((Float::with_val(BITS, t).atan() * 2_u32).to_f64(), (cos, sin))
             }
         };
-        Self { radians, cos_sin, half_tangent, exact: true, enclosed: None }
+        Self { radians, cos_sin, half_tangent, exact: true, enclosed: None, phase: None }
     }
 
     /// The angle that a float is, radians; its half-angle tangent rounded to 15 digits.
@@ -257,7 +277,7 @@ impl Angle {
         check_size(&value.float(), text)?;
         Ok(match value.half_tangent() {
             Some(half_tangent) => Self { radians: value.float().to_f64(), ..Self::from_half_tangent(half_tangent) },
-            None => Self::rounded(&value.real, reading.digits),
+            None => Self { phase: value.phase().map(Arc::new), ..Self::rounded(&value.real, reading.digits) },
         })
     }
 
@@ -277,7 +297,12 @@ impl Angle {
             })?)),
         };
         let exact = number.exact;
-        Ok(Self { exact, enclosed, ..Self::from_half_tangent(HalfTangent::Finite(number.rational)) })
+        let phase = number.closed.as_ref().and_then(|t| {
+            let (one, square) = (Closed::rational(Rational::from(1)), t.mul(t)?);
+            let length = one.add(&square)?;
+            Some(Arc::new((one.add(&square.neg())?.div(&length)?, t.add(t)?.div(&length)?)))
+        });
+        Ok(Self { exact, enclosed, phase, ..Self::from_half_tangent(HalfTangent::Finite(number.rational)) })
     }
 
     /// An angle without a known rational half-angle tangent.
@@ -297,7 +322,7 @@ impl Angle {
         };
         let enclosed = enclosed.cos_sin_of();
         let cos_sin = (enclosed.0.middle().to_f64(), enclosed.1.middle().to_f64());
-        Self { radians: radians.to_f64(), cos_sin, half_tangent, exact: false, enclosed: Some(Box::new(enclosed)) }
+        Self { radians: radians.to_f64(), cos_sin, half_tangent, exact: false, enclosed: Some(Box::new(enclosed)), phase: None }
     }
 
     /// The angle, correctly rounded, as given (not reduced modulo 2 pi). Radians.
@@ -322,6 +347,16 @@ impl Angle {
     #[must_use]
     pub fn enclosed(&self) -> Option<&(Enclosure, Enclosure)> {
         self.enclosed.as_deref()
+    }
+
+    /// Cosine and sine themselves as rationals or in closed form; `None` where nothing but an approximation is known.
+    #[must_use]
+    pub fn phase(&self) -> Option<Phase> {
+        if self.exact {
+            let (cos, sin) = super::ring::exact_cos_sin(self);
+            return Some((Closed::rational(cos), Closed::rational(sin)));
+        }
+        self.phase.as_deref().cloned()
     }
 
     /// Whether the half-angle tangent is the angle's own and not an approximation.

@@ -4,7 +4,7 @@
 //! field remembers the factor that tells them apart: what was computed is then void, and is done again over each factor.
 //! What was computed without such a meeting holds at every root alike.
 
-use super::ring::{Field, Ring};
+use super::ring::{Domain, Field, Ring};
 use super::univariate::Univariate;
 use rug::{Float, Integer, Rational};
 use std::sync::{Arc, OnceLock};
@@ -201,6 +201,20 @@ impl Algebraic {
         Self { numerator: vec![n.clone()], denominator: Integer::from(1), field: None }.reduced()
     }
 
+    /// The number as a polynomial in t.
+    #[must_use]
+    pub fn polynomial(&self) -> Univariate<Rational> {
+        let mut power = Rational::from((Integer::from(1), self.denominator.clone()));
+        let mut coefficients = Vec::with_capacity(self.numerator.len());
+        for c in &self.numerator {
+            coefficients.push(Rational::from(c * &power));
+            if let Some(field) = &self.field {
+                power *= &field.leading;
+            }
+        }
+        Univariate::new(coefficients)
+    }
+
     /// The value as a rational number, if it is one.
     #[must_use]
     pub fn rational(&self) -> Option<Rational> {
@@ -269,6 +283,12 @@ impl Ring for Algebraic {
     fn from_rational(q: &Rational) -> Option<Self> {
         let (numerator, denominator) = (vec![q.numer().clone()], q.denom().clone());
         Some(Self { numerator, denominator, field: None }.reduced())
+    }
+}
+
+impl Domain for Algebraic {
+    fn checked_div_exact(&self, other: &Self) -> Option<Self> {
+        Some(self.mul(&other.inverse()?))
     }
 }
 

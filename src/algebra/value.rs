@@ -3,12 +3,15 @@
 use super::enclosure::Enclosure;
 use super::half_tangent::{Direction, HalfTangent, square_root};
 use super::ring::Ring;
+use super::surd::{Closed, Phase, Surd, phase_of_sum, phase_of_turn};
 use rug::{Float, Integer, Rational, float::Constant, ops::Pow};
 
 /// Bits of what is told of an irrational value beside its enclosure: far more than any result keeps.
 pub(super) const BITS: u32 = 256;
 /// Numerators and denominators beyond this many bits are refused.
 const LONGEST: u32 = 20_000;
+/// Largest multiple of an angle followed in closed form, where its cosine is no rational.
+const SMALL: i32 = 8;
 /// Largest multiple of an angle followed exactly.
 const MULTIPLE: i32 = 256;
 
@@ -22,6 +25,10 @@ pub(super) struct Value {
     turns: Option<Rational>,
     /// The direction of the value as an angle.
     direction: Option<Direction>,
+    /// The value in closed form, where it is no rational.
+    closed: Option<Closed>,
+    /// Cosine and sine of the value as an angle in closed form, where neither turns nor direction tell.
+    phase: Option<Phase>,
     /// Whether the value came from pi or an inverse function: an angle in radians.
     pub(super) radians: bool,
 }
@@ -31,28 +38,54 @@ impl Value {
         if rational.is_zero() {
             return Self::from_turns(rational, false);
         }
-        Self { real: Enclosure::of(&rational), rational: Some(rational), turns: None, direction: None, radians: false }
+        let real = Enclosure::of(&rational);
+        Self { rational: Some(rational), ..Self::inexact(real, false) }
     }
 
     /// `turns * pi`
     pub(super) fn from_turns(turns: Rational, radians: bool) -> Self {
         let rational = turns.is_zero().then(Rational::new);
-        Self {
-            real: Enclosure::pi().scaled(&turns),
-            rational,
-            direction: Direction::of_turns(&turns),
-            turns: Some(turns),
-            radians,
-        }
+        let real = Enclosure::pi().scaled(&turns);
+        Self { rational, direction: Direction::of_turns(&turns), turns: Some(turns), ..Self::inexact(real, radians) }
     }
 
     fn inexact(real: Enclosure, radians: bool) -> Self {
-        Self { real, rational: None, turns: None, direction: None, radians }
+        Self { real, rational: None, turns: None, direction: None, closed: None, phase: None, radians }
     }
 
     /// The value, to far more digits than any result keeps.
     pub(super) fn float(&self) -> Float {
         Float::with_val(BITS, self.real.middle())
+    }
+
+    /// The value in closed form, where it is known.
+    pub(super) fn closed(&self) -> Option<Closed> {
+        self.rational.clone().map(Closed::rational).or_else(|| self.closed.clone())
+    }
+
+    /// Cosine and sine of the value taken as an angle, in closed form where they are known.
+    pub(super) fn phase(&self) -> Option<Phase> {
+        if let Some(turns) = &self.turns {
+            return Some(phase_of_turn(&Rational::from(turns / 2)));
+        }
+        if let Some((x, y)) = self.direction.as_ref().map(Direction::coordinates) {
+            let square = Rational::from(x.square_ref()) + Rational::from(y.square_ref());
+            let length = Closed::from(Surd::square_root(&square)?);
+            return Some((Closed::rational(x.clone()).div(&length)?, Closed::rational(y.clone()).div(&length)?));
+        }
+        self.phase.clone()
+    }
+
+    fn in_closed_form(self, closed: Option<Closed>) -> Self {
+        Self { closed, ..self }
+    }
+
+    /// The phase of a small whole multiple.
+    fn multiple(&self, factor: &Rational) -> Option<Phase> {
+        let count = Some(factor).filter(|factor| factor.is_integer())?.numer().to_i32().filter(|n| n.abs() <= SMALL)?;
+        let (cos, sin) = self.phase()?;
+        let one = if count < 0 { (cos, sin.neg()) } else { (cos, sin) };
+        (0..count.abs()).try_fold(phase_of_turn(&Rational::new()), |sum, _| phase_of_sum(&sum, &one))
     }
 
     /// The exact half-angle tangent of the value taken as an angle, where it is rational.
@@ -83,7 +116,9 @@ impl Value {
         // What cannot be told from 0 is 0.
         let real = self.real.add(&other.real).settled();
         let direction = self.direction.as_ref().zip(other.direction.as_ref()).and_then(|(x, y)| x.plus(y));
-        Self { real, rational: None, turns: None, direction, radians }
+        let closed = self.closed().zip(other.closed()).and_then(|(x, y)| x.add(&y));
+        let phase = self.phase().zip(other.phase()).and_then(|(x, y)| phase_of_sum(&x, &y));
+        Self { direction, closed, phase, ..Self::inexact(real, radians) }
     }
 
     pub(super) fn neg(&self) -> Self {
@@ -93,6 +128,8 @@ impl Value {
             rational: self.rational.as_ref().map(flip),
             turns: self.turns.as_ref().map(flip),
             direction: self.direction.as_ref().map(Direction::opposite),
+            closed: self.closed.as_ref().map(Closed::neg),
+            phase: self.phase.as_ref().map(|(cos, sin)| (cos.clone(), sin.neg())),
             radians: self.radians,
         }
     }
@@ -103,7 +140,10 @@ impl Value {
             (Some(x), Some(y)) => Self { radians, ..Self::from_rational(Rational::from(x * y)) },
             (Some(factor), None) => other.scaled(factor),
             (None, Some(factor)) => self.scaled(factor),
-            (None, None) => Self::inexact(self.real.mul(&other.real), radians),
+            (None, None) => {
+                let product = Self::inexact(self.real.mul(&other.real), radians);
+                product.in_closed_form(self.closed().zip(other.closed()).and_then(|(x, y)| x.mul(&y)))
+            }
         }
     }
 
@@ -123,7 +163,8 @@ impl Value {
                 _ => None,
             }
         });
-        Self { real, rational: None, turns: None, direction, radians: self.radians }
+        let closed = self.closed().and_then(|closed| closed.mul(&Closed::rational(factor.clone())));
+        Self { direction, closed, phase: self.multiple(factor), ..Self::inexact(real, self.radians) }
     }
 
     pub(super) fn div(&self, other: &Self) -> Result<Self, String> {
@@ -138,7 +179,8 @@ impl Value {
             return Ok(Self::from_rational(Rational::from(x / y)));
         }
         let ratio = self.real.over(&other.real).ok_or_else(by_zero)?;
-        Ok(Self::inexact(ratio, self.radians || other.radians))
+        let quotient = Self::inexact(ratio, self.radians || other.radians);
+        Ok(quotient.in_closed_form(self.closed().zip(other.closed()).and_then(|(x, y)| x.div(&y))))
     }
 
     pub(super) fn sqrt(&self) -> Result<Self, String> {
@@ -146,7 +188,8 @@ impl Value {
         if let Some(root) = self.rational.as_ref().and_then(square_root) {
             return Ok(Self::from_rational(root));
         }
-        Ok(Self::inexact(self.real.sqrt().ok_or_else(negative)?, false))
+        let closed = self.rational.as_ref().and_then(Surd::square_root).map(Closed::from);
+        Ok(Self::inexact(self.real.sqrt().ok_or_else(negative)?, false).in_closed_form(closed))
     }
 
     /// Cosine and sine, exact where rational.
@@ -167,8 +210,11 @@ impl Value {
         let exact = |turns: Option<Rational>| turns.and_then(cosine_of_turns).map(Self::from_rational);
         let complement = self.turns.as_ref().map(|turns| Rational::from((1, 2)) - turns);
         let (cos, sin) = self.real.cos_sin_of();
-        let either = |known: Option<Self>, real| known.unwrap_or_else(|| Self::inexact(real, false));
-        (either(exact(self.turns.clone()), cos), either(exact(complement), sin))
+        let (closed_cos, closed_sin) = self.phase().unzip();
+        let either = |known: Option<Self>, real, closed| {
+            known.unwrap_or_else(|| Self::inexact(real, false).in_closed_form(closed))
+        };
+        (either(exact(self.turns.clone()), cos, closed_cos), either(exact(complement), sin, closed_sin))
     }
 
     pub(super) fn cos(&self) -> Self {
@@ -198,7 +244,9 @@ impl Value {
         }
         let direction = self.rational.as_ref().and_then(|x| Direction::new(x.clone(), complement(x)?));
         let angle = self.real.acos().ok_or_else(|| self.outside("acos"))?;
-        Ok(Self { direction, ..Self::inexact(angle, true) })
+        let other = |x: &Rational| Surd::square_root(&(1 - Rational::from(x.square_ref()))).map(Closed::from);
+        let phase = self.rational.as_ref().and_then(|x| Some((Closed::rational(x.clone()), other(x)?)));
+        Ok(Self { direction, phase, ..Self::inexact(angle, true) })
     }
 
     pub(super) fn asin(&self) -> Result<Self, String> {
@@ -212,7 +260,9 @@ impl Value {
         }
         let direction = self.rational.as_ref().and_then(|y| Direction::new(complement(y)?, y.clone()));
         let angle = self.real.asin().ok_or_else(|| self.outside("asin"))?;
-        Ok(Self { direction, ..Self::inexact(angle, true) })
+        let other = |y: &Rational| Surd::square_root(&(1 - Rational::from(y.square_ref()))).map(Closed::from);
+        let phase = self.rational.as_ref().and_then(|y| Some((other(y)?, Closed::rational(y.clone()))));
+        Ok(Self { direction, phase, ..Self::inexact(angle, true) })
     }
 
     /// The angle of the direction (x, y); `atan(y)` is `atan2(y, 1)`.

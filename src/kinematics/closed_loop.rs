@@ -378,6 +378,15 @@ impl Chain {
         self.separated(&Numbers)
     }
 
+    /// As [`Chain::unknowns_and_constants`], with these constants of the joints.
+    #[must_use]
+    pub fn unknowns_and_constants_over<R: Ring>(
+        &self,
+        parameters: &impl Parameters<R>,
+    ) -> Option<(Vec<Variable>, Vec<Motion<R>>)> {
+        self.separated(parameters)
+    }
+
     fn separated<R: Ring>(&self, parameters: &impl Parameters<R>) -> Option<(Vec<Variable>, Vec<Motion<R>>)> {
         let mut unknowns = Vec::new();
         let mut constants = vec![Motion::identity()];

@@ -2,14 +2,15 @@
 
 use super::answer::{Configuration, JointVariable, Mobility};
 use super::branches::branches;
+use super::ground::Grounded;
 use super::linkage::{Axis, JointValue, Linkage};
 use super::nearby::{Nearby, nearby};
 use super::open::{of_arm, of_platform};
 use super::order::{Germ, Local, MOST_SOLUTIONS};
 use super::positions::Conjugates;
 use super::rounded::{Closing, closing, has_long_decimals, is_exact};
-use super::search::{Outcome, Search, at, decide, is_open_everywhere, search};
-use super::stillness::all_stand_still;
+use super::search::{Outcome, Search, at, decide, is_open_everywhere, search, search_over};
+use super::stillness::{all_stand_still, all_stand_still_modulo};
 use crate::algebra::number::Number;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
@@ -126,6 +127,9 @@ impl Subject<'_> {
 
     /// The same of nothing but the loop as given.
     fn as_given(&self) -> Result<Mobility> {
+        if let Some(answer) = self.over_its_field()? {
+            return Ok(answer);
+        }
         let answer = self.exactly()?;
         let moves = answer.mobility > Some(0);
         let is_rounded = !is_exact(self.chain);
@@ -144,6 +148,31 @@ impl Subject<'_> {
         };
         let proof = answer.proof.of_rounded(is_rounded);
         Ok(Mobility { reason: format!("{}; {remark}", answer.reason), proof, ..answer })
+    }
+
+    /// Loops with irrational numbers of one field, decided in that; `None` for other loops, and where nothing is proved.
+    fn over_its_field(&self) -> Result<Option<Mobility>> {
+        if is_exact(self.chain) {
+            return Ok(None);
+        }
+        let Some(ground) = Grounded::of(self.chain) else { return Ok(None) };
+        let degree = ground.field.degree();
+        let field = format!("in the number field of degree {degree} of the file");
+        if self.variables.len() <= 6 && ground.residue().is_some_and(|image| all_stand_still_modulo(&image)) {
+            // Where they are known to stand still, the rounded loop tells which configurations there are.
+            let rounded =
+                if self.variables.len() < 6 { self.immobile(Some(STILL)) } else { self.structure(Some(STILL))? };
+            let reason = format!("{STILL} ({field}); the loop with its numbers rounded: {}", rounded.reason);
+            return Ok(Some(Mobility { shaky: None, is_listed: false, reason, ..rounded }));
+        }
+        Ok(match search_over(&ground, &self.linkage.unit()) {
+            Outcome::Mobile(found) => {
+                let answer = self.mobile(found);
+                let reason = format!("{} ({field})", answer.reason);
+                Some(Mobility { reason, ..answer })
+            }
+            _ => None,
+        })
     }
 
     /// A loop that closes to rounding.

@@ -1,8 +1,9 @@
 //! A closed chain of any number of joint variables over a field, and its positions.
 
+use crate::algebra::number::Number;
 use crate::algebra::ring::{Field, Ring};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, Geometry, JointKind};
+use crate::kinematics::chain::{Chain, Geometry, JointKind, ScrewJoint};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
 use crate::kinematics::freedom::Freedom;
@@ -87,48 +88,27 @@ impl Linkage<Rational> {
                 Freedom::of(chain)
             )));
         }
-        let (variables, mut motions) = chain
-            .unknowns_and_constants::<Rational>()
-            .ok_or_else(|| Error::Unsupported("a constant of the loop without a rational value".to_owned()))?;
-        // What stands before the first variable comes behind the last one: conjugation.
-        let first = motions.remove(0);
-        if let Some(last) = motions.last_mut() {
-            *last = last.then_after(&first);
-        }
-        let links = motions.iter().map(|motion| primitive(&dual_quaternion(motion))).collect();
-        Ok(Self::about_z(variables, links))
+        let without = || Error::Unsupported("a constant of the loop without a rational value".to_owned());
+        let (variables, motions) = chain.unknowns_and_constants::<Rational>().ok_or_else(without)?;
+        let mut linkage = Self::of_motions(variables, motions).ok_or_else(without)?;
+        linkage.links = linkage.links.iter().map(primitive).collect();
+        Ok(linkage)
     }
 
     /// The loop of a list of screw axes of R, P and C joints some of which are along vectors of irrational length: there is
     /// no rational frame with its z axis along such a vector, but none is needed.
     fn about_given_axes(chain: &Chain) -> Option<Self> {
         let Geometry::Screws { joints, home } = &chain.geometry else { return None };
-        let vectors: Vec<[Rational; 3]> =
-            joints.iter().map(|j| j.axis.each_ref().map(|x| x.rational().clone())).collect();
-        if vectors.iter().all(|axis| is_square(&dot(axis, axis))) {
+        let has_frame = |joint: &ScrewJoint| {
+            let [x, y, z] = joint.axis.each_ref().map(Number::rational);
+            is_square(&(Rational::from(x * x) + Rational::from(y * y) + Rational::from(z * z)))
+        };
+        if joints.iter().all(has_frame) {
             return None;
         }
-        let mut linkage = Self { variables: Vec::new(), axes: Vec::new(), links: Vec::new() };
-        let mut motions: Vec<Motion<Rational>> = vec![Motion::identity()];
-        let mut here: [Rational; 3] = std::array::from_fn(|_| Rational::new());
-        for (joint, vector) in joints.iter().zip(vectors) {
-            if !joint.kind.has_one_axis() || joint.kind == JointKind::Helical {
-                return None;
-            }
-            let step = std::array::from_fn(|i| Rational::from(joint.point[i].rational() - &here[i]));
-            *motions.last_mut()? = Motion::translation(step);
-            here = joint.point.each_ref().map(|x| x.rational().clone());
-            for variable in joint.kind.variables() {
-                linkage.variables.push(*variable);
-                linkage.axes.push(Axis::Along(vector.clone()));
-                motions.push(Motion::identity());
-            }
-        }
-        // What stands before the first variable comes behind the last one: conjugation.
-        let first = motions.remove(0);
-        let back = Motion::translation(here.map(|x| -x));
-        *motions.last_mut()? = back.then_after(&home.exact).then_after(&first);
-        linkage.links = motions.iter().map(|motion| primitive(&dual_quaternion(motion))).collect();
+        let image = |x: &Number| Some(x.rational().clone());
+        let mut linkage = Self::about_axes(joints, &home.exact, image)?;
+        linkage.links = linkage.links.iter().map(primitive).collect();
         Some(linkage)
     }
 
@@ -148,21 +128,73 @@ impl Linkage<Rational> {
     /// The same chain over another field; `None` for an unlucky prime.
     #[must_use]
     pub fn map<F: Field>(&self) -> Option<Linkage<F>> {
-        let image = |link: &DualQuaternion<Rational>| -> Option<DualQuaternion<F>> {
-            let (x, y) = link.study();
-            let four = |v: &[Rational; 4]| -> Option<[F; 4]> {
-                let images: Option<Vec<F>> = v.iter().map(F::from_rational).collect();
-                images?.try_into().ok()
-            };
-            Some(DualQuaternion::from_study(&four(&x)?, &four(&y)?))
-        };
-        let links: Option<Vec<_>> = self.links.iter().map(image).collect();
-        let axes: Option<Vec<_>> = self.axes.iter().map(|axis| axis.map(F::from_rational)).collect();
-        Some(Linkage { variables: self.variables.clone(), axes: axes?, links: links? })
+        self.over(F::from_rational)
     }
 }
 
 impl<F: Field> Linkage<F> {
+    /// The loop of these joint variables about z axes, and the motions before, between and behind them; `None` without
+    /// variables.
+    pub(super) fn of_motions(variables: Vec<Variable>, mut motions: Vec<Motion<F>>) -> Option<Self> {
+        // What stands before the first variable comes behind the last one: conjugation.
+        let first = motions.remove(0);
+        let last = motions.last_mut()?;
+        *last = last.then_after(&first);
+        let links = motions.iter().map(dual_quaternion).collect();
+        Some(Self::about_z(variables, links))
+    }
+
+    /// The loop of a list of screw axes of R, P and C joints, each along its own vector, whose numbers are these; `None` for other
+    /// joints.
+    pub(super) fn about_axes(
+        joints: &[ScrewJoint],
+        home: &Motion<F>,
+        image: impl Fn(&Number) -> Option<F>,
+    ) -> Option<Self> {
+        let mut linkage = Self { variables: Vec::new(), axes: Vec::new(), links: Vec::new() };
+        let mut motions: Vec<Motion<F>> = vec![Motion::identity()];
+        let mut here: [F; 3] = std::array::from_fn(|_| F::zero());
+        let vector = |v: &[Number; 3]| Some([image(&v[0])?, image(&v[1])?, image(&v[2])?]);
+        for joint in joints {
+            if !joint.kind.has_one_axis() || joint.kind == JointKind::Helical {
+                return None;
+            }
+            let (axis, point) = (vector(&joint.axis)?, vector(&joint.point)?);
+            let step = std::array::from_fn(|i| point[i].sub(&here[i]));
+            let last = motions.last_mut()?;
+            *last = last.then_after(&Motion::translation(step));
+            here = point;
+            for variable in joint.kind.variables() {
+                linkage.variables.push(*variable);
+                linkage.axes.push(Axis::Along(axis.clone()));
+                motions.push(Motion::identity());
+            }
+        }
+        // What stands before the first variable comes behind the last one: conjugation.
+        let first = motions.remove(0);
+        let back = Motion::translation(here.map(|x| x.neg()));
+        let last = motions.last_mut()?;
+        *last = last.then_after(&back).then_after(home).then_after(&first);
+        linkage.links = motions.iter().map(dual_quaternion).collect();
+        Some(linkage)
+    }
+
+    /// The same chain with the images of its numbers in another field; `None` where one has none.
+    #[must_use]
+    pub fn over<G: Field>(&self, image: impl Fn(&F) -> Option<G>) -> Option<Linkage<G>> {
+        let link = |link: &DualQuaternion<F>| -> Option<DualQuaternion<G>> {
+            let (x, y) = link.study();
+            let four = |v: &[F; 4]| -> Option<[G; 4]> {
+                let images: Option<Vec<G>> = v.iter().map(&image).collect();
+                images?.try_into().ok()
+            };
+            Some(DualQuaternion::from_study(&four(&x)?, &four(&y)?))
+        };
+        let links: Option<Vec<_>> = self.links.iter().map(link).collect();
+        let axes: Option<Vec<_>> = self.axes.iter().map(|axis| axis.map(&image)).collect();
+        Some(Linkage { variables: self.variables.clone(), axes: axes?, links: links? })
+    }
+
     /// The chain of these joint variables, all about or along the z axis of their frame, with a link behind each.
     #[must_use]
     pub fn about_z(variables: Vec<Variable>, links: Vec<DualQuaternion<F>>) -> Self {

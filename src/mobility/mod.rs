@@ -6,6 +6,7 @@ mod count;
 mod cut;
 mod decision;
 mod free;
+mod ground;
 pub mod linkage;
 mod multiplicity;
 mod nearby;

@@ -15,8 +15,11 @@ use crate::algebra::real_roots::RealRoot;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::kinematics::closed_loop::Variable;
-use rug::Rational;
+use rug::{Float, Rational};
 use std::sync::Arc;
+
+/// Bits to which roots are refined to tell conjugates apart.
+const WIDTH: u32 = 512;
 
 /// Positions that are conjugate: the same expressions in the roots of one polynomial.
 #[derive(Clone, Debug)]
@@ -29,6 +32,34 @@ pub struct Conjugates {
     pub roots: Vec<RealRoot>,
     /// The values of all joint variables.
     pub values: Vec<JointValue<Algebraic>>,
+    /// The field of the links, if they are not rational: all roots belong to it and its conjugates.
+    pub ground: Option<Ground>,
+}
+
+/// The field of the numbers of a chain within that of its positions.
+#[derive(Clone, Debug)]
+pub struct Ground {
+    /// Its degree.
+    pub degree: usize,
+    /// The element that generates it, in terms of t.
+    pub element: Algebraic,
+    /// The conjugates of that element, the one of this chain first.
+    pub conjugates: Arc<[Float]>,
+}
+
+impl Ground {
+    /// Those of some roots at which the element has its own value, and not that of a conjugate.
+    fn own(&self, roots: Vec<RealRoot>) -> Vec<RealRoot> {
+        let is_own = |root: &mut RealRoot| {
+            root.refine(&Rational::from((1, rug::Integer::from(1) << WIDTH)));
+            let (low, high) = root.bounds();
+            let value = self.element.at(&Float::with_val(2 * WIDTH, (low + high) / 2));
+            let distance = |x: &Float| Float::with_val(2 * WIDTH, x - &value).abs();
+            let nearest = self.conjugates.iter().map(distance).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+            nearest.is_some_and(|(k, _)| k == 0)
+        };
+        roots.into_iter().filter_map(|mut root| is_own(&mut root).then_some(root)).collect()
+    }
 }
 
 /// The positions of a chain.
@@ -47,10 +78,22 @@ pub enum Positions {
 }
 
 impl Conjugates {
+    /// Positions over a field that contains that of the links.
+    pub(super) fn over_ground(
+        polynomial: Univariate<Rational>,
+        field: Arc<NumberField>,
+        values: Vec<JointValue<Algebraic>>,
+        ground: Ground,
+    ) -> Self {
+        let roots = ground.own(polynomial.real_roots());
+        Self { polynomial: Some(polynomial), field: Some(field), roots, values, ground: Some(ground) }
+    }
+
     /// How many positions there are.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.polynomial.as_ref().and_then(Univariate::degree).unwrap_or(1)
+        let degree = self.polynomial.as_ref().and_then(Univariate::degree).unwrap_or(1);
+        degree / self.ground.as_ref().map_or(1, |ground| ground.degree)
     }
 
     /// How many of them are real.
@@ -63,7 +106,7 @@ impl Conjugates {
     /// irreducible factor, or a bound of it.
     #[must_use]
     pub fn fewest_conjugates(&self) -> usize {
-        let Some(polynomial) = &self.polynomial else { return 1 };
+        let Some(polynomial) = self.polynomial.as_ref().filter(|_| self.ground.is_none()) else { return 1 };
         // Rational roots stand for themselves elsewhere, or cost only the bound.
         if polynomial.real_roots().iter_mut().any(|root| root.rational().is_some()) {
             return 1;
@@ -84,7 +127,10 @@ impl Conjugates {
         let field = NumberField::new(factor);
         let image = |x: &Algebraic| x.over(&field);
         let values = self.values.iter().map(|[c, s]| [image(c), image(s)]).collect();
-        Self { roots: factor.real_roots(), polynomial: Some(factor.clone()), field: Some(field), values }
+        let ground = self.ground.as_ref().map(|ground| Ground { element: image(&ground.element), ..ground.clone() });
+        let roots = factor.real_roots();
+        let roots = ground.as_ref().map_or_else(|| roots.clone(), |ground| ground.own(roots.clone()));
+        Self { roots, polynomial: Some(factor.clone()), field: Some(field), values, ground }
     }
 
     /// What `compute` finds at these positions: once for all of them where it never meets a number that is zero at some of
@@ -195,47 +241,57 @@ impl<'a> Separation<'a> {
 
     /// What there is at one value of the hidden variable.
     fn position(&self, t: &JointValue<Algebraic>) -> Here {
-        let columns = self.cut.columns();
-        let left = self.cut.degree();
-        let entry = |i: usize, j: usize| -> Option<Algebraic> {
-            let constant = Algebraic::from_rational(&self.cut.matrix[0][i][j])?;
-            if j >= left {
-                return Some(constant);
-            }
-            let mut sum = constant.mul(&t[0]);
-            sum.add_product(&Algebraic::from_rational(&self.cut.matrix[1][i][j])?, &t[1]);
-            Some(sum)
-        };
-        let rows: Option<Vec<Vec<Algebraic>>> = (0..8).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect();
-        let Some(rows) = rows else { return Here::Undecided };
-        let kernel = Echelon::of(rows, columns).null_space();
-        let vector = match kernel.as_slice() {
-            [] => return Here::Nothing,
-            [vector] => vector,
-            _ => return Here::Undecided,
-        };
-        let (v, w) = match (factors(&vector[..left]), factors(&vector[left..])) {
-            (Side::Pairs(v), Side::Pairs(w)) => (v, w),
-            (Side::General, _) | (_, Side::General) => return Here::Nothing,
-            _ => return Here::Improper,
-        };
-        let mut values = vec![[Algebraic::one(), Algebraic::zero()]; self.cut.order.len()];
-        let mut rest = v.into_iter().chain(w);
-        for (place, k) in self.cut.order.iter().enumerate() {
-            let value = if place == self.cut.hidden { Some(t.clone()) } else { rest.next() };
-            let Some(value) = value else { return Here::Undecided };
-            values[*k] = value;
+        position(self.linkage, &self.cut, Algebraic::from_rational, t)
+    }
+}
+
+/// What there is at one value of the hidden variable of a cut, in a field that holds the images of all numbers.
+pub(super) fn position<F: Field>(
+    linkage: &Linkage<F>,
+    cut: &Cut<F>,
+    image: impl Fn(&F) -> Option<Algebraic>,
+    t: &JointValue<Algebraic>,
+) -> Here {
+    let columns = cut.columns();
+    let left = cut.degree();
+    let entry = |i: usize, j: usize| -> Option<Algebraic> {
+        let constant = image(&cut.matrix[0][i][j])?;
+        if j >= left {
+            return Some(constant);
         }
-        // A translation by an infinite distance, or a rotation by an angle of tangent i, is no motion: it does not close.
-        match self.linkage.map::<Algebraic>() {
-            Some(linkage) if linkage.at(&values).closes() => Here::Position(values),
-            _ => Here::Improper,
-        }
+        let mut sum = constant.mul(&t[0]);
+        sum.add_product(&image(&cut.matrix[1][i][j])?, &t[1]);
+        Some(sum)
+    };
+    let rows: Option<Vec<Vec<Algebraic>>> = (0..8).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect();
+    let Some(rows) = rows else { return Here::Undecided };
+    let kernel = Echelon::of(rows, columns).null_space();
+    let vector = match kernel.as_slice() {
+        [] => return Here::Nothing,
+        [vector] => vector,
+        _ => return Here::Undecided,
+    };
+    let (v, w) = match (factors(&vector[..left]), factors(&vector[left..])) {
+        (Side::Pairs(v), Side::Pairs(w)) => (v, w),
+        (Side::General, _) | (_, Side::General) => return Here::Nothing,
+        _ => return Here::Improper,
+    };
+    let mut values = vec![[Algebraic::one(), Algebraic::zero()]; cut.order.len()];
+    let mut rest = v.into_iter().chain(w);
+    for (place, k) in cut.order.iter().enumerate() {
+        let value = if place == cut.hidden { Some(t.clone()) } else { rest.next() };
+        let Some(value) = value else { return Here::Undecided };
+        values[*k] = value;
+    }
+    // A translation by an infinite distance, or a rotation by an angle of tangent i, is no motion: it does not close.
+    match linkage.over(image) {
+        Some(linkage) if linkage.at(&values).closes() => Here::Position(values),
+        _ => Here::Improper,
     }
 }
 
 /// What a cut has at one value of its hidden variable.
-enum Here {
+pub(super) enum Here {
     /// No solution.
     Nothing,
     /// A solution that is no position.
@@ -264,7 +320,7 @@ impl List {
             Here::Position(values) => {
                 let roots = over.as_ref().map(|(polynomial, _)| polynomial.real_roots()).unwrap_or_default();
                 let (polynomial, field) = over.unzip();
-                self.found.push(Conjugates { polynomial, field, roots, values });
+                self.found.push(Conjugates { polynomial, field, roots, values, ground: None });
             }
         }
         Some(())

@@ -1,12 +1,14 @@
 //! Configurations of a loop with some joints held, and what they prove.
 
 use super::answer::{Configuration, Held};
+use super::ground::{Grounded, in_terms_of};
 use super::linkage::{JointValue, Linkage, is_unit};
 use super::order::{Germ, Local};
 use super::positions::{Conjugates, Positions, is_properly_open, positions};
 use super::stillness::all_stand_still;
 use crate::algebra::number_field::Algebraic;
 use crate::algebra::ring::Ring;
+use crate::algebra::univariate::Univariate;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screw_system::{Screw, ScrewSystem};
 use rug::{Float, Rational};
@@ -81,26 +83,43 @@ pub fn moves(linkage: &Linkage<Rational>) -> Option<bool> {
 
 /// Looks for a motion: holds as few joints as leave finitely many configurations, and decides what passes through those.
 pub(super) fn search(linkage: &Linkage<Rational>) -> Outcome {
-    let n = linkage.variables.len();
+    searched(&Setting::of(linkage), |held| at(linkage, held))
+}
+
+/// The same of a loop over a number field; its home configuration is looked at first.
+pub(super) fn search_over(ground: &Grounded, unit: &Rational) -> Outcome {
+    let setting = Setting::over(ground, unit);
+    if let Some(home) = ground.home() {
+        let search = setting.decide(&[], &[home]);
+        if search.configurations.iter().any(|c| c.dimension() > Some(0)) {
+            return Outcome::Mobile(search);
+        }
+    }
+    if ground.linkage.variables.len() > 6 { Outcome::Nothing } else { searched(&setting, |held| ground.at(held)) }
+}
+
+/// Looks for a motion with this way to find the configurations with joints held.
+fn searched(setting: &Setting, at: impl Fn(&[(usize, Rational)]) -> Option<Vec<Conjugates>>) -> Outcome {
+    let n = setting.variables.len();
     let mut complex = None;
     for count in n.saturating_sub(5).max(1)..n {
         let mut is_free = false;
         for start in 0..n {
             for shift in 0..TANGENTS.len() {
                 let held: Vec<(usize, Rational)> =
-                    (0..count).map(|k| ((start + k) % n, tangent(linkage, (start + k) % n, shift + k))).collect();
-                let Some(found) = at(linkage, &held) else {
+                    (0..count).map(|k| ((start + k) % n, setting.tangent((start + k) % n, shift + k))).collect();
+                let Some(found) = at(&held) else {
                     is_free = true;
                     break;
                 };
                 if found.is_empty() {
                     break;
                 }
-                let search = decide(linkage, &held, &found);
+                let search = setting.decide(&held, &found);
                 if search.configurations.iter().any(|c| c.dimension() > Some(0)) {
                     return Outcome::Mobile(search);
                 }
-                if search.configurations.is_empty() && complex.is_none() && some_move(linkage, &held, &found) {
+                if search.configurations.is_empty() && complex.is_none() && setting.some_move(&held, &found) {
                     complex = Some(search);
                 }
             }
@@ -113,11 +132,42 @@ pub(super) fn search(linkage: &Linkage<Rational>) -> Outcome {
 }
 
 /// Half the angle's tangent, or half the distance, at which a joint variable is held, over the length of its axis.
-fn tangent(linkage: &Linkage<Rational>, k: usize, shift: usize) -> Rational {
+fn tangent(variable: Variable, unit: &Rational, shift: usize) -> Rational {
     let tangent = Rational::from(TANGENTS[shift % TANGENTS.len()]);
-    match linkage.variables[k] {
+    match variable {
         Variable::Rotation => tangent,
-        Variable::Translation => tangent * linkage.unit(),
+        Variable::Translation => tangent * unit,
+    }
+}
+
+/// A loop whose configurations are looked at: over the rationals or a number field.
+struct Setting<'a> {
+    variables: &'a [Variable],
+    /// Lengths of the axes.
+    lengths: Vec<Float>,
+    unit: Rational,
+    /// The loop in the field of some configurations.
+    image: Box<dyn Fn(&Conjugates) -> Option<Linkage<Algebraic>> + 'a>,
+}
+
+impl<'a> Setting<'a> {
+    fn of(linkage: &'a Linkage<Rational>) -> Self {
+        let lengths = linkage.axes.iter().map(|axis| axis.length(BITS)).collect();
+        let image = Box::new(|_: &Conjugates| linkage.map());
+        Self { variables: &linkage.variables, lengths, unit: linkage.unit(), image }
+    }
+
+    fn over(ground: &'a Grounded, unit: &Rational) -> Self {
+        let image = |conjugates: &Conjugates| {
+            let element = &conjugates.ground.as_ref()?.element;
+            ground.linkage.over(|x| Some(in_terms_of(x, element)))
+        };
+        let lengths = ground.lengths(BITS);
+        Self { variables: &ground.linkage.variables, lengths, unit: unit.clone(), image: Box::new(image) }
+    }
+
+    fn tangent(&self, k: usize, shift: usize) -> Rational {
+        tangent(self.variables[k], &self.unit, shift)
     }
 }
 
@@ -134,9 +184,9 @@ pub(super) fn at(linkage: &Linkage<Rational>, held: &[(usize, Rational)]) -> Opt
 /// Whether it is proved that no joint variable moves along any curve of configurations: each one is held at a value at
 /// which the closure equations have no solution at all, not even a limit of configurations.
 pub(super) fn is_open_everywhere(linkage: &Linkage<Rational>) -> bool {
-    let n = linkage.variables.len();
+    let (n, unit) = (linkage.variables.len(), linkage.unit());
     let stands_still = |k: usize| {
-        let value = [Rational::from(1), tangent(linkage, k, k)];
+        let value = [Rational::from(1), tangent(linkage.variables[k], &unit, k)];
         is_properly_open(&linkage.locked(&[(k, value)]))
     };
     (2..=6).contains(&n) && (0..n).all(stands_still)
@@ -164,9 +214,10 @@ struct Known {
 }
 
 impl Known {
-    fn of(linkage: &Linkage<Rational>, held: &[(usize, Rational)], conjugates: &Conjugates) -> Option<Self> {
+    fn of(setting: &Setting, held: &[(usize, Rational)], conjugates: &Conjugates) -> Option<Self> {
         let values = with_held(held, conjugates)?;
-        let germ = Germ::of_conjugates(&linkage.map()?.at(&values), conjugates.fewest_conjugates());
+        let linkage = (setting.image)(conjugates)?;
+        let germ = Germ::of_conjugates(&linkage.at(&values), conjugates.fewest_conjugates());
         let system: ScrewSystem<Algebraic> = germ.system();
         let freedom = system.loop_freedom();
         let moving = match germ.local {
@@ -182,11 +233,11 @@ impl Known {
     }
 
     /// The same in floating point, at one value of the root.
-    fn configuration(&self, linkage: &Linkage<Rational>, degree: usize, root: &Float) -> Configuration {
+    fn configuration(&self, setting: &Setting, degree: usize, root: &Float) -> Configuration {
         let value = |x: &Algebraic| x.at(root).to_f64();
         let joint = |(k, [c, s]): (usize, &JointValue<Algebraic>)| {
-            let (c, s) = (c.at(root), s.at(root) * linkage.axes[k].length(BITS));
-            match linkage.variables[k] {
+            let (c, s) = (c.at(root), s.at(root) * &setting.lengths[k]);
+            match setting.variables[k] {
                 Variable::Rotation => {
                     // Of (c : s) and (-c : -s) the one within half a turn.
                     let angle = if c < 0 { Float::with_val(BITS, -s).atan2(&-c) } else { s.atan2(&c) };
@@ -214,36 +265,42 @@ impl Known {
 
 /// What the real ones of these configurations are.
 pub(super) fn decide(linkage: &Linkage<Rational>, held: &[(usize, Rational)], found: &[Conjugates]) -> Search {
-    let mut configurations = Vec::new();
-    for conjugates in found.iter().filter(|conjugates| conjugates.real() > 0) {
-        for (part, known) in conjugates.each(|part| Known::of(linkage, held, part)) {
-            let Some(known) = known else { continue };
-            let degree = part.count();
-            let here = |root: &Float| known.configuration(linkage, degree, root);
-            if part.polynomial.is_none() {
-                configurations.push(here(&Float::new(BITS)));
-            }
-            for mut root in part.roots {
-                root.refine(&Rational::from((1, rug::Integer::from(1) << BITS)));
-                let (low, high) = root.bounds();
-                configurations.push(here(&Float::with_val(BITS, (low + high) / 2)));
-            }
-        }
-    }
-    configurations
-        .sort_by(|a, b| a.q.iter().map(|x| x.abs()).sum::<f64>().total_cmp(&b.q.iter().map(|x| x.abs()).sum()));
-    let value = |(k, tangent): &(usize, Rational)| {
-        let t = linkage.axes[*k].length(BITS) * tangent;
-        (*k, 2.0 * if linkage.variables[*k] == Variable::Rotation { t.atan().to_f64() } else { t.to_f64() })
-    };
-    let complex = found.iter().map(Conjugates::count).sum();
-    Search { held: held.iter().map(value).collect(), configurations, complex }
+    Setting::of(linkage).decide(held, found)
 }
 
-/// Whether some complex configuration moves.
-fn some_move(linkage: &Linkage<Rational>, held: &[(usize, Rational)], found: &[Conjugates]) -> bool {
-    found
-        .iter()
-        .flat_map(|conjugates| conjugates.each(|part| Known::of(linkage, held, part)))
-        .any(|(_, known)| known.is_some_and(|known| matches!(known.germ.local, Local::Curve | Local::Manifold { .. })))
+impl Setting<'_> {
+    /// What the real ones of these configurations are.
+    fn decide(&self, held: &[(usize, Rational)], found: &[Conjugates]) -> Search {
+        let mut configurations = Vec::new();
+        for conjugates in found.iter().filter(|conjugates| conjugates.real() > 0) {
+            for (part, known) in conjugates.each(|part| Known::of(self, held, part)) {
+                let Some(known) = known else { continue };
+                let degree = part.polynomial.as_ref().and_then(Univariate::degree).unwrap_or(1);
+                let here = |root: &Float| known.configuration(self, degree, root);
+                if part.polynomial.is_none() {
+                    configurations.push(here(&Float::new(BITS)));
+                }
+                for mut root in part.roots {
+                    root.refine(&Rational::from((1, rug::Integer::from(1) << BITS)));
+                    let (low, high) = root.bounds();
+                    configurations.push(here(&Float::with_val(BITS, (low + high) / 2)));
+                }
+            }
+        }
+        configurations
+            .sort_by(|a, b| a.q.iter().map(|x| x.abs()).sum::<f64>().total_cmp(&b.q.iter().map(|x| x.abs()).sum()));
+        let value = |(k, tangent): &(usize, Rational)| {
+            let t = Float::with_val(BITS, &self.lengths[*k] * tangent);
+            (*k, 2.0 * if self.variables[*k] == Variable::Rotation { t.atan().to_f64() } else { t.to_f64() })
+        };
+        let complex = found.iter().map(Conjugates::count).sum();
+        Search { held: held.iter().map(value).collect(), configurations, complex }
+    }
+
+    /// Whether some complex configuration moves.
+    fn some_move(&self, held: &[(usize, Rational)], found: &[Conjugates]) -> bool {
+        found.iter().flat_map(|conjugates| conjugates.each(|part| Known::of(self, held, part))).any(|(_, known)| {
+            known.is_some_and(|known| matches!(known.germ.local, Local::Curve | Local::Manifold { .. }))
+        })
+    }
 }

@@ -5,7 +5,7 @@ use super::linkage::{JointValue, Linkage};
 use crate::algebra::determinant;
 use crate::algebra::echelon::Echelon;
 use crate::algebra::modp::{ModP, PRIME_61};
-use crate::algebra::ring::{Domain, Field, Ring};
+use crate::algebra::ring::{Domain, Field};
 use crate::algebra::univariate::Univariate;
 use crate::kinematics::closed_loop::Variable;
 use rug::Rational;
@@ -36,6 +36,21 @@ pub(super) fn all_stand_still(linkage: &Linkage<Rational>) -> bool {
     true
 }
 
+/// The same of a chain whose numbers have images in a prime field: what is not 0 there is not 0.
+///
+/// # Source
+/// docs/mobility.md, theorem 5 and (a) of theorem 6.
+pub(super) fn all_stand_still_modulo<M: Field + Domain>(image: &Linkage<M>) -> bool {
+    let n = image.variables.len();
+    let stands_still = |k: usize| {
+        n == 1
+            || (n <= 5 && Cut::<M>::hiding(n, k).any(|cut| is_separated(image, cut, k)))
+            || (1..n).any(|step| is_bound(image, k, (k + step) % n))
+    };
+    // One joint cannot move alone.
+    (1..=6).contains(&n) && (0..n).filter(|k| !stands_still(*k)).count() <= 1
+}
+
 /// Whether it is proved that joint variable k takes finitely many values.
 fn stands_still(linkage: &Linkage<Rational>, image: &Linkage<Mod>, k: usize) -> bool {
     let n = linkage.variables.len();
@@ -48,16 +63,16 @@ fn stands_still(linkage: &Linkage<Rational>, image: &Linkage<Mod>, k: usize) -> 
 
 /// Whether the columns of a cut are independent at some value of the hidden variable: no configuration has that value, nor
 /// all but finitely many others.
-fn is_separated(image: &Linkage<Mod>, cut: (usize, usize), k: usize) -> bool {
+fn is_separated<M: Field>(image: &Linkage<M>, cut: (usize, usize), k: usize) -> bool {
     let cut = Cut::of(image, cut);
-    let t = value(k);
+    let t = value::<M>(k);
     let entry = |i: usize, j: usize| cut.matrix[0][i][j].add(&cut.matrix[1][i][j].mul(&t));
-    let rows: Vec<Vec<Mod>> = (0..8).map(|i| (0..cut.columns()).map(|j| entry(i, j)).collect()).collect();
+    let rows: Vec<Vec<M>> = (0..8).map(|i| (0..cut.columns()).map(|j| entry(i, j)).collect()).collect();
     Echelon::of(rows, cut.columns()).rank() == cut.columns()
 }
 
-fn value(k: usize) -> Mod {
-    Mod::new(START + k as u64)
+fn value<M: Field>(k: usize) -> M {
+    M::from_rational(&Rational::from(START + k as u64)).unwrap_or_else(M::one)
 }
 
 /// Place of a variable in the chain without variable k.
@@ -120,10 +135,10 @@ impl Common<Rational> {
 }
 
 /// Whether joint variable `hidden` has no value at one random value of k that all cuts allow, in a prime field.
-fn is_bound(image: &Linkage<Mod>, k: usize, hidden: usize) -> bool {
-    let held: [(usize, JointValue<Mod>); 1] = [(k, [Mod::one(), value(k)])];
+fn is_bound<M: Field + Domain>(image: &Linkage<M>, k: usize, hidden: usize) -> bool {
+    let held: [(usize, JointValue<M>); 1] = [(k, [M::one(), value(k)])];
     let rest = image.locked(&held);
-    let is_trivial = |common: &Common<Mod>| common.polynomial.degree() == Some(0) && common.at_infinity == 0;
+    let is_trivial = |common: &Common<M>| common.polynomial.degree() == Some(0) && common.at_infinity == 0;
     let forms = conditions(&rest, place(k, hidden), |m| determinant::by_interpolation(m));
     Common::of(forms, is_trivial).is_some_and(|common| is_trivial(&common))
 }
