@@ -274,3 +274,24 @@ proptest! {
         prop_assert!(symmetric || !answer.is_proved() || answer.verdict == Verdict::Mobile, "{:?}", answer.proof);
     }
 }
+
+/// A complete bipartite framework on two planes. Source: construction.
+fn bipartite(lift: (i32, i32)) -> Framework<Rational> {
+    let q = |(n, d): (i32, i32)| Rational::from((n, d));
+    let first = [((3, 1), (10, 1)), ((-1, 1), (1, 1)), ((-2, 3), (3, 1)), ((3, 2), (9, 2))];
+    let second = [((5, 1), (8, 1)), ((-5, 3), (6, 1)), ((2, 1), (9, 1)), ((1, 1), (10, 1)), ((-3, 1), (10, 1)), ((2, 1), (2, 1))];
+    let mut vertices: Vec<[Rational; 3]> = first.iter().map(|(x, y)| [q(*x), q(*y), Rational::new()]).collect();
+    vertices.extend(second.iter().map(|(x, z)| [q(*x), Rational::new(), q(*z)]));
+    vertices[0][2] = q(lift);
+    let bars: Vec<[usize; 2]> = (0..4).flat_map(|a| (4..10).map(move |b| [a, b])).collect();
+    Framework::new(vertices, &bars, &[])
+}
+
+#[test]
+fn bipartite_frameworks_on_perpendicular_planes_move() {
+    let moves = mobility(&bipartite((0, 1)), 4).unwrap();
+    assert_eq!((moves.verdict.clone(), moves.is_proved()), (Verdict::Mobile, true));
+    assert!(matches!(moves.proof, Proof::Planes(_) | Proof::Slice(_)), "{:?}", moves.proof);
+    let lifted = mobility(&bipartite((1, 1000)), 4).unwrap();
+    assert!(!matches!(lifted.verdict, Verdict::Mobile) && lifted.is_proved());
+}

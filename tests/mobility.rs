@@ -176,17 +176,73 @@ fn loops_of_irrational_numbers_close_all_round() {
         [("5*sin(40 deg)", "40 deg"), ("5", "90 deg"), ("0", "100 deg"), ("5", "90 deg"), ("5*sin(40 deg)", "140 deg")];
     for (links, rank, branches) in [(&bennett[..], 3, 1), (&goldberg, 4, 1), (&myard, 4, 1)] {
         let answer = mobility(&revolutes(links)).unwrap();
-        assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::None), "{}", answer.reason);
-        assert_eq!(answer.code, Code::CertifiedSweep);
+        assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::Proved), "{}", answer.reason);
         assert_eq!((answer.screw_rank(), answer.branches()), (Some(rank), branches));
-        assert!(answer.reason.contains("at 180 of 180 inputs"), "{}", answer.reason);
-        // Off by a part of 1e-10 in one length, none of them closes.
+        // Off by a part of 1e-10 in one length, none of them moves.
         let longer = format!("{}*(1 + 1e-10)", links[1].0);
         let mut broken = links.to_vec();
         broken[1].0 = &longer;
         let answer = mobility(&revolutes(&broken)).unwrap();
-        assert_eq!((answer.mobility, answer.branches()), (Some(0), 0), "{}", answer.reason);
-        assert!(answer.reason.contains("to rounding the loop does not close through any range"), "{}", answer.reason);
+        assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Proved), "{}", answer.reason);
+    }
+}
+
+#[test]
+fn bennett_loops_of_whole_degrees_move_in_a_field_of_degree_48() {
+    let links = [("3*sin(23 deg)", "23 deg"), ("3*sin(41 deg)", "41 deg")].repeat(2);
+    let answer = mobility(&revolutes(&links)).unwrap();
+    assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::Proved), "{}", answer.reason);
+    assert_eq!((answer.code, answer.screw_rank()), (Code::FamilyOfMobileLoops, Some(3)));
+    let mut broken = links.clone();
+    broken[2].0 = "3*sin(23 deg) + 1e-14";
+    let answer = mobility(&revolutes(&broken)).unwrap();
+    assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::Proved), "{}", answer.reason);
+}
+
+#[test]
+fn numbers_without_a_field_are_rounded() {
+    // Bennett's loop with twists of 0.4 and 0.7 rad.
+    let links = [("3*sin(2/5)", "2/5"), ("3*sin(7/10)", "7/10")].repeat(2);
+    let answer = mobility(&revolutes(&links)).unwrap();
+    assert_eq!((answer.mobility, answer.proof), (Some(1), Proof::None), "{}", answer.reason);
+    assert_eq!(answer.code, Code::CertifiedSweep);
+    assert!(answer.reason.contains("at 180 of 180 inputs"), "{}", answer.reason);
+    let broken = [("3*sin(2/5)", "2/5"), ("3*sin(7/10)", "7/10"), ("1", "2/5"), ("2", "1/2")];
+    let answer = mobility(&revolutes(&broken)).unwrap();
+    assert_eq!((answer.mobility, answer.proof), (Some(0), Proof::RoundedData), "{}", answer.reason);
+    assert!(answer.reason.contains("to rounding the loop does not close through any range"), "{}", answer.reason);
+}
+
+/// Source: construction, the third slider along the sum of the other two.
+#[test]
+fn sliders_with_square_roots_are_decided_in_their_field() {
+    let with = |third: &str| {
+        let axis = format!("[1, 1, \"{third}\"]");
+        mobility(&screws(&[
+            ("P", "[1, 0, \"sqrt(2)\"]", "[0, 0, 0]"),
+            ("R", "[0, 0, 1]", "[0, 0, 0]"),
+            ("P", "[0, 1, \"sqrt(3)\"]", "[0, 0, 0]"),
+            ("P", &axis, "[0, 0, 0]"),
+        ]))
+        .unwrap()
+    };
+    let moves = with("sqrt(2) + sqrt(3)");
+    assert_eq!((moves.mobility, moves.proof, moves.code), (Some(1), Proof::Proved, Code::GroupOfMotions));
+    let stands = with("sqrt(2) + sqrt(3) + 1e-30");
+    assert_eq!((stands.mobility, stands.proof, stands.code), (Some(0), Proof::Proved, Code::NoCurve));
+}
+
+/// Source: construction. The six screws of the joints have rank 6 (the determinant of the moments is 112/63), also where two of the
+/// three angles of the spherical joint turn about one axis.
+#[test]
+fn spherical_joints_have_no_singular_position() {
+    let revolutes =
+        [("R", "[1, 2, 2]", "[1, 0, 1]"), ("R", "[2, -1, 2]", "[2, 1, 0]"), ("R", "[2, 3, 6]", "[0, 3, 1]")];
+    for axis in ["[0, 0, 1]", "[1, 2, 2]", "[2, 3, 6]"] {
+        let joints: Vec<(&str, &str, &str)> = std::iter::once(("S", axis, "[0, 0, 0]")).chain(revolutes).collect();
+        let answer = mobility(&screws(&joints)).unwrap();
+        assert_eq!((answer.mobility, answer.proof, answer.shaky), (Some(0), Proof::Proved, None), "{}", answer.reason);
+        assert!(answer.configurations.iter().all(|configuration| configuration.rank == 6));
     }
 }
 

@@ -7,6 +7,7 @@ use looproot::catalogue::ansatz::Ansatz;
 use looproot::catalogue::load_ansatz;
 use looproot::conditions::decide::{Decision, decide};
 use looproot::conditions::four_bar::{FourBar, derive};
+use looproot::conditions::number_field::decide_over_field;
 use looproot::error::{Error, Result};
 use looproot::report::conditions::{json, markdown, proof, system, text, verdict};
 use looproot::report::json::tenths;
@@ -27,7 +28,12 @@ pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
     let start = Instant::now();
     let theorem = derive();
     let derived = start.elapsed().as_secs_f64() * 1e6;
-    let decision = decide(&theorem, &ansatz)?;
+    // Irrational numbers are taken as they are, where one field holds them all.
+    let chain = ansatz.chain.as_ref().filter(|_| ansatz.rounded);
+    let decision = match chain.and_then(|chain| decide_over_field(&theorem, chain)) {
+        Some(decision) => decision,
+        None => decide(&theorem, &ansatz)?,
+    };
     let decided = start.elapsed().as_secs_f64() * 1e6 - derived;
     let written = if options.json {
         let mut document = json(&theorem, &ansatz, &decision);

@@ -58,6 +58,8 @@ pub struct Decision {
     pub is_numeric: bool,
     /// Whether the linear conditions at the numbers themselves have the same solutions; `None` where they were not set up.
     pub confirmed: Option<bool>,
+    /// The degree of the number field of a loop whose numbers were not rounded but taken as its elements.
+    pub field: Option<usize>,
 }
 
 /// The ansatz as one mechanism over the rational functions of its free symbols.
@@ -173,7 +175,7 @@ pub fn decide(theorem: &FourBar, ansatz: &Ansatz) -> Result<Decision> {
         }
     }
     let Setting { names, is_numeric, .. } = setting;
-    Ok(Decision { names, families, oblique, is_numeric, confirmed })
+    Ok(Decision { names, families, oblique, is_numeric, confirmed, field: None })
 }
 
 /// The values of the twelve parameters of the theorem, by its variables; no twist is a multiple of pi.
@@ -264,7 +266,7 @@ fn constants(variant: &Bennett, values: &[Quotient], names: &Names) -> String {
 }
 
 /// Which of the two families, by the sign of `a1 sin(alpha2) / (a2 sin(alpha1))`.
-fn sign(variant: &Bennett) -> String {
+pub(super) fn sign(variant: &Bennett) -> String {
     let sum_of_degrees = |p: &Poly| p.coefficients().first().is_some_and(|c| c.to_i64().is_some_and(|c| c > 0));
     let same = sum_of_degrees(&variant.lengths[0]) == sum_of_degrees(&variant.lengths[1]);
     format!("Bennett ({})", if same { "+" } else { "-" })
@@ -272,7 +274,7 @@ fn sign(variant: &Bennett) -> String {
 
 /// The conditions under which the axes of two opposite joints coincide while the other two are locked, for every
 /// orientation; each has been proved by the closure identity.
-fn folds(axes: usize) -> Vec<Vec<Poly>> {
+pub(super) fn folds(axes: usize) -> Vec<Vec<Poly>> {
     let v = Poly::variable;
     let mut found = Vec::new();
     for odd in [false, true] {

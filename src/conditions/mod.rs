@@ -16,6 +16,7 @@ pub mod identity;
 pub mod implication;
 pub mod multiplier;
 pub mod null_space;
+pub mod number_field;
 pub mod pattern;
 pub mod quotient;
 pub mod search;

@@ -16,6 +16,8 @@ const STEP: f64 = 0.02;
 const STEPS: usize = 5000;
 /// Newton's steps after each one.
 const CORRECTIONS: usize = 4;
+/// Distances, in mean links, beyond which a curve is given up.
+const FAR: f64 = 50.0;
 /// A point of the curve is a configuration if they are nearer than this.
 const NEAR: f64 = 0.5 * STEP;
 /// Singular values below this part of the largest are those of motions.
@@ -87,6 +89,11 @@ impl Curve<'_> {
             let Some(next) = self.corrected(&here + &tangent * STEP) else { break };
             // Another curve.
             if !((&next - &here).norm() < 2.0 * STEP) {
+                break;
+            }
+            // A slide without end does not come back.
+            let is_far = |(x, variable): (&f64, &Variable)| *variable == Variable::Translation && x.abs() > FAR;
+            if next.iter().zip(&self.linkage.variables).any(is_far) {
                 break;
             }
             let Some(ahead) = self.tangent(&next, Some(&tangent)) else { break };

@@ -12,6 +12,9 @@ use super::rounded::{Closing, closing, has_long_decimals, is_exact};
 use super::search::{Outcome, Search, at, decide, is_open_everywhere, search, search_over};
 use super::stillness::{all_stand_still, all_stand_still_modulo};
 use crate::algebra::number::Number;
+use crate::algebra::number_field::Algebraic;
+use crate::algebra::ring::Ring;
+use crate::algebra::univariate::Univariate;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::{Error, Result};
@@ -28,6 +31,8 @@ const NO_CURVE: &str = "no curve of configurations: held at some value of any on
 /// Theorems 5 and 6 in words.
 const STILL: &str =
     "no curve of configurations: the conditions of its cuts leave every joint variable finitely many values";
+/// Degree of the fields in which configurations of loops are looked for: beyond it a loop other than Bennett's takes too long.
+const MOST: usize = 16;
 /// Decimal digits in which a singular solution known in floating point is compared with simple rationals.
 const SIMPLE: u32 = 6;
 
@@ -52,8 +57,14 @@ pub fn mobility(entry: &Entry) -> Result<Mobility> {
         Design::Platform(_) => return of_platform(entry),
     };
     let subject = Subject { entry, chain, linkage: Linkage::of(chain)?, variables: variables(chain) };
-    let mut answer =
-        if subject.variables.len() > 6 { subject.rounded(subject.free()) } else { subject.overconstrained()? };
+    let mut answer = if subject.variables.len() > 6 {
+        match subject.over_its_field()? {
+            Some(answer) => answer,
+            None => subject.rounded(subject.free()),
+        }
+    } else {
+        subject.overconstrained()?
+    };
     let found = branches(&subject.linkage, &answer.configurations);
     for (configuration, branch) in answer.configurations.iter_mut().zip(found) {
         configuration.branch = branch;
@@ -155,7 +166,7 @@ impl Subject<'_> {
         if is_exact(self.chain) {
             return Ok(None);
         }
-        let Some(ground) = Grounded::of(self.chain) else { return Ok(None) };
+        let Some(ground) = Grounded::of(self.chain, self.balls()) else { return Ok(None) };
         let degree = ground.field.degree();
         let field = format!("in the number field of degree {degree} of the file");
         if self.variables.len() <= 6 && ground.residue().is_some_and(|image| all_stand_still_modulo(&image)) {
@@ -165,6 +176,12 @@ impl Subject<'_> {
             let reason = format!("{STILL} ({field}); the loop with its numbers rounded: {}", rounded.reason);
             return Ok(Some(Mobility { shaky: None, is_listed: false, reason, ..rounded }));
         }
+        if let Some(values) = ground.bennett(self.chain) {
+            return Ok(Some(self.of_family(&values, &ground, &field)));
+        }
+        if degree > MOST {
+            return Ok(None);
+        }
         Ok(match search_over(&ground, &self.linkage.unit()) {
             Outcome::Mobile(found) => {
                 let answer = self.mobile(found);
@@ -173,6 +190,25 @@ impl Subject<'_> {
             }
             _ => None,
         })
+    }
+
+    /// A loop that closes at these joint values for every x, with a configuration at x = 1.
+    fn of_family(&self, values: &[JointValue<Univariate<Algebraic>>], ground: &Grounded, field: &str) -> Mobility {
+        let root = &ground.field.conjugates()[0];
+        let one = Algebraic::one();
+        let angle = |[c, s]: &JointValue<Univariate<Algebraic>>| {
+            let [c, s] = [c, s].map(|p| p.eval(&one).at(root).to_f64());
+            2.0 * if c < 0.0 { (-s).atan2(-c) } else { s.atan2(c) }
+        };
+        let q: Vec<f64> = values.iter().map(angle).collect();
+        let held = vec![(0, q[0])];
+        let reason = format!(
+            "a Bennett loop: with half-angle tangents that are multiples of that of joint 1, or of its inverse, the product round the \
+             loop is a number, an identity of polynomials {field}"
+        );
+        let configurations = vec![self.placed(q, Local::Curve)];
+        let rests_on = (Proof::Proved, Code::FamilyOfMobileLoops);
+        Mobility { held, configurations, complex: 1, ..self.answer(Some(1), rests_on, reason) }
     }
 
     /// A loop that closes to rounding.
@@ -201,10 +237,12 @@ impl Subject<'_> {
     /// The same by exact arithmetic alone.
     fn exactly(&self) -> Result<Mobility> {
         let is_short = self.variables.len() < 6;
-        if all_stand_still(&self.linkage) {
+        // Angles at which two axes of a spherical joint coincide would hide that it stands still.
+        let turned = self.linkage.with_turned_balls(&self.balls());
+        if all_stand_still(&turned) {
             return if is_short { Ok(self.immobile(Some(STILL))) } else { self.structure(Some(STILL)) };
         }
-        match search(&self.linkage) {
+        match search(&self.linkage, &self.balls()) {
             Outcome::Mobile(found) => Ok(self.mobile(found)),
             Outcome::Complex(found) => {
                 let reason = format!(
@@ -220,7 +258,7 @@ impl Subject<'_> {
                 })
             }
             Outcome::Nothing => {
-                let why = is_open_everywhere(&self.linkage).then_some(NO_CURVE);
+                let why = is_open_everywhere(&turned).then_some(NO_CURVE);
                 if is_short { Ok(self.immobile(why)) } else { self.structure(why) }
             }
         }
@@ -287,7 +325,7 @@ impl Subject<'_> {
             return Mobility { is_listed: false, ..self.answer(mobility, rests_on(why.is_some()), reason) };
         };
         let complex: usize = found.iter().map(Conjugates::count).sum();
-        let Search { configurations, .. } = decide(&self.linkage, &[], &found);
+        let Search { configurations, .. } = decide(&self.linkage, &self.balls(), &[], &found);
         let real = configurations.len();
         let shaky = configurations.iter().filter_map(order).max().filter(|order| *order > 1);
         let reason = match (complex, real) {
@@ -394,7 +432,9 @@ impl Subject<'_> {
             let held = [(k, tangent)];
             let Some(found) = at(&self.linkage, &held) else { continue };
             let close = |c: &Configuration| c.q.iter().zip(&mode.q).all(|(a, b)| ((a - b.re) / 2.0).sin().abs() < 1e-4);
-            if let Some(found) = decide(&self.linkage, &held, &found).configurations.into_iter().find(close) {
+            if let Some(found) =
+                decide(&self.linkage, &self.balls(), &held, &found).configurations.into_iter().find(close)
+            {
                 return Some(found);
             }
         }
@@ -425,7 +465,7 @@ impl Subject<'_> {
         };
         let values: Vec<JointValue<f64>> = q.iter().enumerate().map(value).collect();
         let linkage: Option<Linkage<f64>> = self.linkage.map();
-        let germ = linkage.map(|linkage| Germ::of(&linkage.at(&values)));
+        let germ = linkage.map(|linkage| Germ::of(&linkage.at(&values).with_regular_balls(&self.balls())));
         let system = germ.as_ref().map(Germ::system);
         let freedom = system.as_ref().map(ScrewSystem::loop_freedom);
         let rank = freedom.as_ref().map_or(0, |freedom| freedom.order);

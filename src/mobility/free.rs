@@ -47,7 +47,7 @@ const BITS: u32 = 256;
 impl Subject<'_> {
     /// Whether and how a loop of seven variables or more moves.
     pub(super) fn free(&self) -> Mobility {
-        if let Outcome::Mobile(found) = search_group(&self.linkage) {
+        if let Outcome::Mobile(found) = search_group(&self.linkage, &self.balls()) {
             return self.mobile(found);
         }
         if let Some(reason) = self.too_wide() {
@@ -180,7 +180,7 @@ impl Subject<'_> {
     }
 
     /// Which joint variables are those of balls, and where the balls begin.
-    fn balls(&self) -> Vec<usize> {
+    pub(super) fn balls(&self) -> Vec<usize> {
         let kinds = self.chain.joint_kinds();
         let is_ball = |k: usize| kinds[self.variables[k].joint - 1] == JointKind::Spherical;
         let is_first = |k: usize| k == 0 || self.variables[k - 1].joint != self.variables[k].joint;
@@ -189,12 +189,12 @@ impl Subject<'_> {
 }
 
 /// The motion of loops of many variables whose links move in a group, which no six equations bind.
-fn search_group(linkage: &Linkage<Rational>) -> Outcome {
+fn search_group(linkage: &Linkage<Rational>, balls: &[usize]) -> Outcome {
     let is_group = |outcome: &Outcome| {
         let manifold = |c: &Configuration| matches!(c.local, Local::Manifold { .. }) && c.rank < 6;
         matches!(outcome, Outcome::Mobile(found) if found.configurations.iter().any(manifold))
     };
-    Some(search(linkage)).filter(is_group).unwrap_or(Outcome::Nothing)
+    Some(search(linkage, balls)).filter(is_group).unwrap_or(Outcome::Nothing)
 }
 
 /// Closes a loop in floating point and holds as many of its joints as leave six unknowns.

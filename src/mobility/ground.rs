@@ -1,7 +1,7 @@
 //! Loops whose numbers lie in one real number field, and their positions.
 
 use super::cut::Cut;
-use super::linkage::{JointValue, Linkage};
+use super::linkage::{Axis, JointValue, Linkage, Study, joint, one, times};
 use super::positions::{Conjugates, Ground, Here, position};
 use crate::algebra::determinant;
 use crate::algebra::number::{Angle, Number};
@@ -25,6 +25,8 @@ const MULTIPLIERS: i32 = 12;
 pub(super) struct Grounded {
     pub(super) field: RealField,
     pub(super) linkage: Linkage<Algebraic>,
+    /// Where the three variables of spherical joints begin.
+    pub(super) balls: Vec<usize>,
 }
 
 /// The constants of a chain as elements of a field.
@@ -64,7 +66,7 @@ fn numbers(chain: &Chain) -> Option<Vec<Closed>> {
 impl Grounded {
     /// The loop of a chain over the field of its numbers; `None` if they lie in no field of a moderate degree, or the chain has a
     /// constant motion that was rounded.
-    pub(super) fn of(chain: &Chain) -> Option<Self> {
+    pub(super) fn of(chain: &Chain, balls: Vec<usize>) -> Option<Self> {
         let numbers = numbers(chain)?;
         let field = RealField::containing(&numbers)?;
         let constants = Constants(&field);
@@ -85,7 +87,7 @@ impl Grounded {
                 Linkage::of_motions(variables, motions)?
             }
         };
-        Some(Self { field, linkage })
+        Some(Self { field, linkage, balls })
     }
 
     /// The loop modulo a prime at which the field has residues.
@@ -242,6 +244,67 @@ impl Grounded {
         }
         determinant::determinant(&rows)
     }
+}
+
+impl Grounded {
+    /// Joint values, as polynomials in the half-angle tangent x of the first joint, at which a loop of four joints without offsets
+    /// closes for every x: those of Bennett's loop. The identity is expanded in the field.
+    pub(super) fn bennett(&self, chain: &Chain) -> Option<Vec<JointValue<Univariate<Algebraic>>>> {
+        let Geometry::Dh(joints) = &chain.geometry else { return None };
+        if joints.len() != 4 || self.linkage.variables != [Variable::Rotation; 4] {
+            return None;
+        }
+        let tangent = |k: usize| -> Option<Algebraic> {
+            let (cos, sin) = joints[k].alpha.phase()?;
+            let whole = Algebraic::one().add(&self.field.element(&cos)?);
+            Some(self.field.element(&sin)?.mul(&whole.inverse()?))
+        };
+        let (s, t) = (tangent(0)?, tangent(1)?);
+        let ratio = t.add(&s).mul(&t.sub(&s).inverse()?);
+        let reduction = Reduction::of(&self.field)?;
+        let image = |x: &Algebraic| reduction.residue(x);
+        let residue = self.linkage.over(image)?;
+        let residues = |pair: &JointValue<Univariate<Algebraic>>| Some([pair[0].map(image)?, pair[1].map(image)?]);
+        candidates(&ratio)?.into_iter().find(|values| {
+            // Most are refused modulo a prime.
+            let images: Option<Vec<_>> = values.iter().map(residues).collect();
+            images.is_some_and(|images| closes_throughout(&residue, &images))
+                && closes_throughout(&self.linkage, values)
+        })
+    }
+}
+
+/// The ways in which the half-angle tangents of Bennett's loop can depend on that of joint 1.
+fn candidates(ratio: &Algebraic) -> Option<Vec<Vec<JointValue<Univariate<Algebraic>>>>> {
+    let one = Univariate::constant(Algebraic::one());
+    let line = |c: &Algebraic| Univariate::new(vec![Algebraic::zero(), c.clone()]);
+    let mut found = Vec::new();
+    for c in [ratio.clone(), ratio.neg(), ratio.inverse()?, ratio.inverse()?.neg()] {
+        for (third, fourth) in
+            [(1, 1), (1, -1), (-1, 1), (-1, -1)].map(|(a, b)| (Algebraic::from_integer(a), Algebraic::from_integer(b)))
+        {
+            let first = [one.clone(), line(&Algebraic::one())];
+            let third = [one.clone(), line(&third)];
+            let straight = |c: &Algebraic| [one.clone(), line(c)];
+            let inverse = |c: &Algebraic| [line(&Algebraic::one()), Univariate::constant(c.clone())];
+            found.push(vec![first.clone(), straight(&c), third.clone(), straight(&c.mul(&fourth))]);
+            found.push(vec![first, inverse(&c), third, inverse(&c.mul(&fourth))]);
+        }
+    }
+    Some(found)
+}
+
+/// Whether a loop closes for every value of the variable of these joint values: an identity of polynomials.
+fn closes_throughout<F: Field>(linkage: &Linkage<F>, values: &[JointValue<Univariate<F>>]) -> bool {
+    let constant = |x: &F| Univariate::constant(x.clone());
+    let factors = linkage.links.iter().zip(values).zip(&linkage.variables).map(|((link, value), variable)| {
+        let (x, y) = link.study();
+        let mut coordinates = x.iter().chain(&y).map(constant);
+        let study: Study<Univariate<F>> = std::array::from_fn(|_| coordinates.next().unwrap_or_else(Univariate::zero));
+        times(&joint(*variable, &Axis::Z, value), &study)
+    });
+    let product = factors.fold(one(), |product, factor| times(&product, &factor));
+    !product[0].is_zero() && product[1..].iter().all(Ring::is_zero)
 }
 
 /// A number of a field as that of a larger one in which the generating element is this.

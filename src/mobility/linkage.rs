@@ -125,6 +125,26 @@ impl Linkage<Rational> {
         Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
     }
 
+    /// The same loop with a rotation in front of every spherical joint and its inverse behind: other angles stand for the
+    /// same motions, so that the positions at which two of the three axes coincide are others. Every rotation has such angles, so
+    /// that a curve of configurations of the one loop is one of the other.
+    pub(super) fn with_turned_balls(&self, balls: &[usize]) -> Self {
+        let n = self.variables.len();
+        let mut linkage = self.clone();
+        for (number, k) in (0..).zip(balls.iter().copied()) {
+            // Any rotation without a special axis or angle.
+            let turn = [7, 2 + number, -3, 5].map(Rational::from);
+            let zero = || [0; 4].map(Rational::from);
+            let rotation = DualQuaternion::from_study(&turn, &zero());
+            let back = [7, -2 - number, 3, -5].map(Rational::from);
+            let inverse = DualQuaternion::from_study(&back, &zero());
+            let before = (k + n - 1) % n;
+            linkage.links[before] = linkage.links[before].mul(&rotation);
+            linkage.links[k + 2] = inverse.mul(&linkage.links[k + 2]);
+        }
+        linkage
+    }
+
     /// The same chain over another field; `None` for an unlucky prime.
     #[must_use]
     pub fn map<F: Field>(&self) -> Option<Linkage<F>> {
@@ -246,6 +266,26 @@ impl<F: Field> Position<F> {
     pub fn closes(&self) -> bool {
         let product = self.links.iter().fold(one(), |product, link| times(&product, link));
         is_unit(&product[0]) && !product[1..].iter().any(is_unit)
+    }
+
+    /// The number of joint variables.
+    pub(super) fn joints(&self) -> usize {
+        self.variables.len()
+    }
+
+    /// The same position with other coordinates of the spherical joints, whose three variables begin at these places: rotations
+    /// about x, y and z. They are coordinates of all rotations near every position, also where two of the three axes of the
+    /// joint variables coincide.
+    pub(super) fn with_regular_balls(mut self, balls: &[usize]) -> Self {
+        for k in balls.iter().copied() {
+            for axis in 0..3 {
+                let unit = std::array::from_fn(|i| if i == axis { F::one() } else { F::zero() });
+                self.axes[k + axis] = Axis::Along(unit);
+            }
+            let whole = times(&times(&self.links[k], &self.links[k + 1]), &self.links[k + 2]);
+            (self.links[k], self.links[k + 1], self.links[k + 2]) = (one(), one(), whole);
+        }
+        self
     }
 
     /// The chain in which joint variable `k` is rigid.

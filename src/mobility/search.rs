@@ -44,6 +44,10 @@ const TANGENTS: [(i32, i32); 24] = [
 /// Bits in which real configurations are evaluated before they are rounded.
 const BITS: u32 = 256;
 
+/// Over a number field joints are held at so many values, over the degree and the number of joint variables: arithmetic is
+/// dearer there, and a loop of ordinary numbers that moves is seen to move at the first ones.
+const WORK: usize = 400;
+
 /// What holding joints showed.
 pub(super) struct Search {
     /// The joint variables held, and their values.
@@ -75,15 +79,15 @@ pub fn moves(linkage: &Linkage<Rational>) -> Option<bool> {
     if all_stand_still(linkage) {
         return Some(false);
     }
-    if matches!(search(linkage), Outcome::Mobile(_)) {
+    if matches!(search(linkage, &[]), Outcome::Mobile(_)) {
         return Some(true);
     }
     is_open_everywhere(linkage).then_some(false)
 }
 
 /// Looks for a motion: holds as few joints as leave finitely many configurations, and decides what passes through those.
-pub(super) fn search(linkage: &Linkage<Rational>) -> Outcome {
-    searched(&Setting::of(linkage), |held| at(linkage, held))
+pub(super) fn search(linkage: &Linkage<Rational>, balls: &[usize]) -> Outcome {
+    searched(&Setting::of(linkage, balls), usize::MAX, |held| at(linkage, held))
 }
 
 /// The same of a loop over a number field; its home configuration is looked at first.
@@ -95,19 +99,29 @@ pub(super) fn search_over(ground: &Grounded, unit: &Rational) -> Outcome {
             return Outcome::Mobile(search);
         }
     }
-    if ground.linkage.variables.len() > 6 { Outcome::Nothing } else { searched(&setting, |held| ground.at(held)) }
+    let n = ground.linkage.variables.len();
+    let attempts = if n > 6 { 0 } else { WORK / (ground.field.degree() * n) };
+    if attempts == 0 { Outcome::Nothing } else { searched(&setting, attempts, |held| ground.at(held)) }
 }
 
 /// Looks for a motion with this way to find the configurations with joints held.
-fn searched(setting: &Setting, at: impl Fn(&[(usize, Rational)]) -> Option<Vec<Conjugates>>) -> Outcome {
+fn searched(
+    setting: &Setting,
+    attempts: usize,
+    at: impl Fn(&[(usize, Rational)]) -> Option<Vec<Conjugates>>,
+) -> Outcome {
     let n = setting.variables.len();
-    let mut complex = None;
+    let (mut complex, mut tried) = (None, 0);
     for count in n.saturating_sub(5).max(1)..n {
         let mut is_free = false;
         for start in 0..n {
             for shift in 0..TANGENTS.len() {
                 let held: Vec<(usize, Rational)> =
                     (0..count).map(|k| ((start + k) % n, setting.tangent((start + k) % n, shift + k))).collect();
+                if tried == attempts {
+                    return Outcome::Nothing;
+                }
+                tried += 1;
                 let Some(found) = at(&held) else {
                     is_free = true;
                     break;
@@ -146,15 +160,17 @@ struct Setting<'a> {
     /// Lengths of the axes.
     lengths: Vec<Float>,
     unit: Rational,
+    /// Where the three variables of spherical joints begin.
+    balls: &'a [usize],
     /// The loop in the field of some configurations.
     image: Box<dyn Fn(&Conjugates) -> Option<Linkage<Algebraic>> + 'a>,
 }
 
 impl<'a> Setting<'a> {
-    fn of(linkage: &'a Linkage<Rational>) -> Self {
+    fn of(linkage: &'a Linkage<Rational>, balls: &'a [usize]) -> Self {
         let lengths = linkage.axes.iter().map(|axis| axis.length(BITS)).collect();
         let image = Box::new(|_: &Conjugates| linkage.map());
-        Self { variables: &linkage.variables, lengths, unit: linkage.unit(), image }
+        Self { variables: &linkage.variables, lengths, unit: linkage.unit(), balls, image }
     }
 
     fn over(ground: &'a Grounded, unit: &Rational) -> Self {
@@ -163,7 +179,13 @@ impl<'a> Setting<'a> {
             ground.linkage.over(|x| Some(in_terms_of(x, element)))
         };
         let lengths = ground.lengths(BITS);
-        Self { variables: &ground.linkage.variables, lengths, unit: unit.clone(), image: Box::new(image) }
+        Self {
+            variables: &ground.linkage.variables,
+            lengths,
+            unit: unit.clone(),
+            balls: &ground.balls,
+            image: Box::new(image),
+        }
     }
 
     fn tangent(&self, k: usize, shift: usize) -> Rational {
@@ -217,13 +239,31 @@ impl Known {
     fn of(setting: &Setting, held: &[(usize, Rational)], conjugates: &Conjugates) -> Option<Self> {
         let values = with_held(held, conjugates)?;
         let linkage = (setting.image)(conjugates)?;
-        let germ = Germ::of_conjugates(&linkage.at(&values), conjugates.fewest_conjugates());
+        let position = linkage.at(&values).with_regular_balls(setting.balls);
+        let mut germ = Germ::of_conjugates(&position, conjugates.fewest_conjugates());
+        // Two first-order motions or more: with another joint held there may be a curve all the same. It is all there is, since
+        // with the one joint held the configurations are finitely many.
+        let n = position.joints();
+        if germ.local == Local::Deficient && held.len() == 1 && n > 2 && setting.balls.is_empty() {
+            let curve = |k: &usize| matches!(Germ::of(&position.without(*k)).local, Local::Curve);
+            if let Some(k) = (0..n).filter(|k| *k != held[0].0).find(curve) {
+                let rest = Germ::of(&position.without(k));
+                germ.local = Local::Curve;
+                germ.series = rest.series;
+                germ.series.insert(k, Vec::new());
+            }
+        }
         let system: ScrewSystem<Algebraic> = germ.system();
         let freedom = system.loop_freedom();
-        let moving = match germ.local {
+        let mut moving: Vec<bool> = match germ.local {
             Local::Curve => germ.series.iter().map(|series| series.iter().any(is_unit)).collect(),
             _ => (0..values.len()).map(|k| freedom.rates.iter().any(|rate| is_unit(&rate[k]))).collect(),
         };
+        // The three variables of a spherical joint are those of one motion.
+        for k in setting.balls.iter().copied() {
+            let moves = moving[k..k + 3].contains(&true);
+            moving[k..k + 3].fill(moves);
+        }
         let (description, redundant) = (system.description(), freedom.redundant.basis());
         // Asked here, so that a pitch that vanishes at some roots only tells them apart.
         for screw in &redundant {
@@ -264,8 +304,13 @@ impl Known {
 }
 
 /// What the real ones of these configurations are.
-pub(super) fn decide(linkage: &Linkage<Rational>, held: &[(usize, Rational)], found: &[Conjugates]) -> Search {
-    Setting::of(linkage).decide(held, found)
+pub(super) fn decide(
+    linkage: &Linkage<Rational>,
+    balls: &[usize],
+    held: &[(usize, Rational)],
+    found: &[Conjugates],
+) -> Search {
+    Setting::of(linkage, balls).decide(held, found)
 }
 
 impl Setting<'_> {

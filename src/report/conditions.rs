@@ -26,13 +26,18 @@ fn class(class: Class) -> &'static str {
     }
 }
 
+/// Whether the answer is about rounded numbers.
+fn is_rounded(ansatz: &Ansatz, decision: &Decision) -> bool {
+    ansatz.rounded && decision.field.is_none()
+}
+
 /// What the answer rests on. Numbers that were rounded satisfy or break an equality that the true ones may not.
 #[must_use]
 pub fn proof(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Proof {
     if !theorem.is_proved() || decision.confirmed == Some(false) {
         return Proof::None;
     }
-    Proof::Proved.of_rounded(ansatz.rounded)
+    Proof::Proved.of_rounded(is_rounded(ansatz, decision))
 }
 
 /// `moves as Bennett (+), Bennett (-), spherical, planar, and in no other way: proved, 11 of 11 steps`
@@ -46,7 +51,12 @@ pub fn verdict(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Strin
         }
         (true, Some(false)) => "NOT proved: the linear conditions at the numbers disagree".to_owned(),
         (true, Some(true)) => format!("proved, {held} of {total} steps, and by the linear conditions at the numbers"),
-        (true, None) => format!("proved, {held} of {total} steps"),
+        (true, None) => {
+            let field = decision.field.map_or_else(String::new, |degree| {
+                format!(", the numbers of the file taken as elements of a number field of degree {degree}")
+            });
+            format!("proved, {held} of {total} steps{field}")
+        }
         (false, _) => format!("NOT proved, {held} of {total} steps"),
     };
     if let Some(reason) = ansatz.empty() {
@@ -130,7 +140,7 @@ pub fn text(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> String {
             let _ = writeln!(text, "     {} = {}", formula.name, formula.value);
         }
     }
-    if ansatz.rounded {
+    if is_rounded(ansatz, decision) {
         text.push_str(ROUNDED);
     }
     text
@@ -189,7 +199,8 @@ pub fn json(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Value {
         "families": families,
         "empty": ansatz.empty(),
         "steps": steps,
-        "rounded": ansatz.rounded,
+        "rounded": is_rounded(ansatz, decision),
+        "field_degree": decision.field,
     })
 }
 
@@ -246,7 +257,7 @@ pub fn markdown(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Resu
             let _ = writeln!(text, "   - `{} = {}`", formula.name, formula.value);
         }
     }
-    if ansatz.rounded {
+    if is_rounded(ansatz, decision) {
         let _ = write!(text, "\n> {}", ROUNDED.trim_start());
     }
     Ok(text)

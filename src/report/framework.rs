@@ -52,6 +52,11 @@ fn reason(file: &FrameworkFile, answer: &Mobility) -> String {
                 slice.mobility()
             )
         }
+        Proof::Planes(least) => format!(
+            "the vertices lie in two perpendicular planes, every bar joining one with the other: the places along the line in which the \
+             planes meet are stretched, x to a x + b in one plane and to x/a + c in the other, and the heights over the line take up \
+             the change; {least} dimensions of this are no motions of the whole"
+        ),
         Proof::Octahedron([a, b]) => format!(
             "an octahedron: the dihedral angles about its diagonal {} {} close for every length of it, an identity of polynomials \
              over the rationals",

@@ -96,3 +96,35 @@ fn transference_is_shown() {
     assert_eq!(verb("derive", &["puma560", "--transference"], "").code, 4);
     assert!(verb("derive", &["ccrr", "--transference", "--format", "maple"], "").out.contains("variables := "));
 }
+
+/// Bennett's loop in degrees, its second length given by a quotient of sines.
+fn in_degrees(twist: &str, length: &str) -> String {
+    let link = |a: &str, alpha: &str| format!("{{ type = \"R\", a = \"{a}\", alpha = \"{alpha} deg\", d = 0 }}");
+    let joints = [link("100", "30"), link(length, twist)].join(", ");
+    format!(
+        "units = {{ length = \"mm\", angle = \"deg\" }}\n[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [{joints}, {joints}]\n"
+    )
+}
+
+#[test]
+fn numbers_of_one_field_are_taken_as_they_are() {
+    for (twist, degree) in [("45", 4), ("41", 48)] {
+        let length = format!("100*sin({twist} deg)/sin(30 deg)");
+        let moves = run(&["-", "--json"], &in_degrees(twist, &length));
+        let answer: Value = serde_json::from_str(&moves.out).unwrap();
+        assert!(moves.code == 0 && answer["verdict"].as_str().unwrap().starts_with("moves: Bennett"), "{}", moves.out);
+        assert_eq!((&answer["proved"], &answer["proof"], &answer["rounded"]), (&true.into(), &"proved".into(), &false.into()));
+        assert!(answer["field_degree"].as_u64().unwrap() <= degree);
+        let rigid = run(&["-", "--json"], &in_degrees(twist, &(length + " + 1e-20")));
+        let answer: Value = serde_json::from_str(&rigid.out).unwrap();
+        assert!(rigid.code == 3 && answer["verdict"].as_str().unwrap().starts_with("does not move (proved"), "{}", rigid.out);
+    }
+}
+
+#[test]
+fn of_rounded_numbers_nothing_is_proved() {
+    let rounded = in_degrees("45", "100*sin(1)/sin(2)");
+    let run = run(&["-", "--json"], &rounded);
+    let answer: Value = serde_json::from_str(&run.out).unwrap();
+    assert_eq!((run.code, &answer["proved"], &answer["proof"]), (2, &false.into(), &"rounded-data".into()));
+}

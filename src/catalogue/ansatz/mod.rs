@@ -16,6 +16,7 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::algebra::text::Names;
 use crate::error::{Error, Result};
+use crate::kinematics::chain::Chain;
 use rug::Rational;
 
 pub(super) use read::ansatz;
@@ -153,6 +154,8 @@ pub struct Ansatz {
     pub fit: Vec<Polynomial<Rational>>,
     /// Whether a number of the file had to be replaced by a rational nearby.
     pub rounded: bool,
+    /// The loop itself, where it has numbers only.
+    pub chain: Option<Chain>,
     /// Every angle in terms of the free ones.
     angles: Vec<Twist>,
     /// The angles to which no relation gives a value.
@@ -195,6 +198,7 @@ impl Ansatz {
             unknown_angles: Vec::new(),
             fit: Vec::new(),
             rounded: false,
+            chain: None,
             given_lengths: Vec::new(),
             solved: Vec::new(),
             empty: None,

@@ -5,10 +5,14 @@ use super::resolve::relation;
 use super::{Ansatz, SymbolicJoint, Symbols, Twist};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Ring, exact_cos_sin};
+use crate::catalogue::entry::Design;
+use crate::catalogue::geometry::mechanism;
 use crate::catalogue::job::{source, units};
 use crate::catalogue::node::{Node, Value};
+use crate::catalogue::options::Chains;
 use crate::catalogue::scope::Scope;
 use crate::error::{Error, Result};
+use crate::kinematics::chain::Chain;
 use rug::Rational;
 
 /// Loops have at least so many joints and at most as many.
@@ -49,7 +53,20 @@ pub(in crate::catalogue) fn ansatz(scope: &mut Scope<'_>, root: &Node, name: &st
     }
     ansatz.resolve().map_err(|(line, fault)| fault.at(scope.path, line))?;
     ansatz.rounded = scope.is_rounded();
+    if table.get("symbols").is_none() {
+        ansatz.chain = chain(scope, scope.need(&table, "mechanism")?);
+    }
     Ok(ansatz)
+}
+
+/// The loop of a table without symbols.
+fn chain(scope: &Scope<'_>, node: &Node) -> Option<Chain> {
+    let mut own = Scope::new(scope.path, scope.reading.clone());
+    own.chains = Chains::Any;
+    match mechanism(&own, node).ok()?.design {
+        Design::Loop(chain) => Some(chain),
+        Design::Arm(_) | Design::Platform(_) => None,
+    }
 }
 
 fn names(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Vec<String>> {

@@ -6,6 +6,7 @@ use super::flex::{Flex, flex, settled};
 use super::octahedron::{Diagonal, Octahedron};
 use super::order::{Order, order};
 use super::parts::parts;
+use super::planes::on_planes;
 use super::slice::{Slice, moving_slice};
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::number::nearest_f64;
@@ -41,6 +42,8 @@ pub enum Proof {
     Slice(Slice),
     /// The closure of the ring about a diagonal of an octahedron, an identity in the square of the length of that diagonal.
     Octahedron([usize; 2]),
+    /// A framework on two perpendicular planes with bars from one to the other, which moves in at least so many dimensions.
+    Planes(usize),
     /// No diagonal of an octahedron can change.
     NoDiagonal,
     /// Octahedra that move about one edge, and bars: the edge first, then the vertices of each part.
@@ -80,6 +83,7 @@ impl Mobility {
         match (&self.verdict, &self.proof) {
             (Verdict::Rigid | Verdict::Shaky(_), _) => (0, 0),
             (Verdict::Mobile, Proof::Slice(slice)) => (slice.mobility(), self.infinitesimal),
+            (Verdict::Mobile, Proof::Planes(least)) => (*least, self.infinitesimal),
             (Verdict::Mobile, _) => (1, self.infinitesimal.max(1)),
         }
     }
@@ -110,9 +114,11 @@ pub fn mobility(framework: &Framework<Rational>, steps: usize) -> Option<Mobilit
     let octahedron = Octahedron::of(&float, &exact);
     (found.verdict, found.proof) = if let Some(slice) = moving_slice(framework) {
         (Verdict::Mobile, Proof::Slice(slice))
+    } else if let Some(least) = on_planes(framework) {
+        (Verdict::Mobile, Proof::Planes(least))
     } else if let Some(proved) = octahedron.as_ref().and_then(|o| of_octahedron(o, &float)) {
         proved
-    } else if let Some(parts) = parts(&float, &exact) {
+    } else if let Some(parts) = parts(&float, &exact, Some(framework)) {
         (Verdict::Mobile, Proof::Parts(parts))
     } else {
         of_series(framework, octahedron.is_some(), found.flex.as_ref())
@@ -136,7 +142,9 @@ pub fn mobility_with_lengths(
     steps: usize,
 ) -> Option<Mobility> {
     let squares: Vec<f64> = exact.iter().map(nearest_f64).collect();
-    let here = settled(start, &squares)?;
+    let Some(here) = settled(start, &squares) else {
+        return if is_exact { by_lengths(start, exact) } else { None };
+    };
     let (rank, rigid) = here.ranks();
     let infinitesimal = here.coordinates() - rank - rigid;
     let mut found = begin(&here, rank, infinitesimal);
@@ -150,7 +158,7 @@ pub fn mobility_with_lengths(
     }
     let proved = match Octahedron::of(&here, exact) {
         Some(octahedron) => of_octahedron(&octahedron, &here),
-        None => match parts(&here, exact) {
+        None => match parts(&here, exact, None) {
             Some(parts) => Some((Verdict::Mobile, Proof::Parts(parts))),
             None => stands_still(&here, exact).then_some((Verdict::Rigid, Proof::Cycle)),
         },
@@ -159,6 +167,17 @@ pub fn mobility_with_lengths(
         (found.verdict, found.proof) = (verdict, proof);
     }
     Some(found)
+}
+
+/// What the lengths of an octahedron alone prove: that no realisation moves, if there is any.
+fn by_lengths(start: &Framework<f64>, squares: &[Rational]) -> Option<Mobility> {
+    let octahedron = Octahedron::of(start, squares)?;
+    if (0..3).any(|axis| octahedron.closure(axis).is_zero()) {
+        return None;
+    }
+    let (rank, rigid) = start.ranks();
+    let infinitesimal = start.coordinates().saturating_sub(rank + rigid);
+    Some(Mobility { proof: Proof::NoDiagonal, ..begin(start, rank, infinitesimal) })
 }
 
 fn begin(framework: &Framework<f64>, rank: usize, infinitesimal: usize) -> Mobility {

@@ -6,6 +6,7 @@ mod mobility;
 pub mod octahedron;
 mod order;
 mod parts;
+mod planes;
 mod slice;
 
 pub use mobility::{Mobility, Proof, Verdict, mobility, mobility_with_lengths};

@@ -14,20 +14,31 @@ use rug::{Float, Rational};
 
 /// Four points whose volume is this small a share of the product of three edges are in a plane.
 const FLAT: f64 = 1e-6;
-/// A held distance that is no bar is a rational number to so many digits.
+/// Where lengths are given and no vertices, a held distance that is no bar is chosen among those nearby, with so many digits.
 const DIGITS: u32 = 9;
 
+/// `exact`: the vertices themselves, where they are known.
+///
 /// The held pair of vertices, and the octahedra and bars about it, each by its vertices; `None` if the framework is not made
 /// that way, or an octahedron does not move.
-pub fn parts(framework: &Framework<f64>, squares: &[Rational]) -> Option<Vec<Vec<usize>>> {
+pub fn parts(
+    framework: &Framework<f64>,
+    squares: &[Rational],
+    exact: Option<&Framework<Rational>>,
+) -> Option<Vec<Vec<usize>>> {
     let count = framework.vertices.len();
     if framework.bodies > 0 {
         return None;
     }
-    (0..count).flat_map(|q| (0..q).map(move |p| [p, q])).find_map(|edge| about(framework, squares, edge))
+    (0..count).flat_map(|q| (0..q).map(move |p| [p, q])).find_map(|edge| about(framework, squares, exact, edge))
 }
 
-fn about(framework: &Framework<f64>, squares: &[Rational], [p, q]: [usize; 2]) -> Option<Vec<Vec<usize>>> {
+fn about(
+    framework: &Framework<f64>,
+    squares: &[Rational],
+    exact: Option<&Framework<Rational>>,
+    [p, q]: [usize; 2],
+) -> Option<Vec<Vec<usize>>> {
     let count = framework.vertices.len();
     let bar = |a: usize, b: usize| framework.bars.iter().position(|bar| *bar == [a.min(b), a.max(b)]);
     let joined = |a: usize, b: usize| bar(a, b).is_some();
@@ -37,7 +48,10 @@ fn about(framework: &Framework<f64>, squares: &[Rational], [p, q]: [usize; 2]) -
     }
     let square = |a: usize, b: usize| match bar(a, b) {
         Some(k) => squares[k].clone(),
-        None => Number::near(&Float::with_val(53, framework.square([a, b])), DIGITS),
+        None => match exact {
+            Some(exact) => exact.square([a, b]),
+            None => Number::near(&Float::with_val(53, framework.square([a, b])), DIGITS),
+        },
     };
     let mut covered = vec![false; framework.bars.len()];
     let mut cover = |vertices: &[usize]| {
