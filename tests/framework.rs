@@ -279,7 +279,14 @@ proptest! {
 fn bipartite(lift: (i32, i32)) -> Framework<Rational> {
     let q = |(n, d): (i32, i32)| Rational::from((n, d));
     let first = [((3, 1), (10, 1)), ((-1, 1), (1, 1)), ((-2, 3), (3, 1)), ((3, 2), (9, 2))];
-    let second = [((5, 1), (8, 1)), ((-5, 3), (6, 1)), ((2, 1), (9, 1)), ((1, 1), (10, 1)), ((-3, 1), (10, 1)), ((2, 1), (2, 1))];
+    let second = [
+        ((5, 1), (8, 1)),
+        ((-5, 3), (6, 1)),
+        ((2, 1), (9, 1)),
+        ((1, 1), (10, 1)),
+        ((-3, 1), (10, 1)),
+        ((2, 1), (2, 1)),
+    ];
     let mut vertices: Vec<[Rational; 3]> = first.iter().map(|(x, y)| [q(*x), q(*y), Rational::new()]).collect();
     vertices.extend(second.iter().map(|(x, z)| [q(*x), Rational::new(), q(*z)]));
     vertices[0][2] = q(lift);

@@ -65,7 +65,7 @@ fn expressions_are_read_into_one_field() {
         ("100*sin(45 deg)/sin(30 deg)", "sqrt(20000)", 2),
         ("sin(23 deg)/sin(41 deg)*sin(41 deg)", "cos(67 deg)", 48),
         ("cos(acos(1/3) + pi/6)", "(sqrt(3) - sqrt(8))/6", 4),
-        ("tan(22.5 deg)", "sqrt(2) - 1", 2),
+        ("tan(22.5 deg)", "sqrt(2) - 1", 4),
         ("sin(2*atan(sqrt(2)))", "sin(2*atan(sqrt(2)))", 1),
         ("cos(2*atan(1/2)) + sqrt(5)", "3/5 + sqrt(5)", 2),
         ("(1 + sqrt(5))/4", "cos(36 deg)", 2),

@@ -322,7 +322,14 @@ impl Angle {
         };
         let enclosed = enclosed.cos_sin_of();
         let cos_sin = (enclosed.0.middle().to_f64(), enclosed.1.middle().to_f64());
-        Self { radians: radians.to_f64(), cos_sin, half_tangent, exact: false, enclosed: Some(Box::new(enclosed)), phase: None }
+        Self {
+            radians: radians.to_f64(),
+            cos_sin,
+            half_tangent,
+            exact: false,
+            enclosed: Some(Box::new(enclosed)),
+            phase: None,
+        }
     }
 
     /// The angle, correctly rounded, as given (not reduced modulo 2 pi). Radians.

@@ -121,6 +121,10 @@ impl Subject<'_> {
         if answer.mobility > Some(0) {
             return Ok(answer);
         }
+        // Angles of a spherical joint move without a motion where two of their axes coincide.
+        if !self.balls().is_empty() {
+            return Ok(answer);
+        }
         let Some(Nearby { held, values, turn, shift }) = nearby(&self.linkage) else { return Ok(answer) };
         let joint = self.variables[held].joint;
         let immobile = if answer.mobility == Some(0) {
@@ -369,10 +373,14 @@ impl Subject<'_> {
         };
         let verdict = &solution.verdict;
         let is_complete = is_complete(verdict);
-        // As many isolated configurations as there can be leave none for a curve. They are those of unit axes: of axes of
-        // irrational length rounded ones.
-        let is_full =
-            is_complete && verdict.certified == MOST_SOLUTIONS && self.linkage.axes.iter().all(|axis| *axis == Axis::Z);
+        // As many isolated configurations as loops of this kind can have leave none for a curve. They are those of unit axes: of
+        // axes of irrational length rounded ones.
+        let meets_bound = verdict.certified == MOST_SOLUTIONS
+            || verdict.proof.is_proved()
+                && verdict.code == Code::GeneralBoundMet
+                && verdict.certified == verdict.complex
+                && verdict.complex > 0;
+        let is_full = is_complete && meets_bound && self.linkage.axes.iter().all(|axis| *axis == Axis::Z);
         let is_proved = is_full || why.is_some();
         let mut configurations = Vec::new();
         for mode in solution.modes.iter().filter(|mode| mode.real) {

@@ -113,11 +113,18 @@ fn numbers_of_one_field_are_taken_as_they_are() {
         let moves = run(&["-", "--json"], &in_degrees(twist, &length));
         let answer: Value = serde_json::from_str(&moves.out).unwrap();
         assert!(moves.code == 0 && answer["verdict"].as_str().unwrap().starts_with("moves: Bennett"), "{}", moves.out);
-        assert_eq!((&answer["proved"], &answer["proof"], &answer["rounded"]), (&true.into(), &"proved".into(), &false.into()));
+        assert_eq!(
+            (&answer["proved"], &answer["proof"], &answer["rounded"]),
+            (&true.into(), &"proved".into(), &false.into())
+        );
         assert!(answer["field_degree"].as_u64().unwrap() <= degree);
         let rigid = run(&["-", "--json"], &in_degrees(twist, &(length + " + 1e-20")));
         let answer: Value = serde_json::from_str(&rigid.out).unwrap();
-        assert!(rigid.code == 3 && answer["verdict"].as_str().unwrap().starts_with("does not move (proved"), "{}", rigid.out);
+        assert!(
+            rigid.code == 3 && answer["verdict"].as_str().unwrap().starts_with("does not move (proved"),
+            "{}",
+            rigid.out
+        );
     }
 }
 
