@@ -86,11 +86,10 @@ fn exit(found: &Sweep) -> Exit {
     if found.samples.len() <= found.range.steps {
         return Exit::Interrupted;
     }
-    let doubtful = found.unresolved() + found.samples.iter().filter(|sample| !sample.is_complete()).count();
-    match (doubtful, found.count(Status::Unreachable)) {
-        (1.., _) => Exit::NotProved,
-        (0, n) if n == found.samples.len() && found.branches.is_empty() => Exit::Unreachable,
-        _ => Exit::Complete,
+    match (found.verdict.proof.is_proved(), found.verdict.status) {
+        (true, Status::Unreachable) => Exit::Unreachable,
+        (true, _) => Exit::Complete,
+        _ => Exit::NotProved,
     }
 }
 

@@ -110,6 +110,35 @@ pub fn false_roots<F: Field + Domain>(
     FalseRoots { imaginary, parallel: single.mul(&double), parallel_at_pi: if is_false { lost } else { 0 } }
 }
 
+/// What belongs to a root of the closure polynomial, as polynomials in the same half tangent.
+#[derive(Clone, Debug)]
+pub struct RootConditions<F> {
+    /// Three coordinates of `u x v` times `N3`: all of them vanish where the translations are dependent.
+    pub parallel: [Univariate<F>; 3],
+    /// The same of `u x s`: where the translations are dependent and these do not all vanish, the loop does not close.
+    pub gap: [Univariate<F>; 3],
+}
+
+/// The conditions that say of a root of [`closure_polynomial`] whether it belongs to a solution.
+#[must_use]
+pub fn root_conditions<F: Field>(
+    bar: &FourBar<'_, F>,
+    equations: &Equations<F>,
+    hidden: Hidden,
+    origin: &[F; 3],
+) -> RootConditions<F> {
+    let view = |form: &Form<F>| by_hidden(form, hidden, origin);
+    let normal = normal(&view(&equations.f), &view(&equations.g));
+    let unit = |i: usize| -> [F; 3] { std::array::from_fn(|k| if k == i { F::one() } else { F::zero() }) };
+    let at_root = |form: Form<F>| {
+        let [one, cos, sin] = view(&form);
+        one.mul(&normal[2]).add(&cos.mul(&normal[0])).add(&sin.mul(&normal[1]))
+    };
+    let parallel = [0, 1, 2].map(|i| at_root(bar.coplanarity(bar.base, &unit(i))));
+    let gap = [0, 1, 2].map(|i| at_root(bar.gap(bar.base, &unit(i))));
+    RootConditions { parallel, gap }
+}
+
 /// The closure polynomial of degree 8 in the tangent of half the hidden angle, counted from an angle given as
 /// (1, cos, sin) or a multiple of that.
 #[must_use]

@@ -67,18 +67,24 @@ fn following<R: Ring>(form: &LinkForm<R, 3, 3>, dropped: usize, known: &(R, R), 
 
 /// The closure polynomial of three rotations, and what their translations need, in the half tangent x of the rotation of
 /// the equation.
-struct Conditions<F> {
+#[derive(Clone, Debug)]
+pub struct Conditions<F> {
     /// The closure polynomial, of degree 2 in general.
-    roots: Univariate<F>,
+    pub roots: Univariate<F>,
     /// The determinant of the directions of the translations, times powers of 1 + x^2, and its degree in general.
-    determinant: (Univariate<F>, usize),
+    pub determinant: (Univariate<F>, usize),
     /// What vanishes with it where dependent translations close the loop, each with its degree in general.
-    bridged: [(Univariate<F>, usize); 3],
+    pub bridged: [(Univariate<F>, usize); 3],
 }
 
 /// The conditions with angles counted from `origin`; `None` where two axes are parallel, so that rotations are not
 /// determined.
-fn conditions<F: Field>(form: &LinkForm<F, 3, 3>, triangle: &Triangle<F>, origin: &[F; 3]) -> Option<Conditions<F>> {
+#[must_use]
+pub fn conditions<F: Field>(
+    form: &LinkForm<F, 3, 3>,
+    triangle: &Triangle<F>,
+    origin: &[F; 3],
+) -> Option<Conditions<F>> {
     let inverse = form.twist(triangle.dropped).0.inverse()?;
     let lifted = form.map(|x: &F| Some(Univariate::constant(x.clone())))?;
     // Cosine and sine times a number and 1 + x^2.

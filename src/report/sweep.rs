@@ -7,7 +7,7 @@ use super::text::variables;
 use crate::catalogue::entry::Entry;
 use crate::kinematics::closed_loop::Variable;
 use crate::sweep::{Branch, End, Limit, Sample, Sweep};
-use crate::verdict::Status;
+use crate::verdict::{Proof, Status};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -43,7 +43,12 @@ pub fn verdict(sweep: &Sweep) -> String {
     if sweep.unresolved() > 0 {
         let _ = write!(text, ", {} of branches not resolved", counted(sweep.unresolved(), "end"));
     }
-    text
+    let proof = match sweep.verdict.proof {
+        Proof::Proved => "; branches proved",
+        Proof::RoundedData => "; branches proved for the rounded numbers",
+        _ => "; branches not proved",
+    };
+    text + proof
 }
 
 /// Degrees or metres.
@@ -109,6 +114,8 @@ pub fn text(entry: &Entry, swept: Swept, sweep: &Sweep) -> String {
     if !sweep.limits.is_empty() {
         let _ = write!(text, "\n{}", limits(entry, sweep).text());
     }
+    let _ = writeln!(text);
+    paragraph(&mut text, &sweep.verdict.reason);
     let remarks = remarks(sweep, swept);
     if !remarks.is_empty() {
         let _ = write!(text, "\n{remarks}");
@@ -202,6 +209,10 @@ pub fn json(entry: &Entry, swept: Swept, sweep: &Sweep) -> Value {
         "steps": sweep.range.steps,
         "full_turn": sweep.is_full_turn,
         "verdict": {
+            "status": sweep.verdict.status.word(),
+            "proof": sweep.verdict.proof.word(),
+            "code": sweep.verdict.code.word(),
+            "reason": sweep.verdict.reason,
             "branches": sweep.branches.len(),
             "limits": sweep.limits.len(),
             "inputs": sweep.samples.len(),

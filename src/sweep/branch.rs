@@ -1,6 +1,6 @@
 //! Modes of neighbouring inputs joined to branches.
 
-use super::Range;
+use super::{Range, Span};
 use super::bridge::{Bridge, Fate, apart};
 use super::sample::Sample;
 use super::track::Fold;
@@ -87,9 +87,10 @@ impl Web {
         self.samples.push((sample, step));
     }
 
-    /// Adds the next bridge.
-    pub(super) fn bridge(&mut self, bridge: Bridge) {
-        self.bridges.push(bridge);
+    /// Adds what lies between the last sample and the next one.
+    pub(super) fn span(&mut self, span: Span) {
+        self.samples.extend(span.samples.into_iter().map(|sample| (sample, None)));
+        self.bridges.extend(span.bridges);
     }
 
     /// The bridge on one side of a sample and the fate of a mode there.

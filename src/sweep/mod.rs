@@ -7,12 +7,16 @@
 
 mod branch;
 mod bridge;
+mod exact;
 mod hidden;
+mod nodes;
 mod sample;
 mod track;
+mod verdict;
 
 pub use branch::{Branch, End, Limit, Row};
 pub use sample::{Sample, case};
+pub use verdict::SweepVerdict;
 
 use crate::assembly::{Assembly, Workspace};
 use crate::catalogue::entry::Entry;
@@ -20,9 +24,11 @@ use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{InputCurve, Mechanism};
 use crate::solve::curve::INPUT;
-use crate::verdict::Status;
+use crate::verdict::{Code, Status};
 use branch::Web;
 use bridge::{Bridge, Fate, bridges, mode_at};
+use exact::Exact;
+use nodes::Wanted;
 use rayon::prelude::*;
 use sample::Swept;
 use std::f64::consts::TAU;
@@ -69,6 +75,8 @@ pub struct Sweep {
     pub is_overconstrained: bool,
     /// What to know of the angles of balls.
     pub note: Option<String>,
+    /// Is every branch found.
+    pub verdict: SweepVerdict,
 }
 
 impl Sweep {
@@ -130,66 +138,102 @@ pub fn sweep(
     let is_whole = samples.len() == range.steps + 1;
     let turn = variable == Variable::Rotation && ((range.to - range.from).abs() - TAU).abs() < 1e-12;
     let is_full_turn = turn && is_whole;
-    let web = connect(&swept, range, &samples, is_full_turn)?;
+    let exact = Exact::of(&entry, &entry.cases[0], variable);
+    let (web, unproved) = connect(&swept, range, &samples, is_full_turn, exact.as_ref().map_err(|code| *code))?;
     let (branches, limits) = web.branches(&curve, &samples, range);
     let note = curve.note().map(ToOwned::to_owned);
-    Ok(Sweep { range, samples, branches, limits, is_full_turn, is_overconstrained, note })
+    let verdict = SweepVerdict::none();
+    let mut found = Sweep { range, samples, branches, limits, is_full_turn, is_overconstrained, note, verdict };
+    found.verdict = SweepVerdict::of(&found, unproved, entry.rounded);
+    Ok(found)
 }
 
-/// Follows all modes between all neighbouring samples.
-fn connect(swept: &Swept<'_>, range: Range, samples: &[Sample], is_full_turn: bool) -> Result<Web> {
+/// Follows all modes between all neighbouring samples. What the closure polynomial proves is taken from there; the reason
+/// why it does not prove everything comes with the web.
+fn connect(
+    swept: &Swept<'_>,
+    range: Range,
+    samples: &[Sample],
+    is_full_turn: bool,
+    exact: std::result::Result<&Exact, Code>,
+) -> Result<(Web, Option<Code>)> {
     let memory = || (Workspace::default(), Assembly::default());
-    // Singular samples are replaced by regular ones on both sides.
-    let aside = BESIDE * (range.to - range.from) / range.steps as f64;
-    let stand_ins = |memory: &mut (Workspace, Assembly), (step, sample): (usize, &Sample)| {
-        if sample.is_regular {
-            return Ok(vec![(sample.clone(), step)]);
-        }
-        let mut beside = Vec::new();
-        for side in [-aside, aside] {
-            let input = sample.input + side;
-            if (input - range.from) * (input - range.to) <= 0.0 {
-                let sample = swept.sample(input, memory)?;
-                if sample.is_regular {
-                    beside.push((sample, step));
-                }
-            }
-        }
-        Ok(beside)
-    };
-    let nodes: Result<Vec<Vec<(Sample, usize)>>> =
-        samples.par_iter().enumerate().map_init(memory, |memory, item| stand_ins(memory, item)).collect();
-    let nodes: Vec<(Sample, Option<usize>)> =
-        nodes?.into_iter().flatten().map(|(sample, step)| (sample, Some(step))).collect();
-    let nodes = with_hidden(swept, nodes)?;
+    let nodes = nodes(swept, range, samples, is_full_turn, exact.ok())?;
+    let nodes = if exact.is_ok() { nodes } else { with_hidden(swept, nodes)? };
     let pairs: Vec<&[(Sample, Option<usize>)]> = nodes.windows(2).collect();
     let between = |memory: &mut (Workspace, Assembly), pair: &&[(Sample, Option<usize>)]| {
-        bridges(swept, &pair[0].0, &pair[1].0, 0, memory)
+        spanned(swept, exact, [&pair[0].0, &pair[1].0], memory)
     };
-    let found: Result<Vec<(Vec<Sample>, Vec<Bridge>)>> = pairs.par_iter().map_init(memory, between).collect();
+    let found: Result<Vec<Span>> = pairs.par_iter().map_init(memory, between).collect();
     let mut web = Web::new(is_full_turn);
-    for ((sample, step), (middle, bridges)) in nodes.iter().zip(found?) {
+    let mut unproved = exact.err();
+    for ((sample, step), span) in nodes.iter().zip(found?) {
         web.add(sample.clone(), *step);
-        for sample in middle {
-            web.add(sample, None);
-        }
-        for bridge in bridges {
-            web.bridge(bridge);
-        }
+        unproved = unproved.or(span.unproved);
+        web.span(span);
     }
     if let Some((sample, step)) = nodes.last() {
         web.add(sample.clone(), *step);
     }
     if let (true, Some((first, _)), Some((last, _))) = (is_full_turn, nodes.first(), nodes.last()) {
-        let (middle, bridges) = closing(swept, first, last, range)?;
-        for sample in middle {
-            web.add(sample, None);
-        }
-        for bridge in bridges {
-            web.bridge(bridge);
-        }
+        let span = closing(swept, exact, [first, last], range)?;
+        unproved = unproved.or(span.unproved);
+        web.span(span);
     }
-    Ok(web)
+    // Without any input to begin at nothing is known.
+    let unproved = unproved.or((nodes.len() < 2).then_some(Code::BranchesNotMatched));
+    Ok((web, unproved))
+}
+
+/// What lies between two neighbouring samples.
+struct Span {
+    samples: Vec<Sample>,
+    bridges: Vec<Bridge>,
+    /// Why it is not proved.
+    unproved: Option<Code>,
+}
+
+/// The span between two samples: by the closure polynomial, else followed in floating point.
+fn spanned(
+    swept: &Swept<'_>,
+    exact: std::result::Result<&Exact, Code>,
+    [low, high]: [&Sample; 2],
+    memory: &mut (Workspace, Assembly),
+) -> Result<Span> {
+    let proved = exact.and_then(|exact| exact.bridge(swept.curve, low, high));
+    let unproved = match proved {
+        Ok(bridge) => return Ok(Span { samples: Vec::new(), bridges: vec![bridge], unproved: None }),
+        Err(code) => Some(code),
+    };
+    let (samples, bridges) = bridges(swept, low, high, 0, memory)?;
+    Ok(Span { samples, bridges, unproved })
+}
+
+/// The samples to follow branches from, each with the step that it is or stands for: singular ones and those beside
+/// critical inputs are replaced by regular ones on both sides.
+fn nodes(
+    swept: &Swept<'_>,
+    range: Range,
+    samples: &[Sample],
+    is_full_turn: bool,
+    exact: Option<&Exact>,
+) -> Result<Vec<(Sample, Option<usize>)>> {
+    let memory = || (Workspace::default(), Assembly::default());
+    let criticals = exact.map(|exact| range.criticals(&exact.criticals(), swept.variable, is_full_turn));
+    let aside = BESIDE * (range.to - range.from) / range.steps as f64;
+    let wanted = range.wanted(samples, criticals.as_deref(), aside);
+    let wanted = range.filled(wanted, swept.variable, exact.is_some());
+    let sample = |memory: &mut (Workspace, Assembly), (_, wanted): &(f64, Wanted)| {
+        Ok(match wanted {
+            Wanted::Step(step) => Some((samples[*step].clone(), Some(*step))),
+            Wanted::Beside(input, step) => {
+                let sample = swept.sample(*input, memory)?;
+                sample.is_regular.then_some((sample, *step))
+            }
+        })
+    };
+    let found: Result<Vec<Option<(Sample, Option<usize>)>>> = wanted.par_iter().map_init(memory, sample).collect();
+    Ok(found?.into_iter().flatten().collect())
 }
 
 /// The samples with those between them that show a circuit which none of them shows.
@@ -208,8 +252,13 @@ fn with_hidden(swept: &Swept<'_>, nodes: Vec<(Sample, Option<usize>)>) -> Result
     Ok(all)
 }
 
-/// The bridge from the end of a full turn to its beginning.
-fn closing(swept: &Swept<'_>, first: &Sample, last: &Sample, range: Range) -> Result<(Vec<Sample>, Vec<Bridge>)> {
+/// The span from the end of a full turn to its beginning.
+fn closing(
+    swept: &Swept<'_>,
+    exact: std::result::Result<&Exact, Code>,
+    [first, last]: [&Sample; 2],
+    range: Range,
+) -> Result<Span> {
     let turn = range.to - range.from;
     let mut next = first.clone();
     next.input += turn;
@@ -217,7 +266,7 @@ fn closing(swept: &Swept<'_>, first: &Sample, last: &Sample, range: Range) -> Re
         point[INPUT] += turn;
     }
     if (next.input - last.input).abs() > 1e-12 {
-        return bridges(swept, last, &next, 0, &mut (Workspace::default(), Assembly::default()));
+        return spanned(swept, exact, [last, &next], &mut (Workspace::default(), Assembly::default()));
     }
     // The same input twice: the same modes.
     let same = |own: &Sample, other: &Sample| -> Vec<Fate> {
@@ -225,5 +274,5 @@ fn closing(swept: &Swept<'_>, first: &Sample, last: &Sample, range: Range) -> Re
         own.points.iter().map(fate).collect()
     };
     let (forwards, backwards) = (same(last, &next), same(&next, last));
-    Ok((Vec::new(), vec![Bridge { forwards, backwards, folds: Vec::new() }]))
+    Ok(Span { samples: Vec::new(), bridges: vec![Bridge { forwards, backwards, folds: Vec::new() }], unproved: None })
 }

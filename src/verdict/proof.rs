@@ -101,6 +101,18 @@ pub enum Code {
     ComplexMotion,
     /// Neither a motion nor its absence was proved.
     NotDecided,
+    /// A sweep: between all neighbouring inputs the closure polynomial proves what becomes of every branch.
+    BranchesProved,
+    /// A sweep: there is no closure polynomial in input and output for this kind of loop.
+    NoExactRoute,
+    /// A sweep: the loop may move while its input stands still.
+    InputLocked,
+    /// A sweep: at a critical input it is not decided what the branches do.
+    SingularNotDecided,
+    /// A sweep: the branches that were found are not those of the closure polynomial.
+    BranchesNotMatched,
+    /// A sweep: it was stopped before the end of its range.
+    Interrupted,
 }
 
 impl Code {
@@ -135,6 +147,12 @@ impl Code {
             Self::CertifiedSweep => "certified-sweep",
             Self::ComplexMotion => "complex-motion",
             Self::NotDecided => "not-decided",
+            Self::BranchesProved => "branches-proved",
+            Self::NoExactRoute => "no-exact-route",
+            Self::InputLocked => "input-locked",
+            Self::SingularNotDecided => "singular-not-decided",
+            Self::BranchesNotMatched => "branches-not-matched",
+            Self::Interrupted => "interrupted",
         }
     }
 }

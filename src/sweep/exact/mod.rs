@@ -1,0 +1,120 @@
+//! What the closure polynomial proves of a sweep: see docs/sweep.md.
+//!
+//! Let F(s, t) be the closure polynomial of an input s and an output t. Between real roots of its discriminant, real
+//! roots t are analytic functions of s that never meet, so their number is constant and so is their order. Of the loops
+//! treated here a configuration follows from s and t uniquely, wherever F has a simple root and the translations are
+//! independent. So the exact real roots at one rational input of each interval say how many configurations there are in
+//! all of it, and which passes into which; at the critical inputs themselves each branch is proved to pass, or two of
+//! them meet in a limit position, or go to infinity.
+
+mod crossing;
+mod four_joints;
+mod output;
+mod plane_curve;
+mod relation;
+
+use super::bridge::Bridge;
+use super::sample::Sample;
+use crate::assembly::wrapped;
+use crate::catalogue::entry::{Case, Entry};
+use crate::kinematics::closed_loop::{Layout, Variable};
+use crate::mechanism::{InputCurve, locked_variable};
+use crate::verdict::Code;
+use crossing::Piece;
+use output::Output;
+use rug::Rational;
+use std::f64::consts::PI;
+use std::sync::OnceLock;
+
+/// Angles of the input are counted from one of these half tangents, so that none critical is half a turn from there.
+/// Any numbers serve that are unlikely to be special.
+const OFFSETS: [(i32, i32); 3] = [(3, 7), (-5, 13), (17, 11)];
+/// The longest interval of the input that one chart is asked about, in radians: two charts overlap by more than this.
+const LONGEST: f64 = 1.5;
+/// The largest angle of a chart: short of half a turn, where its half tangent is infinite.
+const WIDEST: f64 = 2.5;
+
+/// The closure polynomials of a loop.
+pub(super) struct Exact {
+    input: Variable,
+    /// Where angles of the input are counted from.
+    offset: f64,
+    /// Outputs with their polynomials, computed when first asked for.
+    outputs: Vec<(relation::Relation, OnceLock<Option<Output>>)>,
+}
+
+impl Exact {
+    /// The closure polynomials of the loop of an entry, moved by the input of a case.
+    pub fn of(entry: &Entry, case: &Case, input: Variable) -> Result<Self, Code> {
+        let chain = entry.chain().ok_or(Code::NoExactRoute)?;
+        let locked = locked_variable(chain, case).ok().flatten().ok_or(Code::NoExactRoute)?;
+        let layout = Layout::of(chain, Some(locked)).map_err(|_| Code::NoExactRoute)?;
+        let turns = input == Variable::Rotation;
+        for (numerator, denominator) in OFFSETS {
+            let half_tangent = if turns { Rational::from((numerator, denominator)) } else { Rational::new() };
+            let relations = relation::relations(chain, &layout, input, &half_tangent);
+            let mut outputs: Vec<(relation::Relation, OnceLock<Option<Output>>)> = Vec::new();
+            for relation in relations {
+                if outputs.is_empty() {
+                    // The first one that has a closure polynomial gives the critical inputs.
+                    let Ok(Some(output)) = Output::of(&relation, turns) else { continue };
+                    outputs.push((relation, OnceLock::from(Some(output))));
+                } else if outputs.iter().all(|(known, _)| known.output != relation.output) {
+                    outputs.push((relation, OnceLock::new()));
+                }
+            }
+            if !outputs.is_empty() {
+                return Ok(Self { input, offset: 2.0 * half_tangent.to_f64().atan(), outputs });
+            }
+        }
+        Err(Code::NoExactRoute)
+    }
+
+    /// An output, if it has a closure polynomial.
+    fn output(&self, index: usize) -> Option<&Output> {
+        let (relation, output) = self.outputs.get(index)?;
+        let turns = self.input == Variable::Rotation;
+        output.get_or_init(|| Output::of(relation, turns).ok().flatten()).as_ref()
+    }
+
+    /// The critical inputs of the first output: angles in (-pi, pi], or distances.
+    pub fn criticals(&self) -> Vec<f64> {
+        let Some(output) = self.output(0) else { return Vec::new() };
+        let input = |x: f64| if self.input == Variable::Rotation { wrapped(self.offset + 2.0 * x.atan()) } else { x };
+        output.criticals.iter().map(|critical| input(critical.value)).collect()
+    }
+
+    /// The bridge between two samples as the first output that serves proves it, or the reason of the first one.
+    pub fn bridge(&self, curve: &InputCurve, low: &Sample, high: &Sample) -> Result<Bridge, Code> {
+        let piece = self.piece(low.input, high.input).ok_or(Code::BranchesNotMatched)?;
+        let mut reason = Code::NoExactRoute;
+        for index in 0..self.outputs.len() {
+            let Some(output) = self.output(index) else { continue };
+            match crossing::bridge(output, curve, &piece, [low, high]) {
+                Ok(bridge) => return Ok(bridge),
+                Err(code) if index == 0 => reason = code,
+                Err(_) => {}
+            }
+        }
+        Err(reason)
+    }
+
+    /// A piece of the range in one of the charts.
+    fn piece(&self, from: f64, to: f64) -> Option<Piece> {
+        if self.input == Variable::Translation {
+            return Some(Piece { chart: 0, ends: [Rational::from_f64(from)?, Rational::from_f64(to)?] });
+        }
+        if (to - from).abs() > LONGEST {
+            return None;
+        }
+        let in_chart = |chart: usize| {
+            let start = wrapped(from - self.offset - if chart == 0 { 0.0 } else { PI });
+            let ends = [start, start + (to - from)];
+            let half_tangent = |x: f64| Rational::from_f64((x / 2.0).tan());
+            let [a, b] = ends.map(half_tangent);
+            let fits = ends.iter().all(|x| x.abs() <= WIDEST);
+            Some(Piece { chart, ends: [a?, b?] }).filter(|_| fits)
+        };
+        in_chart(0).or_else(|| in_chart(1))
+    }
+}

@@ -1,0 +1,216 @@
+//! One output of a loop: its closure polynomial, and the critical inputs, between which its real roots neither meet nor
+//! go to infinity.
+
+use super::plane_curve::{PlaneCurve, S, T, in_one, integral};
+use super::relation::{InOutput, Relation};
+use crate::algebra::int::Int;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::real_roots::RealRoot;
+use crate::algebra::resultant::resultant;
+use crate::algebra::ring::{Domain, Ring};
+use crate::algebra::univariate::Univariate;
+use crate::kinematics::closed_loop::Variable;
+use crate::verdict::Code;
+use rug::{Integer, Rational};
+use std::cmp::Ordering;
+
+/// What happens at a critical input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Event {
+    /// A root of the discriminant, with its multiplicity: roots of the closure polynomial meet.
+    Meeting(usize),
+    /// An output or another translation goes to infinity, or may do so.
+    Infinity,
+    /// The closure polynomial vanishes for all outputs: the loop may move while its input stands still.
+    Locked,
+}
+
+/// An input at which something may happen to a branch.
+#[derive(Clone, Debug)]
+pub(super) struct Critical {
+    pub root: RealRoot,
+    pub event: Event,
+    /// The root in f64.
+    pub value: f64,
+}
+
+/// The polynomials of an output as one half tangent of the input has them.
+#[derive(Clone, Debug)]
+pub(super) struct Chart {
+    /// The closure polynomial.
+    pub curve: PlaneCurve,
+    /// All vanish where the translations are dependent.
+    pub parallel: Vec<PlaneCurve>,
+    /// Not all vanish where dependent translations leave the loop open.
+    pub gap: Vec<PlaneCurve>,
+    /// For each of `parallel` the inputs at which it has a root in common with the closure polynomial.
+    pub dependent: Vec<Univariate<Integer>>,
+    /// Common roots of the discriminant and all of those.
+    pub common: Univariate<Integer>,
+}
+
+/// An output of a loop.
+#[derive(Clone, Debug)]
+pub(super) struct Output {
+    /// Index among the joint variables.
+    pub joint: usize,
+    pub kind: Variable,
+    /// By the half tangent of the input, and by that of the input less half a turn.
+    pub charts: [Chart; 2],
+    pub criticals: Vec<Critical>,
+}
+
+/// The polynomial in the input of a polynomial without output.
+fn of_input(polynomial: &Polynomial<Int>) -> Univariate<Integer> {
+    in_one(polynomial, S)
+}
+
+/// Combinations of up to three polynomials that all vanish exactly where these do, none of which vanishes only because
+/// a coordinate does.
+fn combined(list: &[InOutput]) -> Vec<InOutput> {
+    let count = i32::try_from(list.len()).unwrap_or(0);
+    let combination = |node: i32| {
+        let start = (Univariate::zero(), 1);
+        let add = |(sum, power): (InOutput, i32), one: &InOutput| {
+            let weight = Ring::from_integer(power);
+            (sum.add(&one.scale(&weight)), power * node)
+        };
+        list.iter().fold(start, add).0
+    };
+    (1..=count).map(combination).collect()
+}
+
+impl Output {
+    /// The output of a relation. `turns` says whether the input is an angle, which must not be critical at half a turn
+    /// from where it is counted: `Ok(None)` where it is.
+    pub fn of(relation: &Relation, turns: bool) -> Result<Option<Self>, Code> {
+        let mut equations = relation.equations.iter().map(integral).filter(|f| !f.is_zero());
+        let first = equations.next().ok_or(Code::NoExactRoute)?;
+        let whole = equations.fold(first, |gcd, f| gcd.gcd(&f));
+        let content = whole.content_in(T);
+        let mut f = whole.checked_div_exact(&content).ok_or(Code::NoExactRoute)?;
+        if f.degree(T) == 0 {
+            return Err(Code::NoExactRoute);
+        }
+        let mut discriminant = discriminant(&f);
+        if discriminant.is_zero() {
+            f = f.square_free_part();
+            discriminant = self::discriminant(&f);
+        }
+        let curve = PlaneCurve::of(&f);
+        let full = (2 * curve.degree() - 2) * curve.input_degree();
+        if turns && discriminant.degree() != Some(full) {
+            return Ok(None);
+        }
+        let parallel: Vec<Polynomial<Int>> = combined(&relation.parallel).iter().map(integral).collect();
+        let dependent: Vec<Univariate<Integer>> = parallel.iter().map(|p| of_input(&resultant(&f, p, T))).collect();
+        if dependent.iter().any(Ring::is_zero) {
+            return Err(Code::NoExactRoute);
+        }
+        let is_finite = |(p, r): (&Polynomial<Int>, &Univariate<Integer>)| {
+            let p = PlaneCurve::of(p);
+            r.degree() == Some(curve.degree() * p.input_degree() + p.degree() * curve.input_degree())
+        };
+        if turns && !dependent.is_empty() && !parallel.iter().zip(&dependent).any(is_finite) {
+            return Ok(None);
+        }
+        let meeting = dependent.iter().skip(1).fold(dependent.first().cloned(), |gcd, r| gcd.map(|gcd| gcd.gcd(r)));
+        let common = meeting.as_ref().map_or_else(Univariate::one, |meeting| meeting.gcd(&discriminant));
+        let leading = f.coefficients_in(T).last().map(of_input).filter(|_| relation.kind == Variable::Translation);
+        let infinite = meeting.into_iter().chain(leading);
+        let criticals = criticals(&discriminant, infinite, &of_input(&content));
+        let gap = relation.gap.iter().map(|p| PlaneCurve::of(&integral(p))).collect();
+        let parallel = parallel.iter().map(PlaneCurve::of).collect();
+        let chart = Chart { curve, parallel, gap, dependent, common };
+        let charts = [chart.clone(), chart.half_turned()];
+        Ok(Some(Self { joint: relation.output, kind: relation.kind, charts, criticals }))
+    }
+
+    /// The critical inputs between two inputs of a chart, `None` where one of these is critical itself.
+    pub fn between(&self, chart: usize, [low, high]: [&Rational; 2]) -> Option<Vec<&Critical>> {
+        let mut inside = Vec::new();
+        for critical in &self.criticals {
+            let place = |x: &Rational| compare(&critical.root, chart, x);
+            match [place(low), place(high)] {
+                [Ordering::Equal, _] | [_, Ordering::Equal] => return None,
+                [Ordering::Greater, Ordering::Less] => inside.push(critical),
+                _ => {}
+            }
+        }
+        Some(inside)
+    }
+}
+
+/// How a root compares with a number of a chart.
+fn compare(root: &RealRoot, chart: usize, x: &Rational) -> Ordering {
+    if chart == 0 {
+        return root.compare(x);
+    }
+    // The root r is -1/r there: monotone on either side of 0.
+    let sign = root.compare(&Rational::new());
+    if sign.is_eq() {
+        // Half a turn from where the chart counts: beyond all its numbers.
+        return Ordering::Greater;
+    }
+    match x.cmp0() {
+        Ordering::Equal => sign.reverse(),
+        // -1/r is positive for a negative root.
+        side if side == sign => sign.reverse(),
+        _ => root.compare(&Rational::from(-x.clone().recip())),
+    }
+}
+
+impl Chart {
+    /// As the half tangent of the input less half a turn has it.
+    fn half_turned(&self) -> Self {
+        let all = |list: &[PlaneCurve]| list.iter().map(PlaneCurve::half_turned).collect();
+        let input = |p: &Univariate<Integer>| PlaneCurve::of_input(p).half_turned().at_output_zero();
+        Self {
+            curve: self.curve.half_turned(),
+            parallel: all(&self.parallel),
+            gap: all(&self.gap),
+            dependent: self.dependent.iter().map(input).collect(),
+            common: input(&self.common),
+        }
+    }
+}
+
+/// The discriminant by the output, up to a number: the resultant with the derivative, without the leading coefficient.
+fn discriminant(f: &Polynomial<Int>) -> Univariate<Integer> {
+    if f.degree(T) < 2 {
+        return Univariate::one();
+    }
+    let all = resultant(f, &f.derivative(T), T);
+    let leading = f.coefficients_in(T).pop().unwrap_or_else(Polynomial::one);
+    all.checked_div_exact(&leading).map_or_else(Univariate::zero, |quotient| of_input(&quotient))
+}
+
+/// The real roots of all of them, those of the discriminant once.
+fn criticals(
+    discriminant: &Univariate<Integer>,
+    infinite: impl Iterator<Item = Univariate<Integer>>,
+    content: &Univariate<Integer>,
+) -> Vec<Critical> {
+    let mut criticals = Vec::new();
+    let mut add = |polynomial: &Univariate<Integer>, event: &dyn Fn(usize) -> Event| {
+        if polynomial.degree() > Some(0) {
+            criticals.extend(polynomial.real_roots().into_iter().map(|mut root| {
+                let (event, value) = (event(root.multiplicity()), root.to_f64());
+                Critical { root, event, value }
+            }));
+        }
+    };
+    add(discriminant, &Event::Meeting);
+    let mut known = discriminant.clone();
+    for polynomial in infinite {
+        if polynomial.degree() > Some(0) {
+            let square_free = polynomial.square_free_part();
+            let rest = square_free.quotient(&square_free.gcd(&known)).unwrap_or(square_free);
+            add(&rest, &|_| Event::Infinity);
+            known = known.mul(&rest);
+        }
+    }
+    add(content, &|_| Event::Locked);
+    criticals.sort_by(|a, b| a.value.total_cmp(&b.value));
+    criticals
+}

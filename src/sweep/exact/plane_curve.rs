@@ -1,0 +1,264 @@
+//! A polynomial in the input s and an output t over the integers, and what can be proved of it on an interval and in a
+//! rectangle.
+
+use super::relation::InOutput;
+use crate::algebra::int::Int;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::{Domain, Ring};
+use crate::algebra::univariate::Univariate;
+use rug::{Integer, Rational};
+
+/// The variables of polynomials in input and output.
+pub(super) const S: usize = 0;
+/// The output.
+pub(super) const T: usize = 1;
+
+/// A polynomial by powers of the output.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct PlaneCurve {
+    /// The coefficient of `t^k` at k.
+    rows: Vec<Univariate<Integer>>,
+}
+
+/// A rectangle: its centre and half its sides, along s and t.
+#[derive(Clone, Debug)]
+pub(super) struct Rectangle {
+    pub centre: [Rational; 2],
+    pub reach: [Rational; 2],
+}
+
+/// `1 + x^2`
+fn circle(variable: usize) -> Polynomial<Int> {
+    let x = Polynomial::<Int>::variable(variable);
+    x.mul(&x).add(&Polynomial::one())
+}
+
+/// A relation as a polynomial with integer coefficients, without factors `1 + s^2` and `1 + t^2`, which have no real roots.
+pub(super) fn integral(relation: &InOutput) -> Polynomial<Int> {
+    let power = relation.coefficients().iter().map(|c| c.power()).max().unwrap_or(0);
+    let terms = relation.coefficients().iter().zip(0_u32..).flat_map(|(coefficient, t)| {
+        let numerator = coefficient.over(power);
+        let term = |(c, s): (&Rational, u32)| (vec![s, t], c.clone());
+        numerator.coefficients().iter().zip(0..).map(term).collect::<Vec<_>>()
+    });
+    let polynomial = Polynomial::from_terms(terms);
+    if polynomial.is_zero() {
+        return Polynomial::zero();
+    }
+    let mut rest = polynomial.primitive().0;
+    for factor in [circle(S), circle(T)] {
+        while let Some(quotient) = rest.checked_div_exact(&factor) {
+            rest = quotient;
+        }
+    }
+    rest
+}
+
+/// A polynomial in one variable over the integers.
+pub(super) fn in_one(polynomial: &Polynomial<Int>, variable: usize) -> Univariate<Integer> {
+    let converted = polynomial.to_univariate(variable).and_then(|p| p.map(|c| Some(c.to_integer())));
+    converted.unwrap_or_else(Univariate::zero)
+}
+
+impl PlaneCurve {
+    pub fn of(polynomial: &Polynomial<Int>) -> Self {
+        Self { rows: polynomial.coefficients_in(T).iter().map(|row| in_one(row, S)).collect() }
+    }
+
+    /// A polynomial in the input alone.
+    pub fn of_input(polynomial: &Univariate<Integer>) -> Self {
+        Self { rows: vec![polynomial.clone()] }
+    }
+
+    /// The constant coefficient in the output.
+    pub fn at_output_zero(&self) -> Univariate<Integer> {
+        self.rows.first().cloned().unwrap_or_else(Univariate::zero)
+    }
+
+    /// The degree in the output.
+    pub fn degree(&self) -> usize {
+        self.rows.len().saturating_sub(1)
+    }
+
+    /// The degree in the input.
+    pub fn input_degree(&self) -> usize {
+        self.rows.iter().filter_map(Univariate::degree).max().unwrap_or(0)
+    }
+
+    /// The same in `-1/s`: half tangents of the input less half a turn.
+    pub fn half_turned(&self) -> Self {
+        let degree = self.input_degree();
+        let turned = |row: &Univariate<Integer>| {
+            let mut turned = vec![Integer::new(); degree + 1];
+            for (i, c) in row.coefficients().iter().enumerate() {
+                turned[degree - i] = if i % 2 == 1 { Integer::from(-c) } else { c.clone() };
+            }
+            Univariate::new(turned)
+        };
+        Self { rows: self.rows.iter().map(turned).collect() }
+    }
+
+    /// The same in `1/t`.
+    pub fn inverted(&self) -> Self {
+        Self { rows: self.rows.iter().rev().cloned().collect() }
+    }
+
+    /// The polynomial in t at an input, up to a factor.
+    pub fn at(&self, s: &Rational) -> Univariate<Integer> {
+        let values = self.rows.iter().map(|row| value(row, s)).collect();
+        Univariate::new(Univariate::new(values).primitive_integers())
+    }
+
+    /// The polynomial in s at an output, up to a factor.
+    pub fn across(&self, t: &Rational) -> Univariate<Integer> {
+        let rational = |row: &Univariate<Integer>| row.map(|c| Some(Rational::from(c))).unwrap_or_else(Univariate::zero);
+        let sum = self.rows.iter().rev().fold(Univariate::zero(), |sum: Univariate<Rational>, row| {
+            sum.scale(t).add(&rational(row))
+        });
+        Univariate::new(sum.primitive_integers())
+    }
+
+    /// The coefficients about the centre of a rectangle, `x^i y^k` at `[k][i]`.
+    fn about(&self, [s, t]: &[Rational; 2]) -> Vec<Vec<Rational>> {
+        let width = self.input_degree() + 1;
+        let mut rows: Vec<Vec<Rational>> = self.rows.iter().map(|row| shifted(row, s, width)).collect();
+        for low in 0..rows.len() {
+            for k in (low..rows.len() - 1).rev() {
+                let (lower, upper) = rows.split_at_mut(k + 1);
+                for (x, y) in lower[k].iter_mut().zip(&upper[0]) {
+                    *x += Rational::from(y * t);
+                }
+            }
+        }
+        rows
+    }
+
+    /// Whether it has no zero in a rectangle, by the sizes of its coefficients about the centre; `false` proves nothing.
+    pub fn is_nonzero_in(&self, rectangle: &Rectangle) -> bool {
+        let about = self.about(&rectangle.centre);
+        let Some(centre) = about.first().and_then(|row| row.first()) else { return false };
+        sum_of_sizes(&about, rectangle, |i, k| (i, k) != (0, 0)) < centre.clone().abs()
+    }
+
+    /// Whether its zeros in a rectangle are the graph of one function of s with simple roots, that leaves it at the ends
+    /// of s only; `false` proves nothing.
+    ///
+    /// The derivative by t has no zero, and neither has the polynomial at the upper and at the lower side, where it has
+    /// different signs.
+    pub fn is_graph_in(&self, rectangle: &Rectangle) -> bool {
+        let about = self.about(&rectangle.centre);
+        let Some(slope) = about.get(1).and_then(|row| row.first()) else { return false };
+        let rise = slope.clone().abs() * &rectangle.reach[1];
+        // Each term of the derivative, times the reach, is k times that of the polynomial.
+        let mut others = Rational::new();
+        for_each_size(&about, rectangle, |i, k, size| {
+            if (i, k) != (0, 1) {
+                others += size * Rational::from(k.max(1));
+            }
+        });
+        others < rise
+    }
+}
+
+/// Calls a function with the size of every term on a rectangle.
+fn for_each_size(about: &[Vec<Rational>], rectangle: &Rectangle, mut each: impl FnMut(usize, usize, Rational)) {
+    let [across, along] = &rectangle.reach;
+    let mut height = Rational::from(1);
+    for (k, row) in about.iter().enumerate() {
+        let mut size = height.clone();
+        for (i, c) in row.iter().enumerate() {
+            each(i, k, Rational::from(c.abs_ref()) * &size);
+            size *= across;
+        }
+        height *= along;
+    }
+}
+
+fn sum_of_sizes(about: &[Vec<Rational>], rectangle: &Rectangle, wanted: impl Fn(usize, usize) -> bool) -> Rational {
+    let mut sum = Rational::new();
+    for_each_size(about, rectangle, |i, k, size| {
+        if wanted(i, k) {
+            sum += size;
+        }
+    });
+    sum
+}
+
+/// The value at a rational number.
+fn value(row: &Univariate<Integer>, s: &Rational) -> Rational {
+    row.coefficients().iter().rev().fold(Rational::new(), |value, c| value * s + c)
+}
+
+/// The coefficients about a number, `width` of them.
+fn shifted(row: &Univariate<Integer>, s: &Rational, width: usize) -> Vec<Rational> {
+    let mut coefficients: Vec<Rational> = row.coefficients().iter().map(Rational::from).collect();
+    coefficients.resize(width, Rational::new());
+    for low in 0..width {
+        for i in (low..width - 1).rev() {
+            let next = Rational::from(&coefficients[i + 1] * s);
+            coefficients[i] += next;
+        }
+    }
+    coefficients
+}
+
+/// A bound on the number of roots of a polynomial in an open interval, with multiplicity, that is too large by an even
+/// number: the sign changes of its coefficients where the interval is mapped to the positive numbers (Descartes).
+pub(super) fn sign_changes(polynomial: &Univariate<Integer>, [low, high]: [&Rational; 2]) -> usize {
+    let width = polynomial.coefficients().len();
+    let mut about = shifted(polynomial, low, width);
+    let length = Rational::from(high - low);
+    let mut power = Rational::from(1);
+    for c in &mut about {
+        *c *= &power;
+        power *= &length;
+    }
+    about.reverse();
+    for lowest in 0..width {
+        for i in (lowest..width.saturating_sub(1)).rev() {
+            let next = about[i + 1].clone();
+            about[i] += next;
+        }
+    }
+    let signs: Vec<_> = about.iter().map(Rational::cmp0).filter(|sign| sign.is_ne()).collect();
+    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rational(n: i32, d: i32) -> Rational {
+        Rational::from((n, d))
+    }
+
+    /// `s^2 + t^2 - 1`
+    fn unit_circle() -> PlaneCurve {
+        let [s, t] = [S, T].map(Polynomial::<Int>::variable);
+        PlaneCurve::of(&s.mul(&s).add(&t.mul(&t)).sub(&Polynomial::one()))
+    }
+
+    #[test]
+    fn a_circle_is_a_graph_beside_its_limits_only() {
+        let rectangle = |s, t, x, y| Rectangle { centre: [s, t], reach: [x, y] };
+        let curve = unit_circle();
+        assert!(curve.is_graph_in(&rectangle(rational(0, 1), rational(1, 1), rational(1, 10), rational(1, 10))));
+        assert!(!curve.is_graph_in(&rectangle(rational(1, 1), rational(0, 1), rational(1, 100), rational(1, 10))));
+        assert!(curve.is_nonzero_in(&rectangle(rational(0, 1), rational(0, 1), rational(1, 2), rational(1, 2))));
+        assert!(!curve.is_nonzero_in(&rectangle(rational(0, 1), rational(1, 1), rational(1, 10), rational(1, 10))));
+        assert_eq!(curve.half_turned().inverted().degree(), 2);
+    }
+
+    #[test]
+    fn sign_changes_count_roots_in_an_interval() {
+        // (x - 1)(x - 2)(x - 3)
+        let cubic = Univariate::new([-6, 11, -6, 1].map(Integer::from).to_vec());
+        let count = |low: (i32, i32), high: (i32, i32)| {
+            sign_changes(&cubic, [&rational(low.0, low.1), &rational(high.0, high.1)])
+        };
+        assert_eq!(count((0, 1), (1, 2)), 0);
+        assert_eq!(count((1, 2), (3, 2)), 1);
+        assert_eq!(count((0, 1), (10, 1)), 3);
+        assert_eq!(count((3, 2), (10, 1)), 2);
+    }
+}

@@ -1,0 +1,199 @@
+//! The closure polynomial between the input and one output, without division, for each kind of loop that has one of
+//! degree 8 at most.
+
+use crate::algebra::circle_fraction::CircleFraction;
+use crate::algebra::ring::Ring;
+use crate::algebra::univariate::Univariate;
+use crate::elimination::cut::Hidden;
+use crate::elimination::octic::{closure_polynomial, root_conditions};
+use crate::elimination::opposite_axes::OppositeAxes;
+use crate::elimination::point_reach::Reach;
+use crate::elimination::separated::{Separated, powers, quartic};
+use crate::elimination::spherical_four_bar::FourBar;
+use crate::elimination::spherical_pair;
+use crate::elimination::spherical_triangle::{conditions, triangle_without};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::{ClosedLoop, Layout, Numbers, OpenLoop, Variable};
+use crate::kinematics::link_form::LinkForm;
+use crate::kinematics::motion::Motion;
+use rug::Rational;
+
+/// A polynomial in the output, its coefficients functions of the input.
+pub(super) type InOutput = Univariate<CircleFraction>;
+
+/// What ties an output to the input.
+#[derive(Clone, Debug)]
+pub(super) struct Relation {
+    /// Index of the output among the joint variables.
+    pub output: usize,
+    /// Whether it is an angle, of which the polynomials have the half tangent, or a distance.
+    pub kind: Variable,
+    /// All of them vanish together exactly where the loop closes: their greatest common divisor is the closure polynomial.
+    pub equations: Vec<InOutput>,
+    /// All of them vanish where the directions of the translations are dependent; none for loops without such places.
+    pub parallel: Vec<InOutput>,
+    /// Where those vanish and these do not all vanish, the loop does not close: translations go to infinity.
+    pub gap: Vec<InOutput>,
+}
+
+/// Half tangents are counted from 0.
+fn origin() -> [CircleFraction; 3] {
+    [1, 1, 0].map(CircleFraction::from_integer)
+}
+
+/// The motion of the input: of an angle counted from `offset`, a half tangent, or of a distance.
+fn filling(kind: Variable, offset: &Rational) -> Motion<CircleFraction> {
+    if kind == Variable::Translation {
+        return Motion::translation_z(CircleFraction::variable());
+    }
+    let square = Rational::from(offset * offset);
+    let length = Rational::from(&square + 1);
+    let number = |x: Rational| CircleFraction::polynomial(Univariate::constant(x / &length));
+    let (cos, sin) = CircleFraction::cosine_and_sine();
+    let turn = Motion::rotation_z(number(1 - square), number(Rational::from(offset * 2)));
+    turn.then_after(&Motion::rotation_z(cos, sin))
+}
+
+/// `row . (1, cos, sin)` or `row . (1, d, d^2)` as a polynomial in the half tangent or the distance.
+pub(super) fn of_row(kind: Variable, row: &[CircleFraction; 3]) -> InOutput {
+    let powers = powers(kind, &origin());
+    let coefficient =
+        |k: usize| (0..3).fold(CircleFraction::zero(), |sum, i| sum.add(&row[i].mul(&powers[i][k])));
+    Univariate::new((0..3).map(coefficient).collect())
+}
+
+/// The relations of a loop between its locked variable, counted from `offset`, and as many outputs as there are ways to
+/// eliminate the others; none for loops that have no route.
+pub(super) fn relations(chain: &Chain, layout: &Layout, input: Variable, offset: &Rational) -> Vec<Relation> {
+    let filling = filling(input, offset);
+    if layout.second_ball.is_some() {
+        return coupled(chain, layout, &filling).into_iter().collect();
+    }
+    let filled = layout.with_idle(layout.missing(), 0);
+    let Ok(open) = chain.open_loop::<CircleFraction>(&filled) else { return Vec::new() };
+    let closed = OpenLoop::close(&open, &filling);
+    let indices = filled.joint_variables();
+    if layout.missing() > 0 {
+        let is_plain = layout.ball.is_none();
+        return if is_plain { super::four_joints::relations(&closed, indices) } else { Vec::new() };
+    }
+    let Some(indices) = indices.into_iter().collect::<Option<Vec<usize>>>() else { return Vec::new() };
+    if let Some(ball) = layout.ball_unknown() {
+        return reach(&closed, ball, &indices);
+    }
+    match closed.variables.iter().filter(|kind| **kind == Variable::Rotation).count() {
+        3 => triangles(&closed, &indices),
+        4 => four_rotations(&closed, &indices),
+        _ => Vec::new(),
+    }
+}
+
+/// Two spherical joints: their centres keep their distance.
+fn coupled(chain: &Chain, layout: &Layout, filling: &Motion<CircleFraction>) -> Option<Relation> {
+    let coupled = chain.open_coupled::<CircleFraction>(layout, &Numbers).ok()?.close(filling);
+    let equation = of_row(coupled.variable, &spherical_pair::equation(&coupled));
+    Some(Relation {
+        output: coupled.indices[2],
+        kind: coupled.variable,
+        equations: vec![equation],
+        parallel: Vec::new(),
+        gap: Vec::new(),
+    })
+}
+
+/// One spherical joint: its centre is reached from both sides.
+fn reach(closed: &ClosedLoop<CircleFraction>, ball: usize, indices: &[usize]) -> Vec<Relation> {
+    let equations = Reach::of(closed, ball).equations;
+    let side = |hidden: usize| separated(&equations, hidden, indices[[(ball + 5) % 6, (ball + 3) % 6][hidden]]);
+    (0..2).filter_map(side).collect()
+}
+
+/// Two equations with separated sides, the unknown of one of them kept.
+fn separated(equations: &Separated<CircleFraction>, hidden: usize, output: usize) -> Option<Relation> {
+    let other = equations.solved(1 - hidden);
+    if other[0][0].is_zero() {
+        return None;
+    }
+    let kind = equations.kinds[hidden];
+    let polynomial = quartic(&equations.conic(hidden, &other), &powers(kind, &origin()));
+    Some(Relation {
+        output,
+        kind,
+        equations: vec![Univariate::new(polynomial.to_vec())],
+        parallel: Vec::new(),
+        gap: Vec::new(),
+    })
+}
+
+/// Three rotations, which close by themselves, and three translations.
+fn triangles(closed: &ClosedLoop<CircleFraction>, indices: &[usize]) -> Vec<Relation> {
+    let Some(form): Option<LinkForm<_, 3, 3>> = LinkForm::of(closed) else { return Vec::new() };
+    let one = |dropped: usize| {
+        let triangle = triangle_without(&form, dropped);
+        let found = conditions(&form, &triangle, &origin())?;
+        Some(Relation {
+            output: indices[form.rotations[(dropped + 2) % 3]],
+            kind: Variable::Rotation,
+            equations: vec![found.roots],
+            parallel: vec![found.determinant.0],
+            gap: found.bridged.into_iter().map(|(gap, _)| gap).collect(),
+            })
+    };
+    (0..3).filter_map(one).collect()
+}
+
+/// Four rotations and two translations.
+fn four_rotations(closed: &ClosedLoop<CircleFraction>, indices: &[usize]) -> Vec<Relation> {
+    let Some(form): Option<LinkForm<_, 4, 2>> = LinkForm::of(closed) else { return Vec::new() };
+    if let Some(axes) = OppositeAxes::of(&form, 0.0) {
+        let found = opposite(&form, &axes, indices);
+        if !found.is_empty() {
+            return found;
+        }
+    }
+    let choices = (0..4).flat_map(|base| [Hidden::First, Hidden::Second].map(|hidden| (base, hidden)));
+    choices.filter_map(|(base, hidden)| four_bar(&form, base, hidden, indices)).collect()
+}
+
+/// The translations run along two opposite axes.
+fn opposite(form: &LinkForm<CircleFraction, 4, 2>, axes: &OppositeAxes, indices: &[usize]) -> Vec<Relation> {
+    let equations = axes.equations(form);
+    let one = |hidden: usize| {
+        let axis = axes.first + 2 * hidden;
+        let relation = separated(&equations, hidden, indices[form.rotations[(axis + 1) % 4]])?;
+        Some(Relation { parallel: parallel_axes(form, axis).to_vec(), ..relation })
+    };
+    (0..2).filter_map(one).collect()
+}
+
+/// The coordinates of the axis two behind another one across that one, by the rotation between them: both vanish where
+/// the axes are parallel.
+fn parallel_axes(form: &LinkForm<CircleFraction, 4, 2>, axis: usize) -> [InOutput; 2] {
+    let (here, next) = (&form.links[axis % 4].rotation, &form.links[(axis + 1) % 4].rotation);
+    let [x, y, z] = [0, 1, 2].map(|i| next[i][2].clone());
+    [0, 1].map(|i| {
+        let row = &here[i];
+        let cos = row[0].mul(&x).add(&row[1].mul(&y));
+        let sin = row[1].mul(&x).sub(&row[0].mul(&y));
+        of_row(Variable::Rotation, &[row[2].mul(&z), cos, sin])
+    })
+}
+
+/// A spherical four-bar seen from one link, one of the two angles at it kept.
+fn four_bar(
+    form: &LinkForm<CircleFraction, 4, 2>,
+    base: usize,
+    hidden: Hidden,
+    indices: &[usize],
+) -> Option<Relation> {
+    let bar = FourBar::new(form, base)?;
+    let equations = bar.equations();
+    let found = root_conditions(&bar, &equations, hidden, &origin());
+    Some(Relation {
+        output: indices[form.rotations[(base + usize::from(hidden == Hidden::Second)) % 4]],
+        kind: Variable::Rotation,
+        equations: vec![closure_polynomial(&equations, hidden, &origin())],
+        parallel: found.parallel.to_vec(),
+        gap: found.gap.to_vec(),
+    })
+}

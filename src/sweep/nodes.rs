@@ -1,0 +1,124 @@
+//! The inputs from which branches are followed: the steps, both sides of every critical input, and what is between where
+//! steps are long.
+
+use super::Range;
+use super::sample::Sample;
+use crate::kinematics::closed_loop::Variable;
+use std::f64::consts::TAU;
+
+/// How far on both sides of a critical input branches are looked at, in radians or parts of the range: near enough for
+/// two branches that meet there to be seen alone, far enough for them to be solved apart in floating point.
+const REACH: f64 = 1e-5;
+/// Critical inputs keep this part of the distance to the next one.
+const PART: f64 = 0.25;
+/// Inputs are no farther apart than this, in radians, where critical inputs are known: a chart has room for it.
+const LONGEST: f64 = 0.5;
+/// So many inputs there are at least, for a full turn, where critical inputs are not known.
+const FEWEST: f64 = 360.0;
+
+/// A critical input and how far on both sides it is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Critical {
+    input: f64,
+    reach: f64,
+}
+
+/// An input to look at.
+#[derive(Clone, Debug)]
+pub(super) enum Wanted {
+    /// The sample of a step.
+    Step(usize),
+    /// Another input, and the step that it stands for.
+    Beside(f64, Option<usize>),
+}
+
+impl Range {
+    fn contains(&self, input: f64) -> bool {
+        (input - self.from) * (input - self.to) <= 0.0
+    }
+
+    /// The critical inputs in the range, of which one of every turn is given.
+    pub(super) fn criticals(&self, given: &[f64], variable: Variable, is_full_turn: bool) -> Vec<Critical> {
+        let (low, high) = (self.from.min(self.to), self.from.max(self.to));
+        let unit = if variable == Variable::Rotation { 1.0 } else { high - low };
+        let mut all: Vec<f64> = Vec::new();
+        for input in given {
+            match variable {
+                Variable::Translation => all.push(*input),
+                Variable::Rotation => {
+                    // From a turn before the range to a turn behind it, so that all have neighbours.
+                    let mut turned = input + TAU * ((low - TAU - input) / TAU).ceil();
+                    while turned <= high + TAU {
+                        all.push(turned);
+                        turned += TAU;
+                    }
+                }
+            }
+        }
+        all.sort_by(f64::total_cmp);
+        let gap = |k: usize| if k + 1 < all.len() { all[k + 1] - all[k] } else { f64::INFINITY };
+        let reach = |k: usize| {
+            let neighbours = gap(k).min(if k > 0 { gap(k - 1) } else { f64::INFINITY });
+            let ends = [low, high].map(|end| (all[k] - end).abs()).into_iter().filter(|d| *d > 0.0 && !is_full_turn);
+            ends.fold((REACH * unit).min(PART * neighbours), |reach, d| reach.min(PART * d))
+        };
+        let criticals = (0..all.len()).map(|k| Critical { input: all[k], reach: reach(k) });
+        criticals.filter(|critical| self.contains(critical.input)).collect()
+    }
+
+    /// The inputs to look at, in the order of the sweep; a step is left out where it is singular or too near to a critical
+    /// input, and inputs on both sides stand for it.
+    pub(super) fn wanted(&self, samples: &[Sample], criticals: Option<&[Critical]>, aside: f64) -> Vec<(f64, Wanted)> {
+        let mut wanted: Vec<(f64, Wanted)> = Vec::new();
+        let mut stood_for: Vec<Option<usize>> = vec![None; criticals.map_or(0, <[Critical]>::len)];
+        for (step, sample) in samples.iter().enumerate() {
+            let near = |critical: &Critical| (critical.input - sample.input).abs() < critical.reach;
+            if let Some(k) = criticals.and_then(|list| list.iter().position(near)) {
+                stood_for[k] = Some(step);
+            } else if sample.is_regular {
+                wanted.push((sample.input, Wanted::Step(step)));
+            } else {
+                let sides = [sample.input - aside, sample.input + aside];
+                wanted.extend(sides.map(|input| (input, Wanted::Beside(input, Some(step)))));
+            }
+        }
+        for (critical, step) in criticals.unwrap_or_default().iter().zip(stood_for) {
+            let sides = [critical.input - critical.reach, critical.input + critical.reach];
+            wanted.extend(sides.map(|input| (input, Wanted::Beside(input, step))));
+        }
+        wanted.retain(|(input, _)| self.contains(*input));
+        let forward = self.to > self.from;
+        wanted.sort_by(|a, b| if forward { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) });
+        wanted
+    }
+
+    /// With inputs between those that are too far apart.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
+    pub(super) fn filled(
+        &self,
+        wanted: Vec<(f64, Wanted)>,
+        variable: Variable,
+        is_exact: bool,
+    ) -> Vec<(f64, Wanted)> {
+        let span = (self.to - self.from).abs();
+        let longest = match (is_exact, variable) {
+            (true, Variable::Rotation) => LONGEST,
+            (true, Variable::Translation) => span,
+            (false, Variable::Rotation) => TAU / FEWEST,
+            (false, Variable::Translation) => span / FEWEST,
+        };
+        let mut filled: Vec<(f64, Wanted)> = Vec::new();
+        for (input, one) in wanted {
+            if let Some(last) = filled.last().map(|(last, _)| *last) {
+                // Rounding makes a step no longer than it is.
+                let parts = ((input - last).abs() / longest - 1e-9).ceil().max(1.0);
+                for k in 1..parts as usize {
+                    let between = last + (input - last) * (k as f64 / parts);
+                    filled.push((between, Wanted::Beside(between, None)));
+                }
+            }
+            filled.push((input, one));
+        }
+        filled
+    }
+}
