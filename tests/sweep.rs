@@ -265,7 +265,7 @@ fn a_reader_sees_the_verdict_first() {
     let golden = std::fs::read_to_string(path).unwrap_or_default();
     assert!(golden == text, "tests/golden/sweep.txt says\n{golden}\nbut now it is\n{text}");
     let quiet = printed(&["sweep", "cccr_1_angle", "--from", "0", "--to", "1", "--steps", "4", "--quiet"]);
-    assert_eq!(quiet, "2 branches, 0 limit positions, 5 inputs, all complete\n");
+    assert_eq!(quiet, "2 branches, 0 limit positions, 5 inputs, all complete; branches proved\n");
 }
 
 #[test]

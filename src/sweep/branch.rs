@@ -78,19 +78,19 @@ pub(super) struct Web {
 type Node = (usize, usize);
 
 impl Web {
-    pub(super) fn new(is_ring: bool) -> Self {
-        Self { samples: Vec::new(), bridges: Vec::new(), is_ring }
-    }
-
-    /// Adds the next sample, and the step that it is or stands for.
-    pub(super) fn add(&mut self, sample: Sample, step: Option<usize>) {
-        self.samples.push((sample, step));
-    }
-
-    /// Adds what lies between the last sample and the next one.
-    pub(super) fn span(&mut self, span: Span) {
-        self.samples.extend(span.samples.into_iter().map(|sample| (sample, None)));
-        self.bridges.extend(span.bridges);
+    /// The samples, each with the step that it is or stands for, and what lies between each and the next one: of a
+    /// ring also between the last one and the first one.
+    pub(super) fn of(nodes: Vec<(Sample, Option<usize>)>, spans: Vec<Span>, is_ring: bool) -> Self {
+        let mut web = Self { samples: Vec::new(), bridges: Vec::new(), is_ring };
+        let mut spans = spans.into_iter();
+        for node in nodes {
+            web.samples.push(node);
+            if let Some((samples, bridges)) = spans.next() {
+                web.samples.extend(samples.into_iter().map(|sample| (sample, None)));
+                web.bridges.extend(bridges);
+            }
+        }
+        web
     }
 
     /// The bridge on one side of a sample and the fate of a mode there.

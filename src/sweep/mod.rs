@@ -138,8 +138,10 @@ pub fn sweep(
     let is_whole = samples.len() == range.steps + 1;
     let turn = variable == Variable::Rotation && ((range.to - range.from).abs() - TAU).abs() < 1e-12;
     let is_full_turn = turn && is_whole;
-    let exact = Exact::of(&entry, &entry.cases[0], variable);
-    let (web, unproved) = connect(&swept, range, &samples, is_full_turn, exact.as_ref().map_err(|code| *code))?;
+    let (web, unproved) = match proved(&swept, &entry, range, &samples, is_full_turn)? {
+        Ok(web) => (web, None),
+        Err(code) => (connect(&swept, range, &samples, is_full_turn)?, Some(code)),
+    };
     let (branches, limits) = web.branches(&curve, &samples, range);
     let note = curve.note().map(ToOwned::to_owned);
     let verdict = SweepVerdict::none();
@@ -148,65 +150,63 @@ pub fn sweep(
     Ok(found)
 }
 
-/// Follows all modes between all neighbouring samples. What the closure polynomial proves is taken from there; the reason
-/// why it does not prove everything comes with the web.
-fn connect(
+/// What lies between two neighbouring samples: further samples, and the bridges from each to the next one.
+type Span = (Vec<Sample>, Vec<Bridge>);
+/// What is proved, or the reason why nothing is.
+type Proved<T> = std::result::Result<T, Code>;
+
+/// All modes between neighbouring samples, as the closure polynomial proves them.
+fn proved(
     swept: &Swept<'_>,
+    entry: &Entry,
     range: Range,
     samples: &[Sample],
     is_full_turn: bool,
-    exact: std::result::Result<&Exact, Code>,
-) -> Result<(Web, Option<Code>)> {
+) -> Result<Proved<Web>> {
+    let exact = match Exact::of(entry, &entry.cases[0], swept.variable) {
+        Ok(exact) => exact,
+        Err(code) => return Ok(Err(code)),
+    };
+    let nodes = nodes(swept, range, samples, is_full_turn, Some(&exact))?;
+    let pairs: Vec<&[(Sample, Option<usize>)]> = nodes.windows(2).collect();
+    let between = |pair: &&[(Sample, Option<usize>)]| exact.bridge(swept.curve, &pair[0].0, &pair[1].0);
+    let found: Proved<Vec<Bridge>> = pairs.par_iter().map(between).collect();
+    let bridges = match found {
+        Ok(bridges) if !bridges.is_empty() => bridges,
+        Ok(_) => return Ok(Err(Code::BranchesNotMatched)),
+        Err(code) => return Ok(Err(code)),
+    };
+    let last = match (is_full_turn, nodes.first(), nodes.last()) {
+        (true, Some((first, _)), Some((last, _))) => match closing(swept, first, last, range) {
+            Closing::Same(bridge) => Some(bridge),
+            Closing::Apart(next) => match exact.bridge(swept.curve, last, &next) {
+                Ok(bridge) => Some(bridge),
+                Err(code) => return Ok(Err(code)),
+            },
+        },
+        _ => None,
+    };
+    let spans = bridges.into_iter().chain(last).map(|bridge| (Vec::new(), vec![bridge])).collect();
+    Ok(Ok(Web::of(nodes, spans, is_full_turn)))
+}
+
+/// Follows all modes between all neighbouring samples.
+fn connect(swept: &Swept<'_>, range: Range, samples: &[Sample], is_full_turn: bool) -> Result<Web> {
     let memory = || (Workspace::default(), Assembly::default());
-    let nodes = nodes(swept, range, samples, is_full_turn, exact.ok())?;
-    let nodes = if exact.is_ok() { nodes } else { with_hidden(swept, nodes)? };
+    let nodes = with_hidden(swept, nodes(swept, range, samples, is_full_turn, None)?)?;
     let pairs: Vec<&[(Sample, Option<usize>)]> = nodes.windows(2).collect();
     let between = |memory: &mut (Workspace, Assembly), pair: &&[(Sample, Option<usize>)]| {
-        spanned(swept, exact, [&pair[0].0, &pair[1].0], memory)
+        bridges(swept, &pair[0].0, &pair[1].0, 0, memory)
     };
     let found: Result<Vec<Span>> = pairs.par_iter().map_init(memory, between).collect();
-    let mut web = Web::new(is_full_turn);
-    let mut unproved = exact.err();
-    for ((sample, step), span) in nodes.iter().zip(found?) {
-        web.add(sample.clone(), *step);
-        unproved = unproved.or(span.unproved);
-        web.span(span);
-    }
-    if let Some((sample, step)) = nodes.last() {
-        web.add(sample.clone(), *step);
-    }
+    let mut spans = found?;
     if let (true, Some((first, _)), Some((last, _))) = (is_full_turn, nodes.first(), nodes.last()) {
-        let span = closing(swept, exact, [first, last], range)?;
-        unproved = unproved.or(span.unproved);
-        web.span(span);
+        spans.push(match closing(swept, first, last, range) {
+            Closing::Same(bridge) => (Vec::new(), vec![bridge]),
+            Closing::Apart(next) => bridges(swept, last, &next, 0, &mut memory())?,
+        });
     }
-    // Without any input to begin at nothing is known.
-    let unproved = unproved.or((nodes.len() < 2).then_some(Code::BranchesNotMatched));
-    Ok((web, unproved))
-}
-
-/// What lies between two neighbouring samples.
-struct Span {
-    samples: Vec<Sample>,
-    bridges: Vec<Bridge>,
-    /// Why it is not proved.
-    unproved: Option<Code>,
-}
-
-/// The span between two samples: by the closure polynomial, else followed in floating point.
-fn spanned(
-    swept: &Swept<'_>,
-    exact: std::result::Result<&Exact, Code>,
-    [low, high]: [&Sample; 2],
-    memory: &mut (Workspace, Assembly),
-) -> Result<Span> {
-    let proved = exact.and_then(|exact| exact.bridge(swept.curve, low, high));
-    let unproved = match proved {
-        Ok(bridge) => return Ok(Span { samples: Vec::new(), bridges: vec![bridge], unproved: None }),
-        Err(code) => Some(code),
-    };
-    let (samples, bridges) = bridges(swept, low, high, 0, memory)?;
-    Ok(Span { samples, bridges, unproved })
+    Ok(Web::of(nodes, spans, is_full_turn))
 }
 
 /// The samples to follow branches from, each with the step that it is or stands for: singular ones and those beside
@@ -222,7 +222,7 @@ fn nodes(
     let criticals = exact.map(|exact| range.criticals(&exact.criticals(), swept.variable, is_full_turn));
     let aside = BESIDE * (range.to - range.from) / range.steps as f64;
     let wanted = range.wanted(samples, criticals.as_deref(), aside);
-    let wanted = range.filled(wanted, swept.variable, exact.is_some());
+    let wanted = range.filled(wanted, swept.variable, exact.is_some(), swept.is_overconstrained);
     let sample = |memory: &mut (Workspace, Assembly), (_, wanted): &(f64, Wanted)| {
         Ok(match wanted {
             Wanted::Step(step) => Some((samples[*step].clone(), Some(*step))),
@@ -252,13 +252,16 @@ fn with_hidden(swept: &Swept<'_>, nodes: Vec<(Sample, Option<usize>)>) -> Result
     Ok(all)
 }
 
-/// The span from the end of a full turn to its beginning.
-fn closing(
-    swept: &Swept<'_>,
-    exact: std::result::Result<&Exact, Code>,
-    [first, last]: [&Sample; 2],
-    range: Range,
-) -> Result<Span> {
+/// How the end of a full turn is joined to its beginning.
+enum Closing {
+    /// They are the same input: the same modes.
+    Same(Bridge),
+    /// By a bridge to the first sample, a turn on.
+    Apart(Box<Sample>),
+}
+
+/// The end of a full turn and its beginning.
+fn closing(swept: &Swept<'_>, first: &Sample, last: &Sample, range: Range) -> Closing {
     let turn = range.to - range.from;
     let mut next = first.clone();
     next.input += turn;
@@ -266,13 +269,12 @@ fn closing(
         point[INPUT] += turn;
     }
     if (next.input - last.input).abs() > 1e-12 {
-        return spanned(swept, exact, [last, &next], &mut (Workspace::default(), Assembly::default()));
+        return Closing::Apart(Box::new(next));
     }
-    // The same input twice: the same modes.
     let same = |own: &Sample, other: &Sample| -> Vec<Fate> {
         let fate = |point| mode_at(swept.curve, other, point).map_or(Fate::Lost, |mode| Fate::On(mode, Vec::new()));
         own.points.iter().map(fate).collect()
     };
     let (forwards, backwards) = (same(last, &next), same(&next, last));
-    Ok(Span { samples: Vec::new(), bridges: vec![Bridge { forwards, backwards, folds: Vec::new() }], unproved: None })
+    Closing::Same(Bridge { forwards, backwards, folds: Vec::new() })
 }

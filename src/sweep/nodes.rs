@@ -13,8 +13,10 @@ const REACH: f64 = 1e-5;
 const PART: f64 = 0.25;
 /// Inputs are no farther apart than this, in radians, where critical inputs are known: a chart has room for it.
 const LONGEST: f64 = 0.5;
-/// So many inputs there are at least, for a full turn, where critical inputs are not known.
+/// So many inputs there are at least, for a full turn or any range of a distance, where critical inputs are not known.
 const FEWEST: f64 = 360.0;
+/// The same of overconstrained loops, whose solutions are counted at every input, which takes long.
+const FEWEST_OVERCONSTRAINED: f64 = 60.0;
 
 /// A critical input and how far on both sides it is looked at.
 #[derive(Clone, Copy, Debug)]
@@ -99,13 +101,15 @@ impl Range {
         wanted: Vec<(f64, Wanted)>,
         variable: Variable,
         is_exact: bool,
+        is_overconstrained: bool,
     ) -> Vec<(f64, Wanted)> {
         let span = (self.to - self.from).abs();
+        let fewest = if is_overconstrained { FEWEST_OVERCONSTRAINED } else { FEWEST };
         let longest = match (is_exact, variable) {
             (true, Variable::Rotation) => LONGEST,
             (true, Variable::Translation) => span,
-            (false, Variable::Rotation) => TAU / FEWEST,
-            (false, Variable::Translation) => span / FEWEST,
+            (false, Variable::Rotation) => TAU / fewest,
+            (false, Variable::Translation) => span / fewest,
         };
         let mut filled: Vec<(f64, Wanted)> = Vec::new();
         for (input, one) in wanted {

@@ -302,6 +302,12 @@ fn goes_to_infinity(
         let signs = passage.sheets.map(|sheet| sheet.value.signum());
         return Ok(signs[0] != signs[1]);
     }
+    if sign_changes(&chart.pole, interval) > 0 {
+        // A simple root: there the translations of every branch are dependent.
+        let is_pole = sign_changes(&chart.pole, interval) == 1 && others == 0;
+        let is_open = is_some_nonzero(&chart.gap, &passage.rectangle, passage.is_inverted);
+        return if is_pole && is_open { Ok(true) } else { Err(Code::SingularNotDecided) };
+    }
     if chart.parallel.is_empty() || is_some_nonzero(&chart.parallel, &passage.rectangle, passage.is_inverted) {
         return Ok(false);
     }
@@ -327,6 +333,9 @@ fn meeting(
     passing: usize,
     input: f64,
 ) -> Result<Meeting, Code> {
+    if sign_changes(&chart.pole, interval) > 0 {
+        return Err(Code::SingularNotDecided);
+    }
     if !chart.parallel.is_empty() {
         let is_inverted = !(is_small(one) && is_small(two));
         let places = [one, two].map(|sheet| place(sheet, is_inverted));

@@ -1,7 +1,7 @@
 //! One output of a loop: its closure polynomial, and the critical inputs, between which its real roots neither meet nor
 //! go to infinity.
 
-use super::plane_curve::{PlaneCurve, S, T, in_one, integral};
+use super::plane_curve::{Integral, PlaneCurve, S, T, in_one, integral};
 use super::relation::{InOutput, Relation};
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
@@ -47,6 +47,8 @@ pub(super) struct Chart {
     pub dependent: Vec<Univariate<Integer>>,
     /// Common roots of the discriminant and all of those.
     pub common: Univariate<Integer>,
+    /// The inputs at which the translations are dependent whatever the output.
+    pub pole: Univariate<Integer>,
 }
 
 /// An output of a loop.
@@ -80,13 +82,27 @@ fn combined(list: &[InOutput]) -> Vec<InOutput> {
     (1..=count).map(combination).collect()
 }
 
+/// The part in the input alone that all of them have in common, and the polynomials without it.
+fn without_common_content(list: Vec<Integral>) -> Option<(Univariate<Integer>, Vec<Polynomial<Int>>)> {
+    let contents = list.iter().map(|p| p.polynomial.content_in(T));
+    let Some(content) = contents.reduce(|gcd, content| gcd.gcd(&content)) else {
+        return Some((Univariate::one(), Vec::new()));
+    };
+    let rest: Option<Vec<_>> = list.iter().map(|p| p.polynomial.checked_div_exact(&content)).collect();
+    Some((of_input(&content), rest?))
+}
+
 impl Output {
     /// The output of a relation. `turns` says whether the input is an angle, which must not be critical at half a turn
     /// from where it is counted: `Ok(None)` where it is.
     pub fn of(relation: &Relation, turns: bool) -> Result<Option<Self>, Code> {
-        let mut equations = relation.equations.iter().map(integral).filter(|f| !f.is_zero());
-        let first = equations.next().ok_or(Code::NoExactRoute)?;
-        let whole = equations.fold(first, |gcd, f| gcd.gcd(&f));
+        let equations: Vec<Integral> = relation.equations.iter().map(integral).collect();
+        let equations: Vec<&Integral> = equations.iter().filter(|f| !f.polynomial.is_zero()).collect();
+        let (first, others) = equations.split_first().ok_or(Code::NoExactRoute)?;
+        let whole = others.iter().fold(first.polynomial.clone(), |gcd, f| gcd.gcd(&f.polynomial));
+        if turns && !equations.iter().any(|f| f.is_finite()) {
+            return Ok(None);
+        }
         let content = whole.content_in(T);
         let mut f = whole.checked_div_exact(&content).ok_or(Code::NoExactRoute)?;
         if f.degree(T) == 0 {
@@ -102,7 +118,11 @@ impl Output {
         if turns && discriminant.degree() != Some(full) {
             return Ok(None);
         }
-        let parallel: Vec<Polynomial<Int>> = combined(&relation.parallel).iter().map(integral).collect();
+        let parallel: Vec<Integral> = combined(&relation.parallel).iter().map(integral).collect();
+        if turns && !parallel.is_empty() && !parallel.iter().any(Integral::is_finite) {
+            return Ok(None);
+        }
+        let (pole, parallel) = without_common_content(parallel).ok_or(Code::NoExactRoute)?;
         let dependent: Vec<Univariate<Integer>> = parallel.iter().map(|p| of_input(&resultant(&f, p, T))).collect();
         if dependent.iter().any(Ring::is_zero) {
             return Err(Code::NoExactRoute);
@@ -117,11 +137,11 @@ impl Output {
         let meeting = dependent.iter().skip(1).fold(dependent.first().cloned(), |gcd, r| gcd.map(|gcd| gcd.gcd(r)));
         let common = meeting.as_ref().map_or_else(Univariate::one, |meeting| meeting.gcd(&discriminant));
         let leading = f.coefficients_in(T).last().map(of_input).filter(|_| relation.kind == Variable::Translation);
-        let infinite = meeting.into_iter().chain(leading);
+        let infinite = meeting.into_iter().chain(leading).chain([pole.clone()]);
         let criticals = criticals(&discriminant, infinite, &of_input(&content));
-        let gap = relation.gap.iter().map(|p| PlaneCurve::of(&integral(p))).collect();
+        let gap = relation.gap.iter().map(|p| PlaneCurve::of(&integral(p).polynomial)).collect();
         let parallel = parallel.iter().map(PlaneCurve::of).collect();
-        let chart = Chart { curve, parallel, gap, dependent, common };
+        let chart = Chart { curve, parallel, gap, dependent, common, pole };
         let charts = [chart.clone(), chart.half_turned()];
         Ok(Some(Self { joint: relation.output, kind: relation.kind, charts, criticals }))
     }
@@ -171,6 +191,7 @@ impl Chart {
             gap: all(&self.gap),
             dependent: self.dependent.iter().map(input).collect(),
             common: input(&self.common),
+            pole: input(&self.pole),
         }
     }
 }

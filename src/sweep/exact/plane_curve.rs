@@ -33,8 +33,24 @@ fn circle(variable: usize) -> Polynomial<Int> {
     x.mul(&x).add(&Polynomial::one())
 }
 
-/// A relation as a polynomial with integer coefficients, without factors `1 + s^2` and `1 + t^2`, which have no real roots.
-pub(super) fn integral(relation: &InOutput) -> Polynomial<Int> {
+/// A relation as a polynomial with integer coefficients.
+#[derive(Clone, Debug)]
+pub(super) struct Integral {
+    /// Without factors `1 + s^2` and `1 + t^2`, which have no real roots.
+    pub polynomial: Polynomial<Int>,
+    /// Its degree in the half tangent of the input, unless it vanishes where that is infinite.
+    pub full_degree: usize,
+}
+
+impl Integral {
+    /// Whether it is not zero for all outputs where the half tangent of the input is infinite.
+    pub fn is_finite(&self) -> bool {
+        self.polynomial.degree(S) as usize == self.full_degree
+    }
+}
+
+/// A relation over the integers.
+pub(super) fn integral(relation: &InOutput) -> Integral {
     let power = relation.coefficients().iter().map(|c| c.power()).max().unwrap_or(0);
     let terms = relation.coefficients().iter().zip(0_u32..).flat_map(|(coefficient, t)| {
         let numerator = coefficient.over(power);
@@ -43,15 +59,17 @@ pub(super) fn integral(relation: &InOutput) -> Polynomial<Int> {
     });
     let polynomial = Polynomial::from_terms(terms);
     if polynomial.is_zero() {
-        return Polynomial::zero();
+        return Integral { polynomial: Polynomial::zero(), full_degree: 0 };
     }
     let mut rest = polynomial.primitive().0;
-    for factor in [circle(S), circle(T)] {
-        while let Some(quotient) = rest.checked_div_exact(&factor) {
+    let mut full_degree = 2 * power as usize;
+    for variable in [S, T] {
+        while let Some(quotient) = rest.checked_div_exact(&circle(variable)) {
             rest = quotient;
+            full_degree -= if variable == S { 2.min(full_degree) } else { 0 };
         }
     }
-    rest
+    Integral { polynomial: rest, full_degree }
 }
 
 /// A polynomial in one variable over the integers.
