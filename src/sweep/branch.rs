@@ -1,9 +1,9 @@
 //! Modes of neighbouring inputs joined to branches.
 
-use super::{Range, Span};
 use super::bridge::{Bridge, Fate, apart};
 use super::sample::Sample;
 use super::track::Fold;
+use super::{Range, Span};
 use crate::assembly::wrapped;
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::InputCurve;
@@ -228,10 +228,12 @@ impl Found<'_> {
             if rows.last().is_some_and(|row| row.step == step && row.turn == turn) {
                 continue;
             }
-            let mode = if steps[step].is_regular {
+            #[expect(clippy::float_cmp, reason = "the very sample of the step")]
+            let is_step = sample.input == steps[step].input;
+            let mode = if is_step {
                 Some(node.1)
             } else {
-                // A stand-in beside a singular step: the mode there that is nearest.
+                // A stand-in beside a singular step or a critical input: the mode there that is nearest.
                 let distance = |point| apart(self.curve, point, &sample.points[node.1]);
                 let all = steps[step].points.iter().map(distance).enumerate();
                 all.filter(|(_, d)| *d < 0.1).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(mode, _)| mode)

@@ -234,9 +234,11 @@ fn passages<'a>(
     for x in from {
         let free = |y: &&'a Sheet| passages.iter().all(|passage| passage.sheets[1].mode != y.mode);
         let mut candidates: Vec<&Sheet> = to.iter().filter(free).collect();
-        candidates.sort_by(|a, b| apart(output.kind, a.value, x.value).total_cmp(&apart(output.kind, b.value, x.value)));
+        candidates
+            .sort_by(|a, b| apart(output.kind, a.value, x.value).total_cmp(&apart(output.kind, b.value, x.value)));
         let found = candidates.into_iter().take(2).find_map(|y| {
-            let (curve, is_inverted) = if is_small(x) && is_small(y) { (&chart.curve, false) } else { (&inverted, true) };
+            let (curve, is_inverted) =
+                if is_small(x) && is_small(y) { (&chart.curve, false) } else { (&inverted, true) };
             let rectangle = rectangle_of_graph(curve, interval, [x, y].map(|sheet| place(sheet, is_inverted)))?;
             Some(Passage { sheets: [x, y], rectangle, is_inverted })
         });
@@ -284,7 +286,8 @@ fn rectangle([low, high]: [&Rational; 2], [x, y]: [&Rational; 2], height: i32) -
 
 /// Whether some of the polynomials has no zero in a rectangle.
 fn is_some_nonzero(list: &[PlaneCurve], rectangle: &Rectangle, is_inverted: bool) -> bool {
-    let nonzero = |p: &PlaneCurve| if is_inverted { p.inverted().is_nonzero_in(rectangle) } else { p.is_nonzero_in(rectangle) };
+    let nonzero =
+        |p: &PlaneCurve| if is_inverted { p.inverted().is_nonzero_in(rectangle) } else { p.is_nonzero_in(rectangle) };
     list.iter().any(nonzero)
 }
 

@@ -73,13 +73,7 @@ fn relation(
         less(dot(&turned_origin, &turned_origin), &square, dot(origin, origin)),
         less(cross(&turned_axis, &turned_origin)[2].clone(), &square, cross(&axis, origin)[2].clone()),
     ];
-    Some(Relation {
-        output: output.joint,
-        kind: output.kind,
-        equations,
-        parallel: Vec::new(),
-        gap: Vec::new(),
-    })
+    Some(Relation { output: output.joint, kind: output.kind, equations, parallel: Vec::new(), gap: Vec::new() })
 }
 
 /// The images of the axis z and of the origin by `before V behind`, both times the first polynomial.

@@ -129,10 +129,13 @@ impl PlaneCurve {
 
     /// The polynomial in s at an output, up to a factor.
     pub fn across(&self, t: &Rational) -> Univariate<Integer> {
-        let rational = |row: &Univariate<Integer>| row.map(|c| Some(Rational::from(c))).unwrap_or_else(Univariate::zero);
-        let sum = self.rows.iter().rev().fold(Univariate::zero(), |sum: Univariate<Rational>, row| {
-            sum.scale(t).add(&rational(row))
-        });
+        let rational =
+            |row: &Univariate<Integer>| row.map(|c| Some(Rational::from(c))).unwrap_or_else(Univariate::zero);
+        let sum = self
+            .rows
+            .iter()
+            .rev()
+            .fold(Univariate::zero(), |sum: Univariate<Rational>, row| sum.scale(t).add(&rational(row)));
         Univariate::new(sum.primitive_integers())
     }
 

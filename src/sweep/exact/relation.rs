@@ -57,8 +57,7 @@ fn filling(kind: Variable, offset: &Rational) -> Motion<CircleFraction> {
 /// `row . (1, cos, sin)` or `row . (1, d, d^2)` as a polynomial in the half tangent or the distance.
 pub(super) fn of_row(kind: Variable, row: &[CircleFraction; 3]) -> InOutput {
     let powers = powers(kind, &origin());
-    let coefficient =
-        |k: usize| (0..3).fold(CircleFraction::zero(), |sum, i| sum.add(&row[i].mul(&powers[i][k])));
+    let coefficient = |k: usize| (0..3).fold(CircleFraction::zero(), |sum, i| sum.add(&row[i].mul(&powers[i][k])));
     Univariate::new((0..3).map(coefficient).collect())
 }
 
@@ -137,7 +136,7 @@ fn triangles(closed: &ClosedLoop<CircleFraction>, indices: &[usize]) -> Vec<Rela
             equations: vec![found.roots],
             parallel: vec![found.determinant.0],
             gap: found.bridged.into_iter().map(|(gap, _)| gap).collect(),
-            })
+        })
     };
     (0..3).filter_map(one).collect()
 }
@@ -180,12 +179,7 @@ fn parallel_axes(form: &LinkForm<CircleFraction, 4, 2>, axis: usize) -> [InOutpu
 }
 
 /// A spherical four-bar seen from one link, one of the two angles at it kept.
-fn four_bar(
-    form: &LinkForm<CircleFraction, 4, 2>,
-    base: usize,
-    hidden: Hidden,
-    indices: &[usize],
-) -> Option<Relation> {
+fn four_bar(form: &LinkForm<CircleFraction, 4, 2>, base: usize, hidden: Hidden, indices: &[usize]) -> Option<Relation> {
     let bar = FourBar::new(form, base)?;
     let equations = bar.equations();
     let found = root_conditions(&bar, &equations, hidden, &origin());
