@@ -13,7 +13,7 @@ use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::{Motion, Vector, dot};
 
 /// A point that moves with one variable: coefficients over m.
-type Moving<R> = [Vector<R>; 3];
+pub type Moving<R> = [Vector<R>; 3];
 
 /// The centre of a ball, reached from both sides.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Reach<R> {
     /// What the three variables behind the ball do.
     pub variables: [Variable; 3],
     /// The centre before V2 acts, over the monomials of V3, and behind it, over those of V1.
-    sides: [Moving<R>; 2],
+    pub sides: [Moving<R>; 2],
     /// The two equations: sides are V3 and V1.
     pub equations: Separated<R>,
 }

@@ -154,6 +154,8 @@ pub fn sweep(
 type Span = (Vec<Sample>, Vec<Bridge>);
 /// What is proved, or the reason why nothing is.
 type Proved<T> = std::result::Result<T, Code>;
+/// A sample to follow branches from, and the step that it is or stands for.
+type Node = (Sample, Option<usize>);
 
 /// All modes between neighbouring samples, as the closure polynomial proves them.
 fn proved(
@@ -168,8 +170,8 @@ fn proved(
         Err(code) => return Ok(Err(code)),
     };
     let nodes = nodes(swept, range, samples, is_full_turn, Some(&exact))?;
-    let pairs: Vec<&[(Sample, Option<usize>)]> = nodes.windows(2).collect();
-    let between = |pair: &&[(Sample, Option<usize>)]| exact.bridge(swept.curve, &pair[0].0, &pair[1].0);
+    let pairs: Vec<&[Node]> = nodes.windows(2).collect();
+    let between = |pair: &&[Node]| exact.bridge(swept.curve, &pair[0].0, &pair[1].0, pair[1].0.input);
     let found: Proved<Vec<Bridge>> = pairs.par_iter().map(between).collect();
     let bridges = match found {
         Ok(bridges) if !bridges.is_empty() => bridges,
@@ -179,7 +181,7 @@ fn proved(
     let last = match (is_full_turn, nodes.first(), nodes.last()) {
         (true, Some((first, _)), Some((last, _))) => match closing(swept, first, last, range) {
             Closing::Same(bridge) => Some(bridge),
-            Closing::Apart(next) => match exact.bridge(swept.curve, last, &next) {
+            Closing::Apart(next) => match exact.bridge(swept.curve, last, &next, first.input) {
                 Ok(bridge) => Some(bridge),
                 Err(code) => return Ok(Err(code)),
             },
@@ -194,10 +196,9 @@ fn proved(
 fn connect(swept: &Swept<'_>, range: Range, samples: &[Sample], is_full_turn: bool) -> Result<Web> {
     let memory = || (Workspace::default(), Assembly::default());
     let nodes = with_hidden(swept, nodes(swept, range, samples, is_full_turn, None)?)?;
-    let pairs: Vec<&[(Sample, Option<usize>)]> = nodes.windows(2).collect();
-    let between = |memory: &mut (Workspace, Assembly), pair: &&[(Sample, Option<usize>)]| {
-        bridges(swept, &pair[0].0, &pair[1].0, 0, memory)
-    };
+    let pairs: Vec<&[Node]> = nodes.windows(2).collect();
+    let between =
+        |memory: &mut (Workspace, Assembly), pair: &&[Node]| bridges(swept, &pair[0].0, &pair[1].0, 0, memory);
     let found: Result<Vec<Span>> = pairs.par_iter().map_init(memory, between).collect();
     let mut spans = found?;
     if let (true, Some((first, _)), Some((last, _))) = (is_full_turn, nodes.first(), nodes.last()) {
@@ -217,7 +218,7 @@ fn nodes(
     samples: &[Sample],
     is_full_turn: bool,
     exact: Option<&Exact>,
-) -> Result<Vec<(Sample, Option<usize>)>> {
+) -> Result<Vec<Node>> {
     let memory = || (Workspace::default(), Assembly::default());
     let criticals = exact.map(|exact| range.criticals(&exact.criticals(), swept.variable, is_full_turn));
     let aside = BESIDE * (range.to - range.from) / range.steps as f64;
@@ -232,12 +233,12 @@ fn nodes(
             }
         })
     };
-    let found: Result<Vec<Option<(Sample, Option<usize>)>>> = wanted.par_iter().map_init(memory, sample).collect();
+    let found: Result<Vec<Option<Node>>> = wanted.par_iter().map_init(memory, sample).collect();
     Ok(found?.into_iter().flatten().collect())
 }
 
 /// The samples with those between them that show a circuit which none of them shows.
-fn with_hidden(swept: &Swept<'_>, nodes: Vec<(Sample, Option<usize>)>) -> Result<Vec<(Sample, Option<usize>)>> {
+fn with_hidden(swept: &Swept<'_>, nodes: Vec<Node>) -> Result<Vec<Node>> {
     let memory = || (Workspace::default(), Assembly::default());
     let (samples, steps): (Vec<Sample>, Vec<Option<usize>>) = nodes.into_iter().unzip();
     let spans: Vec<usize> = (1..samples.len()).collect();

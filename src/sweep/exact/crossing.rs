@@ -186,11 +186,11 @@ fn across(
         ([], [], _) => Ok(bridge),
         ([one, two], [], Event::Meeting(1)) => {
             let fates = meeting(chart, curve, interval, samples, [one, two], passages.len(), input)?;
-            bridge.settle(true, [one.mode, two.mode], fates)
+            Ok(bridge.settle(true, [one.mode, two.mode], &fates))
         }
         ([], [one, two], Event::Meeting(1)) => {
             let fates = meeting(chart, curve, interval, [samples[1], samples[0]], [one, two], passages.len(), input)?;
-            bridge.settle(false, [one.mode, two.mode], fates)
+            Ok(bridge.settle(false, [one.mode, two.mode], &fates))
         }
         _ => Err(Code::SingularNotDecided),
     }
@@ -206,18 +206,18 @@ enum Meeting {
 
 impl Bridge {
     /// With the fates of two modes of one side.
-    fn settle(mut self, is_low: bool, [one, two]: [usize; 2], meeting: Meeting) -> Result<Self, Code> {
+    fn settle(mut self, is_low: bool, [one, two]: [usize; 2], meeting: &Meeting) -> Self {
         let (fates, folds) = match meeting {
-            Meeting::Limit(fold) => ([Fate::Back(two, vec![0]), Fate::Back(one, vec![0])], vec![fold]),
+            Meeting::Limit(fold) => ([Fate::Back(two, vec![0]), Fate::Back(one, vec![0])], vec![*fold]),
             Meeting::Infinite(input) => {
-                ([Fate::Infinite(input, Vec::new()), Fate::Infinite(input, Vec::new())], Vec::new())
+                ([Fate::Infinite(*input, Vec::new()), Fate::Infinite(*input, Vec::new())], Vec::new())
             }
         };
         let side = if is_low { &mut self.forwards } else { &mut self.backwards };
         let [first, second] = fates;
         (side[one], side[two]) = (first, second);
         self.folds = folds;
-        Ok(self)
+        self
     }
 }
 

@@ -84,9 +84,10 @@ impl Exact {
         output.criticals.iter().map(|critical| input(critical.value)).collect()
     }
 
-    /// The bridge between two samples as the first output that serves proves it, or the reason of the first one.
-    pub fn bridge(&self, curve: &InputCurve, low: &Sample, high: &Sample) -> Result<Bridge, Code> {
-        let piece = self.piece(low.input, high.input).ok_or(Code::BranchesNotMatched)?;
+    /// The bridge between two samples as the first output that serves proves it, or the reason of the first one. The
+    /// second sample may be that of `to` a turn on.
+    pub fn bridge(&self, curve: &InputCurve, low: &Sample, high: &Sample, to: f64) -> Result<Bridge, Code> {
+        let piece = self.piece(low.input, to).ok_or(Code::BranchesNotMatched)?;
         let mut reason = Code::NoExactRoute;
         for index in 0..self.outputs.len() {
             let Some(output) = self.output(index) else { continue };
@@ -99,22 +100,24 @@ impl Exact {
         Err(reason)
     }
 
-    /// A piece of the range in one of the charts.
+    /// A piece of the range in one of the charts. Every input has one rational number, in whatever piece it stands, so
+    /// that nothing is left out between pieces.
     fn piece(&self, from: f64, to: f64) -> Option<Piece> {
         if self.input == Variable::Translation {
             return Some(Piece { chart: 0, ends: [Rational::from_f64(from)?, Rational::from_f64(to)?] });
         }
-        if (to - from).abs() > LONGEST {
+        let angles = [from, to].map(|input| wrapped(input - self.offset));
+        let way = wrapped(to - from);
+        let [a, b] = angles.map(|x| Rational::from_f64((x / 2.0).tan()));
+        let half_tangents = [a?, b?];
+        let is_one_way = |x: [f64; 2]| x.iter().all(|x| x.abs() <= WIDEST) && (x[1] - x[0] - way).abs() < 1.0;
+        if way.abs() > LONGEST {
             return None;
         }
-        let in_chart = |chart: usize| {
-            let start = wrapped(from - self.offset - if chart == 0 { 0.0 } else { PI });
-            let ends = [start, start + (to - from)];
-            let half_tangent = |x: f64| Rational::from_f64((x / 2.0).tan());
-            let [a, b] = ends.map(half_tangent);
-            let fits = ends.iter().all(|x| x.abs() <= WIDEST);
-            Some(Piece { chart, ends: [a?, b?] }).filter(|_| fits)
-        };
-        in_chart(0).or_else(|| in_chart(1))
+        if is_one_way(angles) {
+            return Some(Piece { chart: 0, ends: half_tangents });
+        }
+        let is_turned = is_one_way(angles.map(|x| wrapped(x - PI))) && half_tangents.iter().all(|s| !s.is_zero());
+        is_turned.then(|| Piece { chart: 1, ends: half_tangents.map(|s| -s.recip()) })
     }
 }

@@ -83,7 +83,7 @@ fn combined(list: &[InOutput]) -> Vec<InOutput> {
 }
 
 /// The part in the input alone that all of them have in common, and the polynomials without it.
-fn without_common_content(list: Vec<Integral>) -> Option<(Univariate<Integer>, Vec<Polynomial<Int>>)> {
+fn without_common_content(list: &[Integral]) -> Option<(Univariate<Integer>, Vec<Polynomial<Int>>)> {
     let contents = list.iter().map(|p| p.polynomial.content_in(T));
     let Some(content) = contents.reduce(|gcd, content| gcd.gcd(&content)) else {
         return Some((Univariate::one(), Vec::new()));
@@ -122,7 +122,7 @@ impl Output {
         if turns && !parallel.is_empty() && !parallel.iter().any(Integral::is_finite) {
             return Ok(None);
         }
-        let (pole, parallel) = without_common_content(parallel).ok_or(Code::NoExactRoute)?;
+        let (pole, parallel) = without_common_content(&parallel).ok_or(Code::NoExactRoute)?;
         let dependent: Vec<Univariate<Integer>> = parallel.iter().map(|p| of_input(&resultant(&f, p, T))).collect();
         if dependent.iter().any(Ring::is_zero) {
             return Err(Code::NoExactRoute);
@@ -176,7 +176,7 @@ fn compare(root: &RealRoot, chart: usize, x: &Rational) -> Ordering {
         Ordering::Equal => sign.reverse(),
         // -1/r is positive for a negative root.
         side if side == sign => sign.reverse(),
-        _ => root.compare(&Rational::from(-x.clone().recip())),
+        _ => root.compare(&-x.clone().recip()),
     }
 }
 

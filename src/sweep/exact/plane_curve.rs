@@ -2,6 +2,7 @@
 //! rectangle.
 
 use super::relation::InOutput;
+use crate::algebra::circle_fraction::CircleFraction;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
@@ -51,7 +52,7 @@ impl Integral {
 
 /// A relation over the integers.
 pub(super) fn integral(relation: &InOutput) -> Integral {
-    let power = relation.coefficients().iter().map(|c| c.power()).max().unwrap_or(0);
+    let power = relation.coefficients().iter().map(CircleFraction::power).max().unwrap_or(0);
     let terms = relation.coefficients().iter().zip(0_u32..).flat_map(|(coefficient, t)| {
         let numerator = coefficient.over(power);
         let term = |(c, s): (&Rational, u32)| (vec![s, t], c.clone());

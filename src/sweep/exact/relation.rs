@@ -30,7 +30,8 @@ pub(super) struct Relation {
     pub kind: Variable,
     /// All of them vanish together exactly where the loop closes: their greatest common divisor is the closure polynomial.
     pub equations: Vec<InOutput>,
-    /// All of them vanish where the directions of the translations are dependent; none for loops without such places.
+    /// All of them vanish where the directions of the translations are dependent, or another joint is left free; none for
+    /// loops without such places.
     pub parallel: Vec<InOutput>,
     /// Where those vanish and these do not all vanish, the loop does not close: translations go to infinity.
     pub gap: Vec<InOutput>,
@@ -102,8 +103,15 @@ fn coupled(chain: &Chain, layout: &Layout, filling: &Motion<CircleFraction>) -> 
 
 /// One spherical joint: its centre is reached from both sides.
 fn reach(closed: &ClosedLoop<CircleFraction>, ball: usize, indices: &[usize]) -> Vec<Relation> {
-    let equations = Reach::of(closed, ball).equations;
-    let side = |hidden: usize| separated(&equations, hidden, indices[[(ball + 5) % 6, (ball + 3) % 6][hidden]]);
+    let reach = Reach::of(closed, ball);
+    let side = |hidden: usize| {
+        let relation = separated(&reach.equations, hidden, indices[[(ball + 5) % 6, (ball + 3) % 6][hidden]])?;
+        // On the axis of the middle joint the centre leaves it free.
+        let across = |i: usize| of_row(relation.kind, &std::array::from_fn(|k| reach.sides[hidden][k][i].clone()));
+        let turns = reach.variables[1] == Variable::Rotation;
+        let parallel = if turns { vec![across(0), across(1)] } else { Vec::new() };
+        Some(Relation { parallel, ..relation })
+    };
     (0..2).filter_map(side).collect()
 }
 
