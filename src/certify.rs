@@ -10,17 +10,25 @@
 //! * `Z2 >= |A| (sum |Z_j|)^2 e^(r sum |Z_j|) |E|`, the curvature,
 //!
 //! every r with `Y + Z0 r + Z2 r^2 / 2 <= r` and `Z0 + Z2 r < 1` has exactly one solution of F = 0 in the ball of radius
-//! r (largest coordinate) around q. F holds the translation and the skew part of the rotation of E; near E = I its zeros
-//! are exactly the closures. \[Krawczyk1969\]
+//! r (largest coordinate) around q. F holds the translation and the skew part of the rotation of E. \[Krawczyk1969\]
+//!
+//! At a zero of F the translation of E vanishes and its rotation is symmetric: E = I, or a half turn, for which
+//! `|E - I| >= 2`. In the ball `|E - I|` is at most its value at q plus `(e^(r sum |Z_j|) - 1) |E(q)|`, which is checked to
+//! be below 1/2: the zero is a closure. Closures are always zeros of F, so that there is no other one within the isolation.
 //!
 //! Rounding: E is computed as a product of six steps. Step j leaves an error of at most `c u |before| |step|`, which the
-//! steps behind it magnify by at most their norm. Constants of the loop count as known to a few roundings, so that the
-//! proof covers the mechanism as given and not only as stored.
+//! steps behind it magnify by at most their norm. The constants of a loop count as known to a few roundings, or as far off
+//! as [`Closure::constant_is_off`] was told: the bounds hold for every loop within these errors, so that what is proved is
+//! proved of the loop as given and not only as stored. The twist of an unknown is that of a frame p, z: where the frame is
+//! off by a factor 1 + D, the twist is off by at most `3 |D|` times its lever, `|z| (1 + |p|)`, which may be large where the
+//! twist is small.
 
 pub mod pose;
 mod refined;
 
-pub use refined::{Refined, exponential, exponential_pair, from_pairs, refined_certificate, small_turn};
+pub use refined::{
+    Refined, exponential, exponential_pair, from_pairs, refined_certificate, refined_certificate_of, small_turn,
+};
 
 use crate::elimination::cut::Cut;
 use crate::kinematics::closed_loop::ClosedLoop;
@@ -40,8 +48,8 @@ pub struct Certificate {
     pub proved: f64,
 }
 
-/// Roundings per step of the product: cosine and sine (2), their use (4), the product (6), all with room for complex
-/// products (a factor of sqrt 8 on each operation), and the stored constant (32).
+/// Roundings per step of the product, in parts of its norms, which add up |re| and |im|: cosine and sine (4, complex ones
+/// 20), their use (3), the product (4), the stored constant (32), and room for second order.
 const ROUNDINGS: f64 = 70.0;
 /// Margin on bounds that are themselves computed in f64.
 const MARGIN: f64 = 1.01;
@@ -50,6 +58,11 @@ const MARGIN: f64 = 1.01;
 /// near E = I.
 #[must_use]
 pub fn product_error<S: Number>(at: &Closure<S>) -> f64 {
+    rounding_error(at) + at.data_error
+}
+
+/// Of this what roundings leave.
+fn rounding_error<S: Number>(at: &Closure<S>) -> f64 {
     ROUNDINGS * S::UNIT_ROUNDOFF * at.norms.iter().map(|n| n.before * n.step * n.behind).sum::<f64>()
 }
 
@@ -61,20 +74,29 @@ fn off_identity<S: Number>(at: &Closure<S>) -> f64 {
 /// Every unknown counts alike.
 const ALIKE: Six<f64> = [1.0; 6];
 
+/// Bounds the sum of the errors of the twists in one coordinate, each unknown measured by its weight: the frames are off
+/// by the error of the product, and their twists are computed in a few roundings.
+fn twist_error<S: Number>(at: &Closure<S>, weights: &Six<f64>) -> f64 {
+    let levers: f64 = at.norms.iter().zip(weights).map(|(n, w)| n.lever * w).sum();
+    3.0 * (product_error(at) + 2.0 * S::UNIT_ROUNDOFF) * levers
+}
+
 /// Bounds the sum of the |Z_j|, each unknown measured by its weight.
 fn twists<S: Number>(at: &Closure<S>, weights: &Six<f64>) -> f64 {
-    MARGIN * at.norms.iter().zip(weights).map(|(n, w)| n.twist * w).sum::<f64>()
+    // A row of a twist has three entries.
+    let computed: f64 = at.norms.iter().zip(weights).map(|(n, w)| n.twist * w).sum();
+    MARGIN * (computed + 3.0 * twist_error(at, weights))
 }
 
 /// Bounds the error of the Jacobian, summed over a row: the derivative is L(Z_j E), from which `at.jacobian` differs by
-/// |Z_j| |E - I|, and Z_j is computed from a product of steps.
+/// |Z_j| |E - I| and the error of Z_j.
 #[must_use]
 pub fn derivative_error<S: Number>(at: &Closure<S>) -> f64 {
     weighted_derivative_error(at, &ALIKE)
 }
 
 fn weighted_derivative_error<S: Number>(at: &Closure<S>, weights: &Six<f64>) -> f64 {
-    twists(at, weights) * (2.0 * off_identity(at) + 4.0 * product_error(at))
+    MARGIN * (2.0 * twists(at, weights) * off_identity(at) + twist_error(at, weights))
 }
 
 /// Bounds how much faster than a distance the derivative changes, as the largest sum over a row, within `r` (largest
@@ -92,17 +114,18 @@ fn weighted_curvature<S: Number>(at: &Closure<S>, r: f64, weights: &Six<f64>) ->
 /// Proves that exactly one solution lies near these unknowns; `None` where that cannot be shown.
 #[must_use]
 pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]) -> Option<Certificate> {
-    weighted_certificate(at, approximate_inverse, &ALIKE)
+    weighted_certificate(at, approximate_inverse, &ALIKE, None)
 }
 
 /// As [`certificate`], with the size of every unknown measured by its weight, at least 1: long translations need not be
-/// as exact as angles.
+/// as exact as angles. `moved` bounds `|A (F' - F)|` for all F' whose constants are as far off as they may be, where more is
+/// known than the norms tell.
 fn weighted_certificate<S: Number>(
     at: &Closure<S>,
     approximate_inverse: &[Six<S>; 6],
     weights: &Six<f64>,
+    moved: Option<f64>,
 ) -> Option<Certificate> {
-    let product_error = product_error(at);
     if !(off_identity(at) < 1e-3) {
         return None;
     }
@@ -112,7 +135,8 @@ fn weighted_certificate<S: Number>(
     let step = times(approximate_inverse, &at.residual);
     let step = step.into_iter().zip(weights).map(|(x, weight)| x.bound() / weight).fold(0.0, f64::max);
     let residual = at.residual.iter().map(|x| x.bound()).fold(0.0, f64::max);
-    let y = MARGIN * (step + inverse_norm * (product_error + 16.0 * S::UNIT_ROUNDOFF * residual));
+    let moved = moved.unwrap_or(inverse_norm * at.data_error);
+    let y = MARGIN * (step + inverse_norm * (rounding_error(at) + 16.0 * S::UNIT_ROUNDOFF * residual) + moved);
     // |I - A J|, the error of J as the derivative, and the roundings of this very product.
     let (mut deviation, mut sums) = (0.0_f64, 0.0_f64);
     for i in 0..6 {
@@ -142,6 +166,11 @@ fn weighted_certificate<S: Number>(
         y + z0 * r + 0.5 * z2 * r * r <= r && z0 + z2 * r < 1.0
     };
     let radius = [1.0, 1.5, 2.0].into_iter().map(|f| f * radius).find(|&r| works(r))?;
+    // No half turn is near.
+    let turned = (radius * twists(at, weights)).exp_m1();
+    if !(off_identity(at) + 1.01 * turned < 0.5) {
+        return None;
+    }
     let mut isolation = (1.0 - z0) / bend(radius) * 0.9;
     if !(isolation > radius) || !works(isolation) {
         isolation *= 0.5;
@@ -156,12 +185,17 @@ fn weighted_certificate<S: Number>(
 }
 
 /// As [`certificate`], with the loop opened in turn behind each of its joints: imaginary parts make some frames far
-/// worse than others.
+/// worse than others. The last constant may be off by a matrix of row-sum norm `off`.
 #[must_use]
-pub fn certificate_in_any_frame<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<Certificate> {
+pub fn certificate_in_any_frame<S: Scalar>(
+    closed: &ClosedLoop<f64>,
+    unknowns: &Six<S>,
+    off: f64,
+) -> Option<Certificate> {
     (1..6).find_map(|k| {
         let rotated = Cut { rotation: k, reversed: false }.of(closed);
-        let here = closure(&rotated, &std::array::from_fn(|j| unknowns[(k + j) % 6]));
+        let mut here = closure(&rotated, &std::array::from_fn(|j| unknowns[(k + j) % 6]));
+        here.constant_is_off(5 - k, off);
         certificate(&here, &inverse(&here.jacobian)?)
     })
 }

@@ -7,5 +7,9 @@ mod arms;
 mod big;
 #[path = "certificate/double_double.rs"]
 mod double_double;
+#[path = "certificate/file_data.rs"]
+mod file_data;
 #[path = "certificate/proofs.rs"]
 mod proofs;
+#[path = "certificate/wide.rs"]
+mod wide;

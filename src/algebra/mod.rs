@@ -7,6 +7,7 @@ pub mod double_double;
 pub mod drawn;
 pub mod dual;
 pub mod echelon;
+pub mod elementary;
 pub mod enclosure;
 mod expression;
 pub mod factors;

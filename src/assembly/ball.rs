@@ -112,7 +112,7 @@ fn proof_in<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>, ball: usize)
     }
     let here = closure(&closed, &start);
     let inverse = dense::inverse(&here.jacobian)?;
-    let certificate = certificate(&here, &inverse).or_else(|| certificate_in_any_frame(&closed, &start))?;
+    let certificate = certificate(&here, &inverse).or_else(|| certificate_in_any_frame(&closed, &start, 0.0))?;
     let condition = dense::norm(&here.jacobian) * dense::norm(&inverse);
     Some(Proof { radius: certificate.radius * enlarged, condition })
 }

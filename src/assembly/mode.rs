@@ -29,7 +29,7 @@ pub struct Mode {
     pub residual: f64,
     /// Row-sum condition number of the Jacobian, lengths over the scale of the mechanism.
     pub condition: f64,
-    /// The proof, if there is one. Radii are in radians, lengths over the scale.
+    /// The proof, if there is one. Radii hold for angles in radians and for lengths in the unit of the mechanism.
     pub certificate: Option<Certificate>,
     /// How often it was found.
     pub hits: Hits,

@@ -8,8 +8,12 @@ use crate::solve::scalar::Scalar;
 
 /// As [`certificate`], with the inverse of the Jacobian at the very point and lengths over a power of two not below the
 /// longest translation: frames far out are as good as near ones then, and what bends is the angles alone. The radius is
-/// that of the loop as it is.
-pub(super) fn certificate_in_reach<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<Certificate> {
+/// that of the loop as it is. The last constant may be off by a matrix of row-sum norm `off`.
+pub(super) fn certificate_in_reach<S: Scalar>(
+    closed: &ClosedLoop<f64>,
+    unknowns: &Six<S>,
+    off: f64,
+) -> Option<Certificate> {
     let unit = reach(&closed.variables, &unknowns.map(Scalar::to_complex)).log2().ceil().exp2();
     if !unit.is_finite() {
         return None;
@@ -22,7 +26,8 @@ pub(super) fn certificate_in_reach<S: Scalar>(closed: &ClosedLoop<f64>, unknowns
         Variable::Rotation => unknowns[j],
         Variable::Translation => unknowns[j].times(1.0 / unit),
     });
-    let here = closure(&shrunk, &unknowns);
+    let mut here = closure(&shrunk, &unknowns);
+    here.constant_is_off(5, off);
     let proof = certificate(&here, &inverse(&here.jacobian)?)?;
     let radius = proof.radius * unit;
     (radius <= proof.isolation).then_some(Certificate { radius, proved: proof.proved * unit, ..proof })

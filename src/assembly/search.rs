@@ -6,7 +6,7 @@ use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
 use super::proof::certificate_in_reach;
 use super::shifted::Shifted;
-use crate::certify::{Certificate, Refined, certificate, certificate_in_any_frame, refined_certificate};
+use crate::certify::{Refined, certificate, certificate_in_any_frame, refined_certificate_of};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
@@ -18,7 +18,7 @@ use crate::solve::back_substitution::CutView;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{SHARED, at_root, double_angle, kernel};
-use crate::solve::newton::{Closure, Polished, Six, approach, closure, polish, reach};
+use crate::solve::newton::{Polished, Six, approach, closure, polish, reach};
 use crate::solve::scalar::Scalar;
 use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
 use num_complex::Complex;
@@ -256,7 +256,8 @@ impl Search<'_> {
 
     /// Polishes a candidate and takes it into the list if it closes. Whether it was a solution from the start.
     pub fn admit<S: Scalar>(&mut self, start: &Six<S>) -> bool {
-        let polished = polish(self.closed, start);
+        let mut polished = polish(self.closed, start);
+        polished.closure.constant_is_off(5, self.gap_rounding);
         let growth = 6.0 * polished.closure.growth(false);
         if !S::REAL && !(growth < limits::FAR) {
             // Far from the real numbers f64 has no digits left to polish with.
@@ -276,7 +277,8 @@ impl Search<'_> {
         let singular = polished.inverse.as_ref().is_none_or(|a| dense::norm(a) > 1e6);
         let nearly_real = if singular { limits::NEAR_DOUBLE } else { limits::REAL_PART };
         if !S::REAL && imaginary < nearly_real {
-            let real = polish::<f64>(self.closed, &polished.unknowns.map(|x| x.to_complex().re));
+            let mut real = polish::<f64>(self.closed, &polished.unknowns.map(|x| x.to_complex().re));
+            real.closure.constant_is_off(5, self.gap_rounding);
             if real.closure.defect <= closed {
                 self.record(&real);
                 return near;
@@ -289,9 +291,13 @@ impl Search<'_> {
     fn record<S: Scalar>(&mut self, polished: &Polished<S>) {
         let variables = self.closed.variables;
         let mut unknowns = polished.unknowns.map(Scalar::to_complex);
+        let mut wrapping = 0.0_f64;
         for (z, variable) in unknowns.iter_mut().zip(variables) {
             if variable == Variable::Rotation {
-                z.re = wrapped(z.re);
+                let turned = z.re;
+                z.re = wrapped(turned);
+                // A whole turn has a rounding of its own.
+                wrapping = wrapping.max(f64::EPSILON * (z.re - turned).abs());
             }
         }
         let inverse_norm = polished.inverse.as_ref().map_or(f64::INFINITY, dense::norm);
@@ -305,6 +311,9 @@ impl Search<'_> {
             hits: Hits::first(self.assembly.tries),
         };
         self.prove(polished, &mut mode);
+        if let Some(proof) = &mut mode.certificate {
+            (proof.radius, proof.proved) = (proof.radius + wrapping, proof.proved + wrapping);
+        }
         self.merge_with_conjugate(mode);
     }
 
@@ -326,26 +335,17 @@ impl Search<'_> {
             return;
         }
         if mode.certificate.is_none() {
-            mode.certificate = certificate_in_reach(self.closed, &polished.unknowns);
+            mode.certificate = certificate_in_reach(self.closed, &polished.unknowns, self.gap_rounding);
         }
         if mode.certificate.is_none() && !S::REAL {
-            mode.certificate = certificate_in_any_frame(self.closed, &polished.unknowns);
+            mode.certificate = certificate_in_any_frame(self.closed, &polished.unknowns, self.gap_rounding);
         }
         if mode.certificate.is_none()
-            && let Some(refined) = refined_certificate(self.closed, &mode.unknowns)
+            && let Some(refined) = refined_certificate_of(self.closed, &mode.unknowns, self.gap_rounding)
             && refined.real == S::REAL
         {
             (mode.unknowns, mode.certificate) = (refined.unknowns, Some(refined.certificate));
         }
-        mode.certificate = mode.certificate.and_then(|proof| self.widened(proof, &polished.closure, inverse));
-    }
-
-    /// A proof with the rounding of the gap in its radius, to first order; none where that is no small amount.
-    fn widened<S: Scalar>(&self, proof: Certificate, at: &Closure<S>, inverse: &[Six<S>; 6]) -> Option<Certificate> {
-        let frames = at.norms.iter().map(|n| n.before * n.step).fold(1.0, f64::max);
-        let drift = self.gap_rounding * frames * dense::norm(inverse);
-        let widened = Certificate { radius: proof.radius + drift, proved: proof.proved + drift, ..proof };
-        (drift < limits::LONE_RADIUS).then_some(widened)
     }
 
     pub fn merge(&mut self, mut mode: Mode) {
@@ -442,7 +442,8 @@ impl Search<'_> {
 
     /// A solution proved in double-double arithmetic from a start nearby, real if its imaginary parts vanish.
     fn proved_mode(&self, start: &Six<Complex<f64>>) -> Option<Mode> {
-        let Refined { mut unknowns, real, certificate, .. } = refined_certificate(self.closed, start)?;
+        let refined = refined_certificate_of(self.closed, start, self.gap_rounding)?;
+        let Refined { mut unknowns, real, certificate, .. } = refined;
         for (z, variable) in unknowns.iter_mut().zip(self.closed.variables) {
             if variable == Variable::Rotation {
                 z.re = wrapped(z.re);
@@ -450,7 +451,6 @@ impl Search<'_> {
         }
         let here = closure(self.closed, &unknowns);
         let inverse = dense::inverse(&here.jacobian)?;
-        let certificate = self.widened(certificate, &here, &inverse)?;
         Some(Mode {
             unknowns,
             real,

@@ -60,15 +60,23 @@ pub struct Solver {
 #[derive(Clone, Debug)]
 pub struct Gap {
     last: Motion<f64>,
-    /// How far rounding may have moved it beyond what every constant suffers.
+    /// How far it may be off beside one rounding: a bound of the row-sum norm.
     rounding: f64,
+    is_rough: bool,
 }
+
+/// Roundings of the rotation of a gap, by rows: a product of three rotations, each rounded once. An entry of the first
+/// product is off by 5 u, one of the second by 5 sqrt(3) u and 4 u of its own.
+const GAP_TURN: f64 = 40.0;
+/// Roundings of the translation of a gap, in parts of the lengths that are added up: as those of an entry, with the
+/// rotation of the first end before.
+const GAP_SHIFT: f64 = 16.0;
 
 impl Gap {
     /// Whether digits were lost that exact arithmetic would keep: a base or a tool far away costs them.
     #[must_use]
     pub fn is_rough(&self) -> bool {
-        self.rounding > 0.0
+        self.is_rough
     }
 }
 
@@ -195,15 +203,15 @@ impl Solver {
         let filling = scaled(filling, self.scale);
         let ends = length(&self.open.before_gap) + length(&filling) + length(&self.open.after_gap);
         let last = self.open.before_gap.then_after(&filling).then_after(&self.open.after_gap);
-        // Ends not much longer than what remains of them lose no more digits than any constant.
-        let rounding = if ends > 8.0 * (1.0 + length(&last)) { 4.0 * f64::EPSILON * ends } else { 0.0 };
-        Gap { last, rounding }
+        let rounding = 0.5 * f64::EPSILON * (GAP_TURN + GAP_SHIFT * ends);
+        // Ends much longer than what remains of them lose digits.
+        Gap { rounding, is_rough: ends > 8.0 * (1.0 + length(&last)), last }
     }
 
     /// The gap whose closing constant (behind the last unknown) was computed exactly and rounded once.
     #[must_use]
     pub fn exact_gap(&self, last: &Motion<f64>) -> Gap {
-        Gap { last: scaled(last, self.scale), rounding: 0.0 }
+        Gap { last: scaled(last, self.scale), rounding: 0.0, is_rough: false }
     }
 
     /// The loop at a gap, scaled.
@@ -290,18 +298,26 @@ impl Solver {
             .each_ref()
             .map(|motion| Motion { translation: motion.translation.map(|x| x.mul(&unit)), ..motion.clone() });
         let scaled = ClosedLoop { variables: exact.variables, constants };
-        self.scale_translations(assembly, 1.0 / self.scale);
+        self.scale_lengths(assembly, 1.0 / self.scale, 1.0 / self.scale.max(1.0));
         let modes = rescue(&scaled, self.ball, plan, expected);
         assembly.complete_with(modes, &self.open.variables, expected, R::BITS);
         self.finish(assembly);
     }
 
-    fn scale_translations(&self, assembly: &mut Assembly, factor: f64) {
+    /// Translations in another unit. A radius bounds the errors of angles and translations alike: it grows with these where
+    /// they do.
+    fn scale_lengths(&self, assembly: &mut Assembly, factor: f64, grown: f64) {
+        if !self.open.variables.contains(&Variable::Translation) {
+            return;
+        }
         for mode in &mut assembly.modes {
             for (value, variable) in mode.unknowns.iter_mut().zip(self.open.variables) {
                 if variable == Variable::Translation {
                     *value *= factor;
                 }
+            }
+            if let Some(proof) = &mut mode.certificate {
+                (proof.radius, proof.proved) = (proof.radius * grown, proof.proved * grown);
             }
         }
     }
@@ -314,6 +330,6 @@ impl Solver {
                 key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal)
             })
         });
-        self.scale_translations(assembly, self.scale);
+        self.scale_lengths(assembly, self.scale, self.scale.max(1.0));
     }
 }

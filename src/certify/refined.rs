@@ -3,18 +3,20 @@
 //!
 //! Angles are known as `w = e^(iq)`: any number but 0 is an exact angle in this form.
 
-use super::{Certificate, certificate, weighted_certificate};
+use super::{ALIKE, Certificate, certificate, weighted_certificate};
 use crate::algebra::double_double::DoubleDouble;
+use crate::algebra::elementary::{exp, sin_cos};
 use crate::algebra::ring::{Field, Ring};
 use crate::elimination::cut::Cut;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::{Motion, cross};
 use crate::solve::dense::{inverse, norm, times};
-use crate::solve::newton::{Closure, Six, closure_at, coordinates, product, reach};
+use crate::solve::newton::{Closure, Six, behind_step, closure_at, reach};
 use crate::solve::scalar::{Extended, Number, Scalar, extended, narrowed};
 use num_complex::Complex;
 
-/// Roundings in a stored constant.
+/// How far the rigid motion nearest to a stored constant is from the constant it was rounded from, in parts of u and of 1
+/// or the longest coordinate: entries are off by u, so are those of the nearest rotation, together by 6 u at most.
 const CONSTANT_ROUNDINGS: f64 = 8.0;
 /// A solution that the rounding of the constants may have moved farther than this, over its longest translation, is not
 /// proved at all.
@@ -32,8 +34,8 @@ type Pairs<R> = [(Complex<R>, Complex<R>); 6];
 #[must_use]
 pub fn exponential<R: Extended>(angle: Complex<f64>) -> Complex<R> {
     // From cosine and sine it would cancel for large imaginary parts.
-    let (sin, cos) = angle.re.sin_cos();
-    let w = Complex::new(cos, sin) * (-angle.im).exp();
+    let (sin, cos) = sin_cos(angle.re);
+    let w = Complex::new(cos, sin) * exp(-angle.im);
     // What has no f64 is no angle, as 0 is none.
     if w.is_finite() { extended(w) } else { Complex::zero() }
 }
@@ -122,11 +124,11 @@ impl<R: Extended> Approach<'_, R> {
         Some((here, inverse, step))
     }
 
-    /// What is proved of the solution, in f64, where the rounding of the constants cannot have moved it by more than
-    /// `drift`.
-    fn told(&self, proof: Certificate, condition: f64, drift: f64) -> Refined {
+    /// What is proved of the solution, in f64.
+    fn told(&self, proof: Certificate, condition: f64) -> Refined {
         let unknowns = self.unknowns();
-        let certificate = rounded(proof, &unknowns, drift);
+        let off = |j: usize| printed_error(self.closed.variables[j], self.state[j], unknowns[j]);
+        let certificate = rounded(proof, &unknowns, &std::array::from_fn(off));
         // Judged by the solution itself, not by what its rounding left of it.
         let imaginary = (0..6).map(|j| imaginary(self.closed.variables[j], self.state[j])).fold(0.0, f64::max);
         let real = imaginary <= proof.radius && 3.0 * proof.radius <= proof.isolation;
@@ -135,11 +137,126 @@ impl<R: Extended> Approach<'_, R> {
     }
 }
 
-/// A proof of unknowns as it holds for their nearest f64.
-fn rounded<S: Scalar>(proof: Certificate, unknowns: &Six<S>, drift: f64) -> Certificate {
-    let largest = unknowns.iter().map(|x| x.bound()).fold(1.0, f64::max);
-    let proved = proof.radius + drift;
-    Certificate { radius: proved + 4.0 * f64::EPSILON * largest, proved, ..proof }
+/// A proof of unknowns as it holds for the f64 in their place, each off by so much. Of that a few roundings of the unknown
+/// itself are no part of `proved`.
+fn rounded<S: Scalar>(proof: Certificate, unknowns: &Six<S>, off: &Six<f64>) -> Certificate {
+    let roundings = |x: &S| 4.0 * f64::EPSILON * x.bound().max(1.0);
+    let excess = unknowns.iter().zip(off).map(|(x, off)| (off - roundings(x)).max(0.0)).fold(0.0, f64::max);
+    let proved = proof.radius + excess;
+    Certificate { radius: proved + unknowns.iter().map(roundings).fold(0.0, f64::max), proved, ..proof }
+}
+
+/// How far an unknown in f64 is from the one that it stands for, an angle q as e^(iq), whatever functions led to it: e^(iq)
+/// of the f64 is computed with 16 roundings at most and compared.
+fn printed_error<R: Extended>(variable: Variable, state: Complex<R>, printed: Complex<f64>) -> f64 {
+    const ROUNDINGS: f64 = 16.0;
+    match variable {
+        // The nearest f64 or one beside it.
+        Variable::Translation => f64::EPSILON * printed.bound(),
+        Variable::Rotation => {
+            let (sin, cos) = sin_cos(printed.re);
+            let size = exp(-printed.im);
+            let Some(back) = extended::<R>(Complex::new(cos, sin) * size).inverse() else { return f64::INFINITY };
+            let ratio = state.mul(&back).sub(&Complex::one()).bound();
+            // |log (1 + x)| <= 1.1 |x|
+            let error = 1.1 * (ratio + ROUNDINGS * f64::UNIT_ROUNDOFF);
+            if error < 0.01 { error } else { f64::INFINITY }
+        }
+    }
+}
+
+/// How far the constants of a loop that is stored in f64 may be off: each by a rounding of its entries and by so much.
+#[derive(Clone, Copy)]
+struct Data {
+    /// Bounds the coordinates of the twist by which the rigid motion nearest to a constant is off.
+    twists: Six<f64>,
+}
+
+impl Data {
+    fn of(closed: &ClosedLoop<f64>, off: &Six<f64>) -> Self {
+        let twist = |j: usize| {
+            let length = closed.constants[j].translation.iter().map(|x| x.abs()).fold(1.0, f64::max);
+            CONSTANT_ROUNDINGS * f64::UNIT_ROUNDOFF * length + 4.0 * off[j]
+        };
+        Self { twists: std::array::from_fn(twist) }
+    }
+
+    /// As a loop that begins behind its first k constants has it.
+    fn behind(self, k: usize) -> Self {
+        Self { twists: std::array::from_fn(|j| self.twists[(j + k) % 6]) }
+    }
+
+    /// Takes note of these errors in a closure.
+    fn note<S: Number>(self, at: &mut Closure<S>) {
+        for j in 0..6 {
+            let after = if j < 5 { at.norms[j + 1].before } else { 1.1 };
+            // A row of a twist has three entries; the fourth part is for its second order.
+            at.data_error += 4.0 * self.twists[j] * after * at.norms[j].behind;
+        }
+    }
+
+    /// Bounds `|A (F' - F)|` for all F' whose constants are so far off. A constant off by a factor 1 + X behind the frame
+    /// P moves E by a factor `1 + P X P^-1`: six columns `A Ad_P` to first order, in f64, and norms for what is of second
+    /// order and for the roundings of P.
+    fn moved<S: Number>(self, at: &Closure<S>, view: &View, weights: &Six<f64>) -> f64 {
+        let mut sums = [0.0_f64; 6];
+        let mut frame: Motion<Complex<f64>> = Motion::identity();
+        for j in 0..6 {
+            frame = behind_step(&frame, view.closed.variables[j], view.pairs[j], &view.closed.constants[j]);
+            for axis in 0..3 {
+                // A turn about this axis of the frame, and a shift along it.
+                let direction: [Complex<f64>; 3] = std::array::from_fn(|i| frame.rotation[i][axis]);
+                let moment = cross(&frame.translation, &direction);
+                let part =
+                    |from: &[Complex<f64>], v: &[Complex<f64>; 3]| from[0] * v[0] + from[1] * v[1] + from[2] * v[2];
+                for (sum, from) in sums.iter_mut().zip(&view.inverse) {
+                    let turn = part(&from[..3], &direction) + part(&from[3..], &moment);
+                    *sum += self.twists[j] * (turn.bound() + part(&from[3..], &direction).bound());
+                }
+            }
+        }
+        let norm = view.inverse.iter().zip(weights).map(|(row, w)| row.iter().map(|x| x.bound()).sum::<f64>() / w);
+        let first = sums.iter().zip(weights).map(|(sum, w)| sum / w).fold(0.0, f64::max);
+        let roundings = 70.0 * f64::UNIT_ROUNDOFF * at.norms.iter().map(|n| n.before * n.step * n.behind).sum::<f64>();
+        let second = at.data_error * (2.0 * at.data_error + 8.0 * at.defect + 4.0 * roundings);
+        1.01 * (first + norm.fold(0.0, f64::max) * second)
+    }
+}
+
+/// A loop, a point of it and the approximate inverse of its Jacobian there, in f64.
+struct View {
+    closed: ClosedLoop<f64>,
+    pairs: [(Complex<f64>, Complex<f64>); 6],
+    inverse: [Six<Complex<f64>>; 6],
+}
+
+impl View {
+    fn of<S: Number>(
+        closed: &ClosedLoop<S::Real>,
+        pairs: &[(S, S); 6],
+        inverse: &[Six<S>; 6],
+        narrow: impl Fn(S) -> Complex<f64>,
+    ) -> Self {
+        let constant = |motion: &Motion<S::Real>| {
+            let entry = |x: &S::Real| narrow(S::from_real(*x)).re;
+            Motion {
+                rotation: motion.rotation.each_ref().map(|row| row.each_ref().map(entry)),
+                translation: motion.translation.each_ref().map(entry),
+            }
+        };
+        Self {
+            closed: ClosedLoop { variables: closed.variables, constants: closed.constants.each_ref().map(constant) },
+            pairs: pairs.map(|(x, y)| (narrow(x), narrow(y))),
+            inverse: inverse.map(|row| row.map(&narrow)),
+        }
+    }
+}
+
+/// A proof of a point of a loop whose constants are off by so much.
+fn of_stored<S: Number>(here: &mut Closure<S>, inverse: &[Six<S>; 6], data: Data, view: &View) -> Option<Certificate> {
+    data.note(here);
+    let moved = data.moved(here, view, &ALIKE);
+    weighted_certificate(here, inverse, &ALIKE, Some(moved))
 }
 
 /// The inverse of a matrix, as good as f64 makes it.
@@ -149,15 +266,22 @@ fn rough_inverse<R: Extended>(matrix: &Square<R>) -> Option<Square<R>> {
     is_finite.then(|| inverse.map(|row| row.map(extended)))
 }
 
-/// A proof in double-double arithmetic from unknowns known in f64.
-///
-/// The proof is of the loop whose constants are the rigid motions nearest to the stored ones. How far the rounding of
-/// those constants can have moved the solution is added to the radius, to first order; where that is no small amount
-/// the solution is not proved.
+/// A proof in double-double arithmetic from unknowns known in f64, of a loop whose constants were rounded once.
 #[must_use]
 pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>) -> Option<Refined> {
+    refined_certificate_of(closed, unknowns, 0.0)
+}
+
+/// As [`refined_certificate`], where the last constant may be off by a matrix of row-sum norm `off` beside its rounding.
+///
+/// The point is one of the loop whose constants are the rigid motions nearest to the stored ones. That these are off is part
+/// of the proof: it holds for all loops whose constants are as near. Where that alone moves the solution by no small
+/// amount it is not proved.
+#[must_use]
+pub fn refined_certificate_of(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>, off: f64) -> Option<Refined> {
+    let data = Data::of(closed, &[0.0, 0.0, 0.0, 0.0, 0.0, off]);
     if unknowns.iter().all(|z| z.im == 0.0)
-        && let Some(refined) = refined_real(closed, &unknowns.map(|z| z.re))
+        && let Some(refined) = refined_real(closed, &unknowns.map(|z| z.re), data)
     {
         return Some(refined);
     }
@@ -171,7 +295,7 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
     let mut before = f64::INFINITY;
     for round in 0..12 {
         let pairs = at.pairs()?;
-        let (here, inverse, step) = at.newton(&pairs, rough_inverse)?;
+        let (mut here, inverse, step) = at.newton(&pairs, rough_inverse)?;
         let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max) / at.reach;
         // Newton's method has to converge from where it starts, not to wander.
         let stalls = !(size < 0.5 * before);
@@ -179,10 +303,11 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
             return None;
         }
         if size < 1e-26 || stalls || round == 11 {
-            let proof = certificate(&here, &inverse).or_else(|| in_any_frame(&precise, &pairs, at.reach))?;
+            let view = View::of(&precise, &pairs, &inverse, narrowed);
+            let proof = of_stored(&mut here, &inverse, data, &view)
+                .or_else(|| in_any_frame(&precise, &pairs, at.reach, Some(data)))?;
             let condition = norm(&here.jacobian) * norm(&inverse);
-            let drift = drift(closed, &at.unknowns());
-            return (drift < MOST_DRIFT * at.reach).then(|| at.told(proof, condition, drift));
+            return (proof.radius < MOST_DRIFT * at.reach).then(|| at.told(proof, condition));
         }
         before = size;
         at.step_back(&step);
@@ -201,7 +326,7 @@ fn on_circle(cos: DoubleDouble, sin: DoubleDouble) -> (DoubleDouble, DoubleDoubl
 
 /// As [`refined_certificate`] for a real solution, in real numbers, which cost a third; `None` also where only another
 /// frame would prove it.
-fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<Refined> {
+fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>, data: Data) -> Option<Refined> {
     let variables = closed.variables;
     let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
     let reach = reach(&variables, &unknowns.map(Complex::from));
@@ -211,7 +336,7 @@ fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<Refined
     });
     let mut before = f64::INFINITY;
     loop {
-        let here = closure_at::<DoubleDouble>(&precise, &pairs);
+        let mut here = closure_at::<DoubleDouble>(&precise, &pairs);
         let rough = inverse(&here.jacobian.map(|row| row.map(DoubleDouble::to_f64)))?;
         let rough = rough.map(|row| row.map(DoubleDouble::from));
         let step = times(&rough, &here.residual);
@@ -221,16 +346,20 @@ fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<Refined
             return None;
         }
         if size < 1e-26 || stalls {
-            let proof = certificate(&here, &rough)?;
+            let view = View::of(&precise, &pairs, &rough, |x| x.to_f64().into());
+            let proof = of_stored(&mut here, &rough, data, &view)?;
             let values: Six<f64> = std::array::from_fn(|j| match (variables[j], pairs[j]) {
                 (Variable::Rotation, (cos, sin)) => sin.to_f64().atan2(cos.to_f64()),
                 (Variable::Translation, (distance, _)) => distance.to_f64(),
             });
-            let drift = drift(closed, &values);
-            return (drift < MOST_DRIFT * reach).then(|| Refined {
+            let printed = |j: usize| {
+                let (re, im) = if variables[j] == Variable::Rotation { pairs[j] } else { (pairs[j].0, Ring::zero()) };
+                printed_error(variables[j], Complex { re, im }, values[j].into())
+            };
+            return (proof.radius < MOST_DRIFT * reach).then(|| Refined {
                 unknowns: values.map(Complex::from),
                 real: true,
-                certificate: rounded(proof, &values, drift),
+                certificate: rounded(proof, &values, &std::array::from_fn(printed)),
                 condition: norm(&here.jacobian) * norm(&rough),
             });
         }
@@ -281,9 +410,9 @@ pub fn from_pairs<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>) -> Opti
             return None;
         }
         if size < SETTLED
-            && let Some(proof) = certificate(&here, &inverse).or_else(|| in_any_frame(closed, &pairs, at.reach))
+            && let Some(proof) = certificate(&here, &inverse).or_else(|| in_any_frame(closed, &pairs, at.reach, None))
         {
-            let told = at.told(proof, norm(&here.jacobian) * norm(&inverse), 0.0);
+            let told = at.told(proof, norm(&here.jacobian) * norm(&inverse));
             // Unknowns without an f64 cannot be told.
             return told.unknowns.iter().all(|z| z.is_finite()).then_some(told);
         }
@@ -294,14 +423,26 @@ pub fn from_pairs<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>) -> Opti
 
 /// [`certificate`] with the loop opened in turn behind each of its joints, and translations measured by the reach of the
 /// loop.
-fn in_any_frame<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>, reach: f64) -> Option<Certificate> {
+fn in_any_frame<R: Extended>(
+    closed: &ClosedLoop<R>,
+    pairs: &Pairs<R>,
+    reach: f64,
+    data: Option<Data>,
+) -> Option<Certificate> {
     (0..6).find_map(|k| {
         let rotated = Cut { rotation: k, reversed: false }.of(closed);
-        let here = closure_at::<Complex<R>>(&rotated, &std::array::from_fn(|j| pairs[(k + j) % 6]));
+        let pairs = std::array::from_fn(|j| pairs[(k + j) % 6]);
+        let mut here = closure_at::<Complex<R>>(&rotated, &pairs);
         let weights = rotated.variables.map(|v| if v == Variable::Translation { reach } else { 1.0 });
+        let data = data.map(|data| data.behind(k));
+        data.inspect(|data| data.note(&mut here));
+        let proof = |inverse: &Square<R>| {
+            let view = || View::of(&rotated, &pairs, inverse, narrowed);
+            let moved = data.map(|data| data.moved(&here, &view(), &weights));
+            weighted_certificate(&here, inverse, &weights, moved)
+        };
         // Where f64 does not reach, an inverse in all digits does.
-        let rough = rough_inverse(&here.jacobian).and_then(|inverse| weighted_certificate(&here, &inverse, &weights));
-        rough.or_else(|| weighted_certificate(&here, &inverse(&here.jacobian)?, &weights))
+        rough_inverse(&here.jacobian).and_then(|inverse| proof(&inverse)).or_else(|| proof(&inverse(&here.jacobian)?))
     })
 }
 
@@ -310,37 +451,12 @@ fn imaginary<R: Extended>(variable: Variable, state: Complex<R>) -> f64 {
     match variable {
         Variable::Rotation => {
             let square = state.re.mul(&state.re).add(&state.im.mul(&state.im));
-            let off = square.sub(&R::one()).to_f64();
-            0.5 * off.ln_1p().abs()
+            let off = square.sub(&R::one()).to_f64().abs();
+            // |log (1 + x)| <= 1.02 |x| for small x; large ones are larger than any radius.
+            if off < 0.01 { 0.51 * off } else { f64::INFINITY }
         }
         Variable::Translation => state.im.to_f64().abs(),
     }
-}
-
-/// How far the rounding of the constants can have moved a solution, to first order. A constant off by a twist x, a few
-/// roundings in size, moves the unknowns by `J^-1 Ad_j x` with the frame of its step.
-fn drift<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> f64 {
-    let pairs: Six<(S, S)> = std::array::from_fn(|j| coordinates(closed.variables[j], unknowns[j]));
-    let Some(inverse) = inverse(&closure_at(closed, &pairs).jacobian) else { return f64::INFINITY };
-    let mut sum = 0.0;
-    for count in 1..=6 {
-        let frame: Motion<S> = product(closed, &pairs, count);
-        let mut moved = [[S::zero(); 6]; 6];
-        for axis in 0..3 {
-            // A turn about this axis of the frame, and a shift along it.
-            let direction: [S; 3] = std::array::from_fn(|i| frame.rotation[i][axis]);
-            let moment = cross(&frame.translation, &direction);
-            for (row, from) in moved.iter_mut().zip(&inverse) {
-                for i in 0..3 {
-                    row[axis] = row[axis].add(&from[i].mul(&direction[i])).add(&from[3 + i].mul(&moment[i]));
-                    row[3 + axis] = row[3 + axis].add(&from[3 + i].mul(&direction[i]));
-                }
-            }
-        }
-        let length = closed.constants[count - 1].translation.iter().map(|x| x.abs()).fold(1.0, f64::max);
-        sum += norm(&moved) * length;
-    }
-    CONSTANT_ROUNDINGS * f64::UNIT_ROUNDOFF * sum
 }
 
 /// The rigid motion nearest to a stored one: two steps of Newton's iteration for the polar factor.

@@ -42,7 +42,8 @@ pub struct FullMode {
     pub condition: f64,
     /// Whether exactly one solution was proved to lie within `radius`.
     pub certified: bool,
-    /// Error bound of every joint variable (radians; lengths over the scale of the mechanism); infinite without proof.
+    /// Error bound of every joint variable that is not given, angles in radians, distances in metres; infinite without
+    /// proof.
     pub radius: f64,
     /// Whether a real solution respects the joint limits; `None` for complex ones or without limits. Where it does, its
     /// angles lie within them, which may be outside `(-pi, pi]`.

@@ -24,8 +24,10 @@ pub struct Closure<S> {
     pub shift: f64,
     /// The trace of the rotation of E.
     pub trace: S,
-    /// Norms for error bounds, one triple per unknown.
+    /// Norms for error bounds, one set per unknown.
     pub norms: [StepNorms; 6],
+    /// How far the closure may be off because constants are, beyond the rounding that error bounds allow for.
+    pub data_error: f64,
 }
 
 /// Row-sum norms at one step of the product round the loop.
@@ -39,9 +41,19 @@ pub struct StepNorms {
     pub behind: f64,
     /// Of the twist of this unknown as a 4 x 4 matrix.
     pub twist: f64,
+    /// How fast that twist changes with the frame before this step: of the direction of its axis, times 1 and the
+    /// distance of the frame for a rotation.
+    pub lever: f64,
 }
 
 impl<S> Closure<S> {
+    /// Takes note that the constant of this step may be off by a matrix of row-sum norm `off`.
+    pub fn constant_is_off(&mut self, step: usize, off: f64) {
+        // The step is at least as large as its unknown's motion alone.
+        let norms = self.norms[step];
+        self.data_error += norms.before * norms.step * norms.behind * off;
+    }
+
     /// How much rounding errors may grow round the loop: 1 for real unknowns, the largest product of norms for complex
     /// ones, which large imaginary parts make large.
     #[must_use]
@@ -136,6 +148,19 @@ pub fn coordinates<S: Scalar>(variable: Variable, value: S) -> (S, S) {
     }
 }
 
+/// `frame * V(x) * constant`.
+#[must_use]
+pub fn behind_step<S: Number>(
+    frame: &Motion<S>,
+    variable: Variable,
+    pair: (S, S),
+    constant: &Motion<S::Real>,
+) -> Motion<S> {
+    let mut turned = frame.clone();
+    turn(&mut turned, variable, pair);
+    behind(&turned, constant)
+}
+
 /// The product of the first `count` steps of the loop.
 #[must_use]
 pub fn product<S: Number>(closed: &ClosedLoop<S::Real>, values: &[(S, S)], count: usize) -> Motion<S> {
@@ -178,6 +203,7 @@ where
                     jacobian[3 + i][j] = moment[i];
                 }
                 let z = z.map(Number::bound);
+                norms[j].lever = (z[0] + z[1] + z[2]) * (1.0 + p[0].bound() + p[1].bound() + p[2].bound());
                 norms[j].twist = (z[1] + z[2] + moment[0].bound())
                     .max(z[0] + z[2] + moment[1].bound())
                     .max(z[0] + z[1] + moment[2].bound());
@@ -187,7 +213,9 @@ where
                 for i in 0..3 {
                     jacobian[3 + i][j] = z[i];
                 }
-                norms[j].twist = z.map(Number::bound).into_iter().fold(0.0, f64::max);
+                let z = z.map(Number::bound);
+                norms[j].lever = z[0] + z[1] + z[2];
+                norms[j].twist = z.into_iter().fold(0.0, f64::max);
                 frame_norm(constant) + pair.0.bound()
             }
         };
@@ -214,6 +242,7 @@ where
         shift,
         trace: r[0][0].add(&r[1][1]).add(&r[2][2]),
         norms,
+        data_error: 0.0,
     }
 }
 

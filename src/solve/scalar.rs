@@ -2,6 +2,7 @@
 //! proofs and for roots that f64 does not reach.
 
 use crate::algebra::double_double::DoubleDouble;
+use crate::algebra::elementary::{exp, sin_cos, small_sinh};
 use crate::algebra::long_float::LongNumber;
 use crate::algebra::ring::{Field, Ring};
 use num_complex::Complex;
@@ -268,7 +269,7 @@ impl Scalar for f64 {
     }
     #[inline(always)]
     fn cos_sin_of(self) -> (Self, Self) {
-        let (sin, cos) = self.sin_cos();
+        let (sin, cos) = sin_cos(self);
         (cos, sin)
     }
     #[inline(always)]
@@ -293,12 +294,12 @@ impl Scalar for Complex<f64> {
     }
     #[inline(always)]
     fn cos_sin_of(self) -> (Self, Self) {
-        let (sin, cos) = self.re.sin_cos();
-        let grown = self.im.exp();
+        let (sin, cos) = sin_cos(self.re);
+        let grown = exp(self.im);
         let shrunk = 1.0 / grown;
         let cosh = 0.5 * (grown + shrunk);
         // sinh of a small argument would cancel; the series is exact to rounding there.
-        let sinh = if self.im.abs() < 0.25 { self.im.sinh() } else { 0.5 * (grown - shrunk) };
+        let sinh = if self.im.abs() < 0.25 { small_sinh(self.im) } else { 0.5 * (grown - shrunk) };
         (Complex::new(cos * cosh, -sin * sinh), Complex::new(sin * cosh, cos * sinh))
     }
     fn angle_of(cos: Self, sin: Self) -> Self {
