@@ -504,3 +504,19 @@ fn loops_of_sliders_alone_move() {
         assert!(looproot::report::mobility::json(&loop_, &answer)["configurations"][0]["translations"] == rank);
     }
 }
+
+/// Source: construction. The first and third axes are parallel and three sliders span all translations, which is one freedom too many;
+/// with any one joint held the others still move, or the cuts separate nothing.
+#[test]
+fn the_configuration_of_the_file_is_looked_at() {
+    let answer = mobility(&screws(&[
+        ("R", "[1, -1, 0]", "[0, 1, 0]"),
+        ("R", "[1, 1, 0]", "[2, 0, 0]"),
+        ("R", "[1, -1, 0]", "[-1, 0, 2]"),
+        ("P", "[1, -1, 0]", "[0, 0, 0]"),
+        ("P", "[0, 1, 0]", "[0, 0, 0]"),
+        ("P", "[0, 1, 1]", "[0, 0, 0]"),
+    ]))
+    .unwrap();
+    assert_eq!((answer.mobility, answer.proof, answer.code), (Some(1), Proof::Proved, Code::GroupOfMotions));
+}

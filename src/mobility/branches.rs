@@ -17,7 +17,7 @@ const STEPS: usize = 5000;
 /// Newton's steps after each one.
 const CORRECTIONS: usize = 4;
 /// Distances, in mean links, beyond which a curve is given up.
-const FAR: f64 = 50.0;
+const FAR: f64 = 20.0;
 /// A point of the curve is a configuration if they are nearer than this.
 const NEAR: f64 = 0.5 * STEP;
 /// Singular values below this part of the largest are those of motions.

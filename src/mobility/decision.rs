@@ -310,7 +310,12 @@ impl Subject<'_> {
             }
         };
         let idle = if still > 0 { format!("; {still} joint variables stand still") } else { String::new() };
-        let reason = format!("{why}; {} held{idle}", self.held(&found));
+        let held = if found.held.is_empty() {
+            "all joint variables at 0, where the file gives them".to_owned()
+        } else {
+            format!("{} held", self.held(&found))
+        };
+        let reason = format!("{why}; {held}{idle}");
         Mobility {
             held: found.held,
             configurations: found.configurations,

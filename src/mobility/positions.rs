@@ -89,6 +89,14 @@ impl Conjugates {
         Self { polynomial: Some(polynomial), field: Some(field), roots, values, ground: Some(ground) }
     }
 
+    /// The position with all joint variables at 0, if the chain closes there.
+    pub(super) fn home(linkage: &Linkage<Rational>) -> Option<Self> {
+        let linkage: Linkage<Algebraic> = linkage.map()?;
+        let values = vec![[Algebraic::one(), Algebraic::zero()]; linkage.variables.len()];
+        let closes = linkage.at(&values).closes();
+        closes.then_some(Self { polynomial: None, field: None, roots: Vec::new(), values, ground: None })
+    }
+
     /// How many positions there are.
     #[must_use]
     pub fn count(&self) -> usize {

@@ -87,7 +87,17 @@ pub fn moves(linkage: &Linkage<Rational>) -> Option<bool> {
 
 /// Looks for a motion: holds as few joints as leave finitely many configurations, and decides what passes through those.
 pub(super) fn search(linkage: &Linkage<Rational>, balls: &[usize]) -> Outcome {
-    searched(&Setting::of(linkage, balls), usize::MAX, |held| at(linkage, held))
+    let setting = Setting::of(linkage, balls);
+    let found = searched(&setting, usize::MAX, |held| at(linkage, held));
+    if matches!(found, Outcome::Mobile(_)) {
+        return found;
+    }
+    // The configuration that a file of screws gives, where holding joints separates none.
+    let home = Conjugates::home(linkage).map(|home| setting.decide(&[], &[home]));
+    match home.filter(|search| search.configurations.iter().any(|c| c.dimension() > Some(0))) {
+        Some(search) => Outcome::Mobile(search),
+        None => found,
+    }
 }
 
 /// The same of a loop over a number field; its home configuration is looked at first.

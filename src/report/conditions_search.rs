@@ -236,7 +236,20 @@ fn fit_verdict(ansatz: &Ansatz, search: &Search, fitted: &Fitted) -> String {
         let why = if members == 0 { "no mobile members met" } else { "no relation among the terms" };
         return format!("no condition found in this ansatz: {why}");
     }
-    format!("mobile where {}: {sure}{member}", found.join(", "))
+    format!("mobile where {}: {sure}{member}{}", found.join(", "), hypotheses(certainty, fitted.proof.as_ref()))
+}
+
+/// What the theorem for all parameters asks of a position.
+fn hypotheses(certainty: Certainty, proof: Option<&FamilyProof>) -> &'static str {
+    match proof.filter(|_| matches!(certainty, Certainty::Family)) {
+        Some(FamilyProof::Multiplier(_)) => {
+            "; through every real closed position of screw rank 5 with w not 0 and axes that span the space"
+        }
+        Some(FamilyProof::Implication(_)) => {
+            "; through every real closed position of screw rank 5 at which the two axes are not perpendicular"
+        }
+        None => "",
+    }
 }
 
 /// The relations that were fitted, those between angles as one equation.
