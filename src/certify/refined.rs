@@ -66,8 +66,8 @@ pub fn small_turn<R: Extended>(d: Complex<R>) -> Complex<R> {
 pub struct Refined {
     /// The unknowns, rounded from that precision.
     pub unknowns: Six<Complex<f64>>,
-    /// Whether the solution is proved to be real: conjugation maps the ball of the proof into one three times as large,
-    /// and a single solution there is its own conjugate.
+    /// Whether the solution is proved to be real: conjugation maps the ball of the proof into the larger one in which there
+    /// is no other solution, and a single solution there is its own conjugate.
     pub real: bool,
     /// The proof.
     pub certificate: Certificate,
@@ -131,7 +131,8 @@ impl<R: Extended> Approach<'_, R> {
         let certificate = rounded(proof, &unknowns, &std::array::from_fn(off));
         // Judged by the solution itself, not by what its rounding left of it.
         let imaginary = (0..6).map(|j| imaginary(self.closed.variables[j], self.state[j])).fold(0.0, f64::max);
-        let real = imaginary <= proof.radius && 3.0 * proof.radius <= proof.isolation;
+        // The conjugate of the solution is one, too, and as far away but for twice the imaginary parts of the middle.
+        let real = imaginary <= proof.radius && proof.radius + 2.1 * imaginary <= proof.isolation;
         let unknowns = if real { unknowns.map(|z| z.re.into()) } else { unknowns };
         Refined { unknowns, real, certificate, condition }
     }
