@@ -17,6 +17,7 @@ pub mod elimination;
 pub mod solve;
 
 pub mod certify;
+pub mod exact;
 
 pub mod assembly;
 

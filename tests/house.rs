@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, each importing earlier ones only.
-const LAYERS: [&str; 19] = [
+const LAYERS: [&str; 20] = [
     "error",
     "algebra",
     "kinematics",
@@ -15,6 +15,7 @@ const LAYERS: [&str; 19] = [
     "elimination",
     "solve",
     "certify",
+    "exact",
     "assembly",
     "verdict",
     "mechanism",

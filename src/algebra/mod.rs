@@ -1,6 +1,7 @@
 //! Exact and generic arithmetic; knows nothing of mechanisms.
 
 mod approximation;
+pub mod ball;
 pub mod circle_fraction;
 pub mod determinant;
 pub mod double_double;

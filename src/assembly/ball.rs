@@ -4,7 +4,7 @@
 
 use super::limits;
 use super::mode::{Assembly, Mode, wrapped};
-use super::search::{AS_IT_IS, Family, RootOutcome, Search};
+use super::search::{AS_IT_IS, Effort, Family, RootOutcome, Search};
 use crate::certify::{certificate, certificate_in_any_frame};
 use crate::elimination::point_reach::Reach;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
@@ -65,7 +65,7 @@ impl Search<'_> {
             arrangement: AS_IT_IS,
             gap_rounding: self.gap_rounding,
             roots: self.roots,
-            is_brief: false,
+            effort: Effort::OnePencil,
             eigen: &mut *self.eigen,
             assembly: &mut found,
         }

@@ -3,7 +3,7 @@
 use super::ball::{ball_angles, ball_rotation, lifted, quarter, transposed};
 use super::limits;
 use super::mode::{Assembly, Roots};
-use super::search::{AS_IT_IS, Search};
+use super::search::{AS_IT_IS, Effort, Search};
 use super::solver::Workspace;
 use crate::elimination::spherical_pair::equation;
 use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Variable};
@@ -129,7 +129,7 @@ fn one<S: Scalar>(
         arrangement: AS_IT_IS,
         gap_rounding: 0.0,
         roots,
-        is_brief: false,
+        effort: Effort::OnePencil,
         eigen: workspace.eigen(),
         assembly: &mut found,
     }

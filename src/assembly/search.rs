@@ -29,6 +29,17 @@ type Ready = (Cut, ClosedLoop<f64>, HalfAngleForm<f64>);
 /// The loop with every unknown in its place.
 pub(super) const AS_IT_IS: ([usize; 6], bool) = ([0, 1, 2, 3, 4, 5], false);
 
+/// How much a search tries.
+#[derive(Clone, Copy)]
+pub(super) enum Effort<'a> {
+    /// One pencil. Nothing is decided of what it leaves open.
+    OnePencil,
+    /// Pencil after pencil, up to a number of solutions. Nothing is decided of what they leave open.
+    Pencils(&'a dyn Fn() -> usize),
+    /// Pencils up to a number of solutions, multistart where they are not clean, and a decision on what has no certificate.
+    All(&'a dyn Fn() -> usize),
+}
+
 /// One pose being solved.
 pub(super) struct Search<'a> {
     /// The cuts that are ready, best first.
@@ -43,8 +54,8 @@ pub(super) struct Search<'a> {
     pub arrangement: ([usize; 6], bool),
     /// What is looked for.
     pub roots: Roots,
-    /// Whether one pencil is all that is asked, and nothing is decided of what it leaves open.
-    pub is_brief: bool,
+    /// How much is tried.
+    pub effort: Effort<'a>,
     /// Memory of the eigenvalue routines.
     pub eigen: &'a mut EigenWorkspace,
     /// What was found.
@@ -53,14 +64,18 @@ pub(super) struct Search<'a> {
 
 impl Search<'_> {
     /// Finds all there is to find.
-    pub fn run(&mut self, most: &dyn Fn() -> usize) {
+    pub fn run(&mut self) {
+        let most = match self.effort {
+            Effort::OnePencil => &|| usize::MAX,
+            Effort::Pencils(most) | Effort::All(most) => most,
+        };
         match general_degree(self.closed.variables) {
             _ if self.ball.is_some() => self.ball.into_iter().for_each(|ball| self.centre(ball)),
             Some(2) => self.triangle(),
             Some(8) => self.four_bars(most),
             _ => self.all_cuts(most),
         }
-        if self.is_brief {
+        if !matches!(self.effort, Effort::All(_)) {
             return;
         }
         if !self.assembly.clean {
@@ -157,7 +172,7 @@ impl Search<'_> {
     /// Whether more pencils are of no use.
     pub fn done(&self, most: &dyn Fn() -> usize, clean: bool) -> bool {
         match self.roots {
-            _ if self.is_brief => true,
+            _ if matches!(self.effort, Effort::OnePencil) => true,
             Roots::Real => clean,
             Roots::All => {
                 let proved = self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count();

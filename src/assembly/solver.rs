@@ -6,7 +6,7 @@ use super::mode::{Assembly, Mode, Roots};
 use super::platform::{PlatformAssembly, PlatformWorkspace};
 use super::prepared::PreparedCut;
 use super::rescue::rescue;
-use super::search::{AS_IT_IS, Search};
+use super::search::{AS_IT_IS, Effort, Search};
 use super::shifted::Shifted;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::coordinate_ring::Plan;
@@ -247,24 +247,29 @@ impl Solver {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) {
-        self.search(gap, roots, Some(most), workspace, assembly);
+        self.search(gap, roots, Effort::All(most), workspace, assembly);
+    }
+
+    /// As [`Solver::solve_up_to`] for all roots, by the pencils alone: what they leave open is not searched for, and nothing
+    /// is decided of what has no certificate.
+    pub fn solve_by_pencils(
+        &self,
+        gap: &Gap,
+        most: &dyn Fn() -> usize,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) {
+        self.search(gap, Roots::All, Effort::Pencils(most), workspace, assembly);
     }
 
     /// All solutions as one pencil alone leads to them: most of those that f64 can tell apart. What has no proof is left
     /// undecided.
     pub fn solve_briefly(&self, gap: &Gap, workspace: &mut Workspace, assembly: &mut Assembly) {
-        self.search(gap, Roots::All, None, workspace, assembly);
+        self.search(gap, Roots::All, Effort::OnePencil, workspace, assembly);
     }
 
-    /// Finds solutions, no more than `most()`; without that by one pencil.
-    fn search(
-        &self,
-        gap: &Gap,
-        roots: Roots,
-        most: Option<&dyn Fn() -> usize>,
-        workspace: &mut Workspace,
-        assembly: &mut Assembly,
-    ) {
+    /// Finds solutions with some effort.
+    fn search(&self, gap: &Gap, roots: Roots, effort: Effort<'_>, workspace: &mut Workspace, assembly: &mut Assembly) {
         assembly.clear();
         let closed = self.close(gap);
         let eigen = &mut workspace.eigen;
@@ -275,11 +280,11 @@ impl Solver {
             arrangement: AS_IT_IS,
             gap_rounding: gap.rounding,
             roots,
-            is_brief: most.is_none(),
+            effort,
             eigen,
             assembly,
         }
-        .run(most.unwrap_or(&|| usize::MAX));
+        .run();
         self.finish(assembly);
     }
 

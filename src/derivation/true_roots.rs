@@ -22,9 +22,6 @@ use crate::kinematics::motion::Motion;
 use rug::ops::RemRounding;
 use rug::{Integer, Rational};
 
-/// The number m below, which no tangent is minus the inverse of by chance.
-const MIXED: i32 = 1_234_577;
-
 /// With longer numbers in a loop, in bits, or with more solutions the relations over the rationals take long.
 const SHORT: u32 = 64;
 const FEW: usize = 8;
@@ -177,27 +174,8 @@ impl SolutionRing {
             return Some(Univariate::one());
         }
         let ring = self.plan.ring(view)?;
-        let (rotated, turned) = ring.view();
-        // Cosine and sine, or the distance, as matrices.
-        let weights = |k: usize| if turned.variables[k] == Variable::Rotation { 2 } else { 1 };
-        let first: usize = (0..(6 - rotated) % 6).map(weights).sum();
-        let matrix = |at: usize| ring.multiplication(&std::array::from_fn(|k| F::from_integer(i32::from(k == at))));
-        let sum = |unit: i32, terms: &[(&[Vec<F>], i32)]| -> Vec<Vec<F>> {
-            let entry = |i: usize, j: usize| {
-                let start = F::from_integer(if i == j { unit } else { 0 });
-                let add = |sum: F, (m, c): &(&[Vec<F>], i32)| sum.add(&m[i][j].mul(&F::from_integer(*c)));
-                terms.iter().fold(start, add)
-            };
-            (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
-        };
-        Some(determinant(&match view.variables[0] {
-            // t = sin/(1 + cos) = (1 - cos)/sin = (sin + m (1 - cos))/(1 + cos + m sin), 0/0 at one angle only.
-            Variable::Rotation => {
-                let (cos, sin) = (matrix(first), matrix(first + 1));
-                [sum(-MIXED, &[(&sin, -1), (&cos, MIXED)]), sum(1, &[(&cos, 1), (&sin, MIXED)])]
-            }
-            Variable::Translation => [sum(0, &[(&matrix(first), -1)]), sum(1, &[])],
-        }))
+        let (rotated, _) = ring.view();
+        Some(determinant(&ring.tangent_pencil((6 - rotated) % 6)))
     }
 }
 

@@ -29,6 +29,9 @@ type Sparse<F> = BTreeMap<Monomial, F>;
 /// Degrees up to which relations are looked for: the first of them that is enough.
 const DEGREES: [u32; 2] = [3, 4];
 
+/// The number m in the half-angle tangent of a matrix: one that is minus the inverse of no tangent by chance.
+const MIXED: i32 = 1_234_577;
+
 fn digit(monomial: Monomial, unknown: usize) -> u64 {
     (monomial >> (8 * unknown)) & 255
 }
@@ -363,6 +366,24 @@ fn turned<F: Ring>(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<(usize,
     Some((rotation, Cut { rotation, reversed: false }.of(closed)))
 }
 
+/// A row of coordinates after a product, whose row k is that of basis element k.
+fn applied<F: Field>(vector: &[F], product: &[Vec<F>]) -> Vec<F> {
+    let mut sum = vec![F::zero(); vector.len()];
+    for (c, row) in vector.iter().zip(product).filter(|(c, _)| !c.is_zero()) {
+        sum.iter_mut().zip(row).for_each(|(x, y)| x.add_product(c, y));
+    }
+    sum
+}
+
+/// One product after another.
+fn multiplied<F: Field>(first: &[Vec<F>], second: &[Vec<F>]) -> Vec<Vec<F>> {
+    first.iter().map(|row| applied(row, second)).collect()
+}
+
+fn sum_of<F: Field>(one: &[F], other: &[F]) -> Vec<F> {
+    one.iter().zip(other).map(|(x, y)| x.add(y)).collect()
+}
+
 /// The ring of polynomials on the solutions of a loop: all of them by a basis of monomials.
 pub struct CoordinateRing<F> {
     rotation: usize,
@@ -400,6 +421,89 @@ impl<F: Field> CoordinateRing<F> {
             sum
         };
         self.standard.iter().map(row).collect()
+    }
+
+    /// Matrices A and B with `det(A + t B) = 0` where t is the tangent of half an unknown of the ring at a solution, as often
+    /// as there are solutions, with multiplicity; those at the angle pi are at infinity. Of a distance, itself.
+    ///
+    /// `place` is its place among the first five unknowns of [`Self::view`].
+    #[must_use]
+    pub fn tangent_pencil(&self, place: usize) -> [Vec<Vec<F>>; 2] {
+        let n = self.standard.len();
+        // Cosine and sine, or the distance, as matrices.
+        let weight = |k: usize| if self.relations.kinds[k] == Variable::Rotation { 2 } else { 1 };
+        let first: usize = (0..place).map(weight).sum();
+        let matrix = |at: usize| self.multiplication(&std::array::from_fn(|k| F::from_integer(i32::from(k == at))));
+        let sum = |unit: i32, terms: &[(&[Vec<F>], i32)]| -> Vec<Vec<F>> {
+            let entry = |i: usize, j: usize| {
+                let start = F::from_integer(if i == j { unit } else { 0 });
+                let add = |sum: F, (m, c): &(&[Vec<F>], i32)| sum.add(&m[i][j].mul(&F::from_integer(*c)));
+                terms.iter().fold(start, add)
+            };
+            (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+        };
+        match self.relations.kinds[place] {
+            // t = sin/(1 + cos) = (1 - cos)/sin = (sin + m (1 - cos))/(1 + cos + m sin), 0/0 at one angle only.
+            Variable::Rotation => {
+                let (cos, sin) = (matrix(first), matrix(first + 1));
+                [sum(-MIXED, &[(&sin, -1), (&cos, MIXED)]), sum(1, &[(&cos, 1), (&sin, MIXED)])]
+            }
+            Variable::Translation => [sum(0, &[(&matrix(first), -1)]), sum(1, &[])],
+        }
+    }
+
+    /// Whether the dimension of this ring is the number of solutions in this field, with multiplicity, and not only a bound:
+    /// the products with the unknowns commute, the closure equations hold for them, and 1 generates the ring.
+    ///
+    /// Such matrices make the vectors a module over all polynomials that 1 generates and in which the equations vanish: a
+    /// quotient of the ring of the solutions, which has no larger dimension than the basis that spans it.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        if self.relations.is_zero.contains(&true) {
+            return false;
+        }
+        let factors: Vec<(usize, bool)> = self.relations.factors().collect();
+        let weights = |k: usize| std::array::from_fn(|j| F::from_integer(i32::from(j == k)));
+        let products: Vec<Vec<Vec<F>>> = (0..factors.len()).map(|k| self.multiplication(&weights(k))).collect();
+        let commute = (0..products.len())
+            .all(|k| (0..k).all(|j| multiplied(&products[j], &products[k]) == multiplied(&products[k], &products[j])));
+        let product = |unknown: usize, is_sine: bool| {
+            let place = factors.iter().position(|factor| *factor == (unknown, is_sine));
+            place.map(|place| &products[place])
+        };
+        let unit = |k: usize| (0..self.standard.len()).map(|j| F::from_integer(i32::from(j == k))).collect::<Vec<F>>();
+        let on_circle = (0..5).filter(|&k| self.relations.kinds[k] == Variable::Rotation).all(|k| {
+            let squares = [false, true].map(|is_sine| product(k, is_sine).map(|m| multiplied(m, m)));
+            let [Some(cos), Some(sin)] = squares else { return false };
+            (0..self.standard.len()).all(|i| sum_of(&cos[i], &sin[i]) == unit(i))
+        });
+        let (one, _) = self.unknowns();
+        let value = |monomial: Monomial| {
+            let mut vector = one.clone();
+            for unknown in 0..5 {
+                let power = digit(monomial, unknown);
+                for _ in 0..power / 2 {
+                    vector = applied(&vector, product(unknown, false)?);
+                }
+                if power % 2 == 1 {
+                    vector = applied(&vector, product(unknown, true)?);
+                }
+            }
+            Some(vector)
+        };
+        let vanishes = |equation: &Sparse<F>| {
+            let mut sum = vec![F::zero(); self.standard.len()];
+            for (monomial, c) in equation {
+                let Some(vector) = value(*monomial) else { return false };
+                sum.iter_mut().zip(&vector).for_each(|(x, y)| x.add_product(c, y));
+            }
+            sum.iter().all(F::is_zero)
+        };
+        let generates = |(k, column): (usize, &usize)| value(self.relations.columns[*column]) == Some(unit(k));
+        commute
+            && on_circle
+            && equations(&self.closed).iter().all(vanishes)
+            && self.standard.iter().enumerate().all(generates)
     }
 
     /// The loop as it is read here, and which unknown of the original one is first.

@@ -1,17 +1,20 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
 use super::by_input::{ByInput, Prepared};
+use super::exact_modes::exact_mode;
 use super::{FullMode, Solution};
-use crate::algebra::drawn::Drawn;
+use crate::algebra::drawn::{self, Drawn};
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
+use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, AxisTriple, Gap, Mode, Roots, Solver, Workspace, coupler, wrapped};
+use crate::assembly::{Assembly, AxisTriple, Gap, Mode, Roots, Solver, Workspace, are_apart, coupler, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
+use crate::exact::{self, Known, MOST_WITH_TRIPLE, Resolution, general_rank, has_triple, resolve};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{
     ClosedLoop, Coupled, Layout, Numbers, OpenCoupled, OpenLoop, Variable, angle_motion, distance_motion,
@@ -21,6 +24,7 @@ use crate::kinematics::motion::Motion;
 use crate::solve::scalar::Extended;
 use crate::verdict::{Bound, Code, Proof, Status, Verdict, verdict};
 use num_complex::Complex;
+use rug::Rational;
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
@@ -53,6 +57,9 @@ struct Balls {
 /// Modes of a lower condition number are those of the mechanism that rounded data stand for: these are off by 1e-17.
 const FIRM: f64 = 1e10;
 
+/// A solution in balls.
+type ExactSolution<const BITS: u32> = exact::Solution<BITS>;
+
 /// The field of exact degree counts.
 type Mod = Drawn;
 
@@ -67,6 +74,18 @@ fn bound_from(degree: Degree, place: &str) -> Bound {
         )
     };
     Bound { count: degree.solutions, proof: Proof::None, code: Code::CountMet, because }
+}
+
+/// The bound of arms with three neighbouring axes that are parallel or meet in a point.
+fn of_triple() -> Bound {
+    Bound {
+        count: MOST_WITH_TRIPLE,
+        proof: Proof::Proved,
+        code: Code::GeometryBoundMet,
+        because: format!(
+            "at most {MOST_WITH_TRIPLE} that an arm with three neighbouring axes parallel or through one point can have"
+        ),
+    }
 }
 
 /// The dimension of the ring of a loop as a bound.
@@ -101,8 +120,16 @@ impl SixUnknowns {
             let general = |choice| self.modular(chain, &general_filling(locked, choice)?);
             let other = if locked.is_none() { general(1) } else { None };
             let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref()));
-            counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"))
+            let bound = counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"));
+            let is_met = || bound.count == MOST_WITH_TRIPLE && self.has_triple(chain);
+            if bound.code == Code::CountMet && is_met() { of_triple() } else { bound }
         })
+    }
+
+    /// Whether three neighbouring axes are parallel or meet in a point, exactly.
+    fn has_triple(&self, chain: &Chain) -> bool {
+        let open: Option<OpenLoop<Rational>> = chain.try_open_loop(&self.layout).ok().flatten();
+        self.layout.ball_unknown().is_none() && open.is_some_and(|open| has_triple(&open))
     }
 
     /// The number of solutions, exactly.
@@ -272,14 +299,20 @@ impl Question<'_> {
             let skip = self.roots == Roots::Real && !solver.is_special();
             if skip { Bound::general(self.prepared.general()) } else { self.prepared.bound(&self.of.chain).clone() }
         };
-        let (rank, general) = (solver.structural_rank(), self.prepared.general());
+        let (rank, general) = (self.rank(), self.prepared.general());
         let here = || self.count_here(assembly.total());
-        verdict(assembly, self.roots, rank, general, everywhere, here, solver.too_far(self.gap))
+        let verdict = verdict(assembly, self.roots, rank, general, everywhere, here, solver.too_far(self.gap));
+        // Incidences of rounded axes may be those of the rounded numbers only.
+        let is_exact = verdict.code != Code::GeometryBoundMet;
+        Verdict {
+            proof: if is_exact { verdict.proof } else { verdict.proof.of_rounded(self.of.is_rounded) },
+            ..verdict
+        }
     }
 
     /// How many solutions there are, where all are wanted and not found.
     fn expected(&self, verdict: &Verdict) -> Option<usize> {
-        if self.roots == Roots::Real || self.prepared.solver.structural_rank() < 6 {
+        if self.roots == Roots::Real || self.rank() < 6 {
             return None;
         }
         // What moves in f64 does not by its exact equations, unless rounded data made that so.
@@ -341,17 +374,31 @@ impl Question<'_> {
     /// The verdict, and microseconds for the search.
     fn answer(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> (Verdict, f64) {
         let start = Instant::now();
-        let elapsed_us = || start.elapsed().as_secs_f64() * 1e6;
+        let verdict = self.verdict(workspace, assembly);
+        (verdict, start.elapsed().as_secs_f64() * 1e6)
+    }
+
+    fn verdict(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> Verdict {
         if let Some(verdict) = self.by_longer_numbers(workspace, assembly) {
-            return (verdict, elapsed_us());
+            return self.by_exact_roots(verdict, assembly).0;
         }
         let most = || self.prepared.bound(&self.of.chain).count;
-        self.prepared.solver.solve_up_to(self.gap, self.roots, &most, workspace, assembly);
-        let mut solve_us = elapsed_us();
-        let mut verdict = self.judge(assembly);
-        if let Some(completed) = self.completed(&verdict, assembly) {
-            (verdict, solve_us) = (completed, elapsed_us());
+        let SixUnknowns { solver, .. } = self.prepared;
+        if self.has_eliminants() {
+            solver.solve_by_pencils(self.gap, &most, workspace, assembly);
+            let (verdict, is_settled) = self.by_exact_roots(self.judge(assembly), assembly);
+            if is_settled {
+                return verdict;
+            }
         }
+        solver.solve_up_to(self.gap, self.roots, &most, workspace, assembly);
+        let mut verdict = self.judge(assembly);
+        if !self.has_eliminants() {
+            if let Some(completed) = self.completed(&verdict, assembly) {
+                verdict = completed;
+            }
+        }
+        let (mut verdict, _) = self.by_exact_roots(verdict, assembly);
         if verdict.status == Status::SelfMotion
             && self.of.is_rounded
             && self.case.pose.is_none()
@@ -363,8 +410,160 @@ impl Question<'_> {
                  isolated solutions only, at most {count}"
             );
         }
-        (verdict, solve_us)
+        verdict
     }
+
+    /// Whether the solutions are roots of eliminants that decide what f64 leaves open.
+    fn has_eliminants(&self) -> bool {
+        let rotations = self.prepared.layout.loop_kinds().iter().all(|kind| *kind == Variable::Rotation);
+        self.roots == Roots::All && rotations && self.prepared.layout.ball_unknown().is_none()
+    }
+
+    /// The verdict by the roots of the exact eliminants, where the one at hand is not proved, and whether that is the last
+    /// word. The list becomes that of the eliminants where these tell all solutions.
+    fn by_exact_roots(&self, verdict: Verdict, assembly: &mut Assembly) -> (Verdict, bool) {
+        if verdict.proof.is_proved() {
+            return (verdict, true);
+        }
+        let is_asked = self.roots == Roots::All
+            && self.prepared.layout.ball_unknown().is_none()
+            && self.prepared.general() == GENERAL
+            && self.rank() == 6;
+        let loops = if is_asked { self.exact().zip(self.modular()) } else { None };
+        let Some((exact, modular)) = loops else { return (verdict, false) };
+        let places = distinct(&assembly.modes, &exact.variables);
+        let known: Vec<Known> = places.iter().map(|&k| known(&assembly.modes[k])).collect();
+        match resolve::<BALL_BITS>(&exact, &modular, &known) {
+            Resolution::AllKnown => {
+                assembly.modes = places.iter().map(|&k| assembly.modes[k].clone()).collect();
+                assembly.self_motion = 0;
+                (self.resolved(assembly), true)
+            }
+            Resolution::All(solutions) => {
+                let Some(closed) = in_f64(&exact) else { return (verdict, false) };
+                let mode = |solution: &ExactSolution<BALL_BITS>| match solution {
+                    ExactSolution::Known(k) => assembly.modes[places[*k]].clone(),
+                    ExactSolution::Found { pairs, is_real, multiplicity } => {
+                        exact_mode(&closed, pairs, *is_real, *multiplicity)
+                    }
+                };
+                let modes: Vec<Mode> = solutions.iter().map(mode).collect();
+                assembly.modes = modes;
+                assembly.self_motion = 0;
+                in_order(&mut assembly.modes);
+                (self.resolved(assembly), true)
+            }
+            Resolution::Vanishing(_) => (self.probable(verdict, assembly), false),
+            Resolution::Finite { most } if verdict.status == Status::SelfMotion => {
+                let reason =
+                    format!("not proved: finitely many solutions, at most {most}, of which some are multiple or crowd");
+                let verdict = Verdict {
+                    status: Status::Incomplete,
+                    proof: Proof::None,
+                    code: Code::UnknownMultiplicity,
+                    complex_complete: false,
+                    self_motion: 0,
+                    reason,
+                    ..verdict
+                };
+                (verdict, false)
+            }
+            Resolution::Finite { .. } => (self.probable(verdict, assembly), false),
+        }
+    }
+
+    /// A list of certified solutions that is as long as a count modulo the drawn prime is complete with a probability.
+    fn probable(&self, verdict: Verdict, assembly: &Assembly) -> Verdict {
+        let is_counted = verdict.complex_complete && verdict.code == Code::CountMet;
+        let is_certified = assembly.modes.iter().all(|mode| mode.certificate.is_some());
+        if !(is_counted && is_certified) {
+            return verdict;
+        }
+        let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
+        Verdict { proof, ..verdict }
+    }
+
+    /// The verdict on a list that holds a solution for every root of an exact eliminant.
+    fn resolved(&self, assembly: &Assembly) -> Verdict {
+        let (complex, real) = (assembly.total(), assembly.real());
+        let multiple = assembly.modes.iter().filter(|mode| mode.multiplicity > 1).count();
+        let also = match multiple {
+            0 => String::new(),
+            several => format!(", {several} of them multiple"),
+        };
+        let number = assembly.modes.len();
+        let reason = format!(
+            "{number} distinct certified solutions{also}: the exact eliminants of this case have no other root that closes \
+             the loop"
+        );
+        Verdict {
+            status: if real == 0 { Status::Unreachable } else { Status::Complete },
+            proof: Proof::Proved.of_rounded(self.of.is_rounded),
+            code: Code::ExactRootsMatched,
+            complex_complete: true,
+            complex,
+            real,
+            at_infinity: self.prepared.general().saturating_sub(complex),
+            self_motion: 0,
+            certified: number,
+            reason,
+        }
+    }
+
+    /// The loop over the rationals.
+    fn exact(&self) -> Option<ClosedLoop<Rational>> {
+        let open: OpenLoop<Rational> = self.of.chain.try_open_loop(&self.prepared.layout).ok().flatten()?;
+        Some(open.close(&filling(self.case).ok()?))
+    }
+
+    /// The rank of the six joint screws in general position. What f64 calls deficient is asked modulo the prime, where full
+    /// rank proves full rank.
+    fn rank(&self) -> usize {
+        let measured = self.prepared.solver.structural_rank();
+        if measured == 6 {
+            return measured;
+        }
+        self.modular().map_or(measured, |closed| general_rank(&closed).max(measured))
+    }
+}
+
+/// The closure polynomial of general loops with five or six unknown rotations has this degree.
+const GENERAL: usize = 16;
+/// Bits of the balls in which exact roots are compared: solutions that differ by more than about `1e-70` are told apart.
+const BALL_BITS: u32 = 256;
+
+/// The places of modes with certificate of which no two can be the same solution.
+fn distinct(modes: &[Mode], variables: &[Variable; 6]) -> Vec<usize> {
+    let mut places: Vec<usize> = Vec::new();
+    for (k, mode) in modes.iter().enumerate() {
+        let is_simple = mode.certificate.is_some() && mode.multiplicity == 1;
+        if is_simple && places.iter().all(|&j| are_apart(variables, &modes[j], mode)) {
+            places.push(k);
+        }
+    }
+    places
+}
+
+/// A certified mode as an enclosure of its solution.
+fn known(mode: &Mode) -> Known {
+    let size = mode.unknowns.iter().map(|z| z.norm()).fold(1.0, f64::max);
+    let radius = mode.certificate.map_or(f64::INFINITY, |c| c.proved) + 4.0 * f64::EPSILON * size;
+    Known { unknowns: mode.unknowns, radius }
+}
+
+/// A loop rounded to f64.
+fn in_f64(exact: &ClosedLoop<Rational>) -> Option<ClosedLoop<f64>> {
+    let constants = exact.constants.each_ref().map(|motion| motion.map(|x| Some(nearest_f64(x))));
+    let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = constants else { return None };
+    Some(ClosedLoop { variables: exact.variables, constants: [a, b, c, d, e, f] })
+}
+
+/// Real modes first, then by their unknowns.
+fn in_order(modes: &mut [Mode]) {
+    modes.sort_by(|a, b| {
+        let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));
+        b.real.cmp(&a.real).then_with(|| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal))
+    });
 }
 
 /// The way to solve a loop, prepared.

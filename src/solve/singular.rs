@@ -192,7 +192,7 @@ fn project(closed: &ClosedLoop<f64>, unknowns: &mut Six<f64>, full_rank: usize) 
 }
 
 /// Whether a real solution lies on a self-motion, for any corank: steps in directions of the kernel and slides back.
-/// The dimension is the corank of the Jacobian where it is least on the points found.
+/// The dimension is the least one at the points found.
 #[must_use]
 pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usize> {
     let (count, vectors) = rank(closed, unknowns);
@@ -224,9 +224,7 @@ pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usiz
             let defect = project(closed, &mut slid, keep);
             let distance = (0..6).map(|k| (slid[k] - unknowns[k]).abs()).fold(0.0, f64::max);
             if defect < CURVE && distance > 1e-3 && distance < 0.5 {
-                let (there, _) = rank(closed, &slid);
-                if there < 6 {
-                    let dimension = 6 - there;
+                if let Some(dimension) = dimension_at(closed, &slid) {
                     best = Some(best.map_or(dimension, |b: usize| b.min(dimension)));
                 }
                 break;
@@ -234,6 +232,46 @@ pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usiz
         }
     }
     best
+}
+
+/// How far a step goes that explores a self-motion.
+const STEP: f64 = 0.01;
+/// Directions in which points of a self-motion lie beside one of its points: those with at least this part of the largest
+/// spread. A curve bends by a part of about one step of 0.01 out of its tangent.
+const SPREAD: f64 = 0.15;
+
+/// The dimension of the solutions at one of them on a self-motion, by where points beside it lie: the corank may be larger,
+/// also all along a curve. `None` for a regular point.
+fn dimension_at(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usize> {
+    let (count, vectors) = rank(closed, unknowns);
+    let corank = 6 - count;
+    if corank <= 1 || count == 0 {
+        return (corank > 0).then_some(corank);
+    }
+    // A fixed sequence of directions in the kernel, several for each dimension.
+    let directions = (1..=6 * corank).map(|trial| {
+        let weights: Vec<f64> = (0..corank).map(|k| ((trial * 5 + k * 11) as f64 * 2.399_963).sin()).collect();
+        let norm = weights.iter().map(|w| w * w).sum::<f64>().sqrt().max(1e-9);
+        let entry = |j: usize| (0..corank).map(|k| weights[k] / norm * vectors[count + k][j]).sum::<f64>();
+        std::array::from_fn::<f64, 6, _>(entry)
+    });
+    let mut moment = Matrix6::zeros();
+    for direction in directions {
+        let start: Six<f64> = std::array::from_fn(|j| unknowns[j] + STEP * direction[j]);
+        for keep in count..6 {
+            let mut slid = start;
+            let defect = project(closed, &mut slid, keep);
+            let moved = Vector6::from_fn(|j, _| (slid[j] - unknowns[j]) / STEP);
+            if defect < CURVE && moved.norm() < 10.0 {
+                moment += moved * moved.transpose();
+                break;
+            }
+        }
+    }
+    let spreads: Vec<f64> = moment.symmetric_eigenvalues().iter().map(|x| x.max(0.0).sqrt()).collect();
+    let largest = spreads.iter().copied().fold(0.0, f64::max);
+    let dimension = spreads.iter().filter(|spread| **spread > SPREAD * largest).count();
+    Some(dimension.clamp(1, corank))
 }
 
 /// The largest rank of the twists of the loop's joints over a few fixed generic positions of the unknowns, the loop

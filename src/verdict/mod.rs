@@ -118,6 +118,10 @@ pub fn verdict(
     } else {
         count(assembly, roots, general, geometry, pose)
     };
+    // What has no certificate is multiple, real or distinct as measured.
+    if certified(&assembly.modes) < assembly.modes.len() {
+        judged.proof = Proof::None;
+    }
     if assembly.rescued > 0 {
         let (rescued, bits) = (assembly.rescued, assembly.rescued_in);
         judged.reason += &format!("; {rescued} of them found or proved in {bits}-bit arithmetic only");

@@ -1,0 +1,120 @@
+//! Eliminants over the integers: polynomials of which the half-angle tangent of one unknown is a root at every solution.
+//!
+//! The determinant of a cut's pencil has, at every value of the hidden unknown, at least the order of the number of isolated
+//! solutions with that value, counted with multiplicity. For let the geometry vary: a general loop nearby has 16
+//! solutions with 16 values, all of them simple roots, and near an isolated solution of multiplicity m there are m of
+//! them. The determinant varies continuously, and does not vanish identically, so that its root here has at least the
+//! order of the number of roots that come together in it. Near a point of a curve of solutions a general loop nearby
+//! has solutions, too: the order exceeds the number of isolated solutions where there is such a curve.
+
+use crate::algebra::determinant::modular as modular_determinant;
+use crate::algebra::drawn::Drawn;
+use crate::algebra::ring::Ring;
+use crate::algebra::univariate::Univariate;
+use crate::closure::half_angle::half_angle_form;
+use crate::elimination::coordinate_ring::Plan;
+use crate::elimination::cut::{Cut, Hidden};
+use crate::elimination::degree::closure_polynomial;
+use crate::elimination::pencil::{before_second_link, bilinear, pencil};
+use crate::kinematics::closed_loop::ClosedLoop;
+use rug::{Integer, Rational};
+use std::cmp::Reverse;
+
+/// Degree of the determinant of a pencil, with the roots at infinity.
+const DEGREE: usize = 16;
+
+/// The eliminant of one unknown.
+#[derive(Clone, Debug)]
+pub struct Eliminant {
+    /// Which of the six unknowns.
+    pub unknown: usize,
+    /// The polynomial in the tangent of half the unknown, without factors `1 + x^2`: primitive integers.
+    pub polynomial: Univariate<Integer>,
+    /// The order of the root at infinity, where the angle is pi.
+    pub at_pi: usize,
+}
+
+impl Eliminant {
+    /// The number of roots with multiplicity: no more isolated solutions, with multiplicity, are there.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.polynomial.degree().unwrap_or(0) + self.at_pi
+    }
+}
+
+/// A cut and the unknown that it hides, with what its determinant is modulo a prime.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    cut: Cut,
+    hidden: Hidden,
+    /// Which of the six unknowns is left.
+    pub unknown: usize,
+    /// The number of roots other than those of `1 + x^2`, modulo the prime.
+    pub count: usize,
+    distinct: usize,
+}
+
+/// All ways to eliminate a loop whose determinant does not vanish modulo the prime, best first: those with the fewest
+/// roots, and of these the ones with the most distinct roots. A filter; nothing rests on it.
+#[must_use]
+pub fn ways(closed: &ClosedLoop<Drawn>) -> Vec<Way> {
+    let hidings = [(Hidden::First, 0), (Hidden::Second, 1)];
+    let all =
+        Cut::ALL.into_iter().flat_map(|cut| hidings.map(|(hidden, place)| (cut, hidden, cut.unknown_index(place))));
+    let mut ways: Vec<Way> = all
+        .filter_map(|(cut, hidden, unknown)| {
+            let found = closure_polynomial(closed, cut, hidden)?;
+            let count = DEGREE - 2 * found.spurious;
+            let distinct = found.cofactor.square_free_part().degree().unwrap_or(0);
+            Some(Way { cut, hidden, unknown, count, distinct })
+        })
+        .collect();
+    ways.sort_by_key(|way| (way.count, Reverse(way.distinct)));
+    ways
+}
+
+/// Numbers of more bits in a loop make the relations of its ring over the rationals long.
+const SHORT: u32 = 64;
+
+/// The eliminant of an unknown as the characteristic polynomial of its values in the ring of the closure equations over the
+/// rationals, for loops whose determinants vanish: its roots have the multiplicities of the solutions. `None` where
+/// solutions form families, and where numbers are long.
+///
+/// Which relations lead to the ring is found modulo the prime. Each of them holds over the rationals as formed there, so
+/// that the ring has no larger dimension, and every solution is an eigenvector.
+#[must_use]
+pub fn eliminant_by_ring(
+    closed: &ClosedLoop<Rational>,
+    modular: &ClosedLoop<Drawn>,
+    unknown: usize,
+) -> Option<Eliminant> {
+    let bits = |x: &Rational| x.numer().significant_bits().max(x.denom().significant_bits());
+    let numbers = closed.constants.iter().flat_map(|g| g.rotation.iter().flatten().chain(&g.translation));
+    if numbers.map(bits).max() > Some(SHORT) {
+        return None;
+    }
+    let cut = Cut { rotation: unknown, reversed: false };
+    let ring = Plan::of(&cut.of(modular))?.ring(&cut.of(closed))?;
+    let (rotated, _) = ring.view();
+    let pencil = ring.tangent_pencil((6 - rotated) % 6);
+    let count = pencil[0].len();
+    let polynomial = Univariate::new(modular_determinant(&pencil).primitive_integers());
+    Some(Eliminant { unknown, at_pi: count - polynomial.degree()?, polynomial })
+}
+
+/// The eliminant that a way leads to; `None` where its determinant vanishes identically.
+#[must_use]
+pub fn eliminant(closed: &ClosedLoop<Rational>, way: &Way) -> Option<Eliminant> {
+    let view = way.cut.of(closed);
+    let rows = bilinear(&before_second_link(&half_angle_form(&view)?, &view.constants[1]), &view);
+    let determinant = modular_determinant(&pencil(&rows, way.hidden).coefficients);
+    let sign = |(k, c): (usize, &Rational)| if way.cut.reversed && k % 2 == 1 { c.neg() } else { c.clone() };
+    let signed = determinant.coefficients().iter().enumerate().map(sign).collect();
+    let mut polynomial = Univariate::new(Univariate::<Rational>::new(signed).primitive_integers());
+    let at_pi = DEGREE - polynomial.degree()?;
+    let circle = Univariate::new([1, 0, 1].map(Integer::from).to_vec());
+    while let Some(quotient) = polynomial.quotient(&circle) {
+        polynomial = quotient;
+    }
+    Some(Eliminant { unknown: way.unknown, polynomial, at_pi })
+}

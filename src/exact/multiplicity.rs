@@ -1,0 +1,103 @@
+//! How often candidates count, from upper bounds at every value of every unknown and the number of all solutions.
+
+use super::tuples::Tuple;
+
+/// What is known of the solutions before their multiplicities.
+pub struct Balance<'a> {
+    /// `[unknown][value]`: at most so many solutions, with multiplicity, have this value.
+    pub orders: &'a [Vec<usize>; 6],
+    /// Simple solutions.
+    pub simple: &'a [Tuple],
+    /// Other combinations that may be solutions: there are no more.
+    pub open: &'a [Tuple],
+}
+
+impl Balance<'_> {
+    /// How many solutions the open combinations can account for at a value of an unknown.
+    fn room(&self, unknown: usize, value: usize) -> usize {
+        let taken = self.simple.iter().filter(|tuple| tuple[unknown] == value).count();
+        self.orders[unknown][value].saturating_sub(taken)
+    }
+
+    /// The values of an unknown in open combinations.
+    fn occupied(&self, unknown: usize) -> Vec<usize> {
+        let mut values: Vec<usize> = self.open.iter().map(|tuple| tuple[unknown]).collect();
+        values.sort_unstable();
+        values.dedup();
+        values
+    }
+
+    /// At most so many solutions the open combinations account for, as one unknown tells.
+    fn most_by(&self, unknown: usize) -> usize {
+        self.occupied(unknown).into_iter().map(|value| self.room(unknown, value)).sum()
+    }
+
+    /// At most so many solutions there are, with multiplicity.
+    pub fn most(&self) -> usize {
+        self.simple.len() + (0..6).map(|unknown| self.most_by(unknown)).min().unwrap_or(0)
+    }
+
+    /// The multiplicities of the open combinations, 0 for those that are no solutions, where there are at least `least`
+    /// solutions with multiplicity; `None` where that leaves them open.
+    ///
+    /// If the values of an unknown allow for no more than `least`, each of them is taken up fully.
+    pub fn multiplicities(&self, least: usize) -> Option<Vec<usize>> {
+        let left = least.checked_sub(self.simple.len())?;
+        let tight: Vec<usize> = (0..6).filter(|&unknown| self.most_by(unknown) == left).collect();
+        let groups = tight.iter().flat_map(|&unknown| {
+            self.occupied(unknown).into_iter().map(move |value| (unknown, value, self.room(unknown, value)))
+        });
+        let groups: Vec<(usize, usize, usize)> = groups.collect();
+        let cap = |tuple: &Tuple| (0..6).map(|unknown| self.room(unknown, tuple[unknown])).min().unwrap_or(0);
+        let mut known: Vec<Option<usize>> = self.open.iter().map(|t| (cap(t) == 0).then_some(0)).collect();
+        loop {
+            let before = known.iter().flatten().count();
+            for (unknown, value, total) in &groups {
+                let members = (0..known.len()).filter(|&k| self.open[k][*unknown] == *value);
+                let (done, open): (Vec<usize>, Vec<usize>) = members.partition(|&k| known[k].is_some());
+                let rest = total.checked_sub(done.iter().filter_map(|&k| known[k]).sum())?;
+                let most: usize = open.iter().map(|&k| cap(&self.open[k])).sum();
+                match open.as_slice() {
+                    [] if rest > 0 => return None,
+                    [only] => known[*only] = Some(rest),
+                    several if rest == 0 => several.iter().for_each(|&k| known[k] = Some(0)),
+                    several if most == rest => several.iter().for_each(|&k| known[k] = Some(cap(&self.open[k]))),
+                    _ => {}
+                }
+            }
+            if known.iter().all(Option::is_some) {
+                break;
+            }
+            if known.iter().flatten().count() == before {
+                return None;
+            }
+        }
+        let all: Vec<usize> = known.into_iter().flatten().collect();
+        (all.iter().sum::<usize>() == left).then_some(all)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_double_solution_takes_up_what_the_simple_ones_leave() {
+        let orders = std::array::from_fn(|_| vec![1, 2, 1]);
+        let (simple, open) = ([[0; 6], [2; 6]], [[1; 6]]);
+        let balance = Balance { orders: &orders, simple: &simple, open: &open };
+        assert_eq!(balance.most(), 4);
+        assert_eq!(balance.multiplicities(4), Some(vec![2]));
+        // Without a lower bound that is met nothing follows.
+        assert_eq!(balance.multiplicities(3), None);
+    }
+
+    #[test]
+    fn shared_values_are_told_apart_by_another_unknown() {
+        let mut orders: [Vec<usize>; 6] = std::array::from_fn(|_| vec![4]);
+        orders[5] = vec![3, 1];
+        let open = [[0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 1]];
+        let balance = Balance { orders: &orders, simple: &[], open: &open };
+        assert_eq!(balance.multiplicities(4), Some(vec![3, 1]));
+    }
+}
