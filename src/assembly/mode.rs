@@ -59,6 +59,15 @@ impl Hits {
     }
 }
 
+/// A configuration on a self-motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FamilySample {
+    /// The six unknowns in loop order, lengths in the unit of the solver.
+    pub unknowns: Six<f64>,
+    /// Which of them move; none where that is not known.
+    pub moving: [bool; 6],
+}
+
 /// What was found at one pose or input.
 #[derive(Clone, Debug, Default)]
 pub struct Assembly {
@@ -66,6 +75,8 @@ pub struct Assembly {
     pub modes: Vec<Mode>,
     /// Dimension of the self-motion, 0 if there is none.
     pub self_motion: usize,
+    /// A configuration on the self-motion, if there is one.
+    pub family: Option<FamilySample>,
     /// Whether some cut gave a pencil whose every root was accounted for.
     pub clean: bool,
     /// Whether some cut gave a pencil whose every root near the real axis was accounted for, and one root at least led
@@ -83,6 +94,7 @@ impl Assembly {
     /// Forgets what was found.
     pub fn clear(&mut self) {
         self.modes.clear();
+        self.family = None;
         self.real_clean = false;
         (self.self_motion, self.clean, self.tries, self.rescued) = (0, false, 0, 0);
     }

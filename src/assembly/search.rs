@@ -2,7 +2,7 @@
 
 use super::ball::canonical;
 use super::limits;
-use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
+use super::mode::{Assembly, FamilySample, Hits, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
 use super::proof::certificate_in_reach;
 use super::shifted::Shifted;
@@ -20,7 +20,7 @@ use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{SHARED, at_root, double_angle, kernel};
 use crate::solve::newton::{Polished, Six, approach, closure, polish, reach};
 use crate::solve::scalar::Scalar;
-use crate::solve::singular::{Nature, nature, pair, self_motion, spread};
+use crate::solve::singular::{Nature, SelfMotion, nature, pair, self_motion, spread};
 use num_complex::Complex;
 
 /// A cut, the loop as it reads it, and its elimination.
@@ -480,7 +480,7 @@ impl Search<'_> {
     /// Decides what the modes without certificate are: multiple, points of a self-motion, or unknown.
     fn resolve_singular(&mut self) {
         let closed = self.closed;
-        let mut dimension = 0;
+        let (mut dimension, mut sample) = (0, None);
         // Real solutions decide whether there is a self-motion.
         self.assembly.modes.retain_mut(|mode| {
             if mode.certificate.is_some() || !mode.real {
@@ -493,15 +493,24 @@ impl Search<'_> {
                     return true;
                 }
                 // A curve may lie in a surface.
-                Nature::SelfMotion(least) => Some(self_motion(closed, &q).unwrap_or(least)),
+                Nature::SelfMotion(least) => {
+                    let measured = self_motion(closed, &q);
+                    Some(measured.unwrap_or(SelfMotion { dimension: least, moving: [false; 6] }))
+                }
                 Nature::Unresolved => self_motion(closed, &q),
             };
-            dimension = dimension.max(moves.unwrap_or(0));
+            if let Some(motion) = moves
+                && motion.dimension > dimension
+            {
+                dimension = motion.dimension;
+                sample = Some(FamilySample { unknowns: q, moving: motion.moving });
+            }
             // Several singular directions: the roots of a pencil that led here tell how many solutions coincide.
             mode.multiplicity = if mode.hits.most > 1 { mode.hits.most } else { 0 };
             moves.is_none()
         });
         self.assembly.self_motion = dimension;
+        self.assembly.family = sample;
         self.assembly.modes.retain_mut(|mode| {
             if mode.certificate.is_some() || mode.real {
                 return true;

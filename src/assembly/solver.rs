@@ -325,6 +325,12 @@ impl Solver {
                 (proof.radius, proof.proved) = (proof.radius * grown, proof.proved * grown);
             }
         }
+        let family = assembly.family.as_mut().map(|family| family.unknowns.iter_mut()).into_iter().flatten();
+        for (value, variable) in family.zip(self.open.variables) {
+            if variable == Variable::Translation {
+                *value *= factor;
+            }
+        }
     }
 
     /// Puts the modes in order, in the unit of the mechanism.

@@ -2,13 +2,16 @@
 
 use super::by_input::{ByInput, Prepared};
 use super::exact_modes::exact_mode;
+use super::family::Family;
 use super::{FullMode, Solution};
 use crate::algebra::drawn::{self, Drawn};
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, AxisTriple, Gap, Mode, Roots, Solver, Workspace, are_apart, coupler, wrapped};
+use crate::assembly::{
+    Assembly, AxisTriple, FamilySample, Gap, Mode, Roots, Solver, Workspace, are_apart, coupler, wrapped,
+};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::{Degree, degree, general_filling};
@@ -194,8 +197,11 @@ impl SingleLoop {
             let q = prepared.layout.assemble(&mode.unknowns, locked_value);
             full_mode(mode, q, &prepared.layout.variables, &self.limits)
         });
+        let is_moving = verdict.status == Status::SelfMotion;
+        let sample = assembly.family.filter(|_| is_moving);
+        let families = sample.map(|sample| family(&sample, verdict.self_motion, &prepared.layout, locked_value.re));
         Ok(Solution {
-            families: Vec::new(),
+            families: families.into_iter().collect(),
             verdict,
             modes: modes.collect(),
             warnings: case.warnings.clone(),
@@ -593,6 +599,19 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
     }
     let (modular, enclosed, bound) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
     Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular, enclosed, bound })))
+}
+
+/// A self-motion as an answer.
+fn family(sample: &FamilySample, dimension: usize, layout: &Layout, locked: f64) -> Family {
+    let moving = layout.assemble(&sample.moving, false);
+    let places = moving.iter().enumerate().filter(|(_, moves)| **moves).map(|(k, _)| k);
+    Family {
+        dimension,
+        moving: places.collect(),
+        distance: 0.0,
+        sample: layout.assemble(&sample.unknowns, locked),
+        samples: Vec::new(),
+    }
 }
 
 /// Why six joints are dependent, where two triples of their axes say it.

@@ -191,16 +191,25 @@ fn project(closed: &ClosedLoop<f64>, unknowns: &mut Six<f64>, full_rank: usize) 
     defect
 }
 
+/// A self-motion as measured at its points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SelfMotion {
+    /// Its dimension.
+    pub dimension: usize,
+    /// Which unknowns move along it.
+    pub moving: [bool; 6],
+}
+
 /// Whether a real solution lies on a self-motion, for any corank: steps in directions of the kernel and slides back.
-/// The dimension is the least one at the points found.
+/// The dimension is the least one at the points found, and all unknowns move that move at one of them.
 #[must_use]
-pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usize> {
+pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<SelfMotion> {
     let (count, vectors) = rank(closed, unknowns);
     if count == 6 || count == 0 {
         return None;
     }
     let corank = 6 - count;
-    let mut best: Option<usize> = None;
+    let mut best: Option<SelfMotion> = None;
     // Kernel directions, then mixtures of them: curves leave a point of higher corank only along special ones.
     let mixtures = 2 * corank + if corank > 1 { 24 } else { 0 };
     for trial in 0..mixtures {
@@ -225,7 +234,11 @@ pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usiz
             let distance = (0..6).map(|k| (slid[k] - unknowns[k]).abs()).fold(0.0, f64::max);
             if defect < CURVE && distance > 1e-3 && distance < 0.5 {
                 if let Some(dimension) = dimension_at(closed, &slid) {
-                    best = Some(best.map_or(dimension, |b: usize| b.min(dimension)));
+                    let moving = std::array::from_fn(|k| (slid[k] - unknowns[k]).abs() > MOVED);
+                    best = Some(best.map_or(SelfMotion { dimension, moving }, |b: SelfMotion| SelfMotion {
+                        dimension: b.dimension.min(dimension),
+                        moving: std::array::from_fn(|k| b.moving[k] || moving[k]),
+                    }));
                 }
                 break;
             }
@@ -234,6 +247,8 @@ pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usiz
     best
 }
 
+/// Unknowns that change by less along a step of 0.02 stand still: rounding at a multiple curve reaches 1e-7.
+const MOVED: f64 = 1e-6;
 /// How far a step goes that explores a self-motion.
 const STEP: f64 = 0.01;
 /// Directions in which points of a self-motion lie beside one of its points: those with at least this part of the largest
