@@ -15,3 +15,5 @@ mod special;
 mod template;
 #[path = "platform/triangle.rs"]
 mod triangle;
+#[path = "platform/verdicts.rs"]
+mod verdicts;

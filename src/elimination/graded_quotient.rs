@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 /// Exponents of `z_0..z_3` and of up to four `tau`, a byte each.
 type Monomial = u64;
 /// Coefficients by monomials.
-type Sparse = BTreeMap<Monomial, u64>;
+type Sparse<E> = BTreeMap<Monomial, E>;
 
 /// One unknown.
 fn unknown(index: usize) -> Monomial {
@@ -31,35 +31,23 @@ fn weight(index: usize) -> usize {
 }
 
 /// One degree of the ring.
-#[derive(Default)]
-struct Degree {
+struct Degree<E> {
     /// The standard monomials, and their places.
     standard: Vec<Monomial>,
     places: HashMap<Monomial, usize>,
     /// Normal forms of the candidates.
-    normal: HashMap<Monomial, Vec<u64>>,
+    normal: HashMap<Monomial, Vec<E>>,
 }
 
 /// The ring up to some degree.
-pub struct GradedQuotient<'a> {
-    modulus: &'a Modulus,
+pub struct GradedQuotient<'a, A: Arithmetic> {
+    field: &'a A,
     unknowns: usize,
-    generators: Vec<(usize, Sparse)>,
-    degrees: Vec<Degree>,
+    generators: Vec<(usize, Sparse<A::Element>)>,
+    degrees: Vec<Degree<A::Element>>,
 }
 
-impl<'a> GradedQuotient<'a> {
-    /// The ring of a platform, in degree 0.
-    #[must_use]
-    pub fn new(modulus: &'a Modulus, setting: &Setting<u64>) -> Self {
-        let one = modulus.one();
-        let mut first = Degree { standard: vec![0], ..Degree::default() };
-        first.places.insert(0, 0);
-        first.normal.insert(0, vec![one]);
-        let unknowns = 4 + setting.count;
-        Self { modulus, unknowns, generators: generators(modulus, setting), degrees: vec![first] }
-    }
-
+impl GradedQuotient<'_, Modulus> {
     /// Adds a general quadric to the equations, before the ring goes on to degree 2: one dimension less.
     pub fn cut(&mut self, number: usize) {
         let monomials: Vec<Monomial> = (0..4)
@@ -67,14 +55,27 @@ impl<'a> GradedQuotient<'a> {
             .chain((4..self.unknowns).map(unknown))
             .collect();
         // Powers of numbers that have nothing to do with the equations.
-        let base = self.modulus.enter(1_000_003 + 7_919 * number as u64);
+        let base = self.field.enter(1_000_003 + 7_919 * number as u64);
         let mut c = base;
         let mut quadric = Sparse::new();
         for monomial in monomials {
-            c = Modulus::mul(self.modulus, Modulus::mul(self.modulus, c, c), base);
+            c = Modulus::mul(self.field, Modulus::mul(self.field, c, c), base);
             quadric.insert(monomial, c);
         }
         self.generators.push((2, quadric));
+    }
+}
+
+impl<'a, A: Arithmetic> GradedQuotient<'a, A> {
+    /// The ring of a platform, in degree 0.
+    #[must_use]
+    pub fn new(field: &'a A, setting: &Setting<A::Element>) -> Self {
+        let one = field.one();
+        let mut first = Degree { standard: vec![0], places: HashMap::new(), normal: HashMap::new() };
+        first.places.insert(0, 0);
+        first.normal.insert(0, vec![one]);
+        let unknowns = 4 + setting.count;
+        Self { field, unknowns, generators: generators(field, setting), degrees: vec![first] }
     }
 
     /// Dimension of the ring in a degree known already.
@@ -83,8 +84,9 @@ impl<'a> GradedQuotient<'a> {
         self.degrees[degree].standard.len()
     }
 
-    /// Goes on to the next degree.
-    pub fn advance(&mut self) {
+    /// Goes on to the next degree; `None` where `inverse` does not exist for a number that is not 0.
+    pub fn advance(&mut self, inverse: impl Fn(A::Element) -> Option<A::Element>) -> Option<()> {
+        let zero = self.field.zero();
         let degree = self.degrees.len();
         let below = |index: usize| degree.checked_sub(weight(index)).map(|d| (d, &self.degrees[d]));
         let mut candidates = BTreeSet::new();
@@ -100,7 +102,7 @@ impl<'a> GradedQuotient<'a> {
         let places: HashMap<Monomial, usize> = columns.iter().enumerate().map(|(k, m)| (*m, k)).collect();
         let mut rows = Vec::new();
         // Every product of an unknown with a candidate of lower degree that is not standard.
-        let mut seen: HashMap<Monomial, Vec<u64>> = HashMap::new();
+        let mut seen: HashMap<Monomial, Vec<A::Element>> = HashMap::new();
         for index in 0..self.unknowns {
             let Some((_, lower)) = below(index) else { continue };
             for (monomial, normal) in &lower.normal {
@@ -108,16 +110,16 @@ impl<'a> GradedQuotient<'a> {
                     continue;
                 }
                 let product = monomial + unknown(index);
-                let mut row = vec![0; columns.len()];
+                let mut row = vec![zero; columns.len()];
                 for (standard, c) in lower.standard.iter().zip(normal) {
                     row[places[&(standard + unknown(index))]] = *c;
                 }
                 if let Some(&place) = places.get(&product) {
-                    row[place] = Modulus::sub(self.modulus, row[place], self.modulus.one());
+                    row[place] = self.field.sub(row[place], self.field.one());
                     rows.push(row);
                 } else if let Some(other) = seen.get(&product) {
                     for (x, y) in row.iter_mut().zip(other) {
-                        *x = Modulus::sub(self.modulus, *x, *y);
+                        *x = self.field.sub(*x, *y);
                     }
                     rows.push(row);
                 } else {
@@ -126,14 +128,15 @@ impl<'a> GradedQuotient<'a> {
             }
         }
         for (_, generator) in self.generators.iter().filter(|(d, _)| *d == degree) {
-            let mut row = vec![0; columns.len()];
+            let mut row = vec![zero; columns.len()];
             for (monomial, c) in generator {
                 self.expand(degree, *monomial, *c, &places, &mut row);
             }
             rows.push(row);
         }
-        let next = solved(self.modulus, rows, &columns);
+        let next = solved(self.field, inverse, rows, &columns)?;
         self.degrees.push(next);
+        Some(())
     }
 
     /// Adds a multiple of a monomial of a degree, as a combination of the candidates of that degree.
@@ -141,30 +144,30 @@ impl<'a> GradedQuotient<'a> {
         &self,
         degree: usize,
         monomial: Monomial,
-        factor: u64,
+        factor: A::Element,
         places: &HashMap<Monomial, usize>,
-        row: &mut [u64],
+        row: &mut [A::Element],
     ) {
         let Some(index) = (0..self.unknowns).find(|&k| contains(monomial, k)) else { return };
         let lower = degree - weight(index);
         let normal = self.normal(lower, monomial - unknown(index));
         for (standard, c) in self.degrees[lower].standard.iter().zip(&normal) {
             let place = places[&(standard + unknown(index))];
-            row[place] = Modulus::add(self.modulus, row[place], Modulus::mul(self.modulus, factor, *c));
+            row[place] = self.field.add(row[place], self.field.mul(factor, *c));
         }
     }
 
     /// The normal form of any monomial of a degree known already.
-    fn normal(&self, degree: usize, monomial: Monomial) -> Vec<u64> {
+    fn normal(&self, degree: usize, monomial: Monomial) -> Vec<A::Element> {
         if let Some(normal) = self.degrees[degree].normal.get(&monomial) {
             return normal.clone();
         }
-        let mut sum = vec![0; self.dimension(degree)];
+        let mut sum = vec![self.field.zero(); self.dimension(degree)];
         if let Some(index) = (0..self.unknowns).find(|&k| contains(monomial, k)) {
             let lower = degree - weight(index);
             let below = self.normal(lower, monomial - unknown(index));
             for (standard, c) in self.degrees[lower].standard.iter().zip(&below) {
-                self.modulus.add_multiple(&mut sum, *c, &self.degrees[degree].normal[&(standard + unknown(index))]);
+                self.field.add_multiple(&mut sum, *c, &self.degrees[degree].normal[&(standard + unknown(index))]);
             }
         }
         sum
@@ -172,23 +175,23 @@ impl<'a> GradedQuotient<'a> {
 
     /// `z_index v` for v of a degree.
     #[must_use]
-    pub fn times(&self, degree: usize, index: usize, v: &[u64]) -> Vec<u64> {
+    pub fn times(&self, degree: usize, index: usize, v: &[A::Element]) -> Vec<A::Element> {
         let (lower, upper) = (&self.degrees[degree], &self.degrees[degree + weight(index)]);
-        let mut product = vec![0; upper.standard.len()];
+        let mut product = vec![self.field.zero(); upper.standard.len()];
         for (standard, c) in lower.standard.iter().zip(v) {
-            self.modulus.add_multiple(&mut product, *c, &upper.normal[&(standard + unknown(index))]);
+            self.field.add_multiple(&mut product, *c, &upper.normal[&(standard + unknown(index))]);
         }
         product
     }
 
     /// `N v` for v of a degree.
     #[must_use]
-    pub fn times_norm(&self, degree: usize, v: &[u64]) -> Vec<u64> {
-        let mut sum = vec![0; self.dimension(degree + 2)];
+    pub fn times_norm(&self, degree: usize, v: &[A::Element]) -> Vec<A::Element> {
+        let mut sum = vec![self.field.zero(); self.dimension(degree + 2)];
         for index in 0..4 {
             let product = self.times(degree + 1, index, &self.times(degree, index, v));
             for (s, p) in sum.iter_mut().zip(&product) {
-                *s = Modulus::add(self.modulus, *s, *p);
+                *s = self.field.add(*s, *p);
             }
         }
         sum
@@ -196,21 +199,29 @@ impl<'a> GradedQuotient<'a> {
 }
 
 /// Solves relations for the candidates that come first.
-fn solved(modulus: &Modulus, mut rows: Vec<Vec<u64>>, columns: &[Monomial]) -> Degree {
+fn solved<A: Arithmetic>(
+    field: &A,
+    inverse: impl Fn(A::Element) -> Option<A::Element>,
+    mut rows: Vec<Vec<A::Element>>,
+    columns: &[Monomial],
+) -> Option<Degree<A::Element>> {
+    let zero = field.zero();
     let width = columns.len();
     let mut pivots = Vec::new();
     let mut rank = 0;
     for column in 0..width {
-        let Some(best) = (rank..rows.len()).find(|&i| rows[i][column] != 0) else { continue };
+        let Some(best) = (rank..rows.len()).find(|&i| rows[i][column] != zero) else { continue };
         rows.swap(best, rank);
-        let inverse = modulus.inverse(rows[rank][column]);
+        let inverse = inverse(rows[rank][column])?;
         for x in &mut rows[rank][column..] {
-            *x = Modulus::mul(modulus, *x, inverse);
+            *x = field.mul(*x, inverse);
         }
         let (head, tail) = rows.split_at_mut(rank + 1);
         for row in tail {
-            let factor = modulus.neg(row[column]);
-            modulus.add_multiple(&mut row[column..], factor, &head[rank][column..]);
+            if row[column] != zero {
+                let factor = field.neg(row[column]);
+                field.add_multiple(&mut row[column..], factor, &head[rank][column..]);
+            }
         }
         pivots.push(column);
         rank += 1;
@@ -218,42 +229,44 @@ fn solved(modulus: &Modulus, mut rows: Vec<Vec<u64>>, columns: &[Monomial]) -> D
     for k in (1..rank).rev() {
         let (head, tail) = rows.split_at_mut(k);
         for row in head {
-            let factor = modulus.neg(row[pivots[k]]);
-            modulus.add_multiple(&mut row[pivots[k]..], factor, &tail[0][pivots[k]..]);
+            if row[pivots[k]] != zero {
+                let factor = field.neg(row[pivots[k]]);
+                field.add_multiple(&mut row[pivots[k]..], factor, &tail[0][pivots[k]..]);
+            }
         }
     }
     let is_pivot: BTreeSet<usize> = pivots.iter().copied().collect();
     let free: Vec<usize> = (0..width).filter(|k| !is_pivot.contains(k)).collect();
-    let mut degree = Degree::default();
+    let mut degree = Degree { standard: Vec::new(), places: HashMap::new(), normal: HashMap::new() };
     for (t, &k) in free.iter().enumerate() {
         degree.standard.push(columns[k]);
         degree.places.insert(columns[k], t);
-        let mut unit = vec![0; free.len()];
-        unit[t] = modulus.one();
+        let mut unit = vec![zero; free.len()];
+        unit[t] = field.one();
         degree.normal.insert(columns[k], unit);
     }
     for (row, &k) in rows.iter().zip(&pivots) {
-        degree.normal.insert(columns[k], free.iter().map(|&f| modulus.neg(row[f])).collect());
+        degree.normal.insert(columns[k], free.iter().map(|&f| field.neg(row[f])).collect());
     }
-    degree
+    Some(degree)
 }
 
 /// The equations of a platform: the conditions left by a kernel of K, four cubics, two quartics.
-fn generators(modulus: &Modulus, setting: &Setting<u64>) -> Vec<(usize, Sparse)> {
-    let add = |target: &mut Sparse, monomial: Monomial, c: u64| {
-        let entry = target.entry(monomial).or_insert(0);
-        *entry = Modulus::add(modulus, *entry, c);
+fn generators<A: Arithmetic>(field: &A, setting: &Setting<A::Element>) -> Vec<(usize, Sparse<A::Element>)> {
+    let add = |target: &mut Sparse<A::Element>, monomial: Monomial, c: A::Element| {
+        let entry = target.entry(monomial).or_insert(field.zero());
+        *entry = field.add(*entry, c);
     };
-    let product = |a: &Sparse, b: &Sparse| {
+    let product = |a: &Sparse<A::Element>, b: &Sparse<A::Element>| {
         let mut sum = Sparse::new();
         for (m, x) in a {
             for (n, y) in b {
-                add(&mut sum, m + n, Modulus::mul(modulus, *x, *y));
+                add(&mut sum, m + n, field.mul(*x, *y));
             }
         }
         sum
     };
-    let quadratic = |form: &Form<u64>| {
+    let quadratic = |form: &Form<A::Element>| {
         let mut sum = Sparse::new();
         for (i, row) in form.iter().enumerate() {
             for (j, c) in row.iter().enumerate() {
@@ -262,7 +275,7 @@ fn generators(modulus: &Modulus, setting: &Setting<u64>) -> Vec<(usize, Sparse)>
         }
         sum
     };
-    let u: Vec<Sparse> = (0..7)
+    let u: Vec<Sparse<A::Element>> = (0..7)
         .map(|k| {
             let mut sum = quadratic(&setting.forms[k]);
             for a in 0..setting.count {
@@ -271,7 +284,7 @@ fn generators(modulus: &Modulus, setting: &Setting<u64>) -> Vec<(usize, Sparse)>
             sum
         })
         .collect();
-    let mut all: Vec<(usize, Sparse)> =
+    let mut all: Vec<(usize, Sparse<A::Element>)> =
         setting.dropped[..setting.count - 1].iter().map(|form| (2, quadratic(form))).collect();
     let unit = |k: usize| std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 });
     for i in 0..4 {
@@ -284,7 +297,7 @@ fn generators(modulus: &Modulus, setting: &Setting<u64>) -> Vec<(usize, Sparse)>
                         if sign > 0.0 {
                             add(&mut cubic, m + unknown(j), *c);
                         } else if sign < 0.0 {
-                            add(&mut cubic, m + unknown(j), modulus.neg(*c));
+                            add(&mut cubic, m + unknown(j), field.neg(*c));
                         }
                     }
                 }
@@ -292,10 +305,11 @@ fn generators(modulus: &Modulus, setting: &Setting<u64>) -> Vec<(usize, Sparse)>
         }
         all.push((3, cubic));
     }
-    let identity: Form<u64> = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { modulus.one() } else { 0 }));
+    let identity: Form<A::Element> =
+        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { field.one() } else { field.zero() }));
     let far = product(&quadratic(&identity), &u[0]);
     for part in [1..4, 4..7] {
-        let mut quartic: Sparse = far.iter().map(|(m, c)| (*m, modulus.neg(*c))).collect();
+        let mut quartic: Sparse<A::Element> = far.iter().map(|(m, c)| (*m, field.neg(*c))).collect();
         for k in part {
             for (m, c) in product(&u[k], &u[k]) {
                 add(&mut quartic, m, c);

@@ -149,8 +149,10 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
         settings.push(setting);
     }
     // A pose where one chart ends looks like a curve there: all charts must agree on one.
-    let Some(products) = settings.iter().find_map(|setting| special_products(&modulus, setting)) else {
-        let finite = |cuts: &usize| settings.iter().any(|setting| cut_products(&modulus, setting, *cuts).is_some());
+    let Some(products) =
+        settings.iter().find_map(|setting| special_products(&modulus, |x| inverse(&modulus, x), setting))
+    else {
+        let finite = |cuts: &usize| settings.iter().any(|setting| dimension_is(&modulus, setting, *cuts));
         let dimension = (1..MOST_DIMENSION).find(finite).unwrap_or(MOST_DIMENSION);
         return Some(PlatformDegree::Infinite { dimension });
     };
@@ -252,29 +254,43 @@ pub(super) fn echelon<A: Arithmetic>(
 const ATTEMPTS: [(usize, usize); 2] = [(1, 5), (2, 5)];
 
 /// The multiplication matrices where solutions with `N = 0` form curves, on what multiplication by a power of N leaves;
-/// `None` where that grows with the degree: a curve of poses.
+/// `None` where that grows with the degree: a curve of poses; and where `inverse` does not exist for a number that is not 0.
 #[must_use]
-pub fn special_products(modulus: &Modulus, setting: &Setting<u64>) -> Option<Products<u64>> {
-    cut_products(modulus, setting, 0)
+pub fn special_products<A: Arithmetic>(
+    field: &A,
+    inverse: impl Fn(A::Element) -> Option<A::Element> + Copy,
+    setting: &Setting<A::Element>,
+) -> Option<Products<A::Element>> {
+    finite_products(field, inverse, GradedQuotient::new(field, setting), setting.count)
 }
 
-/// The same of the poses on so many general quadrics.
-fn cut_products(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> Option<Products<u64>> {
+/// Whether so many general quadrics leave finitely many poses.
+fn dimension_is(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> bool {
     let mut ring = GradedQuotient::new(modulus, setting);
     for number in 0..cuts {
         ring.cut(number);
     }
+    finite_products(modulus, |x| inverse(modulus, x), ring, setting.count).is_some()
+}
+
+/// The matrices from a ring in degree 0, with so many unknowns beside the rotation.
+fn finite_products<A: Arithmetic>(
+    field: &A,
+    inverse: impl Fn(A::Element) -> Option<A::Element> + Copy,
+    mut ring: GradedQuotient<A>,
+    count: usize,
+) -> Option<Products<A::Element>> {
     let mut known = 0;
     for (power, degree) in ATTEMPTS {
         while known < degree + 1 + 2 * power {
-            ring.advance();
+            ring.advance(inverse)?;
             known += 1;
         }
         // N^power times the products of an unknown with every basis element m of a degree.
-        let images = |from: usize, index: usize| -> Vec<Vec<u64>> {
+        let images = |from: usize, index: usize| -> Vec<Vec<A::Element>> {
             let image = |k: usize| {
-                let mut v = vec![0; ring.dimension(from)];
-                v[k] = modulus.one();
+                let mut v = vec![field.zero(); ring.dimension(from)];
+                v[k] = field.one();
                 let mut v = ring.times(from, index, &v);
                 for step in 0..power {
                     v = ring.times_norm(degree + 1 + 2 * step, &v);
@@ -284,8 +300,8 @@ fn cut_products(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> Optio
             (0..ring.dimension(from)).map(image).collect()
         };
         let rotations = std::array::from_fn(|index| images(degree, index));
-        let translations: Vec<_> = (0..setting.count).flat_map(|a| images(degree - 1, 4 + a)).collect();
-        if let Some(products) = quotients(modulus, &rotations, &translations) {
+        let translations: Vec<_> = (0..count).flat_map(|a| images(degree - 1, 4 + a)).collect();
+        if let Some(products) = quotients(field, inverse, &rotations, &translations) {
             return Some(products);
         }
     }
@@ -294,51 +310,57 @@ fn cut_products(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> Optio
 
 /// The matrices of `z_i / z_0`, i = 1..3, on the span of the images of z_0; `None` where these or the others, those of the
 /// tau, reach farther. Poses that share their rotation differ in tau only.
-fn quotients(modulus: &Modulus, images: &[Vec<Vec<u64>>; 4], others: &[Vec<u64>]) -> Option<Products<u64>> {
+fn quotients<A: Arithmetic>(
+    field: &A,
+    inverse: impl Fn(A::Element) -> Option<A::Element>,
+    images: &[Vec<Vec<A::Element>>; 4],
+    others: &[Vec<A::Element>],
+) -> Option<Products<A::Element>> {
+    let zero = field.zero();
     // Rows (z_0 image | z_1 image | z_2 image | z_3 image), reduced by their first parts.
     let width = images[0].first().map_or(0, Vec::len);
-    let mut table: Vec<Vec<u64>> =
+    let mut table: Vec<Vec<A::Element>> =
         (0..images[0].len()).map(|k| images.iter().flat_map(|image| image[k].iter().copied()).collect()).collect();
     let mut pivots = Vec::new();
     for column in 0..width {
         let rank = pivots.len();
-        let Some(best) = (rank..table.len()).find(|&i| table[i][column] != 0) else { continue };
+        let Some(best) = (rank..table.len()).find(|&i| table[i][column] != zero) else { continue };
         table.swap(best, rank);
-        let inverse = modulus.inverse(table[rank][column]);
+        let inverse = inverse(table[rank][column])?;
         for x in &mut table[rank] {
-            *x = Modulus::mul(modulus, *x, inverse);
+            *x = field.mul(*x, inverse);
         }
         let pivot_row = table[rank].clone();
         for (i, row) in table.iter_mut().enumerate() {
-            if i != rank {
-                let factor = modulus.neg(row[column]);
-                modulus.add_multiple(row, factor, &pivot_row);
+            if i != rank && row[column] != zero {
+                let factor = field.neg(row[column]);
+                field.add_multiple(row, factor, &pivot_row);
             }
         }
         pivots.push(column);
     }
     let rank = pivots.len();
-    if table[rank..].iter().any(|row| row.iter().any(|&x| x != 0)) {
+    if table[rank..].iter().any(|row| row.iter().any(|&x| x != zero)) {
         return None;
     }
-    let rest = |v: &[u64]| {
+    let rest = |v: &[A::Element]| {
         let mut rest = v.to_vec();
         for (row, &column) in table.iter().zip(&pivots) {
-            modulus.add_multiple(&mut rest, modulus.neg(v[column]), &row[..width]);
+            field.add_multiple(&mut rest, field.neg(v[column]), &row[..width]);
         }
         rest
     };
-    if others.iter().any(|other| rest(other).iter().any(|&x| x != 0)) {
+    if others.iter().any(|other| rest(other).iter().any(|&x| x != zero)) {
         return None;
     }
-    let mut factors: Products<u64> = std::array::from_fn(|_| vec![vec![0; rank]; rank]);
+    let mut factors: Products<A::Element> = std::array::from_fn(|_| vec![vec![zero; rank]; rank]);
     for (i, factor) in factors.iter_mut().enumerate() {
         for k in 0..rank {
             let image = &table[k][(i + 1) * width..(i + 2) * width];
             for (j, &column) in pivots.iter().enumerate() {
                 factor[k][j] = image[column];
             }
-            if rest(image).iter().any(|&x| x != 0) {
+            if rest(image).iter().any(|&x| x != zero) {
                 return None;
             }
         }

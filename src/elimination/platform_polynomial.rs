@@ -126,7 +126,7 @@ impl Modular<'_> {
     fn polynomial(&self, modulus: &Modulus, memory: &mut BorderBasis<u64>) -> Option<Vec<u64>> {
         let setting = modular_setting(modulus, self.legs, self.squares)?;
         let products = if self.special {
-            special_products(modulus, &setting)?
+            special_products(modulus, |x| inverse(modulus, x), &setting)?
         } else {
             general_products(modulus, &setting, memory)?
         };
@@ -137,7 +137,11 @@ impl Modular<'_> {
     /// The same modulo several primes side by side; `None` where these differ in what is 0.
     fn polynomials(&self, field: &SideBySide, memory: &mut BorderBasis<Residues>) -> Option<[Vec<u64>; SIDE]> {
         let setting = setting_side_by_side(field, self.legs, self.squares)?;
-        let products = general_products(field, &setting, memory)?;
+        let products = if self.special {
+            special_products(field, |x| field.inverse(x), &setting)?
+        } else {
+            general_products(field, &setting, memory)?
+        };
         let moduli = field.moduli();
         let weights = self.weights.map(|w| field.join(moduli.map(|m| m.reduce(&Integer::from(w)))));
         let joined = self.characteristic(field, |x| field.inverse(x), products, weights)?;
@@ -195,7 +199,7 @@ impl PlatformAlgebra {
     pub(super) fn products(&self, modulus: &Modulus) -> Option<Products<u64>> {
         let setting = modular_setting(modulus, &self.legs, &self.squares)?;
         let products = if self.special {
-            special_products(modulus, &setting)?
+            special_products(modulus, |x| inverse(modulus, x), &setting)?
         } else {
             general_products(modulus, &setting, &mut BorderBasis::new(modulus))?
         };
@@ -314,7 +318,7 @@ fn clear(legs: &mut LinearLegs<Rational>, squares: &mut [Rational; 6]) {
 
 /// Residues of the monic polynomial for one prime after the other, put together.
 fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<PlatformPolynomial> {
-    let (mut all, prime_bits) = prime_numbers(modular);
+    let (mut all, prime_bits) = prime_numbers();
     let proof = Proof::new(modular, length, prime_bits);
     let mut combined = Combined::new(length);
     // Images that are not combined yet, because the guess agrees with them.
@@ -355,21 +359,16 @@ fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<Pl
 
 /// The primes that are worked with, largest first, and less than the binary logarithm of each: short ones where these
 /// go side by side.
-fn prime_numbers(modular: &Modular) -> (Box<dyn Iterator<Item = Modulus>>, f64) {
+fn prime_numbers() -> (Box<dyn Iterator<Item = Modulus>>, f64) {
     let short = || largest_primes().map(Modulus::new);
     let first: Vec<Modulus> = short().take(SIDE).collect();
     let fits = <[Modulus; SIDE]>::try_from(first).is_ok_and(|first| SideBySide::new(first).is_some());
-    if fits && !modular.special {
-        (Box::new(short()), f64::from(PRIME_BITS) - 0.001)
-    } else {
-        (Box::new(primes()), 61.999)
-    }
+    if fits { (Box::new(short()), f64::from(PRIME_BITS) - 0.001) } else { (Box::new(primes()), 61.999) }
 }
 
 /// The images of the polynomial modulo primes, in their order, without those of unlucky ones.
 fn images(modular: &Modular, group: &[Modulus], length: usize) -> Vec<(Modulus, Vec<u64>)> {
-    let side = if modular.special { 1 } else { SIDE };
-    let parts: Vec<&[Modulus]> = group.chunks(side).collect();
+    let parts: Vec<&[Modulus]> = group.chunks(SIDE).collect();
     let memory = || (None, BorderBasis::new(&group[0]));
     let found: Vec<Vec<Option<Vec<u64>>>> = parts
         .par_iter()

@@ -364,17 +364,19 @@ impl<'a> Search<'a> {
 
     /// The place in the list of a solution known to within `least`, or of its conjugate.
     fn known(&self, study: &Eight<Complex<f64>>, real: bool, least: f64) -> Option<usize> {
-        let same_rotation = |w: &Eight<Complex<f64>>, conjugate: bool| {
+        // Points of two balls differ by the sum of their radii, in each of eight coordinates.
+        let same_rotation = |w: &Eight<Complex<f64>>, conjugate: bool, room: f64| {
             let product: Complex<f64> = (0..4).map(|k| study[k] * if conjugate { w[k] } else { w[k].conj() }).sum();
-            product.norm_sqr() > 1.0 - SAME
+            product.norm_sqr() > 1.0 - SAME - 64.0 * room * room
         };
         // Polished to rounding: what is farther apart than this is not one. Singular ones are less accurate, and of those
         // known more accurately the proofs tell.
         self.found.iter().position(|found| {
             let room = found.certificate.map_or(SINGULAR, |c| c.radius.max(least.min(REAL_PART)));
             let same = |w: &Eight<Complex<f64>>| !are_apart(study, room.max(least), w, room);
-            (same_rotation(&found.study, false) && same(&found.study))
-                || (!real && same_rotation(&found.study, true) && same(&found.study.map(|z| z.conj())))
+            let reach = room + least;
+            (same_rotation(&found.study, false, reach) && same(&found.study))
+                || (!real && same_rotation(&found.study, true, reach) && same(&found.study.map(|z| z.conj())))
         })
     }
 
