@@ -60,7 +60,7 @@ pub fn mobility(entry: &Entry) -> Result<Mobility> {
     let mut answer = if subject.variables.len() > 6 {
         match subject.over_its_field()? {
             Some(answer) => answer,
-            None => subject.rounded(subject.free()),
+            None => subject.free(),
         }
     } else {
         subject.overconstrained()?
@@ -105,7 +105,7 @@ impl Subject<'_> {
     }
 
     /// The same of data some of which may have been rounded.
-    fn rounded(&self, answer: Mobility) -> Mobility {
+    pub(super) fn rounded(&self, answer: Mobility) -> Mobility {
         let proof = answer.proof.of_rounded(!is_exact(self.chain));
         if proof == answer.proof {
             return answer;

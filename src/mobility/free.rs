@@ -41,6 +41,8 @@ const INDEPENDENT: f64 = 1e-4;
 const BALL: f64 = 8.0;
 /// Decimal digits of values at which joints are held.
 const DIGITS: u32 = 3;
+/// Irrational lengths are within this part of their rationals, by far.
+const ROUNDED: f64 = 1e-12;
 /// Bits in which lengths are compared.
 const BITS: u32 = 256;
 
@@ -48,14 +50,18 @@ impl Subject<'_> {
     /// Whether and how a loop of seven variables or more moves.
     pub(super) fn free(&self) -> Mobility {
         if let Outcome::Mobile(found) = search_group(&self.linkage, &self.balls()) {
-            return self.mobile(found);
+            return self.rounded(self.mobile(found));
         }
         if let Some(reason) = self.too_wide() {
             return self.answer(Some(0), (Proof::Proved, Code::LinkTooLong), reason);
         }
         let mut assembler = Assembler::of(self);
-        if let Some(found) = self.by_input().or_else(|| assembler.assembled()) {
+        // Certificates of `solve` hold for all numbers that the file may mean.
+        if let Some(found) = self.by_input() {
             return self.certified(found);
+        }
+        if let Some(found) = assembler.assembled() {
+            return self.rounded(self.certified(found));
         }
         let none = format!(
             "no regular real configuration was found: approached from {STARTS} places, the closure equations are off by {:.1e} \
@@ -140,8 +146,8 @@ impl Subject<'_> {
         let sum = lengths.iter().fold(Float::new(BITS), |sum, length| sum + length);
         let longest = lengths.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
         let rest = Float::with_val(BITS, &sum - longest.1);
-        // Roots and sums are rounded in the last of many bits.
-        let margin = Float::with_val(BITS, &sum >> (BITS / 2));
+        // Numbers of the file may be rounded, and roots and sums are in the last of many bits.
+        let margin = Float::with_val(BITS, &sum * ROUNDED);
         (Float::with_val(BITS, longest.1 - &rest) > margin).then(|| {
             let (longest, rest) = (longest.1.to_f64(), rest.to_f64());
             format!("no real configuration: one link spans {longest:.6}, all others together {rest:.6}")
