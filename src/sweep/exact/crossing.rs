@@ -47,6 +47,14 @@ struct Passage<'a> {
     is_inverted: bool,
 }
 
+impl Passage<'_> {
+    /// Whether none of the polynomials that vanish where translations are dependent vanishes near it.
+    fn excludes_infinity(&self, chart: &Chart) -> bool {
+        let nonzero = |p: &PlaneCurve| is_some_nonzero(std::slice::from_ref(p), &self.rectangle, self.is_inverted);
+        chart.parallel.iter().all(nonzero)
+    }
+}
+
 /// The difference of two outputs, angles modulo full turns.
 fn apart(kind: Variable, a: f64, b: f64) -> f64 {
     if kind == Variable::Rotation { wrapped(a - b).abs() } else { (a - b).abs() }
@@ -174,22 +182,26 @@ fn across(
         list.iter().filter(is_left).cloned().collect()
     };
     let (ends, begins) = (left(0, from), left(1, to));
+    // Roots of the closure polynomial that meet, real or not, would have to be told from those at infinity.
+    let is_simple = critical.event == Event::Infinity && ends.is_empty() && begins.is_empty();
+    let are_excluded = passages.iter().all(|passage| passage.excludes_infinity(chart));
+    let passing = passages.len() * usize::from(are_excluded);
     let mut bridge = blank(from.len(), to.len());
     let input = f64::midpoint(samples[0].input, samples[1].input);
     for (index, passage) in passages.iter().enumerate() {
         let [x, y] = passage.sheets.map(|sheet| sheet.mode);
-        let is_infinite = goes_to_infinity(output, chart, interval, &passages, index, ends.len() + begins.len())?;
+        let is_infinite = goes_to_infinity(output, chart, interval, &passages, index, is_simple)?;
         let fate = |mode| if is_infinite { Fate::Infinite(input, Vec::new()) } else { Fate::On(mode, Vec::new()) };
         (bridge.forwards[x], bridge.backwards[y]) = (fate(y), fate(x));
     }
     match (ends.as_slice(), begins.as_slice(), critical.event) {
         ([], [], _) => Ok(bridge),
         ([one, two], [], Event::Meeting(1)) => {
-            let fates = meeting(chart, curve, interval, samples, [one, two], passages.len(), input)?;
+            let fates = meeting(chart, curve, interval, samples, [one, two], passing, input)?;
             Ok(bridge.settle(true, [one.mode, two.mode], &fates))
         }
         ([], [one, two], Event::Meeting(1)) => {
-            let fates = meeting(chart, curve, interval, [samples[1], samples[0]], [one, two], passages.len(), input)?;
+            let fates = meeting(chart, curve, interval, [samples[1], samples[0]], [one, two], passing, input)?;
             Ok(bridge.settle(false, [one.mode, two.mode], &fates))
         }
         _ => Err(Code::SingularNotDecided),
@@ -298,7 +310,7 @@ fn goes_to_infinity(
     interval: [&Rational; 2],
     passages: &[Passage<'_>],
     index: usize,
-    others: usize,
+    is_simple: bool,
 ) -> Result<bool, Code> {
     let passage = &passages[index];
     if output.kind == Variable::Translation && passage.is_inverted {
@@ -307,7 +319,7 @@ fn goes_to_infinity(
     }
     if sign_changes(&chart.pole, interval) > 0 {
         // A simple root: there the translations of every branch are dependent.
-        let is_pole = sign_changes(&chart.pole, interval) == 1 && others == 0;
+        let is_pole = sign_changes(&chart.pole, interval) == 1 && is_simple;
         let is_open = is_some_nonzero(&chart.gap, &passage.rectangle, passage.is_inverted);
         return if is_pole && is_open { Ok(true) } else { Err(Code::SingularNotDecided) };
     }
@@ -316,14 +328,10 @@ fn goes_to_infinity(
     }
     // Each of the polynomials has one simple root in common with the closure polynomial over this interval, so a real
     // one, and it is on no other branch.
-    let is_single = chart.dependent.iter().all(|r| sign_changes(r, interval) == 1);
-    let excludes = |other: &Passage<'_>| {
-        let nonzero = |p: &PlaneCurve| is_some_nonzero(std::slice::from_ref(p), &other.rectangle, other.is_inverted);
-        chart.parallel.iter().all(nonzero)
-    };
-    let is_alone = passages.iter().enumerate().all(|(k, other)| k == index || excludes(other));
+    let is_single = chart.dependent.iter().chain([&chart.together]).all(|r| sign_changes(r, interval) == 1);
+    let is_alone = passages.iter().enumerate().all(|(k, other)| k == index || other.excludes_infinity(chart));
     let is_open = is_some_nonzero(&chart.gap, &passage.rectangle, passage.is_inverted);
-    if is_single && is_alone && others == 0 && is_open { Ok(true) } else { Err(Code::SingularNotDecided) }
+    if is_single && is_alone && is_simple && is_open { Ok(true) } else { Err(Code::SingularNotDecided) }
 }
 
 /// What two modes of a sample do that meet on the way to another sample.

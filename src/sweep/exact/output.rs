@@ -45,7 +45,9 @@ pub(super) struct Chart {
     pub gap: Vec<PlaneCurve>,
     /// For each of `parallel` the inputs at which it has a root in common with the closure polynomial.
     pub dependent: Vec<Univariate<Integer>>,
-    /// Common roots of the discriminant and all of those.
+    /// The common roots of all of those.
+    pub together: Univariate<Integer>,
+    /// The roots that the discriminant has in common with these.
     pub common: Univariate<Integer>,
     /// The inputs at which the translations are dependent whatever the output.
     pub pole: Univariate<Integer>,
@@ -137,11 +139,12 @@ impl Output {
         let meeting = dependent.iter().skip(1).fold(dependent.first().cloned(), |gcd, r| gcd.map(|gcd| gcd.gcd(r)));
         let common = meeting.as_ref().map_or_else(Univariate::one, |meeting| meeting.gcd(&discriminant));
         let leading = f.coefficients_in(T).last().map(of_input).filter(|_| relation.kind == Variable::Translation);
-        let infinite = meeting.into_iter().chain(leading).chain([pole.clone()]);
+        let together = meeting.unwrap_or_else(Univariate::one);
+        let infinite = [together.clone(), pole.clone()].into_iter().chain(leading);
         let criticals = criticals(&discriminant, infinite, &of_input(&content));
         let gap = relation.gap.iter().map(|p| PlaneCurve::of(&integral(p).polynomial)).collect();
         let parallel = parallel.iter().map(PlaneCurve::of).collect();
-        let chart = Chart { curve, parallel, gap, dependent, common, pole };
+        let chart = Chart { curve, parallel, gap, dependent, together, common, pole };
         let charts = [chart.clone(), chart.half_turned()];
         Ok(Some(Self { joint: relation.output, kind: relation.kind, charts, criticals }))
     }
@@ -190,6 +193,7 @@ impl Chart {
             parallel: all(&self.parallel),
             gap: all(&self.gap),
             dependent: self.dependent.iter().map(input).collect(),
+            together: input(&self.together),
             common: input(&self.common),
             pole: input(&self.pole),
         }
