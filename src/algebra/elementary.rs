@@ -6,9 +6,9 @@
 //! 1e-19. The sum ends in one addition, off by u; what it adds is below 1/2 and off by a few parts u of less than 0.35.)
 
 /// The first 33 bits of pi/2, and the rest.
-const QUARTER_TURN: (f64, f64) = (1.570_796_326_734_125_614_17, 6.077_100_506_506_192_249_32e-11);
+const QUARTER_TURN: (f64, f64) = (1.570_796_326_734_125_6, 6.077_100_506_506_192e-11);
 /// The first 33 bits of the logarithm of 2, and the rest.
-const LN_2: (f64, f64) = (0.693_147_180_369_123_816_49, 1.908_214_929_270_587_700_02e-10);
+const LN_2: (f64, f64) = (0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10);
 /// Multiples of a head below this are exact.
 const MOST_MULTIPLES: f64 = 1_048_576.0;
 /// Exponents of two of normal numbers are at most this.
@@ -21,13 +21,13 @@ fn horner<const N: usize>(coefficients: &[f64; N], x: f64) -> f64 {
 }
 
 /// `(-1)^k / (2 k + first)!` of consecutive k.
-const fn alternating<const N: usize>(first: u32) -> [f64; N] {
+const fn alternating<const N: usize>(first: usize) -> [f64; N] {
     let mut terms = [0.0; N];
     let mut k = 0;
     let mut factorial = 1.0;
     let mut n = 1;
     while k < N {
-        let top = first + 2 * k as u32;
+        let top = first + 2 * k;
         while n <= top {
             factorial *= n as f64;
             n += 1;

@@ -2,9 +2,7 @@
 //! lengths of 1e-6 to 1e6, and axes up to 1e10 away, read from their text, and judged by Newton's method in 700 bits from
 //! the same data.
 
-use crate::wide::{
-    BITS, Matrix, Step, Wide, about, along, distance, float, identity, inverse, product, real, solution,
-};
+use crate::wide::{BITS, Matrix, Step, Wide, about, along, distance, float, identity, inverse, real, solution};
 use looproot::assembly::{Assembly, Roots, Workspace};
 use looproot::catalogue::{Format, Options, load_text};
 use looproot::mechanism::Mechanism;
@@ -338,7 +336,7 @@ fn judge(drawn: &Drawn, tally: &mut Tally) {
 
 /// How many mechanisms are drawn: of each sixteen modes at most.
 fn count() -> u64 {
-    std::env::var("LOOPROOT_RADII").ok().and_then(|text| text.parse().ok()).unwrap_or(120)
+    std::env::var("LOOPROOT_RADII").ok().and_then(|text| text.parse().ok()).unwrap_or(60)
 }
 
 #[test]
