@@ -54,11 +54,16 @@ fn named(chain: &Chain, q: &[f64]) -> BTreeMap<String, f64> {
             q.nth(2);
             continue;
         }
-        if kind != JointKind::Prismatic {
+        let labels = match kind {
+            JointKind::Prismatic => Vec::new(),
+            JointKind::Universal => vec![format!("{joint}_1"), format!("{joint}_2")],
+            _ => vec![joint.to_string()],
+        };
+        for label in labels {
             let angle: f64 = *q.next().unwrap();
-            values.insert(format!("c{joint}"), angle.cos());
-            values.insert(format!("s{joint}"), angle.sin());
-            values.insert(format!("t{joint}"), (0.5 * angle).tan());
+            values.insert(format!("c{label}"), angle.cos());
+            values.insert(format!("s{label}"), angle.sin());
+            values.insert(format!("t{label}"), (0.5 * angle).tan());
         }
         if matches!(kind, JointKind::Prismatic | JointKind::Cylindrical) {
             values.insert(format!("d{joint}"), *q.next().unwrap());

@@ -57,9 +57,8 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
     let eliminated = eliminated?;
     let per_root = eliminated.per_root;
     let mut derivation = derivation(&exact.symbols, eliminated, |found| match found {
-        // With multiplicity no solution is missing: as many roots are the same ones.
         Some((unknown, eliminant)) if count == Some(eliminant.roots() * per_root) => {
-            Some((unknown, Settled::as_it_is(eliminant)))
+            Some((unknown, true_roots::met(&exact, unknown, eliminant)))
         }
         Some((unknown, eliminant)) => Some((unknown, true_roots::settled(&exact, unknown, eliminant, per_root))),
         None => true_roots::by_ring(&exact),

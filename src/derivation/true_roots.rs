@@ -63,9 +63,8 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
         return Settled::as_it_is(eliminant);
     }
     let (count, roots) = (ring.count(), eliminant.roots());
-    // With multiplicity no solution is missing: as many roots are the same ones.
     if count == roots * per_root {
-        return Settled::as_it_is(eliminant);
+        return met(exact, unknown, eliminant);
     }
     let values = ring.values(&ring.view, |pencil| by_interpolation(pencil));
     let Some(kept) = values.and_then(|values| kept(unknown, &eliminant, &values, &ring)) else {
@@ -83,7 +82,27 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
     Settled { proved, step: Some(step), ..Settled::as_it_is(kept) }
 }
 
-/// Whether each factor has no root in common with the polynomial of the same unknown by some cut.
+/// An eliminant with as many roots as the ring counts solutions: nothing is divided out.
+///
+/// That each root belongs to solutions is proved where those modulo the prime are simple. Closure maps a smooth scheme of
+/// dimension 6 to the group of motions, which is one too, so that a simple solution modulo the prime lifts to one over the
+/// algebraic numbers, by Hensel's lemma. Then there are as many solutions as the roots can have together. Of multiple
+/// solutions modulo the prime nothing follows: the count is probable.
+pub(super) fn met(exact: &Exact, unknown: usize, eliminant: Eliminant) -> Settled {
+    let proved = exact.ball.is_some() || are_simple(exact, unknown);
+    Settled { proved, ..Settled::as_it_is(eliminant) }
+}
+
+/// Whether a combination of the unknowns takes a value of its own at every solution modulo the prime, as often as the ring
+/// has dimensions.
+fn are_simple(exact: &Exact, unknown: usize) -> bool {
+    let ring = SolutionRing::of(exact, unknown).filter(|ring| ring.repeats == 1);
+    let values = ring.as_ref().and_then(SolutionRing::combined_values);
+    values.is_some_and(|values| values.square_free_part().degree() == ring.map(|ring| ring.count()))
+}
+
+/// Whether each factor has no root in common with the polynomial of the same unknown by some cut. Factors must keep their
+/// degree modulo the prime: a common root may be one that goes to infinity there.
 fn is_proved(exact: &Exact, unknown: usize, removed: &[Removed]) -> bool {
     let Some(modular) = &exact.modular else { return false };
     let all: Vec<Univariate<Mod>> = cuts::eliminants(modular, unknown).collect();
@@ -91,7 +110,9 @@ fn is_proved(exact: &Exact, unknown: usize, removed: &[Removed]) -> bool {
         let Some(factor) = &one.factor else { return all.iter().any(|other| other.degree() == Some(16)) };
         let image = factor.to_univariate(Symbols::variable(unknown)).and_then(|factor| factor.map(Mod::from_rational));
         let Some(image) = image else { return false };
-        all.iter().any(|other| other.gcd(&image).degree() == Some(0))
+        let degree = factor.degree(Symbols::variable(unknown)) as usize;
+        image.degree().is_some_and(|found| found == degree)
+            && all.iter().any(|other| other.gcd(&image).degree() == Some(0))
     })
 }
 
@@ -147,6 +168,21 @@ impl SolutionRing {
     /// How many solutions there are.
     fn count(&self) -> usize {
         self.plan.count() / self.repeats
+    }
+
+    /// The polynomial of the values of a combination of all unknowns, one for each dimension of the ring.
+    fn combined_values(&self) -> Option<Univariate<Mod>> {
+        let n = self.plan.count();
+        if n == 0 {
+            return Some(Univariate::one());
+        }
+        // Weights without a relation between them.
+        let weight = |k: usize| i32::try_from(k).map_or(1, |k| MIXED + 7_919 * k * (k + 3) + k);
+        let matrix = self.plan.ring(&self.view)?.multiplication(&std::array::from_fn(|k| Mod::from_integer(weight(k))));
+        let one: Vec<Vec<Mod>> =
+            (0..n).map(|i| (0..n).map(|j| Mod::from_integer(i32::from(i == j))).collect()).collect();
+        let minus: Vec<Vec<Mod>> = matrix.iter().map(|row| row.iter().map(Ring::neg).collect()).collect();
+        Some(by_interpolation(&[minus, one]))
     }
 
     /// The loop with an unknown at its head.
