@@ -7,6 +7,8 @@ mod arms;
 mod degenerate;
 #[path = "accuracy/platforms.rs"]
 mod platforms;
+#[path = "accuracy/primes.rs"]
+mod primes;
 #[path = "accuracy/rescued.rs"]
 mod rescued;
 #[path = "accuracy/verdicts.rs"]

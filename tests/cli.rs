@@ -774,3 +774,99 @@ fn an_interrupt_keeps_what_is_done() {
         assert!((1..3000).contains(&done), "{done}");
     }
 }
+
+/// A chain of revolutes, as a robot description.
+fn robot(joints: usize) -> String {
+    let links: String = (0..=joints).map(|k| format!("<link name=\"l{k}\"/>")).collect();
+    let joint = |k: usize| {
+        format!(
+            "<joint name=\"turn{k}\" type=\"revolute\"><parent link=\"l{}\"/><child link=\"l{k}\"/>\
+             <origin xyz=\"0.1 0.2 0.3\" rpy=\"0.3 {} 0.7\"/><axis xyz=\"0 0 1\"/><limit lower=\"-3\" upper=\"3\"/></joint>",
+            k - 1,
+            k % 5
+        )
+    };
+    format!("<robot name=\"arm\">{links}{}</robot>", (1..=joints).map(joint).collect::<String>())
+}
+
+#[test]
+fn a_long_chain_is_refused_before_its_axes_are_computed() {
+    let path = file("long.urdf", robot(3000));
+    let start = std::time::Instant::now();
+    let long = run(&["show", &path]);
+    assert_eq!(long.code, 1);
+    assert!(long.err.contains("found 3000 joints with 3000 variables"), "{}", long.err);
+    assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
+}
+
+#[test]
+fn documents_name_the_joints_of_a_robot_description() {
+    let path = file("robot.urdf", robot(6));
+    let joints = "0.1, 0.2, 0.3, 0.4, 0.5, 0.6";
+    let document = json(&run(&["solve", &path, "--joints", joints, "--json", "--seed", "7"]).out);
+    let labels: Vec<&str> =
+        document["joint_variables"].as_array().unwrap().iter().map(|own| own["label"].as_str().unwrap()).collect();
+    assert_eq!(labels, ["turn1", "turn2", "turn3", "turn4", "turn5", "turn6"]);
+    assert_eq!((&document["base_link"], &document["tip_link"]), (&"l0".into(), &"l6".into()));
+    assert_eq!(document["name"], "robot");
+    assert_eq!(document["units"]["angle"], "rad");
+    assert!(document["mechanism"] == json(&run(&["show", &path, "--json"]).out));
+    let result = &document["results"][0];
+    assert_eq!(result["asked"]["matrix"].as_array().unwrap().len(), 4);
+    let ids: Vec<u64> = result["modes"].as_array().unwrap().iter().map(|mode| mode["id"].as_u64().unwrap()).collect();
+    assert!(ids.iter().copied().eq(1..=ids.len() as u64) && !ids.is_empty());
+}
+
+#[test]
+fn numbers_of_options_follow_the_units_of_the_file() {
+    let joint = |a: u32, alpha: u32| format!("{{ type = \"R\", a = {a}, alpha = {alpha}, d = 0 }},\n");
+    let units = "units = { length = \"mm\", angle = \"deg\" }\n[mechanism]\nconvention = \"dh\"\n";
+    let bennett = joint(400, 30) + &joint(300, 20);
+    let four = file("units_loop.toml", format!("{units}kind = \"loop\"\njoints = [\n{}]\n", bennett.repeat(2)));
+    let document = json(&run(&["solve", &four, "--input", "1=90", "--json"]).out);
+    let asked = |document: &Value, key: &str| document["results"][0]["asked"][key].as_f64().unwrap();
+    assert!((asked(&document, "angle") - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    let document = json(&run(&["solve", &four, "--input", "1=0.5 rad", "--json"]).out);
+    assert_eq!(asked(&document, "angle"), 0.5);
+
+    // Neither an arm nor a platform needs a case of its own then.
+    let six = (1..7).map(|k| joint(100 * k, 10 * k + 5)).collect::<String>();
+    let arm = file("units_arm.toml", format!("{units}kind = \"arm\"\njoints = [\n{six}]\n"));
+    let found = run(&["solve", &arm, "--joints", "10, 20, 30, 40, 50, 60", "--json"]);
+    let modes = json(&found.out)["results"][0]["modes"].clone();
+    let planted = |mode: &Value| {
+        (1..7)
+            .zip(mode["q"].as_array().unwrap())
+            .all(|(k, q)| (q.as_f64().unwrap().to_degrees() - 10.0 * f64::from(k)).abs() < 1e-6)
+    };
+    assert!(modes.as_array().unwrap().iter().any(planted), "{modes}");
+    assert_eq!(run(&["solve", &arm]).code, 1);
+
+    let text = library("platform/dietmaier_40real");
+    let points = &text[text.find("base = ").unwrap()..];
+    let points = &points[..points.find("legs").unwrap()];
+    let platform = format!("units = {{ length = \"mm\" }}\n[mechanism]\nkind = \"platform\"\n{points}");
+    let platform = file("units_platform.toml", platform);
+    let document = json(&run(&["solve", &platform, "--legs", "700, 700, 710, 720, 700, 700", "--real", "--json"]).out);
+    assert_eq!(document["results"][0]["asked"]["legs"][2], 0.71);
+}
+
+#[test]
+fn angles_within_the_limits_are_listed_within_them() {
+    let (head, pose) = general_arm();
+    let free = file("turns_free.toml", head.clone() + &pose);
+    let q = |path: &str, index: usize| -> Vec<f64> {
+        let document = json(&run(&["solve", path, "--json"]).out);
+        let modes = document["results"][0]["modes"].as_array().unwrap();
+        modes[index]["q"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+    };
+    let first = q(&free, 0);
+    // A whole turn further, all of them.
+    let limits: Vec<String> = first.iter().map(|x| format!("[{}, {}]", x + 6.0, x + 6.5)).collect();
+    let limited = file("turns_limited.toml", format!("{head}limits = [{}]\n\n{pose}", limits.join(", ")));
+    for (free, limited) in first.iter().zip(q(&limited, 0)) {
+        assert!((limited - free - std::f64::consts::TAU).abs() < 1e-12, "{free} {limited}");
+    }
+    let text = run(&["solve", &limited]);
+    assert!(text.out.contains("within them: 1 of 2 real solutions"), "{}", text.out);
+}

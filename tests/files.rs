@@ -567,3 +567,35 @@ proptest! {
         let _ = looproot::algebra::number::Angle::parse(&text, &reading);
     }
 }
+
+#[test]
+fn faults_of_robot_descriptions_are_refused_with_their_line() {
+    let refused = |text: &str| load_text(text, "six.urdf", Format::Urdf, &Options::default()).unwrap_err().to_string();
+    let changed = |from: &str, to: &str| {
+        assert!(URDF.contains(from), "{from}");
+        refused(&URDF.replacen(from, to, 1))
+    };
+    for (fault, words) in [
+        (changed("name=\"j3\"", "name=\"j2\""), "found two joints `j2`"),
+        (changed("<link name=\"l3\"/>", "<link name=\"l3\"/><link name=\"l3\"/>"), "found two links `l3`"),
+        (changed("<link name=\"l3\"/>", ""), "found no link `l3`"),
+        (changed("<child link=\"l3\"/>", "<child link=\"l2\"/>"), "found link `l2` as child of two joints, j2 and j3"),
+        (changed("<parent link=\"l0\"/>", "<parent link=\"l6\"/>"), "close a circle"),
+        (changed("lower=\"-3\" upper=\"3\"", "lower=\"1\" upper=\"-1\""), "the lower one first"),
+        (refused("<robot name=\"x\"/>"), "a robot without links"),
+        (
+            changed(
+                "<robot name=\"six\">",
+                "<robot name=\"six\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\"><xacro:include filename=\"a\"/>",
+            ),
+            "a macro of xacro",
+        ),
+    ] {
+        assert!(fault.starts_with("six.urdf:") && fault.contains(words), "{words}: {fault}");
+    }
+    // A link that no joint moves is no end of a chain.
+    let frame = "<link name=\"base\"/><joint name=\"b\" type=\"fixed\"><parent link=\"l0\"/><child link=\"base\"/></joint></robot>";
+    let robot = load_text(&URDF.replace("</robot>", frame), "six.urdf", Format::Urdf, &Options::default()).unwrap();
+    assert_eq!(robot.labels.links, Some(["l0".to_owned(), "flange".to_owned()]));
+    assert_eq!(robot.labels.joints[4].as_deref(), Some("j5"));
+}

@@ -252,3 +252,18 @@ fn nothing_kept_knows_where_it_was_written() {
     assert!(!manifest.contains("registry = ") && !manifest.contains("path = \".."), "a crate from elsewhere");
     assert!(!root().join(".cargo/config.toml").exists(), "settings of one machine");
 }
+
+#[test]
+fn the_page_of_names_lists_every_word_of_a_verdict() {
+    let read = |path: &str| fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap();
+    let page = read("docs/names.md");
+    let mut words = 0;
+    for source in ["src/verdict/proof.rs", "src/verdict/mod.rs"] {
+        for line in read(source).lines().filter(|line| line.trim_start().starts_with("Self::")) {
+            let Some(word) = line.split_once("=> \"").and_then(|(_, rest)| rest.split('"').next()) else { continue };
+            assert!(page.contains(&format!("\n| `{word}` | ")), "docs/names.md lacks {word}");
+            words += 1;
+        }
+    }
+    assert!(words > 20, "{words}");
+}

@@ -322,8 +322,8 @@ fn steps(text: &str) -> Result<usize, String> {
 /// `looproot mobility`
 #[derive(Args)]
 pub struct MobilityOptions {
-    /// A file of a loop or a framework, the name of a built-in entry, or - for standard input; inputs of the file are not
-    /// looked at
+    /// A file of a loop, an arm, a platform or a framework, the name of a built-in entry, or - for standard input; inputs of
+    /// the file are not looked at
     pub mechanism: String,
     /// Frameworks: how many steps of the motion are followed in f64
     #[arg(long, value_name = "N", default_value = "60", value_parser = steps)]
