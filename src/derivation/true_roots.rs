@@ -177,7 +177,7 @@ impl SolutionRing {
             return Some(Univariate::one());
         }
         // Weights without a relation between them.
-        let weight = |k: usize| i32::try_from(k).map_or(1, |k| MIXED + 7_919 * k * (k + 3) + k);
+        let weight = |k: usize| i32::try_from(k).map_or(1, |k| 1_299_709 + 7_919 * k * (k + 3) + k);
         let matrix = self.plan.ring(&self.view)?.multiplication(&std::array::from_fn(|k| Mod::from_integer(weight(k))));
         let one: Vec<Vec<Mod>> =
             (0..n).map(|i| (0..n).map(|j| Mod::from_integer(i32::from(i == j))).collect()).collect();
