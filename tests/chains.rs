@@ -4,6 +4,8 @@
 
 #[path = "chains/agreement.rs"]
 mod agreement;
+#[path = "chains/exact_loops.rs"]
+mod exact_loops;
 #[path = "chains/sequences.rs"]
 mod sequences;
 #[path = "chains/short_loops.rs"]

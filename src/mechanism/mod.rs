@@ -2,6 +2,7 @@
 
 mod ball_angles;
 mod by_input;
+mod exact_loop;
 mod exact_modes;
 mod family;
 mod input_curve;

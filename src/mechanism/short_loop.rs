@@ -3,8 +3,9 @@
 mod few_turns;
 
 use super::by_input::{ByInput, Prepared};
+use super::exact_loop::{self, Question};
 use super::short_ball::{Positions, positions};
-use super::single_loop::{filling, full_mode, locked_value, within_limits};
+use super::single_loop::{filling, full_mode, is_exact, locked_value, within_limits};
 use super::{FullMode, Solution};
 use crate::algebra::drawn::Drawn;
 use crate::algebra::long_float::LongFloat;
@@ -26,8 +27,8 @@ use crate::verdict::{Code, Proof, Status, Verdict};
 use nalgebra::{SMatrix, SVector};
 use num_complex::Complex;
 use rug::Rational;
-use std::cmp::Ordering;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// The field of exact counts.
@@ -80,6 +81,8 @@ struct Ladder {
     /// Without idle unknowns.
     layout: Layout,
     rungs: Vec<Rung>,
+    /// Whether an answer over the rationals took too long at some input: so it will at others.
+    is_long: AtomicBool,
 }
 
 /// A chain with too few unknowns, prepared for all its cases.
@@ -108,8 +111,7 @@ struct Candidate {
     idle: f64,
 }
 
-/// A verdict, and what it is about.
-type Answer = (Verdict, Vec<FullMode>);
+use exact_loop::Answer;
 
 /// Whether a loop has fewer than six unknowns.
 pub(super) fn is_short(entry: &Entry, chain: &Chain) -> Result<bool> {
@@ -196,7 +198,8 @@ fn scaled(open: &OpenLoop<f64>, unit: f64) -> OpenLoop<f64> {
 impl ShortLoop {
     /// Prepares the chain of an entry for all its cases.
     pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
-        let ladder = |layout: Layout| Ok(Ladder { rungs: rungs(chain, &layout)?, layout });
+        let ladder =
+            |layout: Layout| Ok(Ladder { rungs: rungs(chain, &layout)?, layout, is_long: AtomicBool::new(false) });
         let prepared = ByInput::prepare(entry, chain, ladder)?;
         Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), is_rounded: entry.rounded, prepared })
     }
@@ -212,10 +215,12 @@ impl ShortLoop {
         let Prepared { of: ladder, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
         let start = Instant::now();
         let locked = ladder.layout.locked;
+        let exact = self.exactly(ladder, case)?;
         // What does not close, or closes at points, need not be searched for a motion.
         let is_asked = locked.is_none() && !self.is_rounded;
-        let points = if is_asked { self.count_by_ring(&ladder.layout, case) } else { None };
+        let points = if is_asked && exact.is_none() { self.count_by_ring(&ladder.layout, case) } else { None };
         let moving = match points {
+            _ if exact.is_some() => exact,
             Some(0) => Some((outcome(Status::Unreachable, 0, OPEN_BY_RING.to_owned()), Vec::new())),
             None if locked.is_none() => self.motion(workspace, assembly)?,
             _ => None,
@@ -243,6 +248,20 @@ impl ShortLoop {
         })
     }
 
+    /// The answer over the rationals; `None` where it takes too long, and where only the rounding of the data may keep the
+    /// loop from closing.
+    fn exactly(&self, ladder: &Ladder, case: &Case) -> Result<Option<Answer>> {
+        if ladder.is_long.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        let layout = &ladder.layout;
+        let is_rounded = self.is_rounded || !is_exact(case);
+        let question = Question { chain: &self.chain, layout, case, limits: &self.limits, is_rounded };
+        let answer = question.answer()?;
+        ladder.is_long.store(answer.is_none(), Ordering::Relaxed);
+        Ok(answer.filter(|(verdict, _)| !is_rounded || verdict.real > 0 || verdict.self_motion > 0))
+    }
+
     /// Whether a loop without input moves, and how; `None` where it has isolated modes only.
     fn motion(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> Result<Option<Answer>> {
         let variables = Layout::of(&self.chain, None)?.variables;
@@ -255,7 +274,7 @@ impl ShortLoop {
             // A joint without which the others are dependent cannot be held to find the motion.
             let Ok(rungs) = rungs(&self.chain, &layout) else { continue };
             let joint = self.joint_of(locked);
-            let ladder = Ladder { layout, rungs };
+            let ladder = Ladder { layout, rungs, is_long: AtomicBool::new(true) };
             for number in 0..PLACES {
                 let case = self.held(joint, variables[locked], number);
                 let (verdict, _) = self.isolated(&ladder, &case, Roots::All, workspace, assembly)?;
@@ -672,9 +691,9 @@ fn closer(
 }
 
 /// The order of solutions in a list.
-fn in_order(a: &[Complex<f64>], b: &[Complex<f64>]) -> Ordering {
+fn in_order(a: &[Complex<f64>], b: &[Complex<f64>]) -> std::cmp::Ordering {
     let key = |q: &[Complex<f64>]| q.iter().map(|z| (z.re, z.im)).collect::<Vec<_>>();
-    key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)
+    key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal)
 }
 
 /// How many of the candidates, best first, make up this number of solutions.

@@ -1,11 +1,13 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
 use super::by_input::{ByInput, Prepared};
+use super::exact_loop::{CoupledQuestion, Question as ExactQuestion};
 use super::exact_modes::exact_mode;
 use super::family::Family;
 use super::{FullMode, Solution};
 use crate::algebra::drawn::{self, Drawn};
 use crate::algebra::enclosure::Enclosure;
+use crate::algebra::interval::Interval;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
@@ -54,7 +56,8 @@ struct SixUnknowns {
 struct Balls {
     layout: Layout,
     open: OpenCoupled<f64>,
-    modular: Option<OpenCoupled<Mod>>,
+    /// The same in intervals.
+    bounds: OpenCoupled<Interval>,
 }
 
 /// Modes of a lower condition number are those of the mechanism that rounded data stand for: these are off by 1e-17.
@@ -184,7 +187,26 @@ impl SingleLoop {
         }
         let question =
             Question { of: self, prepared, case, roots, gap: &gap, by_cuts: OnceCell::new(), ring: OnceCell::new() };
-        let (mut verdict, solve_us) = question.answer(workspace, assembly);
+        let start = Instant::now();
+        let fast = if solver.structural_rank() == 6 { Some(question.answer(workspace, assembly)) } else { None };
+        let is_settled = |(verdict, _): &(Verdict, f64)| is_settled(verdict);
+        if prepared.layout.ball.is_some()
+            && !fast.as_ref().is_some_and(is_settled)
+            && let Some((verdict, modes)) = self.exactly(&prepared.layout, case, fast.is_some())?
+        {
+            let solve_us = start.elapsed().as_secs_f64() * 1e6;
+            let warnings = case.warnings.clone();
+            return Ok(Solution {
+                families: Vec::new(),
+                verdict,
+                modes,
+                warnings,
+                prepare_us: *prepare_us,
+                solve_us,
+                platform: None,
+            });
+        }
+        let (mut verdict, solve_us) = fast.unwrap_or_else(|| question.answer(workspace, assembly));
         if solver.structural_rank() < 6 {
             verdict.reason += &dependent(&self.chain, &prepared.layout, solver.axis_triples());
             if case.pose.is_none() {
@@ -211,6 +233,17 @@ impl SingleLoop {
         })
     }
 
+    /// The answer to a loop with a spherical joint over the rationals; `None` where rounded data may hide what there is, and
+    /// f64 has an answer.
+    fn exactly(&self, layout: &Layout, case: &Case, is_known: bool) -> Result<Option<(Verdict, Vec<FullMode>)>> {
+        let is_rounded = self.is_rounded || !is_exact(case);
+        if is_rounded && is_known {
+            return Ok(None);
+        }
+        let question = ExactQuestion { chain: &self.chain, layout, case, limits: &self.limits, is_rounded };
+        Ok(question.answer()?.filter(|(verdict, _)| !is_rounded || verdict.real > 0 || verdict.self_motion > 0))
+    }
+
     /// Solves a loop with two balls.
     fn solve_coupled(
         &self,
@@ -224,26 +257,33 @@ impl SingleLoop {
         let start = Instant::now();
         let layout = &prepared.layout;
         let coupled = prepared.open.close(&filling(case)?);
-        let modular = prepared.modular.as_ref().zip(filling::<Mod>(case).ok());
-        let count = modular.map(|(open, filling)| spherical_pair::count(&open.close(&filling)));
-        // Where the equation is free of its unknown rounding would lead to roots.
-        let balls = if matches!(count, Some(None | Some(0))) {
-            assembly.clear();
-            Vec::new()
-        } else {
-            coupler::solve(&coupled, roots, workspace, assembly)
+        let idle = idle_spin(&self.chain, layout, coupled.indices[1]);
+        // Where the equation may be free of its unknown rounding would lead to roots.
+        let bounds = spherical_pair::equation(&prepared.bounds.close(&filling(case)?));
+        let is_equation = bounds[1..].iter().any(|c| c.mignitude() > 0.0);
+        let balls = is_equation.then(|| coupler::solve(&coupled, roots, workspace, assembly));
+        let fast = balls.map(|balls| {
+            let general = || Bound::general(2);
+            (verdict(assembly, roots, 6, 2, general, || None, None), balls)
+        });
+        let settled = fast.filter(|(verdict, _)| is_settled(verdict));
+        let Some((mut verdict, balls)) = settled else {
+            let (mut verdict, modes) = self.coupled_exactly(layout, case)?;
+            verdict.reason = format!("{}; {idle}", verdict.reason);
+            let solve_us = start.elapsed().as_secs_f64() * 1e6;
+            let warnings = case.warnings.clone();
+            return Ok(Solution {
+                families: Vec::new(),
+                verdict,
+                modes,
+                warnings,
+                prepare_us,
+                solve_us,
+                platform: None,
+            });
         };
-        if count == Some(None) {
-            assembly.self_motion = 1;
-        }
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let bound = || match count.flatten() {
-            Some(count) => bound_from(Degree { solutions: count, left_out: 2 - count }, "at this input"),
-            None => Bound::general(2),
-        };
-        let mut verdict = verdict(assembly, roots, 6, 2, bound, || Some(bound()), None);
-        verdict.reason += "; ";
-        verdict.reason += &idle_spin(&self.chain, layout, coupled.indices[1]);
+        verdict.reason = format!("{}; {idle}", verdict.reason);
         let modes = assembly.modes.iter().zip(balls).map(|(mode, balls)| {
             let mut q = vec![Complex::from(locked_value(case)); layout.variables.len()];
             for (&at, angles) in coupled.indices.iter().zip(balls) {
@@ -261,6 +301,21 @@ impl SingleLoop {
             solve_us,
             platform: None,
         })
+    }
+}
+
+impl SingleLoop {
+    /// The answer to a loop with two spherical joints over the rationals.
+    fn coupled_exactly(&self, layout: &Layout, case: &Case) -> Result<(Verdict, Vec<FullMode>)> {
+        let coupled = self.chain.coupled_loop::<Rational>(layout, &filling(case)?)?;
+        let given = vec![Complex::from(locked_value(case)); layout.variables.len()];
+        let is_rounded = self.is_rounded || !is_exact(case);
+        let unit = self.chain.unit().to_f64();
+        let (verdict, mut modes) = CoupledQuestion { coupled: &coupled, given, unit, is_rounded }.answer();
+        for mode in modes.iter_mut().filter(|mode| mode.real && !self.limits.is_empty()) {
+            mode.within_limits = Some(within_limits(&mode.q, &layout.variables, &self.limits));
+        }
+        Ok((verdict, modes))
     }
 }
 
@@ -578,8 +633,8 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
         let enclosed: OpenCoupled<Enclosure> = chain.open_coupled(&layout, &Numbers)?;
         let open = enclosed.rounded(f64::MANTISSA_DIGITS);
         let open = open.ok_or_else(|| Error::Unsupported("numbers that are not known to 16 digits".into()))?;
-        let modular = chain.open_coupled(&layout, &Numbers).ok();
-        return Ok(Way::Balls(Box::new(Balls { layout, open, modular })));
+        let bounds = chain.open_coupled(&layout, &Numbers)?;
+        return Ok(Way::Balls(Box::new(Balls { layout, open, bounds })));
     }
     let open: OpenLoop<f64> = chain.open_loop(&layout)?;
     let solver = match layout.ball_unknown() {
@@ -725,6 +780,19 @@ pub(super) fn filling<R: Ring>(case: &Case) -> Result<Motion<R>> {
         })
     });
     motion.ok_or_else(|| Error::Invalid("a case without pose and input".to_owned()))
+}
+
+/// Whether a list is proved complete, complex solutions included.
+fn is_settled(verdict: &Verdict) -> bool {
+    verdict.proof.is_proved() && verdict.complex_complete
+}
+
+/// Whether the input of a loop is an exact number.
+pub(super) fn is_exact(case: &Case) -> bool {
+    case.input.iter().all(|input| match &input.value {
+        InputValue::Angle(angle) => angle.is_exact(),
+        InputValue::Distance(distance) => distance.is_exact(),
+    })
 }
 
 pub(super) fn locked_value(case: &Case) -> f64 {

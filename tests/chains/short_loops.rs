@@ -55,7 +55,7 @@ fn a_link_off_by_a_billionth_leaves_no_solution() {
             let found = solve(&entry, 0);
             let verdict = found.verdict;
             assert_eq!((verdict.status, verdict.complex), (Status::Unreachable, 0), "{name} 1e-{power}");
-            assert!(verdict.reason.contains("no common root"), "{}", verdict.reason);
+            assert!(verdict.reason.starts_with("no solution"), "{}", verdict.reason);
         }
     }
 }
@@ -313,7 +313,8 @@ fn loops_of_few_turns_are_solved_exactly() {
     let solution = solve(&sliding(&general, "joint = 4\ndistance = \"7/3\""), 0);
     assert_eq!((solution.verdict.status, solution.verdict.real), (Status::Complete, 1), "{}", solution.verdict.reason);
     let mode = &solution.modes[0];
-    assert!(mode.certified && mode.residual < 1e-15 && mode.q[0].norm() > 0.1, "{mode:?}");
+    // Directions of irrational length are rounded: what closes then is not proved to close with them.
+    assert!(!mode.certified && mode.residual < 1e-15 && mode.q[0].norm() > 0.1, "{mode:?}");
     // A turn in place of a slide has nowhere to go, unless it is 0.
     let turning = slides.to_owned() + "{ type = \"R\", axis = [1, 1, 1], point = [0, 1, 0] },\n";
     let solution = solve(&sliding(&turning, "joint = 4\ntan_half = \"1/5\""), 0);

@@ -1,0 +1,191 @@
+//! The answer to a loop of few unknowns, from its exact solutions.
+
+use super::configuration::{Configuration, Configurations};
+use super::cycle::Cycle;
+use super::equations::System;
+use super::measure::measure;
+use super::outcome::{Outcome, Point, Points};
+use crate::algebra::disc::Disc;
+use crate::assembly::wrapped;
+use crate::catalogue::entry::Case;
+use crate::error::Result;
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::{Layout, Variable};
+use crate::mechanism::FullMode;
+use crate::mechanism::single_loop::{locked_value, within_limits};
+use crate::verdict::{Code, Proof, Status, Verdict};
+use num_complex::Complex;
+use rug::{Float, float::Round};
+
+/// Products of words after which a system is given up: about a tenth of a second. Loops of four unknowns take a thousandth of
+/// it, and what general loops of five take, or some special ones, is hours.
+const EFFORT: u64 = 1_500_000;
+
+/// What is asked of a loop.
+pub(crate) struct Question<'a> {
+    /// The mechanism.
+    pub chain: &'a Chain,
+    /// Its variables.
+    pub layout: &'a Layout,
+    /// The input.
+    pub case: &'a Case,
+    /// The limits of the joints.
+    pub limits: &'a [[f64; 2]],
+    /// Whether numbers of the mechanism or the input had to be rounded.
+    pub is_rounded: bool,
+}
+
+/// A verdict, and what it is about.
+pub(crate) type Answer = (Verdict, Vec<FullMode>);
+
+impl Question<'_> {
+    /// The answer over the rationals; `None` for loops of another kind, and where it takes too long.
+    ///
+    /// # Errors
+    /// For a case without input that has one.
+    pub fn answer(&self) -> Result<Option<Answer>> {
+        let Some(cycle) = Cycle::of(self.chain, self.layout, self.case)? else { return Ok(None) };
+        let system = match &cycle.before {
+            Some(before) => System::of_point(&cycle.steps, &before.inverse().translation),
+            None => System::of_loop(&cycle.steps),
+        };
+        let Some(system) = system else { return Ok(None) };
+        Ok(Outcome::of(&system, EFFORT).map(|outcome| match outcome {
+            Outcome::Moving(dimension) => (self.moving(&cycle, dimension), Vec::new()),
+            Outcome::Finite(points) => self.finite(&cycle, &system, &points),
+        }))
+    }
+
+    fn proof(&self) -> Proof {
+        Proof::Proved.of_rounded(self.is_rounded)
+    }
+
+    fn moving(&self, cycle: &Cycle, dimension: usize) -> Verdict {
+        let of = equations(cycle);
+        let reason = format!(
+            "solutions form a self-motion of dimension {dimension}: that of the set of all solutions, real or complex, of {of}, \
+             by a Gröbner basis over the rationals"
+        );
+        Verdict {
+            status: Status::SelfMotion,
+            proof: self.proof(),
+            code: Code::SelfMotion,
+            complex_complete: false,
+            complex: 0,
+            real: 0,
+            at_infinity: 0,
+            self_motion: dimension,
+            certified: 0,
+            reason,
+        }
+    }
+
+    fn finite(&self, cycle: &Cycle, system: &System, points: &Points) -> Answer {
+        let configurations = Configurations::new(system, &cycle.steps, cycle.before.as_ref(), points);
+        let mode = |point: &Point| self.mode(cycle, point, configurations.at(point).as_ref());
+        let mut modes: Vec<FullMode> = points.distinct.iter().filter_map(mode).collect();
+        modes.sort_by(in_order);
+        let (count, real) = (points.count, points.real());
+        let (status, code) = match (count, real) {
+            (0, _) => (Status::Unreachable, Code::NoSolution),
+            (_, 0) => (Status::Unreachable, Code::ExactRootsMatched),
+            _ => (Status::Complete, Code::ExactRootsMatched),
+        };
+        let verdict = Verdict {
+            status,
+            proof: self.proof(),
+            code,
+            // A complex solution may have no angles.
+            complex_complete: modes.len() == points.distinct.len(),
+            complex: count,
+            real,
+            at_infinity: 0,
+            self_motion: 0,
+            certified: modes.iter().filter(|mode| mode.certified).count(),
+            reason: reason(cycle, points),
+        };
+        (verdict, modes)
+    }
+
+    /// A solution as a user reads it; `None` for a complex one without angles.
+    fn mode(&self, cycle: &Cycle, point: &Point, configuration: Option<&Configuration>) -> Option<FullMode> {
+        let configuration = configuration?;
+        let real = point.is_real();
+        let unit = self.chain.unit().to_f64();
+        let mut q = vec![Complex::from(locked_value(self.case)); self.layout.variables.len()];
+        let mut radius: f64 = 0.0;
+        let mut place = |index: usize, ball: &Disc| {
+            let (value, error) = nearest(ball, self.layout.variables[index], real);
+            q[index] = value;
+            let over = if self.layout.variables[index] == Variable::Rotation { 1.0 } else { unit.min(1.0) };
+            radius = radius.max(error / over);
+        };
+        for (index, ball) in cycle.indices.iter().zip(&configuration.values) {
+            place(*index, ball);
+        }
+        if let (Some(first), Some(angles)) = (self.layout.ball, &configuration.spherical) {
+            angles.iter().enumerate().for_each(|(k, angle)| place(first + k, angle));
+        }
+        let values: Vec<Complex<f64>> = cycle.indices.iter().map(|index| q[*index]).collect();
+        let (residual, condition) = measure(cycle, &values, unit);
+        let is_simple = point.multiplicity == 1;
+        // Of rounded data nothing is known to be there.
+        let certified = !self.is_rounded && radius.is_finite();
+        Some(FullMode {
+            real,
+            multiplicity: point.multiplicity,
+            residual,
+            condition: if is_simple { condition } else { f64::INFINITY },
+            certified,
+            radius: if certified { radius } else { f64::INFINITY },
+            within_limits: (real && !self.limits.is_empty())
+                .then(|| within_limits(&q, &self.layout.variables, self.limits)),
+            q,
+            platform: None,
+        })
+    }
+}
+
+/// The nearest number in f64, an angle between -pi and pi, and how far it is off at most.
+pub(super) fn nearest(ball: &Disc, variable: Variable, real: bool) -> (Complex<f64>, f64) {
+    let im = if real { 0.0 } else { ball.im.to_f64() };
+    let exact = Complex::new(ball.re.to_f64(), im);
+    let mut value = exact;
+    let mut error = ball.radius().to_f64_round(Round::Up);
+    let off = |x: &Float, y: f64| Float::with_val(64, x - y).to_f64_round(Round::Up).abs();
+    error += off(&ball.re, exact.re) + if real { 0.0 } else { off(&ball.im, exact.im) };
+    if variable == Variable::Rotation {
+        value.re = wrapped(exact.re);
+        // Whole turns are taken off in f64.
+        if value.re.to_bits() != exact.re.to_bits() {
+            error += 4.0 * f64::EPSILON;
+        }
+    }
+    // What the sums of this function are off.
+    (value, error * (1.0 + 8.0 * f64::EPSILON) + f64::MIN_POSITIVE)
+}
+
+/// What the equations of a loop are.
+fn equations(cycle: &Cycle) -> &'static str {
+    match cycle.before {
+        Some(_) => "the equations by which the centre of the S joint is reached from both sides",
+        None => "the closure equations",
+    }
+}
+
+fn reason(cycle: &Cycle, points: &Points) -> String {
+    let of = equations(cycle);
+    if points.count == 0 {
+        return format!("no solution: 1 is a combination of {of}, over the rationals");
+    }
+    let multiple: usize = points.distinct.iter().filter(|p| p.multiplicity > 1).map(|p| p.multiplicity).sum();
+    let distinct = points.distinct.len();
+    let also = if multiple == 0 { String::new() } else { format!(", {distinct} distinct ones") };
+    format!("all {} solutions{also} of {of}, by a Gröbner basis over the rationals", points.count)
+}
+
+/// The order of solutions in a list: real ones first.
+pub(super) fn in_order(a: &FullMode, b: &FullMode) -> std::cmp::Ordering {
+    let key = |mode: &FullMode| mode.q.iter().map(|z| (z.re, z.im)).collect::<Vec<_>>();
+    b.real.cmp(&a.real).then_with(|| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal))
+}

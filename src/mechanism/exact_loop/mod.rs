@@ -1,0 +1,17 @@
+//! Loops of few unknowns, decided exactly over the rationals: overconstrained loops, and loops with spherical joints.
+//!
+//! Their closure equations are polynomials in cosines, sines and distances. A Gröbner basis over the rationals tells the
+//! dimension of the set of solutions; where they are finitely many, the quotient ring tells how many there are and which of
+//! them coincide, and every unknown is a rational function of the roots of one polynomial. f64 only presents.
+
+mod answer;
+mod configuration;
+mod coupled;
+mod cycle;
+mod equations;
+mod measure;
+mod outcome;
+mod roots;
+
+pub(super) use answer::{Answer, Question};
+pub(super) use coupled::CoupledQuestion;
