@@ -777,7 +777,8 @@ fn an_interrupt_keeps_what_is_done() {
 
 /// A chain of revolutes, as a robot description.
 fn robot(joints: usize) -> String {
-    let links: String = (0..=joints).map(|k| format!("<link name=\"l{k}\"/>")).collect();
+    let links: Vec<String> = (0..=joints).map(|k| format!("<link name=\"l{k}\"/>")).collect();
+    let links = links.concat();
     let joint = |k: usize| {
         format!(
             "<joint name=\"turn{k}\" type=\"revolute\"><parent link=\"l{}\"/><child link=\"l{k}\"/>\

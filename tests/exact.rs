@@ -47,12 +47,12 @@ fn fault(arm: &Value, answer: &Solution) -> Option<String> {
     if dimension > 0 {
         return Some(format!("complete, but the solutions have dimension {dimension}"));
     }
-    let count = arm["count"].as_u64().unwrap() as usize;
+    let count = usize::try_from(arm["count"].as_u64().unwrap()).unwrap();
     if verdict.complex != count {
         return Some(format!("{} solutions in place of {count}", verdict.complex));
     }
     if let Some(real) = arm["real_with_multiplicity"].as_u64()
-        && verdict.real != real as usize
+        && verdict.real as u64 != real
     {
         return Some(format!("{} real solutions with multiplicity in place of {real}", verdict.real));
     }

@@ -42,8 +42,8 @@ fn product(mut x: Float, y: &Float) -> Float {
 impl<const BITS: u32> Ball<BITS> {
     /// The ball of one point.
     #[must_use]
-    pub fn point(re: Float, im: Float) -> Self {
-        Self::rounded(&re, &im, Float::new(RADIUS_BITS))
+    pub fn point(re: &Float, im: &Float) -> Self {
+        Self::rounded(re, im, Float::new(RADIUS_BITS))
     }
 
     /// The ball around a midpoint, which is rounded, with a radius that is enlarged by that.
@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn complex_products_and_inverses_agree() {
-        let z = Short::point(Float::with_val(64, 3), Float::with_val(64, -4)).enlarged(&Float::with_val(32, 1e-6));
+        let z = Short::point(&Float::with_val(64, 3), &Float::with_val(64, -4)).enlarged(&Float::with_val(32, 1e-6));
         let one = z.mul(&z.inverse().expect("3 - 4i is not 0"));
         assert!(one.sub(&Short::one()).contains_zero());
         assert!(*one.radius() < 1e-5);

@@ -117,7 +117,7 @@ mod tests {
         let mut worst = [0.0_f64; 4];
         for k in 0..60_000 {
             let part = f64::from(k) * 0.618_033_988_749_894_9 % 1.0;
-            let scale = [1.0, 3.2, 30.0, 1e5, 1e-5][k as usize % 5];
+            let scale = [1.0, 3.2, 30.0, 1e5, 1e-5][usize::try_from(k).unwrap() % 5];
             let x = (2.0 * part - 1.0) * scale;
             let (sin, cos) = sin_cos(x);
             let exact = Float::with_val(200, x);

@@ -168,12 +168,11 @@ impl Number {
         let value = value.mul(&Value::from_rational(scale));
         check_size(&value.float(), text)?;
         let closed = value.closed().map(Arc::new);
-        Ok(match value.rational {
-            Some(rational) => Self::exact(rational),
-            None => {
-                let near = Self::near(&value.float(), 17.max(reading.digits + 2));
-                Self { closed, ..Self::standing_for(near, value.real) }
-            }
+        Ok(if let Some(rational) = value.rational {
+            Self::exact(rational)
+        } else {
+            let near = Self::near(&value.float(), 17.max(reading.digits + 2));
+            Self { closed, ..Self::standing_for(near, value.real) }
         })
     }
 

@@ -281,7 +281,7 @@ fn cosine_polynomial(n: u32) -> Univariate<Rational> {
         let own = known.fold(power(d), |rest, (_, factor)| rest.div_rem(factor).0);
         cyclotomic.push((d, own));
     }
-    let own = cyclotomic.pop().map(|(_, own)| own).unwrap_or_else(Univariate::one);
+    let own = cyclotomic.pop().map_or_else(Univariate::one, |(_, own)| own);
     // It reads the same both ways: z^-m of it is a sum of z^k + z^-k, polynomials in z + 1/z.
     let middle = own.degree().unwrap_or(0) / 2;
     let mut sums = vec![Univariate::constant(Rational::from(2)), Univariate::x()];
@@ -302,7 +302,7 @@ fn shifted(f: &Univariate<Rational>, square: &Rational) -> [Univariate<Rational>
     for j in 0..=f.degree().unwrap_or(0) {
         parts[j % 2] = parts[j % 2].add(&derivative.scale(&factor));
         derivative = derivative.derivative();
-        factor /= j as u32 + 1;
+        factor /= Integer::from(j + 1);
         factor = if j % 2 == 0 { -factor } else { -factor * square };
     }
     parts

@@ -97,7 +97,7 @@ fn wide<R: Extended>(x: R) -> Float {
 }
 
 fn ball_of<const BITS: u32>((re, im): &(Float, Float)) -> Ball<BITS> {
-    Ball::point(Float::with_val(BITS, re), Float::with_val(BITS, im)).midpoint()
+    Ball::point(re, im).midpoint()
 }
 
 /// Weierstrass' corrections with rigorous error bounds; `None` where two approximations are one.
@@ -124,7 +124,7 @@ fn isolated<const BITS: u32>(coefficients: &[Ball<BITS>], midpoints: &[Ball<BITS
         if *root.ball.im().as_abs() <= *root.ball.radius() {
             let off = Float::with_val(32, root.ball.im() * 1.01_f64);
             let (re, radius) = (root.ball.re().clone(), root.ball.radius().clone());
-            root.ball = Ball::point(re, Float::new(BITS)).enlarged(&radius).enlarged(&off);
+            root.ball = Ball::point(&re, &Float::new(BITS)).enlarged(&radius).enlarged(&off);
             root.is_real = true;
         }
     }

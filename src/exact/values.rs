@@ -65,6 +65,6 @@ pub fn pair_around<const BITS: u32>(angle: Complex<f64>, radius: f64) -> Pair<BI
     let rounding = Float::with_val(64, &bound * 8_u32) >> BITS;
     let error = Float::with_val(64, &bound * radius) * 1.01_f64 + rounding;
     let product = |a: &Float, b: &Float| Float::with_val(BITS, a * b);
-    let ball = |re: Float, im: Float| Ball::point(re, im).enlarged(&error);
+    let ball = |re: Float, im: Float| Ball::point(&re, &im).enlarged(&error);
     (ball(product(&cos, &cosh), -product(&sin, &sinh)), ball(product(&sin, &cosh), product(&cos, &sinh)))
 }

@@ -20,7 +20,7 @@ use crate::elimination::degree::{Degree, degree, general_filling};
 use crate::elimination::{point_reach, spherical_pair};
 use crate::error::{Error, Result};
 use crate::exact::{self, Known, MOST_WITH_TRIPLE, Resolution, general_rank, has_triple, resolve};
-use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::closed_loop::{
     ClosedLoop, Coupled, Layout, Numbers, OpenCoupled, OpenLoop, Variable, angle_motion, distance_motion,
 };
@@ -454,10 +454,10 @@ impl Question<'_> {
         }
         solver.solve_up_to(self.gap, self.roots, &most, workspace, assembly);
         let mut verdict = self.judge(assembly);
-        if !self.has_eliminants() {
-            if let Some(completed) = self.completed(&verdict, assembly) {
-                verdict = completed;
-            }
+        if !self.has_eliminants()
+            && let Some(completed) = self.completed(&verdict, assembly)
+        {
+            verdict = completed;
         }
         let (mut verdict, _) = self.by_exact_roots(verdict, assembly);
         if verdict.status == Status::SelfMotion
@@ -514,7 +514,6 @@ impl Question<'_> {
                 in_order(&mut assembly.modes);
                 (self.resolved(assembly), true)
             }
-            Resolution::Vanishing(_) => (self.probable(verdict, assembly), false),
             Resolution::Finite { most } if verdict.status == Status::SelfMotion => {
                 let reason =
                     format!("not proved: finitely many solutions, at most {most}, of which some are multiple or crowd");
@@ -529,19 +528,8 @@ impl Question<'_> {
                 };
                 (verdict, false)
             }
-            Resolution::Finite { .. } => (self.probable(verdict, assembly), false),
+            Resolution::Vanishing(_) | Resolution::Finite { .. } => (probable(verdict, assembly), false),
         }
-    }
-
-    /// A list of certified solutions that is as long as a count modulo the drawn prime is complete with a probability.
-    fn probable(&self, verdict: Verdict, assembly: &Assembly) -> Verdict {
-        let is_counted = verdict.complex_complete && verdict.code == Code::CountMet;
-        let is_certified = assembly.modes.iter().all(|mode| mode.certificate.is_some());
-        if !(is_counted && is_certified) {
-            return verdict;
-        }
-        let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
-        Verdict { proof, ..verdict }
     }
 
     /// The verdict on a list that holds a solution for every root of an exact eliminant.
@@ -592,6 +580,17 @@ impl Question<'_> {
 const GENERAL: usize = 16;
 /// Bits of the balls in which exact roots are compared: solutions that differ by more than about `1e-70` are told apart.
 const BALL_BITS: u32 = 256;
+
+/// A list of certified solutions that is as long as a count modulo the drawn prime is complete with a probability.
+fn probable(verdict: Verdict, assembly: &Assembly) -> Verdict {
+    let is_counted = verdict.complex_complete && verdict.code == Code::CountMet;
+    let is_certified = assembly.modes.iter().all(|mode| mode.certificate.is_some());
+    if !(is_counted && is_certified) {
+        return verdict;
+    }
+    let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
+    Verdict { proof, ..verdict }
+}
 
 /// The places of modes with certificate of which no two can be the same solution.
 fn distinct(modes: &[Mode], variables: &[Variable; 6]) -> Vec<usize> {
@@ -772,7 +771,7 @@ pub(super) fn filling<R: Ring>(case: &Case) -> Result<Motion<R>> {
     if case.pose.is_none() && case.input.is_empty() {
         return Ok(Motion::identity());
     }
-    let motion = case.pose.as_ref().and_then(|pose| pose.inverse_image());
+    let motion = case.pose.as_ref().and_then(Placement::inverse_image);
     let motion = motion.or_else(|| {
         case.input.first().and_then(|input| match &input.value {
             InputValue::Angle(angle) => angle_motion(angle),

@@ -292,22 +292,19 @@ impl Subject<'_> {
         } else {
             format!("a configuration over a number field of degree {degree}")
         };
-        let (code, why) = match first.map(|c| &c.local) {
-            Some(Local::Manifold { .. }) => {
-                let why = format!(
-                    "at {place} the screws of the joints that can move span the Lie algebra of a group of motions, so that {} \
+        let (code, why) = if let Some(Local::Manifold { .. }) = first.map(|c| &c.local) {
+            let why = format!(
+                "at {place} the screws of the joints that can move span the Lie algebra of a group of motions, so that {} \
                      variables less screw rank {rank} move (theorem 1)",
-                    self.variables.len()
-                );
-                (Code::GroupOfMotions, why)
-            }
-            _ => {
-                let why = format!(
-                    "at {place} the joint screws have rank {rank} and the reduced closure equations vanish beyond the order \
+                self.variables.len()
+            );
+            (Code::GroupOfMotions, why)
+        } else {
+            let why = format!(
+                "at {place} the joint screws have rank {rank} and the reduced closure equations vanish beyond the order \
                      that an isolated solution can have (theorem 2)"
-                );
-                (Code::OrderExceedsBound, why)
-            }
+            );
+            (Code::OrderExceedsBound, why)
         };
         let idle = if still > 0 { format!("; {still} joint variables stand still") } else { String::new() };
         let held = if found.held.is_empty() {

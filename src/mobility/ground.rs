@@ -204,7 +204,7 @@ impl Grounded {
         let shift = Univariate::new(vec![Rational::new(), Rational::from(-multiplier)]);
         // The norm of the polynomial at T - m u, a polynomial in T, from its values.
         let value = |k: usize| -> Option<(Rational, Rational)> {
-            let x = Rational::from(k as i64 - (degree / 2) as i64);
+            let x = Rational::from(k) - Rational::from(degree / 2);
             let t = shift.add(&Univariate::constant(x.clone()));
             let horner = |value: Univariate<Rational>, c: &Univariate<Rational>| value.mul(&t).add(c);
             let at = coefficients.iter().rev().fold(Univariate::zero(), horner);
@@ -309,7 +309,7 @@ fn closes_throughout<F: Field>(linkage: &Linkage<F>, values: &[JointValue<Univar
 
 /// A number of a field as that of a larger one in which the generating element is this.
 pub(super) fn in_terms_of(x: &Algebraic, element: &Algebraic) -> Algebraic {
-    x.polynomial().map(|c| Algebraic::from_rational(c)).map_or_else(Algebraic::zero, |p| p.eval(element))
+    x.polynomial().map(Algebraic::from_rational).map_or_else(Algebraic::zero, |p| p.eval(element))
 }
 
 /// A field in which a polynomial over the field of a loop has a root.

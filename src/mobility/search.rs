@@ -164,6 +164,9 @@ fn tangent(variable: Variable, unit: &Rational, shift: usize) -> Rational {
     }
 }
 
+/// The linkage over the field of a configuration, if it has an image there.
+type Image<'a> = Box<dyn Fn(&Conjugates) -> Option<Linkage<Algebraic>> + 'a>;
+
 /// A loop whose configurations are looked at: over the rationals or a number field.
 struct Setting<'a> {
     variables: &'a [Variable],
@@ -173,7 +176,7 @@ struct Setting<'a> {
     /// Where the three variables of spherical joints begin.
     balls: &'a [usize],
     /// The loop in the field of some configurations.
-    image: Box<dyn Fn(&Conjugates) -> Option<Linkage<Algebraic>> + 'a>,
+    image: Image<'a>,
 }
 
 impl<'a> Setting<'a> {

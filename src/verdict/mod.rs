@@ -102,16 +102,13 @@ pub fn verdict(
         Judged { status: Status::SelfMotion, ..Judged::unproved(Code::SelfMotion, reason) }
     } else if structural_rank < 6 {
         let none = if assembly.modes.is_empty() { pose().filter(|here| here.count == 0) } else { None };
-        match none {
-            Some(here) => {
-                let reason = format!("{}; {}", deficient(structural_rank), accounted(&[], &here));
-                Judged { code: Code::NoSolution, ..Judged::by(Status::Unreachable, &here, reason) }
-            }
-            None => {
-                let list =
-                    if assembly.modes.is_empty() { "no solution was found" } else { "the list is not proved complete" };
-                Judged::unproved(Code::StructurallyDeficient, format!("{}; {list}", deficient(structural_rank)))
-            }
+        if let Some(here) = none {
+            let reason = format!("{}; {}", deficient(structural_rank), accounted(&[], &here));
+            Judged { code: Code::NoSolution, ..Judged::by(Status::Unreachable, &here, reason) }
+        } else {
+            let list =
+                if assembly.modes.is_empty() { "no solution was found" } else { "the list is not proved complete" };
+            Judged::unproved(Code::StructurallyDeficient, format!("{}; {list}", deficient(structural_rank)))
         }
     } else if let Some((code, doubt)) = doubt(&assembly.modes) {
         Judged::unproved(code, format!("not proved: {doubt}"))

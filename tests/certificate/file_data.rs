@@ -252,7 +252,7 @@ fn drawn(draw: &mut Draw, is_loop: bool) -> Drawn {
             joints.push(format!("{{\"type\":\"{kind}\",\"axis\":[{}],\"point\":[{}]}}", list(&axis), list(&point)));
             let frame = frame(&axis, &point);
             let back = inverse(&frame);
-            steps.extend([Step::Constant(frame), variable(slide), Step::Constant(back)]);
+            steps.extend([Step::constant(frame), variable(slide), Step::constant(back)]);
         } else {
             let (a, d, alpha, theta0) = (draw.length(), draw.length(), draw.angle(), draw.angle());
             let offsets = if slide { ["d0", "theta"] } else { ["d", "theta0"] };
@@ -261,10 +261,10 @@ fn drawn(draw: &mut Draw, is_loop: bool) -> Drawn {
             joints.push(format!("{{\"type\":\"{kind}\",{constants}}}"));
             steps.extend([
                 variable(slide),
-                Step::Constant(about(2, real(&theta0.value).cos_sin())),
-                Step::Constant(along(2, &real(&d.value))),
-                Step::Constant(along(0, &real(&a.value))),
-                Step::Constant(about(0, real(&alpha.value).cos_sin())),
+                Step::constant(about(2, real(&theta0.value).cos_sin())),
+                Step::constant(along(2, &real(&d.value))),
+                Step::constant(along(0, &real(&a.value))),
+                Step::constant(about(0, real(&alpha.value).cos_sin())),
             ]);
         }
     }
@@ -273,7 +273,7 @@ fn drawn(draw: &mut Draw, is_loop: bool) -> Drawn {
     if is_screws {
         let (text, home) = draw.motion();
         parts.push(format!("\"home\":{text}"));
-        steps.push(Step::Constant(home));
+        steps.push(Step::constant(home));
     }
     let kind = if is_loop { "loop" } else { "arm" };
     let (tail, given) = if is_loop {
@@ -283,9 +283,9 @@ fn drawn(draw: &mut Draw, is_loop: bool) -> Drawn {
     } else {
         let (base, m) = draw.motion();
         parts.push(format!("\"base\":{base}"));
-        steps.insert(0, Step::Constant(m));
+        steps.insert(0, Step::constant(m));
         let (pose, m) = draw.motion();
-        steps.push(Step::Constant(inverse(&m)));
+        steps.push(Step::constant(inverse(&m)));
         (format!("\"pose\":[{{\"matrix\":{pose}}}]"), None)
     };
     let text = format!("{{\"title\":\"drawn\",\"mechanism\":{{\"kind\":\"{kind}\",{}}},{tail}}}", parts.join(","));

@@ -103,11 +103,18 @@ pub fn along(axis: usize, distance: &Wide) -> Matrix {
 
 /// One step from base to tool.
 pub enum Step {
-    Constant(Matrix),
+    Constant(Box<Matrix>),
     /// A rotation about the z axis.
     Angle,
     /// A translation along it.
     Distance,
+}
+
+impl Step {
+    /// A step that no joint changes.
+    pub fn constant(motion: Matrix) -> Self {
+        Self::Constant(Box::new(motion))
+    }
 }
 
 /// The closure of a chain and the twists of its variables in the frame of the base.
@@ -117,7 +124,7 @@ fn closure(steps: &[Step], values: &[Wide]) -> (Matrix, Vec<[Wide; 6]>) {
     for step in steps {
         let z = [0, 1, 2].map(|i| frame[i][2].clone());
         let motion = match step {
-            Step::Constant(motion) => motion.clone(),
+            Step::Constant(motion) => Matrix::clone(motion),
             Step::Angle => {
                 let p = |i: usize| &frame[i][3];
                 let cross = |i: usize, j: usize| p(i).times(&z[j]).minus(&p(j).times(&z[i]));

@@ -3,6 +3,7 @@
 
 use super::cases::Draw;
 use looproot::algebra::number::Number;
+use looproot::algebra::real_roots::RealRoot;
 use looproot::algebra::univariate::Univariate;
 use looproot::assembly::Roots;
 use looproot::benchmark::platform::sample::{PlatformSet, sample};
@@ -161,7 +162,7 @@ fn real_poses_of_flat_platforms_are_as_many_as_the_polynomial_has_real_roots() {
         let Some(polynomial) = multiple_platform_polynomial(&platform, &squares) else { continue };
         let verdict = answer(&platform, &squares).verdict;
         let roots = Univariate::new(polynomial.coefficients).real_roots();
-        let real: usize = roots.iter().map(|root| root.multiplicity()).sum();
+        let real: usize = roots.iter().map(RealRoot::multiplicity).sum();
         if verdict.proof.is_proved() {
             assert_eq!(verdict.real, real, "{index}: {}", verdict.reason);
         }

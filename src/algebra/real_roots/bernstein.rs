@@ -315,7 +315,7 @@ mod tests {
 
     /// `l b_j` on a cell for `p(x) = sum c_i x^i`, exactly: `sum_i C(j,i) w_i q_i` with `q(y) = p(x_0 + w y)`.
     fn exactly(source: &Source, cell: &Cell) -> Vec<Rational> {
-        let (start, width) = (cell.lo(), Rational::from(cell.hi() - cell.lo()));
+        let (start, width) = (cell.lo(), cell.hi() - cell.lo());
         let mut q: Vec<Rational> = source.coefficients.iter().map(Rational::from).collect();
         let n = q.len() - 1;
         for from in 0..n {

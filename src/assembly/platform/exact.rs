@@ -75,7 +75,7 @@ pub fn exact_modes(poses: &ExactPoses, frame: &Frame) -> Option<Vec<Found>> {
     let mode = |(root, real): (Long, bool)| {
         let [w, i, j, k] = poses.quaternion.each_ref().map(|c| value(c, &root));
         let [x, y, z] = poses.position.each_ref().map(|c| value(c, &root));
-        let study = study(Quaternion { scalar: w?, vector: [i?, j?, k?] }, [x?, y?, z?], frame);
+        let study = study(&Quaternion { scalar: w?, vector: [i?, j?, k?] }, &[x?, y?, z?], frame);
         let reach = study.iter().map(|z| z.norm()).fold(1.0, f64::max);
         reach.is_finite().then(|| Found::exact(study, real, ROUNDED * reach, poses.multiplicity))
     };
@@ -83,7 +83,7 @@ pub fn exact_modes(poses: &ExactPoses, frame: &Frame) -> Option<Vec<Found>> {
 }
 
 /// Study's parameters in the frame of polishing, x of hermitian norm 1.
-fn study(x: Quaternion<Long>, position: [Long; 3], frame: &Frame) -> Eight<Complex<f64>> {
+fn study(x: &Quaternion<Long>, position: &[Long; 3], frame: &Frame) -> Eight<Complex<f64>> {
     let square: f64 = x.vector.iter().chain([&x.scalar]).map(|c| c.square_size()).sum();
     let scale = LongFloat::from(1.0 / square.sqrt().max(f64::MIN_POSITIVE));
     let x = Quaternion { scalar: x.scalar.times(scale), vector: x.vector.map(|c| c.times(scale)) };

@@ -206,7 +206,7 @@ impl Frame {
 
     /// The same in numbers of 384 bits.
     pub fn long_legs(&self, squares: &[Rational; 6]) -> [Leg<LongFloat>; 6] {
-        let unit = Rational::from_f64(self.scale).map_or_else(|| Rational::from(1), |s| s.square());
+        let unit = Rational::from_f64(self.scale).map_or_else(|| Rational::from(1), Rational::square);
         std::array::from_fn(|i| {
             let leg = Leg { square: Rational::from(&squares[i] / &unit), ..self.exact[i].clone() };
             leg_in(&leg)

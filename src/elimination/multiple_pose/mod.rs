@@ -101,9 +101,10 @@ fn over(
     };
     match positions(&here, &lengths, &x)? {
         Positions::One(p) => at(&x, p, polynomial).map(|pose| vec![pose]),
-        Positions::Two(pair) => match pair.root() {
-            Some(root) => [root.clone(), root.neg()].iter().map(|root| at(&x, pair.at(root)?, polynomial)).collect(),
-            None => {
+        Positions::Two(pair) => {
+            if let Some(root) = pair.root() {
+                [root.clone(), root.neg()].iter().map(|root| at(&x, pair.at(root)?, polynomial)).collect()
+            } else {
                 // Only where all else is rational: one square root is all that there is then.
                 let square = pair.discriminant.rational()?;
                 let rational = x.vector.iter().chain([&x.scalar]).all(|c| c.rational().is_some());
@@ -111,6 +112,6 @@ fn over(
                 let root = NumberField::new(&minimal).root();
                 rational.then(|| at(&x, pair.at(&root)?, &minimal))?.map(|pose| vec![pose])
             }
-        },
+        }
     }
 }

@@ -13,7 +13,7 @@ pub enum Positions {
     /// A single one.
     One(Vector<Algebraic>),
     /// Two.
-    Two(Pair),
+    Two(Box<Pair>),
 }
 
 /// Two positions on a line, `base + s direction` with `alpha s^2 + 2 beta s + gamma = 0`.
@@ -87,7 +87,7 @@ pub fn positions(
             if pair.discriminant.is_zero() {
                 return pair.at(&Algebraic::zero()).map(Positions::One);
             }
-            Some(Positions::Two(pair))
+            Some(Positions::Two(Box::new(pair)))
         }
         _ => None,
     }
@@ -108,7 +108,9 @@ fn solved(mut rows: Vec<[Algebraic; 4]>) -> Option<Vec<(usize, [Algebraic; 4])>>
             }
         };
         rows.iter_mut().for_each(clear);
-        done.iter_mut().for_each(|(_, other)| clear(other));
+        for (_, other) in &mut done {
+            clear(other);
+        }
         done.push((column, row));
     }
     rows.iter().all(|row| row[3].is_zero()).then_some(done)
