@@ -387,7 +387,7 @@ fn what_is_printed_is_what_was_printed() {
     for arguments in [
         &["derive", "cccr_1_angle"][..],
         &["derive", "crcrr_2_angle"],
-        &["derive", "rrsrr", "--json"],
+        &["derive", "rrsrr", "--json", "--seed", "7"],
         &["derive", "rsrc", "--format", "singular"],
         &["derive", "ik_4r2p_wrist", "--quiet"],
         &["derive", "cprcr_2_distance", "--explain"],

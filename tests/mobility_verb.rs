@@ -53,9 +53,11 @@ fn loops_without_input_move_by_as_many_freedoms_as_they_have() {
     ];
     for (joints, freedoms) in loops {
         let answer = decided(&chain("loop", &joints, ""));
-        let found = (answer.mobility, answer.gruebler(), answer.screw_rank(), answer.proof);
-        let expected = (Some(freedoms), i64::try_from(freedoms).unwrap(), Some(6), Proof::Proved);
+        let found = (answer.mobility, answer.gruebler(), answer.screw_rank());
+        let expected = (Some(freedoms), i64::try_from(freedoms).unwrap(), Some(6));
         assert_eq!(found, expected, "{joints:?}: {}", answer.reason);
+        // Twists of whole degrees are rounded, and a certificate may be of the rounded loop only.
+        assert!(matches!(answer.proof, Proof::Proved | Proof::RoundedData), "{joints:?}: {}", answer.reason);
         assert!(!answer.configurations.is_empty() && answer.held.len() <= freedoms);
     }
 }
@@ -185,7 +187,8 @@ fn loops_that_the_verbs_cannot_take_are_refused_with_place_and_mobility() {
 fn a_sweep_brings_its_own_input() {
     let path = file("swept.toml", &chain("loop", &general(7), ""));
     let (code, out, err) = run(&["sweep", &path, "--joint", "1", "--from", "0", "--to", "1", "--steps", "2"]);
-    assert!(matches!(code, Some(0 | 3)), "{out}{err}");
+    // Six unknown rotations are of degree 16: the branches are followed, not proved.
+    assert_eq!(code, Some(2), "{out}{err}");
     let (code, out, _) = run(&["mobility", &path, "--json"]);
     let document: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!((code, &document["mobility"], &document["freedoms"]), (Some(0), &1.into(), &7.into()));

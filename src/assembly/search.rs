@@ -34,7 +34,8 @@ pub(super) const AS_IT_IS: ([usize; 6], bool) = ([0, 1, 2, 3, 4, 5], false);
 pub(super) enum Effort<'a> {
     /// One pencil. Nothing is decided of what it leaves open.
     OnePencil,
-    /// Pencil after pencil, up to a number of solutions. Nothing is decided of what they leave open.
+    /// Pencil after pencil, up to a number of solutions, and proofs of pairs that f64 hardly tells apart. Nothing is decided
+    /// of what they leave open.
     Pencils(&'a dyn Fn() -> usize),
     /// Pencils up to a number of solutions, multistart where they are not clean, and a decision on what has no certificate.
     All(&'a dyn Fn() -> usize),
@@ -75,8 +76,10 @@ impl Search<'_> {
             Some(8) => self.four_bars(most),
             _ => self.all_cuts(most),
         }
-        if !matches!(self.effort, Effort::All(_)) {
-            return;
+        match self.effort {
+            Effort::OnePencil => return,
+            Effort::Pencils(_) => return self.resolve_pairs(),
+            Effort::All(_) => {}
         }
         if !self.assembly.clean {
             self.cast_about();

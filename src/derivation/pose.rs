@@ -74,7 +74,8 @@ pub(super) fn lift(
         complaints.push(format!("{homeless} poses of the numeric solution belong to no root of the polynomial"));
     }
     let empty = polynomial.roots.iter().filter(|root| root.poses.is_empty()).count();
-    if empty > 0 {
+    // Of two poses at a real root neither may be real: mirror images at a complex height.
+    if empty > 0 && known.is_some() {
         complaints.push(format!("no pose was found at {empty} of the real roots"));
     }
     complaints

@@ -114,7 +114,7 @@ fn overlap<const BITS: u32>(one: &Motion<Ball<BITS>>, other: &Motion<Ball<BITS>>
 
 #[cfg(test)]
 mod tests {
-    use super::super::values::meet;
+    use crate::exact::values::meet;
     use super::*;
     use rug::Rational;
 

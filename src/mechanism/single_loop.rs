@@ -483,7 +483,8 @@ impl Question<'_> {
     /// The verdict by the roots of the exact eliminants, where the one at hand is not proved, and whether that is the last
     /// word. The list becomes that of the eliminants where these tell all solutions.
     fn by_exact_roots(&self, verdict: Verdict, assembly: &mut Assembly) -> (Verdict, bool) {
-        if verdict.proof.is_proved() {
+        // A pose out of reach has complex solutions all the same.
+        if verdict.proof.is_proved() && verdict.complex_complete {
             return (verdict, true);
         }
         let is_asked = self.roots == Roots::All

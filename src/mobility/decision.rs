@@ -423,7 +423,7 @@ impl Subject<'_> {
 
     /// The exact configuration near a multiple solution, if one of its joints stands at a simple value.
     fn singular(&self, mode: &FullMode) -> Option<Configuration> {
-        if mode.certified {
+        if mode.certified && mode.multiplicity == 1 {
             return None;
         }
         let unit = self.linkage.unit();

@@ -336,7 +336,7 @@ fn judge(drawn: &Drawn, tally: &mut Tally) {
 
 /// How many mechanisms are drawn: of each sixteen modes at most.
 fn count() -> u64 {
-    std::env::var("LOOPROOT_RADII").ok().and_then(|text| text.parse().ok()).unwrap_or(60)
+    std::env::var("LOOPROOT_RADII").ok().and_then(|text| text.parse().ok()).unwrap_or(8)
 }
 
 #[test]
