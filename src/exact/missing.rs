@@ -114,8 +114,8 @@ fn overlap<const BITS: u32>(one: &Motion<Ball<BITS>>, other: &Motion<Ball<BITS>>
 
 #[cfg(test)]
 mod tests {
-    use crate::exact::values::meet;
     use super::*;
+    use crate::exact::values::meet;
     use rug::Rational;
 
     type Short = Ball<128>;
