@@ -612,11 +612,18 @@ fn known(mode: &Mode) -> Known {
     Known { unknowns: mode.unknowns, radius }
 }
 
-/// A loop rounded to f64.
+/// A loop of rotations rounded to f64, lengths over a power of two near the mean link: residuals and condition numbers are
+/// those of such lengths.
 fn in_f64(exact: &ClosedLoop<Rational>) -> Option<ClosedLoop<f64>> {
     let constants = exact.constants.each_ref().map(|motion| motion.map(|x| Some(nearest_f64(x))));
     let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = constants else { return None };
-    Some(ClosedLoop { variables: exact.variables, constants: [a, b, c, d, e, f] })
+    let mut constants = [a, b, c, d, e, f];
+    let square = constants.iter().flat_map(|motion| motion.translation).map(|x| x * x).sum::<f64>() / 6.0;
+    let unit = if square > 0.0 && square.is_finite() { square.sqrt().log2().round().exp2() } else { 1.0 };
+    for motion in &mut constants {
+        motion.translation = motion.translation.map(|x| x / unit);
+    }
+    Some(ClosedLoop { variables: exact.variables, constants })
 }
 
 /// Real modes first, then by their unknowns.
