@@ -45,8 +45,52 @@ pub fn closing_tuples<const BITS: u32>(
             let found = from_both_sides(&constants, [a, b, c, d, e, f])?;
             Some(found.into_iter().map(|tuple| Closing { tuple, rest: Vec::new() }).collect())
         }
+        _ if values.iter().filter(|list| list.is_none()).count() == 1 => with_one_left(&constants, values),
         _ => with_rest(&constants, values),
     }
+}
+
+/// Combinations of five unknowns, by the axis of the sixth one as both sides of the loop see it.
+fn with_one_left<const BITS: u32>(
+    constants: &[Motion<Ball<BITS>>],
+    values: &[Option<Vec<&Value<BITS>>>; 6],
+) -> Option<Vec<Closing<BITS>>> {
+    let missing = values.iter().position(Option::is_none)?;
+    // The loop is read from behind the missing unknown, which is the last one then.
+    let place = |k: usize| (missing + 1 + k) % 6;
+    let lists: Vec<&[&Value<BITS>]> = (0..5).map(|k| values[place(k)].as_deref()).collect::<Option<_>>()?;
+    let near = sides([0, 1, 2].map(|k| &constants[place(k)]), [lists[0], lists[1], lists[2]])?;
+    let mut found = Vec::new();
+    let last = &constants[missing];
+    // near far V G = I with the missing rotation V, which keeps its axis: far z = near^-1 G^-1 z.
+    let seen: Vec<_> = near.iter().map(|side| axis_discs(&last.then_after(&side.motion).inverse())).collect();
+    for (i, fourth) in lists[3].iter().enumerate() {
+        for (j, fifth) in lists[4].iter().enumerate() {
+            let far = step(&fourth.pair, &constants[place(3)]).then_after(&step(&fifth.pair, &constants[place(4)]));
+            let axis = axis_discs(&far);
+            for (side, _) in near.iter().zip(&seen).filter(|(_, other)| may_meet(&axis, other)) {
+                let whole = last.then_after(&side.motion).then_after(&far);
+                let rest = match rest(&[whole]) {
+                    Rest::Open => continue,
+                    Rest::Undetermined => return None,
+                    Rest::Unique(rest) => rest,
+                };
+                let mut tuple = [0; 6];
+                for (k, own) in [side.choice[0], side.choice[1], side.choice[2], i, j].into_iter().enumerate() {
+                    tuple[place(k)] = own;
+                }
+                found.push(Closing { tuple, rest });
+            }
+        }
+    }
+    Some(found)
+}
+
+/// Discs in f64 around the direction and the origin of the z axis after a motion.
+fn axis_discs<const BITS: u32>(motion: &Motion<Ball<BITS>>) -> [[f64; 3]; 6] {
+    let [a, b, c] = [0, 1, 2].map(|i| disc(&motion.rotation[i][2]));
+    let [x, y, z] = motion.translation.each_ref().map(disc);
+    [a, b, c, x, y, z]
 }
 
 /// Combinations of all six unknowns.
@@ -155,17 +199,22 @@ fn entries<const BITS: u32>(motion: &Motion<Ball<BITS>>) -> impl Iterator<Item =
 /// Discs in f64 that hold the balls of all entries.
 fn discs<const BITS: u32>(motion: &Motion<Ball<BITS>>) -> [[f64; 3]; 12] {
     let mut discs = [[0.0; 3]; 12];
-    for (disc, ball) in discs.iter_mut().zip(entries(motion)) {
-        let (re, im) = (ball.re().to_f64(), ball.im().to_f64());
-        // Rounding to f64 moves the midpoint, and the radius, by half a unit in the last place.
-        let radius = ball.radius().to_f64() * (1.0 + 1e-15) + (re.abs() + im.abs()) * f64::EPSILON + f64::MIN_POSITIVE;
-        *disc = [re, im, radius];
+    for (own, ball) in discs.iter_mut().zip(entries(motion)) {
+        *own = disc(ball);
     }
     discs
 }
 
-/// Whether f64 leaves it open that two motions are the same one; what overflowed is left open.
-fn may_meet(one: &[[f64; 3]; 12], other: &[[f64; 3]; 12]) -> bool {
+/// A disc in f64 that holds a ball.
+fn disc<const BITS: u32>(ball: &Ball<BITS>) -> [f64; 3] {
+    let (re, im) = (ball.re().to_f64(), ball.im().to_f64());
+    // Rounding to f64 moves the midpoint, and the radius, by half a unit in the last place.
+    let radius = ball.radius().to_f64() * (1.0 + 1e-15) + (re.abs() + im.abs()) * f64::EPSILON + f64::MIN_POSITIVE;
+    [re, im, radius]
+}
+
+/// Whether f64 leaves it open that two motions, or two axes, are the same one; what overflowed is left open.
+fn may_meet<const N: usize>(one: &[[f64; 3]; N], other: &[[f64; 3]; N]) -> bool {
     one.iter().zip(other).all(|([x, y, r], [u, v, s])| {
         let reach = (r + s) * (1.0 + 1e-15);
         !((x - u).abs() > reach || (y - v).abs() > reach)
