@@ -442,7 +442,7 @@ pub(super) struct Combined {
 }
 
 impl Combined {
-    /// So many coefficients, of which nothing is known.
+    /// A list of this many coefficients of which nothing is known.
     pub(super) fn new(length: usize) -> Self {
         Self { residues: vec![Integer::new(); length], product: Integer::from(1) }
     }

@@ -114,7 +114,7 @@ fn resolution<const BITS: u32>(
     }
 }
 
-/// So many rotations follow from the others.
+/// Up to this many rotations follow from the others.
 const MOST_MISSING: usize = 3;
 /// Stands for no bound on the number of solutions: more than any loop has.
 const UNBOUNDED: usize = 1000;
