@@ -43,7 +43,7 @@ pub enum Error {
     /// Well-formed, but beyond what is implemented.
     #[error("unsupported: {0}")]
     Unsupported(String),
-    /// The same of a chain of joints; the message names its mobility.
+    /// A chain of joints beyond what is implemented. The message names its mobility.
     #[error("unsupported: {0}")]
     UnsupportedMobility(String),
 }

@@ -115,7 +115,8 @@ pub fn false_roots<F: Field + Domain>(
 pub struct RootConditions<F> {
     /// Three coordinates of `u x v` times `N3`: all of them vanish where the translations are dependent.
     pub parallel: [Univariate<F>; 3],
-    /// The same of `u x s`: where the translations are dependent and these do not all vanish, the loop does not close.
+    /// Three coordinates of `u x s` in the same way: the loop does not close where the translations are dependent and these
+    /// do not all vanish.
     pub gap: [Univariate<F>; 3],
 }
 

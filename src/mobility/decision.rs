@@ -104,7 +104,7 @@ impl Subject<'_> {
         }
     }
 
-    /// The same of data some of which may have been rounded.
+    /// Limits an answer to the rounded numbers where the file has numbers that were rounded.
     pub(super) fn rounded(&self, answer: Mobility) -> Mobility {
         let proof = answer.proof.of_rounded(!is_exact(self.chain));
         if proof == answer.proof {

@@ -48,7 +48,7 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// Those of some roots at which the element has its own value, and not that of a conjugate.
+    /// Keeps the roots at which the element has its own value, and not that of a conjugate.
     fn own(&self, roots: Vec<RealRoot>) -> Vec<RealRoot> {
         let is_own = |root: &mut RealRoot| {
             root.refine(&Rational::from((1, rug::Integer::from(1) << WIDTH)));

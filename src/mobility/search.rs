@@ -100,7 +100,7 @@ pub(super) fn search(linkage: &Linkage<Rational>, balls: &[usize]) -> Outcome {
     }
 }
 
-/// The same of a loop over a number field; its home configuration is looked at first.
+/// Searches a loop over a number field as well; its home configuration is looked at first.
 pub(super) fn search_over(ground: &Grounded, unit: &Rational) -> Outcome {
     let setting = Setting::over(ground, unit);
     if let Some(home) = ground.home() {

@@ -62,7 +62,7 @@ enum Lock {
 }
 
 impl<'a> Configurations<'a> {
-    /// Those of a loop.
+    /// The configurations of a loop.
     pub fn new(
         system: &'a System,
         steps: &'a [Step],
