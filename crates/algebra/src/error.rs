@@ -1,0 +1,33 @@
+//! The one error of this crate: text or data that cannot be read, with what was found and what was expected.
+
+use thiserror::Error;
+
+/// Shorthand for a result with this crate's [`enum@Error`].
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why something could not be read.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file says something that cannot be read: what was found and what was expected.
+    #[error("{path}:{line}: {message}")]
+    File {
+        /// The file as it was named.
+        path: String,
+        /// Line of the fault, from 1.
+        line: usize,
+        /// What was found and what was expected.
+        message: String,
+    },
+    /// A file has another form than it should have, at no line in particular.
+    #[error("{path}: {message}")]
+    Io {
+        /// The file as it was named.
+        path: String,
+        /// What was found and what was expected.
+        message: String,
+    },
+    /// A value that cannot be used: what was found and what was expected.
+    #[error("{0}")]
+    Invalid(String),
+}

@@ -1,0 +1,196 @@
+//! Buchberger's algorithm with the criteria of Gebauer and Möller.
+
+use super::monomial::{MOST_VARIABLES, Monomial};
+use super::polynomial::{Equation, Polynomial, Work, remainder};
+use rug::Integer;
+
+/// The reduced Gröbner basis of an ideal over the rationals.
+#[derive(Clone, Debug)]
+pub struct Basis {
+    pub(super) variables: usize,
+    pub(super) elements: Vec<Polynomial>,
+}
+
+/// Two elements whose leading terms are made to cancel.
+#[derive(Clone, Copy)]
+struct Pair {
+    first: usize,
+    second: usize,
+    multiple: Monomial,
+}
+
+/// A basis in the making.
+struct Making {
+    elements: Vec<Polynomial>,
+    /// Whether the leading monomial of an element is a multiple of that of a later one: it is of use for pairs only.
+    is_old: Vec<bool>,
+    pairs: Vec<Pair>,
+    /// Products of words that may still be made.
+    effort: u64,
+}
+
+impl Basis {
+    /// The basis of the ideal of these equations in so many variables; `None` where that takes more products of words than
+    /// `effort`, or monomials of a degree above 127.
+    ///
+    /// # Panics
+    /// When there are too many variables.
+    ///
+    /// # Source
+    /// Gebauer and Möller 1988, On an installation of Buchberger's algorithm, J. Symbolic Computation 6.
+    #[must_use]
+    pub fn of(variables: usize, equations: &[Equation], effort: u64) -> Option<Self> {
+        assert!(variables <= MOST_VARIABLES, "at most {MOST_VARIABLES} variables");
+        let mut making = Making { elements: Vec::new(), is_old: Vec::new(), pairs: Vec::new(), effort };
+        let mut given: Vec<Polynomial> = equations.iter().filter_map(Polynomial::of).collect();
+        given.sort_by_key(|p| (p.leading(), p.terms.len()));
+        for polynomial in given {
+            let work: Work = polynomial.terms.into_iter().collect();
+            making.admit(work)?;
+        }
+        while let Some(pair) = making.next() {
+            let work = making.difference(pair)?;
+            making.admit(work)?;
+        }
+        making.finished(variables)
+    }
+
+    /// The dimension of the set of solutions, complex ones included; `None` for the empty set.
+    ///
+    /// It is the largest number of variables of which no leading monomial is a product.
+    #[must_use]
+    pub fn dimension(&self) -> Option<usize> {
+        let supports: Vec<u32> = self.elements.iter().map(|p| support(p.leading())).collect();
+        let is_free = |set: &u32| supports.iter().all(|support| support & !set != 0);
+        (0..1_u32 << self.variables).filter(is_free).map(|set| set.count_ones() as usize).max()
+    }
+
+    /// The elements in the order of their leading monomials.
+    pub(super) fn by_size(&self) -> Vec<&Polynomial> {
+        self.elements.iter().collect()
+    }
+}
+
+/// The variables of a monomial, a bit for each.
+fn support(monomial: Monomial) -> u32 {
+    (0..MOST_VARIABLES).filter(|k| monomial.exponent(*k) > 0).map(|k| 1 << k).sum()
+}
+
+impl Making {
+    /// The elements by which everything is reduced.
+    fn reducers(&self) -> Vec<&Polynomial> {
+        self.elements.iter().zip(&self.is_old).filter(|(_, old)| !**old).map(|(p, _)| p).collect()
+    }
+
+    /// The pair whose cancelled monomial is least.
+    fn next(&mut self) -> Option<Pair> {
+        let least = (0..self.pairs.len()).min_by_key(|k| self.pairs[*k].multiple)?;
+        Some(self.pairs.swap_remove(least))
+    }
+
+    /// What is left of two elements when their leading terms cancel.
+    fn difference(&self, pair: Pair) -> Option<Work> {
+        let (p, q) = (&self.elements[pair.first], &self.elements[pair.second]);
+        let common = Integer::from(p.coefficient().gcd_ref(q.coefficient()));
+        let mut work = Work::new();
+        for (own, other, sign) in [(p, q, 1), (q, p, -1)] {
+            let factor = Integer::from(other.coefficient().div_exact_ref(&common)) * sign;
+            let monomial = pair.multiple.over(own.leading());
+            for (m, c) in &own.terms[1..] {
+                *work.entry(m.times(monomial)?).or_default() += Integer::from(c * &factor);
+            }
+        }
+        Some(work)
+    }
+
+    /// Reduces a polynomial, and makes what is left of it an element; `None` where a degree is too large.
+    fn admit(&mut self, work: Work) -> Option<()> {
+        let mut effort = self.effort;
+        let rest = remainder(work, &self.reducers(), &mut Integer::from(1), &mut effort)?;
+        self.effort = effort;
+        let Some(element) = Polynomial::primitive(rest) else { return Some(()) };
+        self.update_pairs(element.leading())?;
+        for (other, old) in self.elements.iter().zip(&mut self.is_old) {
+            *old |= element.leading().divides(other.leading());
+        }
+        self.elements.push(element);
+        self.is_old.push(false);
+        Some(())
+    }
+
+    /// The pairs of a new element, but for those of which others make sure; old ones of which it makes sure are left out.
+    fn update_pairs(&mut self, leading: Monomial) -> Option<()> {
+        let second = self.elements.len();
+        let multiple = |k: usize| self.elements[k].leading().common_multiple(leading);
+        let multiples: Option<Vec<Monomial>> = (0..second).map(multiple).collect();
+        let multiples = multiples?;
+        self.pairs.retain(|pair| {
+            !leading.divides(pair.multiple)
+                || multiples[pair.first] == pair.multiple
+                || multiples[pair.second] == pair.multiple
+        });
+        let is_coprime = |k: usize| self.elements[k].leading().is_coprime_to(leading);
+        let mut fresh: Vec<Pair> = Vec::new();
+        for first in (0..second).filter(|k| !self.is_old[*k]) {
+            let own = multiples[first];
+            let is_covered = (0..second).filter(|k| *k != first && !self.is_old[*k]).any(|k| {
+                let other = multiples[k];
+                other.divides(own) && (other != own || is_coprime(k) || (k < first && !is_coprime(first)))
+            });
+            if !is_covered && !is_coprime(first) {
+                fresh.push(Pair { first, second, multiple: own });
+            }
+        }
+        self.pairs.extend(fresh);
+        Some(())
+    }
+
+    /// The reduced basis.
+    fn finished(self, variables: usize) -> Option<Basis> {
+        let mut effort = self.effort;
+        let mut minimal: Vec<Polynomial> =
+            self.elements.into_iter().zip(self.is_old).filter(|(_, old)| !old).map(|(p, _)| p).collect();
+        minimal.sort_by_key(Polynomial::leading);
+        let mut elements: Vec<Polynomial> = Vec::new();
+        for polynomial in minimal {
+            let below: Vec<&Polynomial> = elements.iter().collect();
+            let mut scale = Integer::from(1);
+            let mut tail: Work = polynomial.terms.iter().skip(1).cloned().collect();
+            tail = remainder(tail, &below, &mut scale, &mut effort)?;
+            tail.insert(polynomial.leading(), Integer::from(polynomial.coefficient() * &scale));
+            elements.extend(Polynomial::primitive(tail));
+        }
+        Some(Basis { variables, elements })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ring::Ring;
+
+    fn x(k: usize) -> Equation {
+        Equation::variable(k)
+    }
+
+    fn number(n: i32) -> Equation {
+        Equation::from_integer(n)
+    }
+
+    fn basis(variables: usize, equations: &[Equation]) -> Basis {
+        Basis::of(variables, equations, 100_000).unwrap()
+    }
+
+    /// The cyclic 4-roots form curves.
+    #[test]
+    fn dimensions_are_those_of_the_sets() {
+        let (a, b, c, d) = (x(0), x(1), x(2), x(3));
+        let pairs = a.mul(&b).add(&b.mul(&c)).add(&c.mul(&d)).add(&d.mul(&a));
+        let triples = a.mul(&b).mul(&c).add(&b.mul(&c).mul(&d)).add(&c.mul(&d).mul(&a)).add(&d.mul(&a).mul(&b));
+        let cyclic = [a.add(&b).add(&c).add(&d), pairs, triples, a.mul(&b).mul(&c).mul(&d).sub(&number(1))];
+        assert_eq!(basis(4, &cyclic).dimension(), Some(1));
+        assert_eq!(basis(2, &[x(0).mul(&x(1)).sub(&number(1)), x(0)]).dimension(), None);
+        assert_eq!(basis(3, &[x(0).mul(&x(1)), x(0).mul(&x(2))]).dimension(), Some(2));
+        assert_eq!(basis(2, &[x(0).mul(&x(0)).sub(&x(1)), x(1).sub(&number(2))]).dimension(), Some(0));
+    }
+}

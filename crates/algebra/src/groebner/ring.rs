@@ -1,0 +1,194 @@
+//! Quotient rings of finite dimension: how many solutions there are, which of them coincide, and what values polynomials
+//! have there.
+
+use super::basis::Basis;
+use super::monomial::Monomial;
+use super::polynomial::{Equation, Polynomial, Work, remainder};
+use crate::ring::Ring;
+use crate::univariate::Univariate;
+use rug::{Integer, Rational};
+use std::collections::HashMap;
+
+/// More standard monomials than any small system of kinematics has.
+const MOST: usize = 64;
+
+/// The ring of polynomials modulo an ideal with finitely many zeros; an element is its coefficients over the standard
+/// monomials.
+#[derive(Clone, Debug)]
+pub struct FiniteRing {
+    basis: Basis,
+    standard: Vec<Monomial>,
+    places: HashMap<Monomial, usize>,
+    /// Of each standard monomial, the trace of the multiplication with it.
+    traces: Vec<Rational>,
+    /// The sum, over the numbers of the solutions with multiplicity, that the standard monomials have there: the matrix of
+    /// traces of their products.
+    products: Vec<Vec<Rational>>,
+}
+
+/// An element by its coefficients.
+type Element = Vec<Rational>;
+
+impl FiniteRing {
+    /// The ring of a basis; `None` where the zeros are not finitely many, or more than 64.
+    #[must_use]
+    pub fn of(basis: &Basis) -> Option<Self> {
+        let standard = standard_monomials(basis)?;
+        let places = standard.iter().enumerate().map(|(k, m)| (*m, k)).collect();
+        let mut ring = Self { basis: basis.clone(), standard, places, traces: Vec::new(), products: Vec::new() };
+        ring.multiply()?;
+        Some(ring)
+    }
+
+    /// The dimension: the number of solutions, complex ones included, with multiplicity.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.standard.len()
+    }
+
+    /// The number of distinct solutions: the rank of the matrix of traces (Hermite).
+    #[must_use]
+    pub fn distinct(&self) -> usize {
+        rank(self.products.clone())
+    }
+
+    /// The element that a polynomial stands for; `None` for degrees above 127.
+    #[must_use]
+    pub fn element(&self, equation: &Equation) -> Option<Element> {
+        let mut denominator = Integer::from(1);
+        for c in equation.terms().values() {
+            denominator.lcm_mut(c.denom());
+        }
+        let whole = |c: &Rational| Integer::from(denominator.div_exact_ref(c.denom())) * c.numer();
+        let work: Work = equation.terms().iter().map(|(m, c)| (*m, whole(c))).collect();
+        let mut scale = denominator.clone();
+        // Normal forms of small monomials: no more than the basis itself took.
+        let mut effort = u64::MAX;
+        let rest = remainder(work, &self.basis.by_size(), &mut scale, &mut effort)?;
+        let mut element = vec![Rational::new(); self.standard.len()];
+        for (monomial, c) in rest {
+            element[*self.places.get(&monomial)?] = Rational::from((c, scale.clone()));
+        }
+        Some(element)
+    }
+
+    /// The trace of the multiplication with an element.
+    pub(super) fn trace(&self, element: &Element) -> Rational {
+        dot(element, &self.traces)
+    }
+
+    /// The traces of the products of an element with all standard monomials.
+    pub(super) fn traces_with(&self, element: &Element) -> Element {
+        self.products.iter().map(|row| dot(element, row)).collect()
+    }
+
+    /// The matrix of the multiplication with a linear form: its columns are the products with the standard monomials.
+    pub(super) fn multiplication(&self, form: &Equation) -> Option<Vec<Element>> {
+        let column = |m: &Monomial| self.element(&form.mul(&Equation::monomial(*m)));
+        self.standard.iter().map(column).collect()
+    }
+
+    /// Finds the traces of products: the products of pairs of standard monomials, one variable after the other.
+    fn multiply(&mut self) -> Option<()> {
+        let size = self.standard.len();
+        let variables: Option<Vec<Vec<Element>>> =
+            (0..self.basis.variables).map(|k| self.multiplication(&Equation::variable(k))).collect();
+        let variables = variables?;
+        let unit = |k: usize| -> Element { (0..size).map(|i| Rational::from(i32::from(i == k))).collect() };
+        // The columns of the multiplication with each standard monomial: smaller ones come first.
+        let mut tables: Vec<Vec<Element>> = Vec::new();
+        for monomial in &self.standard {
+            let factor = (0..self.basis.variables).find(|k| monomial.exponent(*k) > 0);
+            let table = match factor {
+                None => (0..size).map(unit).collect(),
+                Some(k) => {
+                    let rest = self.places.get(&monomial.over(Monomial::variable(k)))?;
+                    tables[*rest].iter().map(|column| applied(&variables[k], column)).collect()
+                }
+            };
+            tables.push(table);
+        }
+        let trace = |table: &Vec<Element>| (0..size).fold(Rational::new(), |sum, k| sum + &table[k][k]);
+        self.traces = tables.iter().map(trace).collect();
+        self.products =
+            tables.iter().map(|table| table.iter().map(|column| dot(column, &self.traces)).collect()).collect();
+        Some(())
+    }
+
+    /// The characteristic polynomial of the multiplication with a linear form, by the sums of the powers of its roots, and
+    /// the powers of the form.
+    pub(super) fn characteristic(&self, form: &Equation) -> Option<(Univariate<Rational>, Vec<Element>)> {
+        let table = self.multiplication(form)?;
+        let size = self.standard.len();
+        let mut powers = vec![self.element(&Equation::one())?];
+        for k in 0..size {
+            powers.push(applied(&table, &powers[k]));
+        }
+        let sums: Vec<Rational> = powers.iter().map(|power| self.trace(power)).collect();
+        // Newton's identities: k a_k = -(s_k + a_1 s_(k-1) + ... + a_(k-1) s_1).
+        let mut coefficients = vec![Rational::from(1)];
+        for k in 1..=size {
+            let sum = (0..k).fold(Rational::new(), |sum, j| sum + Rational::from(&coefficients[j] * &sums[k - j]));
+            coefficients.push(-sum / Rational::from(k));
+        }
+        coefficients.reverse();
+        Some((Univariate::new(coefficients), powers))
+    }
+}
+
+/// The monomials that are no multiples of leading ones; `None` for infinitely many, and for more than 64.
+fn standard_monomials(basis: &Basis) -> Option<Vec<Monomial>> {
+    let leading: Vec<Monomial> = basis.elements.iter().map(Polynomial::leading).collect();
+    let is_standard = |m: &Monomial| !leading.iter().any(|l| l.divides(*m));
+    let mut standard: Vec<Monomial> = vec![Monomial::one()].into_iter().filter(is_standard).collect();
+    let mut at = 0;
+    while at < standard.len() {
+        for k in 0..basis.variables {
+            let product = standard[at].times(Monomial::variable(k))?;
+            if is_standard(&product) && !standard.contains(&product) {
+                standard.push(product);
+            }
+        }
+        at += 1;
+        if standard.len() > MOST {
+            return None;
+        }
+    }
+    standard.sort_unstable();
+    Some(standard)
+}
+
+fn dot(x: &[Rational], y: &[Rational]) -> Rational {
+    let products = x.iter().zip(y).filter(|(x, y)| **x != 0 && **y != 0);
+    products.fold(Rational::new(), |sum, (x, y)| sum + Rational::from(x * y))
+}
+
+/// The combination of columns with these coefficients.
+fn applied(columns: &[Element], coefficients: &Element) -> Element {
+    let mut sum = vec![Rational::new(); columns.len()];
+    for (column, c) in columns.iter().zip(coefficients).filter(|(_, c)| **c != 0) {
+        for (x, y) in sum.iter_mut().zip(column).filter(|(_, y)| **y != 0) {
+            *x += Rational::from(c * y);
+        }
+    }
+    sum
+}
+
+/// The rank of a matrix.
+fn rank(mut rows: Vec<Element>) -> usize {
+    let (width, mut rank) = (rows.first().map_or(0, Vec::len), 0);
+    for column in 0..width {
+        let Some(pivot) = (rank..rows.len()).find(|k| rows[*k][column] != 0) else { continue };
+        rows.swap(rank, pivot);
+        let (above, below) = rows.split_at_mut(rank + 1);
+        let pivot = &above[rank];
+        for row in below.iter_mut().filter(|row| row[column] != 0) {
+            let factor = Rational::from(&row[column] / &pivot[column]);
+            for (x, y) in row.iter_mut().zip(pivot).skip(column) {
+                *x -= Rational::from(&factor * y);
+            }
+        }
+        rank += 1;
+    }
+    rank
+}

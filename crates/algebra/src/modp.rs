@@ -1,0 +1,280 @@
+//! Prime fields: the prime in the type for generic code, or as a value where a proof needs more primes than one.
+
+use super::ring::{Domain, Field, Ring};
+use rug::{Integer, Rational, ops::RemRounding};
+use std::fmt;
+
+/// The Mersenne prime `2^61 - 1`.
+pub const PRIME_61: u64 = (1 << 61) - 1;
+/// The largest prime below `2^62`.
+pub const PRIME_62: u64 = (1 << 62) - 57;
+
+/// Arithmetic modulo an odd prime below `2^63`, on residues in Montgomery form (`x 2^64 mod p`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Modulus {
+    p: u64,
+    /// `-1/p mod 2^64`
+    negative_inverse: u64,
+    /// `2^128 mod p`, which carries residues into Montgomery form
+    square: u64,
+}
+
+impl Modulus {
+    /// The arithmetic modulo `p`. Primality is the caller's promise; only `inverse` relies on it.
+    ///
+    /// # Panics
+    /// When `p` is even, 1, or not below `2^63`.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "residues modulo a u64 fit a u64")]
+    pub const fn new(p: u64) -> Self {
+        assert!(p % 2 == 1 && p > 1 && p < 1 << 63, "the modulus is odd, above 1 and below 2^63");
+        // Newton's iteration; the start is right to 3 bits, and each step doubles them.
+        let mut inverse = p;
+        let mut step = 0;
+        while step < 5 {
+            inverse = inverse.wrapping_mul(2_u64.wrapping_sub(p.wrapping_mul(inverse)));
+            step += 1;
+        }
+        let r = (1_u128 << 64) % p as u128;
+        Self { p, negative_inverse: inverse.wrapping_neg(), square: (r * r % p as u128) as u64 }
+    }
+
+    /// The prime.
+    #[must_use]
+    pub const fn prime(&self) -> u64 {
+        self.p
+    }
+
+    /// `a + b`
+    #[must_use]
+    #[inline(always)]
+    pub const fn add(&self, a: u64, b: u64) -> u64 {
+        let sum = a + b;
+        if sum >= self.p { sum - self.p } else { sum }
+    }
+
+    /// `a - b`
+    #[must_use]
+    #[inline(always)]
+    pub const fn sub(&self, a: u64, b: u64) -> u64 {
+        if a >= b { a - b } else { a + self.p - b }
+    }
+
+    /// `a b`
+    #[must_use]
+    #[inline(always)]
+    pub const fn mul(&self, a: u64, b: u64) -> u64 {
+        self.fold(a as u128 * b as u128)
+    }
+
+    /// The residue `sum / 2^64` of a number below `p 2^64`: of a sum of products of residues, the residue of the sum.
+    #[must_use]
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "the low word, and a quotient below 2p")]
+    pub const fn fold(&self, sum: u128) -> u64 {
+        let quotient = (sum as u64).wrapping_mul(self.negative_inverse);
+        // Below 2^127 + 2^127, so no overflow; the low word of the sum is 0.
+        let reduced = ((sum + quotient as u128 * self.p as u128) >> 64) as u64;
+        if reduced >= self.p { reduced - self.p } else { reduced }
+    }
+
+    /// The Montgomery form of an integer.
+    #[must_use]
+    pub const fn enter(&self, a: u64) -> u64 {
+        self.mul(a % self.p, self.square)
+    }
+
+    /// The least nonnegative integer of a residue.
+    #[must_use]
+    pub const fn leave(&self, a: u64) -> u64 {
+        self.mul(a, 1)
+    }
+
+    /// The residue of a big integer.
+    ///
+    /// # Panics
+    /// Never: a remainder modulo a u64 fits a u64.
+    #[must_use]
+    pub fn reduce(&self, n: &Integer) -> u64 {
+        let remainder = Integer::from(n.rem_euc(self.p));
+        self.enter(remainder.to_u64().expect("a remainder modulo a u64 fits a u64"))
+    }
+
+    /// `a^exponent`
+    #[must_use]
+    pub const fn pow(&self, a: u64, exponent: u64) -> u64 {
+        let (mut power, mut result, mut rest) = (a, self.enter(1), exponent);
+        while rest > 0 {
+            if rest & 1 == 1 {
+                result = self.mul(result, power);
+            }
+            power = self.mul(power, power);
+            rest >>= 1;
+        }
+        result
+    }
+
+    /// `1/a` by Fermat's little theorem; 0 for 0.
+    #[must_use]
+    pub const fn inverse(&self, a: u64) -> u64 {
+        self.pow(a, self.p - 2)
+    }
+}
+
+/// Whether an integer below `2^63` is prime: Miller-Rabin to the first twelve prime bases, a proof below `3.3e24`.
+#[must_use]
+pub const fn is_prime(n: u64) -> bool {
+    const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+    if n < 2 {
+        return false;
+    }
+    let mut i = 0;
+    while i < BASES.len() {
+        if n.is_multiple_of(BASES[i]) {
+            return n == BASES[i];
+        }
+        i += 1;
+    }
+    let modulus = Modulus::new(n);
+    let (one, minus_one) = (modulus.enter(1), modulus.enter(n - 1));
+    let twos = (n - 1).trailing_zeros();
+    i = 0;
+    while i < BASES.len() {
+        let mut x = modulus.pow(modulus.enter(BASES[i]), (n - 1) >> twos);
+        let mut witness = x != one && x != minus_one;
+        let mut squarings = 1;
+        while witness && squarings < twos {
+            x = modulus.mul(x, x);
+            witness = x != minus_one;
+            squarings += 1;
+        }
+        if witness {
+            return false;
+        }
+        i += 1;
+    }
+    true
+}
+
+/// The primes below `2^62`, largest first: as many distinct moduli as a proof asks for.
+pub fn primes() -> impl Iterator<Item = Modulus> {
+    (0..=PRIME_62).rev().step_by(2).filter(|&p| is_prime(p)).map(Modulus::new)
+}
+
+/// The integers modulo a prime. A composite or even `P`, or one beyond `2^63`, does not compile:
+///
+/// ```compile_fail
+/// use looproot_algebra::{modp::ModP, ring::Ring};
+/// let x = ModP::<91>::one();
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct ModP<const P: u64>(u64);
+
+impl<const P: u64> ModP<P> {
+    const MODULUS: Modulus = {
+        assert!(is_prime(P), "the modulus is a prime");
+        Modulus::new(P)
+    };
+
+    /// The residue of an integer.
+    #[must_use]
+    pub fn new(n: u64) -> Self {
+        Self(Self::MODULUS.enter(n))
+    }
+
+    /// The least nonnegative integer of this residue.
+    #[must_use]
+    pub fn value(self) -> u64 {
+        Self::MODULUS.leave(self.0)
+    }
+}
+
+impl<const P: u64> fmt::Debug for ModP<P> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{} mod {P}", self.value())
+    }
+}
+
+impl<const P: u64> Ring for ModP<P> {
+    fn zero() -> Self {
+        Self(0)
+    }
+    fn one() -> Self {
+        const { Self(Self::MODULUS.enter(1)) }
+    }
+    #[inline(always)]
+    fn add(&self, other: &Self) -> Self {
+        Self(Self::MODULUS.add(self.0, other.0))
+    }
+    #[inline(always)]
+    fn sub(&self, other: &Self) -> Self {
+        Self(Self::MODULUS.sub(self.0, other.0))
+    }
+    #[inline(always)]
+    fn mul(&self, other: &Self) -> Self {
+        Self(Self::MODULUS.mul(self.0, other.0))
+    }
+    #[inline(always)]
+    fn neg(&self) -> Self {
+        Self(Self::MODULUS.sub(0, self.0))
+    }
+    fn is_zero(&self) -> bool {
+        self.0 == 0
+    }
+    fn from_rational(q: &Rational) -> Option<Self> {
+        // An inverse costs more than a hundred products, and most constants of mechanisms are 0 and 1.
+        if *q.denom() == 1 {
+            return Some(Self(Self::MODULUS.reduce(q.numer())));
+        }
+        let denominator = Self(Self::MODULUS.reduce(q.denom())).inverse()?;
+        Some(Self(Self::MODULUS.reduce(q.numer())).mul(&denominator))
+    }
+}
+
+impl<const P: u64> Domain for ModP<P> {
+    fn checked_div_exact(&self, other: &Self) -> Option<Self> {
+        Some(self.mul(&other.inverse()?))
+    }
+}
+
+impl<const P: u64> Field for ModP<P> {
+    fn inverse(&self) -> Option<Self> {
+        (self.0 != 0).then(|| Self(Self::MODULUS.inverse(self.0)))
+    }
+    fn pivot_size(&self) -> f64 {
+        if self.0 == 0 { 0.0 } else { 1.0 }
+    }
+    const PIVOT_ZERO: f64 = 0.0;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn named_primes_are_prime_and_make_the_complex_numbers_a_field() {
+        for p in [PRIME_61, PRIME_62] {
+            assert!(is_prime(p));
+            assert_ne!(Integer::from(p).is_probably_prime(40), rug::integer::IsPrime::No);
+            // -1 is no square, so x^2 + y^2 = 0 only at 0.
+            assert_eq!(p % 4, 3);
+        }
+        assert_eq!(primes().next().map(|m| m.prime()), Some(PRIME_62));
+    }
+
+    #[test]
+    fn primality_agrees_with_trial_division() {
+        for n in 0..2000_u64 {
+            let by_trial = n > 1 && (2..n).take_while(|d| d * d <= n).all(|d| n % d != 0);
+            assert_eq!(is_prime(n), by_trial, "{n}");
+        }
+        // Strong pseudoprimes to the bases 2 to 7 and 2 to 23.
+        assert!(!is_prime(3_215_031_751) && !is_prime(3_825_123_056_546_413_051));
+    }
+
+    #[test]
+    fn a_denominator_divisible_by_the_prime_has_no_image() {
+        assert_eq!(ModP::<7>::from_rational(&Rational::from((1, 14))), None);
+        assert_eq!(ModP::<7>::from_rational(&Rational::from((-1, 2))).map(ModP::value), Some(3));
+    }
+}

@@ -1,0 +1,105 @@
+//! Determinants of matrices of polynomials with numeric coefficients.
+
+use super::batch::place;
+use super::bound::Norms;
+use super::lattice::Lattice;
+use super::problem::{Form, Problem, most_points};
+use super::substitution::Plan;
+use super::terms::{Terms, descending};
+use pulp::Arch;
+use rug::Integer;
+
+/// The determinant of a matrix of polynomials in several variables.
+///
+/// Exact and proved, from as many values modulo as many primes as bounds on its degree and coefficients ask for. `None`
+/// where that takes too much memory, for more than a few million values.
+///
+/// # Shape
+/// The matrix is square; entries and determinant have the given number of variables. No two terms of an entry have the
+/// same exponents.
+///
+/// # Panics
+/// When the shape is wrong.
+#[must_use]
+pub fn determinant(matrix: &[Vec<Terms>], variables: usize) -> Option<Terms> {
+    determinant_on(Arch::new(), matrix, variables)
+}
+
+/// As `determinant`, on a chosen instruction set.
+pub(super) fn determinant_on(arch: Arch, matrix: &[Vec<Terms>], variables: usize) -> Option<Terms> {
+    let size = matrix.len();
+    assert!(matrix.iter().all(|row| row.len() == size), "a determinant is of a square matrix");
+    let entries = || matrix.iter().flatten().enumerate();
+    let terms = entries().flat_map(|(slot, entry)| entry.iter(variables).map(move |(e, c)| (slot, e, c)));
+
+    let Some(bits) = bits(size, terms.clone().map(|(slot, _, c)| (slot, c))) else { return Some(Terms::default()) };
+    let bound = |size_of: &dyn Fn(&[u32]) -> usize| {
+        let mut degrees = vec![0; size * size];
+        for (slot, e, _) in terms.clone() {
+            degrees[slot] = degrees[slot].max(size_of(e));
+        }
+        degree_bound(size, &degrees)
+    };
+    let (parameters, degrees): (Vec<usize>, Vec<usize>) =
+        (0..variables).map(|k| (k, bound(&|e| e[k] as usize))).filter(|&(_, degree)| degree > 0).unzip();
+    let lattice =
+        Lattice::new(&degrees, bound(&|e| e.iter().map(|&x| x as usize).sum()), most_points(bits, parameters.len()))?;
+
+    let mut terms = descending(terms, &parameters);
+    for slot in &mut terms.slots {
+        *slot = place(size, *slot);
+    }
+    let problem = Problem {
+        form: Form::Matrix(size),
+        plan: Plan::new(&terms.slots, &terms.exponents, parameters.len()),
+        coefficients: terms.coefficients,
+        lattice,
+        bits,
+    };
+    let coefficients = problem.solve(arch);
+    Some(problem.lattice.terms(coefficients, variables, &parameters))
+}
+
+/// The coefficients of the determinant of a matrix of polynomials in one variable, constant term first; some of the
+/// highest may be zero.
+///
+/// # Shape
+/// `entries` holds the entries row by row, each by its coefficients, constant term first.
+pub(crate) fn univariate_determinant(size: usize, entries: &[Vec<Integer>]) -> Vec<Integer> {
+    univariate_determinant_on(Arch::new(), size, entries)
+}
+
+pub(super) fn univariate_determinant_on(arch: Arch, size: usize, entries: &[Vec<Integer>]) -> Vec<Integer> {
+    let coefficients = || entries.iter().enumerate().flat_map(|(slot, entry)| entry.iter().map(move |c| (slot, c)));
+    let Some(bits) = bits(size, coefficients()) else { return Vec::new() };
+    let degrees: Vec<usize> =
+        entries.iter().map(|entry| entry.iter().rposition(|c| !c.is_zero()).unwrap_or(0)).collect();
+    let lattice = Lattice::new(&[degree_bound(size, &degrees)], usize::MAX, usize::MAX)
+        .expect("there is no limit to the number of points");
+    let (mut slots, mut exponents, mut coefficients) = (Vec::new(), Vec::new(), Vec::new());
+    for (slot, entry) in entries.iter().enumerate() {
+        for (k, c) in entry.iter().enumerate().rev().filter(|(_, c)| !c.is_zero()) {
+            slots.push(place(size, slot));
+            exponents.push(u32::try_from(k).expect("the degree fits a u32"));
+            coefficients.push(c);
+        }
+    }
+    let plan = Plan::new(&slots, &exponents, 1);
+    Problem { form: Form::Matrix(size), plan, coefficients, lattice, bits }.solve(arch)
+}
+
+/// The binary logarithm of a bound on the coefficients of the determinant; `None` where a row or a column is zero.
+fn bits<'a>(size: usize, coefficients: impl Iterator<Item = (usize, &'a Integer)> + Clone) -> Option<f64> {
+    let norms = Norms::new(size * size, coefficients);
+    let rows: f64 = (0..size).map(|i| norms.bits((0..size).map(|j| i * size + j))).sum();
+    let columns: f64 = (0..size).map(|j| norms.bits((0..size).map(|i| i * size + j))).sum();
+    let bits = f64::min(rows, columns);
+    (bits > f64::NEG_INFINITY).then_some(bits)
+}
+
+/// No row or column contributes more than the highest degree in it.
+pub(crate) fn degree_bound(size: usize, degrees: &[usize]) -> usize {
+    let row = |i: usize| (0..size).map(|j| degrees[i * size + j]).max().unwrap_or(0);
+    let column = |j: usize| (0..size).map(|i| degrees[i * size + j]).max().unwrap_or(0);
+    usize::min((0..size).map(row).sum(), (0..size).map(column).sum())
+}

@@ -1,0 +1,364 @@
+//! Greatest common divisors modulo a prime: evaluation in all variables but one, and interpolation.
+//!
+//! # Source
+//! Brown 1971, On Euclid's algorithm and the computation of polynomial greatest common divisors, Journal of the ACM 18(4).
+
+use super::Polynomial;
+use crate::int::Int;
+use crate::modp::Modulus;
+use std::cmp::{Ordering, Reverse};
+
+/// How the exponents of the variables that occur are packed into one integer, each field as wide as it must be.
+pub(super) struct Layout {
+    /// The variables, that of the highest degree first: the last algorithm in line, Euclid's, is for that one.
+    variables: Vec<usize>,
+    /// The place of each field.
+    shifts: Vec<u32>,
+}
+
+impl Layout {
+    /// A layout for two polynomials and what divides them; `None` if there is no room.
+    pub(super) fn new(a: &Polynomial<Int>, b: &Polynomial<Int>) -> Option<Self> {
+        let (a_degrees, b_degrees) = (a.degrees(), b.degrees());
+        let of = |degrees: &[u32], variable: usize| degrees.get(variable).copied().unwrap_or(0);
+        let degree = |variable: usize| of(&a_degrees, variable).max(of(&b_degrees, variable));
+        let mut variables: Vec<usize> = (0..a.variables().max(b.variables())).filter(|&v| degree(v) > 0).collect();
+        variables.sort_by_key(|&variable| Reverse(degree(variable)));
+        let mut used = 0;
+        let mut shifts = Vec::new();
+        for &variable in variables.iter().rev() {
+            shifts.insert(0, used);
+            used += u32::BITS - degree(variable).leading_zeros();
+        }
+        (used <= u128::BITS).then_some(Self { variables, shifts })
+    }
+
+    fn monomial(&self, polynomial: &Polynomial<Int>, term: usize) -> u128 {
+        let field = |(&variable, &shift): (&usize, &u32)| u128::from(polynomial.exponent(term, variable)) << shift;
+        self.variables.iter().zip(&self.shifts).map(field).sum()
+    }
+
+    /// The coefficient of the highest monomial in this order.
+    pub(super) fn leading_coefficient<'a>(&self, polynomial: &'a Polynomial<Int>) -> &'a Int {
+        let leading = (0..polynomial.len()).max_by_key(|&term| self.monomial(polynomial, term));
+        &polynomial.coefficients()[leading.expect("the polynomial is not zero")]
+    }
+
+    /// The exponent of the variable at this place of the order.
+    fn exponent(&self, monomial: u128, place: usize) -> usize {
+        let above = place.checked_sub(1).map_or(u128::BITS, |before| self.shifts[before]);
+        let field = (monomial >> self.shifts[place]) & (u128::MAX >> (u128::BITS - (above - self.shifts[place])));
+        usize::try_from(field).expect("exponents fit")
+    }
+
+    /// The sum of terms.
+    pub(super) fn polynomial(&self, terms: impl Iterator<Item = (u128, Int)>) -> Polynomial<Int> {
+        let unpacked = |(monomial, c): (u128, Int)| {
+            let mut exponents = vec![0; self.variables.iter().max().map_or(0, |last| last + 1)];
+            for (place, &variable) in self.variables.iter().enumerate() {
+                exponents[variable] = u32::try_from(self.exponent(monomial, place)).expect("exponents fit a u32");
+            }
+            (exponents, c)
+        };
+        Polynomial::from_terms(terms.map(unpacked))
+    }
+}
+
+/// A polynomial modulo a prime: monomials of a layout, decreasing, and residues in Montgomery form.
+#[derive(Clone, Debug)]
+pub(super) struct Image {
+    modulus: Modulus,
+    terms: Vec<(u128, u64)>,
+}
+
+/// A polynomial in one variable modulo a prime, constant term first, the last coefficient not zero.
+type Dense = Vec<u64>;
+
+impl Image {
+    /// The image of a polynomial.
+    pub(super) fn new(polynomial: &Polynomial<Int>, layout: &Layout, modulus: Modulus) -> Self {
+        let residue = |c: &Int| match c.to_i64() {
+            Some(n) if n < 0 => modulus.sub(0, modulus.enter(n.unsigned_abs())),
+            Some(n) => modulus.enter(n.unsigned_abs()),
+            None => modulus.reduce(&c.to_integer()),
+        };
+        let term = |(i, c): (usize, &Int)| (layout.monomial(polynomial, i), residue(c));
+        let mut terms: Vec<(u128, u64)> = polynomial.coefficients().iter().enumerate().map(term).collect();
+        terms.retain(|term| term.1 != 0);
+        terms.sort_unstable_by_key(|term| Reverse(term.0));
+        Self { modulus, terms }
+    }
+
+    pub(super) const fn modulus(&self) -> Modulus {
+        self.modulus
+    }
+
+    pub(super) fn terms(&self) -> &[(u128, u64)] {
+        &self.terms
+    }
+
+    /// The highest monomial.
+    pub(super) fn leading_monomial(&self) -> u128 {
+        self.terms[0].0
+    }
+
+    pub(super) fn is_constant(&self) -> bool {
+        self.leading_monomial() == 0
+    }
+
+    /// The product with a residue other than 0.
+    pub(super) fn scaled(&self, factor: u64) -> Self {
+        let terms = self.terms.iter().map(|&(monomial, c)| (monomial, self.modulus.mul(c, factor))).collect();
+        Self { modulus: self.modulus, terms }
+    }
+
+    /// A common divisor that is monic, with overwhelming probability the greatest: that it divides is left to be proved.
+    /// Neither polynomial is zero, and their leading coefficients must be those of the polynomials they are images of.
+    pub(super) fn gcd(&self, other: &Self, layout: &Layout) -> Self {
+        Images { layout, modulus: self.modulus }.gcd(&self.terms, &other.terms, layout.variables.len()).into_image(self)
+    }
+}
+
+/// Terms of an image.
+struct Terms(Vec<(u128, u64)>);
+
+impl Terms {
+    fn into_image(self, like: &Image) -> Image {
+        Image { modulus: like.modulus, terms: self.0 }
+    }
+}
+
+/// The arithmetic of images.
+struct Images<'a> {
+    layout: &'a Layout,
+    modulus: Modulus,
+}
+
+/// Terms grouped by the monomial in the variables before the last one, each with a polynomial in that one.
+type Groups = Vec<(u128, Dense)>;
+
+impl Images<'_> {
+    /// The monic greatest common divisor of polynomials in the first `count` variables.
+    fn gcd(&self, a: &[(u128, u64)], b: &[(u128, u64)], count: usize) -> Terms {
+        let m = &self.modulus;
+        let last = count - 1;
+        let (mut a, mut b) = (self.group(a, last), self.group(b, last));
+        if last == 0 {
+            let gcd = self.univariate_gcd(a.swap_remove(0).1, b.swap_remove(0).1);
+            return self.terms(&[(0, gcd)], last);
+        }
+        let (content_a, content_b) = (self.remove_content(&mut a), self.remove_content(&mut b));
+        let content = self.univariate_gcd(content_a, content_b);
+        let leading = self.univariate_gcd(a[0].1.clone(), b[0].1.clone());
+        let degree = |groups: &Groups| groups.iter().map(|(_, c)| c.len()).max().unwrap_or(0);
+        let enough = degree(&a).min(degree(&b)) + leading.len();
+        let mut interpolant = Interpolant::empty(m);
+        // Random abscissae, so that a value that changes nothing is no accident of small numbers; the same in each run.
+        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+        while interpolant.points < enough {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            let x = m.enter(state);
+            if self.value(&a[0].1, x) == 0 || self.value(&b[0].1, x) == 0 {
+                continue;
+            }
+            let image = self.gcd(&self.at(&a, x), &self.at(&b, x), last).0;
+            let top = image[0].0;
+            if top == 0 {
+                return self.terms(&[(0, content)], last);
+            }
+            match interpolant.groups.first().map_or(Ordering::Less, |(known, _)| top.cmp(known)) {
+                Ordering::Greater => continue,
+                Ordering::Less => interpolant = Interpolant::empty(m),
+                Ordering::Equal => {}
+            }
+            if self.extend(&mut interpolant, &image, self.value(&leading, x), x) {
+                break;
+            }
+        }
+        let mut gcd = interpolant.groups;
+        self.remove_content(&mut gcd);
+        for (_, c) in &mut gcd {
+            *c = self.product(c, &content);
+        }
+        self.terms(&gcd, last)
+    }
+
+    /// Newton's step: adds the value `factor image` at x, and says whether it was foreseen.
+    fn extend(&self, interpolant: &mut Interpolant, image: &[(u128, u64)], factor: u64, x: u64) -> bool {
+        let m = &self.modulus;
+        let scale = m.inverse(self.value(&interpolant.vanishing, x));
+        let mut merged = Vec::with_capacity(image.len());
+        let mut known = std::mem::take(&mut interpolant.groups).into_iter().peekable();
+        let mut new = image.iter().copied().peekable();
+        let mut foreseen = interpolant.points > 0;
+        loop {
+            let top = match (known.peek(), new.peek()) {
+                (None, None) => break,
+                (Some(a), Some(b)) => a.0.max(b.0),
+                (Some(a), None) => a.0,
+                (None, Some(b)) => b.0,
+            };
+            let mut c = known.next_if(|(monomial, _)| *monomial == top).map_or_else(Vec::new, |(_, c)| c);
+            let value = new.next_if(|(monomial, _)| *monomial == top).map_or(0, |(_, value)| m.mul(value, factor));
+            let step = m.mul(m.sub(value, self.value(&c, x)), scale);
+            if step != 0 {
+                foreseen = false;
+                c.resize(interpolant.vanishing.len(), 0);
+                for (c, v) in c.iter_mut().zip(&interpolant.vanishing) {
+                    *c = m.add(*c, m.mul(step, *v));
+                }
+                trim(&mut c);
+            }
+            // A coefficient may vanish on the way; it is not one of the leading monomial, whose image never does.
+            if !c.is_empty() {
+                merged.push((top, c));
+            }
+        }
+        interpolant.groups = merged;
+        interpolant.vanishing = self.product(&interpolant.vanishing, &[m.sub(0, x), m.enter(1)]);
+        interpolant.points += 1;
+        foreseen
+    }
+
+    fn group(&self, terms: &[(u128, u64)], last: usize) -> Groups {
+        let mut groups = Groups::new();
+        for &(monomial, c) in terms {
+            let exponent = self.layout.exponent(monomial, last);
+            let rest = monomial - ((exponent as u128) << self.layout.shifts[last]);
+            // The first term of a group has the highest exponent.
+            match groups.last_mut() {
+                Some((known, coefficients)) if *known == rest => coefficients[exponent] = c,
+                _ => {
+                    let mut coefficients = vec![0; exponent + 1];
+                    coefficients[exponent] = c;
+                    groups.push((rest, coefficients));
+                }
+            }
+        }
+        groups
+    }
+
+    /// The terms of the monic multiple.
+    fn terms(&self, groups: &[(u128, Dense)], last: usize) -> Terms {
+        let leading = groups.first().and_then(|(_, c)| c.last()).copied().unwrap_or(0);
+        let inverse = self.modulus.inverse(leading);
+        let mut terms = Vec::new();
+        for (rest, coefficients) in groups {
+            for (exponent, &c) in coefficients.iter().enumerate().rev().filter(|(_, c)| **c != 0) {
+                let monomial = rest + ((exponent as u128) << self.layout.shifts[last]);
+                terms.push((monomial, self.modulus.mul(c, inverse)));
+            }
+        }
+        Terms(terms)
+    }
+
+    /// Divides by the common divisor of all polynomials in the last variable, and returns it.
+    fn remove_content(&self, groups: &mut Groups) -> Dense {
+        let mut content = Dense::new();
+        for (_, c) in groups.iter() {
+            content = self.univariate_gcd(content, c.clone());
+            if content.len() == 1 {
+                return content;
+            }
+        }
+        for (_, c) in groups.iter_mut() {
+            *c = self.divide(c, &content).0;
+        }
+        content
+    }
+
+    /// The terms where the last variable has a value.
+    fn at(&self, groups: &Groups, x: u64) -> Vec<(u128, u64)> {
+        let terms = groups.iter().map(|(monomial, c)| (*monomial, self.value(c, x)));
+        terms.filter(|term| term.1 != 0).collect()
+    }
+
+    fn value(&self, polynomial: &[u64], x: u64) -> u64 {
+        polynomial.iter().rev().fold(0, |value, c| self.modulus.add(self.modulus.mul(value, x), *c))
+    }
+
+    fn product(&self, a: &[u64], b: &[u64]) -> Dense {
+        let mut product = vec![0; a.len() + b.len() - 1];
+        for (i, a) in a.iter().enumerate() {
+            for (j, b) in b.iter().enumerate() {
+                product[i + j] = self.modulus.add(product[i + j], self.modulus.mul(*a, *b));
+            }
+        }
+        product
+    }
+
+    /// Quotient and remainder.
+    fn divide(&self, a: &[u64], b: &[u64]) -> (Dense, Dense) {
+        let m = &self.modulus;
+        let mut rest = a.to_vec();
+        let (Some(leading), true) = (b.last(), a.len() >= b.len()) else { return (Dense::new(), rest) };
+        let inverse = m.inverse(*leading);
+        let mut quotient = vec![0; a.len() - b.len() + 1];
+        for shift in (0..quotient.len()).rev() {
+            let factor = m.mul(rest[shift + b.len() - 1], inverse);
+            for (x, y) in rest[shift..].iter_mut().zip(b) {
+                *x = m.sub(*x, m.mul(factor, *y));
+            }
+            quotient[shift] = factor;
+        }
+        trim(&mut rest);
+        (quotient, rest)
+    }
+
+    /// Leaves the remainder of a multiple: products in the place of an inverse, which costs more than a hundred of them.
+    fn reduce(&self, a: &mut Dense, b: &[u64]) {
+        let m = &self.modulus;
+        let Some((&leading, lower)) = b.split_last() else { return };
+        while a.len() >= b.len() {
+            let Some(top) = a.pop() else { return };
+            let shift = a.len() - lower.len();
+            for c in a.iter_mut() {
+                *c = m.mul(*c, leading);
+            }
+            for (c, d) in a[shift..].iter_mut().zip(lower) {
+                *c = m.sub(*c, m.mul(top, *d));
+            }
+            trim(a);
+        }
+    }
+
+    /// The monic greatest common divisor; zero, without coefficients, only of two zeros.
+    fn univariate_gcd(&self, mut a: Dense, mut b: Dense) -> Dense {
+        while !b.is_empty() {
+            if b.len() == 1 {
+                return vec![self.modulus.enter(1)];
+            }
+            self.reduce(&mut a, &b);
+            (a, b) = (b, a);
+        }
+        if let Some(&leading) = a.last() {
+            let inverse = self.modulus.inverse(leading);
+            for c in &mut a {
+                *c = self.modulus.mul(*c, inverse);
+            }
+        }
+        a
+    }
+}
+
+fn trim(polynomial: &mut Dense) {
+    while polynomial.last() == Some(&0) {
+        polynomial.pop();
+    }
+}
+
+/// The polynomial in the last variable through the values so far, for each monomial in the others.
+struct Interpolant {
+    groups: Groups,
+    /// The product of `x - x_i` over the abscissae.
+    vanishing: Dense,
+    points: usize,
+}
+
+impl Interpolant {
+    fn empty(modulus: &Modulus) -> Self {
+        Self { groups: Groups::new(), vanishing: vec![modulus.enter(1)], points: 0 }
+    }
+}

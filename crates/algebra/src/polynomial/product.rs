@@ -1,0 +1,266 @@
+//! Products, by the method that the planner expects to be fastest.
+
+use super::blocks::{self, Accumulator, Blocks, Grid};
+use super::heap::Key;
+use super::{Polynomial, Size};
+use crate::monomial::Packing;
+use crate::ring::Ring;
+
+/// Up to so many products of terms are sorted.
+const FEW: usize = 1024;
+/// Cells of a box: their sums stay in the first-level cache, or nearly so.
+pub(super) const CELLS: usize = 1 << 12;
+
+/// The coefficients as machine words, if all are such.
+pub(super) fn to_words<R: Ring>(coefficients: &[R]) -> Option<Vec<i64>> {
+    coefficients.iter().map(|c| i64::try_from(c.to_wide()?).ok()).collect()
+}
+
+/// A bound of the absolute values of the coefficients of the product, and of all sums on the way there.
+pub(super) fn bound(a: &[i64], b: &[i64]) -> u128 {
+    let norms = |words: &[i64]| {
+        let sizes = || words.iter().map(|n| u128::from(n.unsigned_abs()));
+        (sizes().sum::<u128>(), sizes().max().unwrap_or(0))
+    };
+    let ((sum_a, max_a), (sum_b, max_b)) = (norms(a), norms(b));
+    sum_a.saturating_mul(max_b).min(sum_b.saturating_mul(max_a))
+}
+
+impl<R: Ring> Polynomial<R> {
+    /// How large the product may become.
+    #[must_use]
+    pub fn product_size(&self, other: &Self) -> Size {
+        if self.is_zero() || other.is_zero() {
+            return Size { terms: 0, largest_exponent: 0 };
+        }
+        let variables = self.variables().max(other.variables());
+        let (own, others) = (self.degrees(), other.degrees());
+        let of = |degrees: &[u32], variable: usize| u64::from(degrees.get(variable).copied().unwrap_or(0));
+        let degrees = (0..variables).map(|v| of(&own, v) + of(&others, v));
+        let pairs = (self.len() as u64).saturating_mul(other.len() as u64);
+        let cells = degrees.clone().fold(1_u64, |cells, degree| cells.saturating_mul(degree + 1));
+        Size { terms: pairs.min(cells), largest_exponent: degrees.max().unwrap_or(0) }
+    }
+
+    /// The product; neither polynomial is copied unless their packing differs.
+    pub(super) fn product(&self, other: &Self) -> Self {
+        let (left, right) = if self.len() <= other.len() { (self, other) } else { (other, self) };
+        if left.is_zero() {
+            return Self::zero();
+        }
+        let packing = left.product_packing(right);
+        let (a, b) = (left.packed_as(packing), right.packed_as(packing));
+        if left.len() == 1 {
+            return right.shifted(packing, &b, &a, &left.coefficients[0]);
+        }
+        if packing.words() == 1 && left.len() * right.len() <= FEW {
+            return left.sorted_product(right, packing, &a, &b);
+        }
+        left.collected_product(right, packing, &a, &b)
+    }
+
+    /// A packing with room for the product.
+    fn product_packing(&self, other: &Self) -> Packing {
+        let joint = self.joint_packing(other);
+        if self.packing == other.packing && joint.holds_products(&self.monomials, &other.monomials) {
+            return joint;
+        }
+        let largest = self.product_size(other).largest_exponent;
+        if largest <= u64::from(joint.largest()) {
+            return joint;
+        }
+        Packing::new(joint.variables(), u32::try_from(largest).unwrap_or(u32::MAX))
+    }
+
+    /// The product with one term.
+    fn shifted(&self, packing: Packing, own: &[u64], monomial: &[u64], c: &R) -> Self {
+        let monomials = if let [word] = monomial {
+            own.iter().map(|own| own + word).collect()
+        } else {
+            own.chunks_exact(monomial.len()).flat_map(|own| own.iter().zip(monomial).map(|(a, b)| a + b)).collect()
+        };
+        Self::from_sorted(packing, monomials, self.coefficients.iter().map(|own| own.mul(c)).collect())
+    }
+
+    /// Schoolbook: all products of terms, sorted.
+    fn sorted_product(&self, other: &Self, packing: Packing, left: &[u64], right: &[u64]) -> Self {
+        const MASK: usize = (1 << 16) - 1;
+        // Monomial and place in one integer sort faster than a pair.
+        let mut pairs: Vec<u128> = Vec::with_capacity(left.len() * right.len());
+        for (i, a) in left.iter().enumerate() {
+            for (j, b) in right.iter().enumerate() {
+                pairs.push(u128::from(a + b) << 64 | (i << 16 | j) as u128);
+            }
+        }
+        pairs.sort_unstable();
+        let (mut monomials, mut coefficients) = (Vec::with_capacity(pairs.len()), Vec::with_capacity(pairs.len()));
+        let place = |pair: u128| ((pair >> 64) as u64, (pair >> 16) as usize & MASK, pair as usize & MASK);
+        let mut pairs = pairs.into_iter().rev().map(place).peekable();
+        while let Some((monomial, i, j)) = pairs.next() {
+            let mut sum = self.coefficients[i].mul(&other.coefficients[j]);
+            while let Some((_, i, j)) = pairs.next_if(|pair| pair.0 == monomial) {
+                sum.add_product(&self.coefficients[i], &other.coefficients[j]);
+            }
+            if !sum.is_zero() {
+                monomials.push(monomial);
+                coefficients.push(sum);
+            }
+        }
+        Self { packing, monomials, coefficients }
+    }
+
+    /// By heap and box, with sums in the shortest integers that hold them.
+    fn collected_product(&self, other: &Self, packing: Packing, left: &[u64], right: &[u64]) -> Self {
+        let (own, others) = (self.degrees(), other.degrees());
+        let of = |degrees: &[u32], variable: usize| degrees.get(variable).copied().unwrap_or(0);
+        let degrees: Vec<u32> = (0..packing.variables()).map(|v| of(&own, v) + of(&others, v)).collect();
+        let grid = Grid::new(packing, &degrees, CELLS.min(self.len().saturating_mul(other.len())));
+        let mut coefficients = Vec::new();
+        let integers = to_words(&self.coefficients).zip(to_words(&other.coefficients));
+        let integers = integers.map(|(a, b)| (bound(&a, &b), a, b)).filter(|(bound, _, _)| *bound < 1 << 127);
+        let monomials = if let Some((bound, a, b)) = integers {
+            if bound < 1 << 63 {
+                collect(&grid, &degrees, (left, &a), (right, &b), &mut |n: i64| {
+                    coefficients.push(R::from_wide(n.into()));
+                })
+            } else {
+                collect(&grid, &degrees, (left, &a), (right, &b), &mut |n: i128| coefficients.push(R::from_wide(n)))
+            }
+        } else {
+            let (a, b) = (&self.coefficients[..], &other.coefficients[..]);
+            collect(&grid, &degrees, (left, a), (right, b), &mut |sum: R| coefficients.push(sum))
+        };
+        coefficients.shrink_to_fit();
+        Self { packing, monomials, coefficients }
+    }
+}
+
+/// The product of terms by heap and box: the monomials, and by `take` the coefficients.
+fn collect<C, A: Accumulator<C>>(
+    grid: &Grid,
+    degrees: &[u32],
+    left: (&[u64], &[C]),
+    right: (&[u64], &[C]),
+    take: &mut dyn FnMut(A),
+) -> Vec<u64> {
+    match grid.words() {
+        1 => collect_by::<u64, C, A>(grid, degrees, left, right, take),
+        2 => collect_by::<[u64; 2], C, A>(grid, degrees, left, right, take),
+        _ => collect_by::<Box<[u64]>, C, A>(grid, degrees, left, right, take),
+    }
+}
+
+fn collect_by<K: Key, C, A: Accumulator<C>>(
+    grid: &Grid,
+    degrees: &[u32],
+    (left, a): (&[u64], &[C]),
+    (right, b): (&[u64], &[C]),
+    take: &mut dyn FnMut(A),
+) -> Vec<u64> {
+    let left = Blocks::<K, C>::new(grid, left, a);
+    let right = Blocks::<K, C>::new(grid, right, b);
+    // How many boxes there will be at most, and how full they are then.
+    let volume = |degrees: &[u32]| degrees.iter().fold(1.0, |cells, &degree| cells * (f64::from(degree) + 1.0));
+    let (outer, inner) = degrees.split_at(grid.leading());
+    let boxes = volume(outer).min(left.len() as f64 * right.len() as f64);
+    if a.len() as f64 * b.len() as f64 >= boxes * volume(inner) {
+        blocks::product::<K, C, A, false>(grid, &left, &right, take)
+    } else {
+        blocks::product::<K, C, A, true>(grid, &left, &right, take)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::int::Int;
+
+    type Poly = Polynomial<Int>;
+
+    /// Terms scattered by a congruential generator.
+    fn scattered(variables: usize, degree: u32, terms: usize, largest: i64) -> Poly {
+        let mut state = 12345_u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            u32::try_from(state >> 33).unwrap()
+        };
+        let mut term = || {
+            let exponents = (0..variables).map(|_| next() % (degree + 1)).collect();
+            (exponents, Int::from(i64::from(next()).wrapping_mul(i64::from(next())) % largest - largest / 2))
+        };
+        Poly::from_terms((0..terms).map(|_| term()))
+    }
+
+    /// The product by one branch: so large a box at most, marked or not.
+    fn branch<K: Key, C, A: Accumulator<C>>(
+        (f, a): (&Poly, &[C]),
+        (g, b): (&Poly, &[C]),
+        most: usize,
+        marked: bool,
+        image: impl Fn(A) -> Int,
+    ) -> Poly {
+        let packing = f.product_packing(g);
+        let degrees: Vec<u32> = (0..packing.variables()).map(|v| f.degree(v) + g.degree(v)).collect();
+        let grid = Grid::new(packing, &degrees, most);
+        let (left, right) = (f.packed_as(packing), g.packed_as(packing));
+        let (left, right) = (Blocks::<K, C>::new(&grid, &left, a), Blocks::<K, C>::new(&grid, &right, b));
+        let mut coefficients = Vec::new();
+        let mut take = |sum: A| coefficients.push(image(sum));
+        let monomials = if marked {
+            blocks::product::<K, C, A, true>(&grid, &left, &right, &mut take)
+        } else {
+            blocks::product::<K, C, A, false>(&grid, &left, &right, &mut take)
+        };
+        Poly { packing, monomials, coefficients }
+    }
+
+    fn all_branches<K: Key>(f: &Poly, g: &Poly) {
+        let packing = f.product_packing(g);
+        let expected = if packing.words() == 1 {
+            f.sorted_product(g, packing, &f.packed_as(packing), &g.packed_as(packing))
+        } else {
+            // Term by term.
+            g.terms()
+                .fold(Poly::zero(), |sum, (exponents, c)| sum.add(&f.mul(&Poly::from_terms([(exponents, c.clone())]))))
+        };
+        assert_eq!(f.mul(g), expected);
+        let (a, b) = (to_words(&f.coefficients).unwrap(), to_words(&g.coefficients).unwrap());
+        for most in [1, 2, 40, 1000, CELLS, 1 << 20] {
+            for marked in [false, true] {
+                assert_eq!(branch::<K, i64, i128>((f, &a), (g, &b), most, marked, Int::from), expected);
+                let (c, d) = (&f.coefficients[..], &g.coefficients[..]);
+                assert_eq!(branch::<K, Int, Int>((f, c), (g, d), most, marked, |sum| sum), expected);
+                if bound(&a, &b) < 1 << 63 {
+                    assert_eq!(branch::<K, i64, i64>((f, &a), (g, &b), most, marked, Int::from), expected);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn all_branches_agree() {
+        for (variables, degree, terms, largest) in
+            [(1, 50, 40, 1000), (3, 6, 60, 1000), (4, 9, 50, i64::MAX), (2, 4000, 30, i64::MAX)]
+        {
+            let f = scattered(variables, degree, terms, largest);
+            let g = scattered(variables, degree / 2 + 1, terms / 2, largest);
+            all_branches::<u64>(&f, &g);
+            all_branches::<u64>(&f, &f.neg());
+            all_branches::<Box<[u64]>>(&f, &g);
+        }
+        let (f, g) = (scattered(13, 9, 30, 1000), scattered(11, 20, 30, i64::MAX));
+        assert_eq!(f.product_packing(&g).words(), 2);
+        all_branches::<[u64; 2]>(&f, &g);
+        all_branches::<Box<[u64]>>(&f, &g);
+        let (f, g) = (scattered(30, 9, 30, 1000), scattered(20, 90, 30, i64::MAX));
+        assert!(f.product_packing(&g).words() > 2);
+        all_branches::<Box<[u64]>>(&f, &g);
+    }
+
+    #[test]
+    fn bounds_hold_for_the_worst_signs() {
+        assert_eq!(bound(&[1, -2, 3], &[-5]), 15);
+        assert_eq!(bound(&[i64::MIN], &[i64::MIN]), 1 << 126);
+        assert_eq!(bound(&[], &[7]), 0);
+    }
+}

@@ -1,0 +1,349 @@
+//! Exact division: a heap orders the products of the divisor and the quotient found so far by the leading variables, a
+//! dense box collects those that agree there, and long division in the box finds the next block of the quotient.
+//!
+//! # Source
+//! Monagan and Pearce 2011, Sparse polynomial division using a heap, Journal of Symbolic Computation 46(7).
+
+use super::Polynomial;
+use super::blocks::{Blocks, Grid};
+use super::heap::{Heap, Key};
+use super::product::{CELLS, to_words};
+use crate::monomial::Packing;
+use crate::ring::{Domain, Ring};
+use std::ops::Range;
+
+/// Boxes pay from so many terms in an average block.
+const FEW: usize = 4;
+
+/// A coefficient or a sum left the machine words.
+struct Overflow;
+
+/// The terms of a quotient, if there is one.
+type Terms<C> = Option<(Vec<u64>, Vec<C>)>;
+
+/// What division does with coefficients.
+trait Coefficient: Clone {
+    /// Sums of products.
+    type Sum: Clone;
+    /// The empty sum.
+    fn empty() -> Self::Sum;
+    /// `sum - a b`
+    fn subtract(sum: &mut Self::Sum, a: &Self, b: &Self) -> Result<(), Overflow>;
+    /// Whether the sum is zero.
+    fn vanishes(sum: &Self::Sum) -> bool;
+    /// The exact quotient by a coefficient, `None` if there is a remainder.
+    fn divide(sum: &Self::Sum, divisor: &Self) -> Result<Option<Self>, Overflow>;
+}
+
+impl Coefficient for i64 {
+    type Sum = i128;
+
+    #[inline(always)]
+    fn empty() -> i128 {
+        0
+    }
+    #[inline(always)]
+    fn subtract(sum: &mut i128, a: &Self, b: &Self) -> Result<(), Overflow> {
+        *sum = sum.checked_sub(i128::from(*a) * i128::from(*b)).ok_or(Overflow)?;
+        Ok(())
+    }
+    #[inline(always)]
+    fn vanishes(sum: &i128) -> bool {
+        *sum == 0
+    }
+    #[inline(always)]
+    fn divide(sum: &i128, divisor: &Self) -> Result<Option<Self>, Overflow> {
+        if *divisor == 1 {
+            return i64::try_from(*sum).map(Some).map_err(|_| Overflow);
+        }
+        // Division of words is much faster than of double words; only i64::MIN / -1 leaves the word.
+        if let Ok(sum) = i64::try_from(*sum) {
+            let remainder = sum.checked_rem(*divisor).ok_or(Overflow)?;
+            return Ok((remainder == 0).then(|| sum / divisor));
+        }
+        let divisor = i128::from(*divisor);
+        let remainder = sum.checked_rem(divisor).ok_or(Overflow)?;
+        if remainder != 0 {
+            return Ok(None);
+        }
+        i64::try_from(sum / divisor).map(Some).map_err(|_| Overflow)
+    }
+}
+
+impl<D: Domain> Coefficient for D {
+    type Sum = D;
+
+    fn empty() -> D {
+        D::zero()
+    }
+    fn subtract(sum: &mut D, a: &Self, b: &Self) -> Result<(), Overflow> {
+        *sum = sum.sub(&a.mul(b));
+        Ok(())
+    }
+    fn vanishes(sum: &D) -> bool {
+        sum.is_zero()
+    }
+    fn divide(sum: &D, divisor: &Self) -> Result<Option<Self>, Overflow> {
+        Ok(sum.checked_div_exact(divisor))
+    }
+}
+
+/// Divides a monomial; false, and the monomial spoilt, if it is not divisible.
+#[inline(always)]
+fn divide_monomial(guards: u64, monomial: &mut [u64], divisor: &[u64]) -> bool {
+    monomial.iter_mut().zip(divisor).all(|(word, divisor)| {
+        // A field of the divisor that is larger borrows the guard bit.
+        let difference = (*word | guards) - divisor;
+        *word = difference ^ guards;
+        difference & guards == guards
+    })
+}
+
+impl<D: Domain> Polynomial<D> {
+    /// The exact quotient; `None` if there is a remainder or the divisor is zero.
+    pub(super) fn quotient(&self, divisor: &Self) -> Option<Self> {
+        if divisor.is_zero() {
+            return None;
+        }
+        if self.is_zero() {
+            return Some(Self::zero());
+        }
+        let packing = self.joint_packing(divisor);
+        let (own, other) = (self.packed_as(packing), divisor.packed_as(packing));
+        let words = packing.words();
+        // Degrees add, and the products of first and of last terms cannot cancel.
+        let mut last = own[own.len() - words..].to_vec();
+        if !divide_monomial(packing.guards(), &mut last, &other[other.len() - words..]) {
+            return None;
+        }
+        self.coefficients.last()?.checked_div_exact(divisor.coefficients.last()?)?;
+        if divisor.len() == 1 {
+            return self.quotient_by_term(packing, &own, &other, &divisor.coefficients[0]);
+        }
+        let (mut highest, mut degrees, lower) = (vec![0; words], self.degrees(), divisor.degrees());
+        degrees.resize(packing.variables(), 0);
+        for (variable, degree) in degrees.iter().enumerate() {
+            let degree = degree.checked_sub(lower.get(variable).copied().unwrap_or(0))?;
+            let (word, shift) = packing.place(variable);
+            highest[word] |= u64::from(degree) << shift;
+        }
+        let terms = || {
+            // In machine words as long as they suffice.
+            let wide: Option<Vec<i128>> = self.coefficients.iter().map(D::to_wide).collect();
+            if let Some((a, b)) = wide.zip(to_words(&divisor.coefficients)) {
+                let (dividend, divisor) = ((&*own, &a[..]), (&*other, &b[..]));
+                if let Ok(result) =
+                    (Division { packing, dividend, divisor, degrees: &degrees, highest: &highest }).run()
+                {
+                    return result.map(|(m, c)| (m, c.into_iter().map(|n| D::from_wide(n.into())).collect()));
+                }
+            }
+            let (dividend, divisor) = ((&*own, &self.coefficients[..]), (&*other, &divisor.coefficients[..]));
+            Division { packing, dividend, divisor, degrees: &degrees, highest: &highest }.run().ok().flatten()
+        };
+        let (monomials, coefficients) = terms()?;
+        Some(Self { packing, monomials, coefficients })
+    }
+
+    /// The exact quotient by one term, which keeps the order of the terms.
+    fn quotient_by_term(&self, packing: Packing, own: &[u64], monomial: &[u64], c: &D) -> Option<Self> {
+        let (guards, mut monomials) = (packing.guards(), own.to_vec());
+        let divides = |own: &mut [u64]| divide_monomial(guards, own, monomial);
+        if !monomials.chunks_exact_mut(packing.words()).all(divides) {
+            return None;
+        }
+        let coefficients = self.coefficients.iter().map(|own| own.checked_div_exact(c)).collect::<Option<_>>()?;
+        Some(Self { packing, monomials, coefficients })
+    }
+}
+
+/// Dividend and divisor, each monomials and coefficients, both not zero.
+struct Division<'a, C: Coefficient> {
+    packing: Packing,
+    dividend: (&'a [u64], &'a [C::Sum]),
+    divisor: (&'a [u64], &'a [C]),
+    /// The degrees of the dividend.
+    degrees: &'a [u32],
+    /// The degrees that the quotient must have, as a monomial.
+    highest: &'a [u64],
+}
+
+impl<C: Coefficient> Division<'_, C> {
+    /// The terms of the quotient, `None` if there is a remainder.
+    fn run(&self) -> Result<Terms<C>, Overflow> {
+        match self.packing.words() {
+            1 => self.run_by::<u64>(),
+            2 => self.run_by::<[u64; 2]>(),
+            _ => self.run_by::<Box<[u64]>>(),
+        }
+    }
+
+    fn run_by<K: Key>(&self) -> Result<Terms<C>, Overflow> {
+        let (dividend, divisor) = (self.dividend, self.divisor);
+        let mut grid = Grid::new(self.packing, self.degrees, CELLS.min(dividend.1.len()));
+        let mut blocks = Blocks::<K, C::Sum>::new(&grid, dividend.0, dividend.1);
+        if blocks.len() * FEW > dividend.1.len() {
+            grid = Grid::new(self.packing, self.degrees, 1);
+            blocks = Blocks::new(&grid, dividend.0, dividend.1);
+        }
+        let divisor = Blocks::<K, C>::new(&grid, divisor.0, divisor.1);
+        let bench = Bench { sums: vec![C::empty(); grid.cells()], marks: vec![0; grid.cells().div_ceil(64)], top: 0 };
+        let quotient = Quotient {
+            keys: Vec::new(),
+            starts: vec![0],
+            cells: Vec::new(),
+            monomials: Vec::new(),
+            coefficients: Vec::new(),
+        };
+        self.divide_blocks(&grid, &blocks, &divisor, bench, quotient)
+    }
+
+    fn divide_blocks<K: Key>(
+        &self,
+        grid: &Grid,
+        dividend: &Blocks<K, C::Sum>,
+        divisor: &Blocks<K, C>,
+        mut bench: Bench<C>,
+        mut quotient: Quotient<K, C>,
+    ) -> Result<Terms<C>, Overflow> {
+        // Row i is the i-th block of the divisor times the quotient; rows that have used up the quotient wait.
+        let mut heap = Heap::<K>::new(divisor.len());
+        let mut columns = vec![0; divisor.len()];
+        let mut waiting = if divisor.len() > 1 { vec![1] } else { Vec::new() };
+        let (mut rows, mut next) = (Vec::new(), 0);
+        loop {
+            let key = match (dividend.keys.get(next), heap.peek()) {
+                (None, None) => return Ok(Some((quotient.monomials, quotient.coefficients))),
+                (Some(a), Some(b)) => a.max(b).clone(),
+                (Some(key), None) | (None, Some(key)) => key.clone(),
+            };
+            if dividend.keys.get(next) == Some(&key) {
+                for i in dividend.block(next) {
+                    bench.start(dividend.cells[i], &dividend.coefficients[i]);
+                }
+                next += 1;
+            }
+            if heap.peek() == Some(&key) {
+                heap.pop(&mut rows);
+            }
+            for &row in &rows {
+                let column = columns[row];
+                for i in quotient.starts[column]..quotient.starts[column + 1] {
+                    bench.subtract(divisor, divisor.block(row), quotient.cells[i], &quotient.coefficients[i])?;
+                }
+            }
+            for row in rows.drain(..) {
+                columns[row] += 1;
+                if columns[row] == 1 && row + 1 < divisor.len() {
+                    heap.insert(divisor.keys[row + 1].times(&quotient.keys[0]), row + 1);
+                }
+                match quotient.keys.get(columns[row]) {
+                    Some(key) => heap.insert(divisor.keys[row].times(key), row),
+                    None => waiting.push(row),
+                }
+            }
+            if self.divide_box(grid, &key, divisor, &mut bench, &mut quotient)?.is_none() {
+                return Ok(None);
+            }
+            if quotient.starts.last() < Some(&quotient.cells.len()) {
+                quotient.starts.push(quotient.cells.len());
+                let outer = key.over(&divisor.keys[0]);
+                for row in waiting.drain(..) {
+                    heap.insert(divisor.keys[row].times(&outer), row);
+                }
+                quotient.keys.push(outer);
+            }
+        }
+    }
+
+    /// Long division of what is on the bench by the first block of the divisor; `None` if there is a remainder.
+    fn divide_box<K: Key>(
+        &self,
+        grid: &Grid,
+        key: &K,
+        divisor: &Blocks<K, C>,
+        bench: &mut Bench<C>,
+        quotient: &mut Quotient<K, C>,
+    ) -> Result<Option<()>, Overflow> {
+        let leading = &self.divisor.0[..self.packing.words()];
+        let guards = self.packing.guards();
+        while let Some(cell) = bench.highest() {
+            let sum = std::mem::replace(&mut bench.sums[cell], C::empty());
+            if C::vanishes(&sum) {
+                continue;
+            }
+            let end = quotient.monomials.len();
+            quotient.monomials.extend(key.words().iter().zip(grid.monomial(cell)).map(|(outer, inner)| outer | inner));
+            let monomial = &mut quotient.monomials[end..];
+            // No term of the quotient has a higher degree than the quotient.
+            let divides = divide_monomial(guards, monomial, leading)
+                && self.highest.iter().zip(monomial).all(|(high, word)| ((high | guards) - *word) & guards == guards);
+            let Some(c) = C::divide(&sum, &divisor.coefficients[0])?.filter(|_| divides) else { return Ok(None) };
+            let start = cell - divisor.cells[0];
+            bench.subtract(divisor, 1..divisor.block(0).end, start, &c)?;
+            quotient.cells.push(start);
+            quotient.coefficients.push(c);
+        }
+        Ok(Some(()))
+    }
+}
+
+/// The quotient found so far, in blocks that agree in the leading variables.
+struct Quotient<K, C> {
+    keys: Vec<K>,
+    starts: Vec<usize>,
+    cells: Vec<usize>,
+    monomials: Vec<u64>,
+    coefficients: Vec<C>,
+}
+
+/// The box in which a block of the dividend loses its multiples of the divisor.
+struct Bench<C: Coefficient> {
+    sums: Vec<C::Sum>,
+    /// A bit for each cell that may not be zero.
+    marks: Vec<u64>,
+    /// No word above this one has marks.
+    top: usize,
+}
+
+impl<C: Coefficient> Bench<C> {
+    fn mark(&mut self, cell: usize) {
+        self.marks[cell / 64] |= 1 << (cell % 64);
+        self.top = self.top.max(cell / 64);
+    }
+
+    fn start(&mut self, cell: usize, c: &C::Sum) {
+        self.sums[cell] = c.clone();
+        self.mark(cell);
+    }
+
+    /// Subtracts terms of the divisor times one of the quotient.
+    #[inline(always)]
+    fn subtract<K>(
+        &mut self,
+        divisor: &Blocks<K, C>,
+        terms: Range<usize>,
+        start: usize,
+        c: &C,
+    ) -> Result<(), Overflow> {
+        let mut highest = 0;
+        for (cell, d) in divisor.cells[terms.clone()].iter().zip(&divisor.coefficients[terms]) {
+            let cell = start + cell;
+            C::subtract(&mut self.sums[cell], d, c)?;
+            self.marks[cell / 64] |= 1 << (cell % 64);
+            highest = highest.max(cell);
+        }
+        self.top = self.top.max(highest / 64);
+        Ok(())
+    }
+
+    /// Takes the highest mark.
+    fn highest(&mut self) -> Option<usize> {
+        while self.marks[self.top] == 0 {
+            self.top = self.top.checked_sub(1)?;
+        }
+        let bit = 63 - self.marks[self.top].leading_zeros() as usize;
+        self.marks[self.top] ^= 1 << bit;
+        Some(self.top * 64 + bit)
+    }
+}

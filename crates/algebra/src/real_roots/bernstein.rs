@@ -1,0 +1,365 @@
+//! Bernstein coefficients of a polynomial on dyadic intervals, in fixed point with a proved error.
+//!
+//! On `[0, 1]` a polynomial of degree n is `sum b_j C(n,j) x^j (1-x)^(n-j)`. By Descartes' rule the sign changes of
+//! the `b_j` exceed the number of roots inside by an even number; halving the interval takes averages only, so errors
+//! do not grow. All coefficients here carry a common positive factor that nobody needs.
+
+use super::cell::Cell;
+use super::evaluate::{length, shifted};
+use super::fixed::Wide;
+use rug::Integer;
+
+/// The bits that the coefficients of the 256-bit expansion have before the binomial sums lose some.
+const WIDE_BITS: i64 = 252;
+/// The bits at least of the largest coefficient of an expansion in big integers.
+const FRESH_BITS: i64 = 160;
+/// The error of an expansion that no halving has touched.
+const FRESH_ERROR: u64 = 3;
+
+/// A polynomial made ready for expansion.
+pub(super) struct Source {
+    /// Constant term first, the last one not zero.
+    pub(super) coefficients: Vec<Integer>,
+    /// Their lengths in bits; `None` for 0.
+    pub(super) lengths: Vec<Option<i64>>,
+    /// `l / C(n,i)`, l the least common multiple of the binomials of n.
+    weights: Vec<Integer>,
+    /// The leading bits of coefficient times weight, and the power of two left out.
+    leading: Vec<(Wide, i64)>,
+    /// The length in bits of l, and of n + 1.
+    weight_bits: i64,
+    count_bits: i64,
+}
+
+/// Bernstein coefficients on a cell, each with an error of at most `error` units.
+#[derive(Clone)]
+pub(super) struct Expansion {
+    pub(super) coefficients: Vec<Wide>,
+    pub(super) error: u64,
+}
+
+impl Source {
+    pub(super) fn new(coefficients: Vec<Integer>) -> Self {
+        let n = coefficients.len() - 1;
+        let mut binomials = vec![Integer::from(1)];
+        for i in 0..n {
+            let next = Integer::from(&binomials[i] * (n - i));
+            binomials.push(next.div_exact(&Integer::from(i + 1)));
+        }
+        let common = binomials.iter().fold(Integer::from(1), Integer::lcm);
+        let weights: Vec<Integer> = binomials.iter().map(|b| Integer::from(common.div_exact_ref(b))).collect();
+        let leading = coefficients.iter().zip(&weights).map(|(c, w)| {
+            let product = Integer::from(c * w);
+            let dropped = (length(&product) - WIDE_BITS).max(0);
+            (Wide::new(&shifted(&product, -dropped)), dropped)
+        });
+        Self {
+            leading: leading.collect(),
+            lengths: coefficients.iter().map(|c| (*c != 0).then(|| length(c))).collect(),
+            weight_bits: length(&common),
+            count_bits: length(&Integer::from(n + 1)),
+            weights,
+            coefficients,
+        }
+    }
+
+    /// The polynomial at `-x`.
+    pub(super) fn mirrored(&self) -> Self {
+        let odd = |i: usize| i % 2 == 1;
+        let negated = |(i, c): (usize, &Integer)| if odd(i) { Integer::from(-c) } else { c.clone() };
+        let turned = |(i, &(w, x)): (usize, &(Wide, i64))| if odd(i) { (w.negate(), x) } else { (w, x) };
+        Self {
+            coefficients: self.coefficients.iter().enumerate().map(negated).collect(),
+            lengths: self.lengths.clone(),
+            weights: self.weights.clone(),
+            leading: self.leading.iter().enumerate().map(turned).collect(),
+            ..*self
+        }
+    }
+
+    pub(super) fn degree(&self) -> usize {
+        self.coefficients.len() - 1
+    }
+
+    /// The degree as an exponent of two.
+    fn degree_bits(&self) -> i64 {
+        i64::try_from(self.degree()).expect("degrees are small")
+    }
+
+    /// How many bits rounding and binomial sums may spoil, see [`Source::expand_to`].
+    fn spoilt(&self) -> i64 {
+        self.weight_bits + self.degree_bits() + self.count_bits + 4
+    }
+
+    /// The length of the largest of the numbers `c_i 2^(k i)`.
+    fn reach(&self, k: i64) -> i64 {
+        let terms = (0_i64..).zip(&self.lengths).filter_map(|(i, length)| length.map(|length| length + k * i));
+        terms.max().unwrap_or(0)
+    }
+
+    /// The expansion on `(0, 2^k)` in 256 bits.
+    fn expand_wide(&self, k: i64) -> Expansion {
+        // |sum_i C(j,i) l/C(n,i) c_i 2^(k i)| <= l (n + 1) 2^reach, for every partial sum too.
+        let shift = WIDE_BITS - self.reach(k) - self.weight_bits - self.count_bits;
+        let terms = (0_i64..).zip(&self.leading).map(|(i, &(w, x))| w.shift(x + k * i + shift));
+        let mut b: Vec<Wide> = terms.collect();
+        for i in 1..b.len() {
+            for j in (i..b.len()).rev() {
+                b[j] = b[j].add(b[j - 1]);
+            }
+        }
+        for b in &mut b {
+            *b = b.shift(-self.degree_bits());
+        }
+        // Each term is wrong by less than 2, their sum by less than 2^(n+1), and that divided by 2^n and rounded by less than 3.
+        Expansion { coefficients: b, error: FRESH_ERROR }
+    }
+
+    /// The Bernstein coefficients on a cell right of 0, wrong by less than `FRESH_ERROR` whatever the degree, such that the
+    /// largest `c_i x^i` on the cell has `bits` bits. The weights of binomials lengthen the coefficients by more than the
+    /// degree in bits, so that `bits` may be negative; it must be above `-spoilt`.
+    fn expand_to(&self, cell: &Cell, bits: i64) -> Vec<Integer> {
+        let depth = length(&cell.numerator);
+        let k = cell.exponent + depth;
+        let spoilt = self.spoilt();
+        let shift = bits + spoilt - self.reach(k);
+        let terms = (0_i64..).zip(&self.coefficients).map(|(i, c)| shifted(c, k * i + shift));
+        let mut b: Vec<Integer> = terms.collect();
+        if depth > 0 {
+            // On the cell x = 2^k t (1 + y/a), with a the numerator, t = a/2^depth in [1/2, 1), and y from 0 to 1.
+            let powers = self.powers(cell, bits + spoilt + 2 * self.degree_bits() + self.count_bits);
+            for (b, (power, places)) in b.iter_mut().zip(&powers) {
+                *b *= power;
+                *b >>= places;
+            }
+            for start in 0..self.degree() {
+                for j in (start..self.degree()).rev() {
+                    let (head, tail) = b.split_at_mut(j + 1);
+                    head[j] += &tail[0];
+                }
+            }
+            for (i, (b, (power, places))) in (0_i64..).zip(b.iter_mut().zip(&powers)) {
+                *b = shifted(b, i64::from(*places) - depth * i) / power;
+            }
+        }
+        for (b, weight) in b.iter_mut().zip(&self.weights) {
+            *b *= weight;
+        }
+        for i in 1..b.len() {
+            for j in (i..b.len()).rev() {
+                let (left, right) = b.split_at_mut(j);
+                right[0] += &left[j - 1];
+            }
+        }
+        // The powers are long enough to spoil less than 2 units. So a term is wrong by less than 3 units before the
+        // shift by 1, by less than 3 2^(n+1) after it and by less than 4 more after the division. Weights and binomials
+        // multiply by at most l together, in each of n + 1 terms.
+        let spoilt = u32::try_from(spoilt).expect("degrees are small");
+        for b in &mut b {
+            *b >>= spoilt;
+        }
+        b
+    }
+
+    /// The powers of `t = numerator/2^length`, each with the number of its binary places.
+    fn powers(&self, cell: &Cell, places: i64) -> Vec<(Integer, u32)> {
+        let depth = u32::try_from(length(&cell.numerator)).expect("cells have millions of bits at most");
+        let places = u32::try_from(places).expect("precisions are of millions of bits at most");
+        let mut powers = vec![(Integer::from(1), 0)];
+        for i in 0..self.degree() {
+            let (before, used) = &powers[i];
+            let exact = Integer::from(before * &cell.numerator);
+            let excess = (used + depth).saturating_sub(places);
+            powers.push((exact >> excess, used + depth - excess));
+        }
+        powers
+    }
+
+    /// The Bernstein coefficients on a cell right of 0, the largest of at least `wanted` bits. Starts with the
+    /// precision `bits` and leaves there what would have done.
+    pub(super) fn expand_long(&self, cell: &Cell, wanted: i64, bits: &mut i64) -> Vec<Integer> {
+        let spoilt = self.spoilt();
+        loop {
+            *bits = (*bits).max(1 - spoilt);
+            let b = self.expand_to(cell, *bits);
+            let largest = b.iter().map(length).max().unwrap_or(0);
+            // What is all error says nothing of how much is missing: twice the precision of the terms is tried.
+            *bits += if largest > 2 { wanted - largest } else { *bits + spoilt };
+            if largest >= wanted {
+                return b;
+            }
+            *bits += i64::from(u8::MAX);
+        }
+    }
+
+    /// The expansion on a cell right of 0, precise whatever it takes.
+    pub(super) fn expand(&self, cell: &Cell, bits: &mut i64) -> Expansion {
+        if cell.numerator == 0 && self.degree_bits() <= WIDE_BITS / 2 {
+            let expansion = self.expand_wide(cell.exponent);
+            if expansion.stands_out(64) {
+                return expansion;
+            }
+        }
+        let b = self.expand_long(cell, FRESH_BITS, bits);
+        let excess = b.iter().map(length).max().unwrap_or(0) - WIDE_BITS;
+        let coefficients = b.iter().map(|b| Wide::new(&shifted(b, -excess.max(0)))).collect();
+        Expansion { coefficients, error: FRESH_ERROR }
+    }
+}
+
+impl Expansion {
+    /// Becomes the expansion on the right half; returns the one on the left half.
+    pub(super) fn halve(&mut self) -> Self {
+        let b = &mut self.coefficients;
+        let mut left = Vec::with_capacity(b.len());
+        left.push(b[0]);
+        for end in (1..b.len()).rev() {
+            for j in 0..end {
+                let (head, tail) = b.split_at_mut(j + 1);
+                head[j].average(&tail[0]);
+            }
+            left.push(b[0]);
+        }
+        // Each of n averages in a row rounds down by at most a half.
+        self.error += b.len() as u64 / 2 + 1;
+        Self { coefficients: left, error: self.error }
+    }
+
+    /// The least and the largest number of sign changes, the first and last sign being known better.
+    pub(super) fn sign_changes(&self, first: i8, last: i8) -> (i32, i32) {
+        let n = self.coefficients.len() - 1;
+        let (mut least, mut before) = (0, 0);
+        // The most changes up to here that end in plus, and in minus.
+        let (mut plus, mut minus) = (-1, -1);
+        for (j, b) in self.coefficients.iter().enumerate() {
+            let at_end = j == 0 || j == n;
+            let sign = if j == 0 {
+                first
+            } else if j == n {
+                last
+            } else {
+                b.sign_beyond(self.error)
+            };
+            if sign == 0 && at_end {
+                continue;
+            }
+            (plus, minus) = (plus.max(minus + 1), minus.max(plus + 1));
+            if sign != 0 {
+                *(if sign > 0 { &mut minus } else { &mut plus }) = -2;
+                least += i32::from(before == -sign);
+                before = sign;
+            }
+        }
+        (least, plus.max(minus).max(0))
+    }
+
+    /// Whether the largest coefficient has that many bits more than the error.
+    fn stands_out(&self, bits: u32) -> bool {
+        self.coefficients.iter().any(|b| b.exceeds(self.error, bits))
+    }
+
+    /// Whether enough bits are left for another halving to be of use.
+    pub(super) fn is_precise(&self) -> bool {
+        self.stands_out(12)
+    }
+
+    /// Where about in the cell its only root is, from 0 to 1, the polynomial having the given sign left of it; `None`
+    /// when floats cannot say.
+    pub(super) fn guess_root(&self, left: i8) -> Option<f64> {
+        let n = self.coefficients.len() - 1;
+        let scale = self.coefficients.iter().map(|b| b.to_f64().abs()).fold(0.0, f64::max);
+        let mut binomial = 1.0;
+        let mut terms: Vec<f64> = Vec::with_capacity(n + 1);
+        for (j, b) in self.coefficients.iter().enumerate() {
+            terms.push(b.to_f64() / scale * binomial);
+            binomial *= (n - j) as f64 / (j + 1) as f64;
+        }
+        // On the left half y/(1-y) runs from 0 to 1, on the right half (1-y)/y does, with the terms reversed.
+        let sign = f64::from(left);
+        let on_right = terms.iter().sum::<f64>() * sign > 0.0;
+        if on_right {
+            terms.reverse();
+        }
+        let sign = if on_right { -sign } else { sign };
+        let (mut lo, mut hi, mut r) = (0.0, 1.0, 0.5);
+        for _ in 0..60 {
+            let (mut value, mut slope) = (0.0, 0.0);
+            for term in terms.iter().rev() {
+                slope = slope * r + value;
+                value = value * r + term;
+            }
+            *(if value * sign > 0.0 { &mut lo } else { &mut hi }) = r;
+            let newton = r - value / slope;
+            let next = if lo < newton && newton < hi { newton } else { f64::midpoint(lo, hi) };
+            let done = (next - r).abs() <= 4.0 * f64::EPSILON * r;
+            r = next;
+            if done {
+                break;
+            }
+        }
+        let y = if on_right { 1.0 / (1.0 + r) } else { r / (1.0 + r) };
+        y.is_finite().then_some(y)
+    }
+
+    /// The first sign that is certain.
+    pub(super) fn first_sign(&self) -> i8 {
+        self.coefficients.iter().map(|b| b.sign_beyond(self.error)).find(|&sign| sign != 0).unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::real_roots::cell::dyadic;
+    use rug::Rational;
+
+    /// `l b_j` on a cell for `p(x) = sum c_i x^i`, exactly: `sum_i C(j,i) w_i q_i` with `q(y) = p(x_0 + w y)`.
+    fn exactly(source: &Source, cell: &Cell) -> Vec<Rational> {
+        let (start, width) = (cell.lo(), cell.hi() - cell.lo());
+        let mut q: Vec<Rational> = source.coefficients.iter().map(Rational::from).collect();
+        let n = q.len() - 1;
+        for from in 0..n {
+            for j in (from..n).rev() {
+                let carried = Rational::from(&q[j + 1] * &start);
+                q[j] += carried;
+            }
+        }
+        let mut power = Rational::from(1);
+        for (q, weight) in q.iter_mut().zip(&source.weights) {
+            *q *= Rational::from(weight) * &power;
+            power *= &width;
+        }
+        for i in 1..q.len() {
+            for j in (i..q.len()).rev() {
+                let carried = q[j - 1].clone();
+                q[j] += carried;
+            }
+        }
+        q
+    }
+
+    #[test]
+    fn expansions_are_wrong_by_less_than_the_stated_error_at_any_degree() {
+        for degree in [1_usize, 7, 40, 127, 200, 260] {
+            let mut coefficients = vec![Integer::new(); degree + 1];
+            coefficients[degree] = Integer::from(1);
+            coefficients[0] = Integer::from(-2);
+            coefficients[degree / 2] += Integer::from(7) << 20_u32;
+            let source = Source::new(coefficients);
+            for (numerator, exponent) in [(0, 1), (0, -3), (1, 0), (3, -2), (1025, -10), (5, -30)] {
+                let cell = Cell::new(Integer::from(numerator), exponent);
+                let exact = exactly(&source, &cell);
+                let depth = length(&cell.numerator);
+                // Of the scaling of `expand_to` all but `spoilt` is left.
+                for bits in [1 - source.spoilt(), -100, 60, 300].map(|bits| bits.max(1 - source.spoilt())) {
+                    let unit = bits - source.reach(cell.exponent + depth);
+                    for (found, exact) in source.expand_to(&cell, bits).iter().zip(&exact) {
+                        let expected = dyadic(&Integer::from(1), unit) * exact;
+                        let error = (expected - found).abs();
+                        assert!(error < FRESH_ERROR, "{degree} {numerator} {exponent} {bits}: {error}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Rational numbers by their residues modulo many primes at once: one run of an algorithm, and the numbers of its result from
+//! their residues, however long those between would be.
+
+use super::lift::rational;
+use super::modp::{Modulus, primes};
+use super::ring::{Domain, Field, Ring};
+use rug::Rational;
+use std::sync::LazyLock;
+
+/// How many primes there are.
+pub const MOST: usize = 64;
+
+static MODULI: LazyLock<[Modulus; MOST]> = LazyLock::new(|| {
+    let mut primes = primes();
+    std::array::from_fn(|_| primes.next().expect("there are more primes below 2^62"))
+});
+
+/// Residues modulo the 64 largest primes below `2^62`. As a field it gives up, without an inverse, where a number is 0 modulo some
+/// of the primes only, which chance does not bring about.
+///
+/// # Example
+/// ```
+/// use looproot_algebra::{residues::Residues, ring::{Field, Ring}};
+/// use rug::Rational;
+///
+/// let x = Residues::from_rational(&Rational::from((-22, 7))).unwrap();
+/// assert_eq!(x.inverse().unwrap().rational(), Some(Rational::from((-7, 22))));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Residues([u64; MOST]);
+
+impl Residues {
+    /// The rational number of least height with these residues, if numerator and denominator are below `2^1983`.
+    #[must_use]
+    pub fn rational(&self) -> Option<Rational> {
+        let pair = |(r, modulus): (&u64, &Modulus)| (modulus.leave(*r), modulus.prime());
+        rational(&self.0.iter().zip(MODULI.iter()).map(pair).collect::<Vec<_>>())
+    }
+
+    fn combined(&self, other: &Self, operation: impl Fn(&Modulus, u64, u64) -> u64) -> Self {
+        let mut residues = self.0;
+        for ((r, other), modulus) in residues.iter_mut().zip(&other.0).zip(MODULI.iter()) {
+            *r = operation(modulus, *r, *other);
+        }
+        Self(residues)
+    }
+}
+
+impl Ring for Residues {
+    fn zero() -> Self {
+        Self([0; MOST])
+    }
+    fn one() -> Self {
+        Self(std::array::from_fn(|k| MODULI[k].enter(1)))
+    }
+    fn add(&self, other: &Self) -> Self {
+        self.combined(other, Modulus::add)
+    }
+    fn sub(&self, other: &Self) -> Self {
+        self.combined(other, Modulus::sub)
+    }
+    fn mul(&self, other: &Self) -> Self {
+        self.combined(other, Modulus::mul)
+    }
+    fn neg(&self) -> Self {
+        Self::zero().sub(self)
+    }
+    fn is_zero(&self) -> bool {
+        self.0.iter().all(|r| *r == 0)
+    }
+    fn from_rational(q: &Rational) -> Option<Self> {
+        let image = |n| Self(std::array::from_fn(|k| MODULI[k].reduce(n)));
+        if *q.denom() == 1 {
+            return Some(image(q.numer()));
+        }
+        Some(image(q.numer()).mul(&image(q.denom()).inverse()?))
+    }
+}
+
+impl Domain for Residues {
+    fn checked_div_exact(&self, other: &Self) -> Option<Self> {
+        Some(self.mul(&other.inverse()?))
+    }
+}
+
+impl Field for Residues {
+    fn inverse(&self) -> Option<Self> {
+        let inverse = |k: usize| MODULI[k].inverse(self.0[k]);
+        self.0.iter().all(|r| *r != 0).then(|| Self(std::array::from_fn(inverse)))
+    }
+    fn pivot_size(&self) -> f64 {
+        if self.is_zero() { 0.0 } else { 1.0 }
+    }
+    const PIVOT_ZERO: f64 = 0.0;
+}

@@ -1,0 +1,115 @@
+//! A variable out of two polynomials in several, and the way back.
+
+use super::bezout::Expansion;
+use super::common_divisor::common_divisor;
+use super::route;
+use super::subresultant;
+use crate::int::Int;
+use crate::modular::{self, Terms};
+use crate::polynomial::Polynomial;
+use crate::ring::{Domain, Field, Ring};
+use crate::univariate::Univariate;
+use std::borrow::Cow;
+
+/// The resultant of two polynomials with respect to a variable, with the sign of the Sylvester determinant.
+///
+/// `Res(f, c) = c^m` for c free of the variable, and 0 if either polynomial is zero.
+///
+/// # Panics
+/// When an exponent becomes larger than [`LARGEST_EXPONENT`](crate::monomial::LARGEST_EXPONENT).
+///
+/// # Example
+/// ```
+/// use looproot_algebra::{int::Int, polynomial::Polynomial, resultant::resultant, ring::Ring};
+///
+/// // The circle x^2 + y^2 = 25 and the line x + y = 7 meet where y = 3 or 4.
+/// let (x, y) = (Polynomial::<Int>::variable(0), Polynomial::variable(1));
+/// let circle = x.pow(2).add(&y.pow(2)).sub(&Ring::from_integer(25));
+/// let line = x.add(&y).sub(&Ring::from_integer(7));
+/// let (three, four) = (Ring::from_integer(3), Ring::from_integer(4));
+/// assert_eq!(resultant(&circle, &line, 0), y.sub(&three).mul(&y.sub(&four)).scale(&Int::from_integer(2)));
+/// ```
+#[must_use]
+pub fn resultant(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> Polynomial<Int> {
+    let (m, n) = (f.degree(variable) as usize, g.degree(variable) as usize);
+    let ((content_f, f), (content_g, g)) = (without_content(f), without_content(g));
+    let factor = subresultant::power(&content_f, n).mul(&subresultant::power(&content_g, m));
+    let resultant = if route::is_numeric(&f, &g, variable) { by_values(&f, &g, variable) } else { None };
+    let resultant = resultant.unwrap_or_else(|| eliminate(&f, &g, variable).resultant);
+    if factor == Int::one() { resultant } else { resultant.scale(&factor) }
+}
+
+/// The resultant from its values modulo primes; `None` where that takes too much memory.
+fn by_values(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> Option<Polynomial<Int>> {
+    let variables = f.variables().max(g.variables()).max(variable + 1);
+    let resultant = modular::resultant(&Terms::of(f, variables), &Terms::of(g, variables), variables, variable);
+    resultant.map(|terms| terms.polynomial(variables))
+}
+
+/// The greatest common divisor of the coefficients, and the polynomial without it.
+fn without_content(f: &Polynomial<Int>) -> (Int, Cow<'_, Polynomial<Int>>) {
+    let content = f.content();
+    if content == Int::one() || content.is_zero() {
+        return (Int::one(), Cow::Borrowed(f));
+    }
+    let divided = f.map(|c| c.checked_div_exact(&content)).expect("the content divides all coefficients");
+    (content, Cow::Owned(divided))
+}
+
+/// The result of eliminating a variable from two polynomials.
+#[derive(Clone, Debug)]
+pub struct Eliminant<R> {
+    /// The resultant, with the sign of the Sylvester determinant: it vanishes where the two have a common root, or both
+    /// lose their leading coefficients.
+    pub resultant: Polynomial<R>,
+    /// A polynomial in the eliminated variable that vanishes at the common root, mostly `s1 x + s0`, the first
+    /// subresultant up to factors free of x: then `x = -s0/s1` wherever s1 does not vanish. Two polynomials in `x^k` have
+    /// `s1 x^k + s0` here. Zero, where there is no such polynomial.
+    pub lift: Univariate<Polynomial<R>>,
+    f: Univariate<Polynomial<R>>,
+    g: Univariate<Polynomial<R>>,
+}
+
+/// Eliminates a variable from two polynomials over any ring with exact division.
+///
+/// # Panics
+/// When an exponent becomes larger than [`LARGEST_EXPONENT`](crate::monomial::LARGEST_EXPONENT).
+///
+/// # Example
+/// ```
+/// use looproot_algebra::{polynomial::Polynomial, resultant::eliminate, ring::{Field, Ring}};
+/// use rug::Rational;
+///
+/// // x^2 = y and x y = 8 meet at x = 2, y = 4.
+/// let (x, y) = (Polynomial::<Rational>::variable(0), Polynomial::variable(1));
+/// let eliminant = eliminate(&x.pow(2).sub(&y), &x.mul(&y).sub(&Ring::from_integer(8)), 0);
+/// assert_eq!(eliminant.resultant, Polynomial::<Rational>::from_integer(64).sub(&y.pow(3)));
+/// assert_eq!(eliminant.lift.coefficients(), [Ring::from_integer(-8), y]);
+/// let exact = eliminant.common_divisor_at(|c| Some(c.clone()), &[Rational::new(), Rational::from(4)], 0.0);
+/// assert_eq!(exact, Some(vec![Rational::from(-2), Rational::from(1)]));
+/// let close = eliminant.common_divisor_at(f64::from_rational, &[0.0, 4.000_000_000_1], 1e-9).unwrap();
+/// assert!((close[0] / close[1] + 2.0).abs() < 1e-9);
+/// ```
+#[must_use]
+pub fn eliminate<D: Domain>(f: &Polynomial<D>, g: &Polynomial<D>, variable: usize) -> Eliminant<D> {
+    let parts = |f: &Polynomial<D>| Univariate::new(f.coefficients_in(variable));
+    let (f, g) = (parts(f), parts(g));
+    let Expansion { resultant, linear } = route::expansion(&f, &g);
+    Eliminant { resultant, lift: linear, f, g }
+}
+
+impl<R: Ring> Eliminant<R> {
+    /// The greatest common divisor of the two polynomials where the variables have the given values (that of the
+    /// eliminated one is not looked at), see [`common_divisor`]; `None` if a coefficient has no image.
+    pub fn common_divisor_at<F: Field>(
+        &self,
+        image: impl Fn(&R) -> Option<F>,
+        values: &[F],
+        tolerance: f64,
+    ) -> Option<Vec<F>> {
+        let at = |f: &Univariate<Polynomial<R>>| -> Option<Vec<F>> {
+            f.coefficients().iter().map(|c| c.map(&image).map(|c| c.evaluate(values))).collect()
+        };
+        Some(common_divisor(&at(&self.f)?, &at(&self.g)?, tolerance))
+    }
+}

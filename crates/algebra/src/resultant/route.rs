@@ -1,0 +1,189 @@
+//! The choice of the route to a resultant of polynomials in several variables, and what can be taken out before.
+
+use super::bezout::{self, Expansion};
+use super::subresultant;
+use crate::int::Int;
+use crate::minors::parameters;
+use crate::polynomial::Polynomial;
+use crate::ring::{Domain, Ring};
+use crate::univariate::Univariate;
+
+/// The resultant and what leads back to the eliminated variable.
+///
+/// Polynomials in `x^k` have the k-th power of the resultant of those in x.
+pub(super) fn expansion<D: Domain>(
+    f: &Univariate<Polynomial<D>>,
+    g: &Univariate<Polynomial<D>>,
+) -> Expansion<Polynomial<D>> {
+    let present = |f: &Univariate<Polynomial<D>>| {
+        let powers = f.coefficients().iter().enumerate().filter(|(_, c)| !c.is_zero());
+        powers.fold(0, |gap, (k, _)| gcd(gap, k))
+    };
+    let gap = gcd(present(f), present(g));
+    if gap <= 1 {
+        return without_monomials(f, g);
+    }
+    let contracted =
+        |f: &Univariate<Polynomial<D>>| Univariate::new(f.coefficients().iter().step_by(gap).cloned().collect());
+    let Expansion { resultant, linear } = without_monomials(&contracted(f), &contracted(g));
+    let mut spread = vec![Polynomial::zero(); gap * linear.coefficients().len()];
+    for (k, c) in linear.coefficients().iter().enumerate() {
+        spread[gap * k] = c.clone();
+    }
+    Expansion { resultant: subresultant::power(&resultant, gap), linear: Univariate::new(spread) }
+}
+
+/// Products of parameters that divide all coefficients would be carried along in high powers: they are multiplied to
+/// the resultant at last.
+fn without_monomials<D: Domain>(
+    f: &Univariate<Polynomial<D>>,
+    g: &Univariate<Polynomial<D>>,
+) -> Expansion<Polynomial<D>> {
+    let (exponents_f, exponents_g) = (common_exponents(f), common_exponents(g));
+    if exponents_f.iter().chain(&exponents_g).all(|&e| e == 0) {
+        return by_route(f, g);
+    }
+    let degree = |f: &Univariate<Polynomial<D>>| u32::try_from(f.degree().unwrap_or(0)).unwrap_or(u32::MAX);
+    let expansion = by_route(&divided(f, &exponents_f), &divided(g, &exponents_g));
+    let monomial = |exponents: Vec<u32>, power: u32| {
+        let powers = exponents.into_iter().map(|e| e.saturating_mul(power)).collect();
+        Polynomial::from_terms([(powers, D::one())])
+    };
+    // Where one of these vanishes so does a whole polynomial, and the lift must not say more than it knows.
+    let once = |exponents: &[u32]| monomial(exponents.iter().map(|&e| e.min(1)).collect(), 1);
+    let linear = expansion.linear.scale(&once(&exponents_f).mul(&once(&exponents_g)));
+    let factor = monomial(exponents_f, degree(g)).mul(&monomial(exponents_g, degree(f)));
+    Expansion { resultant: expansion.resultant.mul(&factor), linear }
+}
+
+/// The exponents of the monomial that divides all coefficients.
+fn common_exponents<D: Domain>(f: &Univariate<Polynomial<D>>) -> Vec<u32> {
+    let mut common: Option<Vec<u32>> = None;
+    for (exponents, _) in f.coefficients().iter().flat_map(Polynomial::terms) {
+        let common = common.get_or_insert_with(|| exponents.clone());
+        common.truncate(exponents.len());
+        for (e, &other) in common.iter_mut().zip(&exponents) {
+            *e = other.min(*e);
+        }
+        if common.iter().all(|&e| e == 0) {
+            break;
+        }
+    }
+    common.unwrap_or_default()
+}
+
+/// The polynomial with a monomial divided out of its coefficients.
+fn divided<D: Domain>(f: &Univariate<Polynomial<D>>, common: &[u32]) -> Univariate<Polynomial<D>> {
+    let term = |(mut exponents, c): (Vec<u32>, &D)| {
+        for (e, &by) in exponents.iter_mut().zip(common) {
+            *e -= by;
+        }
+        (exponents, c.clone())
+    };
+    let coefficient = |c: &Polynomial<D>| Polynomial::from_terms(c.terms().map(term));
+    Univariate::new(f.coefficients().iter().map(coefficient).collect())
+}
+
+const fn gcd(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+/// Whether the resultant is sooner had from its values modulo primes than from the polynomials as they are: with
+/// numbers for coefficients, no parameter or a few, and polynomials that are nearly dense or of low degree.
+pub(super) fn is_numeric(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> bool {
+    let (m, n) = (f.degree(variable), g.degree(variable));
+    if m.min(n) < 2 || m.max(n) < 3 {
+        return false;
+    }
+    let variables = f.variables().max(g.variables());
+    let occurs = |&v: &usize| v != variable && (f.degree(v) > 0 || g.degree(v) > 0);
+    let parameters: Vec<usize> = (0..variables).filter(occurs).collect();
+    match parameters.as_slice() {
+        [] => true,
+        &[y] => {
+            let points = u64::from(n) * u64::from(f.degree(y)) + u64::from(m) * u64::from(g.degree(y));
+            let work = points.saturating_mul(u64::from(m.max(n)).pow(3));
+            work < 1 << 24 || (is_dense(f, 2) && is_dense(g, 2))
+        }
+        several => several.len() <= 3 && is_dense(f, several.len() + 1) && is_dense(g, several.len() + 1),
+    }
+}
+
+/// Whether a polynomial has a quarter of the terms that its total degree allows in that many variables.
+fn is_dense(f: &Polynomial<Int>, variables: usize) -> bool {
+    let degree = f.total_degree().unwrap_or(0);
+    let all = (1..=variables as u64).fold(1_u64, |all, k| all.saturating_mul(degree + k) / k);
+    4 * f.len() as u64 >= all
+}
+
+/// How a resultant is found.
+enum Route {
+    /// Two quadratics whose first and last coefficients have more terms than their sums and differences.
+    HalfAngles,
+    /// Minors of the Bezout matrix.
+    Minors,
+    /// The chain of subresultants.
+    Chain,
+}
+
+/// The one place where the route is chosen, by degrees, numbers of parameters and numbers of terms.
+///
+/// Minors never divide, and with many symbols their terms hardly cancel: there they are faster by orders of magnitude.
+/// With one or two parameters all polynomials are dense, and pseudo-division wins where it is cheap: for degrees far
+/// apart, and for high ones.
+fn route<D: Domain>(f: &Univariate<Polynomial<D>>, g: &Univariate<Polynomial<D>>) -> Route {
+    let (Some(m), Some(n)) = (f.degree(), g.degree()) else { return Route::Minors };
+    if (m, n) == (2, 2) {
+        let saves = |f: &Univariate<Polynomial<D>>| {
+            let (a0, a2) = (&f.coefficients()[0], &f.coefficients()[2]);
+            (a0.add(a2).len() + a0.sub(a2).len(), a0.len() + a2.len())
+        };
+        let ((few_f, many_f), (few_g, many_g)) = (saves(f), saves(g));
+        let four_divides = !D::from_integer(4).is_zero();
+        return if few_f + few_g < many_f + many_g && four_divides { Route::HalfAngles } else { Route::Minors };
+    }
+    let (high, low) = (m.max(n), m.min(n));
+    if low <= 1 || high <= 3 {
+        return Route::Minors;
+    }
+    let by_minors = match parameters(f.coefficients().iter().chain(g.coefficients())) {
+        0 | 1 => high <= 5 && high - low <= 1,
+        2 => high <= 6 && high - low <= 1,
+        _ => high <= 8,
+    };
+    if by_minors { Route::Minors } else { Route::Chain }
+}
+
+fn by_route<D: Domain>(f: &Univariate<Polynomial<D>>, g: &Univariate<Polynomial<D>>) -> Expansion<Polynomial<D>> {
+    match route(f, g) {
+        Route::HalfAngles => of_half_angles(f, g),
+        Route::Minors => bezout::expansion(f, g),
+        Route::Chain => {
+            // Neither degree is below 2 here, so the chain has S_0 and S_1.
+            let mut chain = subresultant::chain(f, g);
+            let linear = chain.swap_remove(1);
+            let resultant = chain[0].coefficients().first().cloned().unwrap_or_else(Ring::zero);
+            Expansion { resultant, linear }
+        }
+    }
+}
+
+/// The resultant of two quadratics that come from half-angle tangents, `(C - A) t^2 + 2 B t + (C + A)` from
+/// `A cos + B sin + C`, as a sum of three squares of what has few terms:
+///
+/// `4 Res = (q p' - p q')^2 + (p b' - b p')^2 - (q b' - b q')^2`, p and q the sum and the difference of the outer
+/// coefficients, b the middle one.
+fn of_half_angles<D: Domain>(f: &Univariate<Polynomial<D>>, g: &Univariate<Polynomial<D>>) -> Expansion<Polynomial<D>> {
+    let parts = |f: &Univariate<Polynomial<D>>| {
+        let a = f.coefficients();
+        (a[0].add(&a[2]), a[0].sub(&a[2]), a[1].clone())
+    };
+    let ((p, q, b), (p_other, q_other, b_other)) = (parts(f), parts(g));
+    let z = q.mul(&p_other).sub(&p.mul(&q_other));
+    let x = p.mul(&b_other).sub(&b.mul(&p_other));
+    let y = q.mul(&b_other).sub(&b.mul(&q_other));
+    let four_times = z.mul(&z).add(&x.mul(&x)).sub(&y.mul(&y));
+    let four = D::from_integer(4);
+    let resultant = four_times.map(|c| c.checked_div_exact(&four)).expect("four divides four times the resultant");
+    Expansion { resultant, linear: Univariate::new(vec![z.neg(), x.sub(&y)]) }
+}

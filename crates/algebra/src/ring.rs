@@ -1,0 +1,298 @@
+//! The coefficient rings: everything above this file is written once and run over any of them.
+//!
+//! Methods instead of operators: rug's reference operators return incomplete values, and a local trait can be
+//! implemented for foreign types.
+
+use super::enclosure::Enclosure;
+use super::number::{Angle, HalfTangent};
+use num_complex::Complex;
+use rug::Rational;
+use std::fmt::Debug;
+
+/// A commutative ring with one, into which the rationals (almost) map.
+///
+/// `is_zero` is structural, never a tolerance.
+pub trait Ring: Clone + PartialEq + Debug {
+    /// The neutral element of addition.
+    #[must_use]
+    fn zero() -> Self;
+    /// The neutral element of multiplication.
+    #[must_use]
+    fn one() -> Self;
+    /// `self + other`.
+    #[must_use]
+    fn add(&self, other: &Self) -> Self;
+    /// `self - other`.
+    #[must_use]
+    fn sub(&self, other: &Self) -> Self;
+    /// `self * other`.
+    #[must_use]
+    fn mul(&self, other: &Self) -> Self;
+    /// `-self`.
+    #[must_use]
+    fn neg(&self) -> Self;
+    /// Whether this is the zero of the ring, exactly.
+    fn is_zero(&self) -> bool;
+    /// The image of a rational number; `None` where the denominator is not invertible (an unlucky prime).
+    fn from_rational(q: &Rational) -> Option<Self>;
+
+    /// The image of a small integer.
+    ///
+    /// # Panics
+    /// Never: integers have an image in every ring.
+    #[must_use]
+    fn from_integer(n: i32) -> Self {
+        Self::from_rational(&Rational::from(n)).expect("integers map into every ring")
+    }
+
+    /// `self += a b`; types whose numbers own memory do it in place.
+    fn add_product(&mut self, a: &Self, b: &Self) {
+        *self = self.add(&a.mul(b));
+    }
+
+    /// The integer that an element of a ring of integers is, if it fits an i128: sums of many products then run in machine
+    /// words. `None` in all other rings.
+    fn to_wide(&self) -> Option<i128> {
+        None
+    }
+
+    /// The image of a sum of products of machine words, and of any other integer of this size.
+    ///
+    /// # Panics
+    /// Never: integers have an image in every ring.
+    #[must_use]
+    fn from_wide(n: i128) -> Self {
+        Self::from_rational(&Rational::from(n)).expect("integers map into every ring")
+    }
+
+    /// Cosine and sine of an angle, see [`exact_cos_sin`].
+    /// Inexact rings override this with the correctly rounded values. `None` for an unlucky prime.
+    #[must_use]
+    fn cos_sin(angle: &Angle) -> Option<(Self, Self)> {
+        let (cos, sin) = exact_cos_sin(angle);
+        Some((Self::from_rational(&cos)?, Self::from_rational(&sin)?))
+    }
+
+    /// The image of a number of a mechanism file. `None` for an unlucky prime.
+    #[must_use]
+    fn from_number(number: &super::number::Number) -> Option<Self> {
+        Self::from_rational(number.rational())
+    }
+
+    /// The image of a number that a rational stands for, and that an enclosure holds unless the rational is exact.
+    /// `None` for an unlucky prime.
+    #[must_use]
+    fn from_known(q: &Rational, _known: Option<&Enclosure>) -> Option<Self> {
+        Self::from_rational(q)
+    }
+
+    /// Whether elements enclose what rationals only stand for.
+    const ENCLOSES: bool = false;
+
+    /// Digits in base 2 of a ring of floating-point numbers; none in all other rings. What is derived from the data of a
+    /// mechanism is computed exactly, or enclosed, and rounded to them once.
+    const DIGITS: Option<u32> = None;
+}
+
+/// `((1 - t^2)/(1 + t^2), 2t/(1 + t^2))`, cosine and sine of an angle from its rational half-angle tangent t.
+#[must_use]
+pub fn exact_cos_sin(angle: &Angle) -> (Rational, Rational) {
+    match angle.half_tangent() {
+        HalfTangent::Infinite => (Rational::from(-1), Rational::new()),
+        HalfTangent::Finite(t) => {
+            let square = Rational::from(t * t);
+            let denominator = Rational::from(&square + 1);
+            ((1 - square) / &denominator, Rational::from(t * 2) / denominator)
+        }
+    }
+}
+
+/// A ring with exact division, for fraction-free algorithms. Only exact types have it, so that an exact algorithm on
+/// an inexact ring does not compile:
+///
+/// ```compile_fail
+/// fn exact_algorithm<R: looproot_algebra::ring::Domain>(_: R) {}
+/// exact_algorithm(1.0_f64);
+/// ```
+pub trait Domain: Ring {
+    /// `self / other`; `None` where `other` is zero or the division leaves a remainder.
+    #[must_use]
+    fn checked_div_exact(&self, other: &Self) -> Option<Self>;
+
+    /// `self / other` where the division is known to leave no remainder; types may save themselves the test.
+    ///
+    /// # Panics
+    /// When `other` is zero, and unless the type saves the test, when there is a remainder.
+    #[must_use]
+    fn div_exact(&self, other: &Self) -> Self {
+        self.checked_div_exact(other).expect("the division leaves no remainder")
+    }
+}
+
+/// A ring in which every element but zero has an inverse.
+pub trait Field: Ring {
+    /// The inverse; `None` for zero.
+    #[must_use]
+    fn inverse(&self) -> Option<Self>;
+
+    /// How good a pivot this is: the absolute value in inexact fields, 1 for every nonzero element of an exact one.
+    /// One elimination code thereby pivots for stability in f64 and takes any nonzero entry exactly.
+    fn pivot_size(&self) -> f64;
+
+    /// Pivots of this relative size or below are zero: 0 in exact fields, a rounding level in inexact ones.
+    const PIVOT_ZERO: f64;
+
+    /// Scales a coefficient list that ends in a nonzero number to the one chosen to stand for all its multiples: ending
+    /// in 1, or over the rationals primitive integers ending in a positive one, which keeps Euclid's algorithm short.
+    fn normalise(coefficients: &mut [Self]) {
+        if let Some(inverse) = coefficients.last().and_then(Self::inverse) {
+            for c in coefficients {
+                *c = c.mul(&inverse);
+            }
+        }
+    }
+
+    /// Makes rows orthonormal where that improves conditioning; leaves them alone in exact fields (the default).
+    fn orthonormalise<const N: usize>(_rows: &mut [[Self; N]]) {}
+}
+
+impl Ring for f64 {
+    const DIGITS: Option<u32> = Some(f64::MANTISSA_DIGITS);
+
+    fn zero() -> Self {
+        0.0
+    }
+    fn one() -> Self {
+        1.0
+    }
+    #[inline(always)]
+    fn add(&self, other: &Self) -> Self {
+        self + other
+    }
+    #[inline(always)]
+    fn sub(&self, other: &Self) -> Self {
+        self - other
+    }
+    #[inline(always)]
+    fn mul(&self, other: &Self) -> Self {
+        self * other
+    }
+    #[inline(always)]
+    fn neg(&self) -> Self {
+        -self
+    }
+    fn is_zero(&self) -> bool {
+        *self == 0.0
+    }
+    fn from_rational(q: &Rational) -> Option<Self> {
+        Some(super::number::nearest_f64(q))
+    }
+    fn from_integer(n: i32) -> Self {
+        f64::from(n)
+    }
+    fn cos_sin(angle: &Angle) -> Option<(Self, Self)> {
+        Some(angle.cos_sin_f64())
+    }
+    fn from_number(number: &super::number::Number) -> Option<Self> {
+        Some(number.to_f64())
+    }
+}
+
+impl Field for f64 {
+    #[inline(always)]
+    fn inverse(&self) -> Option<Self> {
+        (*self != 0.0).then(|| 1.0 / self)
+    }
+    #[inline(always)]
+    fn pivot_size(&self) -> f64 {
+        self.abs()
+    }
+    const PIVOT_ZERO: f64 = 1e-14;
+
+    fn orthonormalise<const N: usize>(rows: &mut [[Self; N]]) {
+        // Modified Gram-Schmidt, each row against the finished ones, twice: enough for orthogonality to rounding.
+        for i in 0..rows.len() {
+            let (done, rest) = rows.split_at_mut(i);
+            let row = &mut rest[0];
+            for _ in 0..2 {
+                for other in done.iter() {
+                    let dot: f64 = row.iter().zip(other).map(|(x, y)| x * y).sum();
+                    for (x, y) in row.iter_mut().zip(other) {
+                        *x -= dot * y;
+                    }
+                }
+                let norm = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+                if norm > 0.0 {
+                    for x in row.iter_mut() {
+                        *x /= norm;
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl<T: Ring> Ring for Complex<T> {
+    fn zero() -> Self {
+        Complex { re: T::zero(), im: T::zero() }
+    }
+    fn one() -> Self {
+        Complex { re: T::one(), im: T::zero() }
+    }
+    #[inline(always)]
+    fn add(&self, other: &Self) -> Self {
+        Complex { re: self.re.add(&other.re), im: self.im.add(&other.im) }
+    }
+    #[inline(always)]
+    fn sub(&self, other: &Self) -> Self {
+        Complex { re: self.re.sub(&other.re), im: self.im.sub(&other.im) }
+    }
+    #[inline(always)]
+    fn mul(&self, other: &Self) -> Self {
+        Complex {
+            re: self.re.mul(&other.re).sub(&self.im.mul(&other.im)),
+            im: self.re.mul(&other.im).add(&self.im.mul(&other.re)),
+        }
+    }
+    #[inline(always)]
+    fn neg(&self) -> Self {
+        Complex { re: self.re.neg(), im: self.im.neg() }
+    }
+    fn is_zero(&self) -> bool {
+        self.re.is_zero() && self.im.is_zero()
+    }
+    fn from_rational(q: &Rational) -> Option<Self> {
+        Some(Complex { re: T::from_rational(q)?, im: T::zero() })
+    }
+    fn from_integer(n: i32) -> Self {
+        Complex { re: T::from_integer(n), im: T::zero() }
+    }
+    fn cos_sin(angle: &Angle) -> Option<(Self, Self)> {
+        let (cos, sin) = T::cos_sin(angle)?;
+        Some((Complex { re: cos, im: T::zero() }, Complex { re: sin, im: T::zero() }))
+    }
+    fn from_number(number: &super::number::Number) -> Option<Self> {
+        Some(Complex { re: T::from_number(number)?, im: T::zero() })
+    }
+}
+
+impl<T: Field + Domain> Domain for Complex<T> {
+    fn checked_div_exact(&self, other: &Self) -> Option<Self> {
+        Some(self.mul(&other.inverse()?))
+    }
+}
+
+impl<T: Field> Field for Complex<T> {
+    #[inline(always)]
+    fn inverse(&self) -> Option<Self> {
+        // Over f64 this can overflow for entries beyond 1e150, which scaled mechanisms never reach.
+        let square = self.re.mul(&self.re).add(&self.im.mul(&self.im)).inverse()?;
+        Some(Complex { re: self.re.mul(&square), im: self.im.neg().mul(&square) })
+    }
+    #[inline(always)]
+    fn pivot_size(&self) -> f64 {
+        let (re, im) = (self.re.pivot_size(), self.im.pivot_size());
+        if re > im { re } else { im }
+    }
+    const PIVOT_ZERO: f64 = T::PIVOT_ZERO;
+}

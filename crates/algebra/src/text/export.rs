@@ -1,0 +1,88 @@
+//! Whole files for other programs.
+
+use super::format::Format;
+use super::names::Names;
+use super::notation::{latex, plain};
+use super::rename::Renamed;
+use crate::polynomial::Polynomial;
+use rug::Rational;
+
+/// Terms in a line of LaTeX.
+const LATEX_LINE: usize = 6;
+
+/// The file of a system that is not empty.
+pub(super) fn file(format: Format, polynomials: &[Polynomial<Rational>], names: &Names) -> String {
+    let renamed = Renamed::new(format, names);
+    let variables = renamed.list();
+    let lines: Vec<String> = polynomials.iter().map(|p| plain(format, p, variables)).collect();
+    let list = variables.join(", ");
+    let body = match format {
+        Format::Sympy => {
+            let polys: Vec<String> =
+                lines.iter().map(|line| format!("    Poly({line}, {list}, domain=\"QQ\"),\n")).collect();
+            format!(
+                "from sympy import Poly, Rational, symbols\n\nvariables = {list}, = symbols(\"{}\", seq=True)\nequations = \
+                 [\n{}]\n",
+                variables.join(" "),
+                polys.concat()
+            )
+        }
+        Format::Maple => format!("variables := [{list}]:\nequations := [\n  {}\n]:\n", lines.join(",\n  ")),
+        Format::Mathematica => format!("variables = {{{list}}};\nequations = {{\n  {}\n}};\n", lines.join(",\n  ")),
+        Format::Singular => {
+            let polys: Vec<String> =
+                lines.iter().zip(1..).map(|(line, index)| format!("poly f{index} = {line};\n")).collect();
+            let ideal: Vec<String> = (1..=lines.len()).map(|index| format!("f{index}")).collect();
+            format!("ring looproot = 0, ({list}), dp;\n{}ideal equations = {};\n", polys.concat(), ideal.join(", "))
+        }
+        // The promotion makes numbers polynomials where all of them are numbers.
+        Format::Macaulay2 => format!(
+            "looproot = QQ[{list}];\nequations = ideal promote(matrix {{{{\n  {}\n}}}}, looproot);\n",
+            lines.join(",\n  ")
+        ),
+        Format::Msolve => format!("{}\n0\n{}\n", variables.join(","), lines.join(",\n")),
+        Format::Phcpack => {
+            let count = if lines.len() == variables.len() {
+                lines.len().to_string()
+            } else {
+                format!("{} {}", lines.len(), variables.len())
+            };
+            format!("{count}\n {};\n", lines.join(";\n "))
+        }
+        Format::Julia => format!(
+            "using HomotopyContinuation\n\n@var {}\nF = System([\n    {},\n]; variables = [{list}])\n",
+            variables.join(" "),
+            lines.join(",\n    ")
+        ),
+        Format::Text | Format::Json | Format::Latex => lines.concat(),
+    };
+    remark(format, renamed.changes()) + &body
+}
+
+/// The comment on changed names; empty where none is or the language has no comments.
+fn remark(format: Format, changes: &[(String, String)]) -> String {
+    if changes.is_empty() {
+        return String::new();
+    }
+    let (open, close) = match format {
+        Format::Sympy | Format::Maple | Format::Julia => ("# ", ""),
+        Format::Singular => ("// ", ""),
+        Format::Macaulay2 => ("-- ", ""),
+        Format::Mathematica => ("(* ", " *)"),
+        _ => return String::new(),
+    };
+    let changes: Vec<String> = changes.iter().map(|(old, new)| format!("{new} was {old}")).collect();
+    format!("{open}renamed: {}{close}\n", changes.join(", "))
+}
+
+/// The polynomials in the lines of an `align*`.
+pub(super) fn latex_lines(polynomials: &[Polynomial<Rational>], names: &Names) -> String {
+    let mut blocks = Vec::new();
+    for (index, polynomial) in polynomials.iter().enumerate() {
+        let terms = latex(polynomial, names.list());
+        let lines: Vec<String> = terms.chunks(LATEX_LINE).map(|line| line.join(" ")).collect();
+        let name = if polynomials.len() == 1 { "f".to_owned() } else { format!("f_{{{}}}", index + 1) };
+        blocks.push(format!("  {name} &= {}", lines.join(" \\\\\n    &\\quad ")));
+    }
+    format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", blocks.join(" \\\\\n"))
+}

@@ -1,0 +1,132 @@
+//! The names of variables, which polynomials themselves know by number only.
+
+use super::fault::shortened;
+use crate::error::Error;
+use std::collections::HashMap;
+
+/// The largest number of names.
+const MOST_NAMES: usize = 1000;
+/// Up to this many names a look through all of them is faster than a table.
+const FEW: usize = 12;
+/// Names that resemble an unknown one at least this much are suggested.
+const RESEMBLANCE: f64 = 0.6;
+
+/// An ordered list of names: the first one is variable 0. It is either given, and then complete, or collected in the
+/// order in which names appear in the texts that are read with it.
+///
+/// # Example
+/// ```
+/// use looproot_algebra::text::{Expression, Names};
+///
+/// let mut names = Names::collected();
+/// Expression::parse("y^2 - x*y", &mut names).unwrap();
+/// assert_eq!(names.list(), ["y", "x"]);
+/// let fault = Expression::parse("x + z", &mut Names::given(["x", "y"]).unwrap()).unwrap_err();
+/// assert_eq!(fault.place.column, 5);
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    list: Vec<String>,
+    /// Where each name stands, as soon as there are more than a few.
+    table: HashMap<String, usize>,
+    complete: bool,
+}
+
+impl Names {
+    /// No names yet; those that appear are collected.
+    #[must_use]
+    pub fn collected() -> Self {
+        Self::default()
+    }
+
+    /// These names and no others.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for what is no name, for a name that appears twice, and for too many names.
+    pub fn given<S: AsRef<str>>(list: impl IntoIterator<Item = S>) -> Result<Self, Error> {
+        let mut names = Self::default();
+        for name in list {
+            let name = name.as_ref();
+            if !is_name(name) {
+                let rule = "expected a letter or an underscore, then letters, digits, underscores, primes";
+                return Err(Error::Invalid(format!("found the variable `{}`, {rule}", shortened(name))));
+            }
+            if names.index(name).is_some() {
+                return Err(Error::Invalid(format!(
+                    "found the variable `{}` twice, expected it once",
+                    shortened(name)
+                )));
+            }
+            names.push(name).map_err(Error::Invalid)?;
+        }
+        names.complete = true;
+        Ok(names)
+    }
+
+    /// The names, in order.
+    #[must_use]
+    pub fn list(&self) -> &[String] {
+        &self.list
+    }
+
+    /// The number of the variable with this name.
+    #[must_use]
+    pub fn index(&self, name: &str) -> Option<usize> {
+        if self.table.is_empty() {
+            // Names are short: comparing byte by byte is faster than calling for a comparison of memory.
+            return self.list.iter().position(|known| known.len() == name.len() && known.bytes().eq(name.bytes()));
+        }
+        self.table.get(name).copied()
+    }
+
+    /// Like [`Self::index`]; the error names those that resemble it.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for an unknown name.
+    pub fn known(&self, name: &str) -> Result<usize, Error> {
+        self.index(name).ok_or_else(|| Error::Invalid(self.unknown(name)))
+    }
+
+    /// The number of the variable with this name, which is added where names are collected.
+    pub(super) fn look_up(&mut self, name: &str) -> Result<usize, String> {
+        match self.index(name) {
+            Some(index) => Ok(index),
+            None if self.complete => Err(self.unknown(name)),
+            None => self.push(name),
+        }
+    }
+
+    fn push(&mut self, name: &str) -> Result<usize, String> {
+        let index = self.list.len();
+        if index == MOST_NAMES {
+            return Err(format!("found `{}`, one variable more than the {MOST_NAMES} possible", shortened(name)));
+        }
+        self.list.push(name.to_owned());
+        if self.list.len() == FEW {
+            self.table = self.list.iter().cloned().zip(0..).collect();
+        } else if self.list.len() > FEW {
+            self.table.insert(name.to_owned(), index);
+        }
+        Ok(index)
+    }
+
+    fn unknown(&self, name: &str) -> String {
+        let resemblance = |known: &String| strsim::normalized_damerau_levenshtein(known, name);
+        let near =
+            self.list.iter().filter(|known| resemblance(known) >= RESEMBLANCE || known.eq_ignore_ascii_case(name));
+        let near: Vec<String> = near.take(3).map(|known| format!("`{known}`")).collect();
+        let expected = match (near.is_empty(), self.list.is_empty()) {
+            (false, _) => format!("did you mean {}?", near.join(" or ")),
+            (true, true) => "expected no variable".to_owned(),
+            (true, false) => format!("expected one of {}", shortened(&self.list.join(", "))),
+        };
+        format!("found the unknown variable `{}`; {expected}", shortened(name))
+    }
+}
+
+/// A letter or underscore, then letters, digits, underscores, and primes at the end.
+fn is_name(text: &str) -> bool {
+    let body = text.trim_end_matches('\'');
+    body.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && body.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_')
+}

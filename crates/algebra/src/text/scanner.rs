@@ -1,0 +1,200 @@
+//! The letters of a text: spaces, numbers, names, and where they stand.
+
+use super::fault::{Fault, Place, shortened};
+use crate::error::Error;
+use crate::int::Int;
+use crate::ring::Ring;
+use rug::{Integer, Rational, ops::Pow};
+
+/// Largest decimal exponent read, as in `1e-400`.
+const LARGEST_EXPONENT: u32 = 400;
+
+/// A text and how far it is read.
+pub(super) struct Scanner<'t> {
+    text: &'t str,
+    at: usize,
+    line: usize,
+    line_start: usize,
+}
+
+impl<'t> Scanner<'t> {
+    pub(super) const fn new(text: &'t str) -> Self {
+        Self { text, at: 0, line: 1, line_start: 0 }
+    }
+
+    /// Bytes not read yet.
+    pub(super) const fn remaining(&self) -> usize {
+        self.text.len() - self.at
+    }
+
+    pub(super) const fn place(&self) -> Place {
+        Place { line: self.line, column: self.at - self.line_start + 1 }
+    }
+
+    pub(super) const fn fault(&self, message: String) -> Fault {
+        Fault::new(self.place(), message)
+    }
+
+    /// The next byte, spaces and comments (`#` to the end of the line) passed over; 0 at the end.
+    #[inline]
+    pub(super) fn peek(&mut self) -> u8 {
+        let bytes = self.text.as_bytes();
+        loop {
+            match bytes.get(self.at) {
+                Some(b' ' | b'\t' | b'\r') => self.at += 1,
+                Some(b'\n') => {
+                    self.at += 1;
+                    self.line += 1;
+                    self.line_start = self.at;
+                }
+                Some(b'#') => self.at += self.text[self.at..].find('\n').unwrap_or(self.text.len() - self.at),
+                // A zero byte is no letter of ours; it must not be taken for the end.
+                Some(0) => return 1,
+                Some(&byte) => return byte,
+                None => return 0,
+            }
+        }
+    }
+
+    /// The byte behind the one that [`Self::peek`] gave.
+    pub(super) fn second(&self) -> u8 {
+        self.text.as_bytes().get(self.at + 1).copied().unwrap_or(0)
+    }
+
+    pub(super) fn advance(&mut self, bytes: usize) {
+        self.at += bytes;
+    }
+
+    /// Passes over this byte if it comes next.
+    pub(super) fn eat(&mut self, byte: u8) -> bool {
+        let found = self.peek() == byte;
+        self.at += usize::from(found);
+        found
+    }
+
+    /// What comes next, as a complaint quotes it.
+    pub(super) fn found(&mut self) -> String {
+        if self.peek() == 0 {
+            return "the end".to_owned();
+        }
+        let rest = &self.text[self.at..];
+        let word = rest.bytes().take_while(|c| c.is_ascii_alphanumeric() || *c == b'_').count();
+        let end = if word > 0 { word } else { rest.chars().next().map_or(0, char::len_utf8) };
+        format!("`{}`", shortened(&rest[..end]).escape_debug())
+    }
+
+    /// The name that begins here; the caller has seen its first letter.
+    #[inline]
+    pub(super) fn name(&mut self) -> &'t str {
+        let bytes = self.text.as_bytes();
+        let start = self.at;
+        while bytes.get(self.at).is_some_and(|c| c.is_ascii_alphanumeric() || *c == b'_') {
+            self.at += 1;
+        }
+        while bytes.get(self.at) == Some(&b'\'') {
+            self.at += 1;
+        }
+        &self.text[start..self.at]
+    }
+
+    #[inline]
+    fn digits(&mut self) -> &'t str {
+        let bytes = self.text.as_bytes();
+        let start = self.at;
+        while bytes.get(self.at).is_some_and(u8::is_ascii_digit) {
+            self.at += 1;
+        }
+        &self.text[start..self.at]
+    }
+
+    /// Numerator and denominator of the number that begins here: digits, perhaps with a point and a power of ten.
+    #[inline]
+    pub(super) fn number(&mut self) -> Result<(Int, Int), Fault> {
+        let place = self.place();
+        let start = self.at;
+        let whole = self.digits();
+        match self.text.as_bytes().get(self.at) {
+            Some(b'.' | b'e' | b'E') => self.decimal(whole, &self.text[start..], place),
+            _ => Ok((integer(whole), Int::one())),
+        }
+    }
+
+    fn decimal(&mut self, whole: &str, source: &str, place: Place) -> Result<(Int, Int), Fault> {
+        let fault = |what: &str| Fault::new(place, format!("found `{}`, {what}", shortened(source)));
+        let mut fraction = "";
+        if self.text[self.at..].starts_with('.') {
+            self.at += 1;
+            fraction = self.digits();
+        }
+        if whole.is_empty() && fraction.is_empty() {
+            return Err(Fault::new(place, "found a point without digits, expected a number".to_owned()));
+        }
+        let mut value = Rational::from(integer(&format!("{whole}{fraction}")).to_integer());
+        let ten_to = |n: usize| u32::try_from(n).ok().map(|n| Integer::from(10).pow(n));
+        value /= ten_to(fraction.len()).ok_or_else(|| fault("a number with too many digits"))?;
+        let rest = &self.text[self.at..];
+        if let Some(behind) = rest.strip_prefix(['e', 'E']) {
+            let unsigned = behind.strip_prefix(['+', '-']).unwrap_or(behind);
+            // `2e` and `2e_x` are a number with a name behind, which the parser complains about.
+            if unsigned.starts_with(|c: char| c.is_ascii_digit()) {
+                self.at += rest.len() - unsigned.len();
+                let size = self.digits().parse::<u32>().ok().filter(|size| *size <= LARGEST_EXPONENT);
+                let size = size.ok_or_else(|| fault(&format!("a power of ten beyond {LARGEST_EXPONENT}")))?;
+                let power = Integer::from(10).pow(size);
+                if behind.starts_with('-') { value /= power } else { value *= power }
+            }
+        }
+        let (numerator, denominator) = value.into_numer_denom();
+        Ok((Int::from(numerator), Int::from(denominator)))
+    }
+
+    /// The whole number that begins here, if it fits a u64.
+    pub(super) fn small(&mut self) -> Option<u64> {
+        self.digits().parse().ok()
+    }
+}
+
+/// The value of decimal digits.
+#[inline]
+fn integer(digits: &str) -> Int {
+    if digits.len() <= 18 {
+        return Int::from(digits.bytes().fold(0, |value, digit| value * 10 + i64::from(digit - b'0')));
+    }
+    Int::from(Integer::parse(digits).map(Integer::from).unwrap_or_default())
+}
+
+/// A number written as digits, perhaps with a sign, a point, a power of ten, and a divisor: `-22/7`, `0.1`, `1e-3`.
+///
+/// # Errors
+/// [`Error::Invalid`] with what was found.
+pub fn read_number(text: &str) -> Result<Rational, Error> {
+    let fault = |fault: Fault| fault.in_text(text);
+    let mut scanner = Scanner::new(text);
+    let negative = scanner.peek() == b'-';
+    if matches!(scanner.peek(), b'+' | b'-') {
+        scanner.advance(1);
+    }
+    let unsigned = |scanner: &mut Scanner| match scanner.peek() {
+        b'0'..=b'9' | b'.' => scanner.number().map_err(fault),
+        _ => {
+            let found = scanner.found();
+            Err(fault(scanner.fault(format!("found {found}, expected digits"))))
+        }
+    };
+    let (mut numerator, mut denominator) = unsigned(&mut scanner)?;
+    if scanner.eat(b'/') {
+        let (n, d) = unsigned(&mut scanner)?;
+        (numerator, denominator) = (numerator.mul(&d), denominator.mul(&n));
+    }
+    if scanner.peek() != 0 || denominator.is_zero() {
+        let found = if denominator.is_zero() { "a division by zero".to_owned() } else { scanner.found() };
+        return Err(fault(scanner.fault(format!("found {found}, expected a number"))));
+    }
+    if negative {
+        numerator = numerator.neg();
+    }
+    Ok(match (numerator.to_i64(), denominator.to_i64()) {
+        (Some(n), Some(d)) => Rational::from((n, d)),
+        _ => Rational::from((numerator.to_integer(), denominator.to_integer())),
+    })
+}

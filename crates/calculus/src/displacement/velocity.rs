@@ -1,0 +1,154 @@
+//! Velocity and acceleration of a body in space: velocity screw, poles, what three points tell.
+
+use super::cylindroid::Pitched;
+use crate::line::pluecker::Line;
+use crate::motion::{Motion, Vector, cross, dot};
+use crate::unit::Unit;
+use looproot_algebra::ring::Ring;
+use looproot_algebra::series::Series;
+
+/// The place of a point and its velocity.
+pub type Moving<R> = (Vector<R>, Vector<R>);
+
+/// Velocity and acceleration of a body at an instant, of the point of the body at the origin of space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State<R> {
+    /// The angular velocity.
+    pub omega: Vector<R>,
+    /// The angular acceleration.
+    pub alpha: Vector<R>,
+    /// The velocity of the point of the body at the origin.
+    pub velocity: Vector<R>,
+    /// The acceleration of that point.
+    pub acceleration: Vector<R>,
+}
+
+impl<R: Ring> State<R> {
+    /// The state of a motion over series in time.
+    #[must_use]
+    pub fn of(motion: &Motion<Series<R, 3>>) -> Self {
+        let part = |k: usize| motion.map(|s| Some(s.coefficients[k].clone()));
+        let (Some(at), Some(rate), Some(half)) = (part(0), part(1), part(2)) else {
+            // The parts of a series are always there.
+            return Self { omega: zero(), alpha: zero(), velocity: zero(), acceleration: zero() };
+        };
+        let twice = |r: &R| r.add(r);
+        let transposed: [[R; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| at.rotation[j][i].clone()));
+        let by = |m: &[[R; 3]; 3]| crate::rotation::matrix::product(m, &transposed);
+        let skew = by(&rate.rotation);
+        let omega = [skew[2][1].clone(), skew[0][2].clone(), skew[1][0].clone()];
+        // A'' A^T = skew(alpha) + skew(omega)^2: the symmetric part drops out of half the difference.
+        let second = by(&half.rotation.each_ref().map(|row| row.each_ref().map(twice)));
+        let square = crate::rotation::matrix::product(&skew, &skew);
+        let alpha = [(2, 1), (0, 2), (1, 0)].map(|(i, j)| second[i][j].sub(&square[i][j]));
+        // The point of the body that is at the origin is at -t against the body's own origin.
+        let back: Vector<R> = at.translation.each_ref().map(R::neg);
+        let accelerated = add(&cross(&alpha, &back), &cross(&omega, &cross(&omega, &back)));
+        Self {
+            velocity: add(&rate.translation, &cross(&omega, &back)),
+            acceleration: add(&half.translation.each_ref().map(twice), &accelerated),
+            omega,
+            alpha,
+        }
+    }
+
+    /// The velocity of the point of the body that is at a place.
+    #[must_use]
+    pub fn velocity_at(&self, point: &Vector<R>) -> Vector<R> {
+        add(&self.velocity, &cross(&self.omega, point))
+    }
+
+    /// The acceleration of the point of the body that is at a place.
+    #[must_use]
+    pub fn acceleration_at(&self, point: &Vector<R>) -> Vector<R> {
+        let turning = add(&cross(&self.alpha, point), &cross(&self.omega, &cross(&self.omega, point)));
+        add(&self.acceleration, &turning)
+    }
+}
+
+impl<R: Unit> State<R> {
+    /// The velocity screw: axis and pitch. `None` in a translation.
+    ///
+    /// # Source
+    /// \[Wittenburg2016, 9.3\]
+    #[must_use]
+    pub fn screw(&self) -> Option<Pitched<R>> {
+        Pitched::of_twist(&Line { direction: self.omega.clone(), moment: self.velocity.clone() })
+    }
+
+    /// The point without acceleration; `None` where angular velocity and acceleration are parallel.
+    ///
+    /// # Example
+    /// ```
+    /// use looproot_calculus::displacement::velocity::State;
+    /// let state = State {
+    ///     omega: [0.0, 0.0, 1.0], alpha: [1.0, 0.0, 0.0], velocity: [0.0; 3], acceleration: [2.0, 0.0, 1.0],
+    /// };
+    /// let pole = state.acceleration_pole().unwrap();
+    /// assert!(state.acceleration_at(&pole).iter().all(|a| a.abs() < 1e-15));
+    /// ```
+    ///
+    /// # Source
+    /// \[Wittenburg2016, 9.8\]: a linear system with determinant `-|omega x alpha|^2`.
+    #[must_use]
+    pub fn acceleration_pole(&self) -> Option<Vector<R>> {
+        let unit = |k: usize| std::array::from_fn(|i| if i == k { R::one() } else { R::zero() });
+        let column = |k: usize| {
+            let e: Vector<R> = unit(k);
+            add(&cross(&self.alpha, &e), &cross(&self.omega, &cross(&self.omega, &e)))
+        };
+        solve(&[column(0), column(1), column(2)], &self.acceleration.each_ref().map(R::neg))
+    }
+}
+
+/// The angular velocity of a body from the velocities of three of its points, and the velocity of the point at the origin.
+/// `None` of points in a line.
+///
+/// # Example
+/// ```
+/// use looproot_calculus::displacement::velocity::from_points;
+/// use rug::Rational;
+/// let v = |v: [i32; 3]| v.map(Rational::from);
+/// // Turning about z at rate 2 and rising.
+/// let points = [(v([1, 0, 0]), v([0, 2, 1])), (v([0, 1, 0]), v([-2, 0, 1])), (v([0, 0, 4]), v([0, 0, 1]))];
+/// assert_eq!(from_points(&points).unwrap(), (v([0, 0, 2]), v([0, 0, 1])));
+/// ```
+///
+/// # Source
+/// \[Wittenburg2016, 9.4\]
+#[must_use]
+pub fn from_points<R: Unit>(points: &[Moving<R>; 3]) -> Option<(Vector<R>, Vector<R>)> {
+    let difference = |k: usize, of: fn(&Moving<R>) -> &Vector<R>| -> Vector<R> {
+        std::array::from_fn(|i| of(&points[k])[i].sub(&of(&points[0])[i]))
+    };
+    let (p, q) = (difference(1, |m| &m.0), difference(2, |m| &m.0));
+    let (v, w) = (difference(1, |m| &m.1), difference(2, |m| &m.1));
+    let normal = cross(&p, &q);
+    let inverse = dot(&normal, &normal).reciprocal()?;
+    let along = |a: &R, u: &Vector<R>| u.each_ref().map(|c| c.mul(a).mul(&inverse));
+    // v . (p x q) = -y, w . (p x q) = x, v . q = z, each times the square of p x q, for omega = x p + y q + z p x q.
+    let (x, y, z) = (dot(&w, &normal), dot(&v, &normal).neg(), dot(&v, &q));
+    let omega = add(&add(&along(&x, &p), &along(&y, &q)), &along(&z, &normal));
+    let turned = cross(&omega, &points[0].0);
+    let velocity = std::array::from_fn(|i| points[0].1[i].sub(&turned[i]));
+    Some((omega, velocity))
+}
+
+fn zero<R: Ring>() -> Vector<R> {
+    std::array::from_fn(|_| R::zero())
+}
+
+fn add<R: Ring>(x: &Vector<R>, y: &Vector<R>) -> Vector<R> {
+    std::array::from_fn(|i| x[i].add(&y[i]))
+}
+
+/// The solution of three linear equations with these columns.
+fn solve<R: Unit>([a, b, c]: &[Vector<R>; 3], right: &Vector<R>) -> Option<Vector<R>> {
+    let determinant = dot(a, &cross(b, c));
+    if determinant.is_small() {
+        return None;
+    }
+    let inverse = determinant.reciprocal()?;
+    let triple = |u: &Vector<R>, v: &Vector<R>| dot(right, &cross(u, v)).mul(&inverse);
+    Some([triple(b, c), triple(c, a), triple(a, b)])
+}

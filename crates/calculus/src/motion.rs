@@ -1,0 +1,151 @@
+//! Rigid motions over any ring: a rotation matrix and a translation, acting on column points.
+
+use looproot_algebra::number::Angle;
+use looproot_algebra::ring::Ring;
+
+/// A vector of the space.
+pub type Vector<R> = [R; 3];
+
+/// A rigid motion `p -> rotation p + translation`.
+///
+/// # Units
+/// `translation` in the unit of length of the mechanism.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion<R> {
+    /// Rows of the rotation matrix.
+    pub rotation: [[R; 3]; 3],
+    /// The image of the origin.
+    pub translation: Vector<R>,
+}
+
+/// `x . y`
+#[inline(always)]
+pub fn dot<R: Ring>(x: &Vector<R>, y: &Vector<R>) -> R {
+    x[0].mul(&y[0]).add(&x[1].mul(&y[1])).add(&x[2].mul(&y[2]))
+}
+
+/// `x x y`
+#[inline(always)]
+pub fn cross<R: Ring>(x: &Vector<R>, y: &Vector<R>) -> Vector<R> {
+    [
+        x[1].mul(&y[2]).sub(&x[2].mul(&y[1])),
+        x[2].mul(&y[0]).sub(&x[0].mul(&y[2])),
+        x[0].mul(&y[1]).sub(&x[1].mul(&y[0])),
+    ]
+}
+
+impl<R: Ring> Motion<R> {
+    /// The motion that leaves everything where it is.
+    #[must_use]
+    pub fn identity() -> Self {
+        let row = |k: usize| std::array::from_fn(|j| if j == k { R::one() } else { R::zero() });
+        Self { rotation: std::array::from_fn(row), translation: std::array::from_fn(|_| R::zero()) }
+    }
+
+    /// `Rz`: rotation about the z axis with the given cosine and sine.
+    #[must_use]
+    pub fn rotation_z(cos: R, sin: R) -> Self {
+        let mut m = Self::identity();
+        m.rotation[0] = [cos.clone(), sin.neg(), R::zero()];
+        m.rotation[1] = [sin, cos, R::zero()];
+        m
+    }
+
+    /// `Rx`: rotation about the x axis with the given cosine and sine.
+    #[must_use]
+    pub fn rotation_x(cos: R, sin: R) -> Self {
+        let mut m = Self::identity();
+        m.rotation[1] = [R::zero(), cos.clone(), sin.neg()];
+        m.rotation[2] = [R::zero(), sin, cos];
+        m
+    }
+
+    /// Roll about x, then pitch about y, then yaw about z, all about fixed axes: `Rz(yaw) Ry(pitch) Rx(roll)`. `None` for an
+    /// unlucky prime.
+    #[must_use]
+    pub fn roll_pitch_yaw([roll, pitch, yaw]: &[Angle; 3]) -> Option<Self> {
+        Some(Self::turned([R::cos_sin(roll)?, R::cos_sin(pitch)?, R::cos_sin(yaw)?]))
+    }
+
+    /// As [`Motion::roll_pitch_yaw`], by cosine and sine of each angle.
+    #[must_use]
+    pub fn turned([roll, pitch, yaw]: [(R, R); 3]) -> Self {
+        let about_x = Self::rotation_x(roll.0, roll.1);
+        let (cos, sin) = pitch;
+        let mut about_y = Self::identity();
+        about_y.rotation[0] = [cos.clone(), R::zero(), sin.clone()];
+        about_y.rotation[2] = [sin.neg(), R::zero(), cos];
+        Self::rotation_z(yaw.0, yaw.1).then_after(&about_y).then_after(&about_x)
+    }
+
+    /// `Tx(a) Rx(alpha)` with the given length, and cosine and sine of the twist.
+    #[must_use]
+    pub fn link(a: R, (cos, sin): (R, R)) -> Self {
+        Self { translation: [a, R::zero(), R::zero()], ..Self::rotation_x(cos, sin) }
+    }
+
+    /// A pure translation.
+    #[must_use]
+    pub fn translation(vector: Vector<R>) -> Self {
+        Self { translation: vector, ..Self::identity() }
+    }
+
+    /// `Tz`: translation along the z axis.
+    #[must_use]
+    pub fn translation_z(d: R) -> Self {
+        Self::translation([R::zero(), R::zero(), d])
+    }
+
+    /// `rotation v`, for directions.
+    #[inline(always)]
+    pub fn rotate(&self, v: &Vector<R>) -> Vector<R> {
+        std::array::from_fn(|i| dot(&self.rotation[i], v))
+    }
+
+    /// The image of a point.
+    #[inline(always)]
+    pub fn apply(&self, p: &Vector<R>) -> Vector<R> {
+        let rotated = self.rotate(p);
+        std::array::from_fn(|i| rotated[i].add(&self.translation[i]))
+    }
+
+    /// `self * other`: first `other`, then `self`.
+    #[must_use]
+    #[inline(always)]
+    pub fn then_after(&self, other: &Self) -> Self {
+        let column = |j: usize| -> Vector<R> { std::array::from_fn(|k| other.rotation[k][j].clone()) };
+        let columns: [Vector<R>; 3] = std::array::from_fn(column);
+        Self {
+            rotation: std::array::from_fn(|i| std::array::from_fn(|j| dot(&self.rotation[i], &columns[j]))),
+            translation: self.apply(&other.translation),
+        }
+    }
+
+    /// The inverse motion, by the transpose of the rotation.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let transposed = Self {
+            rotation: std::array::from_fn(|i| std::array::from_fn(|j| self.rotation[j][i].clone())),
+            translation: std::array::from_fn(|_| R::zero()),
+        };
+        let back = transposed.rotate(&self.translation);
+        Self { translation: std::array::from_fn(|i| back[i].neg()), ..transposed }
+    }
+}
+
+impl<R> Motion<R> {
+    /// The same motion over another ring; `None` as soon as one entry has no image.
+    pub fn map<S>(&self, image: impl Fn(&R) -> Option<S>) -> Option<Motion<S>> {
+        let vector = |v: &Vector<R>| -> Option<Vector<S>> { Some([image(&v[0])?, image(&v[1])?, image(&v[2])?]) };
+        Some(Motion {
+            rotation: [vector(&self.rotation[0])?, vector(&self.rotation[1])?, vector(&self.rotation[2])?],
+            translation: vector(&self.translation)?,
+        })
+    }
+}
+
+/// The link motion `Tx(a) Rx(alpha)` of the Denavit-Hartenberg forms. `None` for an unlucky prime.
+#[must_use]
+pub fn link<R: Ring>(a: &looproot_algebra::number::Number, alpha: &Angle) -> Option<Motion<R>> {
+    Some(Motion::link(R::from_number(a)?, R::cos_sin(alpha)?))
+}
