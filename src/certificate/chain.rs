@@ -1,0 +1,225 @@
+//! The closure equations of an arm or a loop, derived from its data.
+//!
+//! `V_1(x_1) L_1 ... V_6(x_6) L_6 = 1`, rotations about and translations along z. The six equations are that the rotation of
+//! the product is symmetric and its translation 0.
+
+use super::enclosing::Enclosing;
+use super::fault::{Fault, refused, unreadable};
+use super::isolation::{Closure, Point};
+use super::mode::Ball;
+use crate::algebra::enclosure::Enclosure;
+use crate::algebra::ring::Ring;
+use crate::catalogue::entry::{Case, InputValue};
+use crate::kinematics::chain::{Chain, JointKind};
+use crate::kinematics::closed_loop::{angle_motion, distance_motion};
+use crate::kinematics::joint::{JointVariable, Variable};
+use crate::kinematics::motion::{Motion, dot};
+use rug::{Float, Rational, float::Constant};
+
+/// A closed loop of six unknowns.
+pub struct ChainClosure {
+    /// What each unknown does.
+    pub(super) variables: [Variable; 6],
+    /// The constant motion behind each unknown.
+    pub(super) links: [Motion<Enclosure>; 6],
+    /// The same as rationals, where all numbers are.
+    pub(super) exact: Option<[Motion<Rational>; 6]>,
+    /// Which of the joint variables is given.
+    pub(super) given: Option<usize>,
+    /// The first of the three angles of every spherical joint.
+    pub(super) spherical: Vec<usize>,
+}
+
+/// What each unknown does, the constant motions behind them, and which of the joint variables is given.
+type Links<R> = ([Variable; 6], [Motion<R>; 6], Option<usize>);
+
+/// The loop of a case over a ring.
+fn links<R: Ring>(chain: &Chain, case: &Case) -> Result<Links<R>, Fault> {
+    let own = || Fault::Unreadable("found numbers that are not known well enough".to_owned());
+    let (mut variables, mut motions) = chain.unknowns_and_constants::<R>().ok_or_else(own)?;
+    let named = JointVariable::of(&chain.joint_kinds());
+    if variables.len() != named.len() || named.iter().any(|v| v.kind == JointKind::Helical) {
+        return refused("closure: a helical joint has no certificate");
+    }
+    if let (Some(pose), Some(last)) = (&case.pose, motions.last_mut()) {
+        *last = last.then_after(&pose.inverse_image::<R>().ok_or_else(own)?);
+    }
+    if case.input.len() > 1 {
+        return refused("closure: several inputs");
+    }
+    let mut given = None;
+    if let Some(input) = case.input.first() {
+        let is_given =
+            |v: &JointVariable| v.joint == input.joint && v.variable == input.value.variable() && v.turn == 0;
+        let Some(at) = named.iter().position(is_given) else {
+            return unreadable(format!("joint {} has no such variable", input.joint));
+        };
+        let held = match &input.value {
+            InputValue::Angle(angle) => angle_motion::<R>(angle),
+            InputValue::Distance(distance) => distance_motion(distance),
+        };
+        given = Some(at);
+        variables.remove(at);
+        let behind = motions.remove(at + 1);
+        motions[at] = motions[at].then_after(&held.ok_or_else(own)?).then_after(&behind);
+    }
+    let count = variables.len();
+    let Ok(variables) = <[Variable; 6]>::try_from(variables) else {
+        return refused(format!("closure: {count} unknowns, where loops of six are covered"));
+    };
+    let before = motions.remove(0);
+    motions[5] = motions[5].then_after(&before);
+    Ok((variables, motions.try_into().map_err(|_| own())?, given))
+}
+
+impl ChainClosure {
+    /// The loop of a case; `is_exact` says that all its numbers are rational.
+    pub(super) fn of(chain: &Chain, case: &Case, is_exact: bool) -> Result<Self, Fault> {
+        let (variables, enclosed, given) = links::<Enclosure>(chain, case)?;
+        let named = JointVariable::of(&chain.joint_kinds());
+        let unknown = named.iter().enumerate().filter(|(at, _)| Some(*at) != given);
+        let is_first = |(_, v): &(usize, &JointVariable)| v.kind == JointKind::Spherical && v.turn == 1;
+        let spherical = unknown.enumerate().filter(|(_, v)| is_first(v)).map(|(k, _)| k).collect();
+        let exact = if is_exact { Some(links::<Rational>(chain, case)?.1) } else { None };
+        Ok(Self { variables, links: enclosed, exact, given, spherical })
+    }
+
+    fn links<S: Enclosing>(&self) -> [Motion<S>; 6] {
+        self.links.each_ref().map(|link| Motion {
+            rotation: link.rotation.each_ref().map(|row| row.each_ref().map(S::of)),
+            translation: link.translation.each_ref().map(S::of),
+        })
+    }
+
+    fn product<S: Enclosing>(&self, point: &Point<S>) -> Motion<S> {
+        let [first, rest @ ..] = motions(point, &self.links());
+        rest.iter().fold(first, |product, motion| product.then_after(motion))
+    }
+}
+
+/// The motions of all unknowns with the links behind them.
+fn motions<S: Enclosing>(point: &Point<S>, links: &[Motion<S>; 6]) -> [Motion<S>; 6] {
+    std::array::from_fn(|k| moved(&links[k], point, k))
+}
+
+/// A link behind the motion of an unknown.
+fn moved<S: Enclosing>(link: &Motion<S>, point: &Point<S>, k: usize) -> Motion<S> {
+    let mut motion = link.clone();
+    match &point.turns[k] {
+        None => motion.translation[2] = motion.translation[2].add(&point.x[k]),
+        Some((cos, sin)) => {
+            let turn = |x: &S, y: &S| [cos.mul(x).sub(&sin.mul(y)), sin.mul(x).add(&cos.mul(y))];
+            for j in 0..3 {
+                [motion.rotation[0][j], motion.rotation[1][j]] = turn(&link.rotation[0][j], &link.rotation[1][j]);
+            }
+            [motion.translation[0], motion.translation[1]] = turn(&link.translation[0], &link.translation[1]);
+        }
+    }
+    motion
+}
+
+/// The rotation's lack of symmetry, and the translation.
+fn six<S: Ring>(rotation: &[[S; 3]; 3], translation: &[S; 3]) -> [S; 6] {
+    let [x, y, z] = translation.clone();
+    let skew = |i: usize, j: usize| rotation[i][j].sub(&rotation[j][i]);
+    [skew(2, 1), skew(0, 2), skew(1, 0), x, y, z]
+}
+
+impl Closure<6> for ChainClosure {
+    fn angles(&self) -> [bool; 6] {
+        self.variables.map(|variable| variable == Variable::Rotation)
+    }
+
+    fn values<S: Enclosing>(&self, point: &Point<S>) -> [S; 6] {
+        let product = self.product(point);
+        six(&product.rotation, &product.translation)
+    }
+
+    fn jacobian<S: Enclosing>(&self, point: &Point<S>) -> [[S; 6]; 6] {
+        let links = self.links();
+        let motions = motions(point, &links);
+        let mut behind = vec![Motion::identity()];
+        for motion in motions[1..].iter().rev() {
+            let next = motion.then_after(&behind[behind.len() - 1]);
+            behind.push(next);
+        }
+        let mut before = Motion::<S>::identity();
+        let columns: [[S; 6]; 6] = std::array::from_fn(|k| {
+            let column = match &point.turns[k] {
+                None => {
+                    let along = std::array::from_fn(|i| before.rotation[i][2].clone());
+                    six(&std::array::from_fn(|_| std::array::from_fn(|_| S::zero())), &along)
+                }
+                Some((cos, sin)) => {
+                    // The derivative of the rotation takes (x, y, z) to (-s x - c y, c x - s y, 0).
+                    let rest = links[k].then_after(&behind[5 - k]);
+                    let turn =
+                        |x: &S, y: &S| [sin.mul(x).add(&cos.mul(y)).neg(), cos.mul(x).sub(&sin.mul(y)), S::zero()];
+                    let column = |j: usize| turn(&rest.rotation[0][j], &rest.rotation[1][j]);
+                    let columns: [[S; 3]; 3] = std::array::from_fn(column);
+                    let place = turn(&rest.translation[0], &rest.translation[1]);
+                    let rotation: [[S; 3]; 3] =
+                        std::array::from_fn(|i| std::array::from_fn(|j| dot(&before.rotation[i], &columns[j])));
+                    six(&rotation, &before.rotate(&place))
+                }
+            };
+            before = before.then_after(&motions[k]);
+            column
+        });
+        std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i].clone()))
+    }
+
+    /// A symmetric rotation is the identity, of trace 3, or a half-turn, of trace -1.
+    fn is_solution<S: Enclosing>(&self, point: &Point<S>) -> bool {
+        let rotation = self.product(point).rotation;
+        let trace = rotation[0][0].add(&rotation[1][1]).add(&rotation[2][2]);
+        trace.add(&S::one()).at_least() > 0.0
+    }
+
+    /// Angles are compared modulo 2 pi, and a spherical joint has two triples of angles for every rotation.
+    fn are_apart(&self, one: &Ball, other: &Ball) -> bool {
+        let mut forms = vec![[0; 6]];
+        for &at in &self.spherical {
+            for mut form in forms.clone() {
+                (form[at], form[at + 1], form[at + 2]) = (1, 2, 1);
+                forms.push(form);
+            }
+        }
+        let radius = Rational::from(&one.radius + &other.radius);
+        forms.iter().all(|form| (0..6).any(|k| self.are_far(k, form[k], one, other, &radius)))
+    }
+}
+
+/// Bits in which pi is compared with rational numbers.
+const PI_BITS: u32 = 512;
+/// More turns than centres may lie apart.
+const MOST_TURNS: i32 = 3;
+
+impl ChainClosure {
+    /// Whether unknown k differs by more than a radius; `form` 1 adds half a turn to the other one, 2 changes its sign.
+    fn are_far(&self, k: usize, form: u8, one: &Ball, other: &Ball, radius: &Rational) -> bool {
+        let ((x, y), (u, v)) = (&one.centre[k], &other.centre[k]);
+        let (re, im) = if form == 2 {
+            (Rational::from(x + u), Rational::from(y + v))
+        } else {
+            (Rational::from(x - u), Rational::from(y - v))
+        };
+        if im.abs() > *radius {
+            return true;
+        }
+        if self.variables[k] == Variable::Translation {
+            return re.abs() > *radius;
+        }
+        let halves = i32::from(form == 1);
+        if Rational::from(re.abs_ref()) > 6 * MOST_TURNS - 4 {
+            return false;
+        }
+        let pi = Float::with_val(PI_BITS, Constant::Pi).to_rational().unwrap_or_default();
+        // pi is off by less than 1e-150, and so is what few multiples of it are off.
+        let more = radius + Rational::from_f64(1e-140).unwrap_or_default();
+        (-MOST_TURNS..=MOST_TURNS).all(|turn| {
+            let off = &re - Rational::from(&pi * (2 * turn + halves));
+            off.abs() > more
+        })
+    }
+}

@@ -1,0 +1,119 @@
+//! The check of a certificate as a whole.
+
+use super::bound::bound;
+use super::chain::ChainClosure;
+use super::data::{data_of, entry_of};
+use super::fault::{Fault, refused, shortened, unreadable};
+use super::isolation::{Closed, proved_modes};
+use super::mode::Ball;
+use super::platform::PlatformClosure;
+use super::record::Record;
+use crate::catalogue::entry::{Design, Entry};
+use serde_json::{Deserializer, Value};
+
+/// Largest text of one certificate, bytes.
+const LARGEST: usize = 4 << 20;
+
+/// What a certificate proves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Holds {
+    /// All solutions.
+    pub complex: usize,
+    /// The real ones among them.
+    pub real: usize,
+}
+
+/// Checks one certificate; with a file, that its data are those of one case of that file, too.
+///
+/// # Errors
+/// [`Fault`] names the first item that does not hold, or says what cannot be read.
+pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> {
+    let record = Record::read(certificate)?;
+    if record.claim.verb != "solve" || record.claim.proof != "proved" {
+        return refused("claim: only proved answers of solve are covered");
+    }
+    let entry = entry_of(&record.data)?;
+    let [case] = entry.cases.as_slice() else {
+        return unreadable(format!("data: found {} cases, expected one", entry.cases.len()));
+    };
+    let own = Value::Object(record.data);
+    match data_of(&entry, case) {
+        Ok(canonical) if canonical == own => {}
+        Ok(_) => {
+            return refused("data: the numbers are not written in the one form that docs/certificate.md gives them");
+        }
+        Err(reason) => return refused(format!("data: {reason}")),
+    }
+    if let Some(file) = file {
+        let is_own = |case| data_of(file, case).is_ok_and(|data| data == own);
+        if !file.cases.iter().any(is_own) {
+            return refused("file: the data of the certificate are those of no case of the file");
+        }
+    }
+    let closed = closed(&entry, case)?;
+    if let Some(at) = record.modes.iter().position(|mode| mode.multiplicity != 1) {
+        return refused(format!("mode {}: a ball of an isolated simple solution counts once", at + 1));
+    }
+    let balls: Vec<Ball> = record.modes.into_iter().map(|mode| mode.ball).collect();
+    proved_modes(&closed, &balls)?;
+    let bound = bound(&closed, &record.proof)?;
+    let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
+    if bound != complex {
+        return refused(format!("proof: at most {bound} solutions, and {complex} modes are proved"));
+    }
+    if record.claim.complex != complex {
+        return refused(format!("claim: complex is {}, where {complex} are proved", record.claim.complex));
+    }
+    if record.claim.real != real {
+        return refused(format!("claim: real is {}, where {real} are proved", record.claim.real));
+    }
+    if record.claim.status != if real == 0 { "unreachable" } else { "complete" } {
+        let status = shortened(&record.claim.status);
+        return refused(format!("claim: the status is `{status}`, where {real} real solutions are proved"));
+    }
+    Ok(Holds { complex, real })
+}
+
+/// The closure equations of a case.
+///
+/// # Errors
+/// [`Fault`] for kinds that are not covered.
+pub fn closed(entry: &Entry, case: &crate::catalogue::entry::Case) -> Result<Closed, Fault> {
+    Ok(match &entry.design {
+        Design::Arm(chain) | Design::Loop(chain) => {
+            let is_exact = !entry.rounded
+                && case.pose.as_ref().is_none_or(|pose| pose.given.is_none())
+                && case.input.iter().all(|input| input.value.is_exact());
+            Closed::Chain(Box::new(ChainClosure::of(chain, case, is_exact)?))
+        }
+        Design::Platform(platform) => Closed::Platform(Box::new(PlatformClosure::of(platform, case)?)),
+    })
+}
+
+/// Checks every certificate of a text, one behind the other, and gives each outcome with its number from 1.
+///
+/// # Errors
+/// [`Fault::Unreadable`] where the text is none of certificates.
+pub fn check_all(
+    text: &str,
+    file: Option<&Entry>,
+    mut each: impl FnMut(usize, Result<Holds, Fault>),
+) -> Result<(), Fault> {
+    let mut found = 0;
+    // A long text is one certificate a line, so that no more than one is in memory.
+    let parts: Vec<&str> = if text.len() > LARGEST { text.lines().collect() } else { vec![text] };
+    for part in parts {
+        if part.len() > LARGEST {
+            return unreadable(format!("found more than {LARGEST} bytes in one certificate"));
+        }
+        for value in Deserializer::from_str(part).into_iter::<Value>() {
+            let value = value.map_err(|error| Fault::Unreadable(format!("found no JSON: {error}")))?;
+            found += 1;
+            match check(&value, file) {
+                Err(Fault::Unreadable(message)) => return unreadable(message),
+                outcome => each(found, outcome),
+            }
+        }
+    }
+    if found == 0 { unreadable("found no certificate") } else { Ok(()) }
+}

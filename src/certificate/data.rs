@@ -1,0 +1,185 @@
+//! The data of a case as a certificate holds them: a mechanism file of one case, every number in its one form.
+
+use super::fault::{Fault, refused};
+use crate::algebra::number::{Angle, Number};
+use crate::catalogue::entry::{Case, Design, Entry, InputValue, Kind};
+use crate::catalogue::{Format, Options, load_text};
+use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
+use rug::{Integer, Rational};
+use serde_json::{Map, Value, json};
+
+/// The data of a case.
+///
+/// # Errors
+/// Says which number has no exact form that a certificate could hold.
+pub fn data_of(entry: &Entry, case: &Case) -> Result<Value, String> {
+    match &entry.design {
+        Design::Arm(chain) => {
+            let Some(pose) = &case.pose else { return Err("there is no pose".to_owned()) };
+            if !case.input.is_empty() {
+                return Err("joints that are held have no certificate".to_owned());
+            }
+            let mechanism = mechanism(chain, entry.kind())?;
+            Ok(json!({ "mechanism": mechanism, "pose": [{ "matrix": matrix(pose, "pose")? }] }))
+        }
+        Design::Loop(chain) => {
+            let mechanism = mechanism(chain, entry.kind())?;
+            let inputs = case.input.iter().map(|input| {
+                Ok(match &input.value {
+                    InputValue::Angle(value) => json!({ "joint": input.joint, "angle": angle(value, "input")? }),
+                    InputValue::Distance(value) => json!({ "joint": input.joint, "distance": number(value, "input")? }),
+                })
+            });
+            let inputs: Vec<Value> = inputs.collect::<Result<_, String>>()?;
+            Ok(if inputs.is_empty() {
+                json!({ "mechanism": mechanism })
+            } else {
+                json!({ "mechanism": mechanism, "input": inputs })
+            })
+        }
+        Design::Platform(platform) => {
+            let Some(squares) = &case.legs_squared else { return Err("there are no legs".to_owned()) };
+            let numbers =
+                |numbers: &[Number], what| numbers.iter().map(|x| number(x, what)).collect::<Result<Vec<_>, _>>();
+            let points = |points: &[[Number; 3]; 6], what| {
+                points.iter().map(|point| numbers(point, what)).collect::<Result<Vec<_>, _>>()
+            };
+            Ok(json!({ "mechanism": {
+                "kind": "platform",
+                "base": points(&platform.base, "base")?,
+                "plate": points(&platform.plate, "plate")?,
+                "legs_squared": numbers(squares, "legs")?,
+            } }))
+        }
+    }
+}
+
+/// The mechanism that data describe.
+pub(super) fn entry_of(data: &Map<String, Value>) -> Result<Entry, Fault> {
+    // Whatever does not decide the verdict has no place in the data: the reader knows more keys.
+    let known = ["mechanism", "pose", "input"];
+    if let Some(key) = data.keys().find(|key| !known.contains(&key.as_str())) {
+        return refused(format!("data: the key `{}` decides nothing", super::fault::shortened(key)));
+    }
+    let text = Value::Object(data.clone()).to_string();
+    let entry = load_text(&text, "data", Format::Json, &Options::default());
+    entry.map_err(|error| Fault::Unreadable(error.to_string()))
+}
+
+fn mechanism(chain: &Chain, kind: Kind) -> Result<Value, String> {
+    let is_arm = kind == Kind::Arm;
+    let mut table = Map::new();
+    table.insert("kind".to_owned(), json!(if is_arm { "arm" } else { "loop" }));
+    let (convention, joints) = match &chain.geometry {
+        Geometry::Dh(joints) => ("dh", joints.iter().map(joint).collect::<Result<Vec<_>, _>>()?),
+        Geometry::ModifiedDh(joints) => ("modified-dh", joints.iter().map(joint).collect::<Result<Vec<_>, _>>()?),
+        Geometry::Screws { joints, .. } => ("screws", joints.iter().map(screw).collect::<Result<Vec<_>, _>>()?),
+    };
+    table.insert("convention".to_owned(), json!(convention));
+    table.insert("joints".to_owned(), json!(joints));
+    if let Geometry::Screws { home, .. } = &chain.geometry {
+        table.insert("home".to_owned(), matrix(home, "home")?);
+    }
+    let nowhere = Placement::identity();
+    for (key, placed) in [("base", &chain.base), ("tool", &chain.tool)] {
+        if *placed != nowhere {
+            table.insert(key.to_owned(), matrix(placed, key)?);
+        }
+    }
+    Ok(Value::Object(table))
+}
+
+fn joint(joint: &Joint) -> Result<Value, String> {
+    let mut table = Map::new();
+    let mut put = |key: &str, text: String| table.insert(key.to_owned(), json!(text));
+    put("type", joint.kind.letter().to_owned());
+    put("a", number(&joint.a, "a")?);
+    put("alpha", angle(&joint.alpha, "alpha")?);
+    match joint.kind {
+        JointKind::Revolute => {
+            put("d", number(&joint.d, "d")?);
+            put("theta0", angle(&joint.theta0, "theta0")?);
+        }
+        JointKind::Prismatic => {
+            put("theta", angle(&joint.theta0, "theta")?);
+            put("d0", number(&joint.d, "d0")?);
+        }
+        JointKind::Cylindrical => {
+            put("theta0", angle(&joint.theta0, "theta0")?);
+            put("d0", number(&joint.d, "d0")?);
+        }
+        JointKind::Universal | JointKind::Spherical => {
+            put("d", number(&joint.d, "d")?);
+        }
+        JointKind::Helical => return Err("helical joints have no certificate".to_owned()),
+    }
+    Ok(Value::Object(table))
+}
+
+/// A direction has one form, whole numbers without a common factor, and so has a point of an axis: the one nearest to the
+/// origin.
+fn screw(joint: &ScrewJoint) -> Result<Value, String> {
+    let is_exact = joint.axis.iter().chain(&joint.point).all(Number::is_exact);
+    if !is_exact {
+        return Err("axes by irrational numbers have no certificate".to_owned());
+    }
+    let letter = joint.kind.letter();
+    let axis = primitive(&joint.axis.each_ref().map(|x| x.rational().clone()));
+    let text = |x: &Rational| number(&Number::exact(x.clone()), "point");
+    let words = axis.iter().map(Integer::to_string).collect::<Vec<_>>();
+    match joint.kind {
+        JointKind::Prismatic => Ok(json!({ "type": letter, "axis": words })),
+        JointKind::Revolute | JointKind::Cylindrical => {
+            let along: Rational = axis.iter().zip(&joint.point).map(|(u, p)| Rational::from(u * p.rational())).sum();
+            let square: Integer = axis.iter().map(|u| Integer::from(u.square_ref())).sum();
+            let along = along / square;
+            let foot = axis.iter().zip(&joint.point).map(|(u, p)| text(&(p.rational() - Rational::from(u * &along))));
+            Ok(json!({ "type": letter, "axis": words, "point": foot.collect::<Result<Vec<_>, _>>()? }))
+        }
+        JointKind::Helical | JointKind::Universal | JointKind::Spherical => {
+            Err(format!("{letter} joints given by screws have no certificate"))
+        }
+    }
+}
+
+/// The whole numbers without a common factor that are as these rational numbers.
+fn primitive(direction: &[Rational; 3]) -> [Integer; 3] {
+    let below = direction.iter().fold(Integer::from(1), |all, x| all.lcm(x.denom()));
+    let whole = direction.each_ref().map(|x| Rational::from(x * &below).numer().clone());
+    let common = whole.iter().fold(Integer::new(), Integer::gcd);
+    whole.map(|x| if common > 1 { x.div_exact(&common) } else { x })
+}
+
+/// The rows of a motion.
+fn matrix(placed: &Placement, what: &str) -> Result<Value, String> {
+    let rows: [[String; 4]; 3] = match (&placed.given, &placed.rows) {
+        // A checker finds the nearest rotation by itself.
+        (_, Some(rows)) => {
+            let row = |i: usize| -> Result<[String; 4], String> {
+                let text = |j: usize| number(&rows[i][j], what);
+                Ok([text(0)?, text(1)?, text(2)?, text(3)?])
+            };
+            [row(0)?, row(1)?, row(2)?]
+        }
+        (None, None) => {
+            let own =
+                |i: usize, j: usize| if j < 3 { &placed.exact.rotation[i][j] } else { &placed.exact.translation[i] };
+            let row = |i: usize| -> Result<[String; 4], String> {
+                let text = |j: usize| number(&Number::exact(own(i, j).clone()), what);
+                Ok([text(0)?, text(1)?, text(2)?, text(3)?])
+            };
+            [row(0)?, row(1)?, row(2)?]
+        }
+        (Some(_), None) => return Err(format!("the {what} is made of irrational numbers")),
+    };
+    let [first, second, third] = rows;
+    Ok(json!([first, second, third, ["0", "0", "0", "1"]]))
+}
+
+fn number(number: &Number, what: &str) -> Result<String, String> {
+    number.text().ok_or_else(|| format!("a number of {what} is known by its rounded value only"))
+}
+
+fn angle(angle: &Angle, what: &str) -> Result<String, String> {
+    angle.text().ok_or_else(|| format!("an angle of {what} is known by its rounded value only"))
+}

@@ -1,0 +1,98 @@
+//! What the checker computes with: complex numbers with a bound of their errors.
+
+use crate::algebra::ball::Ball;
+use crate::algebra::enclosure::Enclosure;
+use crate::algebra::ring::Field;
+use rug::{Float, Rational, float::Round};
+
+/// Bits beyond those of a number in which its cosine and sine are computed.
+const GUARD: u32 = 32;
+/// Bits of bounds.
+const BOUND: u32 = 53;
+
+/// Complex numbers known up to a radius, whatever is computed with them.
+pub(super) trait Enclosing: Field {
+    /// Bits of a midpoint.
+    const BITS: u32;
+    /// A point known to so many bits and some more, and all numbers within a radius of it.
+    fn near(re: &Float, im: &Float, radius: f64) -> Self;
+    /// A real number of the data.
+    fn of(known: &Enclosure) -> Self;
+    /// The midpoint alone.
+    fn middle(&self) -> Self;
+    /// No less than any absolute value.
+    fn at_most(&self) -> f64;
+    /// No more than any absolute value.
+    fn at_least(&self) -> f64;
+
+    /// The numbers within a radius of a rational point.
+    fn about((re, im): &(Rational, Rational), radius: f64) -> Self {
+        let float = |q: &Rational| Float::with_val(Self::BITS + GUARD, q);
+        Self::near(&float(re), &float(im), radius)
+    }
+
+    /// Cosine and sine of all angles within a radius of a rational point.
+    ///
+    /// Neither changes by more than `r exp(|im| + r)` within the radius r.
+    fn cos_sin_about((re, im): &(Rational, Rational), radius: f64) -> (Self, Self) {
+        let bits = Self::BITS + GUARD;
+        let (re, im) = (Float::with_val(bits, re), Float::with_val(bits, im));
+        let up = |x: Float| Float::with_val_round(BOUND, x, Round::Up).0;
+        let growth = up(up(up(im.clone().abs()) + radius) + 1e-3_f64).exp();
+        let off = if radius == 0.0 { 0.0 } else { (up(growth) * radius).to_f64_round(Round::Up).next_up() };
+        let (sin, cos) = re.sin_cos(Float::new(bits));
+        let (sinh, cosh) = im.sinh_cosh(Float::new(bits));
+        let part = |a: &Float, b: &Float| Float::with_val(bits, a * b);
+        let minus = |x: Float| -x;
+        let cosine = Self::near(&part(&cos, &cosh), &minus(part(&sin, &sinh)), off);
+        let sine = Self::near(&part(&sin, &cosh), &part(&cos, &sinh), off);
+        (cosine, sine)
+    }
+}
+
+impl<const BITS: u32> Enclosing for Ball<BITS> {
+    const BITS: u32 = BITS;
+    fn near(re: &Float, im: &Float, radius: f64) -> Self {
+        Self::point(re, im).enlarged(&Float::with_val(BOUND, radius))
+    }
+    fn of(known: &Enclosure) -> Self {
+        Self::from(known)
+    }
+    fn middle(&self) -> Self {
+        self.midpoint()
+    }
+    fn at_most(&self) -> f64 {
+        self.upper().to_f64_round(Round::Up)
+    }
+    fn at_least(&self) -> f64 {
+        self.lower().to_f64_round(Round::Down)
+    }
+}
+
+/// The inverse of the midpoints of a matrix, as near as it comes: what is proved with it does not rest on it.
+pub(super) fn near_inverse<S: Enclosing, const N: usize>(matrix: &[[S; N]; N]) -> Option<[[S; N]; N]> {
+    let mut left = matrix.each_ref().map(|row| row.each_ref().map(Enclosing::middle));
+    let unit = |i: usize, j: usize| if i == j { S::one() } else { S::zero() };
+    let mut right: [[S; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| unit(i, j)));
+    for column in 0..N {
+        let size = |row: &usize| left[*row][column].pivot_size();
+        let pivot = (column..N).max_by(|i, j| size(i).total_cmp(&size(j)))?;
+        left.swap(column, pivot);
+        right.swap(column, pivot);
+        let scale = left[column][column].inverse()?.middle();
+        for row in [&mut left, &mut right] {
+            row[column] = row[column].each_ref().map(|x| x.mul(&scale).middle());
+        }
+        for i in (0..N).filter(|&i| i != column) {
+            let factor = left[i][column].clone();
+            if factor.is_zero() {
+                continue;
+            }
+            for side in [&mut left, &mut right] {
+                let own = side[column].clone();
+                side[i] = std::array::from_fn(|j| side[i][j].sub(&factor.mul(&own[j])).middle());
+            }
+        }
+    }
+    Some(right)
+}

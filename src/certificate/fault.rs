@@ -1,0 +1,34 @@
+//! Why a certificate does not hold.
+
+use std::fmt;
+
+/// What is wrong with a certificate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// It cannot be read.
+    Unreadable(String),
+    /// An item of it, which the text names, does not hold.
+    Refused(String),
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Unreadable(message) => write!(f, "{message}"),
+            Self::Refused(message) => write!(f, "refused: {message}"),
+        }
+    }
+}
+
+pub(super) fn unreadable<T>(message: impl Into<String>) -> Result<T, Fault> {
+    Err(Fault::Unreadable(message.into()))
+}
+
+pub(super) fn refused<T>(message: impl Into<String>) -> Result<T, Fault> {
+    Err(Fault::Refused(message.into()))
+}
+
+/// The first characters of what was found.
+pub(super) fn shortened(found: &impl ToString) -> String {
+    found.to_string().chars().take(60).collect()
+}

@@ -1,0 +1,26 @@
+//! Certificates that anyone can check: the format of docs/certificate.md, and a checker that uses no solver.
+//!
+//! A certificate holds the data of one case as a mechanism file, the verdict claimed of it, balls around its solutions, and the
+//! proof that there are no others. The checker derives the closure equations from the data and proves each item anew.
+
+mod bound;
+mod chain;
+mod check;
+mod data;
+mod enclosing;
+mod fault;
+mod incidence;
+mod isolation;
+mod mode;
+mod nearby;
+mod platform;
+mod record;
+mod refine;
+
+pub use check::{Holds, check, check_all, closed};
+pub use data::data_of;
+pub use fault::Fault;
+pub use isolation::{Closed, proved_modes};
+pub use mode::Ball;
+pub use record::{FORMAT, VERSION};
+pub use refine::balls;

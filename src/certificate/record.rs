@@ -1,0 +1,155 @@
+//! The text of certificates: JSON objects with known keys and no others.
+
+use super::fault::{Fault, shortened, unreadable};
+use super::mode::{Ball, Unproved};
+use rug::{Integer, Rational, ops::Pow};
+use serde_json::{Map, Value};
+
+/// The `format` of every certificate.
+pub const FORMAT: &str = "looproot-certificate";
+/// The `version` of the format.
+pub const VERSION: u64 = 1;
+/// Most items of a list.
+const LONGEST_LIST: usize = 1000;
+/// Most digits of a decimal before and behind the point.
+const LONGEST_DECIMAL: usize = 400;
+/// Largest exponent of a decimal.
+const LARGEST_EXPONENT: i32 = 400;
+
+/// A certificate, read.
+pub(super) struct Record {
+    pub data: Map<String, Value>,
+    pub claim: Claim,
+    pub modes: Vec<Unproved>,
+    pub proof: Vec<Value>,
+}
+
+/// What is claimed.
+pub(super) struct Claim {
+    pub verb: String,
+    pub status: String,
+    pub proof: String,
+    pub complex: usize,
+    pub real: usize,
+}
+
+impl Record {
+    /// Reads a certificate.
+    pub(super) fn read(value: &Value) -> Result<Self, Fault> {
+        let needed = ["format", "version", "data", "claim", "modes", "proof"];
+        let [format, version, data, claim, modes, proof] = fields(value, needed, &["info"])?;
+        if format.as_str() != Some(FORMAT) || version.as_u64() != Some(VERSION) {
+            let (format, version) = (shortened(format), shortened(version));
+            return unreadable(format!(
+                "found format {format}, version {version}, expected {FORMAT}, version {VERSION}"
+            ));
+        }
+        let Value::Object(data) = data else { return unreadable("found no table as `data`") };
+        let [verb, status, word, complex, real] = fields(claim, ["verb", "status", "proof", "complex", "real"], &[])?;
+        let claim = Claim {
+            verb: text(verb)?.to_owned(),
+            status: text(status)?.to_owned(),
+            proof: text(word)?.to_owned(),
+            complex: count(complex)?,
+            real: count(real)?,
+        };
+        let modes = list(modes)?.iter().map(mode).collect::<Result<_, _>>()?;
+        Ok(Self { data: data.clone(), claim, modes, proof: list(proof)?.to_vec() })
+    }
+}
+
+fn mode(value: &Value) -> Result<Unproved, Fault> {
+    let [centre, radius, real, multiplicity] = fields(value, ["centre", "radius", "real", "multiplicity"], &[])?;
+    let Value::Bool(real) = real else { return unreadable("found no true or false as `real` of a mode") };
+    let part = |part: &Value| match part {
+        Value::Array(both) => match both.as_slice() {
+            [re, im] => Ok((decimal(re)?, decimal(im)?)),
+            _ => unreadable("found a number of a centre with other than two parts"),
+        },
+        other => Ok((decimal(other)?, Rational::new())),
+    };
+    let centre = list(centre)?.iter().map(part).collect::<Result<_, _>>()?;
+    let ball = Ball { centre, radius: decimal(radius)?, real: *real };
+    Ok(Unproved { ball, multiplicity: count(multiplicity)? })
+}
+
+/// The values of a table that has these keys, perhaps some of the optional ones, and no others.
+pub(super) fn fields<'a, const N: usize>(
+    value: &'a Value,
+    needed: [&str; N],
+    optional: &[&str],
+) -> Result<[&'a Value; N], Fault> {
+    let Value::Object(table) = value else {
+        return unreadable(format!("found {}, expected a table with the keys {}", shortened(value), needed.join(", ")));
+    };
+    if let Some(key) = table.keys().find(|key| !needed.contains(&key.as_str()) && !optional.contains(&key.as_str())) {
+        return unreadable(format!("found the unknown key `{}`", shortened(key)));
+    }
+    let mut found = [value; N];
+    for (place, key) in found.iter_mut().zip(needed) {
+        let Some(value) = table.get(key) else { return unreadable(format!("found no `{key}`, expected one")) };
+        *place = value;
+    }
+    Ok(found)
+}
+
+pub(super) fn list(value: &Value) -> Result<&[Value], Fault> {
+    match value {
+        Value::Array(items) if items.len() <= LONGEST_LIST => Ok(items),
+        _ => unreadable(format!("found {}, expected a list of at most {LONGEST_LIST}", shortened(value))),
+    }
+}
+
+pub(super) fn text(value: &Value) -> Result<&str, Fault> {
+    value.as_str().map_or_else(|| unreadable(format!("found {}, expected a text", shortened(value))), Ok)
+}
+
+/// A small whole number.
+pub(super) fn count(value: &Value) -> Result<usize, Fault> {
+    let small = value.as_u64().filter(|count| *count < 1_000_000).and_then(|count| usize::try_from(count).ok());
+    small.map_or_else(|| unreadable(format!("found {}, expected a whole number", shortened(value))), Ok)
+}
+
+/// The rational that a decimal is.
+pub(super) fn decimal(value: &Value) -> Result<Rational, Fault> {
+    let written = text(value)?;
+    parsed(written)
+        .map_or_else(|| unreadable(format!("found `{}`, expected a decimal number", shortened(&written))), Ok)
+}
+
+fn parsed(written: &str) -> Option<Rational> {
+    let is_digits = |text: &str| text.len() <= LONGEST_DECIMAL && text.bytes().all(|b| b.is_ascii_digit());
+    let negative = written.starts_with('-');
+    let unsigned = written.strip_prefix(['-', '+']).unwrap_or(written);
+    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) if exponent.len() <= 4 => (mantissa, exponent.parse::<i32>().ok()?),
+        Some(_) => return None,
+        None => (unsigned, 0),
+    };
+    let (head, tail) = mantissa.split_once('.').map_or((mantissa, None), |(head, tail)| (head, Some(tail)));
+    let is_written = !head.is_empty() && is_digits(head) && tail.is_none_or(|tail| !tail.is_empty() && is_digits(tail));
+    if !is_written || exponent.abs() > LARGEST_EXPONENT {
+        return None;
+    }
+    let tail = tail.unwrap_or_default();
+    let digits = Rational::from(format!("{head}{tail}").parse::<Integer>().ok()?);
+    let power = exponent - i32::try_from(tail.len()).ok()?;
+    let scale = Rational::from(Integer::from(10).pow(power.unsigned_abs()));
+    let size = if power < 0 { digits / scale } else { digits * scale };
+    Some(if negative { -size } else { size })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_read_exactly_or_not_at_all() {
+        for (text, p, q) in [("0.25", 1, 4), ("-3e-1", -3, 10), ("12.5E1", 125, 1), ("+7", 7, 1)] {
+            assert_eq!(parsed(text), Some(Rational::from((p, q))), "{text}");
+        }
+        for text in ["", ".5", "1.", "NaN", "1e999999999", "1e401", "inf", "0x1", "1_0", "--1", "1/2"] {
+            assert_eq!(parsed(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Balls for a certificate, from solutions that are known to a few digits.
+
+use super::chain::ChainClosure;
+use super::enclosing::{Enclosing, near_inverse};
+use super::isolation::{Closed, Closure, Longer, Point, holds_one, proved_modes};
+use super::mode::Ball;
+use super::nearby::Nearby;
+use crate::algebra::ring::Ring;
+use num_complex::Complex;
+use rug::{Float, Integer, Rational, float::Constant, ops::Pow};
+
+/// Newton steps: from eight digits there are more than enough after six.
+const STEPS: usize = 8;
+/// Decimals of a centre.
+const DECIMALS: u32 = 30;
+/// Radii that are tried, as exponents of ten: the largest one is the easiest to check in f64.
+const RADII: [u32; 8] = [8, 9, 10, 12, 14, 16, 20, 25];
+
+/// The unknowns of a solution, and whether it is real.
+pub type Near = (Vec<Complex<f64>>, bool);
+
+/// Balls that hold one solution each, different ones; `None` where that is not proved. Solutions are those of the unknowns, real
+/// or not.
+#[must_use]
+pub fn balls(closed: &Closed, near: &[Near]) -> Option<Vec<Ball>> {
+    match closed {
+        Closed::Chain(closure) => all(closed, &**closure, near),
+        Closed::Platform(closure) => all(closed, &**closure, near),
+    }
+}
+
+fn all<const N: usize>(closed: &Closed, closure: &impl Closure<N>, near: &[Near]) -> Option<Vec<Ball>> {
+    let centres: Vec<Vec<(Rational, Rational)>> =
+        near.iter().map(|(x, real)| refined(closure, x, *real)).collect::<Option<_>>()?;
+    (0..RADII.len()).find_map(|start| {
+        let one = |(centre, (_, real)): (&Vec<(Rational, Rational)>, &Near)| {
+            let ball = |exponent: &u32| {
+                let radius = Rational::from((Integer::from(1), Integer::from(10).pow(*exponent)));
+                Ball { centre: centre.clone(), radius, real: *real }
+            };
+            let by = |proves: &dyn Fn(&Ball) -> bool| RADII[start..].iter().map(ball).find(|ball| proves(ball));
+            by(&|ball| holds_one::<N, Nearby>(closure, ball))
+                .or_else(|| by(&|ball| holds_one::<N, Longer>(closure, ball)))
+        };
+        let balls: Vec<Ball> = centres.iter().zip(near).map(one).collect::<Option<_>>()?;
+        proved_modes(closed, &balls).is_ok().then_some(balls)
+    })
+}
+
+/// A solution to thirty decimals.
+fn refined<const N: usize>(
+    closure: &impl Closure<N>,
+    near: &[Complex<f64>],
+    real: bool,
+) -> Option<Vec<(Rational, Rational)>> {
+    let exact = |x: f64| Rational::from_f64(x);
+    let mut x: Vec<(Rational, Rational)> = near
+        .iter()
+        .map(|z| Some((exact(z.re)?, if real { Rational::new() } else { exact(z.im)? })))
+        .collect::<Option<_>>()?;
+    if x.len() != N {
+        return None;
+    }
+    let angles = closure.angles();
+    for _ in 0..STEPS {
+        let point = Point {
+            x: x.iter().map(|x| Longer::about(x, 0.0)).collect(),
+            turns: (0..N).map(|k| angles[k].then(|| Longer::cos_sin_about(&x[k], 0.0))).collect(),
+        };
+        let inverse = near_inverse(&closure.jacobian(&point))?;
+        let values = closure.values(&point);
+        for (row, (re, im)) in inverse.iter().zip(&mut x) {
+            let step = row.iter().zip(&values).fold(Longer::zero(), |sum, (c, f)| sum.add(&c.mul(f)));
+            *re -= step.re().to_rational()?;
+            *im -= step.im().to_rational()?;
+            if real {
+                *im = Rational::new();
+            }
+            // Digits that the step does not settle are dropped.
+            (*re, *im) = (rounded(re, 3 * DECIMALS), rounded(im, 3 * DECIMALS));
+        }
+    }
+    for (k, (re, im)) in x.iter_mut().enumerate() {
+        if angles[k] {
+            *re = within_a_turn(re)?;
+        }
+        (*re, *im) = (rounded(re, DECIMALS), rounded(im, DECIMALS));
+    }
+    Some(x)
+}
+
+/// An angle modulo a turn, between -pi and pi.
+fn within_a_turn(angle: &Rational) -> Option<Rational> {
+    let turn = (Float::with_val(512, Constant::Pi) * 2_u32).to_rational()?;
+    let turns = Rational::from(angle / &turn).round();
+    Some(angle - &turn * turns)
+}
+
+fn rounded(x: &Rational, decimals: u32) -> Rational {
+    let scale = Integer::from(10).pow(decimals);
+    Rational::from((Rational::from(x * &scale).round().numer().clone(), scale))
+}
+
+impl ChainClosure {
+    /// The unknowns among all joint variables.
+    #[must_use]
+    pub fn unknowns(&self, q: &[Complex<f64>]) -> Vec<Complex<f64>> {
+        q.iter().enumerate().filter(|(at, _)| Some(*at) != self.given).map(|(_, x)| *x).collect()
+    }
+}
