@@ -1,0 +1,21 @@
+//! Pages: what a document of `solve`, `sweep`, `mobility` or `bench` says, drawn. One file that needs nothing else.
+//!
+//! The page is written from the document alone, so that a saved result gives the same page as a fresh one.
+
+mod dials;
+mod encode;
+pub mod map;
+mod mechanism;
+mod page;
+mod panels;
+mod saved;
+mod scores;
+mod stick;
+mod table;
+mod tracks;
+mod words;
+
+pub use page::page;
+pub use saved::{drawable, parse};
+pub use scores::is_scores;
+pub use stick::figures;
