@@ -1,0 +1,144 @@
+//! Planar linkages: a graph of bodies with points and of joints between them.
+
+use num_complex::Complex;
+use rug::Rational;
+
+/// A point, a direction or a rotation of the plane as the complex number x + i y, exact.
+pub type Gaussian = Complex<Rational>;
+
+/// A rigid body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Its name in the file.
+    pub name: String,
+    /// Its points in coordinates of its own, metres, in the order of the file.
+    pub points: Vec<(String, Gaussian)>,
+    /// Line of the file, from 1.
+    pub line: usize,
+}
+
+impl Body {
+    /// The place of a point.
+    #[must_use]
+    pub fn point(&self, name: &str) -> Option<&Gaussian> {
+        self.points.iter().find(|(own, _)| own == name).map(|(_, place)| place)
+    }
+}
+
+/// What a joint lets its two bodies do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pair {
+    /// The bodies turn about a common point.
+    Revolute,
+    /// The bodies keep their directions; the point of the second is that of the first moved along a line.
+    Prismatic {
+        /// The rotation of the second body against the first, of norm 1.
+        turn: Gaussian,
+        /// The direction of the line in the first body.
+        along: Gaussian,
+        /// The length of `along`, or a rational number that stands for it.
+        length: Rational,
+    },
+    /// The angle of the second body is a multiple of that of the first, both against a carrier.
+    Gear {
+        /// The carrier, a body.
+        carrier: usize,
+        /// Angle of the second over angle of the first.
+        ratio: Rational,
+        /// The rotation of the second where the first has angle 0, of norm 1.
+        phase: Gaussian,
+    },
+}
+
+/// A joint between two bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkageJoint {
+    /// Its name in the file.
+    pub name: String,
+    /// What it allows.
+    pub pair: Pair,
+    /// The two bodies, by their numbers. Values of the joint are the motion of the second against the first.
+    pub of: [usize; 2],
+    /// The point of the joint in each of them.
+    pub at: [Gaussian; 2],
+    /// Line of the file, from 1.
+    pub line: usize,
+}
+
+impl LinkageJoint {
+    /// Whether its value is a distance.
+    #[must_use]
+    pub fn is_prismatic(&self) -> bool {
+        matches!(self.pair, Pair::Prismatic { .. })
+    }
+
+    /// Whether it is a pair of gears, which has no value.
+    #[must_use]
+    pub fn is_gear(&self) -> bool {
+        matches!(self.pair, Pair::Gear { .. })
+    }
+}
+
+/// A planar linkage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linkage {
+    /// The body that stands still.
+    pub ground: usize,
+    /// The bodies.
+    pub bodies: Vec<Body>,
+    /// The joints.
+    pub joints: Vec<LinkageJoint>,
+}
+
+/// What is known of a linkage beforehand.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Given {
+    /// The rotation of the second body of a revolute joint against the first.
+    Turn {
+        /// The joint.
+        joint: usize,
+        /// The rotation, of norm 1.
+        turn: Gaussian,
+        /// Line of the file, from 1.
+        line: usize,
+    },
+    /// The displacement along a prismatic joint, in parts of the length of its direction vector.
+    Shift {
+        /// The joint.
+        joint: usize,
+        /// The displacement.
+        shift: Rational,
+        /// Line of the file, from 1.
+        line: usize,
+    },
+    /// Where a body stands against the ground.
+    Place {
+        /// The body.
+        body: usize,
+        /// Its rotation, of norm 1.
+        turn: Gaussian,
+        /// The place of its origin.
+        origin: Gaussian,
+        /// Line of the file, from 1.
+        line: usize,
+    },
+}
+
+impl Given {
+    /// Line of the file, from 1.
+    #[must_use]
+    pub fn line(&self) -> usize {
+        match self {
+            Self::Turn { line, .. } | Self::Shift { line, .. } | Self::Place { line, .. } => *line,
+        }
+    }
+
+    /// The two bodies that it glues, given the joints and the ground.
+    #[must_use]
+    pub fn bodies(&self, linkage: &Linkage) -> [usize; 2] {
+        match self {
+            Self::Turn { joint, .. } | Self::Shift { joint, .. } => linkage.joints[*joint].of,
+            Self::Place { body, .. } => [linkage.ground, *body],
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! The answer to one case of a linkage: its assemblies as numbers, and the verdict on their list.
+
+use super::assembly::{Assemblies, Route, Solution, assemblies};
+use super::isotropic::middle;
+use super::state::{Number, State, number};
+use crate::algebra::ring::Ring;
+use crate::error::Result;
+use crate::kinematics::linkage::{Given, Linkage, Pair};
+use crate::verdict::{Code, Proof, Status, Verdict};
+use num_complex::Complex;
+use rug::Float;
+use std::time::Instant;
+
+/// A joint value or a coordinate, real of a real assembly.
+pub type Coordinate = Complex<f64>;
+
+/// An assembly.
+#[derive(Clone, Debug)]
+pub struct LinkageMode {
+    /// Whether it is real.
+    pub real: bool,
+    /// How often it counts.
+    pub multiplicity: usize,
+    /// The values of the joints: radians in (-pi, pi] or metres; `None` of gears.
+    pub joints: Vec<Option<Coordinate>>,
+    /// The angles of the bodies against the ground, radians in (-pi, pi], and the places of their origins, metres.
+    pub bodies: Vec<(Coordinate, [Coordinate; 2])>,
+    /// The largest distance by which a joint is open, metres.
+    pub residual: f64,
+    /// Exactly one assembly lies within this distance, of all rotations as complex numbers and all origins.
+    pub radius: f64,
+}
+
+/// A curve of assemblies.
+#[derive(Clone, Debug)]
+pub struct LinkageFamily {
+    /// Its dimension.
+    pub dimension: usize,
+    /// The joints that move.
+    pub joints: Vec<usize>,
+    /// A point of it.
+    pub sample: LinkageMode,
+}
+
+/// A group and how it was solved.
+#[derive(Clone, Debug)]
+pub struct LinkageGroup {
+    /// The bodies of its clusters.
+    pub bodies: Vec<Vec<usize>>,
+    /// Its assemblies, with multiplicity.
+    pub count: usize,
+    /// The way, in a few words.
+    pub route: String,
+}
+
+/// The answer to a case.
+#[derive(Clone, Debug)]
+pub struct LinkageAnswer {
+    /// What is claimed of the list.
+    pub verdict: Verdict,
+    /// The isolated assemblies, real ones first.
+    pub modes: Vec<LinkageMode>,
+    /// The curves of assemblies.
+    pub families: Vec<LinkageFamily>,
+    /// The groups in the order in which they were solved.
+    pub groups: Vec<LinkageGroup>,
+    /// Microseconds that it took.
+    pub solve_us: f64,
+}
+
+/// Finds all assemblies with these inputs; `exact` says whether no number of file and inputs was rounded.
+///
+/// # Errors
+/// Where inputs are too few, too many or meet a rigid part, and for groups that are beyond what is implemented.
+pub fn solve(linkage: &Linkage, given: &[Given], exact: bool) -> Result<LinkageAnswer> {
+    let start = Instant::now();
+    let found = assemblies(linkage, given)?;
+    let mut modes: Vec<LinkageMode> = found.modes.iter().map(|state| mode(linkage, state)).collect();
+    let key = |mode: &LinkageMode| mode.bodies.iter().map(|(angle, _)| angle.re).collect::<Vec<f64>>();
+    modes.sort_by(|a, b| {
+        let angles = || {
+            let pairs = key(a).into_iter().zip(key(b));
+            pairs.map(|(x, y)| x.total_cmp(&y)).find(|order| order.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
+        };
+        b.real.cmp(&a.real).then_with(angles)
+    });
+    let families = found.curves.iter().filter(|(state, _)| is_one(state)).map(|(state, joints)| LinkageFamily {
+        dimension: 1,
+        joints: joints.clone(),
+        sample: mode(linkage, state),
+    });
+    let families: Vec<LinkageFamily> = families.collect();
+    let verdict = verdict(&found, &modes, &families, exact);
+    let groups = found.groups.iter().map(|group| LinkageGroup {
+        bodies: group.bodies.clone(),
+        count: group.count,
+        route: route(group),
+    });
+    Ok(LinkageAnswer {
+        verdict,
+        modes,
+        families,
+        groups: groups.collect(),
+        solve_us: start.elapsed().as_secs_f64() * 1e6,
+    })
+}
+
+fn route(group: &Solution) -> String {
+    match group.route {
+        Route::Quadratic => "quadratic".to_owned(),
+        Route::Pencil(rows) => format!("pencil of {rows} rows"),
+    }
+}
+
+/// Whether all bodies are one cluster.
+fn is_one(state: &State) -> bool {
+    state.bodies.iter().all(|body| body.0 == state.bodies[0].0)
+}
+
+fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily], exact: bool) -> Verdict {
+    let count =
+        |of: &dyn Fn(&LinkageMode) -> bool| modes.iter().filter(|mode| of(mode)).map(|mode| mode.multiplicity).sum();
+    let (complex, real): (usize, usize) = (count(&|_| true), count(&|mode| mode.real));
+    let counts: Vec<String> = found.groups.iter().map(|group| group.count.to_string()).collect();
+    let counts = counts.join(" x ");
+    let complete = found.doubt.is_none() && found.curves.is_empty();
+    let real_curves = found.curves.iter().filter(|(state, _)| state.real).count();
+    let rounded = Proof::Proved.of_rounded(!exact);
+    let pencils = found.groups.iter().any(|group| group.route != Route::Quadratic);
+    let code = if pencils { Code::ExactRootsMatched } else { Code::GeneralBoundMet };
+    let because = if pencils {
+        "every root of the exact closure polynomials is a certified assembly"
+    } else {
+        "dyads have two each"
+    };
+    let (status, proof, code, reason) = if real_curves > 0 {
+        let list = match &found.doubt {
+            Some(doubt) => format!("the isolated ones may not be all: {doubt}"),
+            None => "the isolated ones listed beside it are all that there are".to_owned(),
+        };
+        let proof = if found.doubt.is_none() { rounded } else { Proof::None };
+        let reason = format!("a dyad whose ends coincide turns freely; {list}");
+        (Status::SelfMotion, proof, Code::SelfMotion, reason)
+    } else if let Some(doubt) = &found.doubt {
+        (Status::Incomplete, Proof::None, Code::TooFew, format!("not proved: {doubt}"))
+    } else if !complete {
+        let reason = "some assemblies that are not real form curves; all real ones are listed".to_owned();
+        let status = if real == 0 { Status::Unreachable } else { Status::Complete };
+        (status, rounded, code, reason)
+    } else if real == 0 {
+        let reason = format!("no assembly is real: all {complex} of groups of {counts} are complex");
+        (Status::Unreachable, rounded, code, reason)
+    } else {
+        let reason = format!("{complex} assemblies, with multiplicity, of groups of {counts}: {because}");
+        (Status::Complete, rounded, code, reason)
+    };
+    Verdict {
+        status,
+        proof,
+        code,
+        complex_complete: complete,
+        complex,
+        real,
+        at_infinity: 0,
+        self_motion: usize::from(!families.is_empty() || real_curves > 0),
+        certified: modes.len(),
+        reason,
+    }
+}
+
+/// The complex angle of a rotation: `-i log z`.
+fn angle(turn: &Number) -> Coordinate {
+    let (re, im) = (&turn.z.disc.re, &turn.z.disc.im);
+    let angle = Float::with_val(re.prec(), im.atan2_ref(re)).to_f64();
+    let size = Float::with_val(re.prec(), re.hypot_ref(im));
+    // The half turn is pi and not -pi.
+    let angle = if angle <= -std::f64::consts::PI { std::f64::consts::PI } else { angle };
+    Complex::new(angle, -size.ln().to_f64())
+}
+
+/// The coordinates x and y of a point.
+fn coordinates(point: &Number) -> [Coordinate; 2] {
+    let sum = middle(&point.z.disc.add(&point.w.disc));
+    let difference = middle(&point.z.disc.sub(&point.w.disc));
+    [sum / 2.0, difference / Complex::new(0.0, 2.0)]
+}
+
+fn mode(linkage: &Linkage, state: &State) -> LinkageMode {
+    let clean = |z: Coordinate| if state.real { Complex::new(z.re + 0.0, 0.0) } else { z };
+    let joints = linkage.joints.iter().map(|joint| {
+        let place = state.against(joint.of[1], joint.of[0]);
+        match &joint.pair {
+            Pair::Revolute => Some(clean(angle(&place.turn))),
+            Pair::Prismatic { along, length, .. } => {
+                let gap = place.apply(&number(&joint.at[1])).sub(&number(&joint.at[0]));
+                let shift = gap.z.mul(&number(along).z.inverse()?);
+                Some(clean(shift.middle() * length.to_f64()))
+            }
+            Pair::Gear { .. } => None,
+        }
+    });
+    let joints = joints.collect();
+    let mut radius = 0.0_f64;
+    let mut bodies = Vec::with_capacity(state.bodies.len());
+    for body in 0..state.bodies.len() {
+        let place = state.against(body, linkage.ground);
+        for value in [&place.turn.z, &place.origin.z] {
+            radius = radius.max(value.disc.radius().to_f64());
+        }
+        bodies.push((clean(angle(&place.turn)), coordinates(&place.origin).map(clean)));
+    }
+    let open = linkage.joints.iter().filter(|joint| matches!(joint.pair, Pair::Revolute)).map(|joint| {
+        let point = |k: usize| state.bodies[joint.of[k]].1.apply(&number(&joint.at[k]));
+        middle(&point(0).sub(&point(1)).z.disc).norm()
+    });
+    // The numbers are listed in f64.
+    let residual = open.fold(0.0, f64::max);
+    LinkageMode {
+        real: state.real,
+        multiplicity: state.multiplicity,
+        joints,
+        bodies,
+        residual,
+        radius: radius.max(f64::EPSILON),
+    }
+}

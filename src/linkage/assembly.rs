@@ -1,0 +1,282 @@
+//! All assemblies of a linkage: its groups solved one after the other, branch by branch.
+
+use super::equations::Closure;
+use super::general::general;
+use super::groups::{Group, Groups, MOST_CLUSTERS, Merged, groups};
+use super::isotropic::{Isotropic, Value};
+use super::krawczyk::conjugate;
+use super::quadratic::{Root, Solved, one_cycle};
+use super::state::{Number, State, place_of};
+use crate::algebra::ring::Ring;
+use crate::error::{Error, Result};
+use crate::kinematics::linkage::{Given, Linkage};
+
+/// Towers of more generators are not built: the work doubles with each of them.
+const DEEP: usize = 5;
+/// Towers that hold i alone, and square roots that are no new ones.
+const SHALLOW: usize = 1;
+/// Most branches that are listed.
+const MOST_BRANCHES: usize = 1 << 14;
+
+/// A way in which a group is solved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Route {
+    /// A quadratic equation, or a linear one.
+    Quadratic,
+    /// A matrix of so many rows.
+    Pencil(usize),
+}
+
+/// What became of a group.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// The bodies of its clusters, in the order of the file.
+    pub bodies: Vec<Vec<usize>>,
+    /// The joints between them.
+    pub joints: Vec<usize>,
+    /// The most assemblies that a branch has, with multiplicity.
+    pub count: usize,
+    /// How it was solved.
+    pub route: Route,
+}
+
+/// Assemblies of all bodies.
+#[derive(Clone, Debug)]
+pub struct Assemblies {
+    /// The isolated ones.
+    pub modes: Vec<State>,
+    /// Points of curves of assemblies, with the joints of the group that moves.
+    pub curves: Vec<(State, Vec<usize>)>,
+    /// The groups in the order in which they were solved.
+    pub groups: Vec<Solution>,
+    /// Why the list may not be complete.
+    pub doubt: Option<String>,
+}
+
+/// A joint with its two bodies.
+pub type Link = (usize, [usize; 2]);
+
+/// The bodies that inputs glue, and the joints that are left.
+///
+/// # Errors
+/// Where an input glues bodies that are one already.
+pub fn glued(linkage: &Linkage, given: &[Given]) -> Result<(Merged, Vec<Link>)> {
+    let mut merged = Merged::new(linkage.bodies.len());
+    for one in given {
+        let [a, b] = one.bodies(linkage);
+        if !merged.merge(a, b) {
+            let names = [a, b].map(|body| linkage.bodies[body].name.as_str());
+            let message = format!(
+                "found an input between {} and {}, which other inputs hold together already; expected inputs that are independent",
+                names[0], names[1]
+            );
+            return Err(Error::Invalid(message));
+        }
+    }
+    let is_given = |index: usize| {
+        given.iter().any(|one| matches!(one, Given::Turn { joint, .. } | Given::Shift { joint, .. } if *joint == index))
+    };
+    let joints = linkage.joints.iter().enumerate();
+    let joints =
+        joints.filter(|(index, joint)| !joint.is_gear() && !is_given(*index)).map(|(index, joint)| (index, joint.of));
+    Ok((merged, joints.collect()))
+}
+
+/// The groups of a linkage with these inputs.
+///
+/// # Errors
+/// Where inputs are too few, too many, or meet a rigid part; where a group is beyond what is implemented.
+pub fn groups_of(linkage: &Linkage, given: &[Given]) -> Result<Groups> {
+    if let Some(gear) = linkage.joints.iter().find(|joint| joint.is_gear()) {
+        return Err(Error::Unsupported(format!("gears such as {} are read, but not solved yet", gear.name)));
+    }
+    let (merged, joints) = glued(linkage, given)?;
+    let found = groups(linkage.bodies.len(), &joints, merged);
+    let named = |group: &Group| {
+        let names: Vec<&str> = group.clusters.iter().take(8).map(|body| linkage.bodies[*body].name.as_str()).collect();
+        names.join(", ") + if group.clusters.len() > 8 { ", ..." } else { "" }
+    };
+    if let Some(group) = found.list.iter().find(|group| group.count < 0) {
+        let free: Vec<(usize, [usize; 2])> =
+            linkage.joints.iter().enumerate().map(|(index, joint)| (index, joint.of)).collect();
+        let without = groups(linkage.bodies.len(), &free, Merged::new(linkage.bodies.len()));
+        if !given.is_empty() && without.list.iter().all(|group| group.count >= 0) {
+            let message = format!(
+                "found inputs that close a rigid part ({}), expected inputs of joints that can move; without inputs the linkage has {}",
+                named(group),
+                freedoms(without.freedoms)
+            );
+            return Err(Error::Invalid(message));
+        }
+        return Err(Error::Unsupported(format!(
+            "the bodies {} have more joints than hold them together: overconstrained groups are not solved yet",
+            named(group)
+        )));
+    }
+    if found.freedoms > 0 {
+        let message = format!(
+            "found {} given, which leaves {}; expected as many inputs as the linkage has freedoms, {}",
+            if given.len() == 1 { "1 input".to_owned() } else { format!("{} inputs", given.len()) },
+            freedoms(found.freedoms),
+            given.len() + found.freedoms
+        );
+        return Err(Error::Invalid(message));
+    }
+    if let Some(group) = found.list.iter().find(|group| group.clusters.len() > MOST_CLUSTERS) {
+        return Err(Error::Unsupported(format!(
+            "a group of {} bodies, at most {MOST_CLUSTERS} are solved: {}",
+            group.clusters.len(),
+            named(group)
+        )));
+    }
+    Ok(found)
+}
+
+fn freedoms(count: usize) -> String {
+    if count == 1 { "1 freedom".to_owned() } else { format!("{count} freedoms") }
+}
+
+/// All assemblies with these inputs.
+///
+/// # Errors
+/// As [`groups_of`].
+pub fn assemblies(linkage: &Linkage, given: &[Given]) -> Result<Assemblies> {
+    let groups = groups_of(linkage, given)?;
+    let shallow = attempt(linkage, given, &groups, SHALLOW)?;
+    // Square roots are kept as such only where a disc about zero decides nothing.
+    if shallow.doubt.is_some() && groups.list.iter().any(|group| group.clusters.len() <= 3) {
+        let deep = attempt(linkage, given, &groups, DEEP)?;
+        if deep.doubt.is_none() {
+            return Ok(deep);
+        }
+    }
+    Ok(shallow)
+}
+
+fn attempt(linkage: &Linkage, given: &[Given], groups: &Groups, highest: usize) -> Result<Assemblies> {
+    let mut start = State::new(linkage.bodies.len(), highest);
+    for one in given {
+        let [a, b] = one.bodies(linkage);
+        let Some(place) = place_of(linkage, one) else {
+            return Err(Error::Invalid("found a distance for a joint that has none".to_owned()));
+        };
+        start.glue(a, b, &place);
+    }
+    let mut found = Assemblies { modes: Vec::new(), curves: Vec::new(), groups: Vec::new(), doubt: None };
+    let mut branches = vec![start];
+    for group in &groups.list {
+        let mut names: Vec<usize> = Vec::new();
+        let mut next = Vec::new();
+        let mut solution =
+            Solution { bodies: Vec::new(), joints: group.joints.clone(), count: 0, route: Route::Quadratic };
+        for state in &branches {
+            if solution.bodies.is_empty() {
+                names.extend(group.clusters.iter().map(|body| state.bodies[*body].0));
+                let of = |name: &usize| (0..state.bodies.len()).filter(|body| state.bodies[*body].0 == *name).collect();
+                solution.bodies = names.iter().map(of).collect();
+            }
+            let Some(closure) = Closure::new(linkage, group, state) else {
+                return Err(Error::Unsupported("a group with gears".to_owned()));
+            };
+            branch(&closure, group, state, &mut solution, &mut next, &mut found);
+        }
+        found.groups.push(solution);
+        branches = next;
+        if branches.len() > MOST_BRANCHES {
+            return Err(Error::Unsupported(format!("more than {MOST_BRANCHES} assemblies are not listed")));
+        }
+    }
+    found.modes = branches;
+    Ok(found)
+}
+
+/// Solves a group in one branch.
+fn branch(
+    closure: &Closure,
+    group: &Group,
+    state: &State,
+    solution: &mut Solution,
+    next: &mut Vec<State>,
+    found: &mut Assemblies,
+) {
+    let mut doubt = |reason: String| {
+        found.doubt.get_or_insert(reason);
+    };
+    let equations = &closure.equations;
+    if equations.loops() == 1 {
+        match one_cycle(equations, &state.top) {
+            Solved::Undecided(reason) => doubt(reason),
+            Solved::Curve(roots) => {
+                for root in &roots {
+                    let state = closure.assembled(state, &root.turns, &root.shifts);
+                    found.curves.push((state, group.joints.clone()));
+                }
+            }
+            Solved::Roots(roots) => {
+                solution.count = solution.count.max(roots.iter().map(|root| root.multiplicity).sum());
+                let real = realness(&roots);
+                for (root, real) in roots.iter().zip(real) {
+                    let Some(real) = (if state.real { real } else { Some(false) }) else {
+                        doubt("an assembly is neither proved real nor proved complex".to_owned());
+                        continue;
+                    };
+                    let mut next_state = closure.assembled(state, &root.turns, &root.shifts);
+                    next_state.real = real;
+                    next_state.multiplicity *= root.multiplicity;
+                    // The number whose tower is the highest holds all others.
+                    for number in root.turns.iter().chain(&root.shifts) {
+                        if let Some(exact) = number.z.exact.as_ref() {
+                            next_state.top.number = next_state.top.number.lifted(exact);
+                        }
+                    }
+                    next.push(next_state);
+                }
+            }
+        }
+        return;
+    }
+    let general = general(equations);
+    solution.route = Route::Pencil(general.size);
+    let proved: usize = general.solutions.len();
+    solution.count = solution.count.max(general.most.unwrap_or(proved));
+    if general.most != Some(proved) {
+        let reason = general.doubt.unwrap_or_else(|| "the number of assemblies of a group is not known".to_owned());
+        doubt(format!("{reason} (group of {} bodies)", group.clusters.len()));
+    }
+    for proved in &general.solutions {
+        let Some(real) = (if state.real { proved.real } else { Some(false) }) else {
+            doubt("an assembly is neither proved real nor proved complex".to_owned());
+            continue;
+        };
+        let mut next_state = closure.assembled(state, &proved.root.turns, &proved.root.shifts);
+        next_state.real = real;
+        next.push(next_state);
+    }
+}
+
+/// The mirror image of a number: the one of the conjugate assembly.
+fn mirrored(number: &Number) -> Number {
+    let half = |value: &Value| Value::within(conjugate(&value.disc));
+    Isotropic { z: half(&number.w), w: half(&number.z) }
+}
+
+/// Whether the roots of a group with real data are real: the mirror image of every root is one of them.
+fn realness(roots: &[Root]) -> Vec<Option<bool>> {
+    let apart = |one: &Root, two: &Root| {
+        let numbers = |root: &Root| root.turns.iter().chain(&root.shifts).cloned().collect::<Vec<Number>>();
+        numbers(one).iter().zip(&numbers(two)).any(|(a, b)| a.z.disc.sub(&b.z.disc).is_not_zero())
+    };
+    let mirror = |root: &Root| Root {
+        turns: root.turns.iter().map(mirrored).collect(),
+        shifts: root.shifts.iter().map(mirrored).collect(),
+        multiplicity: root.multiplicity,
+    };
+    let one = |k: usize| {
+        let image = mirror(&roots[k]);
+        if apart(&image, &roots[k]) {
+            return Some(false);
+        }
+        (0..roots.len()).filter(|j| *j != k).all(|j| apart(&image, &roots[j])).then_some(true)
+    };
+    (0..roots.len()).map(one).collect()
+}

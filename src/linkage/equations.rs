@@ -1,0 +1,243 @@
+//! The closure equations of a group: one for every fundamental cycle of its clusters.
+//!
+//! Clusters joined by prismatic joints keep their relative rotation: they form a class with one rotation. A cycle says
+//! `sum_j c_j theta_j + sum_q u_q theta_(class of q) s_q = 0`, and the same with every number replaced by what stands for
+//! its conjugate. \[Wampler2001\]
+
+use super::groups::Group;
+use super::isotropic::Isotropic;
+use super::state::{Number, Place, State, number};
+use crate::algebra::ring::Ring;
+use crate::kinematics::linkage::{Linkage, Pair};
+
+/// A displacement along a prismatic joint, unknown.
+#[derive(Clone, Debug)]
+pub struct Slide<N> {
+    /// The joint.
+    pub joint: usize,
+    /// The class in which its line is fixed.
+    pub class: usize,
+    /// Its coefficient in every cycle.
+    pub coefficients: Vec<N>,
+}
+
+/// The equations of a group over any numbers.
+#[derive(Clone, Debug)]
+pub struct Equations<N> {
+    /// For every cycle the coefficient of every class.
+    pub cycles: Vec<Vec<N>>,
+    /// The unknown displacements.
+    pub slides: Vec<Slide<N>>,
+    /// Number of classes.
+    pub classes: usize,
+}
+
+/// The equations of a group of one branch, and what leads back from their solutions to the clusters.
+#[derive(Clone, Debug)]
+pub struct Closure {
+    /// The equations.
+    pub equations: Equations<Number>,
+    /// The clusters, in the order of a tree.
+    clusters: Vec<Node>,
+}
+
+/// A cluster in the tree.
+#[derive(Clone, Debug)]
+struct Node {
+    name: usize,
+    class: usize,
+    /// Its rotation is this times that of its class.
+    turn: Number,
+    /// The place of its origin against that of the first cluster: coefficients of the classes and of the slides.
+    origin: Linear,
+}
+
+/// A linear form in the rotations of the classes and the products of slides with those of their classes.
+#[derive(Clone, Debug)]
+struct Linear {
+    classes: Vec<Number>,
+    slides: Vec<Number>,
+}
+
+impl Linear {
+    fn zero(classes: usize, slides: usize) -> Self {
+        Self { classes: vec![Number::zero(); classes], slides: vec![Number::zero(); slides] }
+    }
+
+    fn add_class(&mut self, class: usize, factor: &Number) {
+        self.classes[class] = self.classes[class].add(factor);
+    }
+
+    fn add_slide(&mut self, slide: usize, factor: &Number) {
+        self.slides[slide] = self.slides[slide].add(factor);
+    }
+
+    fn sub(&self, other: &Self) -> Self {
+        let difference = |a: &[Number], b: &[Number]| a.iter().zip(b).map(|(x, y)| x.sub(y)).collect();
+        Self { classes: difference(&self.classes, &other.classes), slides: difference(&self.slides, &other.slides) }
+    }
+}
+
+impl Closure {
+    /// The equations of a group; `None` for gears, which have others.
+    #[must_use]
+    pub fn new(linkage: &Linkage, group: &Group, state: &State) -> Option<Self> {
+        let mut names: Vec<usize> = group.clusters.iter().map(|body| state.bodies[*body].0).collect();
+        names.sort_unstable();
+        names.dedup();
+        let cluster_of = |body: usize| names.iter().position(|name| *name == state.bodies[body].0);
+        // Classes by prismatic joints, with the rotation of every cluster against its class.
+        let mut class: Vec<Option<(usize, Number)>> = vec![None; names.len()];
+        let mut classes = 0;
+        for start in 0..names.len() {
+            if class[start].is_some() {
+                continue;
+            }
+            class[start] = Some((classes, Number::one()));
+            let mut open = vec![start];
+            while let Some(here) = open.pop() {
+                for index in &group.joints {
+                    let joint = &linkage.joints[*index];
+                    let Pair::Prismatic { turn, .. } = &joint.pair else { continue };
+                    let [a, b] = [cluster_of(joint.of[0])?, cluster_of(joint.of[1])?];
+                    // theta_b own_b = theta_a own_a turn
+                    let step = state.bodies[joint.of[0]]
+                        .1
+                        .turn
+                        .mul(&number(turn))
+                        .mul(&state.bodies[joint.of[1]].1.turn.mirrored());
+                    let (next, step) = if a == here {
+                        (b, step)
+                    } else if b == here {
+                        (a, step.mirrored())
+                    } else {
+                        continue;
+                    };
+                    if class[next].is_none() {
+                        let turn = class[here].as_ref()?.1.mul(&step);
+                        class[next] = Some((classes, turn));
+                        open.push(next);
+                    }
+                }
+            }
+            classes += 1;
+        }
+        let class: Vec<(usize, Number)> = class.into_iter().collect::<Option<_>>()?;
+        let sliding: Vec<usize> =
+            group.joints.iter().copied().filter(|index| linkage.joints[*index].is_prismatic()).collect();
+        let mut slides: Vec<Slide<Number>> = Vec::new();
+        for index in &sliding {
+            let a = cluster_of(linkage.joints[*index].of[0])?;
+            slides.push(Slide { joint: *index, class: class[a].0, coefficients: Vec::new() });
+        }
+        // The step from the origin of the cluster of the first body of a joint to that of the second.
+        let step = |index: usize| -> Option<(usize, usize, Linear)> {
+            let joint = &linkage.joints[index];
+            let [a, b] = [cluster_of(joint.of[0])?, cluster_of(joint.of[1])?];
+            let point = |k: usize| state.bodies[joint.of[k]].1.apply(&number(&joint.at[k]));
+            let mut linear = Linear::zero(classes, sliding.len());
+            linear.add_class(class[a].0, &class[a].1.mul(&point(0)));
+            linear.add_class(class[b].0, &class[b].1.mul(&point(1)).neg());
+            match &joint.pair {
+                Pair::Revolute => {}
+                Pair::Prismatic { along, .. } => {
+                    let slide = sliding.iter().position(|own| *own == index)?;
+                    let direction = state.bodies[joint.of[0]].1.turn.mul(&number(along));
+                    linear.add_slide(slide, &class[a].1.mul(&direction));
+                }
+                Pair::Gear { .. } => return None,
+            }
+            Some((a, b, linear))
+        };
+        let mut origins: Vec<Option<Linear>> = vec![None; names.len()];
+        origins[0] = Some(Linear::zero(classes, sliding.len()));
+        let mut tree: Vec<usize> = Vec::new();
+        loop {
+            let mut grown = false;
+            for index in &group.joints {
+                let (a, b, linear) = step(*index)?;
+                match (&origins[a], &origins[b]) {
+                    (Some(from), None) => {
+                        origins[b] = Some(from.sub(&Linear::zero(classes, sliding.len()).sub(&linear)));
+                    }
+                    (None, Some(from)) => origins[a] = Some(from.sub(&linear)),
+                    _ => continue,
+                }
+                tree.push(*index);
+                grown = true;
+            }
+            if !grown {
+                break;
+            }
+        }
+        let origins: Vec<Linear> = origins.into_iter().collect::<Option<_>>()?;
+        let mut cycles = Vec::new();
+        for index in group.joints.iter().filter(|index| !tree.contains(index)) {
+            let (a, b, linear) = step(*index)?;
+            // Round the cycle: out along the joint, back along the tree.
+            let round = origins[a].sub(&origins[b]).sub(&Linear::zero(classes, sliding.len()).sub(&linear));
+            cycles.push(round.classes);
+            for (slide, coefficient) in slides.iter_mut().zip(round.slides) {
+                slide.coefficients.push(coefficient);
+            }
+        }
+        let nodes = names.iter().zip(class).zip(origins);
+        let clusters = nodes.map(|((name, (class, turn)), origin)| Node { name: *name, class, turn, origin }).collect();
+        Some(Self { equations: Equations { cycles, slides, classes }, clusters })
+    }
+
+    /// Moves the clusters of a branch to where a solution puts them: one rotation for every class, one displacement for
+    /// every slide, in parts of the length of its direction.
+    #[must_use]
+    pub fn assembled(&self, state: &State, turns: &[Number], shifts: &[Number]) -> State {
+        let mut next = state.clone();
+        let Some(first) = self.clusters.first() else { return next };
+        let place = |node: &Node| {
+            let mut origin = Number::zero();
+            for (factor, turn) in node.origin.classes.iter().zip(turns) {
+                origin = origin.add(&factor.mul(turn));
+            }
+            for ((factor, shift), slide) in node.origin.slides.iter().zip(shifts).zip(&self.equations.slides) {
+                origin = origin.add(&factor.mul(shift).mul(&turns[slide.class]));
+            }
+            Place { turn: turns[node.class].mul(&node.turn), origin }
+        };
+        let base = place(first).inverse();
+        for node in self.clusters.iter().skip(1) {
+            next.move_cluster(node.name, first.name, &base.after(&place(node)));
+        }
+        next
+    }
+}
+
+impl<N> Equations<N> {
+    /// Number of cycles.
+    #[must_use]
+    pub fn loops(&self) -> usize {
+        self.cycles.len()
+    }
+
+    /// The same over other numbers; `None` as soon as one has no image.
+    pub fn map<M>(&self, image: impl Fn(&N) -> Option<M>) -> Option<Equations<M>> {
+        let all = |list: &Vec<N>| list.iter().map(&image).collect::<Option<Vec<M>>>();
+        let slide = |slide: &Slide<N>| {
+            Some(Slide { joint: slide.joint, class: slide.class, coefficients: all(&slide.coefficients)? })
+        };
+        Some(Equations {
+            cycles: self.cycles.iter().map(all).collect::<Option<_>>()?,
+            slides: self.slides.iter().map(slide).collect::<Option<_>>()?,
+            classes: self.classes,
+        })
+    }
+}
+
+impl Equations<Number> {
+    /// The equations over complex numbers with rational parts, where the data are such.
+    #[must_use]
+    pub fn exact(&self) -> Option<Equations<Isotropic<crate::kinematics::linkage::Gaussian>>> {
+        self.map(|number| {
+            let half = |value: &super::isotropic::Value| value.exact.as_ref()?.to_gaussian();
+            Some(Isotropic { z: half(&number.z)?, w: half(&number.w)? })
+        })
+    }
+}

@@ -1,0 +1,279 @@
+//! Groups of several cycles with rational data: the closure polynomial gives all rotations of one class, the kernel of the
+//! pencil the others, and every solution is proved by itself.
+
+use super::equations::Equations;
+use super::isotropic::Isotropic;
+use super::krawczyk::{Proved, prove};
+use super::pencil::Pencil;
+use super::polynomial::{ClosurePolynomial, closure_polynomial, turned};
+use super::state::Number;
+use crate::algebra::modp::ModP;
+use crate::algebra::ring::{Field, Ring};
+use crate::algebra::univariate::Univariate;
+use crate::exact::{Isolated, isolated_roots};
+use crate::kinematics::linkage::Gaussian;
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex;
+
+/// Rotations of the hidden class tried to keep the half turn from being a root.
+const TURNS: u32 = 8;
+/// Pairs of classes at rest and hidden whose determinants are compared, for matrices of at most `SMALL` rows.
+const PAIRS: usize = 40;
+/// And for larger ones, where each takes a tenth of a second.
+const LARGE_PAIRS: usize = 6;
+const SMALL: usize = 24;
+/// Choices whose polynomial is asked for until there is one.
+const TRIES: usize = 3;
+
+/// What is known of a group of several cycles.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The solutions that were proved.
+    pub solutions: Vec<Proved>,
+    /// At most this many solutions exist, with multiplicity; `None` where nothing is known.
+    pub most: Option<usize>,
+    /// Rows of the matrix.
+    pub size: usize,
+    /// Why the list may not be complete.
+    pub doubt: Option<String>,
+}
+
+impl Found {
+    fn nothing(doubt: &str) -> Self {
+        Self { solutions: Vec::new(), most: None, size: 0, doubt: Some(doubt.to_owned()) }
+    }
+}
+
+/// A choice of classes with its matrix and polynomial.
+struct Choice {
+    rest: usize,
+    pencil: Pencil<Gaussian>,
+    found: ClosurePolynomial,
+    turn: Isotropic<Gaussian>,
+}
+
+/// Solves a group.
+#[must_use]
+pub fn general(equations: &Equations<Number>) -> Found {
+    let Some(exact) = equations.exact() else {
+        return Found::nothing("a group of several loops stands on an assembly whose numbers are not rational");
+    };
+    let Some(choice) = best_choice(&exact) else {
+        return Found::nothing(
+            "the matrix of the group is singular for every choice of a hidden body, or has no square form",
+        );
+    };
+    let degree = choice.found.polynomial.degree().unwrap_or(0);
+    let square_free = choice.found.polynomial.square_free_part();
+    let roots = hidden_rotations(&square_free);
+    let Some(roots) = roots else {
+        return Found {
+            size: choice.found.size,
+            ..Found::nothing("the roots of the closure polynomial were not told apart")
+        };
+    };
+    let approximate = exact.map(|n| Some(n.map(|z| Complex::new(z.re.to_f64(), z.im.to_f64()))));
+    let Some(approximate) = approximate else { return Found::nothing("no approximation of the data") };
+    let mut solutions: Vec<Proved> = Vec::new();
+    let mut lost = 0;
+    for t in roots {
+        let i = Complex::new(0.0, 1.0);
+        let x = (1.0 + i * t) / (1.0 - i * t) * Complex::new(choice.turn.z.re.to_f64(), choice.turn.z.im.to_f64());
+        let proved =
+            start(&choice, &approximate, x).and_then(|(turns, shifts)| prove(equations, choice.rest, &turns, &shifts));
+        match proved {
+            Some(proved) if solutions.iter().all(|known| differ(known, &proved)) => solutions.push(proved),
+            _ => lost += 1,
+        }
+    }
+    let multiple = degree - square_free.degree().unwrap_or(0);
+    let doubt = match (lost, multiple) {
+        (0, 0) => None,
+        (0, _) => Some(format!("{multiple} roots of the closure polynomial are repetitions of others")),
+        _ => Some(format!("{lost} roots of the closure polynomial belong to no solution that was proved")),
+    };
+    Found { solutions, most: Some(degree), size: choice.found.size, doubt }
+}
+
+/// Whether two solutions are proved to be different.
+fn differ(one: &Proved, two: &Proved) -> bool {
+    let apart = |a: &Number, b: &Number| a.z.disc.sub(&b.z.disc).is_not_zero();
+    let (one, two) = (&one.root, &two.root);
+    one.turns.iter().zip(&two.turns).any(|(a, b)| apart(a, b))
+        || one.shifts.iter().zip(&two.shifts).any(|(a, b)| apart(a, b))
+}
+
+/// The classes at rest and hidden whose determinant has the fewest roots modulo a prime, and its polynomial.
+fn best_choice(exact: &Equations<Isotropic<Gaussian>>) -> Option<Choice> {
+    let residues = exact.map(|n| Some(Isotropic { z: residue(&n.z)?, w: residue(&n.w)? }))?;
+    let mut rest: Vec<usize> = (0..exact.classes).collect();
+    if let Some(slide) = exact.slides.first() {
+        rest.retain(|class| *class == slide.class);
+    }
+    let pairs =
+        rest.iter().flat_map(|rest| (0..exact.classes).map(move |hidden| (*rest, hidden))).filter(|(a, b)| a != b);
+    // Which class rests and which is hidden makes no difference without slides.
+    let pairs = pairs.filter(|(a, b)| a < b || !exact.slides.is_empty());
+    let mut pencils: Vec<(usize, Pencil<Residue>)> =
+        pairs.filter_map(|(rest, hidden)| Some((rest, Pencil::new(&residues, rest, hidden)?))).collect();
+    pencils.retain(|(_, pencil)| !pencil.sets.is_empty());
+    pencils.sort_by_key(|(_, pencil)| pencil.sets.len());
+    let mut ranked: Vec<(usize, usize, usize)> = Vec::new();
+    for (rest, pencil) in &pencils {
+        if ranked.len() >= if pencil.sets.len() > SMALL { LARGE_PAIRS } else { PAIRS } {
+            break;
+        }
+        if let Some(degree) = torus_degree(pencil) {
+            ranked.push((degree, *rest, pencil.hidden));
+        }
+    }
+    ranked.sort_by_key(|(degree, ..)| *degree);
+    ranked.into_iter().take(TRIES).find_map(|(_, rest, hidden)| choice(exact, rest, hidden))
+}
+
+/// A prime congruent to 1 modulo 4, and a root of -1 modulo it.
+const PRIME: u64 = 2_305_843_009_213_693_921;
+const ROOT_OF_MINUS_ONE: u64 = 583_529_827_753_931_384;
+
+type Residue = ModP<PRIME>;
+
+fn residue(z: &Gaussian) -> Option<Residue> {
+    Some(Residue::from_rational(&z.re)?.add(&Residue::new(ROOT_OF_MINUS_ONE).mul(&Residue::from_rational(&z.im)?)))
+}
+
+/// How many roots the determinant has that are neither zero nor infinite, modulo the prime; `None` where it vanishes.
+fn torus_degree(pencil: &Pencil<Residue>) -> Option<usize> {
+    let size = pencil.sets.len();
+    let points = (1..=2 * size as u64 + 1).map(|k| {
+        let x = Residue::new(k);
+        let inverse = x.inverse()?;
+        let power = (0..size).fold(Residue::one(), |power, _| power.mul(&x));
+        Some((x, determinant(pencil.at(&x, &inverse)).mul(&power)))
+    });
+    let polynomial = Univariate::interpolate(&points.collect::<Option<Vec<_>>>()?);
+    let lowest = polynomial.coefficients().iter().position(|c| !c.is_zero())?;
+    Some(polynomial.degree()? - lowest)
+}
+
+fn determinant(mut matrix: Vec<Vec<Residue>>) -> Residue {
+    let size = matrix.len();
+    let mut product = Residue::one();
+    for k in 0..size {
+        let Some(row) = (k..size).find(|i| !matrix[*i][k].is_zero()) else { return Residue::zero() };
+        if row != k {
+            matrix.swap(row, k);
+            product = product.neg();
+        }
+        product = product.mul(&matrix[k][k]);
+        let Some(inverse) = matrix[k][k].inverse() else { return Residue::zero() };
+        let pivot = matrix[k].clone();
+        for other in &mut matrix[k + 1..] {
+            if other[k].is_zero() {
+                continue;
+            }
+            let factor = other[k].mul(&inverse);
+            for (x, y) in other[k..].iter_mut().zip(&pivot[k..]) {
+                *x = x.sub(&factor.mul(y));
+            }
+        }
+    }
+    product
+}
+
+/// The polynomial of a choice, its hidden class turned until the half turn is no root.
+fn choice(exact: &Equations<Isotropic<Gaussian>>, rest: usize, hidden: usize) -> Option<Choice> {
+    let pencil = Pencil::new(exact, rest, hidden)?;
+    for k in 0..TURNS {
+        let turn = turned(k);
+        let found = if k == 0 {
+            closure_polynomial(&pencil)?
+        } else {
+            let mut rotated = exact.clone();
+            for cycle in &mut rotated.cycles {
+                cycle[hidden] = cycle[hidden].mul(&turn);
+            }
+            closure_polynomial(&Pencil::new(&rotated, rest, hidden)?)?
+        };
+        if found.is_finite {
+            // The kernel is that of the matrix in the rotation of the class itself.
+            return Some(Choice { rest, pencil, found, turn });
+        }
+    }
+    None
+}
+
+/// Approximations of all roots; `None` where no precision tells them apart.
+fn hidden_rotations(square_free: &Univariate<rug::Integer>) -> Option<Vec<Complex<f64>>> {
+    fn middles<const BITS: u32>(roots: &[Isolated<BITS>]) -> Vec<Complex<f64>> {
+        roots.iter().map(|root| Complex::new(root.ball.re().to_f64(), root.ball.im().to_f64())).collect()
+    }
+    let short = isolated_roots::<512>(square_free).map(|roots| middles(&roots));
+    short.or_else(|| isolated_roots::<1024>(square_free).map(|roots| middles(&roots)))
+}
+
+/// Approximate rotations of all classes and slides.
+type Start = (Vec<Complex<f64>>, Vec<Complex<f64>>);
+
+/// The rotations of all classes and the slides from the kernel of the matrix at a value of the hidden rotation.
+fn start(choice: &Choice, equations: &Equations<Isotropic<Complex<f64>>>, x: Complex<f64>) -> Option<Start> {
+    let size = choice.pencil.sets.len();
+    let narrow = |z: &Gaussian| Complex::new(z.re.to_f64(), z.im.to_f64());
+    let mut matrix = DMatrix::from_element(size, size, Complex::new(0.0, 0.0));
+    for (k, row) in choice.pencil.rows.iter().enumerate() {
+        matrix[(k, k)] = narrow(&row.own[0]) + narrow(&row.own[1]) * x + narrow(&row.own[2]) / x;
+        for (column, factor) in &row.others {
+            matrix[(k, *column)] = narrow(factor);
+        }
+        let largest = (0..size).map(|j| matrix[(k, j)].norm()).fold(f64::MIN_POSITIVE, f64::max);
+        for j in 0..size {
+            matrix[(k, j)] /= largest;
+        }
+    }
+    let kernel = kernel(matrix)?;
+    let mut turns = vec![Complex::new(1.0, 0.0); equations.classes];
+    turns[choice.pencil.hidden] = x;
+    for (j, class) in choice.pencil.classes.iter().enumerate() {
+        let pairs = (0..size).filter(|k| choice.pencil.sets[*k] >> j & 1 == 1);
+        let pairs = pairs
+            .filter_map(|k| Some((k, choice.pencil.sets.binary_search(&(choice.pencil.sets[k] ^ (1 << j))).ok()?)));
+        // theta_j = v_(S - j) / v_S from the largest pair.
+        let weight = |pair: &(usize, usize)| kernel[pair.0].norm().min(kernel[pair.1].norm());
+        let (with, without) = pairs.max_by(|a, b| weight(a).total_cmp(&weight(b)))?;
+        turns[*class] = kernel[without] / kernel[with];
+    }
+    if turns.iter().any(|turn| !turn.norm().is_normal()) {
+        return None;
+    }
+    // The slides from the first halves, by least squares.
+    let slides = equations.slides.len();
+    if slides == 0 {
+        return Some((turns, Vec::new()));
+    }
+    let loops = equations.loops();
+    let a = DMatrix::from_fn(loops, slides, |k, q| {
+        equations.slides[q].coefficients[k].z * turns[equations.slides[q].class]
+    });
+    let b = DVector::from_fn(loops, |k, _| {
+        -(0..equations.classes).map(|j| equations.cycles[k][j].z * turns[j]).sum::<Complex<f64>>()
+    });
+    let solved = a.svd(true, true).solve(&b, 1e-12).ok()?;
+    Some((turns, solved.iter().copied().collect()))
+}
+
+/// A vector that a nearly singular matrix nearly takes to zero, by inverse iteration.
+fn kernel(matrix: DMatrix<Complex<f64>>) -> Option<DVector<Complex<f64>>> {
+    let size = matrix.nrows();
+    // A matrix that is singular to the last bit is moved by less than its own rounding.
+    let moved = matrix + DMatrix::from_diagonal_element(size, size, Complex::new(1e-17, 1e-17));
+    let lu = moved.lu();
+    let mut vector = DVector::from_fn(size, |k, _| Complex::from_polar(1.0, 1.0 + 2.4 * k as f64));
+    for _ in 0..3 {
+        vector = lu.solve(&vector)?;
+        let norm = vector.norm();
+        if !norm.is_normal() {
+            return None;
+        }
+        vector /= Complex::new(norm, 0.0);
+    }
+    Some(vector)
+}

@@ -1,0 +1,129 @@
+//! One branch of an assembly: the clusters of bodies that are glued so far, and where the bodies stand in them.
+
+use super::isotropic::{Isotropic, Value};
+use super::quadratic::Top;
+use super::tower::Surd;
+use crate::algebra::ring::Ring;
+use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
+use rug::Rational;
+
+/// A number of an assembly and what stands for its conjugate.
+pub type Number = Isotropic<Value>;
+
+/// An exact complex number as one of an assembly.
+#[must_use]
+pub fn number(z: &Gaussian) -> Number {
+    let both = Isotropic::of(z);
+    both.map(Value::exactly)
+}
+
+/// A rational number as one of an assembly.
+#[must_use]
+pub fn real(q: &Rational) -> Number {
+    number(&Gaussian { re: q.clone(), im: Rational::new() })
+}
+
+/// Where a body or a cluster stands: p goes to `origin + turn p`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// The rotation.
+    pub turn: Number,
+    /// The place of the origin.
+    pub origin: Number,
+}
+
+impl Place {
+    /// No displacement.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self { turn: Number::one(), origin: Number::zero() }
+    }
+
+    /// The image of a point.
+    #[must_use]
+    pub fn apply(&self, point: &Number) -> Number {
+        self.origin.add(&self.turn.mul(point))
+    }
+
+    /// This displacement behind another one.
+    #[must_use]
+    pub fn after(&self, first: &Self) -> Self {
+        Self { turn: self.turn.mul(&first.turn), origin: self.apply(&first.origin) }
+    }
+
+    /// The displacement back.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let turn = self.turn.mirrored();
+        let origin = turn.mul(&self.origin).neg();
+        Self { turn, origin }
+    }
+}
+
+/// Clusters and places.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// Of every body the body that names its cluster, and its place there.
+    pub bodies: Vec<(usize, Place)>,
+    /// The tower of square roots that holds all numbers.
+    pub top: Top,
+    /// Whether every number is one of a real assembly.
+    pub real: bool,
+    /// How often the branch counts.
+    pub multiplicity: usize,
+}
+
+impl State {
+    /// Every body by itself; square roots are kept exactly in towers of at most so many generators.
+    #[must_use]
+    pub fn new(bodies: usize, highest: usize) -> Self {
+        let bodies = (0..bodies).map(|body| (body, Place::identity())).collect();
+        let top = Top { number: Surd::rational(&Rational::from(1)), highest };
+        Self { bodies, top, real: true, multiplicity: 1 }
+    }
+
+    /// Moves the cluster of `second` so that the body `second` stands at `place` against the body `first`, and makes
+    /// one cluster of theirs.
+    pub fn glue(&mut self, first: usize, second: usize, place: &Place) {
+        let (cluster, own) = self.bodies[first].clone();
+        let (other, back) = (self.bodies[second].0, self.bodies[second].1.inverse());
+        self.move_cluster(other, cluster, &own.after(place).after(&back));
+    }
+
+    /// Puts the bodies of a cluster into another one, moved by `place`.
+    pub fn move_cluster(&mut self, cluster: usize, to: usize, place: &Place) {
+        for body in &mut self.bodies {
+            if body.0 == cluster {
+                *body = (to, place.after(&body.1));
+            }
+        }
+    }
+
+    /// Where a body stands against another one of the same cluster.
+    #[must_use]
+    pub fn against(&self, body: usize, base: usize) -> Place {
+        self.bodies[base].1.inverse().after(&self.bodies[body].1)
+    }
+}
+
+/// The place of the second body against the first that a given value means.
+#[must_use]
+pub fn place_of(linkage: &Linkage, given: &Given) -> Option<Place> {
+    Some(match given {
+        Given::Turn { joint, turn, .. } => {
+            let at = &linkage.joints[*joint].at;
+            let turn = number(turn);
+            let origin = number(&at[0]).sub(&turn.mul(&number(&at[1])));
+            Place { turn, origin }
+        }
+        Given::Shift { joint, shift, .. } => {
+            let joint = &linkage.joints[*joint];
+            let Pair::Prismatic { turn, along, .. } = &joint.pair else { return None };
+            let turn = number(turn);
+            let target = number(&joint.at[0]).add(&number(along).mul(&real(shift)));
+            let origin = target.sub(&turn.mul(&number(&joint.at[1])));
+            Place { turn, origin }
+        }
+        Given::Place { turn, origin, .. } => Place { turn: number(turn), origin: number(origin) },
+    })
+}
