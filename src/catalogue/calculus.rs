@@ -1,0 +1,160 @@
+//! Files of the calculus: questions about displacements and about lines.
+
+use super::displacement::{Displacement, displacement};
+use super::file_kind::FileKind;
+use super::heading::{Heading, heading_with};
+use super::lines::{Lines, lines};
+use super::node::Node;
+use super::scope::{Scope, Table};
+use crate::algebra::number::{Number, Quantity};
+use crate::error::Result;
+use crate::kinematics::motion::Vector;
+use rug::Rational;
+
+/// A file of the calculus, read.
+#[derive(Clone, Debug)]
+pub struct CalculusFile {
+    /// Title, source and remarks.
+    pub heading: Heading,
+    /// What is asked.
+    pub question: Question,
+    /// Whether some number of the file had to be replaced by a nearby rational.
+    pub rounded: bool,
+    /// Warnings of the matrices that were replaced by rotations.
+    pub warnings: Vec<String>,
+    /// What the file claims of every problem.
+    pub claims: Claims,
+}
+
+/// What a file of the calculus asks.
+#[derive(Clone, Debug)]
+pub enum Question {
+    /// Displacements with some property.
+    Displacement(Box<Displacement>),
+    /// Lines and complexes of lines.
+    Lines(Box<Lines>),
+}
+
+/// Claimed counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Claims {
+    /// Isolated complex solutions, with multiplicity.
+    pub complex: Option<usize>,
+    /// Isolated real solutions.
+    pub real: Option<usize>,
+    /// Dimension of the solution set.
+    pub dimension: Option<usize>,
+    /// Line of the claims, from 1.
+    pub line: usize,
+}
+
+impl CalculusFile {
+    /// The kind of the file.
+    #[must_use]
+    pub fn kind(&self) -> FileKind {
+        match self.question {
+            Question::Displacement(_) => FileKind::Displacement,
+            Question::Lines(_) => FileKind::Lines,
+        }
+    }
+
+    /// The word behind `find`.
+    #[must_use]
+    pub fn find(&self) -> &'static str {
+        match &self.question {
+            Question::Displacement(question) => question.word(),
+            Question::Lines(question) => question.word(),
+        }
+    }
+}
+
+/// The keys of the lists that questions are made of.
+const PARTS: [&str; 8] = ["element", "rotation", "pair", "screw", "point", "line", "complex", "configuration"];
+
+/// Reads a file of the calculus.
+pub(super) fn calculus(scope: &mut Scope<'_>, root: &Node, name: &str, kind: FileKind) -> Result<CalculusFile> {
+    let parts = &PARTS[..7];
+    let heading = heading_with(scope, root, name, parts)?;
+    let keys = [&["title", "source", "notes", "units", "mechanism", "expected"], parts].concat();
+    let table = scope.table(root, "the file", &keys)?;
+    let question = if kind == FileKind::Lines {
+        Question::Lines(Box::new(lines(scope, &table)?))
+    } else {
+        Question::Displacement(Box::new(displacement(scope, &table)?))
+    };
+    let claims = claims(scope, &table)?;
+    let (rounded, warnings) = (scope.is_rounded(), scope.take_warnings());
+    Ok(CalculusFile { heading, question, rounded, warnings, claims })
+}
+
+fn claims(scope: &Scope<'_>, table: &Table<'_>) -> Result<Claims> {
+    let Some(node) = table.get("expected") else { return Ok(Claims { line: table.line(), ..Claims::default() }) };
+    let claims = scope.table(node, "[expected]", &["complex", "real", "dimension"])?;
+    let count = |key: &str| claims.get(key).map(|node| scope.count(node, key)).transpose();
+    Ok(Claims { complex: count("complex")?, real: count("real")?, dimension: count("dimension")?, line: node.line })
+}
+
+/// The word behind `find` in `[mechanism]`, one of those given, and the table.
+pub(super) fn found<'n>(
+    scope: &Scope<'_>,
+    table: &Table<'n>,
+    words: &[&str],
+    keys: &[&str],
+) -> Result<(&'n str, Table<'n>, usize)> {
+    let node = scope.need(table, "mechanism")?;
+    let mechanism = scope.table(node, "[mechanism]", &[&["kind", "find"], keys].concat())?;
+    let find = scope.word(scope.need(&mechanism, "find")?, "find", words)?;
+    Ok((find, mechanism, node.line))
+}
+
+/// The tables of a list that must be there, with the keys that they may have; only the lists named may stand in the file.
+pub(super) fn parts<'n>(
+    scope: &Scope<'_>,
+    table: &Table<'n>,
+    key: &str,
+    allowed: &[&str],
+    others: &[&str],
+) -> Result<Vec<(Table<'n>, &'n Node)>> {
+    for other in PARTS {
+        if other != key
+            && !others.contains(&other)
+            && let Some(node) = table.get(other)
+        {
+            return Err(scope.fail(node.line, format!("found [[{other}]], expected [[{key}]] for this `find`")));
+        }
+    }
+    let node = scope.need(table, key)?;
+    let what = format!("[[{key}]]");
+    scope.list(node, key)?.iter().map(|item| Ok((scope.table(item, &what, allowed)?, item))).collect()
+}
+
+/// A list of exactly this many.
+pub(super) fn counted<T>(scope: &Scope<'_>, line: usize, items: Vec<T>, key: &str, count: usize) -> Result<Vec<T>> {
+    if items.len() == count {
+        return Ok(items);
+    }
+    Err(scope.fail(line, format!("found {} [[{key}]], expected {count}", items.len())))
+}
+
+/// The line at which a list begins, else that of the file.
+pub(super) fn line_of(table: &Table<'_>, key: &str) -> usize {
+    table.get(key).map_or_else(|| table.line(), |node| node.line)
+}
+
+/// A vector of rationals that is not zero.
+pub(super) fn direction(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Vector<Rational>> {
+    let vector = numbers(&scope.vector(node, Quantity::Ratio, what)?);
+    if vector.iter().all(|c| *c == 0) {
+        return Err(scope.fail(node.line, format!("found the zero vector as `{what}`, expected a direction")));
+    }
+    Ok(vector)
+}
+
+/// The place of a point.
+pub(super) fn point(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Vector<Rational>> {
+    Ok(numbers(&scope.vector(node, Quantity::Length, what)?))
+}
+
+fn numbers(vector: &[Number; 3]) -> Vector<Rational> {
+    vector.each_ref().map(|c| c.rational().clone())
+}

@@ -1,0 +1,203 @@
+//! Kind `displacement`: displacements with some property.
+
+use super::calculus::{counted, direction, found, line_of, parts, point};
+use super::lines::pluecker;
+use super::node::Node;
+use super::scope::{Scope, Table};
+use crate::algebra::number::{HalfTangent, Quantity};
+use crate::error::Result;
+use crate::kinematics::motion::{Motion, Vector};
+use looproot_calculus::displacement::points::Moved;
+use looproot_calculus::line::pluecker::Line;
+use looproot_calculus::rotation::matrix::Matrix;
+use rug::Rational;
+
+/// A question about displacements.
+#[derive(Clone, Debug)]
+pub enum Displacement {
+    /// Rotation matrices with three prescribed elements: places, rows and columns from 0, and values.
+    Elements([(usize, usize); 3], [Rational; 3]),
+    /// Rotations as three rotations about given axes, which are of any length.
+    ThreeRotations([Vector<Rational>; 3], Vec<Matrix<Rational>>),
+    /// The motion X with A X = X B for pairs A, B.
+    Calibration(Vec<(Motion<Rational>, Motion<Rational>)>),
+    /// The product of screws, each given in space, in their order.
+    Resultant(Vec<GivenScrew>),
+    /// The displacement of points.
+    Points(Vec<Moved<Rational>>),
+    /// The displacements that take the first line to the second, or the rotations that do so with their directions.
+    Line([Line<Rational>; 2], Through),
+}
+
+/// Which displacements take a line to a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Through {
+    /// All of them.
+    Space,
+    /// Rotations about the origin; only the directions of the lines matter.
+    Origin,
+}
+
+/// A finite screw of a file.
+#[derive(Clone, Debug)]
+pub struct GivenScrew {
+    /// The axis, its direction of any length.
+    pub axis: Line<Rational>,
+    /// The angle by its half-angle tangent.
+    pub half_tangent: HalfTangent,
+    /// The translation along the axis, by its direction as a unit vector.
+    pub translation: Rational,
+}
+
+impl Displacement {
+    /// The word behind `find`.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Elements(..) => "elements",
+            Self::ThreeRotations(..) => "three-rotations",
+            Self::Calibration(_) => "calibration",
+            Self::Resultant(_) => "resultant",
+            Self::Points(_) => "points",
+            Self::Line(..) => "line",
+        }
+    }
+}
+
+/// Reads the question of a file of kind `displacement`.
+pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
+    let words = ["elements", "three-rotations", "calibration", "resultant", "points", "line"];
+    let (find, mechanism, line) = found(scope, table, &words, &["axes", "through"])?;
+    for (key, of) in [("axes", "three-rotations"), ("through", "line")] {
+        if let (Some(node), false) = (mechanism.get(key), find == of) {
+            return Err(scope
+                .fail(node.line, format!("found `{key}` with `find = \"{find}\"`, expected it with \"{of}\" only")));
+        }
+    }
+    match find {
+        "elements" => elements(scope, table),
+        "three-rotations" => three_rotations(scope, table, &mechanism),
+        "calibration" => calibration(scope, table),
+        "resultant" => resultant(scope, table),
+        "points" => points(scope, table),
+        _ => {
+            let given = parts(scope, table, "line", &super::lines::LINE, &[])?;
+            let given = counted(scope, line_of(table, "line"), given, "line", 2)?;
+            let lines: Vec<Line<Rational>> =
+                given.iter().map(|(line, node)| pluecker(scope, line, node)).collect::<Result<_>>()?;
+            let through = match mechanism.get("through") {
+                Some(node) => {
+                    scope.word(node, "through", &["origin"])?;
+                    Through::Origin
+                }
+                None => Through::Space,
+            };
+            let [first, second] = lines
+                .try_into()
+                .map_err(|_| scope.fail(line, "found another number of lines than two, expected two"))?;
+            Ok(Displacement::Line([first, second], through))
+        }
+    }
+}
+
+fn elements(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
+    let given = parts(scope, table, "element", &["row", "column", "value"], &[])?;
+    let line = line_of(table, "element");
+    let given = counted(scope, line, given, "element", 3)?;
+    let mut places = [(0, 0); 3];
+    let mut values: [Rational; 3] = std::array::from_fn(|_| Rational::new());
+    for (k, (element, node)) in given.iter().enumerate() {
+        let index = |key: &str| {
+            let found = scope.need(element, key)?;
+            match scope.count(found, key)? {
+                index @ 1..=3 => Ok(index - 1),
+                other => Err(scope.fail(found.line, format!("found {other} as `{key}`, expected 1, 2 or 3"))),
+            }
+        };
+        places[k] = (index("row")?, index("column")?);
+        if places[..k].contains(&places[k]) {
+            let (row, column) = (places[k].0 + 1, places[k].1 + 1);
+            let message =
+                format!("found the element of row {row} and column {column} twice, expected three different ones");
+            return Err(scope.fail(node.line, message));
+        }
+        values[k].clone_from(scope.number(scope.need(element, "value")?, Quantity::Ratio, "value")?.rational());
+    }
+    Ok(Displacement::Elements(places, values))
+}
+
+fn three_rotations(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>) -> Result<Displacement> {
+    let [a, b, c] = scope.exactly::<3>(scope.need(mechanism, "axes")?, "axes")?;
+    let axes = [direction(scope, a, "axes")?, direction(scope, b, "axes")?, direction(scope, c, "axes")?];
+    let given = parts(scope, table, "rotation", &["matrix", "quaternion"], &[])?;
+    if given.is_empty() {
+        return Err(scope.fail(line_of(table, "rotation"), "found no [[rotation]], expected one or many"));
+    }
+    let rotations = given.iter().map(|(own, node)| match (own.get("matrix"), own.get("quaternion")) {
+        (Some(matrix), None) => scope.rotation_matrix(matrix, "matrix"),
+        (None, Some(quaternion)) => scope.rotation_quaternion(quaternion),
+        _ => {
+            let message = "found a [[rotation]] without exactly one of `matrix` and `quaternion`, expected one";
+            Err(scope.fail(node.line, message))
+        }
+    });
+    Ok(Displacement::ThreeRotations(axes, rotations.collect::<Result<_>>()?))
+}
+
+fn calibration(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
+    let given = parts(scope, table, "pair", &["A", "B"], &[])?;
+    if given.is_empty() {
+        return Err(scope.fail(line_of(table, "pair"), "found no [[pair]], expected one or many"));
+    }
+    let motion = |pair: &Table<'_>, key: &str| {
+        let node: &Node = scope.need(pair, key)?;
+        if matches!(node.value, super::node::Value::List(_)) {
+            return scope.matrix(node, key).map(|placement| placement.exact);
+        }
+        let own = scope.table(node, key, &["position", "quaternion"])?;
+        let placed = scope.quaternion_position(scope.need(&own, "quaternion")?, scope.need(&own, "position")?)?;
+        Ok(placed.exact)
+    };
+    let pairs = given.iter().map(|(pair, _)| Ok((motion(pair, "A")?, motion(pair, "B")?)));
+    Ok(Displacement::Calibration(pairs.collect::<Result<_>>()?))
+}
+
+fn resultant(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
+    let keys = ["direction", "point", "angle", "tan_half", "translation"];
+    let given = parts(scope, table, "screw", &keys, &[])?;
+    let screws = given.iter().map(|(screw, node)| {
+        let along = direction(scope, scope.need(screw, "direction")?, "direction")?;
+        let at = point(scope, scope.need(screw, "point")?, "point")?;
+        let angle = match (screw.get("angle"), screw.get("tan_half")) {
+            (Some(node), None) => scope.angle(node, "angle")?,
+            (None, Some(node)) => scope.half_tangent(node, "tan_half")?,
+            _ => {
+                let message = "found a [[screw]] without exactly one of `angle` and `tan_half`, expected one";
+                return Err(scope.fail(node.line, message));
+            }
+        };
+        let translation = scope.length(scope.need(screw, "translation")?, "translation")?.rational().clone();
+        Ok(GivenScrew { axis: Line::at(&at, &along), half_tangent: angle.half_tangent().clone(), translation })
+    });
+    Ok(Displacement::Resultant(screws.collect::<Result<_>>()?))
+}
+
+fn points(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
+    let given = parts(scope, table, "point", &["before", "after"], &[])?;
+    let line = line_of(table, "point");
+    if given.len() < 3 {
+        return Err(scope.fail(line, format!("found {} [[point]], expected three or more", given.len())));
+    }
+    let moved = given.iter().map(|(own, _)| {
+        let place = |key: &str| point(scope, scope.need(own, key)?, key);
+        Ok((place("before")?, place("after")?))
+    });
+    let moved: Vec<Moved<Rational>> = moved.collect::<Result<_>>()?;
+    let plane = looproot_calculus::displacement::points::spread(&moved.iter().map(|p| p.0.clone()).collect::<Vec<_>>());
+    if plane.is_none() {
+        let message =
+            "found points in a line, expected three that are not: a rotation about that line would not move them";
+        return Err(scope.fail(line, message));
+    }
+    Ok(Displacement::Points(moved))
+}

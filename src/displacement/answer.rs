@@ -1,0 +1,228 @@
+//! What is answered to a question about displacements or lines: modes with named values, and the verdict.
+
+use crate::algebra::enclosure::Enclosure;
+use crate::verdict::{Code, Proof, Status, Verdict};
+use looproot_calculus::displacement::screw::Screw;
+use looproot_calculus::motion::Motion;
+use looproot_calculus::rotation::matrix::{Matrix, from_matrix};
+use looproot_calculus::rotation::vectors::unit;
+use num_complex::Complex;
+use rug::Float;
+use serde_json::{Map, Value, json};
+
+/// A solution.
+#[derive(Clone, Debug)]
+pub struct Mode {
+    /// Whether it is real.
+    pub real: bool,
+    /// Its multiplicity.
+    pub multiplicity: usize,
+    /// How far its numbers are from satisfying the conditions, in f64.
+    pub residual: f64,
+    /// How far a number of it is from that of the solution at most; `None` without a proof of that.
+    pub radius: Option<f64>,
+    /// Its numbers by their names, in the order of reports.
+    pub values: Map<String, Value>,
+}
+
+/// The answer to one problem.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Real solutions first.
+    pub modes: Vec<Mode>,
+    /// What belongs to the problem as a whole, by name.
+    pub keys: Map<String, Value>,
+    /// Warnings.
+    pub warnings: Vec<String>,
+}
+
+/// A finite number without the sign of zero.
+#[must_use]
+pub fn number(x: f64) -> Value {
+    if x.is_finite() { json!(x + 0.0) } else { Value::Null }
+}
+
+/// A list of numbers.
+#[must_use]
+pub fn list(numbers: &[f64]) -> Value {
+    numbers.iter().map(|x| number(*x)).collect()
+}
+
+/// Complex numbers as pairs.
+#[must_use]
+pub fn pairs(numbers: &[Complex<f64>]) -> Value {
+    numbers.iter().map(|z| json!([number(z.re), number(z.im)])).collect()
+}
+
+/// The rounding of enclosures, and the largest distance that it has met.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Rounding {
+    /// No number is farther from its enclosure than this.
+    pub radius: f64,
+}
+
+impl Rounding {
+    /// The nearest f64.
+    pub fn number(&mut self, enclosure: &Enclosure) -> f64 {
+        if enclosure.holds_zero() {
+            self.radius = self.radius.max(power_of_two(enclosure.off().max(enclosure.size())));
+            return 0.0;
+        }
+        let rounded = enclosure.middle().to_f64();
+        let apart = Float::with_val(64, enclosure.middle() - rounded).abs().to_f64();
+        // Twice the distance covers the rounding of the subtraction.
+        self.radius = self.radius.max(2.0 * apart + power_of_two(enclosure.off()));
+        rounded
+    }
+
+    /// The nearest numbers.
+    pub fn vector<const N: usize>(&mut self, vector: &[Enclosure; N]) -> [f64; N] {
+        vector.each_ref().map(|c| self.number(c))
+    }
+
+    /// The nearest matrix.
+    pub fn matrix<const N: usize, const M: usize>(&mut self, matrix: &[[Enclosure; N]; M]) -> [[f64; N]; M] {
+        matrix.each_ref().map(|row| self.vector(row))
+    }
+}
+
+/// `2^k`, 0 for exact numbers.
+fn power_of_two(k: i32) -> f64 {
+    if k == i32::MIN { 0.0 } else { 2.0_f64.powi(k.max(-1000)) }
+}
+
+/// Quaternion and matrix of a rotation.
+pub fn insert_rotation(values: &mut Map<String, Value>, matrix: &Matrix<f64>) {
+    let q = unit(&from_matrix(matrix));
+    let parts = q.map(|q| list(&[q.scalar, q.vector[0], q.vector[1], q.vector[2]]));
+    values.insert("quaternion".into(), parts.unwrap_or(Value::Null));
+    values.insert("matrix".into(), matrix.iter().map(|row| list(row)).collect());
+}
+
+/// Quaternion and 4 x 4 matrix of a motion.
+pub fn insert_motion(values: &mut Map<String, Value>, motion: &Motion<f64>) {
+    insert_rotation(values, &motion.rotation);
+    values.insert("matrix".into(), homogeneous(motion));
+}
+
+/// The 4 x 4 matrix of a motion.
+#[must_use]
+pub fn homogeneous(motion: &Motion<f64>) -> Value {
+    let row = |i: usize| {
+        let [a, b, c] = motion.rotation[i];
+        list(&[a, b, c, motion.translation[i]])
+    };
+    json!([row(0), row(1), row(2), [0, 0, 0, 1]])
+}
+
+/// The screw of a motion as LINKAGES has it: direction, point, moment, angle, translation, pitch.
+#[must_use]
+pub fn screw(motion: &Motion<f64>) -> Value {
+    let Some(found) = Screw::of(motion) else { return Value::Null };
+    let vector = |v: &Option<[f64; 3]>| v.map_or(Value::Null, |v| list(&v));
+    let angle = found.angle().unwrap_or(0.0);
+    json!({
+        "direction": vector(&found.direction),
+        "point": vector(&found.point),
+        "moment": vector(&found.axis().map(|axis| axis.moment)),
+        "angle": number(angle),
+        "translation": number(found.translation),
+        "pitch": found.pitch().map_or(Value::Null, number),
+    })
+}
+
+/// What is known of the number of solutions.
+pub struct Counted {
+    /// Isolated complex solutions, with multiplicity.
+    pub complex: usize,
+    /// What the verdict rests on.
+    pub code: Code,
+    /// Solutions of the general problem that are at infinity here.
+    pub at_infinity: usize,
+    /// Why.
+    pub reason: String,
+}
+
+impl Answer {
+    /// The answer where all solutions are known and their number is proved.
+    #[must_use]
+    pub fn complete(modes: Vec<Mode>, counted: Counted) -> Self {
+        // Each real solution counts once, whatever its multiplicity.
+        let real = modes.iter().filter(|mode| mode.real).count();
+        let certified = modes.iter().filter(|mode| mode.real && mode.radius.is_some()).count();
+        let status = if real == 0 { Status::Unreachable } else { Status::Complete };
+        let Counted { complex, code, at_infinity, reason } = counted;
+        let code = if complex == 0 { Code::NoSolution } else { code };
+        let verdict = Verdict {
+            status,
+            proof: Proof::Proved,
+            code,
+            complex_complete: true,
+            complex,
+            real,
+            at_infinity,
+            self_motion: 0,
+            certified,
+            reason,
+        };
+        Self { verdict, modes, keys: Map::new(), warnings: Vec::new() }
+    }
+
+    /// The answer where solutions form a set of some dimension, of which a sample is known.
+    #[must_use]
+    pub fn family(dimension: usize, sample: Option<Value>, reason: impl Into<String>) -> Self {
+        let verdict = Verdict {
+            status: Status::SelfMotion,
+            proof: Proof::Proved,
+            code: Code::SelfMotion,
+            complex_complete: false,
+            complex: 0,
+            real: 0,
+            at_infinity: 0,
+            self_motion: dimension,
+            certified: 0,
+            reason: reason.into(),
+        };
+        let mut keys = Map::new();
+        if let Some(sample) = sample {
+            keys.insert("sample".into(), sample);
+        }
+        Self { verdict, modes: Vec::new(), keys, warnings: Vec::new() }
+    }
+
+    /// The answer where nothing satisfies the conditions exactly, and a nearest solution is given in its place.
+    #[must_use]
+    pub fn nearest(mode: Option<Mode>, reason: impl Into<String>) -> Self {
+        let verdict = Verdict {
+            status: Status::Incomplete,
+            proof: Proof::None,
+            code: Code::NotDecided,
+            complex_complete: false,
+            complex: 0,
+            real: 0,
+            at_infinity: 0,
+            self_motion: 0,
+            certified: 0,
+            reason: reason.into(),
+        };
+        Self { verdict, modes: mode.into_iter().collect(), keys: Map::new(), warnings: Vec::new() }
+    }
+
+    /// The answer where there is no solution, not even a complex one.
+    #[must_use]
+    pub fn none(reason: impl Into<String>) -> Self {
+        Self::complete(
+            Vec::new(),
+            Counted { complex: 0, code: Code::NoSolution, at_infinity: 0, reason: reason.into() },
+        )
+    }
+
+    /// The same answer for numbers of which some had to be rounded: what is proved holds for the rounded ones.
+    #[must_use]
+    pub fn of_rounded(mut self, is_rounded: bool) -> Self {
+        self.verdict.proof = self.verdict.proof.of_rounded(is_rounded);
+        self
+    }
+}

@@ -1,0 +1,33 @@
+//! Displacements with some property: the questions of files of kind `displacement`, answered with a verdict.
+//!
+//! The formulas are those of `looproot_calculus`. What must be decided, signs and zeros, is decided over the rationals; what is
+//! listed is computed in enclosures of many digits and rounded once, so that its distance from the solution is known.
+
+pub mod answer;
+mod calibration;
+mod elements;
+mod line;
+mod points;
+mod resultant;
+mod three_rotations;
+
+use crate::catalogue::displacement::Displacement;
+use crate::error::Result;
+pub use answer::{Answer, Mode};
+
+/// The answers to a question, one for each of its problems.
+///
+/// # Errors
+/// [`crate::error::Error::Unsupported`] for several pairs of a calibration with parallel axes.
+pub fn answers(question: &Displacement) -> Result<Vec<Answer>> {
+    Ok(match question {
+        Displacement::Elements(places, values) => vec![elements::answer(*places, values)],
+        Displacement::ThreeRotations(axes, rotations) => {
+            rotations.iter().map(|rotation| three_rotations::answer(axes, rotation)).collect()
+        }
+        Displacement::Calibration(pairs) => vec![calibration::answer(pairs)?],
+        Displacement::Resultant(screws) => vec![resultant::answer(screws)],
+        Displacement::Points(points) => vec![points::answer(points)],
+        Displacement::Line(lines, through) => vec![line::answer(lines, *through)],
+    })
+}
