@@ -1,0 +1,108 @@
+//! The certificate of an answer: docs/certificate.md.
+
+use crate::catalogue::entry::{Case, Entry};
+use crate::certificate::{Ball, Closed, FORMAT, Fault, VERSION, balls, check, closed, data_of};
+use crate::mechanism::{FullMode, Solution};
+use crate::verdict::{Code, Status};
+use num_complex::Complex;
+use rug::{Integer, Rational, ops::Pow};
+use serde_json::{Value, json};
+
+/// Largest number of decimals that a centre or a radius has.
+const DECIMALS: u32 = 30;
+
+/// The certificate of one case, which the checker of [`crate::certificate`] accepts.
+///
+/// # Errors
+/// Says in a clause why there is none.
+pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solution) -> Result<Value, String> {
+    let verdict = &solution.verdict;
+    if !verdict.proof.is_proved() || !matches!(verdict.status, Status::Complete | Status::Unreachable) {
+        return Err("the answer is not proved".to_owned());
+    }
+    if solution.arm.is_some() {
+        return Err(
+            "answers to arms of other than six joints, to tasks and with joints held are not covered".to_owned()
+        );
+    }
+    let kind = match verdict.code {
+        Code::GeneralBoundMet => "general-bound",
+        Code::GeometryBoundMet | Code::ExactRootsMatched => "geometry-bound",
+        other => return Err(format!("proofs with the code {} are not covered", other.word())),
+    };
+    let data = data_of(entry, case)?;
+    let closed = closed(entry, case).map_err(|fault| words(&fault))?;
+    let modes: Vec<&FullMode> = solution.modes.iter().filter(|mode| !mode.near).collect();
+    if modes.len() != verdict.complex {
+        return Err("multiple solutions are not covered".to_owned());
+    }
+    let near: Vec<(Vec<Complex<f64>>, bool)> = modes.iter().map(|mode| (unknowns(&closed, mode), mode.real)).collect();
+    let balls = balls(&closed, &near).ok_or("a solution is too ill conditioned for a ball of its own")?;
+    let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
+    let certificate = json!({
+        "format": FORMAT,
+        "version": VERSION,
+        "info": { "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number },
+        "data": data,
+        "claim": {
+            "verb": "solve",
+            "status": if real == 0 { "unreachable" } else { "complete" },
+            "proof": "proved",
+            "complex": complex,
+            "real": real,
+        },
+        "modes": balls.iter().map(mode).collect::<Vec<_>>(),
+        "proof": [{ "kind": kind, "value": complex }],
+    });
+    // What is written is what the checker accepts.
+    check(&certificate, None).map_err(|fault| words(&fault))?;
+    Ok(certificate)
+}
+
+fn words(fault: &Fault) -> String {
+    fault.to_string()
+}
+
+/// The unknowns of the closure equations.
+fn unknowns(closed: &Closed, mode: &FullMode) -> Vec<Complex<f64>> {
+    match closed {
+        Closed::Chain(closure) => closure.unknowns(&mode.q),
+        Closed::Platform(_) => {
+            // A quaternion of norm 1: the complex one of the answer has the hermitian norm 1.
+            let square: Complex<f64> = mode.q.iter().take(4).map(|x| x * x).sum();
+            let norm = square.sqrt();
+            mode.q.iter().enumerate().map(|(k, x)| if k < 4 { x / norm } else { *x }).collect()
+        }
+    }
+}
+
+fn mode(ball: &Ball) -> Value {
+    let part = |(re, im): &(Rational, Rational)| {
+        if ball.real { json!(decimal(re)) } else { json!([decimal(re), decimal(im)]) }
+    };
+    let centre: Vec<Value> = ball.centre.iter().map(part).collect();
+    json!({ "centre": centre, "radius": decimal(&ball.radius), "real": ball.real, "multiplicity": 1 })
+}
+
+/// A number of at most thirty decimals as such.
+fn decimal(x: &Rational) -> String {
+    let scaled = Rational::from(x * Integer::from(10).pow(DECIMALS)).round();
+    let digits = scaled.numer().clone().abs().to_string();
+    let padded = format!("{digits:0>width$}", width = DECIMALS as usize + 1);
+    let (head, tail) = padded.split_at(padded.len() - DECIMALS as usize);
+    let tail = tail.trim_end_matches('0');
+    let sign = if *scaled.numer() < 0 { "-" } else { "" };
+    if tail.is_empty() { format!("{sign}{head}") } else { format!("{sign}{head}.{tail}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_the_numbers() {
+        for (p, q, text) in [(1, 8, "0.125"), (-5, 2, "-2.5"), (0, 1, "0"), (40, 1, "40"), (1, 100, "0.01")] {
+            assert_eq!(decimal(&Rational::from((p, q))), text);
+        }
+    }
+}
