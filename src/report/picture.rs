@@ -14,7 +14,7 @@ const MARGIN: [f64; 4] = [62.0, 34.0, 22.0, 44.0];
 /// Room for the title.
 const HEAD: f64 = 58.0;
 /// One colour for each circuit, in turn; told apart by the colour-blind, dark enough on white (after P. Tol, bright).
-const COLOURS: [&str; 7] = ["#4477aa", "#cc3311", "#228833", "#aa3377", "#997700", "#33a0c0", "#555555"];
+pub const COLOURS: [&str; 7] = ["#4477aa", "#cc3311", "#228833", "#aa3377", "#997700", "#33a0c0", "#555555"];
 /// Translations outside this many times the middle half of all are cut off: they run to infinity.
 const WHISKER: f64 = 4.0;
 
@@ -56,8 +56,10 @@ fn labelled((name, variable): &(String, Variable)) -> String {
     format!("{name} [{}]", if *variable == Variable::Rotation { "deg" } else { "m" })
 }
 
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+/// Text as SVG and HTML write it, in elements and in attributes.
+#[must_use]
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 fn shown(x: f64, variable: Variable) -> f64 {
@@ -205,8 +207,13 @@ fn unbroken(points: impl Iterator<Item = [f64; 2]>, variable: Variable) -> Vec<V
 
 /// The range of a length: all limit positions, and all values but those on their way to infinity.
 fn extent(lines: &[Line], dots: &[([f64; 2], &str)]) -> [f64; 2] {
-    let mut values: Vec<f64> = lines.iter().flat_map(|line| line.pieces.iter().flatten()).map(|p| p[1]).collect();
-    values.extend(dots.iter().map(|(dot, _)| dot[1]));
+    let values = lines.iter().flat_map(|line| line.pieces.iter().flatten()).map(|p| p[1]);
+    range(values.chain(dots.iter().map(|(dot, _)| dot[1])).collect())
+}
+
+/// The range of lengths without those on their way to infinity, and some room.
+#[must_use]
+pub fn range(mut values: Vec<f64>) -> [f64; 2] {
     values.sort_by(f64::total_cmp);
     let (Some(first), Some(last)) = (values.first(), values.last()) else { return [-1.0, 1.0] };
     let quartile = |part: usize| values[(values.len() - 1) * part / 4];
@@ -217,7 +224,8 @@ fn extent(lines: &[Line], dots: &[([f64; 2], &str)]) -> [f64; 2] {
 }
 
 /// Some five round numbers within a range; of angles parts of a turn.
-fn ticks([low, high]: [f64; 2], is_angle: bool) -> Vec<f64> {
+#[must_use]
+pub fn ticks([low, high]: [f64; 2], is_angle: bool) -> Vec<f64> {
     const ANGLES: [f64; 7] = [90.0, 45.0, 30.0, 15.0, 5.0, 1.0, 0.2];
     let span = high - low;
     let decade = 10f64.powf((span / 5.0).log10().floor());
@@ -228,7 +236,9 @@ fn ticks([low, high]: [f64; 2], is_angle: bool) -> Vec<f64> {
     (0..12).map(|k| (first + f64::from(k)) * step).take_while(|x| *x <= high + 1e-9 * span).collect()
 }
 
-fn tick_text(x: f64) -> String {
+/// A number beside a tick.
+#[must_use]
+pub fn tick_text(x: f64) -> String {
     // Adding 0 turns the negative zero into the positive one.
     let rounded = format!("{:.6}", x + 0.0);
     let short = rounded.trim_end_matches('0').trim_end_matches('.');
