@@ -18,6 +18,8 @@ pub const LONGEST: f64 = 1e3;
 pub const CLOSED: f64 = 1e-12;
 /// |1 + x^2| / (1 + |x|^2) below which a root belongs to no finite angle.
 pub const INFINITE: f64 = 1e-2;
+/// Roots of a pencil nearer than this, over 1 + |x|^2, are one root that several solutions share.
+pub const REPEATED: f64 = 1e-9;
 /// Solutions nearer than this are one unless both are proved and apart.
 pub const SAME: f64 = 1e-5;
 /// Imaginary parts below this are rounding of a real solution.

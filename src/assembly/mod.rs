@@ -16,6 +16,6 @@ mod solver;
 
 pub use axis_triples::AxisTriple;
 pub use ball::{Proof, proof};
-pub use mode::{Assembly, FamilySample, Hits, Mode, Roots, are_apart, distance, wrapped};
+pub use mode::{Assembly, Hits, Mode, Roots, are_apart, distance, wrapped};
 pub use rescue::by_ring;
 pub use solver::{Gap, Solver, Workspace};

@@ -3,6 +3,7 @@
 use crate::certify::Certificate;
 use crate::kinematics::closed_loop::Variable;
 use crate::solve::newton::Six;
+use crate::solve::self_motion::SelfMotion;
 use num_complex::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -59,15 +60,6 @@ impl Hits {
     }
 }
 
-/// A configuration on a self-motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FamilySample {
-    /// The six unknowns in loop order, lengths in the unit of the solver.
-    pub unknowns: Six<f64>,
-    /// Which of them move; none where that is not known.
-    pub moving: [bool; 6],
-}
-
 /// What was found at one pose or input.
 #[derive(Clone, Debug, Default)]
 pub struct Assembly {
@@ -75,8 +67,8 @@ pub struct Assembly {
     pub modes: Vec<Mode>,
     /// Dimension of the self-motion, 0 if there is none.
     pub self_motion: usize,
-    /// A configuration on the self-motion, if there is one.
-    pub family: Option<FamilySample>,
+    /// The self-motions, lengths in the unit of the mechanism.
+    pub families: Vec<SelfMotion>,
     /// Whether some cut gave a pencil whose every root was accounted for.
     pub clean: bool,
     /// Whether some cut gave a pencil whose every root near the real axis was accounted for, and one root at least led
@@ -94,7 +86,7 @@ impl Assembly {
     /// Forgets what was found.
     pub fn clear(&mut self) {
         self.modes.clear();
-        self.family = None;
+        self.families.clear();
         self.real_clean = false;
         (self.self_motion, self.clean, self.tries, self.rescued) = (0, false, 0, 0);
     }

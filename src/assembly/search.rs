@@ -2,7 +2,7 @@
 
 use super::ball::canonical;
 use super::limits;
-use super::mode::{Assembly, FamilySample, Hits, Mode, Roots, distance, wrapped};
+use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
 use super::proof::certificate_in_reach;
 use super::shifted::Shifted;
@@ -15,12 +15,14 @@ use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::elimination::rearranged::rearranged;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::back_substitution::CutView;
+use crate::solve::curve::CLOSES_WITHIN;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{SHARED, at_root, double_angle, kernel};
 use crate::solve::newton::{Polished, Six, approach, closure, polish, reach};
 use crate::solve::scalar::Scalar;
-use crate::solve::singular::{Nature, SelfMotion, nature, pair, self_motion, spread};
+use crate::solve::self_motion::{SelfMotion, self_motions};
+use crate::solve::singular::{Nature, nature, pair, spread};
 use num_complex::Complex;
 
 /// A cut, the loop as it reads it, and its elimination.
@@ -163,7 +165,7 @@ impl Search<'_> {
                 None if index == 1 => Shifted::best(&equations, Hidden::Second),
                 None => continue,
             };
-            let clean = self.one_pencil(cut, view, form, &shifted);
+            let clean = self.one_pencil(cut, view, form, &shifted, most);
             self.assembly.clean |= clean;
             if self.done(most, clean) {
                 return true;
@@ -178,18 +180,37 @@ impl Search<'_> {
             _ if matches!(self.effort, Effort::OnePencil) => true,
             Roots::Real => clean,
             Roots::All => {
-                let proved = self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
+                let proved = self.proved();
                 // What has no proof yet is double, as a rule: the verdict will see.
                 let likely = 2 * self.assembly.modes.len() - proved;
                 let general = general_degree(self.closed.variables).unwrap_or(0);
-                proved >= general || (clean && (likely >= general || likely >= most()))
+                proved >= general || self.is_full(proved, most) || (clean && (likely >= general || likely >= most()))
             }
         }
     }
 
+    /// Whether as many solutions are proved as the loop can have: roots that lead nowhere are extraneous then.
+    ///
+    /// The number is asked only where a special geometry is likely: half of the general number, or a quarter of it.
+    fn is_full(&self, proved: usize, most: &dyn Fn() -> usize) -> bool {
+        self.roots == Roots::All && proved >= FEWEST_OF_SPECIAL && proved >= most()
+    }
+
+    /// The number of proved solutions.
+    fn proved(&self) -> usize {
+        self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count()
+    }
+
     /// Solves one pencil and admits what its roots lead to. Whether the pencil was regular and every root accounted for:
     /// it led to solutions or to infinity.
-    fn one_pencil(&mut self, cut: Cut, view: &ClosedLoop<f64>, form: &HalfAngleForm<f64>, shifted: &Shifted) -> bool {
+    fn one_pencil(
+        &mut self,
+        cut: Cut,
+        view: &ClosedLoop<f64>,
+        form: &HalfAngleForm<f64>,
+        shifted: &Shifted,
+        most: &dyn Fn() -> usize,
+    ) -> bool {
         let Some((constant, linear)) = shifted.monic() else { return false };
         // The fast routine first; where it leaves a root unaccounted for, the reference decides.
         [Method::Francis, Method::Faer].into_iter().any(|method| {
@@ -197,7 +218,7 @@ impl Search<'_> {
             let roots = self.eigen.companion(method, &constant, &linear);
             let mut family =
                 OfPencil { cut, view, form, shifted, real: CutView::new(view, form, shifted.hidden), complex: None };
-            roots.is_some_and(|roots| self.all_roots(&mut family, &roots))
+            roots.is_some_and(|roots| self.all_roots(&mut family, &roots)) || self.is_full(self.proved(), most)
         })
     }
 
@@ -205,8 +226,12 @@ impl Search<'_> {
     pub fn all_roots(&mut self, family: &mut impl Family, roots: &[Complex<f64>]) -> bool {
         let mut clean = true;
         let (mut real_clean, mut closes) = (true, false);
+        let mut repeated = Repeated::default();
         for &x in roots {
             let size = 1.0 + x.norm_sqr();
+            if repeated.takes(x, limits::REPEATED * size) {
+                continue;
+            }
             if (1.0 + x * x).norm() < limits::INFINITE * size && x.im.abs() > limits::NEAR_REAL * size {
                 // tan(q/2) near +-i: in special geometry where no solution is, but look in case one is.
                 if self.roots == Roots::All && x.im > 0.0 {
@@ -216,7 +241,9 @@ impl Search<'_> {
             }
             if x.im.abs() < limits::NEAR_REAL * size {
                 let outcome = family.real(self, x.re);
-                let settled = outcome.settled && !(self.roots == Roots::All && outcome.shared);
+                // A shared root may have complex solutions beside the real ones.
+                let settled = outcome.settled && !(self.roots == Roots::All && outcome.shared && !outcome.whole);
+                repeated.expect(x, &outcome);
                 clean &= !outcome.unresolved;
                 closes |= outcome.settled;
                 // A pair of complex roots near the real axis does not close; anything else is a loss.
@@ -236,6 +263,7 @@ impl Search<'_> {
                 continue;
             }
             let outcome = family.complex(self, x);
+            repeated.expect(x, &outcome);
             clean &= outcome.settled && !outcome.unresolved;
             closes |= outcome.settled;
         }
@@ -251,6 +279,8 @@ impl Search<'_> {
             settled: false,
             unresolved: false,
             shared: kernel.dimension > 1,
+            whole: false,
+            dimension: kernel.dimension,
             separation: kernel.separation,
         };
         let Some(turned) = double_angle(S::one(), x) else { return outcome };
@@ -260,6 +290,7 @@ impl Search<'_> {
         let candidates = view.candidates(hidden, &kernel);
         outcome.unresolved = candidates.unresolved;
         outcome.settled = !candidates.as_slice().is_empty();
+        outcome.whole = candidates.as_slice().len() == kernel.dimension;
         for candidate in candidates.as_slice() {
             let mut start = [S::zero(); 6];
             for (j, value) in candidate.iter().enumerate() {
@@ -483,47 +514,60 @@ impl Search<'_> {
     /// Decides what the modes without certificate are: multiple, points of a self-motion, or unknown.
     fn resolve_singular(&mut self) {
         let closed = self.closed;
-        let (mut dimension, mut sample) = (0, None);
+        let mut families: Vec<SelfMotion> = Vec::new();
+        let mut unresolved: Vec<Six<Complex<f64>>> = Vec::new();
         // Real solutions decide whether there is a self-motion.
         self.assembly.modes.retain_mut(|mode| {
             if mode.certificate.is_some() || !mode.real {
                 return true;
             }
             let q = mode.unknowns.map(|z| z.re);
-            let moves = match nature(closed, &q) {
-                Nature::Isolated(multiplicity) => {
-                    mode.multiplicity = multiplicity;
-                    return true;
-                }
-                // A curve may lie in a surface.
-                Nature::SelfMotion(least) => {
-                    let measured = self_motion(closed, &q);
-                    Some(measured.unwrap_or(SelfMotion { dimension: least, moving: [false; 6] }))
-                }
-                Nature::Unresolved => self_motion(closed, &q),
-            };
-            if let Some(motion) = moves
-                && motion.dimension > dimension
-            {
-                dimension = motion.dimension;
-                sample = Some(FamilySample { unknowns: q, moving: motion.moving });
+            let is_known = families.iter().any(|family| family.holds(closed, &q, CLOSES_WITHIN));
+            if is_known || is_crowded(&unresolved, &mode.unknowns) {
+                return false;
             }
-            // Several singular directions: the roots of a pencil that led here tell how many solutions coincide.
-            mode.multiplicity = if mode.hits.most > 1 { mode.hits.most } else { 0 };
-            moves.is_none()
+            let found = self_motions(closed, &q, CLOSES_WITHIN);
+            let moves = !found.is_empty();
+            for family in found {
+                if !families.iter().any(|known| is_same(closed, known, &family)) {
+                    families.push(family);
+                }
+            }
+            if !moves {
+                mode.multiplicity = match nature(closed, &q) {
+                    Nature::Isolated(multiplicity) => multiplicity,
+                    // Several singular directions: the roots of a pencil that led here tell how many solutions coincide.
+                    _ if (2..=MOST_HITS).contains(&mode.hits.most) => mode.hits.most,
+                    _ => 0,
+                };
+                if mode.multiplicity == 0 {
+                    unresolved.push(mode.unknowns);
+                }
+            }
+            !moves
         });
+        let dimension = families.iter().map(|family| family.dimension).max().unwrap_or(0);
         self.assembly.self_motion = dimension;
-        self.assembly.family = sample;
+        self.assembly.families = families;
+        let mut continued = 0;
         self.assembly.modes.retain_mut(|mode| {
             if mode.certificate.is_some() || mode.real {
                 return true;
             }
-            mode.multiplicity = match nature(closed, &mode.unknowns) {
-                Nature::Isolated(multiplicity) => multiplicity,
-                Nature::SelfMotion(_) | Nature::Unresolved => 0,
-            };
-            // Beside a self-motion, complex solutions that are not isolated are points of its complex continuation.
-            mode.multiplicity > 0 || dimension == 0
+            if is_crowded(&unresolved, &mode.unknowns) {
+                return false;
+            }
+            let own = if continued < MOST_CONTINUED { nature(closed, &mode.unknowns) } else { Nature::Unresolved };
+            if let Nature::Isolated(multiplicity) = own {
+                mode.multiplicity = multiplicity;
+                return true;
+            }
+            mode.multiplicity = 0;
+            unresolved.push(mode.unknowns);
+            continued += 1;
+            // Beside a self-motion, complex solutions that are not isolated are points of its complex continuation. One
+            // pair is enough to tell that there is a curve of complex solutions.
+            dimension == 0 && continued <= 2
         });
         self.merge_multiple();
     }
@@ -557,6 +601,26 @@ impl Search<'_> {
             self.assembly.modes.extend(middle);
         }
     }
+}
+
+/// More roots of one pencil than this lead to no isolated solution: a closure polynomial has no more.
+const MOST_HITS: usize = 16;
+/// Complex solutions that are not isolated, of which so many are looked at.
+const MOST_CONTINUED: usize = 6;
+/// Points of one solution of which nothing is known crowd so near: the root of rounding of order four.
+const CROWD: f64 = 1e-3;
+
+/// Whether a solution is beside one of which nothing is known.
+fn is_crowded(unresolved: &[Six<Complex<f64>>], unknowns: &Six<Complex<f64>>) -> bool {
+    unresolved.iter().any(|other| distance(&[Variable::Rotation; 6], other, unknowns) < CROWD)
+}
+
+/// Whether two self-motions are one: curves that share a point, surfaces along which the same unknowns move.
+fn is_same(closed: &ClosedLoop<f64>, known: &SelfMotion, other: &SelfMotion) -> bool {
+    if known.dimension > 1 || other.dimension > 1 {
+        return known.dimension == other.dimension && known.moving == other.moving;
+    }
+    known.holds(closed, &other.points[other.points.len() / 2], CLOSES_WITHIN)
 }
 
 /// What the roots of one closure polynomial lead to.
@@ -596,6 +660,10 @@ pub(super) struct RootOutcome {
     pub unresolved: bool,
     /// Several solutions may belong to the root.
     pub shared: bool,
+    /// As many candidates belong to the root as vectors to its kernel.
+    pub whole: bool,
+    /// The dimension of that kernel.
+    pub dimension: usize,
     /// How far from that it is.
     pub separation: f64,
 }
@@ -603,6 +671,38 @@ pub(super) struct RootOutcome {
 impl RootOutcome {
     /// No root, or none that leads anywhere.
     pub fn nothing() -> Self {
-        Self { settled: false, unresolved: false, shared: false, separation: 1.0 }
+        Self { settled: false, unresolved: false, shared: false, whole: false, dimension: 0, separation: 1.0 }
+    }
+}
+
+/// Shared roots that are done with. Such a root comes once for each of its solutions, and the first time finds them all.
+#[derive(Default)]
+struct Repeated {
+    /// Roots, and how often each of them is still to come.
+    roots: [(Complex<f64>, usize); MOST_SHARED],
+    count: usize,
+}
+
+/// A pencil with sixteen roots has no more of them that two solutions share.
+const MOST_SHARED: usize = 8;
+/// Arms with fewer solutions than this number are solved without a look at how many they can have.
+const FEWEST_OF_SPECIAL: usize = 4;
+
+impl Repeated {
+    /// Whether a root is one of these that is still to come.
+    fn takes(&mut self, x: Complex<f64>, reach: f64) -> bool {
+        let is_it = |(root, left): &&mut (Complex<f64>, usize)| *left > 0 && (x - *root).norm() < reach;
+        let Some((_, left)) = self.roots[..self.count].iter_mut().find(is_it) else { return false };
+        *left -= 1;
+        true
+    }
+
+    /// Takes in a root, if all the solutions that share it are found.
+    fn expect(&mut self, x: Complex<f64>, outcome: &RootOutcome) {
+        let is_done = outcome.settled && outcome.whole && outcome.shared && !outcome.unresolved;
+        if is_done && self.count < MOST_SHARED {
+            self.roots[self.count] = (x, outcome.dimension - 1);
+            self.count += 1;
+        }
     }
 }

@@ -99,6 +99,9 @@ pub struct Workspace {
     pub platform_assembly: PlatformAssembly,
     /// Whether a list is complete once its real solutions are, though complex ones may be missing.
     pub only_real_list: bool,
+    /// Whether solutions that crowd are listed as they are found, not proved to be all, where the numbers lie in a number
+    /// field: there the proof takes seconds.
+    pub leaves_fields: bool,
 }
 
 impl Workspace {
@@ -214,6 +217,12 @@ impl Solver {
         Gap { last: scaled(last, self.scale), rounding: 0.0, is_rough: false }
     }
 
+    /// The loop at a gap, and the power of two that its lengths are in.
+    #[must_use]
+    pub fn closed(&self, gap: &Gap) -> (ClosedLoop<f64>, f64) {
+        (self.close(gap), self.scale)
+    }
+
     /// The loop at a gap, scaled.
     fn close(&self, gap: &Gap) -> ClosedLoop<f64> {
         let constants = std::array::from_fn(|j| if j < 5 { self.open.constants[j].clone() } else { gap.last.clone() });
@@ -325,10 +334,11 @@ impl Solver {
                 (proof.radius, proof.proved) = (proof.radius * grown, proof.proved * grown);
             }
         }
-        let family = assembly.family.as_mut().map(|family| family.unknowns.iter_mut()).into_iter().flatten();
-        for (value, variable) in family.zip(self.open.variables) {
-            if variable == Variable::Translation {
-                *value *= factor;
+        for point in assembly.families.iter_mut().flat_map(|family| &mut family.points) {
+            for (value, variable) in point.iter_mut().zip(self.open.variables) {
+                if variable == Variable::Translation {
+                    *value *= factor;
+                }
             }
         }
     }

@@ -4,9 +4,10 @@ use super::entry::{Design, Entry, Labels};
 use super::geometry::{check_count, joint_kind};
 use super::node::{Node, Value};
 use super::scope::Scope;
-use crate::algebra::number::Number;
+use crate::algebra::number::{Angle, Number};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
+use std::f64::consts::TAU;
 
 const HEADER: [&str; 5] = ["type", "a", "alpha", "d", "theta0"];
 
@@ -27,7 +28,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str) -> Result<Entry> 
     }
     let geometry = Geometry::Dh(joints);
     let chain = Chain { geometry, base: Placement::identity(), tool: Placement::identity() };
-    check_count(scope, &chain, at + 1, (6, "expected 6 for an arm"))?;
+    check_count(scope, &chain, at + 1, (6, "expected 1 to 24 for an arm"))?;
     Ok(Entry {
         name: name.to_owned(),
         title: name.to_owned(),
@@ -38,8 +39,21 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str) -> Result<Entry> 
         cases: Vec::new(),
         rounded: scope.is_rounded(),
         reading: scope.reading.clone(),
-        labels: Labels::default(),
+        labels: Labels { snapped: scope.take_snapped(), ..Labels::default() },
     })
+}
+
+/// A twist; one above a full turn was meant in degrees.
+fn twist(scope: &Scope<'_>, node: &Node) -> Result<Angle> {
+    let angle = scope.printed_angle(node, "alpha", &format!("line {}", node.line))?;
+    let radians = angle.radians();
+    let has_unit = matches!(&node.value, Value::Text(text) if text.contains("deg") || text.contains("rad"));
+    if radians.abs() <= TAU || has_unit {
+        return Ok(angle);
+    }
+    let expected =
+        format!("expected at most a full turn: angles of a table are radians, write `{radians} deg` for degrees");
+    Err(scope.fail(node.line, format!("found the twist {radians}, {expected}")))
 }
 
 fn joint(scope: &Scope<'_>, line: &str, at: usize) -> Result<Joint> {
@@ -55,9 +69,9 @@ fn joint(scope: &Scope<'_>, line: &str, at: usize) -> Result<Joint> {
     Ok(Joint {
         kind,
         a: length(&a, "a")?,
-        alpha: scope.angle(&alpha, "alpha")?,
+        alpha: twist(scope, &alpha)?,
         d: length(&d, "d")?,
-        theta0: scope.angle(&theta0, "theta0")?,
+        theta0: scope.printed_angle(&theta0, "theta0", &format!("line {at}"))?,
         pitch: None,
     })
 }

@@ -1,9 +1,17 @@
 //! What a mechanism file says.
 
+use super::snap::Snapped;
+use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number, Reading};
+use crate::algebra::ring::Ring;
 use crate::kinematics::chain::{Chain, Placement};
+use crate::kinematics::closed_loop::{angle_motion, distance_motion};
+use crate::kinematics::data_field::{ClosedForm, DataField, JointMotion};
 use crate::kinematics::joint::Variable;
+use crate::kinematics::motion::Motion;
 use crate::kinematics::platform::Platform;
+use crate::kinematics::tolerance::Tolerance;
+use rug::Rational;
 
 /// The kind of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +62,32 @@ impl InputValue {
             Self::Distance(_) => Variable::Translation,
         }
     }
+
+    /// Whether the value is a rational number, or its half-angle tangent is.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        match self {
+            Self::Angle(angle) => angle.is_exact(),
+            Self::Distance(distance) => distance.is_exact(),
+        }
+    }
+
+    /// The motion of the joint variable over a ring.
+    fn motion<R: Ring>(&self) -> Option<Motion<R>> {
+        match self {
+            Self::Angle(angle) => angle_motion(angle),
+            Self::Distance(distance) => distance_motion(distance),
+        }
+    }
+
+    /// The motion of the joint variable in closed form, where one is known.
+    #[must_use]
+    pub fn in_closed_form(&self) -> Option<JointMotion> {
+        match self {
+            Self::Angle(angle) => JointMotion::turn(angle),
+            Self::Distance(distance) => JointMotion::shift(distance),
+        }
+    }
 }
 
 /// The given joint variable of a loop.
@@ -74,6 +108,8 @@ pub struct Case {
     pub input: Vec<Input>,
     /// The squares of the lengths of the legs (platform).
     pub legs_squared: Option<[Number; 6]>,
+    /// One unit of the last digit of the pose, where it was printed: no pose is known better.
+    pub typed: Option<Tolerance>,
     /// Claims about this case.
     pub expected: Expected,
     /// Warnings to repeat in every report on this case (a projected pose, for example).
@@ -87,6 +123,30 @@ impl Case {
     #[must_use]
     pub fn at(pose: Placement, line: usize) -> Self {
         Self { pose: Some(pose), ..Self::empty(line) }
+    }
+
+    /// The pose that an arm reaches with these values of its joint variables; `None` for too few of them.
+    #[must_use]
+    pub fn reached(chain: &Chain, values: &[InputValue], line: usize) -> Option<Self> {
+        let motions: Vec<Motion<Rational>> = values.iter().map(InputValue::motion).collect::<Option<_>>()?;
+        let exact = chain.forward(&motions)?;
+        let is_rational = || DataField::of(chain, None, None).is_some_and(|field| field.is_rational());
+        if values.iter().all(InputValue::is_exact) && is_rational() {
+            return Some(Self::at(Placement::from_motion_exact(exact), line));
+        }
+        let motions: Vec<Motion<Enclosure>> = values.iter().map(InputValue::motion).collect::<Option<_>>()?;
+        let enclosed = chain.forward(&motions)?;
+        let closed: Option<Vec<JointMotion>> = values.iter().map(InputValue::in_closed_form).collect();
+        let is_in_field = closed.as_ref().is_some_and(|motions| DataField::holding(chain, None, motions).is_some());
+        let pose = match closed.filter(|_| is_in_field) {
+            Some(motions) => Placement {
+                closed: Some(ClosedForm::Joints(motions.into())),
+                ..Placement::standing_for(exact, enclosed, true)
+            },
+            // The rational motion nearest to it is the datum.
+            None => Placement::near(&enclosed),
+        };
+        Some(Self::at(pose, line))
     }
 
     /// A loop without input, without claims.
@@ -126,7 +186,7 @@ impl Case {
 
     fn empty(line: usize) -> Self {
         let (expected, warnings) = (Expected::default(), Vec::new());
-        Self { pose: None, input: Vec::new(), legs_squared: None, expected, warnings, line }
+        Self { pose: None, input: Vec::new(), legs_squared: None, typed: None, expected, warnings, line }
     }
 }
 
@@ -190,6 +250,10 @@ pub struct Labels {
     pub joints: Vec<Option<String>>,
     /// The base link and the tip link of a robot description.
     pub links: Option<[String; 2]>,
+    /// Angles that stand for multiples of half a degree, taken as these or noticed.
+    pub snapped: Vec<Snapped>,
+    /// What the reader decided and the user should know, each a sentence.
+    pub remarks: Vec<String>,
 }
 
 impl Entry {

@@ -14,10 +14,18 @@ pub enum FileKind {
     Platform,
     /// Bars and bodies.
     Framework,
+    /// Bodies and the joints between them.
+    Linkage,
     /// A rational motion.
     Motion,
+    /// Positions or pairs of angles for which a linkage is wanted.
+    Synthesis,
     /// A loop with symbols for parameters.
     Conditions,
+    /// Displacements with some property.
+    Displacement,
+    /// Lines and complexes of lines.
+    Lines,
 }
 
 impl FileKind {
@@ -29,8 +37,12 @@ impl FileKind {
             Self::Loop => "a loop",
             Self::Platform => "a platform",
             Self::Framework => "a framework",
+            Self::Linkage => "a linkage",
             Self::Motion => "a rational motion",
+            Self::Synthesis => "a synthesis",
             Self::Conditions => "a loop with symbols",
+            Self::Displacement => "a question about displacements",
+            Self::Lines => "a question about lines",
         }
     }
 
@@ -38,9 +50,10 @@ impl FileKind {
     #[must_use]
     pub const fn verb(self) -> &'static str {
         match self {
-            Self::Arm | Self::Loop | Self::Platform => "solve",
+            Self::Arm | Self::Loop | Self::Platform | Self::Linkage | Self::Displacement | Self::Lines => "solve",
             Self::Framework => "mobility",
             Self::Motion => "factor",
+            Self::Synthesis => "synthesize",
             Self::Conditions => "conditions",
         }
     }
@@ -65,7 +78,11 @@ impl FileKind {
             "loop" => Self::Loop,
             "platform" => Self::Platform,
             "framework" => Self::Framework,
+            "linkage" => Self::Linkage,
             "motion" => Self::Motion,
+            "displacement" => Self::Displacement,
+            "lines" => Self::Lines,
+            "synthesis" => Self::Synthesis,
             _ => return None,
         };
         Some((kind, line))

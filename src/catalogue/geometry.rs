@@ -67,7 +67,7 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     let placed = |key: &str| table.get(key).map_or(Ok(Placement::identity()), |node| scope.matrix(node, key));
     let chain = Chain { geometry, base: placed("base")?, tool: placed("tool")? };
     let expected = match kind {
-        Kind::Arm => (6, "expected 6 for an arm"),
+        Kind::Arm => (6, "expected 1 to 24 for an arm"),
         _ => (7, "expected at most 7 for a loop: one given as input, six to find"),
     };
     check_count(scope, &chain, joints.line, expected)?;
@@ -75,7 +75,7 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     let design = if kind == Kind::Arm { Design::Arm(chain) } else { Design::Loop(chain) };
     let joints =
         if nodes.iter().any(|node| label(node).is_some()) { nodes.iter().map(label).collect() } else { vec![] };
-    Ok(Mechanism { design, limits, case: None, labels: Labels { joints, links: None } })
+    Ok(Mechanism { design, limits, case: None, labels: Labels { joints, ..Labels::default() } })
 }
 
 /// The name of a joint, where it has one.
@@ -84,6 +84,9 @@ fn label(node: &Node) -> Option<String> {
     let name = fields.iter().find(|field| field.key == "name")?;
     if let Value::Text(name) = &name.node.value { Some(name.clone()) } else { None }
 }
+
+/// Most joint variables of an arm: all but six or seven are locked before it is solved.
+const MOST_OF_ARM: usize = 24;
 
 /// Refuses a chain whose number of joint variables does not fit its kind.
 pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expected: (usize, &str)) -> Result<()> {
@@ -102,7 +105,8 @@ pub(super) fn check_kinds(
     let balls = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
     // The spin of a link between two balls is a freedom that moves nothing else.
     let is_short_loop = expected.0 == 7 && (2..7).contains(&count);
-    let is_any = scope.chains == Chains::Any && (count > expected.0 || expected.0 == 6 && count > 0);
+    let is_arm = expected.0 == 6 && (1..=MOST_OF_ARM).contains(&count);
+    let is_any = is_arm || scope.chains == Chains::Any && (count > expected.0 || expected.0 == 6 && count > 0);
     if is_any || count == expected.0 || is_short_loop || (expected.0 == 7 && count == 8 && balls == 2) {
         return Ok(());
     }
@@ -121,7 +125,7 @@ pub(super) fn check_kinds(
             format!("{}: no loop of them can close in more than one way; a loop has two joints at least", freedom())
         }
         (_, true) => format!("a pose leaves {freedoms} undetermined"),
-        (_, false) => format!("{freedoms} missing for a pose"),
+        (_, false) => "no joint moves it".to_owned(),
     };
     Err(scope.fail(
         line,

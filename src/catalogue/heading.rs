@@ -21,7 +21,12 @@ pub struct Heading {
 
 /// Reads the head of a file with a `[mechanism]` and `[expected]`; units are set for what is read behind it.
 pub(super) fn heading(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<Heading> {
-    let keys = ["title", "source", "notes", "units", "mechanism", "expected"];
+    heading_with(scope, root, name, &[])
+}
+
+/// Reads the head of a file that may have these further keys.
+pub(super) fn heading_with(scope: &mut Scope<'_>, root: &Node, name: &str, more: &[&str]) -> Result<Heading> {
+    let keys = [&["title", "source", "notes", "units", "mechanism", "expected"], more].concat();
     let table = scope.table(root, "the file", &keys)?;
     if let Some(node) = table.get("units") {
         units(scope, node)?;

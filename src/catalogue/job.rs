@@ -2,14 +2,16 @@
 
 use super::entry::{Case, Claim, Design, Entry, Expected, Input, InputValue, Source};
 use super::geometry::{Mechanism, mechanism, variable_value};
-use super::node::Node;
+use super::node::{Node, Value};
 use super::options::Chains;
 use super::platform;
+use super::poses;
 use super::scope::{Scope, Table};
 use crate::algebra::number::{Number, Quantity};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::freedom::Freedom;
+use crate::kinematics::tolerance::Tolerance;
 
 /// Correct digits of a claimed solution that names none.
 const DIGITS: u32 = 6;
@@ -126,7 +128,7 @@ pub(super) fn source(scope: &Scope<'_>, node: &Node) -> Result<Source> {
     Ok(Source { key, place })
 }
 
-fn pose(scope: &Scope<'_>, node: &Node, design: &Design) -> Result<Case> {
+pub(super) fn pose(scope: &Scope<'_>, node: &Node, design: &Design) -> Result<Case> {
     let table = scope.table(node, "[[pose]]", &["matrix", "position", "quaternion", "expected", "solution"])?;
     let pose = match (table.get("matrix"), table.get("position"), table.get("quaternion")) {
         (Some(matrix), None, None) => scope.matrix(matrix, "matrix")?,
@@ -144,7 +146,33 @@ fn pose(scope: &Scope<'_>, node: &Node, design: &Design) -> Result<Case> {
         Design::Arm(_) | Design::Loop(_) => Case::at(pose, line),
     };
     let warnings = [scope.take_warnings(), case.warnings].concat();
-    Ok(Case { expected, warnings, ..case })
+    let typed = Some(typed(scope, &table));
+    Ok(Case { typed, expected, warnings, ..case })
+}
+
+/// One unit of the last digit of a pose.
+fn typed(scope: &Scope<'_>, table: &Table<'_>) -> Tolerance {
+    let (mut lengths, mut others) = (Vec::new(), Vec::new());
+    if let Some(matrix) = table.get("matrix") {
+        for row in scope.list(matrix, "matrix").unwrap_or(&[]).iter().take(3) {
+            let texts: Vec<&str> = scope.list(row, "matrix").unwrap_or(&[]).iter().filter_map(printed).collect();
+            others.extend(texts.iter().take(3).copied());
+            lengths.extend(texts.get(3).copied());
+        }
+    }
+    let list = |key: &str| table.get(key).and_then(|node| scope.list(node, key).ok()).unwrap_or(&[]);
+    lengths.extend(list("position").iter().filter_map(printed));
+    others.extend(list("quaternion").iter().filter_map(printed));
+    let is_quaternion = table.get("quaternion").is_some();
+    poses::typed(lengths.into_iter(), others.into_iter(), poses::Of::Rotation, &scope.reading, is_quaternion)
+}
+
+/// A number as it was printed.
+fn printed(node: &Node) -> Option<&str> {
+    match &node.value {
+        Value::Number(text) | Value::Text(text) => Some(text),
+        _ => None,
+    }
 }
 
 fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {

@@ -3,6 +3,7 @@
 use super::ansatz::Ansatz;
 use super::entry::Entry;
 use super::options::Options;
+use super::robots;
 use super::scope::nearest;
 use super::text::{Any, Format, ansatz_from_text, any_from_text, load_text};
 use crate::error::{Error, Result};
@@ -13,13 +14,16 @@ static LIBRARY: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/equations");
 /// The folder of the loops with symbols, which are no mechanisms to be solved.
 const CONDITIONS: &str = "conditions/";
 
-/// The folders of frameworks and rational motions, which have no cases to be solved.
-const MOVING: [&str; 2] = ["framework/", "motion/"];
+/// The folders of frameworks, linkages, rational motions and syntheses, which are no single chains.
+const MOVING: [&str; 4] = ["framework/", "linkage/", "motion/", "synthesis/"];
+
+/// The folders of questions about displacements and lines.
+const CALCULUS: [&str; 2] = ["displacement/", "lines/"];
 
 /// Loops that were moved to another folder: how their full names began and begin.
 const MOVED: [(&str, &str); 2] = [("loop/structure_", "chain/structure_"), ("loop/ik_", "chain/ik_")];
 
-/// The names of all built-in frameworks and rational motions, such as `framework/steffen`, in order.
+/// The names of all built-in frameworks, linkages, rational motions and syntheses, such as `framework/steffen`, in order.
 #[must_use]
 pub fn moving_names() -> Vec<String> {
     all_names().into_iter().filter(|name| is_moving(name)).collect()
@@ -29,10 +33,21 @@ fn is_moving(name: &str) -> bool {
     MOVING.iter().any(|folder| name.starts_with(folder))
 }
 
+/// The names of all built-in questions about displacements and lines, such as `lines/transversals`, in order.
+#[must_use]
+pub fn calculus_names() -> Vec<String> {
+    all_names().into_iter().filter(|name| is_calculus(name)).collect()
+}
+
+fn is_calculus(name: &str) -> bool {
+    CALCULUS.iter().any(|folder| name.starts_with(folder))
+}
+
 /// The names of all built-in entries, such as `arm/puma560`, in order.
 #[must_use]
 pub fn builtin_names() -> Vec<String> {
-    all_names().into_iter().filter(|name| !name.starts_with(CONDITIONS) && !is_moving(name)).collect()
+    let is_entry = |name: &String| !name.starts_with(CONDITIONS) && !is_moving(name) && !is_calculus(name);
+    all_names().into_iter().filter(is_entry).collect()
 }
 
 /// The names of all built-in loops with symbols, such as `conditions/bennett`, in order.
@@ -91,7 +106,7 @@ fn is_called(full: &str, name: &str) -> bool {
 /// The text of what the library has under this name, with or without its folder, and its full name: the entry first, as the
 /// others may share its name.
 fn find(name: &str) -> Option<(String, &'static str)> {
-    find_in(builtin_names(), name).or_else(|| find_in(moving_names(), name)).or_else(|| find_in(ansatz_names(), name))
+    [builtin_names, moving_names, calculus_names, ansatz_names].into_iter().find_map(|names| find_in(names(), name))
 }
 
 fn find_in(names: Vec<String>, name: &str) -> Option<(String, &'static str)> {
@@ -143,23 +158,37 @@ pub(super) fn builtin_ansatz(name: &str, options: &Options) -> Option<Result<Ans
     Some(ansatz_from_text(text, &format!("equations/{full}.toml"), Format::Toml, options))
 }
 
+/// The built-in question of this name, with or without its folder, unless an entry is called so.
+pub(super) fn builtin_calculus(name: &str, options: &Options) -> Option<Result<Any>> {
+    let (full, text) = find(name).filter(|(full, _)| is_calculus(full) || full.starts_with("linkage/"))?;
+    Some(any_from_text(text, &format!("equations/{full}.toml"), Format::Toml, options))
+}
+
 /// What the library has under this name, with or without its folder.
 ///
 /// # Errors
 /// [`Error::UnknownEntry`] with the names that come near.
 pub fn builtin_any(name: &str, options: &Options) -> Result<Any> {
-    let (full, text) = find(name).ok_or_else(|| unknown(name))?;
+    let Some((full, text)) = find(name) else {
+        let robot = robots::robot(name, options).ok_or_else(|| unknown(name))??;
+        return Ok(Any::Entry(Box::new(robot)));
+    };
     any_from_text(text, &format!("equations/{full}.toml"), Format::Toml, options)
 }
 
 /// Whether the library has anything of this name.
 pub(super) fn has(name: &str) -> bool {
-    find(name).is_some()
+    find(name).is_some() || robots::has(name)
+}
+
+/// The text of a file of the library.
+pub(super) fn file(name: &str) -> Option<&'static str> {
+    LIBRARY.get_file(name)?.contents_utf8()
 }
 
 /// The error for a name that the library does not have, with those that resemble it.
 pub(super) fn unknown(name: &str) -> Error {
-    let names = all_names();
+    let names = [all_names(), robots::robot_names()].concat();
     let near = nearest(name, names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]));
     Error::UnknownEntry { name: name.to_owned(), near }
 }
@@ -176,6 +205,8 @@ pub(super) fn unknown(name: &str) -> Error {
 /// # Ok::<(), looproot::error::Error>(())
 /// ```
 pub fn builtin(name: &str, options: &Options) -> Result<Entry> {
-    let (full, text) = find(name).ok_or_else(|| unknown(name))?;
+    let Some((full, text)) = find(name) else {
+        return robots::robot(name, options).ok_or_else(|| unknown(name))?;
+    };
     load_text(text, &format!("equations/{full}.toml"), Format::Toml, options)
 }

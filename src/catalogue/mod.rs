@@ -1,7 +1,9 @@
 //! The library of mechanisms and the readers of mechanism files.
 
 pub mod ansatz;
+pub mod calculus;
 mod dh_table;
+pub mod displacement;
 pub mod entry;
 mod file_kind;
 mod framework;
@@ -9,23 +11,37 @@ mod geometry;
 mod heading;
 mod job;
 mod library;
+pub mod lines;
+mod linkage;
 mod motion;
 mod node;
 mod options;
 mod platform;
+pub mod poses;
+mod robot_tip;
+mod robot_tree;
+mod robots;
 mod scope;
+mod snap;
 mod source;
+mod srdf;
+mod synthesis;
 mod text;
 mod urdf;
 
+pub use calculus::CalculusFile;
 pub use file_kind::FileKind;
 pub use framework::FrameworkFile;
 pub use heading::Heading;
 pub use library::{
-    all_names, ansatz_names, builtin, builtin_any, builtin_names, builtin_page, builtin_text, citation, moving_names,
-    namesakes,
+    all_names, ansatz_names, builtin, builtin_any, builtin_names, builtin_page, builtin_text, calculus_names, citation,
+    moving_names, namesakes,
 };
+pub use linkage::{LinkageCase, LinkageClaim, LinkageClaims, LinkageFile};
 pub use motion::MotionFile;
 pub use options::{Chains, Options};
-pub use source::{load, load_ansatz, load_any};
+pub use robots::robot_names;
+pub use snap::Snapped;
+pub use source::{load, load_ansatz, load_any, load_solvable};
+pub use synthesis::{ClaimedDyad, DyadKind, Space, SynthesisFile, Task};
 pub use text::{Any, Format, ansatz_from_text, any_from_text, is_ansatz, load_text};

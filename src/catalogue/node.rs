@@ -75,16 +75,18 @@ pub(super) fn from_toml(text: &str, path: &str) -> Result<Node> {
 }
 
 fn toml_table(table: &DeTable<'_>, lines: &Lines) -> Value {
-    let mut fields: Vec<Field> = table
-        .iter()
-        .map(|(key, value)| Field {
+    // In the order of the file, several keys on one line included.
+    let mut pairs: Vec<_> = table.iter().collect();
+    pairs.sort_by_key(|(key, _)| key.span().start);
+    let field = |(key, value): &(&_, &toml::Spanned<DeValue<'_>>)| {
+        let key: &toml::Spanned<std::borrow::Cow<'_, str>> = key;
+        Field {
             key: key.get_ref().to_string(),
             line: lines.at(key.span().start),
             node: toml_node(value.get_ref(), lines.at(value.span().start), lines),
-        })
-        .collect();
-    fields.sort_by_key(|field| field.line);
-    Value::Table(fields)
+        }
+    };
+    Value::Table(pairs.iter().map(field).collect())
 }
 
 fn toml_node(value: &DeValue<'_>, line: usize, lines: &Lines) -> Node {

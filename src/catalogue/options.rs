@@ -21,15 +21,19 @@ pub struct Options {
     pub digits: u32,
     /// URDF: the link at the root of the chain; the root of the robot if none is named.
     pub base_link: Option<String>,
-    /// URDF: the link at the end of the chain; the only leaf of the robot if none is named.
+    /// URDF: the link at the end of the chain; that of the only arm if none is named.
     pub tip_link: Option<String>,
     /// Which chains are read.
     pub chains: Chains,
+    /// URDF and DH tables: truncated multiples of pi are the angles meant.
+    pub snap: bool,
+    /// URDF: the SRDF file and the planning group in it that name the chain.
+    pub group: Option<(std::path::PathBuf, String)>,
 }
 
 impl Default for Options {
     /// 15 digits, no links named, chains that are solved.
     fn default() -> Self {
-        Self { digits: DIGITS, base_link: None, tip_link: None, chains: Chains::Solved }
+        Self { digits: DIGITS, base_link: None, tip_link: None, chains: Chains::Solved, snap: false, group: None }
     }
 }

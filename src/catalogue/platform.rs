@@ -119,9 +119,7 @@ fn found_line(table: &Table<'_>, keys: [&str; 2]) -> usize {
 /// The square of a length: a number in the square of the unit of length.
 fn square(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Number> {
     let number = scope.number(node, Quantity::Ratio, what)?;
-    let unit = Rational::from(scope.reading.length.square_ref());
-    let square = unit * number.rational();
-    Ok(if number.is_exact() { Number::exact(square) } else { Number::rounded(square) })
+    Ok(number.scaled(&Rational::from(scope.reading.length.square_ref())))
 }
 
 /// A `[[solution]]` of a platform.

@@ -2,9 +2,11 @@
 
 use super::node::{Field, Node, Value};
 use super::options::Chains;
+use super::snap::{self, Nearness, Snapped};
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Placement;
+use rug::Rational;
 use std::cell::{Cell, RefCell};
 
 /// What the reader of one file carries along.
@@ -17,6 +19,10 @@ pub(super) struct Scope<'a> {
     rounded: Cell<bool>,
     /// Warnings of the placements read since they were last taken.
     warnings: RefCell<Vec<String>>,
+    /// Whether truncated multiples of pi are the angles meant.
+    pub(super) snap: bool,
+    /// Angles that stand for multiples of half a degree.
+    snapped: RefCell<Vec<Snapped>>,
 }
 
 /// The fields of a table whose keys are all known.
@@ -28,7 +34,15 @@ pub(super) struct Table<'a> {
 
 impl<'a> Scope<'a> {
     pub(super) fn new(path: &'a str, reading: Reading) -> Self {
-        Self { path, reading, chains: Chains::Solved, rounded: Cell::new(false), warnings: RefCell::default() }
+        Self {
+            path,
+            reading,
+            chains: Chains::Solved,
+            rounded: Cell::new(false),
+            warnings: RefCell::default(),
+            snap: false,
+            snapped: RefCell::default(),
+        }
     }
 
     pub(super) fn fail(&self, line: usize, message: impl Into<String>) -> Error {
@@ -104,8 +118,8 @@ impl<'a> Scope<'a> {
         }
     }
 
-    fn placed<T>(&self, result: Result<T>, node: &Node, what: &str) -> Result<T> {
-        result.map_err(|fault| Error::Invalid(format!("{fault} for `{what}`")).at(self.path, node.line))
+    fn placed<T, E: Into<Error>>(&self, result: std::result::Result<T, E>, node: &Node, what: &str) -> Result<T> {
+        result.map_err(|fault| Error::Invalid(format!("{} for `{what}`", fault.into())).at(self.path, node.line))
     }
 
     /// A count: a whole number from 0 to 10000.
@@ -135,6 +149,26 @@ impl<'a> Scope<'a> {
         let angle = self.placed(Angle::parse(text, &self.reading), node, what)?;
         self.note(angle.is_exact());
         Ok(angle)
+    }
+
+    /// An angle in radians that a program may have printed: it is the multiple of half a degree that it stands for.
+    pub(super) fn printed_angle(&self, node: &Node, what: &str, place: &str) -> Result<Angle> {
+        let text = self.written(node, what, "an angle")?.trim();
+        let Some((halves, nearness)) = snap::multiple(text).filter(|_| !self.reading.degrees) else {
+            return self.angle(node, what);
+        };
+        let (written, place, taken) = (text.to_owned(), place.to_owned(), self.snap || nearness == Nearness::Same);
+        let snapped = Snapped { written, halves, place, taken };
+        let meant = if taken { Some(Angle::parse(&snapped.meant(), &self.reading)?) } else { None };
+        self.snapped.borrow_mut().push(snapped);
+        let Some(angle) = meant else { return self.angle(node, what) };
+        self.note(angle.is_exact());
+        Ok(angle)
+    }
+
+    /// The angles since the last call that stand for multiples of half a degree.
+    pub(super) fn take_snapped(&self) -> Vec<Snapped> {
+        self.snapped.take()
     }
 
     pub(super) fn half_tangent(&self, node: &Node, what: &str) -> Result<Angle> {
@@ -174,9 +208,32 @@ impl<'a> Scope<'a> {
         self.placement(Placement::from_quaternion_position(&components, &position), quaternion, "quaternion")
     }
 
+    /// A rotation: a 3x3 matrix.
+    pub(super) fn rotation_matrix(&self, node: &Node, what: &str) -> Result<[[Rational; 3]; 3]> {
+        let mut numbers: [[Number; 4]; 4] = std::array::from_fn(|_| std::array::from_fn(|_| Number::zero()));
+        for (row, image) in self.exactly::<3>(node, what)?.iter().zip(&mut numbers) {
+            for (entry, number) in self.exactly::<3>(row, what)?.iter().zip(image) {
+                *number = self.number(entry, Quantity::Ratio, what)?;
+            }
+        }
+        numbers[3][3] = Number::exact(Rational::from(1));
+        Ok(self.placement(Placement::from_matrix(&numbers), node, what)?.exact.rotation)
+    }
+
+    /// A rotation: a quaternion.
+    pub(super) fn rotation_quaternion(&self, node: &Node) -> Result<[[Rational; 3]; 3]> {
+        let mut components: [Number; 4] = std::array::from_fn(|_| Number::zero());
+        for (component, item) in components.iter_mut().zip(self.exactly::<4>(node, "quaternion")?) {
+            *component = self.number(item, Quantity::Ratio, "quaternion")?;
+        }
+        let zero = std::array::from_fn(|_| Number::zero());
+        let placed = Placement::from_quaternion_position(&components, &zero);
+        Ok(self.placement(placed, node, "quaternion")?.exact.rotation)
+    }
+
+    /// The rotation nearest to a matrix or a quaternion is the datum: nothing of the file is rounded by taking it.
     fn placement(&self, found: Result<(Placement, Option<String>)>, node: &Node, what: &str) -> Result<Placement> {
         let (placement, warning) = self.placed(found, node, what)?;
-        self.note(placement.defect == 0.0);
         if let Some(warning) = warning {
             self.warnings.borrow_mut().push(format!("line {}, `{what}`: {warning}", node.line));
         }

@@ -4,7 +4,9 @@ use super::ansatz::Ansatz;
 use super::entry::Entry;
 use super::library;
 use super::options::Options;
-use super::text::{Any, Format, LARGEST, ansatz_from_text, any_from_text, load_text, sniffed, too_large};
+use super::text::{
+    Any, Format, LARGEST, ansatz_from_text, any_from_text, load_text, sniffed, solvable_from_text, too_large,
+};
 use crate::error::{Error, Result};
 use std::io::Read;
 use std::path::Path;
@@ -18,6 +20,20 @@ pub fn load(name: &str, options: &Options) -> Result<Entry> {
     match text_of(name, library::has(name))? {
         Some((text, path, format)) => load_text(&text, path, format, options),
         None => library::builtin(name, options),
+    }
+}
+
+/// Reads what `solve` takes and is named on a command line: a file, `-` for standard input, or a built-in entry.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_solvable(name: &str, options: &Options) -> Result<Any> {
+    if let Some((text, path, format)) = text_of(name, library::has(name))? {
+        return solvable_from_text(&text, path, format, options);
+    }
+    match library::builtin_calculus(name, options) {
+        Some(found) => found,
+        None => library::builtin(name, options).map(|entry| Any::Entry(Box::new(entry))),
     }
 }
 

@@ -1,13 +1,16 @@
 //! From the text of a mechanism to its entry: which reader it goes to.
 
 use super::ansatz::{Ansatz, ansatz};
+use super::calculus::{CalculusFile, calculus};
 use super::entry::Entry;
 use super::file_kind::FileKind;
 use super::framework::{FrameworkFile, framework};
+use super::linkage::{LinkageFile, linkage};
 use super::motion::{MotionFile, motion};
 use super::node::Node;
 use super::options::Options;
 use super::scope::Scope;
+use super::synthesis::{SynthesisFile, synthesis};
 use super::{dh_table, job, node, urdf};
 use crate::algebra::number::{MOST_DIGITS, Reading};
 use crate::error::{Error, Result};
@@ -41,7 +44,15 @@ pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> R
         Format::Csv => return dh_table::entry(&scope, text, &name),
         Format::Urdf => return urdf::entry(&scope, text, &name, options),
     };
-    let others = [FileKind::Framework, FileKind::Motion, FileKind::Conditions];
+    let others = [
+        FileKind::Framework,
+        FileKind::Linkage,
+        FileKind::Motion,
+        FileKind::Synthesis,
+        FileKind::Conditions,
+        FileKind::Displacement,
+        FileKind::Lines,
+    ];
     refuse(&scope, &root, &others, "an arm, a loop or a platform with numbers")?;
     job::entry(&mut scope, &root, &name)
 }
@@ -53,10 +64,16 @@ pub enum Any {
     Entry(Box<Entry>),
     /// Bars and bodies.
     Framework(Box<FrameworkFile>),
+    /// Bodies and the joints between them.
+    Linkage(Box<LinkageFile>),
     /// A rational motion.
     Motion(Box<MotionFile>),
+    /// Positions or pairs of angles for which a linkage is wanted.
+    Synthesis(Box<SynthesisFile>),
     /// A loop with symbols for parameters.
     Conditions(Box<Ansatz>),
+    /// A question about displacements or lines.
+    Calculus(Box<CalculusFile>),
 }
 
 impl Any {
@@ -66,8 +83,11 @@ impl Any {
         match self {
             Self::Entry(entry) => entry.kind().into(),
             Self::Framework(_) => FileKind::Framework,
+            Self::Linkage(_) => FileKind::Linkage,
             Self::Motion(_) => FileKind::Motion,
+            Self::Synthesis(_) => FileKind::Synthesis,
             Self::Conditions(_) => FileKind::Conditions,
+            Self::Calculus(file) => file.kind(),
         }
     }
 }
@@ -87,10 +107,33 @@ pub fn any_from_text(text: &str, path: &str, format: Format, options: &Options) 
     };
     Ok(match FileKind::of(&root).map(|(kind, _)| kind) {
         Some(FileKind::Framework) => Any::Framework(Box::new(framework(&mut scope, &root, &name)?)),
+        Some(FileKind::Linkage) => Any::Linkage(Box::new(linkage(&mut scope, &root, &name)?)),
         Some(FileKind::Motion) => Any::Motion(Box::new(motion(&mut scope, &root, &name)?)),
+        Some(FileKind::Synthesis) => Any::Synthesis(Box::new(synthesis(&mut scope, &root, &name)?)),
         Some(FileKind::Conditions) => Any::Conditions(Box::new(ansatz(&mut scope, &root, &name)?)),
+        Some(kind @ (FileKind::Displacement | FileKind::Lines)) => {
+            Any::Calculus(Box::new(calculus(&mut scope, &root, &name, kind)?))
+        }
         _ => Any::Entry(Box::new(job::entry(&mut scope, &root, &name)?)),
     })
+}
+
+/// Reads what `solve` takes from text: a linkage, a question of the calculus, else as [`load_text`].
+///
+/// # Errors
+/// As [`load_text`].
+pub(super) fn solvable_from_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Any> {
+    let root = match format {
+        Format::Toml => node::from_toml(text.trim_start_matches('\u{feff}'), path).ok(),
+        Format::Json => node::from_json(text.trim_start_matches('\u{feff}'), path).ok(),
+        Format::Csv | Format::Urdf => None,
+    };
+    match root.and_then(|root| FileKind::of(&root)) {
+        Some((FileKind::Displacement | FileKind::Lines | FileKind::Linkage, _)) => {
+            any_from_text(text, path, format, options)
+        }
+        _ => load_text(text, path, format, options).map(|entry| Any::Entry(Box::new(entry))),
+    }
 }
 
 /// Refuses the kinds of files that the reader is not for.
@@ -114,7 +157,16 @@ pub fn ansatz_from_text(text: &str, path: &str, format: Format, options: &Option
             return Err(Error::Unsupported(format!("{path}: conditions are read from TOML or JSON only")));
         }
     };
-    let others = [FileKind::Arm, FileKind::Platform, FileKind::Framework, FileKind::Motion];
+    let others = [
+        FileKind::Arm,
+        FileKind::Platform,
+        FileKind::Framework,
+        FileKind::Linkage,
+        FileKind::Motion,
+        FileKind::Synthesis,
+        FileKind::Displacement,
+        FileKind::Lines,
+    ];
     refuse(&scope, &root, &others, "a loop, with symbols or numbers")?;
     ansatz(&mut scope, &root, &name)
 }
@@ -145,6 +197,7 @@ fn prepared<'a>(text: &'a str, path: &'a str, options: &Options) -> Result<(&'a 
     let reading = Reading { digits: options.digits, ..Reading::default() };
     let mut scope = Scope::new(path, reading);
     scope.chains = options.chains;
+    scope.snap = options.snap;
     Ok((text, name, scope))
 }
 

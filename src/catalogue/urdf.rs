@@ -4,22 +4,25 @@ use super::entry::{Design, Entry, Labels};
 use super::geometry::check_kinds;
 use super::node::{Node, Value};
 use super::options::Options;
+use super::robot_tip::tip_of;
+use super::robot_tree::Tree;
 use super::scope::Scope;
+use super::srdf;
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number, Quantity};
+use crate::algebra::real_field::RealField;
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, Geometry, JointKind, Placement, ScrewJoint};
 use crate::kinematics::freedom::Freedom;
+use crate::kinematics::known_motion::KnownMotion;
 use crate::kinematics::motion::Motion;
 use roxmltree::{Document, Node as Element};
 use rug::Rational;
-use std::collections::{HashMap, HashSet};
+use std::path::Path;
 
-/// Most joints or links read.
-const LARGEST: usize = 10_000;
 /// Most joints between base and tip, fixed ones included: the exact rotations of so many have half a million digits.
-const LONGEST: usize = 100;
+pub(super) const LONGEST: usize = 100;
 
 /// Reads the arm between two links; it has no pose.
 pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options) -> Result<Entry> {
@@ -29,11 +32,11 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
         let found: String = robot.tag_name().name().chars().take(40).collect();
         return Err(scope.fail(line(robot), format!("found <{found}>, expected <robot>")));
     }
-    let Between { chain, links } = between(scope, robot, options)?;
+    let Between { chain, links, remark } = between(scope, robot, options)?;
     let kinds = chain.iter().map(|joint| kind(scope, *joint)).collect::<Result<Vec<_>>>()?;
     // The exact axes of a long chain have long numbers: what cannot be an arm is refused before.
     let moving: Vec<JointKind> = kinds.iter().flatten().copied().collect();
-    let expected = (6, "expected 6 for an arm; name the chain by its base and tip links");
+    let expected = (6, "expected 1 to 24 for an arm; name the chain by its base and tip links");
     check_kinds(
         scope,
         &moving,
@@ -45,24 +48,26 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
         let found = chain.len();
         return Err(scope.fail(line(robot), format!("found a chain of {found} joints, expected at most {LONGEST}")));
     }
+    let origins = chain.iter().map(|joint| Origin::read(scope, *joint)).collect::<Result<Vec<_>>>()?;
+    // Fixed joints have no axis that counts.
+    let moves = |(joint, kind): (&Element<'_, '_>, &Option<JointKind>)| match kind {
+        Some(_) => axis(scope, *joint),
+        None => Ok(along_x()),
+    };
+    let axes = chain.iter().zip(&kinds).map(moves).collect::<Result<Vec<_>>>()?;
+    let field = field(&origins, &axes);
     let (mut joints, mut limits, mut names) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut home, mut enclosed) = (Motion::<Rational>::identity(), Motion::<Enclosure>::identity());
-    for (joint, kind) in chain.into_iter().zip(kinds) {
-        let origin = origin(scope, joint)?;
-        home = home.then_after(&origin.exact);
-        enclosed = enclosed.then_after(&origin.enclosed);
+    let mut home = KnownMotion::identity();
+    for (((joint, kind), origin), axis) in chain.into_iter().zip(kinds).zip(origins).zip(axes) {
+        let unknown = || scope.fail(line(joint), "found an angle that is not known well enough");
+        home = home.then_after(&origin.motion(field.as_ref()).ok_or_else(unknown)?);
         let Some(kind) = kind else { continue };
-        let axis = axis(scope, joint)?;
-        let known = |x: &Number| Enclosure::from_number(x).unwrap_or_else(Enclosure::zero);
-        let direction = enclosed.rotate(&axis.each_ref().map(known));
-        let rational = home.rotate(&axis.each_ref().map(|x| x.rational().clone()));
-        let (axis, point) =
-            (standing_for(rational, direction), standing_for(home.translation.clone(), enclosed.translation.clone()));
+        let (axis, point) = (home.direction(field.as_ref(), &axis), home.point(field.as_ref()));
         joints.push(ScrewJoint { kind, axis, point, pitch: None });
         limits.push(limit(scope, joint)?);
         names.push(joint.attribute("name").map(str::to_owned));
     }
-    let home = Placement::standing_for(home, enclosed, true);
+    let home = home.placement(field.as_ref());
     let geometry = Geometry::Screws { joints, home: Box::new(home) };
     let chain = Chain { geometry, base: Placement::identity(), tool: Placement::identity() };
     Ok(Entry {
@@ -75,7 +80,12 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
         cases: Vec::new(),
         rounded: scope.is_rounded(),
         reading: scope.reading.clone(),
-        labels: Labels { joints: names, links: Some(links) },
+        labels: Labels {
+            joints: names,
+            links: Some(links),
+            snapped: scope.take_snapped(),
+            remarks: remark.into_iter().collect(),
+        },
     })
 }
 
@@ -98,7 +108,7 @@ fn kind(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<Option<JointKind>> 
     Ok(Some(kind))
 }
 
-fn parse<'a>(scope: &Scope<'_>, text: &'a str) -> Result<Document<'a>> {
+pub(super) fn parse<'a>(scope: &Scope<'_>, text: &'a str) -> Result<Document<'a>> {
     // The reader recurses with the depth of the tags; a robot is four deep.
     let mut depth = 0_usize;
     for (at, _) in text.match_indices('<') {
@@ -113,175 +123,61 @@ fn parse<'a>(scope: &Scope<'_>, text: &'a str) -> Result<Document<'a>> {
         }
     }
     let options = roxmltree::ParsingOptions { nodes_limit: 1_000_000, ..Default::default() };
-    Document::parse_with_options(text, options)
-        .map_err(|fault| scope.fail(fault.pos().row as usize, format!("found text that is not XML: {fault}")))
+    Document::parse_with_options(text, options).map_err(|fault| {
+        let row = fault.pos().row as usize;
+        // A macro file may leave its prefix undeclared.
+        if text.contains("<xacro:") {
+            return scope.fail(row, macro_found(scope));
+        }
+        scope.fail(row, format!("found text that is not XML: {fault}"))
+    })
 }
 
-fn line(element: Element<'_, '_>) -> usize {
+/// What is wrong with a file of macros, and the command that expands it.
+pub(super) fn macro_found(scope: &Scope<'_>) -> String {
+    let path = scope.path;
+    let expanded = Path::new(path).with_extension("urdf").display().to_string();
+    let expanded = if expanded == path { "expanded.urdf".to_owned() } else { expanded };
+    format!("found a macro of xacro, expected URDF: expand it first by `xacro {path} > {expanded}`")
+}
+
+pub(super) fn line(element: Element<'_, '_>) -> usize {
     element.document().text_pos_at(element.range().start).row as usize
 }
 
-fn child<'a, 'i>(element: Element<'a, 'i>, name: &str) -> Option<Element<'a, 'i>> {
+pub(super) fn child<'a, 'i>(element: Element<'a, 'i>, name: &str) -> Option<Element<'a, 'i>> {
     element.children().find(|child| child.has_tag_name(name))
 }
 
-/// The joints from the base link to the tip link, and the names of these links.
+/// The joints from the base link to the tip link, the names of these links, and why it is this tip.
 struct Between<'a, 'i> {
     chain: Vec<Element<'a, 'i>>,
     links: [String; 2],
+    remark: Option<String>,
 }
 
-/// The chain that was asked for, else the one to the only link at the end of a moving chain.
+/// The chain that was asked for, else that of the only arm.
 fn between<'a, 'i>(scope: &Scope<'_>, robot: Element<'a, 'i>, options: &Options) -> Result<Between<'a, 'i>> {
     let tree = Tree::read(scope, robot)?;
-    let tip = match &options.tip_link {
-        Some(tip) => tree.known(scope, tip)?,
-        None => tree.only_tip(scope)?,
+    let group = match &options.group {
+        Some((path, group)) => srdf::ends(path, group, &|joint| tree.ends_of(joint))?,
+        None => srdf::Ends::default(),
     };
-    let base = options.base_link.as_ref().map(|base| tree.known(scope, base)).transpose()?;
-    let mut chain = Vec::new();
-    let mut at = tip;
-    while base != Some(at) {
-        match (tree.above.get(at), base) {
-            (Some(&joint), _) => {
-                chain.push(tree.joints[joint]);
-                at = tree.ends[joint].0;
-            }
-            (None, None) => break,
-            (None, Some(base)) => {
-                let message = format!("found no chain from link `{base}` to link `{tip}`, expected one");
-                return Err(scope.fail(line(robot), message));
-            }
-        }
-    }
-    chain.reverse();
-    Ok(Between { chain, links: [at.to_owned(), tip.to_owned()] })
-}
-
-/// The links and joints of a robot: a tree, or several.
-struct Tree<'a, 'i> {
-    robot: Element<'a, 'i>,
-    links: Vec<&'a str>,
-    joints: Vec<Element<'a, 'i>>,
-    /// Parent and child of every joint.
-    ends: Vec<(&'a str, &'a str)>,
-    /// The joint whose child a link is.
-    above: HashMap<&'a str, usize>,
-}
-
-impl<'a, 'i> Tree<'a, 'i> {
-    fn read(scope: &Scope<'_>, robot: Element<'a, 'i>) -> Result<Self> {
-        let parts = |tag: &'static str| robot.children().filter(move |element| element.has_tag_name(tag));
-        let (all_links, joints) = (parts("link").collect::<Vec<_>>(), parts("joint").collect::<Vec<_>>());
-        if joints.len().max(all_links.len()) > LARGEST {
-            return Err(scope.fail(line(robot), format!("found more than {LARGEST} joints or links, expected a robot")));
-        }
-        let is_macro = |element: Element<'_, '_>| element.tag_name().namespace().is_some_and(|n| n.contains("xacro"));
-        if let Some(found) = robot.descendants().find(|element| is_macro(*element)) {
-            let message =
-                "found a macro of xacro, expected URDF: expand it first, as by `xacro robot.xacro > robot.urdf`";
-            return Err(scope.fail(line(found), message));
-        }
-        if all_links.is_empty() {
-            return Err(scope.fail(line(robot), "found a robot without links, expected at least two and a joint"));
-        }
-        only_once(scope, &all_links, "links")?;
-        only_once(scope, &joints, "joints")?;
-        let links: Vec<&str> = all_links.iter().filter_map(|link| link.attribute("name")).collect();
-        let known: HashSet<&str> = links.iter().copied().collect();
-        let (mut ends, mut above) = (Vec::with_capacity(joints.len()), HashMap::new());
-        for (index, joint) in joints.iter().enumerate() {
-            let [parent, child] = ["parent", "child"].map(|end| end_of(scope, *joint, end, &known));
-            let (parent, child) = (parent?, child?);
-            if let Some(other) = above.insert(child, index) {
-                let names = [joints[other], *joint].map(|joint| joint.attribute("name").unwrap_or("without name"));
-                let message = format!("found link `{child}` as child of two joints, {} and {}", names[0], names[1]);
-                return Err(scope.fail(line(*joint), format!("{message}, expected one")));
-            }
-            ends.push((parent, child));
-        }
-        let tree = Self { robot, links, joints, ends, above };
-        tree.refuse_circles(scope)?;
-        Ok(tree)
-    }
-
-    /// Every link must be below one that is below none.
-    fn refuse_circles(&self, scope: &Scope<'_>) -> Result<()> {
-        let mut below: HashMap<&str, Vec<&str>> = HashMap::new();
-        for (parent, child) in &self.ends {
-            below.entry(parent).or_default().push(child);
-        }
-        let mut open: Vec<&str> = self.links.iter().copied().filter(|link| !self.above.contains_key(link)).collect();
-        let mut reached = HashSet::new();
-        while let Some(link) = open.pop() {
-            if reached.insert(link) {
-                open.extend(below.get(link).into_iter().flatten());
-            }
-        }
-        match self.ends.iter().position(|(_, child)| !reached.contains(child)) {
-            Some(joint) => {
-                Err(scope.fail(line(self.joints[joint]), "found joints that close a circle, expected a tree of links"))
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// The name of a link, as the file has it.
-    fn known(&self, scope: &Scope<'_>, name: &str) -> Result<&'a str> {
-        if let Some(link) = self.links.iter().find(|link| **link == name) {
-            return Ok(link);
-        }
-        let near = super::scope::nearest(name, self.links.iter().copied());
-        let hint = near
-            .first()
-            .map_or_else(|| format!("expected one of {}", self.links.join(", ")), |n| format!("did you mean `{n}`?"));
-        Err(scope.fail(line(self.robot), format!("found no link `{name}`; {hint}")))
-    }
-
-    /// The link at the end of the only chain; where there are several ends, of the only one that moves.
-    fn only_tip(&self, scope: &Scope<'_>) -> Result<&'a str> {
-        let parents: HashSet<&str> = self.ends.iter().map(|(parent, _)| *parent).collect();
-        let leaves: Vec<&'a str> = self.links.iter().copied().filter(|link| !parents.contains(link)).collect();
-        let moving: Vec<&'a str> = leaves.iter().copied().filter(|link| self.moves(link)).collect();
-        match (leaves.as_slice(), moving.as_slice()) {
-            ([tip], _) | (_, [tip]) => Ok(tip),
-            _ => {
-                let (count, found) = (leaves.len(), leaves.join(", "));
-                let message = format!("found {count} end links ({found}), expected a tip link to be named");
-                Err(scope.fail(line(self.robot), message))
-            }
-        }
-    }
-
-    /// Whether a joint between the root and this link moves.
-    fn moves(&self, link: &str) -> bool {
-        let joint = |link: &str| self.above.get(link).copied();
-        let mut chain = std::iter::successors(joint(link), |at| joint(self.ends[*at].0));
-        chain.any(|at| self.joints[at].attribute("type") != Some("fixed"))
-    }
-}
-
-/// Refuses two parts of one name.
-fn only_once(scope: &Scope<'_>, parts: &[Element<'_, '_>], what: &str) -> Result<()> {
-    let mut names = HashSet::new();
-    match parts.iter().find(|part| part.attribute("name").is_some_and(|name| !names.insert(name))) {
-        Some(part) => {
-            let name = part.attribute("name").unwrap_or_default();
-            Err(scope.fail(line(*part), format!("found two {what} `{name}`, expected different names")))
-        }
-        None => Ok(()),
-    }
-}
-
-/// The link at an end of a joint, which must be one of the robot.
-fn end_of<'a>(scope: &Scope<'_>, joint: Element<'a, '_>, end: &str, links: &HashSet<&str>) -> Result<&'a str> {
-    let link = child(joint, end).and_then(|element| element.attribute("link"));
-    let link =
-        link.ok_or_else(|| scope.fail(line(joint), format!("found a joint without <{end} link=...>, expected one")))?;
-    if !links.contains(link) {
-        return Err(scope.fail(line(joint), format!("found no link `{link}`, the {end} of a joint, expected one")));
-    }
-    Ok(link)
+    let (base, tip) = (options.base_link.clone().or(group.base), options.tip_link.clone().or(group.tip));
+    let base = base.as_ref().map(|base| tree.known(scope, base)).transpose()?;
+    let (tip, remark) = if let Some(tip) = &tip {
+        (tree.known(scope, tip)?, None)
+    } else {
+        let tip = tip_of(scope, &tree, base)?;
+        (tip.link, Some(tip.remark))
+    };
+    let Some(path) = tree.path(base, tip, usize::MAX) else {
+        let message = format!("found no chain from link `{}` to link `{tip}`, expected one", base.unwrap_or_default());
+        return Err(scope.fail(line(robot), message));
+    };
+    let start = path.first().map_or(tip, |joint| tree.ends[*joint].0);
+    let chain = path.into_iter().map(|joint| tree.joints[joint]).collect();
+    Ok(Between { chain, links: [start.to_owned(), tip.to_owned()], remark })
 }
 
 /// The numbers of an attribute, each as a node of the attribute's line.
@@ -295,58 +191,78 @@ fn triple(scope: &Scope<'_>, element: Element<'_, '_>, name: &str) -> Result<Opt
         .map_err(|_| scope.fail(line(element), format!("found {count} numbers in `{name}`, expected 3")))
 }
 
-/// The motion of an `<origin>`: by rational numbers, and enclosed.
+/// The numbers of an `<origin>`: translation after roll about x, pitch about y, yaw about z.
 struct Origin {
-    exact: Motion<Rational>,
-    enclosed: Motion<Enclosure>,
+    angles: [Angle; 3],
+    position: [Number; 3],
 }
 
-fn standing_for(rational: [Rational; 3], enclosed: [Enclosure; 3]) -> [Number; 3] {
-    let mut enclosed = enclosed.into_iter();
-    rational.map(|q| Number::standing_for(q, enclosed.next().unwrap_or_else(Enclosure::zero)))
+impl Origin {
+    fn read(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<Self> {
+        let mut origin =
+            Self { angles: std::array::from_fn(|_| Angle::zero()), position: std::array::from_fn(|_| Number::zero()) };
+        let Some(element) = child(joint, "origin") else { return Ok(origin) };
+        if let Some(nodes) = triple(scope, element, "rpy")? {
+            let place = joint.attribute("name").unwrap_or("a joint without name");
+            for (angle, node) in origin.angles.iter_mut().zip(&nodes) {
+                *angle = scope.printed_angle(node, "rpy", place)?;
+            }
+        }
+        if let Some(nodes) = triple(scope, element, "xyz")? {
+            for (length, node) in origin.position.iter_mut().zip(&nodes) {
+                *length = scope.length(node, "xyz")?;
+            }
+        }
+        Ok(origin)
+    }
+
+    /// The motion; `None` for an angle that is not known well enough.
+    fn motion(&self, field: Option<&RealField>) -> Option<KnownMotion> {
+        let mut exact = Motion::<Rational>::roll_pitch_yaw(&self.angles)?;
+        exact.translation = self.position.each_ref().map(|x| x.rational().clone());
+        let mut enclosed = Motion::<Enclosure>::roll_pitch_yaw(&self.angles)?;
+        enclosed.translation =
+            self.position.each_ref().map(|x| Enclosure::from_number(x).unwrap_or_else(Enclosure::zero));
+        let algebraic = field.and_then(|field| {
+            let phase = |angle: &Angle| {
+                let (cos, sin) = angle.phase()?;
+                Some((field.element(&cos)?, field.element(&sin)?))
+            };
+            let [roll, pitch, yaw] = self.angles.each_ref().map(phase);
+            let [x, y, z] = self.position.each_ref().map(|x| field.element(&x.closed()?));
+            Some(Motion { translation: [x?, y?, z?], ..Motion::turned([roll?, pitch?, yaw?]) })
+        });
+        Some(KnownMotion { exact, enclosed, algebraic })
+    }
 }
 
-/// The motion of `<origin xyz rpy>`: translation after roll about x, pitch about y, yaw about z.
-fn origin(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<Origin> {
-    let mut origin = Origin { exact: Motion::identity(), enclosed: Motion::identity() };
-    let Some(element) = child(joint, "origin") else { return Ok(origin) };
-    if let Some(angles) = triple(scope, element, "rpy")? {
-        for (axis, node) in angles.iter().enumerate() {
-            let angle = scope.angle(node, "rpy")?;
-            origin.exact = about(axis, &angle).then_after(&origin.exact);
-            origin.enclosed = about(axis, &angle).then_after(&origin.enclosed);
+/// The field of all numbers of the origins and axes of a chain, where there is one.
+fn field(origins: &[Origin], axes: &[[Number; 3]]) -> Option<RealField> {
+    let mut all = Vec::new();
+    for Origin { angles, position } in origins {
+        for angle in angles {
+            let (cos, sin) = angle.phase()?;
+            all.extend([cos, sin]);
+        }
+        for length in position {
+            all.push(length.closed()?);
         }
     }
-    if let Some(xyz) = triple(scope, element, "xyz")? {
-        for (k, node) in xyz.iter().enumerate() {
-            let length = scope.length(node, "xyz")?;
-            origin.exact.translation[k].clone_from(length.rational());
-            origin.enclosed.translation[k] = Enclosure::from_number(&length).unwrap_or_else(Enclosure::zero);
-        }
+    for entry in axes.iter().flatten() {
+        all.push(entry.closed()?);
     }
-    Ok(origin)
+    RealField::containing(&all)
 }
 
-/// The rotation about a coordinate axis.
-fn about<R: Ring>(axis: usize, angle: &Angle) -> Motion<R> {
-    let (cos, sin) = R::cos_sin(angle).expect("numbers without a prime have every cosine");
-    match axis {
-        0 => Motion::rotation_x(cos, sin),
-        1 => {
-            let mut motion = Motion::identity();
-            motion.rotation[0] = [cos.clone(), R::zero(), sin.clone()];
-            motion.rotation[2] = [sin.neg(), R::zero(), cos];
-            motion
-        }
-        _ => Motion::rotation_z(cos, sin),
-    }
+/// The axis of a joint that has none of its own.
+fn along_x() -> [Number; 3] {
+    [1, 0, 0].map(|n| Number::exact(Rational::from(n)))
 }
 
 fn axis(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<[Number; 3]> {
-    let standard = || [1, 0, 0].map(|n| Number::exact(Rational::from(n)));
-    let Some(element) = child(joint, "axis") else { return Ok(standard()) };
-    let Some(nodes) = triple(scope, element, "xyz")? else { return Ok(standard()) };
-    let mut axis = standard();
+    let Some(element) = child(joint, "axis") else { return Ok(along_x()) };
+    let Some(nodes) = triple(scope, element, "xyz")? else { return Ok(along_x()) };
+    let mut axis = along_x();
     for (image, node) in axis.iter_mut().zip(&nodes) {
         *image = scope.number(node, Quantity::Ratio, "axis")?;
     }

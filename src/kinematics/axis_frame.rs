@@ -26,7 +26,7 @@ pub(super) fn axis_frame<R: Ring>(joint: &ScrewJoint) -> Option<Motion<R>> {
     };
     let origin = joint.point.each_ref().map(|x| x.rational().clone());
     let is_down = n[2] == -1;
-    let exact = frame(n, origin, is_down, |x, y| Some(Rational::from(x / y)))?;
+    let exact = frame(n, origin, |_| is_down, |x, y| Some(Rational::from(x / y)))?;
     let is_exact = length.is_some() && joint.axis.iter().chain(&joint.point).all(Number::is_exact);
     image(&exact, || if is_exact { None } else { enclosed(joint, is_down) })
 }
@@ -39,17 +39,19 @@ fn enclosed(joint: &ScrewJoint, is_down: bool) -> Option<Motion<Enclosure>> {
     let axis = known(&joint.axis)?;
     let length = dot(&axis, &axis).sqrt()?;
     let [x, y, z] = axis.each_ref().map(|x| x.over(&length));
-    frame([x?, y?, z?], known(&joint.point)?, is_down, Enclosure::over)
+    frame([x?, y?, z?], known(&joint.point)?, |_| is_down, Enclosure::over)
 }
 
-/// The frame of a unit vector at a point, turned the shortest way from the z axis, or first by a half turn about x.
-fn frame<R: Ring>(
+/// The frame of a unit vector at a point, turned the shortest way from the z axis, or first by a half turn about x where
+/// that vector points down.
+pub(super) fn frame<R: Ring>(
     n: Vector<R>,
     origin: Vector<R>,
-    is_down: bool,
+    is_down: impl Fn(&R) -> bool,
     over: impl Fn(&R, &R) -> Option<R>,
 ) -> Option<Motion<R>> {
     let [x, y, z] = n;
+    let is_down = is_down(&z);
     let n = if is_down { [x, y.neg(), z.neg()] } else { [x, y, z] };
     let mut rotation = shortest(&n, over)?;
     if is_down {

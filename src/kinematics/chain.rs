@@ -1,5 +1,6 @@
 //! Open chains and closed loops as a mechanism file gives them.
 
+use super::data_field::ClosedForm;
 pub use super::joint::JointKind;
 use super::joint::JointVariable;
 use super::motion::Motion;
@@ -53,8 +54,12 @@ pub struct Placement {
     pub exact: Motion<Rational>,
     /// What was given, where the exact motion only stands for it.
     pub given: Option<Box<Given>>,
+    /// What was given in closed form, where that is known and not rational.
+    pub closed: Option<ClosedForm>,
     /// The correctly rounded image of the motion, its rotation orthogonal to rounding.
     pub float: Motion<f64>,
+    /// The rows of the matrix that was given, where the exact motion only stands for it.
+    pub rows: Option<Box<[[Number; 4]; 3]>>,
     /// How far the given rotation was from a rotation: the largest entry of |R - nearest rotation|.
     pub defect: f64,
 }

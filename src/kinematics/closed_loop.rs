@@ -5,7 +5,7 @@
 //! path serves all. \[LeeLiang1988\]
 
 use super::axis_frame::axis_frame;
-use super::chain::{Chain, Geometry, Joint, JointKind};
+use super::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use super::freedom::Freedom;
 use super::idle::Idle;
 pub use super::joint::Variable;
@@ -136,6 +136,14 @@ pub trait Parameters<R: Ring> {
     fn angle(&self, joint: usize, parameter: Parameter, value: &Angle) -> Option<(R, R)>;
     /// A length; `None` for an unlucky prime.
     fn length(&self, joint: usize, parameter: Parameter, value: &Number) -> Option<R>;
+    /// The frame of a joint given by its axis; `None` for an unlucky prime.
+    fn frame(&self, joint: &ScrewJoint) -> Option<Motion<R>> {
+        axis_frame(joint)
+    }
+    /// A constant motion; `None` for an unlucky prime.
+    fn placement(&self, placement: &Placement) -> Option<Motion<R>> {
+        placement.image()
+    }
 }
 
 /// The constants are the numbers of the file.
@@ -533,7 +541,7 @@ impl Chain {
 
     /// Everything from base to tool in order; `None` for an unlucky prime.
     fn steps<R: Ring>(&self, parameters: &impl Parameters<R>) -> Option<Vec<Step<R>>> {
-        let mut steps = vec![Step::Constant(self.base.image()?)];
+        let mut steps = vec![Step::Constant(parameters.placement(&self.base)?)];
         match &self.geometry {
             Geometry::Dh(joints) => {
                 for (at, joint) in joints.iter().enumerate() {
@@ -549,16 +557,16 @@ impl Chain {
             }
             Geometry::Screws { joints, home } => {
                 for joint in joints {
-                    let frame = axis_frame(joint)?;
+                    let frame = parameters.frame(joint)?;
                     let back = frame.inverse();
                     steps.push(Step::Constant(frame));
                     screw_steps(joint.kind, &mut steps);
                     steps.push(Step::Constant(back));
                 }
-                steps.push(Step::Constant(home.image()?));
+                steps.push(Step::Constant(parameters.placement(home)?));
             }
         }
-        steps.push(Step::Constant(self.tool.image()?));
+        steps.push(Step::Constant(parameters.placement(&self.tool)?));
         Some(steps)
     }
 
@@ -566,9 +574,19 @@ impl Chain {
     /// `None` for an unlucky prime, or when there are fewer motions than variables.
     #[must_use]
     pub fn forward<R: Ring>(&self, joint_motions: &[Motion<R>]) -> Option<Motion<R>> {
+        self.forward_over(&Numbers, joint_motions)
+    }
+
+    /// As [`Chain::forward`], with these constants of the joints.
+    #[must_use]
+    pub fn forward_over<R: Ring>(
+        &self,
+        parameters: &impl Parameters<R>,
+        joint_motions: &[Motion<R>],
+    ) -> Option<Motion<R>> {
         let mut motions = joint_motions.iter();
         let mut pose = Motion::identity();
-        for step in self.steps(&Numbers)? {
+        for step in self.steps(parameters)? {
             match step {
                 Step::Constant(motion) => pose = pose.then_after(&motion),
                 Step::Unknown(_) => pose = pose.then_after(motions.next()?),

@@ -1,18 +1,25 @@
 //! Geometry over any ring: rigid motions, chains and loops.
 
+pub use looproot_calculus::{motion, quaternion as dual_quaternion};
+
 mod axis_frame;
 pub mod chain;
 pub mod closed_loop;
-pub mod dual_quaternion;
+pub mod data_field;
 mod enclosed;
+pub mod forward;
 pub mod framework;
 pub mod freedom;
 pub mod idle;
 pub mod joint;
+pub mod known_motion;
 pub mod link_form;
-pub mod motion;
+pub mod linkage;
 pub mod motion_polynomial;
 pub mod placement;
 pub mod platform;
 pub mod screw_system;
+pub mod screws;
+pub mod task;
+pub mod tolerance;
 pub mod velocity;

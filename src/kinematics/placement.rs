@@ -1,10 +1,15 @@
 //! Rigid motions as files give them: as a matrix, or as a quaternion and a position.
 
-use super::chain::{Given, Placement};
+use super::chain::{Chain, Given, Placement};
+use super::data_field::{ClosedForm, DataField};
+use super::known_motion::KnownMotion;
 use super::motion::Motion;
 use crate::algebra::enclosure::Enclosure;
-use crate::algebra::number::{Number, nearest_f64};
-use crate::algebra::ring::Ring;
+use crate::algebra::number::{Angle, Number, nearest_f64};
+use crate::algebra::number_field::Algebraic;
+use crate::algebra::real_field::RealField;
+use crate::algebra::ring::{Field, Ring};
+use crate::algebra::surd::{Closed, Phase};
 use crate::error::{Error, Result};
 use rug::{Float, Rational};
 use std::ops::Range;
@@ -12,13 +17,14 @@ use std::ops::Range;
 /// Working precision of projections, bits.
 const BITS: u32 = 192;
 /// A rotation further than this from every rotation is a mistake.
-const REFUSED: f64 = 1e-4;
+const REFUSED: f64 = 3e-3;
 /// A rotation further than this from every rotation deserves a warning: it is more than f64 rounding.
 const NOTED: f64 = 1e-12;
-/// Digits to which the ratios of the quaternion of a projected rotation are kept.
-const DIGITS: u32 = 18;
+/// Bits of the quaternion of a rotation that is rounded to a rational one, and of the coordinates of its translation in parts
+/// of the longest.
+const DATUM_BITS: u32 = 60;
 
-/// Steps to the polar factor: from 1e-4 off, each doubles the digits until all are there.
+/// Steps to the polar factor: from 3e-3 off, each doubles the digits until all are there.
 const POLAR_STEPS: usize = 9;
 
 type Matrix3<T> = [[T; 3]; 3];
@@ -27,7 +33,14 @@ impl Placement {
     /// The placement that leaves everything where it is.
     #[must_use]
     pub fn identity() -> Self {
-        Self { exact: Motion::identity(), given: None, float: Motion::identity(), defect: 0.0 }
+        Self {
+            exact: Motion::identity(),
+            given: None,
+            closed: None,
+            rows: None,
+            float: Motion::identity(),
+            defect: 0.0,
+        }
     }
 
     /// The placement by a motion known exactly; its rotation must be one.
@@ -36,13 +49,123 @@ impl Placement {
         let row = |v: &[Rational; 3]| std::array::from_fn(|k| nearest_f64(&v[k]));
         let float =
             Motion { rotation: std::array::from_fn(|k| row(&exact.rotation[k])), translation: row(&exact.translation) };
-        Self { exact, given: None, float, defect: 0.0 }
+        Self { exact, given: None, closed: None, rows: None, float, defect: 0.0 }
     }
 
     /// The placement by a rational motion that stands for this one.
     #[must_use]
     pub fn standing_for(exact: Motion<Rational>, motion: Motion<Enclosure>, is_rotation: bool) -> Self {
         Self { given: Some(Box::new(Given { motion, is_rotation })), ..Self::from_motion_exact(exact) }
+    }
+
+    /// The placement by a position and the angles of roll, pitch and yaw, about fixed axes in this order.
+    ///
+    /// # Errors
+    /// For an angle that is not known well enough.
+    pub fn from_angles(angles: &[Angle; 3], position: &[Number; 3]) -> Result<Self> {
+        let unknown = || Error::Invalid("found an angle that is not known well enough".to_owned());
+        let mut exact = Motion::<Rational>::roll_pitch_yaw(angles).ok_or_else(unknown)?;
+        exact.translation = position.each_ref().map(|x| x.rational().clone());
+        if angles.iter().all(Angle::is_exact) && position.iter().all(Number::is_exact) {
+            return Ok(Self::from_motion_exact(exact));
+        }
+        let mut enclosed = Motion::<Enclosure>::roll_pitch_yaw(angles).ok_or_else(unknown)?;
+        enclosed.translation = position.each_ref().map(enclosure);
+        let phases = || Some([angles[0].phase()?, angles[1].phase()?, angles[2].phase()?]);
+        let closed = phases().and_then(|phases| {
+            let lengths = position.iter().map(Number::closed).collect::<Option<Vec<_>>>()?;
+            let all = phases.iter().flat_map(|(cos, sin)| [cos, sin]).chain(&lengths);
+            let field = RealField::containing(all)?;
+            let pair = |(cos, sin): &Phase| Some((field.element(cos)?, field.element(sin)?));
+            let [roll, pitch, yaw] = phases.each_ref().map(pair);
+            let mut motion = Motion::turned([roll?, pitch?, yaw?]);
+            for (image, length) in motion.translation.iter_mut().zip(&lengths) {
+                *image = field.element(length)?;
+            }
+            Some((field, motion))
+        });
+        Ok(Self::in_field_or_near(exact, enclosed, closed))
+    }
+
+    /// A motion of a number field, or else the rational one nearest to it, which is then the datum.
+    fn in_field_or_near(
+        exact: Motion<Rational>,
+        enclosed: Motion<Enclosure>,
+        closed: Option<(RealField, Motion<Algebraic>)>,
+    ) -> Self {
+        let Some((field, motion)) = closed else { return Self::near(&enclosed) };
+        KnownMotion { exact, enclosed, algebraic: Some(motion) }.placement(Some(&field))
+    }
+
+    /// The rational motion nearest to an enclosed one: its quaternion is four integers over 2^60, and its translation is
+    /// rounded to as many bits of the longest coordinate.
+    #[must_use]
+    pub fn near(motion: &Motion<Enclosure>) -> Self {
+        let rotation = motion.rotation.each_ref().map(|row| row.each_ref().map(|x| x.middle().clone()));
+        let longest = motion.translation.iter().map(Enclosure::size).fold(i32::MIN, i32::max);
+        let bits = DATUM_BITS.cast_signed().saturating_sub(longest.max(-1000));
+        let translation = motion.translation.each_ref().map(|x| multiple(x.middle(), bits));
+        Self::from_motion_exact(Motion { rotation: rational_rotation(&rotation), translation })
+    }
+
+    /// The motion with its entries in closed form, where it is given by joint values of a chain.
+    #[must_use]
+    pub fn in_entries(&self, chain: &Chain) -> Self {
+        if !matches!(self.closed, Some(ClosedForm::Joints(_))) {
+            return self.clone();
+        }
+        let closed = DataField::of(chain, Some(self), None).and_then(|field| Some((field.pose(chain, self)?, field)));
+        let (exact, enclosed) = (self.exact.clone(), self.given.as_ref().map(|given| given.nearest()));
+        match (closed, enclosed) {
+            (closed, Some(enclosed)) => {
+                Self::in_field_or_near(exact, enclosed, closed.map(|(motion, field)| (field.0, motion)))
+            }
+            (_, None) => Self::from_motion_exact(exact),
+        }
+    }
+
+    /// The inverse motion.
+    #[must_use]
+    pub fn undone(&self) -> Self {
+        self.part(Motion::inverse, Motion::inverse, Motion::inverse)
+    }
+
+    /// The rotation undone, without any translation.
+    #[must_use]
+    pub fn turned_back(&self) -> Self {
+        fn part<R: Ring>(motion: &Motion<R>) -> Motion<R> {
+            Motion { translation: Motion::identity().translation, ..motion.clone() }.inverse()
+        }
+        self.part(part, part, part)
+    }
+
+    /// The translation without the rotation.
+    #[must_use]
+    pub fn without_rotation(&self) -> Self {
+        fn part<R: Ring>(motion: &Motion<R>) -> Motion<R> {
+            Motion::translation(motion.translation.clone())
+        }
+        self.part(part, part, part)
+    }
+
+    /// A part of the motion, taken of its rational entries and of what they stand for.
+    fn part(
+        &self,
+        exact: impl Fn(&Motion<Rational>) -> Motion<Rational>,
+        known: impl Fn(&Motion<Enclosure>) -> Motion<Enclosure>,
+        closed: impl Fn(&Motion<Algebraic>) -> Motion<Algebraic>,
+    ) -> Self {
+        let Some(given) = &self.given else { return Self::from_motion_exact(exact(&self.exact)) };
+        let field = match &self.closed {
+            Some(ClosedForm::Entries(motion)) => {
+                RealField::containing(motion.rotation.iter().flatten().chain(&motion.translation))
+                    .and_then(|field| Some((motion.map(|x| field.element(x))?, field)))
+            }
+            Some(ClosedForm::Joints(_)) | None => None,
+        };
+        let (algebraic, field) = field.map_or((None, None), |(motion, field)| (Some(closed(&motion)), Some(field)));
+        KnownMotion { exact: exact(&self.exact), enclosed: known(&given.nearest()), algebraic }
+            .placement(field.as_ref())
     }
 
     /// The motion over any ring; `None` for an unlucky prime.
@@ -63,7 +186,7 @@ impl Placement {
     /// rounded to a rational one by its quaternion; the translation stays as given.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a last row other than 0 0 0 1, a reflection, or an entry more than 1e-4 off.
+    /// [`Error::Invalid`] for a last row other than 0 0 0 1, a reflection, or an entry more than 3e-3 off.
     pub fn from_matrix(rows: &[[Number; 4]; 4]) -> Result<(Self, Option<String>)> {
         let last: [f64; 4] = std::array::from_fn(|k| rows[3][k].to_f64());
         let is_last = |k: usize| *rows[3][k].rational() == u32::from(k == 3);
@@ -88,7 +211,8 @@ impl Placement {
             }
             let rotation = motion.rotation.each_ref().map(|row| row.each_ref().map(Enclosure::of));
             let translation = std::array::from_fn(|i| enclosed(i, 3));
-            return Ok((Self::standing_for(motion, Motion { rotation, translation }, true), None));
+            let placed = Self::standing_for(motion, Motion { rotation, translation }, true);
+            return Ok((Self { closed: in_closed_form(rows), rows: upper(rows), ..placed }, None));
         }
         let rotation = nearest_rotation(&given)?;
         let mut defect = 0.0_f64;
@@ -100,18 +224,24 @@ impl Placement {
         if defect > REFUSED {
             return Err(not_a_rotation(defect));
         }
-        let given = Motion {
-            rotation: std::array::from_fn(|i| std::array::from_fn(|j| enclosed(i, j))),
-            translation: std::array::from_fn(|i| enclosed(i, 3)),
+        let motion = Motion { rotation, translation };
+        let placement = if is_exact(0..4) {
+            // The nearest rotation is the datum.
+            Self { defect, rows: upper(rows), ..Self::from_motion_exact(motion) }
+        } else {
+            let given = Motion {
+                rotation: std::array::from_fn(|i| std::array::from_fn(|j| enclosed(i, j))),
+                translation: std::array::from_fn(|i| enclosed(i, 3)),
+            };
+            Self { defect, closed: in_closed_form(rows), rows: upper(rows), ..Self::standing_for(motion, given, false) }
         };
-        let placement = Self { defect, ..Self::standing_for(Motion { rotation, translation }, given, false) };
         Ok((placement, noted(defect, "the rotation matrix is off by")))
     }
 
     /// The placement by a position and a quaternion `[w, x, y, z]`, which is normalised exactly.
     ///
     /// # Errors
-    /// [`Error::Invalid`] when the quaternion's norm is more than 1e-4 from 1.
+    /// [`Error::Invalid`] when the quaternion's norm is more than 3e-3 from 1.
     pub fn from_quaternion_position(
         quaternion: &[Number; 4],
         position: &[Number; 3],
@@ -129,18 +259,56 @@ impl Placement {
         let translation = std::array::from_fn(|k| position[k].rational().clone());
         let motion = Motion { rotation: rotation_of([w, x, y, z]), translation };
         let is_exact = quaternion.iter().chain(position).all(Number::is_exact);
-        let enclosed = if is_exact { None } else { enclosed_rotation(quaternion).map(|rotation| (rotation, position)) };
+        let enclosed = if is_exact { None } else { enclosed_rotation(quaternion) };
         let placed = match enclosed {
             None => Self::from_motion_exact(motion),
-            Some((rotation, position)) => {
-                let translation =
-                    position.each_ref().map(|x| Enclosure::from_number(x).unwrap_or_else(Enclosure::zero));
-                Self::standing_for(motion, Motion { rotation, translation }, true)
+            Some(rotation) => {
+                let enclosed = Motion { rotation, translation: position.each_ref().map(enclosure) };
+                Self::in_field_or_near(motion, enclosed, in_field(quaternion, position))
             }
         };
         let placement = Self { defect, ..placed };
         Ok((placement, noted(defect, "the norm of the quaternion is off by")))
     }
+}
+
+/// The rows of a motion without the last one.
+#[expect(clippy::unnecessary_wraps, reason = "the form in which a placement keeps them")]
+fn upper([first, second, third, _]: &[[Number; 4]; 4]) -> Option<Box<[[Number; 4]; 3]>> {
+    Some(Box::new([first.clone(), second.clone(), third.clone()]))
+}
+
+/// A number, enclosed.
+fn enclosure(x: &Number) -> Enclosure {
+    Enclosure::from_number(x).unwrap_or_else(Enclosure::zero)
+}
+
+/// The integer multiple of `2^-bits` nearest to a number.
+fn multiple(x: &Float, bits: i32) -> Rational {
+    let scaled = Float::with_val(BITS, x << bits).round();
+    scaled.to_rational().map_or_else(Rational::new, |q| q >> bits)
+}
+
+/// The motion of a quaternion and a position in the field of their numbers, where there is one.
+fn in_field(quaternion: &[Number; 4], position: &[Number; 3]) -> Option<(RealField, Motion<Algebraic>)> {
+    let closed: Vec<Closed> = quaternion.iter().chain(position).map(Number::closed).collect::<Option<_>>()?;
+    let field = RealField::containing(&closed)?;
+    let all: Vec<Algebraic> = closed.iter().map(|x| field.element(x)).collect::<Option<_>>()?;
+    let [w, x, y, z, translation @ ..] = all.as_slice() else { return None };
+    let rotation = rotation_over([w, x, y, z])?;
+    let translation = translation.to_vec().try_into().ok()?;
+    Some((field, Motion { rotation, translation }))
+}
+
+/// The motion of a matrix of which some entries are irrational, where closed forms of all are known.
+fn in_closed_form(rows: &[[Number; 4]; 4]) -> Option<ClosedForm> {
+    if rows.iter().flatten().all(Number::is_exact) {
+        return None;
+    }
+    let row =
+        |i: usize| -> Option<[Closed; 3]> { Some([rows[i][0].closed()?, rows[i][1].closed()?, rows[i][2].closed()?]) };
+    let translation = [rows[0][3].closed()?, rows[1][3].closed()?, rows[2][3].closed()?];
+    Some(ClosedForm::Entries(Box::new(Motion { rotation: [row(0)?, row(1)?, row(2)?], translation })))
 }
 
 impl Given {
@@ -228,20 +396,30 @@ fn is_orthonormal(m: &Matrix3<Rational>) -> bool {
 }
 
 /// The rotation of a nonzero quaternion of any length.
-fn rotation_of([w, x, y, z]: [&Rational; 4]) -> Matrix3<Rational> {
-    let product = |a: &Rational, b: &Rational| Rational::from(a * b);
-    let (ww, xx, yy, zz) = (product(w, w), product(x, x), product(y, y), product(z, z));
-    let norm = Rational::from(&ww + &xx) + &yy + &zz;
-    let diagonal = |a: &Rational, b: &Rational, c: &Rational| (Rational::from(&ww + a) - b - c) / &norm;
-    let beside = |a: Rational, b: Rational| (a + b) * 2 / &norm;
+pub(crate) fn rotation_of(quaternion: [&Rational; 4]) -> Matrix3<Rational> {
+    let norm: Rational = quaternion.iter().map(|q| Rational::from(q.square_ref())).sum();
+    scaled_rotation(quaternion, &norm.recip())
+}
+
+/// The rotation of a quaternion of any length over a field; `None` for zero.
+fn rotation_over<R: Field>(quaternion: [&R; 4]) -> Option<Matrix3<R>> {
+    let norm = quaternion.iter().fold(R::zero(), |sum, q| sum.add(&q.mul(q)));
+    Some(scaled_rotation(quaternion, &norm.inverse()?))
+}
+
+/// The rotation of a quaternion of which the inverse of the squared norm is given.
+fn scaled_rotation<R: Ring>([w, x, y, z]: [&R; 4], scale: &R) -> Matrix3<R> {
+    let (ww, xx, yy, zz) = (w.mul(w), x.mul(x), y.mul(y), z.mul(z));
+    let diagonal = |a: &R, b: &R, c: &R| ww.add(a).sub(b).sub(c).mul(scale);
+    let beside = |a: R, b: R| a.add(&b).mul(&R::from_integer(2)).mul(scale);
     [
-        [diagonal(&xx, &yy, &zz), beside(product(x, y), -product(w, z)), beside(product(x, z), product(w, y))],
-        [beside(product(x, y), product(w, z)), diagonal(&yy, &xx, &zz), beside(product(y, z), -product(w, x))],
-        [beside(product(x, z), -product(w, y)), beside(product(y, z), product(w, x)), diagonal(&zz, &xx, &yy)],
+        [diagonal(&xx, &yy, &zz), beside(x.mul(y), w.mul(z).neg()), beside(x.mul(z), w.mul(y))],
+        [beside(x.mul(y), w.mul(z)), diagonal(&yy, &xx, &zz), beside(y.mul(z), w.mul(x).neg())],
+        [beside(x.mul(z), w.mul(y).neg()), beside(y.mul(z), w.mul(x)), diagonal(&zz, &xx, &yy)],
     ]
 }
 
-/// A rational rotation within `10^-DIGITS` of the polar factor of a matrix that is nearly a rotation.
+/// The rotation of four integers over 2^60 nearest to the polar factor of a matrix that is nearly a rotation.
 fn nearest_rotation(given: &Matrix3<Rational>) -> Result<Matrix3<Rational>> {
     let mut m: Matrix3<Float> = std::array::from_fn(|i| std::array::from_fn(|j| Float::with_val(BITS, &given[i][j])));
     // Newton-Schulz M (3 - M^T M) / 2 converges quadratically to the polar factor; the first error bounds the rest.
@@ -275,7 +453,7 @@ fn column_product(m: &Matrix3<Float>, i: usize, j: usize) -> Float {
     (0..3).fold(Float::new(BITS), |sum, k| sum + Float::with_val(BITS, &m[k][i] * &m[k][j]))
 }
 
-/// The rotation of the quaternion of `m`, its ratios to the largest component rounded to simple rationals.
+/// The rotation of the quaternion of `m`, rounded to four integers over 2^60.
 fn rational_rotation(m: &Matrix3<Float>) -> Matrix3<Rational> {
     let plus = |a: &Float, b: &Float| Float::with_val(BITS, a + b);
     let minus = |a: &Float, b: &Float| Float::with_val(BITS, a - b);
@@ -294,9 +472,11 @@ fn rational_rotation(m: &Matrix3<Float>) -> Matrix3<Rational> {
             best = k;
         }
     }
-    let ratio: [Rational; 4] =
-        std::array::from_fn(|k| Number::near(&Float::with_val(BITS, &table[best][k] / &table[best][best]), DIGITS));
-    rotation_of([&ratio[0], &ratio[1], &ratio[2], &ratio[3]])
+    let square = table[best].iter().fold(Float::new(BITS), |sum, x| sum + Float::with_val(BITS, x.square_ref()));
+    let norm = square.sqrt();
+    let [w, x, y, z]: [Rational; 4] =
+        std::array::from_fn(|k| multiple(&Float::with_val(BITS, &table[best][k] / &norm), DATUM_BITS.cast_signed()));
+    rotation_of([&w, &x, &y, &z])
 }
 
 #[cfg(test)]
@@ -344,7 +524,7 @@ mod tests {
         };
         assert!(rotated(0.955_336, 0.295_520).unwrap().1.unwrap().contains("off by"));
         assert!(rotated(0.95, 0.29).unwrap_err().to_string().contains("off by"));
-        assert!(rotated(0.955, 0.2955).unwrap_err().to_string().contains("off by"));
+        assert!(rotated(0.955, 0.2955).unwrap().1.unwrap().contains("off by"));
         assert!(rotated(1e100, 0.0).is_err());
         let reflection =
             matrix([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]);

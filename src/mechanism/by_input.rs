@@ -1,7 +1,7 @@
 //! What is prepared once for every choice of the locked variable, and found again case by case.
 
 use super::single_loop::locked_variable;
-use crate::catalogue::entry::{Case, Entry};
+use crate::catalogue::entry::{Case, Entry, Kind};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::Layout;
@@ -23,8 +23,11 @@ impl<T> ByInput<T> {
     /// Prepares a chain for all cases of an entry.
     pub fn prepare(entry: &Entry, chain: &Chain, one: impl Fn(Layout) -> Result<T>) -> Result<Self> {
         let mut all: Vec<Prepared<T>> = Vec::new();
-        for case in &entry.cases {
-            let locked = locked_variable(chain, case)?;
+        // An arm may be prepared before its poses are known: they lock nothing.
+        let of_cases = entry.cases.iter().map(|case| locked_variable(chain, case));
+        let of_arm = (entry.kind() == Kind::Arm).then_some(Ok(None));
+        for locked in of_cases.chain(of_arm) {
+            let locked = locked?;
             if all.iter().all(|known| known.locked != locked) {
                 let layout = Layout::of(chain, locked)?;
                 let start = Instant::now();

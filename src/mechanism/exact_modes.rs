@@ -1,9 +1,10 @@
-//! Solutions in balls as assembly modes: angles in f64, with radii that hold.
+//! Solutions in balls as assembly modes: angles and distances in f64, with radii that hold.
 
+use crate::algebra::ball::Ball;
 use crate::assembly::{Hits, Mode, wrapped};
 use crate::certify::Certificate;
 use crate::exact::Pair;
-use crate::kinematics::closed_loop::ClosedLoop;
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::dense;
 use crate::solve::newton::{Six, closure};
 use num_complex::Complex;
@@ -13,27 +14,40 @@ use rug::ops::CompleteRound;
 /// Bits in which angles are computed before they are rounded to f64: the error of that is below one unit of f64.
 const BITS: u32 = 128;
 
-/// The mode of a solution. The radius bounds the distance of every unknown from the solution, rounding to f64 included.
+/// The mode of a solution; the loop has lengths over a unit. The radius bounds the distance of every unknown from the solution, rounding to f64 included.
 pub(super) fn exact_mode<const B: u32>(
-    closed: &ClosedLoop<f64>,
+    (closed, unit): (&ClosedLoop<f64>, f64),
     pairs: &[Pair<B>; 6],
     is_real: bool,
     multiplicity: usize,
 ) -> Mode {
-    let angles = pairs.each_ref().map(|pair| angle(pair, is_real));
-    let unknowns: Six<Complex<f64>> = angles.map(|(angle, _)| angle);
-    let radius = angles.iter().map(|(_, radius)| *radius).fold(0.0, f64::max);
-    let here = closure(closed, &unknowns);
+    let values: [(Complex<f64>, f64); 6] = std::array::from_fn(|k| match closed.variables[k] {
+        Variable::Rotation => angle(&pairs[k], is_real),
+        Variable::Translation => distance(&pairs[k].0, is_real),
+    });
+    let unknowns: Six<Complex<f64>> = values.map(|(value, _)| value);
+    let radius = values.iter().map(|(_, radius)| *radius).fold(0.0, f64::max);
+    let scaled = |k: usize| if closed.variables[k] == Variable::Translation { unknowns[k] / unit } else { unknowns[k] };
+    let inside: Six<Complex<f64>> = std::array::from_fn(scaled);
+    let here = closure(closed, &inside);
     let inverse = dense::inverse(&here.jacobian).filter(|_| multiplicity == 1);
     Mode {
         unknowns,
         real: is_real,
         multiplicity,
-        residual: here.relative_defect(closed, &unknowns, is_real),
+        residual: here.relative_defect(closed, &inside, is_real),
         condition: inverse.map_or(f64::INFINITY, |inverse| dense::norm(&here.jacobian) * dense::norm(&inverse)),
         certificate: radius.is_finite().then_some(Certificate { radius, isolation: radius, proved: radius }),
         hits: Hits::first(0),
     }
+}
+
+/// A distance, and how far it may be off.
+fn distance<const B: u32>(ball: &Ball<B>, is_real: bool) -> (Complex<f64>, f64) {
+    let (re, im) = (ball.re().to_f64(), if is_real { 0.0 } else { ball.im().to_f64() });
+    // Both parts are truncated to f64.
+    let rounding = 2.0 * f64::EPSILON * (re.abs() + im.abs()) + f64::MIN_POSITIVE;
+    (Complex::new(re, im), ball.radius().to_f64() * 1.01 + rounding)
 }
 
 /// The angle of a cosine and a sine, and how far it may be off: with `u = cos + i sin = e^(iq)`, `q = arg u - i ln |u|`.

@@ -1,5 +1,12 @@
 //! Self-motions as answers: sets of solutions of dimension 1 and more.
 
+use super::single_loop::within_limits;
+use super::turns::Turns;
+use crate::assembly::wrapped;
+use crate::kinematics::closed_loop::Variable;
+use num_complex::Complex;
+use std::f64::consts::TAU;
+
 /// Solutions that form a curve or more.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Family {
@@ -12,6 +19,181 @@ pub struct Family {
     /// A whole configuration of it, within the limits if it has one there; of a platform the quaternion `w, x, y, z` and
     /// the position `x, y, z`.
     pub sample: Vec<f64>,
-    /// More of its configurations, of a curve in their order along it.
+    /// More of its configurations, of a curve in their order along it: the last one is the first one again where the curve
+    /// closes. Where limits cut a curve, each part within them is a family.
     pub samples: Vec<Vec<f64>>,
+}
+
+/// Limits are met within rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Solutions that form a curve or more, by their joint variables in joint order.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// The dimension, at least 1.
+    pub dimension: usize,
+    /// Which joint variables move, counted from 0.
+    pub moving: Vec<usize>,
+    /// How far it stays from what was asked.
+    pub distance: f64,
+    /// Configurations: of a curve in their order along it, angles running on without jumps; else one.
+    pub points: Vec<Vec<f64>>,
+    /// Whether the last configuration of a curve is the first one again.
+    pub is_closed: bool,
+}
+
+/// The joint variables of a mechanism with their limits.
+#[derive(Clone, Copy, Debug)]
+pub struct Joints<'a> {
+    /// What each of them does.
+    pub variables: &'a [Variable],
+    /// Their limits; none where there are none.
+    pub limits: &'a [[f64; 2]],
+}
+
+impl Joints<'_> {
+    /// Solutions as an answer: one family, or as many as the joint limits leave parts of a curve. `between` is the
+    /// configuration at a part of the way from one point of a curve, by number, to the next one.
+    #[must_use]
+    pub fn families(&self, shape: &Shape, between: &dyn Fn(usize, f64) -> Option<Vec<f64>>) -> Vec<Family> {
+        let all: Vec<Vec<f64>> = shape.points.iter().map(|q| self.placed(q.clone())).collect();
+        let family = |samples: Vec<Vec<f64>>| {
+            let sample = self.best(&samples)?;
+            let samples = if samples.len() > 1 { samples } else { Vec::new() };
+            let (dimension, moving, distance) = (shape.dimension, shape.moving.clone(), shape.distance);
+            Some(Family { dimension, moving, distance, sample, samples })
+        };
+        let inside: Vec<bool> = all.iter().map(|q| self.is_inside(q)).collect();
+        let is_whole = self.limits.is_empty() || inside.iter().all(|x| *x) || !inside.contains(&true);
+        if is_whole || shape.dimension > 1 {
+            return family(all).into_iter().collect();
+        }
+        let parts = parts(&inside, shape.is_closed);
+        let crossing = |outer: usize, inner: usize| {
+            let (first, from_inner) = (outer.min(inner), inner < outer);
+            self.crossing(|part| between(first, if from_inner { part } else { 1.0 - part }))
+        };
+        let last = all.len() - 1;
+        let step = |k: usize, by: usize| if shape.is_closed { (k + by) % last } else { k + by };
+        let cut = |&(from, count): &(usize, usize)| {
+            let before = if shape.is_closed { Some((from + last - 1) % last) } else { from.checked_sub(1) };
+            let end = step(from, count - 1);
+            let behind = Some(step(end, 1)).filter(|k| *k <= last);
+            let border = |outer: usize, inner: usize| {
+                let (outer, inner) = neighbours(outer, inner, last, shape.is_closed);
+                crossing(outer, inner)
+            };
+            let enter = before.and_then(|outer| border(outer, from));
+            let leave = behind.and_then(|outer| border(outer, end));
+            let within = (0..count).map(|by| all[step(from, by)].clone());
+            family(enter.into_iter().chain(within).chain(leave).collect())
+        };
+        parts.iter().filter_map(cut).collect()
+    }
+
+    /// The last configuration within the limits on the way out of them, by bisection; `at` runs from 0 inside to 1 outside.
+    fn crossing(&self, at: impl Fn(f64) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
+        let (mut inside, mut outside) = (0.0, 1.0);
+        let mut found = None;
+        for _ in 0..40 {
+            let middle = f64::midpoint(inside, outside);
+            let q = self.placed(at(middle)?);
+            if self.is_inside(&q) {
+                (inside, found) = (middle, Some(q));
+            } else {
+                outside = middle;
+            }
+        }
+        found
+    }
+
+    /// A configuration with its angles in (-pi, pi], or within the limits where whole turns lead there.
+    fn placed(&self, mut q: Vec<f64>) -> Vec<f64> {
+        for (value, variable) in q.iter_mut().zip(self.variables) {
+            if *variable == Variable::Rotation {
+                *value = wrapped(*value);
+            }
+        }
+        if self.is_inside(&q) {
+            Turns::new(self.variables, self.limits).place(&mut q, ROUNDING);
+        }
+        q
+    }
+
+    /// Whether a configuration is within the limits, to rounding.
+    fn is_inside(&self, q: &[f64]) -> bool {
+        let wide: Vec<[f64; 2]> = self.limits.iter().map(|[low, high]| [low - ROUNDING, high + ROUNDING]).collect();
+        let q: Vec<Complex<f64>> = q.iter().copied().map(Complex::from).collect();
+        within_limits(&q, self.variables, &wide)
+    }
+
+    /// The configuration farthest from the limits, in parts of their width; the first one where there are none.
+    fn best(&self, samples: &[Vec<f64>]) -> Option<Vec<f64>> {
+        let margin = |q: &Vec<f64>| {
+            let own = q.iter().zip(self.variables).zip(self.limits);
+            own.map(|((value, variable), [low, high])| {
+                let width = if *variable == Variable::Rotation { (high - low).min(TAU) } else { high - low };
+                (value - low).min(high - value) / width.max(f64::MIN_POSITIVE)
+            })
+            .fold(f64::INFINITY, f64::min)
+        };
+        let first = samples.first()?;
+        let best = samples.iter().skip(1).fold((first, margin(first)), |best, q| {
+            let own = margin(q);
+            if own > best.1 { (q, own) } else { best }
+        });
+        Some(best.0.clone())
+    }
+}
+
+/// Numbers of two points of a curve that are neighbours: of a closed one, the last point is the first one.
+fn neighbours(outer: usize, inner: usize, last: usize, is_closed: bool) -> (usize, usize) {
+    match (outer, inner) {
+        (0, k) if is_closed && k + 1 == last => (last, k),
+        (k, 0) if is_closed && k + 1 == last => (k, last),
+        pair => pair,
+    }
+}
+
+/// The longest rows of neighbouring points inside: the first one, and how many. Of a closed curve, whose last point is its
+/// first one, rows run on over its end.
+fn parts(inside: &[bool], is_closed: bool) -> Vec<(usize, usize)> {
+    let count = if is_closed { inside.len() - 1 } else { inside.len() };
+    let before = |k: usize| if is_closed { inside[(k + count - 1) % count] } else { k > 0 && inside[k - 1] };
+    let begins = (0..count).filter(|&k| inside[k] && !before(k));
+    let length = |from: usize| {
+        let at =
+            |by: usize| if is_closed { inside[(from + by) % count] } else { from + by < count && inside[from + by] };
+        (0..count).take_while(|by| at(*by)).count()
+    };
+    begins.map(|from| (from, length(from))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_inside_run_on_over_the_end_of_a_closed_curve() {
+        assert_eq!(parts(&[true, true, false, true, false], false), [(0, 2), (3, 1)]);
+        assert_eq!(parts(&[true, false, false, true, true], true), [(3, 2)]);
+        assert_eq!(parts(&[false, true, true, false, false], true), [(1, 2)]);
+    }
+
+    #[test]
+    fn a_curve_is_cut_where_it_meets_a_limit() {
+        let (variables, limits) = ([Variable::Rotation; 6], [[-1.0, 2.0]; 6]);
+        // The first unknown turns once, the second one against it.
+        let at = |k: f64| vec![k * TAU / 8.0, -k * TAU / 8.0, 0.0, 0.0, 0.0, 0.0];
+        let points = (0..=8).map(|k| at(f64::from(k))).collect();
+        let shape = Shape { dimension: 1, moving: vec![0, 1], distance: 0.0, points, is_closed: true };
+        let joints = Joints { variables: &variables, limits: &limits };
+        let between = |first: usize, part: f64| Some(at(first as f64 + part));
+        let families = joints.families(&shape, &between);
+        assert_eq!(families.len(), 1, "{families:?}");
+        let ends = [families[0].samples.first(), families[0].samples.last()].map(|q| q.map(|q| q[0]));
+        assert!((ends[0].unwrap_or(9.0) + 1.0).abs() < 1e-6 && (ends[1].unwrap_or(9.0) - 1.0).abs() < 1e-6, "{ends:?}");
+        let none = Joints { limits: &[], ..joints };
+        assert_eq!(none.families(&shape, &between)[0].samples.len(), 9);
+    }
 }

@@ -15,6 +15,7 @@ use crate::kinematics::idle::Idle;
 use crate::kinematics::motion::Motion;
 use crate::solve::curve::{ALONG_INPUT, Curve, INPUT, Point};
 use crate::solve::plane_curve::{PlaneCurve, UNKNOWN};
+use crate::solve::walk::Followed;
 
 /// Condition numbers beyond this leave no digit of a derivative.
 const SINGULAR: f64 = 1e13;
@@ -256,6 +257,18 @@ impl InputCurve {
             velocity: moving.iter().map(|jet| jet.coefficients[1]).collect(),
             acceleration: moving.iter().map(|jet| 2.0 * jet.coefficients[2]).collect(),
         })
+    }
+}
+
+impl Followed for InputCurve {
+    fn taylor(&self, at: &Point, border: &Point) -> Option<[Point; 3]> {
+        Self::taylor(self, at, border)
+    }
+    fn tangent(&self, at: &Point, towards: &Point) -> Option<Point> {
+        Self::tangent(self, at, towards)
+    }
+    fn corrected(&self, start: &Point, border: &Point) -> Option<(Point, f64)> {
+        Self::corrected(self, start, border)
     }
 }
 

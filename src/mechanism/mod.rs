@@ -2,31 +2,42 @@
 
 mod ball_angles;
 mod by_input;
-mod exact_loop;
+mod data;
+pub(crate) mod exact_loop;
 mod exact_modes;
 mod family;
 mod input_curve;
+mod near;
 mod platform;
+mod redundancy;
 mod short_ball;
 mod short_loop;
 mod single_loop;
+mod task_arm;
 mod turns;
+mod vicinity;
 
-pub use family::Family;
+pub use family::{Family, Joints, Shape};
 pub use input_curve::{Derivatives, InputCurve};
 
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
+use crate::kinematics::task::Demand;
+pub use crate::kinematics::tolerance::{PoseError, Tolerance};
 use crate::kinematics::velocity::Velocity;
 use crate::verdict::Verdict;
 use num_complex::Complex;
 use platform::PreparedPlatform;
 pub use platform::{exact_modes as platform_modes, over as platform_over};
+pub use redundancy::{Redundancy, redundancy};
 use short_loop::ShortLoop;
 use single_loop::SingleLoop;
 pub use single_loop::{closed_loop, coupled_loop, locked_variable};
+pub use task_arm::ArmAnswer;
+use task_arm::TaskArm;
 use turns::Turns;
+pub use turns::representatives;
 
 /// One solution as a user reads it.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,6 +61,10 @@ pub struct FullMode {
     /// Whether a real solution respects the joint limits; `None` for complex ones or without limits. Where it does, its
     /// angles lie within them, which may be outside `(-pi, pi]`.
     pub within_limits: Option<bool>,
+    /// Whether it reaches the pose within the tolerance, but not exactly.
+    pub near: bool,
+    /// How far it misses the pose; `None` where it is a solution.
+    pub error: Option<PoseError>,
     /// What only a platform has.
     pub platform: Option<PlatformMode>,
 }
@@ -78,8 +93,19 @@ pub struct Solution {
     pub prepare_us: f64,
     /// Microseconds for this case.
     pub solve_us: f64,
+    /// What only an arm of few or many joints has, or one with a task or with joints held.
+    pub arm: Option<ArmAnswer>,
     /// What only a platform has.
     pub platform: Option<PlatformAnswer>,
+}
+
+impl Solution {
+    /// How many modes and families reach the pose within the tolerance, but not exactly.
+    #[must_use]
+    pub fn near(&self) -> usize {
+        let modes = self.modes.iter().filter(|mode| mode.near).count();
+        modes + self.families.iter().filter(|family| family.distance > 0.0).count()
+    }
 }
 
 /// What only the answer to a case of a platform has.
@@ -95,6 +121,7 @@ pub struct PlatformAnswer {
 pub struct Mechanism {
     solver: Solver,
     turns: Turns,
+    tolerance: Option<Tolerance>,
 }
 
 /// Who solves it.
@@ -102,24 +129,43 @@ enum Solver {
     SingleLoop(Box<SingleLoop>),
     ShortLoop(Box<ShortLoop>),
     Platform(Box<PreparedPlatform>),
+    TaskArm(Box<TaskArm>),
 }
 
 impl Mechanism {
-    /// Prepares an entry for all its cases.
+    /// Prepares an entry for all its cases, an arm for any pose.
     ///
     /// # Errors
     /// [`crate::error::Error::UnsupportedMobility`] for H joints, for a third S joint, and for too many translations.
     pub fn prepare(entry: &Entry) -> Result<Self> {
+        Self::prepare_for(entry, &Demand::default())
+    }
+
+    /// Prepares an entry of which, if it is an arm, this is asked.
+    ///
+    /// # Errors
+    /// As [`Mechanism::prepare`], and where too many joints of an arm are free.
+    pub fn prepare_for(entry: &Entry, demand: &Demand) -> Result<Self> {
         let solver = match &entry.design {
             Design::Loop(chain) if short_loop::is_short(entry, chain)? => {
                 Solver::ShortLoop(Box::new(ShortLoop::prepare(entry, chain)?))
+            }
+            Design::Arm(chain) if chain.freedoms() != 6 || *demand != Demand::default() => {
+                Solver::TaskArm(Box::new(TaskArm::prepare(entry, chain, demand)?))
             }
             Design::Arm(chain) | Design::Loop(chain) => {
                 Solver::SingleLoop(Box::new(SingleLoop::prepare(entry, chain)?))
             }
             Design::Platform(geometry) => Solver::Platform(Box::new(PreparedPlatform::prepare(geometry)?)),
         };
-        Ok(Self { solver, turns: Turns::of(entry.chain(), &entry.limits) })
+        let turns = Turns::of(entry.chain(), &entry.limits);
+        Ok(Self { solver, turns, tolerance: None })
+    }
+
+    /// The same with another tolerance, within which configurations of an arm that miss a pose are listed as near ones.
+    #[must_use]
+    pub fn with_tolerance(self, tolerance: Option<Tolerance>) -> Self {
+        Self { tolerance, ..self }
     }
 
     /// Solves one case.
@@ -134,9 +180,12 @@ impl Mechanism {
         assembly: &mut Assembly,
     ) -> Result<Solution> {
         let mut solution = match &self.solver {
-            Solver::SingleLoop(solver) => solver.solve(case, roots, workspace, assembly),
+            Solver::SingleLoop(solver) => {
+                solver.solve(case, roots, self.tolerance.unwrap_or_default(), workspace, assembly)
+            }
             Solver::ShortLoop(solver) => solver.solve(case, roots, workspace, assembly),
             Solver::Platform(solver) => solver.solve(case, roots, workspace),
+            Solver::TaskArm(solver) => solver.solve(case, roots, self.tolerance, workspace, assembly),
         }?;
         solution.modes.iter_mut().for_each(|mode| self.turns.apply(mode));
         Ok(solution)

@@ -3,7 +3,7 @@
 mod exact;
 mod roots;
 
-use super::{FullMode, PlatformAnswer, PlatformMode, Solution};
+use super::{Family, FullMode, PlatformAnswer, PlatformMode, Solution};
 use crate::algebra::number::Number;
 use crate::algebra::ring::Ring;
 use crate::assembly::platform::{self, Distances, PlatformAssembly, PlatformSolver, PlatformWorkspace};
@@ -17,7 +17,7 @@ use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::platform::Platform;
 use crate::kinematics::velocity::velocity;
-use crate::verdict::{PlatformKnowledge, platform_verdict};
+use crate::verdict::{PlatformKnowledge, Status, platform_verdict};
 use exact::{ExactSide, Search};
 use rug::Rational;
 use std::time::Instant;
@@ -65,6 +65,14 @@ pub fn exact_modes(
     assembly.modes
 }
 
+/// The self-motion of a list as an answer. No leg is named: all of them turn on their joints.
+fn families(assembly: &PlatformAssembly, status: Status, dimension: usize) -> Vec<Family> {
+    let all: Vec<Vec<f64>> = assembly.motion.iter().map(|pose| pose.to_vec()).collect();
+    let Some(sample) = all.first().cloned().filter(|_| status == Status::SelfMotion) else { return Vec::new() };
+    let samples = if all.len() > 1 { all } else { Vec::new() };
+    vec![Family { dimension, moving: Vec::new(), distance: 0.0, sample, samples }]
+}
+
 impl PreparedPlatform {
     /// Prepares the geometry.
     pub(super) fn prepare(geometry: &Platform<Number>) -> Result<Self> {
@@ -105,7 +113,8 @@ impl PreparedPlatform {
         let legs = case_squares.each_ref().map(|square| square.to_f64().sqrt());
         let short = short.map(|why| format!("no pose is real: {why}"));
         Ok(Solution {
-            families: Vec::new(),
+            arm: None,
+            families: families(assembly, verdict.status, verdict.self_motion),
             verdict,
             modes: modes.collect(),
             warnings: case.warnings.iter().cloned().chain(short).collect(),
@@ -135,6 +144,8 @@ impl PreparedPlatform {
             certified: mode.certificate.is_some(),
             radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius),
             within_limits: None,
+            near: false,
+            error: None,
             platform: Some(PlatformMode { velocity, mirror: mode.mirror.map(|index| index + 1) }),
         }
     }

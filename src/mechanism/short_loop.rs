@@ -238,6 +238,7 @@ impl ShortLoop {
             ));
         }
         Ok(Solution {
+            arm: None,
             families: Vec::new(),
             verdict,
             modes,
@@ -441,6 +442,8 @@ impl ShortLoop {
                 certified: proof.is_some(),
                 radius: proof.map_or(f64::INFINITY, |proof| proof.radius),
                 within_limits: within,
+                near: false,
+                error: None,
                 platform: None,
             });
         }

@@ -1,36 +1,35 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
 use super::by_input::{ByInput, Prepared};
+use super::data::{Data, Modular, is_rational};
 use super::exact_loop::{CoupledQuestion, Question as ExactQuestion};
 use super::exact_modes::exact_mode;
-use super::family::Family;
+use super::vicinity::Vicinity;
 use super::{FullMode, Solution};
 use crate::algebra::drawn::{self, Drawn};
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::interval::Interval;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
-use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
-use crate::assembly::{
-    Assembly, AxisTriple, FamilySample, Gap, Mode, Roots, Solver, Workspace, are_apart, coupler, wrapped,
-};
+use crate::assembly::{Assembly, AxisTriple, Gap, Mode, Roots, Solver, Workspace, are_apart, coupler, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::coordinate_ring::Plan;
-use crate::elimination::degree::{Degree, degree, general_filling};
-use crate::elimination::{point_reach, spherical_pair};
+use crate::elimination::degree::Degree;
+use crate::elimination::spherical_pair;
 use crate::error::{Error, Result};
-use crate::exact::{self, Known, MOST_WITH_TRIPLE, Resolution, general_rank, has_triple, resolve};
+use crate::exact::{self, BALL_BITS, Known, MOST_WITH_TRIPLE, OverRationals, Resolution, has_no_solution, resolve};
 use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::closed_loop::{
     ClosedLoop, Coupled, Layout, Numbers, OpenCoupled, OpenLoop, Variable, angle_motion, distance_motion,
 };
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
+use crate::kinematics::tolerance::Tolerance;
 use crate::solve::scalar::Extended;
 use crate::verdict::{Bound, Code, Proof, Status, Verdict, verdict};
 use num_complex::Complex;
 use rug::Rational;
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -42,14 +41,16 @@ enum Way {
 }
 
 /// The solver of one choice of the locked joint (of an arm: the only one).
-struct SixUnknowns {
-    layout: Layout,
-    solver: Solver,
+pub(super) struct SixUnknowns {
+    pub(super) layout: Layout,
+    pub(super) solver: Solver,
     /// The loop modulo a prime, when first asked for; none for an unlucky prime.
-    modular: OnceLock<Option<OpenLoop<Mod>>>,
+    modular: OnceLock<Option<OpenLoop<Drawn>>>,
     /// The loop, enclosed, when first asked for.
     enclosed: OnceLock<Option<OpenLoop<Enclosure>>>,
     bound: OnceLock<Bound>,
+    /// What the numbers of the mechanism are.
+    data: OnceLock<Data>,
 }
 
 /// Loops with two balls.
@@ -63,11 +64,11 @@ struct Balls {
 /// Modes of a lower condition number are those of the mechanism that rounded data stand for: these are off by 1e-17.
 const FIRM: f64 = 1e10;
 
-/// A solution in balls.
-type ExactSolution<const BITS: u32> = exact::Solution<BITS>;
+/// What counts rest on.
+const MODULO: &str = "modulo a prime drawn at run time";
 
-/// The field of exact degree counts.
-type Mod = Drawn;
+/// A solution in balls.
+type ExactSolution = exact::Solution<BALL_BITS>;
 
 fn bound_from(degree: Degree, place: &str) -> Bound {
     let all = degree.solutions + degree.left_out;
@@ -75,7 +76,7 @@ fn bound_from(degree: Degree, place: &str) -> Bound {
         format!("a closure polynomial of degree {all} {place}")
     } else {
         format!(
-            "a closure polynomial of degree {all}, of whose roots {} belong to no solution {place} (modulo a prime drawn at run time)",
+            "a closure polynomial of degree {all}, of whose roots {} belong to no solution {place} ({MODULO})",
             degree.left_out
         )
     };
@@ -97,20 +98,22 @@ fn of_triple() -> Bound {
 /// The dimension of the ring of a loop as a bound.
 fn of_ring(count: usize) -> Bound {
     let because = if count == 0 {
-        "the closure equations, of which 1 is a combination at this pose (modulo a prime drawn at run time)".to_owned()
+        format!("the closure equations, of which 1 is a combination at this pose ({MODULO})")
     } else {
-        format!(
-            "the closure equations, whose ring has dimension {count} at this pose (modulo a prime drawn at run time)"
-        )
+        format!("the closure equations, whose ring has dimension {count} at this pose ({MODULO})")
     };
     Bound { count, proof: Proof::None, code: Code::CountMet, because }
 }
 
 impl SixUnknowns {
-    /// The loop modulo a prime, its gap filled.
-    fn modular(&self, chain: &Chain, filling: &Motion<Mod>) -> Option<ClosedLoop<Mod>> {
-        let open = self.modular.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
-        Some(open.as_ref()?.close(filling))
+    /// The loop modulo the prime of the run.
+    fn modular(&self, chain: &Chain) -> Option<&OpenLoop<Drawn>> {
+        self.modular.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten()).as_ref()
+    }
+
+    /// What the numbers of the mechanism are.
+    fn data(&self, chain: &Chain) -> &Data {
+        self.data.get_or_init(|| Data::of(chain, &self.layout, None))
     }
 
     /// The loop of a case, enclosed.
@@ -123,25 +126,21 @@ impl SixUnknowns {
     fn bound(&self, chain: &Chain) -> &Bound {
         self.bound.get_or_init(|| {
             let locked = self.layout.locked.map(|k| self.layout.variables[k]);
-            let general = |choice| self.modular(chain, &general_filling(locked, choice)?);
+            let general = |choice| self.data(chain).general(self.modular(chain), locked, choice);
             let other = if locked.is_none() { general(1) } else { None };
             let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref()));
             let bound = counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"));
-            let is_met = || bound.count == MOST_WITH_TRIPLE && self.has_triple(chain);
+            let has_triple =
+                || self.layout.ball_unknown().is_none() && self.data(chain).has_triple(chain, &self.layout);
+            let is_met = || bound.count == MOST_WITH_TRIPLE && has_triple();
             if bound.code == Code::CountMet && is_met() { of_triple() } else { bound }
         })
     }
 
-    /// Whether three neighbouring axes are parallel or meet in a point, exactly.
-    fn has_triple(&self, chain: &Chain) -> bool {
-        let open: Option<OpenLoop<Rational>> = chain.try_open_loop(&self.layout).ok().flatten();
-        self.layout.ball_unknown().is_none() && open.is_some_and(|open| has_triple(&open))
-    }
-
     /// The number of solutions, exactly.
-    fn degree(&self, closed: &ClosedLoop<Mod>, other: Option<&ClosedLoop<Mod>>) -> Option<Degree> {
-        let Some(ball) = self.layout.ball_unknown() else { return degree(closed, other) };
-        let solutions = point_reach::count(closed, ball)?;
+    fn degree(&self, closed: &Modular, other: Option<&Modular>) -> Option<Degree> {
+        let Some(ball) = self.layout.ball_unknown() else { return closed.degree(other) };
+        let solutions = closed.reach(ball)?;
         Some(Degree { solutions, left_out: self.general().saturating_sub(solutions) })
     }
 
@@ -153,8 +152,8 @@ impl SixUnknowns {
 
 /// A chain, prepared for all its cases.
 pub(super) struct SingleLoop {
-    chain: Chain,
-    limits: Vec<[f64; 2]>,
+    pub(super) chain: Chain,
+    pub(super) limits: Vec<[f64; 2]>,
     is_rounded: bool,
     prepared: ByInput<Way>,
 }
@@ -171,6 +170,7 @@ impl SingleLoop {
         &self,
         case: &Case,
         roots: Roots,
+        tolerance: Tolerance,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
@@ -185,8 +185,18 @@ impl SingleLoop {
             let closed = prepared.enclosed(&self.chain, case)?.and_then(|closed| closed.rounded(f64::MANTISSA_DIGITS));
             gap = closed.map_or(gap, |ClosedLoop { constants: [.., last], .. }| solver.exact_gap(&last));
         }
-        let question =
-            Question { of: self, prepared, case, roots, gap: &gap, by_cuts: OnceCell::new(), ring: OnceCell::new() };
+        let question = Question {
+            of: self,
+            prepared,
+            case,
+            roots,
+            leaves_fields: workspace.leaves_fields,
+            gap: &gap,
+            by_cuts: OnceCell::new(),
+            ring: OnceCell::new(),
+            resolved: RefCell::new(None),
+            data: OnceCell::new(),
+        };
         let start = Instant::now();
         let fast = if solver.structural_rank() == 6 { Some(question.answer(workspace, assembly)) } else { None };
         let is_settled = |(verdict, _): &(Verdict, f64)| is_settled(verdict);
@@ -197,6 +207,7 @@ impl SingleLoop {
             let solve_us = start.elapsed().as_secs_f64() * 1e6;
             let warnings = case.warnings.clone();
             return Ok(Solution {
+                arm: None,
                 families: Vec::new(),
                 verdict,
                 modes,
@@ -219,13 +230,22 @@ impl SingleLoop {
             let q = prepared.layout.assemble(&mode.unknowns, locked_value);
             full_mode(mode, q, &prepared.layout.variables, &self.limits)
         });
+        let mut modes: Vec<FullMode> = modes.collect();
+        let vicinity = Vicinity { of: self, prepared, locked: locked_value.re, gap: &gap };
         let is_moving = verdict.status == Status::SelfMotion;
-        let sample = assembly.family.filter(|_| is_moving);
-        let families = sample.map(|sample| family(&sample, verdict.self_motion, &prepared.layout, locked_value.re));
+        let mut families = if is_moving { vicinity.families(&assembly.families) } else { Vec::new() };
+        if let Some(pose) = &case.pose {
+            let near = vicinity.near(pose, tolerance, verdict.status, assembly);
+            vicinity.list(&near, tolerance, &mut modes, &mut families);
+            if !(near.modes.is_empty() && near.families.is_empty()) && verdict.status == Status::Unreachable {
+                verdict.status = Status::Complete;
+            }
+        }
         Ok(Solution {
-            families: families.into_iter().collect(),
+            arm: None,
+            families,
             verdict,
-            modes: modes.collect(),
+            modes,
             warnings: case.warnings.clone(),
             prepare_us: *prepare_us,
             solve_us,
@@ -273,6 +293,7 @@ impl SingleLoop {
             let solve_us = start.elapsed().as_secs_f64() * 1e6;
             let warnings = case.warnings.clone();
             return Ok(Solution {
+                arm: None,
                 families: Vec::new(),
                 verdict,
                 modes,
@@ -293,6 +314,7 @@ impl SingleLoop {
             full_mode(mode, q, &layout.variables, &self.limits)
         });
         Ok(Solution {
+            arm: None,
             families: Vec::new(),
             verdict,
             modes: modes.collect(),
@@ -325,21 +347,41 @@ struct Question<'a> {
     prepared: &'a SixUnknowns,
     case: &'a Case,
     roots: Roots,
+    /// As in [`Workspace::leaves_fields`].
+    leaves_fields: bool,
     gap: &'a Gap,
     /// The exact count of all cuts.
     by_cuts: OnceCell<Option<Degree>>,
     /// How the ring of the loop is found.
     ring: OnceCell<Option<Plan>>,
+    /// What the eliminants said, and how many solutions were known then.
+    resolved: RefCell<Option<(usize, Resolution)>>,
+    /// What the numbers of the case are, where its own are not rational.
+    data: OnceCell<Data>,
 }
 
 impl Question<'_> {
-    fn modular(&self) -> Option<ClosedLoop<Mod>> {
-        self.prepared.modular(&self.of.chain, &filling::<Mod>(self.case).ok()?)
+    /// What the numbers of the mechanism and of the case are.
+    fn data(&self) -> &Data {
+        let SingleLoop { chain, .. } = self.of;
+        if is_rational(self.case) {
+            return self.prepared.data(chain);
+        }
+        self.data.get_or_init(|| Data::of(chain, &self.prepared.layout, Some(self.case)))
+    }
+
+    fn is_rounded(&self) -> bool {
+        self.data().is_rounded()
+    }
+
+    fn modular(&self) -> Option<Modular> {
+        let SingleLoop { chain, .. } = self.of;
+        self.data().modular(self.prepared.modular(chain), chain, self.case)
     }
 
     fn plan(&self) -> Option<&Plan> {
         let has_ball = self.prepared.layout.ball_unknown().is_some();
-        self.ring.get_or_init(|| Plan::of(&self.modular().filter(|_| !has_ball)?)).as_ref()
+        self.ring.get_or_init(|| self.modular().filter(|_| !has_ball)?.plan()).as_ref()
     }
 
     /// A bound at this pose: the ring is asked where the cuts know of nothing, or of more than `found`.
@@ -364,11 +406,9 @@ impl Question<'_> {
         let here = || self.count_here(assembly.total());
         let verdict = verdict(assembly, self.roots, rank, general, everywhere, here, solver.too_far(self.gap));
         // Incidences of rounded axes may be those of the rounded numbers only.
-        let is_exact = verdict.code != Code::GeometryBoundMet;
-        Verdict {
-            proof: if is_exact { verdict.proof } else { verdict.proof.of_rounded(self.of.is_rounded) },
-            ..verdict
-        }
+        let is_of_axes = verdict.code == Code::GeometryBoundMet;
+        let is_rounded = is_of_axes && self.prepared.data(&self.of.chain).is_rounded();
+        Verdict { proof: verdict.proof.of_rounded(is_rounded), ..verdict }
     }
 
     /// How many solutions there are, where all are wanted and not found.
@@ -377,7 +417,7 @@ impl Question<'_> {
             return None;
         }
         // What moves in f64 does not by its exact equations, unless rounded data made that so.
-        let is_refuted = || self.case.pose.is_none() && !self.of.is_rounded && self.plan().is_some();
+        let is_refuted = || self.case.pose.is_none() && !self.is_rounded() && self.plan().is_some();
         let here = || self.count_here(0).map(|here| here.count);
         match verdict.status {
             Status::Incomplete => {
@@ -428,14 +468,14 @@ impl Question<'_> {
             verdict = self.completed(&verdict, assembly)?;
         }
         // No mode would be elsewhere, or none at all, had the data been rounded in another way.
-        let is_firm = || !self.of.is_rounded || assembly.modes.iter().all(|mode| mode.condition < FIRM);
+        let is_firm = || !self.is_rounded() || assembly.modes.iter().all(|mode| mode.condition < FIRM);
         (verdict.status != Status::Incomplete && is_firm()).then_some(verdict)
     }
 
     /// The verdict, and microseconds for the search.
     fn answer(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> (Verdict, f64) {
         let start = Instant::now();
-        let verdict = self.verdict(workspace, assembly);
+        let verdict = self.without_solution(self.verdict(workspace, assembly));
         (verdict, start.elapsed().as_secs_f64() * 1e6)
     }
 
@@ -461,7 +501,7 @@ impl Question<'_> {
         }
         let (mut verdict, _) = self.by_exact_roots(verdict, assembly);
         if verdict.status == Status::SelfMotion
-            && self.of.is_rounded
+            && self.is_rounded()
             && self.case.pose.is_none()
             && let Some(plan) = self.plan()
         {
@@ -474,6 +514,24 @@ impl Question<'_> {
         verdict
     }
 
+    /// The verdict on a loop of dependent joints that has no solution modulo the prime: proved where the same combination of
+    /// the closure equations is 1 over the rationals.
+    fn without_solution(&self, verdict: Verdict) -> Verdict {
+        if verdict.code != Code::NoSolution || verdict.proof != Proof::None {
+            return verdict;
+        }
+        let is_over_rationals = !matches!(self.data(), Data::Field(_));
+        if is_over_rationals
+            && let (Some(plan), Some(closed)) = (self.plan(), self.exact())
+            && has_no_solution(&closed, plan)
+        {
+            let reason = verdict.reason.replace(MODULO, "over the rationals");
+            return Verdict { proof: Proof::Proved.of_rounded(self.is_rounded()), reason, ..verdict };
+        }
+        let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
+        Verdict { proof: if self.is_rounded() { Proof::None } else { proof }, ..verdict }
+    }
+
     /// Whether the solutions are roots of eliminants that decide what f64 leaves open.
     fn has_eliminants(&self) -> bool {
         let rotations = self.prepared.layout.loop_kinds().iter().all(|kind| *kind == Variable::Rotation);
@@ -484,29 +542,29 @@ impl Question<'_> {
     /// word. The list becomes that of the eliminants where these tell all solutions.
     fn by_exact_roots(&self, verdict: Verdict, assembly: &mut Assembly) -> (Verdict, bool) {
         // A pose out of reach has complex solutions all the same.
-        if verdict.proof.is_proved() && verdict.complex_complete {
+        let is_final = verdict.proof.is_proved() || verdict.proof == Proof::RoundedData;
+        if is_final && verdict.complex_complete {
             return (verdict, true);
         }
-        let is_asked = self.roots == Roots::All
-            && self.prepared.layout.ball_unknown().is_none()
-            && self.prepared.general() == GENERAL
-            && self.rank() == 6;
-        let loops = if is_asked { self.exact().zip(self.modular()) } else { None };
-        let Some((exact, modular)) = loops else { return (verdict, false) };
-        let places = distinct(&assembly.modes, &exact.variables);
+        let is_asked = self.roots == Roots::All && self.prepared.layout.ball_unknown().is_none() && self.rank() == 6;
+        if !is_asked {
+            return (verdict, false);
+        }
+        let places = distinct(&assembly.modes, &self.prepared.layout.loop_kinds());
         let known: Vec<Known> = places.iter().map(|&k| known(&assembly.modes[k])).collect();
-        match resolve::<BALL_BITS>(&exact, &modular, &known) {
+        let Some(resolution) = self.resolution(&known) else { return (verdict, false) };
+        match resolution {
             Resolution::AllKnown => {
                 assembly.modes = places.iter().map(|&k| assembly.modes[k].clone()).collect();
                 assembly.self_motion = 0;
                 (self.resolved(assembly), true)
             }
             Resolution::All(solutions) => {
-                let Some(closed) = in_f64(&exact) else { return (verdict, false) };
-                let mode = |solution: &ExactSolution<BALL_BITS>| match solution {
+                let Some((closed, unit)) = self.in_f64() else { return (verdict, false) };
+                let mode = |solution: &ExactSolution| match solution {
                     ExactSolution::Known(k) => assembly.modes[places[*k]].clone(),
                     ExactSolution::Found { pairs, is_real, multiplicity } => {
-                        exact_mode(&closed, pairs, *is_real, *multiplicity)
+                        exact_mode((&closed, unit), pairs, *is_real, *multiplicity)
                     }
                 };
                 let modes: Vec<Mode> = solutions.iter().map(mode).collect();
@@ -533,6 +591,19 @@ impl Question<'_> {
         }
     }
 
+    /// What the eliminants say, asked again where more solutions are known than before.
+    fn resolution(&self, known: &[Known]) -> Option<Resolution> {
+        let mut last = self.resolved.borrow_mut();
+        if let Some((count, resolution)) = &*last
+            && *count == known.len()
+        {
+            return Some(resolution.clone());
+        }
+        let resolution = self.asked(known)?;
+        *last = Some((known.len(), resolution.clone()));
+        Some(resolution)
+    }
+
     /// The verdict on a list that holds a solution for every root of an exact eliminant.
     fn resolved(&self, assembly: &Assembly) -> Verdict {
         let (complex, real) = (assembly.total(), assembly.real());
@@ -548,7 +619,7 @@ impl Question<'_> {
         );
         Verdict {
             status: if real == 0 { Status::Unreachable } else { Status::Complete },
-            proof: Proof::Proved.of_rounded(self.of.is_rounded),
+            proof: Proof::Proved.of_rounded(self.is_rounded()),
             code: Code::ExactRootsMatched,
             complex_complete: true,
             complex,
@@ -558,6 +629,25 @@ impl Question<'_> {
             certified: number,
             reason,
         }
+    }
+
+    /// What the exact equations say of all solutions, some of which are known.
+    fn asked(&self, known: &[Known]) -> Option<Resolution> {
+        if let Data::Field(own) = self.data() {
+            if self.leaves_fields {
+                return None;
+            }
+            let enclosed = self.prepared.enclosed(&self.of.chain, self.case).ok().flatten()?;
+            return Some(resolve(&own.exact(&self.of.chain, self.case, &enclosed)?, known));
+        }
+        let Modular::Drawn(modular) = self.modular()? else { return None };
+        Some(resolve(&OverRationals { closed: &self.exact()?, modular: &modular }, known))
+    }
+
+    /// The loop rounded to f64, lengths over a unit, and that unit.
+    fn in_f64(&self) -> Option<(ClosedLoop<f64>, f64)> {
+        let closed = self.prepared.enclosed(&self.of.chain, self.case).ok().flatten()?;
+        Some(in_unit(closed.rounded(f64::MANTISSA_DIGITS)?))
     }
 
     /// The loop over the rationals.
@@ -573,14 +663,9 @@ impl Question<'_> {
         if measured == 6 {
             return measured;
         }
-        self.modular().map_or(measured, |closed| general_rank(&closed).max(measured))
+        self.modular().map_or(measured, |closed| closed.rank().max(measured))
     }
 }
-
-/// The closure polynomial of general loops with five or six unknown rotations has this degree.
-const GENERAL: usize = 16;
-/// Bits of the balls in which exact roots are compared: solutions that differ by more than about `1e-70` are told apart.
-const BALL_BITS: u32 = 256;
 
 /// A list of certified solutions that is as long as a count modulo the drawn prime is complete with a probability.
 fn probable(verdict: Verdict, assembly: &Assembly) -> Verdict {
@@ -612,18 +697,15 @@ fn known(mode: &Mode) -> Known {
     Known { unknowns: mode.unknowns, radius }
 }
 
-/// A loop of rotations rounded to f64, lengths over a power of two near the mean link: residuals and condition numbers are
+/// A loop with lengths over a power of two near the mean link: residuals and condition numbers are
 /// those of such lengths.
-fn in_f64(exact: &ClosedLoop<Rational>) -> Option<ClosedLoop<f64>> {
-    let constants = exact.constants.each_ref().map(|motion| motion.map(|x| Some(nearest_f64(x))));
-    let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = constants else { return None };
-    let mut constants = [a, b, c, d, e, f];
-    let square = constants.iter().flat_map(|motion| motion.translation).map(|x| x * x).sum::<f64>() / 6.0;
+fn in_unit(mut closed: ClosedLoop<f64>) -> (ClosedLoop<f64>, f64) {
+    let square = closed.constants.iter().flat_map(|motion| motion.translation).map(|x| x * x).sum::<f64>() / 6.0;
     let unit = if square > 0.0 && square.is_finite() { square.sqrt().log2().round().exp2() } else { 1.0 };
-    for motion in &mut constants {
+    for motion in &mut closed.constants {
         motion.translation = motion.translation.map(|x| x / unit);
     }
-    Some(ClosedLoop { variables: exact.variables, constants })
+    (closed, unit)
 }
 
 /// Real modes first, then by their unknowns.
@@ -659,21 +741,8 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
             Freedom::of(chain)
         )));
     }
-    let (modular, enclosed, bound) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-    Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular, enclosed, bound })))
-}
-
-/// A self-motion as an answer.
-fn family(sample: &FamilySample, dimension: usize, layout: &Layout, locked: f64) -> Family {
-    let moving = layout.assemble(&sample.moving, false);
-    let places = moving.iter().enumerate().filter(|(_, moves)| **moves).map(|(k, _)| k);
-    Family {
-        dimension,
-        moving: places.collect(),
-        distance: 0.0,
-        sample: layout.assemble(&sample.unknowns, locked),
-        samples: Vec::new(),
-    }
+    let (modular, enclosed, bound, data) = (OnceLock::new(), OnceLock::new(), OnceLock::new(), OnceLock::new());
+    Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular, enclosed, bound, data })))
 }
 
 /// Why six joints are dependent, where two triples of their axes say it.
@@ -715,6 +784,8 @@ pub(super) fn full_mode(mode: &Mode, q: Vec<Complex<f64>>, variables: &[Variable
         radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius),
         within_limits: (mode.real && !limits.is_empty()).then(|| within_limits(&q, variables, limits)),
         q,
+        near: false,
+        error: None,
         platform: None,
     }
 }
@@ -796,10 +867,7 @@ fn is_settled(verdict: &Verdict) -> bool {
 
 /// Whether the input of a loop is an exact number.
 pub(super) fn is_exact(case: &Case) -> bool {
-    case.input.iter().all(|input| match &input.value {
-        InputValue::Angle(angle) => angle.is_exact(),
-        InputValue::Distance(distance) => distance.is_exact(),
-    })
+    case.input.iter().all(|input| input.value.is_exact())
 }
 
 pub(super) fn locked_value(case: &Case) -> f64 {

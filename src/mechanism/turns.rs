@@ -12,9 +12,23 @@ impl Turns {
     /// The limited rotations of a chain.
     pub(super) fn of(chain: Option<&Chain>, limits: &[[f64; 2]]) -> Self {
         let variables = chain.map(Chain::variables).unwrap_or_default();
+        Self::new(&variables.iter().map(|own| own.variable).collect::<Vec<_>>(), limits)
+    }
+
+    /// The limited rotations among joint variables.
+    pub(super) fn new(variables: &[Variable], limits: &[[f64; 2]]) -> Self {
         let limited = variables.iter().zip(limits).enumerate();
-        let rotations = limited.filter(|(_, (own, _))| own.variable == Variable::Rotation);
+        let rotations = limited.filter(|(_, (own, _))| **own == Variable::Rotation);
         Self(rotations.map(|(at, (_, limits))| (at, *limits)).collect())
+    }
+
+    /// Moves the angles of a configuration that respects the limits to this rounding into them, by whole turns.
+    pub(super) fn place(&self, q: &mut [f64], rounding: f64) {
+        for &(at, [low, high]) in &self.0 {
+            if let Some(value) = q.get_mut(at) {
+                *value = within(*value, [low - rounding, high + rounding]).clamp(low, high);
+            }
+        }
     }
 
     /// Moves the angles of a mode that respects the limits into them, by whole turns.
@@ -28,6 +42,36 @@ impl Turns {
             }
         }
     }
+}
+
+/// Most representatives listed of a configuration: six joints of three turns each have 729.
+const MOST: usize = 1000;
+
+/// A real configuration with every choice of whole turns that lies within the limits; itself alone where it lies outside them
+/// or there are none.
+#[must_use]
+pub fn representatives(mode: &FullMode, variables: &[Variable], limits: &[[f64; 2]]) -> Vec<Vec<f64>> {
+    let mut all = vec![Vec::new()];
+    for (k, value) in mode.q.iter().enumerate() {
+        let limits = limits.get(k).filter(|_| variables.get(k) == Some(&Variable::Rotation));
+        let choices = match limits {
+            Some([low, high]) if mode.within_limits == Some(true) && low.is_finite() && high.is_finite() => {
+                let first = value.re + TAU * ((low - value.re) / TAU).ceil();
+                // The limits of a file are finite, but may be far apart.
+                let turns = std::iter::successors(Some(first), |angle| Some(angle + TAU));
+                // A first one that rounding put beyond a limit meets it.
+                let rest = turns.skip(1).take_while(|angle| angle <= high).take(MOST);
+                std::iter::once(first.clamp(*low, *high)).chain(rest).collect()
+            }
+            _ => vec![value.re],
+        };
+        all = all
+            .iter()
+            .flat_map(|q: &Vec<f64>| choices.iter().map(move |choice| [q.as_slice(), &[*choice]].concat()))
+            .take(MOST)
+            .collect();
+    }
+    all
 }
 
 /// The angle itself where it respects the limits, else the first one beyond the lower limit, or before the upper one.

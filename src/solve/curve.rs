@@ -6,7 +6,7 @@
 use super::dense::{inverse, times};
 use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
-use crate::kinematics::closed_loop::{OpenLoop, Variable};
+use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::{Motion, cross};
 use nalgebra::SMatrix;
 
@@ -27,7 +27,15 @@ pub struct Curve {
     idle: [bool; 7],
     constants: [Motion<f64>; 7],
     scale: f64,
+    /// The closure of a point, in parts of its reach, up to which it counts as one of the curve.
+    closes_within: f64,
 }
+
+/// The closure of the points of a curve that meets its loop exactly: rounding.
+pub const CLOSES_WITHIN: f64 = 1e-11;
+/// The border that takes the place of the one idle column: any vector in general position does. Along the curve the closure
+/// has no part in it.
+const COBORDER: [f64; 6] = [0.41, -0.37, 0.53, 0.29, -0.47, 0.33];
 
 /// The closure at a point.
 struct Here {
@@ -67,7 +75,21 @@ impl Curve {
         }
         let variables = std::array::from_fn(|j| if j < 6 { open.variables[j] } else { input });
         let idle = std::array::from_fn(|j| j < 6 && idle[j]);
-        Self { variables, idle, constants, scale }
+        Self { variables, idle, constants, scale, closes_within: CLOSES_WITHIN }
+    }
+
+    /// The self-motion of a loop of six unknowns, which need not close better than within `closes_within`: the seventh
+    /// variable stays at 0, and unknowns that are not `unlocked` stay where they are.
+    #[must_use]
+    pub fn of_self_motion(closed: &ClosedLoop<f64>, unlocked: &[bool; 6], closes_within: f64) -> Self {
+        let still = |j: usize| closed.constants.get(j).cloned().unwrap_or_else(Motion::identity);
+        Self {
+            variables: std::array::from_fn(|j| closed.variables.get(j).copied().unwrap_or(Variable::Rotation)),
+            idle: std::array::from_fn(|j| !unlocked.get(j).is_some_and(|unlocked| *unlocked)),
+            constants: std::array::from_fn(still),
+            scale: 1.0,
+            closes_within,
+        }
     }
 
     /// What each variable does.
@@ -117,6 +139,17 @@ impl Curve {
         let moving = self.idle.iter().filter(|idle| !**idle).count();
         if moving == 7 {
             return inverse(bordered);
+        }
+        if moving == 6 {
+            let entry = |i: usize, j: usize| match (self.idle[j], COBORDER.get(i)) {
+                (true, border) => border.copied().unwrap_or(0.0),
+                (false, _) => bordered[i][j],
+            };
+            let mut found = inverse(&std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))))?;
+            for (row, idle) in found.iter_mut().zip(self.idle) {
+                *row = if idle { [0.0; 7] } else { *row };
+            }
+            return Some(found);
         }
         let matrix = SMatrix::<f64, 7, 7>::from_fn(|i, j| if self.idle[j] { 0.0 } else { bordered[i][j] });
         let svd = matrix.svd(true, true);
@@ -290,6 +323,6 @@ impl Curve {
         }
         let closed = self.here(&at).residual.iter().map(|x| x.abs()).fold(0.0, f64::max);
         let reach = at.iter().map(|x| x.abs()).fold(1.0, f64::max);
-        (closed < 1e-11 * reach).then(|| (at, steps[0]))
+        (closed < self.closes_within * reach).then(|| (at, steps[0]))
     }
 }

@@ -277,6 +277,9 @@ pub struct Polished<S> {
 const ROUNDING: f64 = 2e-15;
 /// Enough for linear convergence to a double root to come down to rounding.
 const MOST_STEPS: usize = 100;
+/// After so many steps the defect must have halved: it falls to a quarter by one step beside a double root, to a third beside
+/// a triple one, and candidates that damped steps lead nowhere are given up.
+const PATIENCE: usize = 10;
 /// The largest change of an unknown in a damped step.
 const LONGEST_STEP: f64 = 0.5;
 
@@ -290,9 +293,16 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
     // Beside long translations, whose rounding is as long, the rotation counts in full.
     let length = reach(&closed.variables, &start.map(Scalar::to_complex));
     let mut known_inverse = None;
+    let mut before = f64::INFINITY;
     for count in 0..MOST_STEPS {
         let floor = ROUNDING.max(1e-16 * here.growth(S::REAL));
         let defect = here.defect_over(length);
+        if count % PATIENCE == 0 {
+            if count > 0 && !(defect < 0.5 * before) {
+                break;
+            }
+            before = defect;
+        }
         if !defect.is_finite() || (defect <= floor && known_inverse.is_some()) {
             break;
         }

@@ -8,7 +8,7 @@ use super::dense::{inverse, times};
 use super::newton::{Six, closure};
 use super::scalar::Scalar;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::Matrix6;
 use num_complex::Complex;
 
 /// What a singular solution is.
@@ -22,8 +22,6 @@ pub enum Nature {
     Unresolved,
 }
 
-/// Singular values below this part of the largest count as zero on a curve.
-const RANK: f64 = 1e-6;
 /// The closure that a self-motion keeps at a finite distance, in scaled lengths.
 const CURVE: f64 = 1e-11;
 
@@ -152,141 +150,6 @@ pub fn spread(variables: &[Variable; 6], trial: usize) -> Six<f64> {
             Variable::Translation => 4.0 * fraction - 2.0,
         }
     })
-}
-
-/// Rank of the Jacobian at real unknowns, and its right singular vectors from the largest to the smallest value.
-fn rank(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> (usize, [Six<f64>; 6]) {
-    let here = closure(closed, unknowns);
-    let matrix = Matrix6::from_fn(|i, j| here.jacobian[i][j]);
-    let svd = matrix.svd(false, true);
-    let mut order: [usize; 6] = std::array::from_fn(|k| k);
-    let values = svd.singular_values;
-    order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-    let largest = values[order[0]];
-    let count = order.iter().filter(|&&k| values[k] > RANK * largest).count();
-    let vectors = svd.v_t.map_or([[0.0; 6]; 6], |v| order.map(|k| std::array::from_fn(|j| v[(k, j)])));
-    (count, vectors)
-}
-
-/// Slides back onto the solution set by Gauss-Newton steps with the pseudo-inverse; the closure defect reached.
-fn project(closed: &ClosedLoop<f64>, unknowns: &mut Six<f64>, full_rank: usize) -> f64 {
-    let mut defect = f64::INFINITY;
-    for _ in 0..30 {
-        let here = closure(closed, unknowns);
-        if !(here.defect < 0.9 * defect) {
-            defect = defect.min(here.defect);
-            break;
-        }
-        defect = here.defect;
-        let svd = Matrix6::from_fn(|i, j| here.jacobian[i][j]).svd(true, true);
-        let mut values: Vec<f64> = svd.singular_values.iter().copied().collect();
-        values.sort_by(|a, b| b.total_cmp(a));
-        // Keep as many directions as the solution set leaves transversal ones.
-        let cut = values[full_rank - 1].max(1e-9 * values[0]) * 0.999;
-        let Ok(step) = svd.solve(&Vector6::from(here.residual), cut) else { break };
-        for k in 0..6 {
-            unknowns[k] -= step[k];
-        }
-    }
-    defect
-}
-
-/// A self-motion as measured at its points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SelfMotion {
-    /// Its dimension.
-    pub dimension: usize,
-    /// Which unknowns move along it.
-    pub moving: [bool; 6],
-}
-
-/// Whether a real solution lies on a self-motion, for any corank: steps in directions of the kernel and slides back.
-/// The dimension is the least one at the points found, and all unknowns move that move at one of them.
-#[must_use]
-pub fn self_motion(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<SelfMotion> {
-    let (count, vectors) = rank(closed, unknowns);
-    if count == 6 || count == 0 {
-        return None;
-    }
-    let corank = 6 - count;
-    let mut best: Option<SelfMotion> = None;
-    // Kernel directions, then mixtures of them: curves leave a point of higher corank only along special ones.
-    let mixtures = 2 * corank + if corank > 1 { 24 } else { 0 };
-    for trial in 0..mixtures {
-        let weight = |k: usize| -> f64 {
-            if trial < 2 * corank {
-                if trial / 2 == k { if trial % 2 == 0 { 1.0 } else { -1.0 } } else { 0.0 }
-            } else {
-                // A fixed sequence of directions, spread by the golden angle.
-                ((trial * 7 + k * 13) as f64 * 2.399_963).sin()
-            }
-        };
-        let norm = (0..corank).map(|k| weight(k).powi(2)).sum::<f64>().sqrt().max(1e-9);
-        let mut q = *unknowns;
-        for k in 0..corank {
-            for (x, v) in q.iter_mut().zip(&vectors[count + k]) {
-                *x += 0.02 * weight(k) / norm * v;
-            }
-        }
-        for keep in (count..6).filter(|&r| r <= 5) {
-            let mut slid = q;
-            let defect = project(closed, &mut slid, keep);
-            let distance = (0..6).map(|k| (slid[k] - unknowns[k]).abs()).fold(0.0, f64::max);
-            if defect < CURVE && distance > 1e-3 && distance < 0.5 {
-                if let Some(dimension) = dimension_at(closed, &slid) {
-                    let moving = std::array::from_fn(|k| (slid[k] - unknowns[k]).abs() > MOVED);
-                    best = Some(best.map_or(SelfMotion { dimension, moving }, |b: SelfMotion| SelfMotion {
-                        dimension: b.dimension.min(dimension),
-                        moving: std::array::from_fn(|k| b.moving[k] || moving[k]),
-                    }));
-                }
-                break;
-            }
-        }
-    }
-    best
-}
-
-/// Unknowns that change by less along a step of 0.02 stand still: rounding at a multiple curve reaches 1e-7.
-const MOVED: f64 = 1e-6;
-/// How far a step goes that explores a self-motion.
-const STEP: f64 = 0.01;
-/// Directions in which points of a self-motion lie beside one of its points: those with at least this part of the largest
-/// spread. A curve bends by a part of about one step of 0.01 out of its tangent.
-const SPREAD: f64 = 0.15;
-
-/// The dimension of the solutions at one of them on a self-motion, by where points beside it lie: the corank may be larger,
-/// also all along a curve. `None` for a regular point.
-fn dimension_at(closed: &ClosedLoop<f64>, unknowns: &Six<f64>) -> Option<usize> {
-    let (count, vectors) = rank(closed, unknowns);
-    let corank = 6 - count;
-    if corank <= 1 || count == 0 {
-        return (corank > 0).then_some(corank);
-    }
-    // A fixed sequence of directions in the kernel, several for each dimension.
-    let directions = (1..=6 * corank).map(|trial| {
-        let weights: Vec<f64> = (0..corank).map(|k| ((trial * 5 + k * 11) as f64 * 2.399_963).sin()).collect();
-        let norm = weights.iter().map(|w| w * w).sum::<f64>().sqrt().max(1e-9);
-        let entry = |j: usize| (0..corank).map(|k| weights[k] / norm * vectors[count + k][j]).sum::<f64>();
-        std::array::from_fn::<f64, 6, _>(entry)
-    });
-    let mut moment = Matrix6::zeros();
-    for direction in directions {
-        let start: Six<f64> = std::array::from_fn(|j| unknowns[j] + STEP * direction[j]);
-        for keep in count..6 {
-            let mut slid = start;
-            let defect = project(closed, &mut slid, keep);
-            let moved = Vector6::from_fn(|j, _| (slid[j] - unknowns[j]) / STEP);
-            if defect < CURVE && moved.norm() < 10.0 {
-                moment += moved * moved.transpose();
-                break;
-            }
-        }
-    }
-    let spreads: Vec<f64> = moment.symmetric_eigenvalues().iter().map(|x| x.max(0.0).sqrt()).collect();
-    let largest = spreads.iter().copied().fold(0.0, f64::max);
-    let dimension = spreads.iter().filter(|spread| **spread > SPREAD * largest).count();
-    Some(dimension.clamp(1, corank))
 }
 
 /// The largest rank of the twists of the loop's joints over a few fixed generic positions of the unknowns, the loop

@@ -1,5 +1,6 @@
 //! All poses of a Stewart platform with legs of given lengths.
 
+mod affine;
 mod arrival;
 mod candidate;
 mod coincident;

@@ -50,6 +50,8 @@ pub enum Route {
         /// Whether they meet at the base, not at the plate.
         at_base: bool,
     },
+    /// The algebra of rotations of a platform whose base and plate are affine images of the same points.
+    Affine,
     /// A parameter homotopy from general platforms: the border basis of the platform itself lost rank, or poses that are
     /// known to exist were not found with it.
     Homotopy {
@@ -75,6 +77,9 @@ impl fmt::Display for Route {
                 "two resultants of degree 16 (the legs meet in pairs at the {}: a triangle whose corners move on circles)",
                 if *at_base { "base" } else { "plate" }
             ),
+            Self::Affine => {
+                write!(f, "algebra of the rotations (base and plate are affine images of the same six points)")
+            }
             Self::Homotopy { runs } => write!(
                 f,
                 "parameter homotopy, 40 paths from a general platform to this one, {runs} {} (special geometry: the border \
@@ -103,8 +108,12 @@ pub struct PlatformAssembly {
     pub unresolved: usize,
     /// Dimension of the self-motion found, 0 if none was.
     pub self_motion: usize,
-    /// How many poses were found or proved in numbers of 384 bits only.
+    /// Poses of it, quaternion and position; of a curve in their order along it.
+    pub motion: Vec<[f64; 7]>,
+    /// How many poses were found or proved in longer numbers only.
     pub rescued: usize,
+    /// Bits of the longest of these.
+    pub rescued_in: usize,
 }
 
 impl PlatformAssembly {

@@ -1,7 +1,6 @@
 //! What of a platform is computed once for all leg lengths.
 
 use crate::algebra::double_double::DoubleDouble;
-use crate::algebra::long_float::LongFloat;
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
 use crate::certify::pose::Curvature;
@@ -141,12 +140,14 @@ pub struct Squares {
     narrow: [f64; 6],
     wide: [DoubleDouble; 6],
     rounding: f64,
+    /// Exact, where they were given so.
+    pub exact: Option<[Rational; 6]>,
 }
 
 impl Squares {
     /// Numbers that are exact.
     pub fn of_floats(squares: &[f64; 6]) -> Self {
-        Self { narrow: *squares, wide: squares.map(Into::into), rounding: 0.0 }
+        Self { narrow: *squares, wide: squares.map(Into::into), rounding: 0.0, exact: None }
     }
 
     /// Numbers that are rounded.
@@ -154,7 +155,7 @@ impl Squares {
         let narrow = squares.each_ref().map(rounded);
         let rounding = if narrow.iter().zip(squares).all(|(x, q)| *q == *x) { 0.0 } else { ROUNDING };
         let wide = squares.each_ref().map(|q| DoubleDouble::from_rational(q).unwrap_or_else(DoubleDouble::zero));
-        Self { narrow, wide, rounding }
+        Self { narrow, wide, rounding, exact: Some(squares.clone()) }
     }
 }
 
@@ -204,8 +205,8 @@ impl Frame {
         LegNumbers { legs, wide, curvature }
     }
 
-    /// The same in numbers of 384 bits.
-    pub fn long_legs(&self, squares: &[Rational; 6]) -> [Leg<LongFloat>; 6] {
+    /// The same in long numbers.
+    pub fn long_legs<R: Ring>(&self, squares: &[Rational; 6]) -> [Leg<R>; 6] {
         let unit = Rational::from_f64(self.scale).map_or_else(|| Rational::from(1), Rational::square);
         std::array::from_fn(|i| {
             let leg = Leg { square: Rational::from(&squares[i] / &unit), ..self.exact[i].clone() };

@@ -1,10 +1,9 @@
-//! Poses again from exact data, in numbers of 384 bits: for complex ones almost at infinity, that f64 does not reach.
+//! Poses again from exact data, in numbers of 384 bits and more: for complex ones almost at infinity, that f64 does not reach.
 
 use super::prepared::Frame;
-use crate::algebra::long_float::LongFloat;
+use crate::algebra::long_float::LongNumber;
 use crate::algebra::ring::{Field, Ring};
 use crate::closure::study::{Four, left, scalar};
-use crate::elimination::border::DIMENSION;
 use crate::elimination::platform_long::{LongAlgebra, long_algebra};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
@@ -15,7 +14,7 @@ use crate::solve::scalar::{Number, extended};
 use num_complex::Complex;
 use rug::Rational;
 
-type Long = Complex<LongFloat>;
+type Long<const LIMBS: usize> = Complex<LongNumber<LIMBS>>;
 
 /// The combination of `z_1, z_2, z_3` whose eigenvalues are asked for: one that no two poses share, as a rule.
 const WEIGHTS: [i32; 3] = [1, -2, 3];
@@ -29,17 +28,27 @@ const DISTURBANCES: [u32; 2] = [24, 14];
 
 /// Points near the poses of a platform, one of every two conjugate ones: Study's parameters in the frame of polishing.
 /// Those without a pose (`N = 0`) that are multiple are left out.
-pub fn starts(platform: &Platform<Rational>, squares: &[Rational; 6], frame: &Frame) -> Vec<Eight<Long>> {
-    let of = |platform: &Platform<Rational>| (0..2).find_map(|choice| long_algebra(platform, squares, choice));
+pub fn starts<const LIMBS: usize>(
+    platform: &Platform<Rational>,
+    squares: &[Rational; 6],
+    frame: &Frame,
+) -> Vec<Eight<Long<LIMBS>>> {
+    let of = |platform: &Platform<Rational>| (0..2).find_map(|choice| long_algebra::<LIMBS>(platform, squares, choice));
     // Solutions with N = 0 on curves, which a platform beside this one does not have.
     let beside = || DISTURBANCES.into_iter().find_map(|bits| of(&disturbed(platform, frame.scale, bits)));
     let algebra = of(platform).or_else(beside);
     algebra.map_or_else(Vec::new, |algebra| {
         let hessenberg = Hessenberg::of(combined(&algebra.products));
-        let roots = polynomial_roots(&hessenberg.characteristic()).unwrap_or_default();
-        let upper = roots.iter().filter(|root| root.im.to_f64() > -NEARLY_REAL * root.re.to_f64().abs());
-        upper.filter_map(|root| study(&algebra, &hessenberg.vector(root)?, frame)).collect()
+        let upper = upper_roots(&hessenberg).into_iter();
+        upper.filter_map(|root| study(&algebra, &hessenberg.vector(&root)?, frame)).collect()
     })
+}
+
+/// The simple eigenvalues of a real matrix that are real, nearly so, or above the real axis.
+pub fn upper_roots<const LIMBS: usize>(hessenberg: &Hessenberg<LongNumber<LIMBS>>) -> Vec<Long<LIMBS>> {
+    let mut roots = polynomial_roots(&hessenberg.characteristic()).unwrap_or_default();
+    roots.retain(|root| root.im.to_f64() > -NEARLY_REAL * root.re.to_f64().abs());
+    roots
 }
 
 /// A general platform very near to this one.
@@ -61,48 +70,68 @@ fn spread(point: usize, coordinate: usize) -> Rational {
 }
 
 /// `sum_i w_i z_i` as a matrix: row k is its product with basis element k.
-fn combined(products: &[Vec<[LongFloat; DIMENSION]>; 3]) -> Vec<Vec<LongFloat>> {
-    let weights = WEIGHTS.map(LongFloat::from_integer);
-    (0..DIMENSION)
+pub fn combined<const LIMBS: usize, Row: AsRef<[LongNumber<LIMBS>]>>(
+    products: &[Vec<Row>; 3],
+) -> Vec<Vec<LongNumber<LIMBS>>> {
+    let weights = WEIGHTS.map(LongNumber::from_integer);
+    let size = products[0].len();
+    (0..size)
         .map(|k| {
             let entry = |j: usize| {
-                products.iter().zip(&weights).fold(LongFloat::zero(), |sum, (m, w)| sum.add(&m[k][j].mul(w)))
+                products.iter().zip(&weights).fold(LongNumber::zero(), |sum, (m, w)| sum.add(&m[k].as_ref()[j].mul(w)))
             };
-            (0..DIMENSION).map(entry).collect()
+            (0..size).map(entry).collect()
         })
         .collect()
 }
 
 /// Study's parameters from the values of the basis elements at a solution.
-fn study(algebra: &LongAlgebra, values: &[Long], frame: &Frame) -> Option<Eight<Long>> {
+fn study<const LIMBS: usize>(
+    algebra: &LongAlgebra<LIMBS>,
+    values: &[Long<LIMBS>],
+    frame: &Frame,
+) -> Option<Eight<Long<LIMBS>>> {
     let one = values[0].inverse()?;
     let at = |k: usize| values[k].mul(&one);
-    let z: Four<Long> = [Long::one(), at(1), at(2), at(3)];
+    let z: Four<Long<LIMBS>> = [Long::<LIMBS>::one(), at(1), at(2), at(3)];
     let setting = &algebra.setting;
-    let u = |k: usize| -> Long {
+    let u = |k: usize| -> Long<LIMBS> {
         let form = &setting.forms[k];
-        let square = (0..16).fold(Long::zero(), |sum, e| sum.add(&z[e / 4].mul(&z[e % 4]).times(form[e / 4][e % 4])));
+        let square =
+            (0..16).fold(Long::<LIMBS>::zero(), |sum, e| sum.add(&z[e / 4].mul(&z[e % 4]).times(form[e / 4][e % 4])));
         (0..setting.count).fold(square, |sum, a| sum.add(&at(4 + a).times(setting.null[a][k])))
     };
     // p z / N from N p, then both turned back: x = before^* z behind.
     let inverse = scalar(&z, &z).inverse()?;
     let moved = left(&[u(1), u(2), u(3)]);
-    let y: Four<Long> = std::array::from_fn(|i| scalar(&moved[i], &z).mul(&inverse));
-    let lift = |q: &Quaternion<LongFloat>| Quaternion {
-        scalar: Long::from_real(q.scalar),
-        vector: q.vector.map(Long::from_real),
+    let y: Four<Long<LIMBS>> = std::array::from_fn(|i| scalar(&moved[i], &z).mul(&inverse));
+    framed(&z, &y, &algebra.turns, frame)
+}
+
+/// Study's parameters in the frame, from those of the platform turned as [`turned`](crate::elimination::platform_degree::turned)
+/// says.
+pub fn framed<const LIMBS: usize>(
+    z: &Four<Long<LIMBS>>,
+    y: &Four<Long<LIMBS>>,
+    turns: &[Quaternion<LongNumber<LIMBS>>; 2],
+    frame: &Frame,
+) -> Option<Eight<Long<LIMBS>>> {
+    let lift = |q: &Quaternion<LongNumber<LIMBS>>| Quaternion {
+        scalar: Long::<LIMBS>::from_real(q.scalar),
+        vector: q.vector.map(Long::<LIMBS>::from_real),
     };
-    let quaternion = |[scalar, x, y, z]: Four<Long>| Quaternion { scalar, vector: [x, y, z] };
-    let [before, behind] = algebra.turns.each_ref().map(lift);
-    let back = |q: Four<Long>| before.conjugate().mul(&quaternion(q)).mul(&behind);
-    let (x, y) = (back(z), back(y));
+    let quaternion = |[scalar, x, y, z]: Four<Long<LIMBS>>| Quaternion { scalar, vector: [x, y, z] };
+    let [before, behind] = turns.each_ref().map(lift);
+    let back = |q: Four<Long<LIMBS>>| before.conjugate().mul(&quaternion(q)).mul(&behind);
+    let (x, y) = (back(*z), back(*y));
     // Into the frame: y - o x + x o'.
-    let pure = |v: &[f64; 3]| Quaternion { scalar: Long::zero(), vector: v.map(|c| extended(Complex::from(c))) };
+    let pure =
+        |v: &[f64; 3]| Quaternion { scalar: Long::<LIMBS>::zero(), vector: v.map(|c| extended(Complex::from(c))) };
     let (base, plate) = (pure(&frame.origins[0]).mul(&x), x.mul(&pure(&frame.origins[1])));
-    let unit = LongFloat::from(1.0 / frame.scale);
-    let four = |q: &Quaternion<Long>| [q.scalar, q.vector[0], q.vector[1], q.vector[2]];
+    let unit = LongNumber::<LIMBS>::from(1.0 / frame.scale);
+    let four = |q: &Quaternion<Long<LIMBS>>| [q.scalar, q.vector[0], q.vector[1], q.vector[2]];
     let (x, y, base, plate) = (four(&x), four(&y), four(&base), four(&plate));
-    let study: Eight<Long> =
+    let study: Eight<Long<LIMBS>> =
         std::array::from_fn(|k| if k < 4 { x[k] } else { y[k - 4].sub(&base[k - 4]).add(&plate[k - 4]).times(unit) });
     study.iter().all(|z| z.size().is_finite()).then_some(study)
 }

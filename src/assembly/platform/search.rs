@@ -153,12 +153,17 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The dimension of the self-motion on which poses lie that are no isolated solutions.
-    pub fn self_motion(&self) -> usize {
+    /// The dimension of the largest self-motion on which poses lie that are no isolated solutions, and a point beside it.
+    pub fn self_motion(&self) -> Option<(usize, Eight<f64>)> {
         let singular = self.found.iter().filter(|f| f.real && f.certificate.is_none());
         let singular = singular.map(|f| f.study.map(|z| z.re));
-        singular.chain(self.stray.iter().copied().flatten()).map(|v| self_motion(self.legs, &v)).max().unwrap_or(0)
+        let points = singular.chain(self.stray.iter().copied().flatten());
+        points
+            .map(|v| (self_motion(self.legs, &v), v))
+            .filter(|(dimension, _)| *dimension > 0)
+            .max_by_key(|found| found.0)
     }
+
     /// How many solutions are accounted for: poses, conjugate ones included.
     pub fn poses(&self) -> usize {
         self.found.iter().map(|f| f.multiplicity() * if f.real { 1 } else { 2 }).sum()

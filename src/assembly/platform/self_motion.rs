@@ -16,6 +16,10 @@ const CLOSED: f64 = 1e-12;
 const STEP: f64 = 0.02;
 /// Poses are another direction of motion if they are farther away than this part of a step.
 const MOVED: f64 = 0.2;
+/// Steps along a curve before it is left.
+const MOST_STEPS: usize = 1500;
+/// A curve keeps about this number of points.
+const KEPT: usize = 60;
 /// |N| of a point on a family without poses.
 const NULL: f64 = 1e-3;
 
@@ -53,6 +57,49 @@ fn kernel<S: Numeric>(legs: &[Leg<f64>; 6], v: &Eight<S>) -> impl Iterator<Item 
     (0..8)
         .filter(move |&k| values[k] <= cut)
         .filter_map(move |k| rows.map(|rows| std::array::from_fn(|j| Number::conjugate(rows[(k, j)]))))
+}
+
+/// Poses along the curve of poses next to a point, in their order: until it comes back to where it began, or as far as it is
+/// followed, every so many steps.
+#[must_use]
+pub fn curve(legs: &[Leg<f64>; 6], start: &Eight<f64>) -> Vec<Eight<f64>> {
+    let Some(first) = project(legs, start) else { return Vec::new() };
+    let ahead = |v: &Eight<f64>, direction: &Eight<f64>| {
+        let start = std::array::from_fn(|j| v[j] + direction[j] * STEP);
+        project(legs, &start).filter(|next| distance(v, next) > MOVED * STEP)
+    };
+    let mut points = vec![first];
+    let Some(mut next) = kernel(legs, &first).find_map(|direction| ahead(&first, &direction)) else { return points };
+    let (mut last, mut has_left) = (first, false);
+    for _ in 0..MOST_STEPS {
+        // Quaternions of either sign are one rotation.
+        if same_sign(&last, &next) < 0.0 {
+            next = next.map(|x| -x);
+        }
+        points.push(next);
+        let back = distance(&first, &next).min(distance(&first, &next.map(|x| -x)));
+        has_left |= back > 2.0 * STEP;
+        if has_left && back < 0.7 * STEP {
+            points.push(first);
+            break;
+        }
+        let length = distance(&last, &next);
+        let direction = std::array::from_fn(|j| (next[j] - last[j]) / length);
+        last = next;
+        let Some(further) = ahead(&last, &direction) else { break };
+        next = further;
+    }
+    let every = points.len().div_ceil(KEPT);
+    let end = points.len() - 1;
+    points.iter().enumerate().filter(|(k, _)| k % every == 0 || *k == end).map(|(_, point)| *point).collect()
+}
+
+fn distance(v: &Eight<f64>, w: &Eight<f64>) -> f64 {
+    (0..8).map(|k| (v[k] - w[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+fn same_sign(v: &Eight<f64>, w: &Eight<f64>) -> f64 {
+    (0..4).map(|k| v[k] * w[k]).sum()
 }
 
 /// The dimension of the set of poses through the pose next to a point, real or complex as the type is; 0 for isolated ones

@@ -1,5 +1,6 @@
 //! A platform prepared once and solved for one set of leg lengths after the other.
 
+use super::affine::affine_starts;
 use super::exact::exact_modes;
 use super::homotopy::{End, Homotopy};
 use super::mode::{PlatformAssembly, Route};
@@ -7,17 +8,21 @@ use super::prepared::{Chart, Frame, LegNumbers, Squares};
 use super::reflection::Reflection;
 use super::rescue::starts;
 use super::search::{Found, Search, Source, real_parts, take_in, tell};
-use super::self_motion::self_motion;
+use super::self_motion::{curve, project, self_motion};
 use super::triangle::TriangleRoute;
+use crate::algebra::long_float::{LongFloat, LongNumber};
 use crate::algebra::number::nearest_f64;
 use crate::assembly::Roots;
 use crate::closure::study::Leg;
+use crate::elimination::affine_platform::AffineRelation;
 use crate::elimination::border::{BorderBasis, DIMENSION, Reals};
 use crate::elimination::multiple_pose::ExactPoses;
 use crate::elimination::pencil::Square;
 use crate::kinematics::motion::Vector;
 use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
+use crate::solve::pose::Eight;
+use crate::solve::scalar::narrowed;
 use crate::solve::spectrum::Spectrum;
 use num_complex::Complex;
 use rug::Rational;
@@ -31,6 +36,18 @@ const WIDE_BALL: f64 = 1e-10;
 /// So many times more are where it is known that poses are missing.
 const PATIENCE: usize = 4;
 
+/// How much is done for a set of legs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Effort {
+    /// Special geometries with an algebra of their own have only simple poses looked for: exact arithmetic does better with the
+    /// others.
+    Algebra,
+    /// Homotopies where poses may be missing.
+    All,
+    /// No algebra of special geometries: it was tried before.
+    Homotopies,
+}
+
 /// The geometry of a platform, prepared for every set of leg lengths. Shared between threads.
 #[derive(Clone, Debug)]
 pub struct PlatformSolver {
@@ -39,6 +56,8 @@ pub struct PlatformSolver {
     charts: [Chart; 2],
     reflection: Option<Reflection>,
     triangle: Option<TriangleRoute>,
+    /// The exact points where base and plate are affine images of the same six points, and how many poses there are then.
+    affine: Option<(Box<Platform<Rational>>, usize)>,
 }
 
 /// Scratch memory, reused from call to call: one for every thread.
@@ -73,11 +92,12 @@ impl PlatformSolver {
     #[must_use]
     pub fn prepare_exact(platform: &Platform<Rational>) -> Self {
         let frame = Frame::new(platform);
+        let affine = AffineRelation::of(platform).map(|relation| (Box::new(platform.clone()), relation.bound().poses));
         let charts = std::array::from_fn(|choice| Chart::new(&frame.platform, choice));
         let nearest = |points: &[Vector<Rational>; 6]| points.each_ref().map(|p| p.each_ref().map(nearest_f64));
         let platform = Platform { base: nearest(&platform.base), plate: nearest(&platform.plate) };
         let (reflection, triangle) = (Reflection::of(&platform), TriangleRoute::of(&frame.platform));
-        Self { platform, frame, charts, reflection, triangle }
+        Self { platform, frame, charts, reflection, triangle, affine }
     }
 
     /// The geometry as given.
@@ -105,12 +125,13 @@ impl PlatformSolver {
         assembly: &mut PlatformAssembly,
     ) {
         workspace.found.clear();
-        self.run(&Squares::of_floats(legs_squared), roots, None, workspace, assembly);
+        // The algebra of special platforms needs exact numbers and memory; the homotopy of f64 does without.
+        self.run(&Squares::of_floats(legs_squared), roots, None, Effort::All, workspace, assembly);
     }
 
-    /// Looks again for what is missing of the list solved last in this workspace, in numbers of 384 bits: `platform` and
-    /// `legs_squared` are the same ones exactly, `expected` the number of its poses.
-    pub fn rescue(
+    /// Looks again for what is missing of the list solved last in this workspace, in numbers of so many words of 64 bits:
+    /// `platform` and `legs_squared` are the same ones exactly, `expected` the number of its poses.
+    pub fn rescue<const LIMBS: usize>(
         &self,
         platform: &Platform<Rational>,
         legs_squared: &[Rational; 6],
@@ -126,15 +147,18 @@ impl PlatformSolver {
         let wide: Vec<Found> = workspace.found.iter().copied().filter(is_wide).collect();
         workspace.found.retain(|found| found.certificate.is_some() && !is_wide(found));
         let mut search = Search::going_on(&numbers, Roots::All, Some(expected), &mut workspace.found);
-        let legs = self.frame.long_legs(legs_squared);
-        search.proved_near(&legs, &starts(platform, legs_squared, &self.frame));
+        let legs = self.frame.long_legs::<LongNumber<LIMBS>>(legs_squared);
+        search.proved_near(&legs, &starts::<LIMBS>(platform, legs_squared, &self.frame));
         for found in wide {
             take_in(search.found, found);
         }
         assembly.modes.clear();
         tell(search.found, &self.frame, assembly);
         assembly.unresolved = search.unresolved();
-        assembly.rescued = proved(assembly).saturating_sub(before);
+        let more = proved(assembly).saturating_sub(before);
+        if more > 0 {
+            (assembly.rescued, assembly.rescued_in) = (assembly.rescued + more, 64 * LIMBS);
+        }
         if let Some(reflection) = &self.reflection {
             reflection.mark(&mut assembly.modes);
         }
@@ -152,7 +176,8 @@ impl PlatformSolver {
         assembly: &mut PlatformAssembly,
     ) {
         workspace.found.clear();
-        self.run(&Squares::of(legs_squared), roots, expected, workspace, assembly);
+        let effort = if expected.is_some() { Effort::All } else { Effort::Algebra };
+        self.run(&Squares::of(legs_squared), roots, expected, effort, workspace, assembly);
     }
 
     /// Looks for more poses than those proved of the list solved last in this workspace, until there are as many as expected.
@@ -164,7 +189,18 @@ impl PlatformSolver {
         assembly: &mut PlatformAssembly,
     ) {
         workspace.found.retain(|found| found.certificate.is_some());
-        self.run(&Squares::of(legs_squared), Roots::All, Some(expected), workspace, assembly);
+        self.run(&Squares::of(legs_squared), Roots::All, Some(expected), Effort::Homotopies, workspace, assembly);
+    }
+
+    /// Looks for self-motions, where it is known that there are infinitely many poses.
+    pub fn find_self_motion(
+        &self,
+        legs_squared: &[Rational; 6],
+        workspace: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) {
+        workspace.found.retain(|found| found.certificate.is_some());
+        self.run(&Squares::of(legs_squared), Roots::All, None, Effort::Homotopies, workspace, assembly);
     }
 
     /// Replaces what is not proved of the list solved last in this workspace by multiple poses that are known exactly.
@@ -187,10 +223,45 @@ impl PlatformSolver {
         true
     }
 
-    /// Drops what is not proved of the list solved last in this workspace.
+    /// Drops what is not proved of the list solved last in this workspace, and what is not proved to differ from all others.
     pub fn keep_proved(&self, workspace: &mut PlatformWorkspace, assembly: &mut PlatformAssembly) {
-        workspace.found.retain(|found| found.certificate.is_some());
+        let mut proved = std::mem::take(&mut workspace.found);
+        proved.retain(|found| found.certificate.is_some());
+        let radius = |found: &Found| found.certificate.map_or(f64::INFINITY, |c| c.radius);
+        proved.sort_by(|a, b| radius(a).total_cmp(&radius(b)));
+        for found in proved {
+            take_in(&mut workspace.found, found);
+        }
         self.list(workspace, assembly);
+    }
+
+    /// Finds the poses of a platform whose base and plate are affine images of the same points; whether these are all, and `None`
+    /// for other platforms.
+    fn by_algebra(&self, given: &Squares, search: &mut Search) -> Option<bool> {
+        let (Some((platform, poses)), Some(squares)) = (&self.affine, &given.exact) else { return None };
+        let starts = affine_starts(platform, squares, &self.frame);
+        search.begin(DIMENSION - poses);
+        for (index, start) in starts.iter().enumerate() {
+            search.arrive(&start.map(narrowed), index);
+        }
+        search.found.retain(|found| found.certificate.is_some());
+        if search.roots == Roots::Real {
+            return Some(search.lost == 0);
+        }
+        if search.poses() < *poses {
+            let legs = self.frame.long_legs::<LongFloat>(squares);
+            for start in &starts {
+                search.far_away(&legs, start);
+            }
+        }
+        Some(search.poses() == *poses)
+    }
+
+    /// Quaternion and position of a real point.
+    fn pose(&self, study: &Eight<f64>) -> [f64; 7] {
+        let length = study[..4].iter().map(|x| x * x).sum::<f64>().sqrt();
+        let position = self.frame.position(study);
+        std::array::from_fn(|k| if k < 4 { study[k] / length } else { position[k - 4] })
     }
 
     fn list(&self, workspace: &PlatformWorkspace, assembly: &mut PlatformAssembly) {
@@ -206,6 +277,7 @@ impl PlatformSolver {
         given: &Squares,
         roots: Roots,
         expected: Option<usize>,
+        effort: Effort,
         workspace: &mut PlatformWorkspace,
         assembly: &mut PlatformAssembly,
     ) {
@@ -214,7 +286,8 @@ impl PlatformSolver {
         assembly.lost_rank = None;
         assembly.rank = self.charts[0].directions.rank;
         assembly.self_motion = 0;
-        assembly.rescued = 0;
+        assembly.motion.clear();
+        (assembly.rescued, assembly.rescued_in) = (0, 0);
         let numbers = self.frame.with_legs(given);
         let squares = numbers.legs.each_ref().map(|leg| leg.square);
         let PlatformWorkspace { basis, spectrum, found, general } = workspace;
@@ -225,8 +298,15 @@ impl PlatformSolver {
         {
             assembly.route = Route::Triangle { at_base: triangle.at_base() };
         }
+        if assembly.route == Route::None
+            && effort != Effort::Homotopies
+            && let Some(has_all) = self.by_algebra(given, &mut search)
+            && (has_all || effort == Effort::Algebra)
+        {
+            assembly.route = Route::Affine;
+        }
         for chart in &self.charts {
-            if assembly.route != Route::None && search.is_done() {
+            if assembly.route != Route::None && (search.is_done() || assembly.route == Route::Affine) {
                 break;
             }
             match by_border_basis(chart, &squares, basis, spectrum, &mut search) {
@@ -261,7 +341,15 @@ impl PlatformSolver {
                 unchanged = if search.found.len() == before { unchanged + 1 } else { 0 };
             }
             assembly.route = Route::Homotopy { runs };
-            assembly.self_motion = search.self_motion();
+            if let Some((dimension, point)) = search.self_motion() {
+                assembly.self_motion = dimension;
+                let points = if dimension == 1 {
+                    curve(search.legs, &point)
+                } else {
+                    Vec::from_iter(project(search.legs, &point))
+                };
+                assembly.motion = points.iter().map(|point| self.pose(point)).collect();
+            }
         }
         assembly.null = search.null;
         assembly.unresolved = search.unresolved();

@@ -1,5 +1,6 @@
 //! The answer to a loop of few unknowns, from its exact solutions.
 
+use super::by_cut::{self, Found};
 use super::configuration::{Configuration, Configurations};
 use super::cycle::Cycle;
 use super::equations::System;
@@ -20,6 +21,9 @@ use rug::{Float, float::Round};
 /// Products of words after which a system is given up: about a tenth of a second. Loops of four unknowns take a thousandth of
 /// it, and what general loops of five take, or some special ones, is hours.
 const EFFORT: u64 = 1_500_000;
+
+/// From so many unknowns on a cut is quicker than a Gröbner basis, of which it is out of reach.
+const MANY: usize = 5;
 
 /// What is asked of a loop.
 pub(crate) struct Question<'a> {
@@ -45,6 +49,12 @@ impl Question<'_> {
     /// For a case without input that has one.
     pub fn answer(&self) -> Result<Option<Answer>> {
         let Some(cycle) = Cycle::of(self.chain, self.layout, self.case)? else { return Ok(None) };
+        if cycle.before.is_none()
+            && cycle.steps.len() >= MANY
+            && let Some(found) = by_cut::solutions(&cycle)
+        {
+            return Ok(Some(self.simple(&cycle, &found)));
+        }
         let system = match &cycle.before {
             Some(before) => System::of_point(&cycle.steps, &before.inverse().translation),
             None => System::of_loop(&cycle.steps),
@@ -82,10 +92,28 @@ impl Question<'_> {
 
     fn finite(&self, cycle: &Cycle, system: &System, points: &Points) -> Answer {
         let configurations = Configurations::new(system, &cycle.steps, cycle.before.as_ref(), points);
-        let mode = |point: &Point| self.mode(cycle, point, configurations.at(point).as_ref());
-        let mut modes: Vec<FullMode> = points.distinct.iter().filter_map(mode).collect();
+        let mode =
+            |point: &Point| Some(self.mode(cycle, point.is_real(), point.multiplicity, &configurations.at(point)?));
+        let modes = points.distinct.iter().filter_map(mode).collect();
+        // A complex solution may have no angles.
+        self.listed(modes, points.distinct.len(), [points.count, points.real()], reason(cycle, points))
+    }
+
+    /// The answer for solutions that are all simple.
+    fn simple(&self, cycle: &Cycle, found: &[Found]) -> Answer {
+        let modes = found.iter().map(|(is_real, configuration)| self.mode(cycle, *is_real, 1, configuration)).collect();
+        let (count, real) = (found.len(), found.iter().filter(|(is_real, _)| *is_real).count());
+        let reason = match count {
+            0 => "no solution: the closure equations have none over the roots of an exact eliminant".to_owned(),
+            1 => "the only solution of the closure equations, over a root of an exact eliminant".to_owned(),
+            _ => format!("all {count} solutions of the closure equations, each over a root of an exact eliminant"),
+        };
+        self.listed(modes, count, [count, real], reason)
+    }
+
+    /// The verdict on a list that has all of so many distinct solutions.
+    fn listed(&self, mut modes: Vec<FullMode>, distinct: usize, [count, real]: [usize; 2], reason: String) -> Answer {
         modes.sort_by(in_order);
-        let (count, real) = (points.count, points.real());
         let (status, code) = match (count, real) {
             (0, _) => (Status::Unreachable, Code::NoSolution),
             (_, 0) => (Status::Unreachable, Code::ExactRootsMatched),
@@ -95,22 +123,19 @@ impl Question<'_> {
             status,
             proof: self.proof(),
             code,
-            // A complex solution may have no angles.
-            complex_complete: modes.len() == points.distinct.len(),
+            complex_complete: modes.len() == distinct,
             complex: count,
             real,
             at_infinity: 0,
             self_motion: 0,
             certified: modes.iter().filter(|mode| mode.certified).count(),
-            reason: reason(cycle, points),
+            reason,
         };
         (verdict, modes)
     }
 
-    /// A solution as a user reads it; `None` for a complex one without angles.
-    fn mode(&self, cycle: &Cycle, point: &Point, configuration: Option<&Configuration>) -> Option<FullMode> {
-        let configuration = configuration?;
-        let real = point.is_real();
+    /// A solution as a user reads it.
+    fn mode(&self, cycle: &Cycle, real: bool, multiplicity: usize, configuration: &Configuration) -> FullMode {
         let unit = self.chain.unit().to_f64();
         let mut q = vec![Complex::from(locked_value(self.case)); self.layout.variables.len()];
         let mut radius: f64 = 0.0;
@@ -128,12 +153,12 @@ impl Question<'_> {
         }
         let values: Vec<Complex<f64>> = cycle.indices.iter().map(|index| q[*index]).collect();
         let (residual, condition) = measure(cycle, &values, unit);
-        let is_simple = point.multiplicity == 1;
+        let is_simple = multiplicity == 1;
         // Of rounded data nothing is known to be there.
         let certified = !self.is_rounded && radius.is_finite();
-        Some(FullMode {
+        FullMode {
             real,
-            multiplicity: point.multiplicity,
+            multiplicity,
             residual,
             condition: if is_simple { condition } else { f64::INFINITY },
             certified,
@@ -141,8 +166,10 @@ impl Question<'_> {
             within_limits: (real && !self.limits.is_empty())
                 .then(|| within_limits(&q, &self.layout.variables, self.limits)),
             q,
+            near: false,
+            error: None,
             platform: None,
-        })
+        }
     }
 }
 

@@ -190,7 +190,7 @@ impl Configuration {
     }
 
     /// Whether all values are known to more digits than an f64 has.
-    fn is_good(&self) -> bool {
+    pub fn is_good(&self) -> bool {
         self.all()
             .all(|ball| Float::with_val(64, ball.radius() << WANTED) <= ball.at_most().max(&Float::with_val(64, 1)))
     }

@@ -136,6 +136,8 @@ impl CoupledQuestion<'_> {
             certified,
             radius: if certified { radius } else { f64::INFINITY },
             within_limits: None,
+            near: false,
+            error: None,
             platform: None,
         })
     }

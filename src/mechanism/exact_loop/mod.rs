@@ -2,16 +2,18 @@
 //!
 //! Their closure equations are polynomials in cosines, sines and distances. A Gröbner basis over the rationals tells the
 //! dimension of the set of solutions; where they are finitely many, the quotient ring tells how many there are and which of
-//! them coincide, and every unknown is a rational function of the roots of one polynomial. f64 only presents.
+//! them coincide, and every unknown is a rational function of the roots of one polynomial. Five unknowns are found by a cut of
+//! the loop. f64 only presents.
 
 mod answer;
+mod by_cut;
 mod configuration;
 mod coupled;
 mod cycle;
 mod equations;
 mod measure;
 mod outcome;
-mod roots;
+pub(crate) mod roots;
 
 pub(super) use answer::{Answer, Question};
 pub(super) use coupled::CoupledQuestion;

@@ -154,7 +154,7 @@ fn upper<R: Extended>(polynomial: &Univariate<Rational>, pairs: usize) -> Option
 }
 
 /// All digits of a number.
-fn long<R: Extended>(mut x: R) -> Float {
+pub(crate) fn long<R: Extended>(mut x: R) -> Float {
     let mut sum = Float::new(R::BITS + 64);
     for _ in 0..R::BITS / 48 {
         let part = x.to_f64();

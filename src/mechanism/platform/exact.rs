@@ -2,10 +2,13 @@
 
 use super::roots::are_all_matched;
 use crate::algebra::drawn;
-use crate::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
+use crate::algebra::univariate::Univariate;
+use crate::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace, Route};
 use crate::elimination::multiple_pose::multiple_poses;
 use crate::elimination::platform_degree::{PlatformDegree, platform_degree};
-use crate::elimination::platform_polynomial::{PlatformPolynomial, multiple_platform_polynomial, platform_polynomial};
+use crate::elimination::platform_polynomial::{
+    PlatformPolynomial, Quotient, are_simple, multiple_platform_polynomial, platform_polynomial,
+};
 use crate::kinematics::platform::Platform;
 use crate::verdict::{Bound, Code, MOST_POSES, PlatformKnowledge, Proof};
 use rug::Rational;
@@ -39,38 +42,67 @@ impl Search<'_> {
         proved.map(|mode| mode.multiplicity).sum()
     }
 
+    /// Counts the certified modes of multiplicity 1.
+    fn simple(&self) -> usize {
+        let modes = &self.assembly.modes;
+        modes.iter().filter(|mode| mode.certificate.is_some() && mode.multiplicity == 1).count()
+    }
+
     fn keep_proved(&mut self) {
         self.solver.keep_proved(self.memory, self.assembly);
     }
+}
+
+/// Words of 64 bits in which poses are looked for that f64 does not reach.
+const LIMBS: usize = 6;
+/// The same where these are not enough: a border basis may lose eight times the digits by which the data differ from those of a
+/// special platform, and 15 digits are ordinary.
+const MORE_LIMBS: usize = 15;
+
+/// How many roots of a polynomial are simple.
+fn simple_roots(polynomial: &PlatformPolynomial) -> usize {
+    let factors = Univariate::new(polynomial.coefficients.clone()).square_free_decomposition();
+    factors.iter().filter(|(_, multiplicity)| *multiplicity == 1).filter_map(|(factor, _)| factor.degree()).sum()
 }
 
 impl ExactSide<'_> {
     /// Finds what is missing of a list, as far as that is known, and says what is known of the number of poses. A polynomial
     /// that is known already is not computed again.
     pub fn settle(&self, search: &mut Search, known: Option<&PlatformPolynomial>) -> PlatformKnowledge {
+        if let Some((most, why)) = self.incidence
+            && search.proved() == most
+        {
+            search.assembly.self_motion = 0;
+            search.keep_proved();
+            return PlatformKnowledge { count: Some(at_most(most, why)), ..PlatformKnowledge::default() };
+        }
         let degree = platform_degree(self.platform, self.squares);
         let Some(PlatformDegree::Finite { poses, null, curves }) = degree else {
             let infinite = match degree {
                 Some(PlatformDegree::Infinite { dimension }) => Some(dimension),
                 _ => None,
             };
+            if infinite.is_some() && search.assembly.route == Route::Affine {
+                search.solver.find_self_motion(self.squares, search.memory, search.assembly);
+            }
+            // Points of a curve are none to be listed.
+            if infinite.is_some() {
+                search.keep_proved();
+            }
             return PlatformKnowledge { infinite, ..PlatformKnowledge::default() };
         };
         // Poses are isolated: none lies on a curve of them.
         search.assembly.self_motion = 0;
-        if search.proved() == poses
-            && let Some((most, why)) = self.incidence.filter(|(most, _)| *most == poses)
-        {
-            search.keep_proved();
-            let because = format!("at most {most} that such a platform can have: {why}");
-            let count = Bound { count: most, proof: Proof::Proved, code: Code::GeometryBoundMet, because };
-            return PlatformKnowledge { count: Some(count), ..PlatformKnowledge::default() };
-        }
-        let mut is_rescued = false;
+        let (mut is_rescued, mut is_longer) = (false, false);
         if poses == MOST_POSES && known.is_none() {
             // What f64 does not reach, the exact data do.
-            self.rescue(search, poses);
+            self.rescue::<LIMBS>(search, poses);
             is_rescued = true;
+            // Platforms near special ones have simple poses that take more digits.
+            if search.proved() < poses && are_simple(self.platform, self.squares) {
+                self.rescue::<MORE_LIMBS>(search, poses);
+                is_longer = true;
+            }
             if search.proved() == poses {
                 search.keep_proved();
                 let count = Some(counted(poses, null, curves));
@@ -91,8 +123,10 @@ impl ExactSide<'_> {
         let is_done =
             |search: &Search, reals: Option<Proof>| search.proved() == total || (!self.complex && reals.is_some());
         knowledge.reals = reals(search);
-        if !is_rescued && !is_done(search, knowledge.reals) {
-            self.rescue(search, total);
+        // The algebra of rotations was solved in long numbers before.
+        let is_affine = polynomial.is_some_and(|polynomial| polynomial.quotient == Quotient::Affine);
+        if !is_rescued && !is_affine && !is_done(search, knowledge.reals) {
+            self.rescue::<LIMBS>(search, total);
             knowledge.reals = reals(search);
         }
         if !is_done(search, knowledge.reals)
@@ -101,7 +135,17 @@ impl ExactSide<'_> {
             self.add_multiple(search, polynomial);
             knowledge.reals = reals(search);
         }
-        if !is_done(search, knowledge.reals) {
+        // Simple poses beside multiple ones may take more digits, too.
+        let is_general = polynomial.is_some_and(|polynomial| polynomial.quotient == Quotient::General);
+        if is_general
+            && !is_longer
+            && !is_done(search, knowledge.reals)
+            && polynomial.is_some_and(|polynomial| search.simple() < simple_roots(polynomial))
+        {
+            self.rescue::<MORE_LIMBS>(search, total);
+            knowledge.reals = reals(search);
+        }
+        if !is_general && !is_done(search, knowledge.reals) {
             search.solver.solve_further(self.squares, total, search.memory, search.assembly);
             search.assembly.self_motion = 0;
             knowledge.reals = reals(search);
@@ -112,8 +156,8 @@ impl ExactSide<'_> {
         knowledge
     }
 
-    fn rescue(&self, search: &mut Search, expected: usize) {
-        search.solver.rescue(self.platform, self.squares, expected, search.memory, search.assembly);
+    fn rescue<const LIMBS: usize>(&self, search: &mut Search, expected: usize) {
+        search.solver.rescue::<LIMBS>(self.platform, self.squares, expected, search.memory, search.assembly);
     }
 
     /// Puts multiple poses that are known exactly into the list.
@@ -138,6 +182,12 @@ fn beside(null: usize, curves: bool) -> String {
         (0, false) => String::new(),
         (null, false) => format!(", beside {null} solutions with N = 0, which are no poses"),
     }
+}
+
+/// As many poses as a theorem on the geometry allows.
+fn at_most(most: usize, why: &str) -> Bound {
+    let because = format!("at most {most} that such a platform can have: {why}");
+    Bound { count: most, proof: Proof::Proved, code: Code::GeometryBoundMet, because }
 }
 
 /// The number of poses as it is known from one prime.

@@ -99,6 +99,8 @@ impl ShortLoop {
             // Of cosine, sine and arctangent, or of one rounding.
             radius: 4.0 * f64::EPSILON * largest,
             within_limits: within,
+            near: false,
+            error: None,
             platform: None,
         };
         let reason = "1 of 1: the only solution of the closure equations, linear once the rotations are known, exactly";

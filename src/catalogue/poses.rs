@@ -1,0 +1,231 @@
+//! Tables of poses: one a row, read row by row.
+
+use super::entry::{Case, Design};
+use super::job;
+use super::node;
+use super::scope::Scope;
+use crate::algebra::number::{Angle, Number, Quantity, Reading};
+use crate::error::{Error, Result};
+use crate::kinematics::chain::Placement;
+use crate::kinematics::tolerance::Tolerance;
+
+/// What a header may be.
+const EXPECTED: &str = "expected the header `x,y,z,qw,qx,qy,qz`, `x,y,z,roll,pitch,yaw` or `m00,m01,...,m23`, with units as in `x_mm` or \
+                        `roll_deg`";
+const QUATERNION: [&str; 7] = ["x", "y", "z", "qw", "qx", "qy", "qz"];
+const ANGLES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+const MATRIX: [&str; 12] = ["m00", "m01", "m02", "m03", "m10", "m11", "m12", "m13", "m20", "m21", "m22", "m23"];
+/// A pose typed with fewer digits is not meant to be known so badly.
+const COARSEST: f64 = 1e-3;
+/// By how many units of the last digit of a quaternion the angle may be off: the angle is twice that of the quaternion.
+const OF_QUATERNION: f64 = 2.0;
+
+/// How the rows of a table say a pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    Quaternion,
+    Angles,
+    Matrix,
+    /// Each row is a JSON object as it stands under `[[pose]]`.
+    Objects,
+}
+
+/// The reader of the rows of a table.
+pub struct PoseRows<'a> {
+    path: &'a str,
+    design: &'a Design,
+    reading: Reading,
+    form: Form,
+    /// The place of every column among the names of the form, and the unit of its numbers.
+    columns: Vec<(usize, String)>,
+}
+
+impl<'a> PoseRows<'a> {
+    /// The reader of a table whose first line that is not empty is this one. Where that line is a row itself, not a header,
+    /// the second value is true.
+    ///
+    /// # Errors
+    /// For a header that is none.
+    pub fn of(first: &str, line: usize, path: &'a str, design: &'a Design, reading: &Reading) -> Result<(Self, bool)> {
+        let reading = reading.clone();
+        let first = first.trim_start_matches('\u{feff}').trim();
+        if first.starts_with('{') {
+            return Ok((Self { path, design, reading, form: Form::Objects, columns: Vec::new() }, true));
+        }
+        let names: Vec<&str> = first.split(',').map(|name| name.trim().trim_matches('"')).collect();
+        for (form, own) in
+            [(Form::Quaternion, &QUATERNION[..]), (Form::Angles, &ANGLES[..]), (Form::Matrix, &MATRIX[..])]
+        {
+            let columns: Option<Vec<(usize, String)>> = names.iter().map(|name| column(name, own)).collect();
+            let Some(columns) = columns.filter(|columns| columns.len() == own.len()) else { continue };
+            if (0..own.len()).all(|k| columns.iter().any(|(place, _)| *place == k)) {
+                return Ok((Self { path, design, reading, form, columns }, false));
+            }
+        }
+        let found: String = first.chars().take(60).collect();
+        Err(Error::Invalid(format!("found the header `{found}`, {EXPECTED}")).at(path, line))
+    }
+
+    /// The pose of a row.
+    ///
+    /// # Errors
+    /// [`Error::File`] with the line for what is no pose.
+    pub fn case(&self, text: &str, line: usize) -> Result<Case> {
+        if self.form == Form::Objects {
+            return self.object(text, line);
+        }
+        let cells: Vec<&str> = text.split(',').map(|cell| cell.trim().trim_matches('"')).collect();
+        if cells.len() != self.columns.len() {
+            let (found, expected) = (cells.len(), self.columns.len());
+            let message = format!("found {found} values, expected {expected}");
+            return Err(Error::Invalid(message).at(self.path, line));
+        }
+        let mut values = vec![String::new(); cells.len()];
+        for ((place, unit), cell) in self.columns.iter().zip(&cells) {
+            values[*place] = if unit.is_empty() { (*cell).to_owned() } else { format!("{cell} {unit}") };
+        }
+        let (placement, warning) = self.placement(&values).map_err(|fault| fault.at(self.path, line))?;
+        let mut case = of_design(self.design, placement, line);
+        case.warnings.extend(warning);
+        case.typed = Some(self.typed(&values));
+        Ok(case)
+    }
+
+    fn object(&self, text: &str, line: usize) -> Result<Case> {
+        // The reader counts the lines of the row.
+        let there = |fault: Error| match fault {
+            Error::File { path, message, line: own } => Error::File { path, message, line: line + own - 1 },
+            other => other,
+        };
+        let scope = Scope::new(self.path, self.reading.clone());
+        let node = node::from_json(text, self.path).map_err(there)?;
+        let case = job::pose(&scope, &node, self.design).map_err(there)?;
+        Ok(Case { line, ..case })
+    }
+
+    fn placement(&self, values: &[String]) -> Result<(Placement, Option<String>)> {
+        let length = |k: usize| Number::parse(&values[k], Quantity::Length, &self.reading);
+        let ratio = |k: usize| Number::parse(&values[k], Quantity::Ratio, &self.reading);
+        let position = || -> Result<[Number; 3]> { Ok([length(0)?, length(1)?, length(2)?]) };
+        match self.form {
+            Form::Quaternion => {
+                let quaternion = [ratio(3)?, ratio(4)?, ratio(5)?, ratio(6)?];
+                Placement::from_quaternion_position(&quaternion, &position()?)
+            }
+            Form::Angles => {
+                let angle = |k: usize| Angle::parse(&values[k], &self.reading);
+                Ok((Placement::from_angles(&[angle(3)?, angle(4)?, angle(5)?], &position()?)?, None))
+            }
+            Form::Matrix | Form::Objects => {
+                let mut rows: [[Number; 4]; 4] = std::array::from_fn(|_| std::array::from_fn(|_| Number::zero()));
+                for (k, entry) in rows.iter_mut().flatten().take(12).enumerate() {
+                    *entry = if k % 4 == 3 { length(k)? } else { ratio(k)? };
+                }
+                rows[3][3] = Number::exact(1.into());
+                Placement::from_matrix(&rows)
+            }
+        }
+    }
+
+    /// One unit of the last digit typed.
+    fn typed(&self, values: &[String]) -> Tolerance {
+        let is_length = |k: &usize| if self.form == Form::Matrix { k % 4 == 3 } else { *k < 3 };
+        let texts =
+            |lengths: bool| (0..values.len()).filter(move |k| is_length(k) == lengths).map(|k| values[k].as_str());
+        let of_angles = if self.form == Form::Angles { Of::Angles } else { Of::Rotation };
+        typed(texts(true), texts(false), of_angles, &self.reading, self.form == Form::Quaternion)
+    }
+}
+
+/// What the numbers of an orientation are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Of {
+    /// Entries of a matrix or a quaternion.
+    Rotation,
+    /// Angles with or without unit.
+    Angles,
+}
+
+/// The tolerance of a pose as it was typed: one unit of the last digit of its lengths and of its orientation.
+pub(super) fn typed<'a>(
+    lengths: impl Iterator<Item = &'a str>,
+    orientation: impl Iterator<Item = &'a str>,
+    of: Of,
+    reading: &Reading,
+    is_quaternion: bool,
+) -> Tolerance {
+    let length = |text: &str| {
+        let (digits, unit) = split(text);
+        let one = Number::parse(&format!("1 {unit}"), Quantity::Length, reading);
+        let scale = if unit.is_empty() { reading.length.to_f64() } else { one.map_or(1.0, |one| one.to_f64()) };
+        last_digit(digits) * scale
+    };
+    let angle = |text: &str| {
+        let (digits, unit) = split(text);
+        let in_degrees = unit == "deg" || unit.is_empty() && reading.degrees;
+        last_digit(digits) * if of == Of::Angles && in_degrees { 1_f64.to_radians() } else { 1.0 }
+    };
+    let factor = if is_quaternion { OF_QUATERNION } else { 1.0 };
+    Tolerance {
+        length: lengths.map(length).fold(COARSEST, f64::min),
+        angle: orientation.map(angle).fold(COARSEST, f64::min) * factor,
+    }
+}
+
+/// A number and its unit.
+fn split(text: &str) -> (&str, &str) {
+    let text = text.trim();
+    let at = text.find(' ').unwrap_or(text.len());
+    (&text[..at], text[at..].trim())
+}
+
+/// One unit of the last digit of a decimal; nothing is known of an expression.
+fn last_digit(text: &str) -> f64 {
+    super::snap::printed(text).map_or(COARSEST, |(_, unit)| unit)
+}
+
+/// The case of a pose.
+fn of_design(design: &Design, pose: Placement, line: usize) -> Case {
+    match design {
+        Design::Platform(platform) => Case::legs_at(platform, pose, line),
+        Design::Arm(_) | Design::Loop(_) => Case::at(pose, line),
+    }
+}
+
+/// The place of a column among these names, and its unit.
+fn column(name: &str, names: &[&str]) -> Option<(usize, String)> {
+    let (plain, unit) = name.split_once('_').unwrap_or((name, ""));
+    let place = names.iter().position(|own| *own == plain)?;
+    let is_length = matches!(plain, "x" | "y" | "z" | "m03" | "m13" | "m23");
+    let is_angle = matches!(plain, "roll" | "pitch" | "yaw");
+    let known = match unit {
+        "" => true,
+        "m" | "cm" | "mm" => is_length,
+        "deg" | "rad" => is_angle,
+        _ => false,
+    };
+    known.then(|| (place, unit.to_owned()))
+}
+
+/// A pose as the command line gives it: `x, y, z; w, x, y, z` or `x, y, z; roll, pitch, yaw`.
+///
+/// # Errors
+/// For anything else.
+pub fn typed_pose(text: &str, design: &Design, reading: &Reading) -> Result<Case> {
+    let fail = |found: &str| {
+        Error::Invalid(format!("found {found}, expected \"x, y, z; w, x, y, z\" or \"x, y, z; roll, pitch, yaw\""))
+    };
+    let Some((position, orientation)) = text.split_once(';') else { return Err(fail(&format!("--at \"{text}\""))) };
+    let values: Vec<String> = position.split(',').chain(orientation.split(',')).map(|v| v.trim().to_owned()).collect();
+    let form = match (position.split(',').count(), orientation.split(',').count()) {
+        (3, 4) => Form::Quaternion,
+        (3, 3) => Form::Angles,
+        (lengths, others) => return Err(fail(&format!("{lengths} and {others} values in --at"))),
+    };
+    let rows = PoseRows { path: "--at", design, reading: reading.clone(), form, columns: Vec::new() };
+    let (placement, warning) = rows.placement(&values)?;
+    let mut case = of_design(design, placement, 1);
+    case.warnings.extend(warning);
+    case.typed = Some(rows.typed(&values));
+    Ok(case)
+}

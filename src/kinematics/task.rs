@@ -1,0 +1,95 @@
+//! What an arm is asked for: a whole pose, or a part of it; and which of its joints are held.
+
+use super::closed_loop::Variable;
+use super::motion::{Motion, dot};
+use super::screws::{Behind, Held, VirtualJoint};
+use super::tolerance::PoseError;
+
+/// What is asked of the tool.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Task {
+    /// Position and orientation.
+    #[default]
+    Pose,
+    /// The position and the direction of the tool's z axis.
+    PositionAxis,
+    /// The position and the angle between the tool's z axis and the base's z axis.
+    PositionTilt,
+    /// The position only.
+    Position,
+    /// The orientation only.
+    Orientation,
+}
+
+/// The names of the tasks on the command line.
+pub const TASKS: [(&str, Task); 5] = [
+    ("pose", Task::Pose),
+    ("position+axis", Task::PositionAxis),
+    ("position+tilt", Task::PositionTilt),
+    ("position", Task::Position),
+    ("orientation", Task::Orientation),
+];
+
+impl Task {
+    /// How many conditions it has.
+    #[must_use]
+    pub fn conditions(self) -> usize {
+        6 - self.free()
+    }
+
+    /// How many freedoms it leaves to the tool.
+    #[must_use]
+    pub fn free(self) -> usize {
+        match self {
+            Self::Pose => 0,
+            Self::PositionAxis => 1,
+            Self::PositionTilt => 2,
+            Self::Position | Self::Orientation => 3,
+        }
+    }
+
+    /// The virtual joints behind the tool for what is free, at a pose with this rotation.
+    #[must_use]
+    pub fn behind(self, turned_back: &dyn Fn() -> Behind) -> Vec<Behind> {
+        let turn = |axis| Behind::Joint(VirtualJoint { variable: Variable::Rotation, axis });
+        let slide = |axis| Behind::Joint(VirtualJoint { variable: Variable::Translation, axis });
+        match self {
+            Self::Pose => Vec::new(),
+            Self::PositionAxis => vec![turn(2)],
+            Self::PositionTilt => vec![turn(2), turned_back(), turn(2)],
+            Self::Position => vec![Behind::Ball],
+            Self::Orientation => vec![slide(0), slide(1), slide(2)],
+        }
+    }
+
+    /// By how much a pose misses the wanted one, as far as the task asks for it.
+    #[must_use]
+    pub fn miss(self, reached: &Motion<f64>, wanted: &Motion<f64>) -> PoseError {
+        let whole = PoseError::between(reached, wanted);
+        let axis = |motion: &Motion<f64>| -> [f64; 3] { std::array::from_fn(|i| motion.rotation[i][2]) };
+        let (own, other) = (axis(reached), axis(wanted));
+        match self {
+            Self::Pose => whole,
+            Self::PositionAxis => {
+                let across = super::motion::cross(&own, &other);
+                let orientation = dot(&across, &across).sqrt().atan2(dot(&own, &other));
+                PoseError { orientation, ..whole }
+            }
+            Self::PositionTilt => {
+                let tilt = |axis: [f64; 3]| axis[0].hypot(axis[1]).atan2(axis[2]);
+                PoseError { orientation: (tilt(own) - tilt(other)).abs(), ..whole }
+            }
+            Self::Position => PoseError { orientation: 0.0, ..whole },
+            Self::Orientation => PoseError { position: 0.0, ..whole },
+        }
+    }
+}
+
+/// What is asked of an arm beside the pose.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Demand {
+    /// Which part of the pose.
+    pub task: Task,
+    /// The joint variables that are held, counted from 0, with their values.
+    pub held: Vec<(usize, Held)>,
+}

@@ -1,0 +1,180 @@
+//! What reaches a pose within the tolerance but not exactly: the pose that people type is rounded, and a singular pose is
+//! lost by that. A double solution becomes a complex pair then, and a self-motion a few isolated solutions.
+
+use crate::kinematics::chain::{Chain, Placement};
+use crate::kinematics::closed_loop::{ClosedLoop, Layout, Variable};
+use crate::kinematics::motion::Motion;
+use crate::kinematics::tolerance::{PoseError, Tolerance};
+use crate::solve::curve::CLOSES_WITHIN;
+use crate::solve::newton::{Six, approach};
+use crate::solve::self_motion::{SelfMotion, nearest, self_motions};
+use crate::solve::singular::spread;
+use num_complex::Complex;
+use std::f64::consts::PI;
+
+/// An arm at a pose, and what of it is looked at.
+pub(super) struct Neighbourhood<'a> {
+    /// The arm.
+    pub chain: &'a Chain,
+    /// The order of its variables.
+    pub layout: &'a Layout,
+    /// The pose.
+    pub pose: &'a Placement,
+    /// The loop that both make, lengths over `scale`.
+    pub closed: &'a ClosedLoop<f64>,
+    /// The unit of lengths in the loop.
+    pub scale: f64,
+    /// The tolerance.
+    pub tolerance: Tolerance,
+}
+
+/// A solution as far as a neighbourhood looks at it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    /// The six unknowns, in the unit of the loop.
+    pub unknowns: Six<Complex<f64>>,
+    /// Whether it is real.
+    pub is_real: bool,
+    /// Condition number of the Jacobian.
+    pub condition: f64,
+}
+
+/// What is near.
+#[derive(Debug, Default)]
+pub(super) struct Near {
+    /// Configurations, isolated as far as is seen.
+    pub modes: Vec<(Six<f64>, PoseError)>,
+    /// Self-motions, with the largest error along them.
+    pub families: Vec<(SelfMotion, f64)>,
+}
+
+/// How much worse than the tolerance the condition of a solution is that lies on a near self-motion: 0.02 of its way
+/// miss the pose by no more than the tolerance.
+const CONDITION: f64 = 1e-3;
+/// Solutions nearer to each other than this are one as seen from a near one: a pair that rounding splits.
+const SAME: f64 = 1e-3;
+/// Imaginary parts of solutions that may be near a real configuration, at most.
+const IMAGINARY: f64 = 0.5;
+/// The search for near solutions starts from this number of solutions at most: no loop has more.
+const MOST_STARTS: usize = 16;
+/// This number of pairs of complex solutions starts a search for a near self-motion.
+const MOST_SEARCHES: usize = 4;
+/// Starts of a search for a near self-motion.
+const TRIALS: usize = 8;
+/// The error of a self-motion is measured at this number of points.
+const LOOKED_AT: usize = 24;
+
+impl Neighbourhood<'_> {
+    /// What is near and not known: `solutions` are all there are, `families` the self-motions that reach the pose exactly.
+    pub fn run(&self, solutions: &[Start], families: &[SelfMotion], seen: &[SelfMotion]) -> Near {
+        let within = self.tolerance.angle.max(self.tolerance.length / self.scale).max(CLOSES_WITHIN);
+        let mut near = Near::default();
+        for family in seen {
+            self.admit(family, families, within, &mut near);
+        }
+        let (real, complex): (Vec<&Start>, Vec<&Start>) = solutions.iter().partition(|start| start.is_real);
+        let is_bad = |start: &&&Start| !(start.condition < CONDITION / within);
+        let bad = real.iter().filter(is_bad);
+        // A solution of order k splits by the k-th root of what it misses; orders above 4 are not looked for.
+        let widest = (10.0 * within.powf(0.25)).min(IMAGINARY);
+        let imaginary = |start: &Start| start.unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
+        let split = complex.iter().filter(|start| imaginary(start) < widest);
+        for start in bad.chain(split).take(MOST_STARTS) {
+            let Some(point) = nearest(self.closed, &start.unknowns.map(|z| z.re), within) else { continue };
+            let holds = |family: &SelfMotion| family.holds(self.closed, &point, within);
+            if families.iter().chain(near.families.iter().map(|(family, _)| family)).any(holds) {
+                continue;
+            }
+            let found = self_motions(self.closed, &point, within);
+            for family in &found {
+                self.admit(family, families, within, &mut near);
+            }
+            let is_on = |(family, _): &(SelfMotion, f64)| family.holds(self.closed, &point, within);
+            if !start.is_real && !near.families.iter().any(is_on) {
+                self.admit_mode(&point, &real, &mut near);
+            }
+        }
+        for start in complex.iter().filter(is_bad).step_by(2).take(MOST_SEARCHES) {
+            self.search(&start.unknowns.map(|z| z.re), families, within, &mut near);
+        }
+        near
+    }
+
+    /// Looks for a near self-motion from a singular complex solution: what rounding leaves of a curve may be complex points
+    /// of its continuation, far from all real ones. What does not move along it is real but for rounding.
+    fn search(&self, beside: &Six<f64>, families: &[SelfMotion], within: f64, near: &mut Near) {
+        for trial in 0..TRIALS {
+            let elsewhere = spread(&self.closed.variables, trial);
+            // At first as it is, then farther and farther away.
+            let part = trial as f64 / TRIALS as f64;
+            let start = std::array::from_fn(|k| beside[k] + part * elsewhere[k]);
+            let Some(point) = nearest(self.closed, &approach(self.closed, &start), within) else { continue };
+            let holds = |family: &SelfMotion| family.holds(self.closed, &point, within);
+            if families.iter().chain(near.families.iter().map(|(family, _)| family)).any(holds) {
+                return;
+            }
+            let found = self_motions(self.closed, &point, within);
+            for family in &found {
+                self.admit(family, families, within, near);
+            }
+            if !found.is_empty() {
+                return;
+            }
+        }
+    }
+
+    /// Takes in a self-motion that is near all along and not known.
+    fn admit(&self, family: &SelfMotion, exact: &[SelfMotion], within: f64, near: &mut Near) {
+        let middle = &family.points[family.points.len() / 2];
+        let known = exact.iter().chain(near.families.iter().map(|(family, _)| family));
+        let mut same = known.filter(|other| other.dimension == family.dimension);
+        if same.any(|other| {
+            other.holds(self.closed, middle, within) || other.moving == family.moving && other.dimension > 1
+        }) {
+            return;
+        }
+        let stride = family.points.len().div_ceil(LOOKED_AT);
+        let errors: Option<Vec<PoseError>> = family.points.iter().step_by(stride).map(|q| self.error(q)).collect();
+        let Some(errors) = errors.filter(|errors| errors.iter().all(|error| self.allows(error))) else { return };
+        let distance = errors.iter().map(PoseError::largest).fold(0.0, f64::max);
+        near.families.push((family.clone(), distance));
+    }
+
+    /// Takes in a configuration that is near and no solution again.
+    fn admit_mode(&self, point: &Six<f64>, real: &[&Start], near: &mut Near) {
+        let apart = |other: &Six<f64>| {
+            let difference = |k: usize| match self.closed.variables[k] {
+                Variable::Rotation => (other[k] - point[k] + PI).rem_euclid(2.0 * PI) - PI,
+                Variable::Translation => other[k] - point[k],
+            };
+            (0..6).map(|k| difference(k).abs()).fold(0.0, f64::max) > SAME
+        };
+        let is_new = real.iter().all(|start| apart(&start.unknowns.map(|z| z.re)))
+            && near.modes.iter().all(|(other, _)| apart(other));
+        if let Some(error) = self.error(point).filter(|error| is_new && self.allows(error)) {
+            near.modes.push((*point, error));
+        }
+    }
+
+    fn allows(&self, error: &PoseError) -> bool {
+        error.position <= self.tolerance.length && error.orientation <= self.tolerance.angle
+    }
+
+    /// How far a configuration misses the pose.
+    fn error(&self, unknowns: &Six<f64>) -> Option<PoseError> {
+        let q = self.layout.assemble(unknowns, 0.0);
+        let motions = q.iter().zip(&self.layout.variables).map(|(value, variable)| match variable {
+            Variable::Rotation => Motion::rotation_z(value.cos(), value.sin()),
+            Variable::Translation => Motion::translation_z(value * self.scale),
+        });
+        let reached: Motion<f64> = self.chain.forward(&motions.collect::<Vec<_>>())?;
+        let asked = &self.pose.float;
+        let position = (0..3).map(|k| (reached.translation[k] - asked.translation[k]).powi(2)).sum::<f64>().sqrt();
+        // The length of the skew part of the rotation between the two is the sine of its angle.
+        let between = |i: usize, j: usize| (0..3).map(|k| asked.rotation[k][i] * reached.rotation[k][j]).sum::<f64>();
+        let skew = [(2, 1), (0, 2), (1, 0)].map(|(i, j)| (between(i, j) - between(j, i)) / 2.0);
+        let sine = skew.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let cosine = ((0..3).map(|k| between(k, k)).sum::<f64>() - 1.0) / 2.0;
+        Some(PoseError { position, orientation: sine.atan2(cosine) })
+    }
+}

@@ -1,0 +1,188 @@
+//! Arms of few joints: which solutions of the conditions that they meet are solutions of the pose.
+
+use super::near::nearest;
+use super::{Found, Inner, OF_FEW, TaskArm, Tools, conditions_of};
+use crate::catalogue::entry::Case;
+use crate::error::Result;
+use crate::kinematics::chain::Placement;
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::screws::VirtualJoint;
+use crate::kinematics::task::Task;
+use crate::kinematics::tolerance::{PoseError, Tolerance};
+use crate::mechanism::{ArmAnswer, Family, FullMode, Solution};
+use crate::verdict::{Code, Proof, Status};
+use std::f64::consts::TAU;
+
+/// A complex solution with smaller imaginary parts may be a real one that rounding split.
+const NEARLY_REAL: f64 = 1e-3;
+/// Configurations whose joints all agree so far are one: those of a double root lie apart by the root of the rounding.
+const SAME: f64 = 1e-5;
+/// Rounding of a miss that was measured in f64, in parts of the reach.
+const ROUNDING: f64 = 1e-13;
+
+impl TaskArm {
+    /// Solves a pose by the conditions that the arm can meet.
+    pub(super) fn by_conditions(
+        &self,
+        choices: &[(Vec<VirtualJoint>, Inner)],
+        case: &Case,
+        pose: &Placement,
+        with: &mut Tools<'_>,
+    ) -> Result<Solution> {
+        let typed = case.typed.unwrap_or(OF_FEW).or(OF_FEW);
+        let tolerance = with.tolerance.unwrap_or(typed);
+        let mut best: Option<Solution> = None;
+        for (filled, inner) in choices {
+            let (solution, found) = self.by(inner, case, pose, with)?;
+            let judged = self.judged(solution, found, filled, pose, tolerance);
+            if matches!(judged.verdict.status, Status::Complete | Status::Unreachable) {
+                return Ok(judged);
+            }
+            if best.as_ref().is_none_or(|best| judged.modes.len() > best.modes.len()) {
+                best = Some(judged);
+            }
+        }
+        best.ok_or_else(|| crate::error::Error::Unsupported("no choice of conditions is regular".to_owned()))
+    }
+
+    /// The solutions of the conditions as those of the pose.
+    fn judged(
+        &self,
+        mut solution: Solution,
+        found: Vec<Found>,
+        filled: &[VirtualJoint],
+        pose: &Placement,
+        tolerance: Tolerance,
+    ) -> Solution {
+        let total = found.len();
+        let (mut listed, mut others) = (Vec::new(), Vec::new());
+        for Found { mode, miss } in found {
+            if mode.real && tolerance.allows(&miss) {
+                listed.push(FullMode { error: Some(miss), ..mode });
+            } else {
+                others.push(Found { mode, miss });
+            }
+        }
+        let exact = listed.iter().filter(|mode| !mode.near).count();
+        let listed_none = listed.is_empty();
+        let mut closest: Option<(Vec<f64>, PoseError)> = None;
+        for other in others.iter().filter(|other| listed_none || is_nearly_real(&other.mode)) {
+            let Some((q, miss)) = self.nearest(other, pose, tolerance) else { continue };
+            if tolerance.allows(&miss) {
+                if listed.iter().all(|mode| self.are_apart(mode, &q)) {
+                    listed.push(self.near_mode(&q, miss, &other.mode));
+                }
+            } else if closest.as_ref().is_none_or(|(_, best)| tolerance.parts(&miss) < tolerance.parts(best)) {
+                closest = Some((q, miss));
+            }
+        }
+        let all_miss = others.iter().filter(|other| other.mode.real).all(|other| self.surely_misses(other, tolerance));
+        // What moves may meet the conditions only, not the pose.
+        let families = &mut solution.families;
+        for family in families.iter_mut() {
+            self.measure(family, pose, tolerance);
+        }
+        families.retain(|family| !family.moving.is_empty() && family.distance.is_finite());
+        let is_nothing = listed.is_empty() && families.is_empty();
+        let verdict = &mut solution.verdict;
+        let is_known = matches!(verdict.status, Status::Complete | Status::Unreachable);
+        let is_far = verdict.code == Code::OutOfReach;
+        if is_known && !is_far {
+            verdict.status = if is_nothing { Status::Unreachable } else { Status::Complete };
+            if is_nothing && !all_miss {
+                verdict.proof = Proof::None;
+            }
+            if is_nothing {
+                verdict.code = Code::NoSolution;
+            }
+        }
+        if verdict.status == Status::SelfMotion && !families.iter().any(|family| family.distance == 0.0) {
+            verdict.status = Status::Incomplete;
+            (verdict.proof, verdict.code, verdict.self_motion) = (Proof::None, Code::SelfMotion, 0);
+        }
+        let near = listed.len() - exact;
+        verdict.real = exact;
+        verdict.complex = exact;
+        verdict.complex_complete = false;
+        verdict.certified = listed.iter().filter(|mode| mode.certified).count();
+        let of = format!("{exact} of {total} solutions of {} conditions are solutions of the pose", 6 - filled.len());
+        let also = if near > 0 { format!(", {near} more come within the tolerance") } else { String::new() };
+        verdict.reason = format!("{of}{also}; of the conditions: {}", verdict.reason);
+        let nearest = if listed.is_empty() { closest } else { None };
+        solution.modes = listed;
+        solution.arm = Some(ArmAnswer { conditions: conditions_of(filled), nearest });
+        solution
+    }
+
+    /// Sets how far a family stays from the pose; infinitely far if beyond the tolerance.
+    fn measure(&self, family: &mut Family, pose: &Placement, tolerance: Tolerance) {
+        let miss = |q: &Vec<f64>| self.task.miss(&self.forward.pose(q), &pose.float);
+        let misses: Vec<PoseError> = std::iter::once(&family.sample).chain(&family.samples).map(miss).collect();
+        let worst = misses.iter().map(PoseError::largest).fold(0.0, f64::max);
+        let rounding = ROUNDING * (1.0 + self.forward.reach());
+        family.distance = match misses.iter().all(|miss| tolerance.allows(miss)) {
+            true if worst < rounding => 0.0,
+            true => worst,
+            false => f64::INFINITY,
+        };
+    }
+
+    /// The configuration nearest to the pose near a solution of the conditions.
+    fn nearest(&self, other: &Found, pose: &Placement, tolerance: Tolerance) -> Option<(Vec<f64>, PoseError)> {
+        if !(other.mode.real || is_nearly_real(&other.mode)) {
+            return None;
+        }
+        let start: Vec<f64> = other.mode.q.iter().map(|value| value.re).collect();
+        if self.task != Task::Pose {
+            let miss = self.task.miss(&self.forward.pose(&start), &pose.float);
+            return Some((start, miss));
+        }
+        let moving: Vec<usize> = (0..start.len()).filter(|k| self.held.iter().all(|(held, _)| held != k)).collect();
+        Some(nearest(&self.forward, &start, &moving, &pose.float, tolerance))
+    }
+
+    /// Whether a configuration is another one than a mode.
+    fn are_apart(&self, mode: &FullMode, q: &[f64]) -> bool {
+        let variables = self.forward.variables();
+        mode.q.iter().zip(q).zip(variables).any(|((one, other), variable)| {
+            let off = one.re - other;
+            let off = if *variable == Variable::Rotation { off - TAU * (off / TAU).round() } else { off };
+            off.abs() > SAME
+        })
+    }
+
+    /// A configuration that only comes near the pose.
+    fn near_mode(&self, q: &[f64], miss: PoseError, like: &FullMode) -> FullMode {
+        let q: Vec<_> = q.iter().map(|value| num_complex::Complex::from(*value)).collect();
+        let is_limited = !self.limits.is_empty();
+        let within_limits = is_limited
+            .then(|| crate::mechanism::single_loop::within_limits(&q, self.forward.variables(), &self.limits));
+        FullMode {
+            real: true,
+            near: true,
+            certified: false,
+            radius: f64::INFINITY,
+            multiplicity: 0,
+            within_limits,
+            error: Some(miss),
+            q,
+            ..like.clone()
+        }
+    }
+
+    /// Whether a solution of the conditions is proved to miss the pose by more than the tolerance.
+    fn surely_misses(&self, other: &Found, tolerance: Tolerance) -> bool {
+        if !other.mode.certified || !other.mode.radius.is_finite() {
+            return false;
+        }
+        let slack = self.slack(other.mode.radius);
+        let rounding = ROUNDING * (1.0 + self.forward.reach());
+        other.miss.position - slack.position - rounding > tolerance.length
+            || other.miss.orientation - slack.orientation - ROUNDING > tolerance.angle
+    }
+}
+
+/// Whether a complex solution may be a real one that rounding split.
+fn is_nearly_real(mode: &FullMode) -> bool {
+    !mode.real && mode.q.iter().all(|value| value.im.abs() < NEARLY_REAL)
+}

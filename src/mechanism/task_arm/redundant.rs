@@ -1,0 +1,192 @@
+//! Arms of more free joints than conditions: some joints are held, and what is found is a point of a family.
+
+use super::trace::Tracer;
+use super::{ArmAnswer, Inner, TaskArm, Tools};
+use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::catalogue::entry::Case;
+use crate::error::{Error, Result};
+use crate::kinematics::chain::Placement;
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::forward::Forward;
+use crate::kinematics::screws::Held;
+use crate::mechanism::{Family, Solution};
+use crate::verdict::{Code, Proof, Status};
+use nalgebra::DMatrix;
+use rug::Rational;
+use std::f64::consts::PI;
+use std::sync::OnceLock;
+
+/// Places within the limits at which a joint is held in turn.
+const PLACES: [f64; 7] = [0.5, 0.25, 0.75, 0.375, 0.625, 0.125, 0.875];
+/// Half-angle tangents are rounded to multiples of one over this: short numbers make exact work short.
+const PARTS: f64 = 16.0;
+/// How many choices of joints to hold are tried.
+const CHOICES: usize = 2;
+/// A joint moves along a family where its part of the motion is larger.
+const MOVES: f64 = 1e-7;
+
+/// A short number within the limits of a joint: at this part of the way between them.
+fn place(forward: &Forward, limits: &[[f64; 2]], joint: usize, part: f64) -> Held {
+    let is_angle = forward.variables()[joint] == Variable::Rotation;
+    let whole = if is_angle { PI } else { forward.reach() };
+    let [low, high] = limits.get(joint).copied().unwrap_or([-whole, whole]);
+    let (low, high) = (low.max(-whole), high.min(whole));
+    let value = low + part * (high - low);
+    let rounded = |x: f64| Rational::from_f64((x * PARTS).round() / PARTS).unwrap_or_default();
+    if is_angle {
+        Held::Angle(Angle::from_half_tangent(HalfTangent::Finite(rounded((value / 2.0).tan()))))
+    } else {
+        Held::Distance(Number::exact(rounded(value)))
+    }
+}
+
+/// A short number in the middle of the limits.
+pub(super) fn middle(forward: &Forward, limits: &[[f64; 2]], joint: usize) -> Held {
+    place(forward, limits, joint, 0.5)
+}
+
+/// Turns every solution into the circle that a free joint makes of it.
+pub(super) fn free(solution: &mut Solution, joint: usize) {
+    let real: Vec<_> = std::mem::take(&mut solution.modes).into_iter().filter(|mode| mode.real).collect();
+    for mode in real {
+        let sample: Vec<f64> = mode.q.iter().map(|value| value.re).collect();
+        let distance = mode.error.filter(|_| mode.near).map_or(0.0, |miss| miss.position.max(miss.orientation));
+        solution.families.push(Family {
+            dimension: 1,
+            moving: vec![joint],
+            distance,
+            samples: vec![sample.clone()],
+            sample,
+        });
+    }
+    if solution.families.is_empty() {
+        return;
+    }
+    let verdict = &mut solution.verdict;
+    let number = solution.families.len();
+    verdict.reason = format!("{number} families, each a full turn of joint {}; {}", joint + 1, verdict.reason);
+    if verdict.status == Status::Complete {
+        (verdict.status, verdict.code) = (Status::SelfMotion, Code::SelfMotion);
+    }
+    verdict.self_motion = 1;
+    (verdict.complex, verdict.real, verdict.certified) = (0, 0, 0);
+}
+
+impl TaskArm {
+    /// The ways in which so many more joints are held, those that leave the loop most regular first.
+    pub(super) fn with_more_held(&self, more: usize) -> Vec<Inner> {
+        let free: Vec<usize> = self.kept(&Inner { held: self.held.clone(), ..Inner::default() });
+        let choices = self.trial().held(more, &self.behind(&Placement::identity()));
+        let inner = |chosen: &Vec<usize>, part: f64| {
+            let mut held = self.held.clone();
+            held.extend(chosen.iter().map(|k| (free[*k], place(&self.forward, &self.limits, free[*k], part))));
+            Inner { held, filled: Vec::new(), solver: OnceLock::new() }
+        };
+        let of_choice = |chosen: &Vec<usize>| PLACES.map(|part| inner(chosen, part));
+        choices.iter().take(CHOICES).flat_map(of_choice).collect()
+    }
+
+    /// The families of configurations that reach the pose, or one of them.
+    pub(super) fn redundant(
+        &self,
+        more: usize,
+        ways: &[Inner],
+        case: &Case,
+        pose: &Placement,
+        with: &mut Tools<'_>,
+    ) -> Result<Solution> {
+        let mut tracer = if more == 1 { Tracer::of(self, pose) } else { None };
+        let (mut last, mut any): (Option<Solution>, Option<Vec<f64>>) = (None, None);
+        for inner in ways {
+            let (solution, found) = self.by(inner, case, pose, with)?;
+            for found in found.iter().filter(|found| found.mode.real && !found.mode.near) {
+                let q: Vec<f64> = found.mode.q.iter().map(|value| value.re).collect();
+                match &mut tracer {
+                    Some(tracer) => tracer.follow(&q),
+                    None if found.mode.within_limits != Some(false) => {
+                        return Ok(self.one_family(solution, q, pose, more));
+                    }
+                    None => {}
+                }
+                any = any.or(Some(q));
+            }
+            last = Some(solution);
+        }
+        let families = tracer.map_or_else(Vec::new, |tracer| tracer.families());
+        match (last, any) {
+            (Some(solution), Some(q)) if families.is_empty() => Ok(self.one_family(solution, q, pose, more)),
+            (Some(solution), Some(_)) => Ok(traced(solution, families)),
+            (Some(solution), None) => Ok(nothing_found(solution, more)),
+            (None, _) => {
+                Err(Error::UnsupportedMobility("the joint axes are dependent in every configuration".to_owned()))
+            }
+        }
+    }
+
+    /// The answer with one sample of the family.
+    fn one_family(&self, mut solution: Solution, sample: Vec<f64>, pose: &Placement, more: usize) -> Solution {
+        let moving = self.moving(&sample, pose);
+        moves(&mut solution, more);
+        solution.verdict.reason = format!(
+            "the arm has {more} more freedom{} than the task has conditions; one configuration is listed, and --lock NAME=VALUE \
+             lists all at a value of a joint",
+            if more == 1 { "" } else { "s" }
+        );
+        let family = Family { dimension: more, moving, distance: 0.0, samples: vec![sample.clone()], sample };
+        solution.families = vec![family];
+        solution
+    }
+
+    /// The joints that move along the family through a configuration.
+    fn moving(&self, q: &[f64], pose: &Placement) -> Vec<usize> {
+        let (tool, twists) = self.forward.jacobian(q);
+        let reach = self.forward.reach().max(f64::MIN_POSITIVE);
+        let is_held = |k: &usize| self.held.iter().any(|(own, _)| own == k);
+        let mut columns: Vec<[f64; 6]> = twists.iter().map(|twist| super::choice::column(twist, reach)).collect();
+        columns.extend(super::choice::columns(&self.behind(pose), &tool, reach));
+        let kept: Vec<usize> = (0..columns.len()).filter(|k| !is_held(k)).collect();
+        // A square matrix with rows of zeros has all its right singular vectors.
+        let size = kept.len().max(6);
+        let matrix = DMatrix::from_fn(size, kept.len(), |i, j| columns[kept[j]].get(i).copied().unwrap_or(0.0));
+        let svd = matrix.svd(false, true);
+        let Some(right) = svd.v_t else { return Vec::new() };
+        let small: Vec<usize> =
+            (0..right.nrows()).filter(|i| svd.singular_values[*i] < 1e-9 * svd.singular_values.max()).collect();
+        let moves = |j: &usize| small.iter().any(|i| right[(*i, *j)].abs() > MOVES);
+        (0..kept.len()).filter(moves).map(|j| kept[j]).filter(|k| *k < q.len()).collect()
+    }
+}
+
+/// The answer with curves that were followed.
+fn traced(mut solution: Solution, families: Vec<Family>) -> Solution {
+    moves(&mut solution, 1);
+    let number = families.len();
+    solution.verdict.reason = format!(
+        "the arm has 1 more freedom than the task has conditions: {number} curves were followed from configurations with a joint held; \
+         that none is missed is not proved"
+    );
+    solution.families = families;
+    solution
+}
+
+/// Makes an answer that of a redundant arm, without solutions yet.
+fn moves(solution: &mut Solution, more: usize) {
+    let verdict = &mut solution.verdict;
+    (verdict.status, verdict.proof, verdict.code) = (Status::SelfMotion, Proof::None, Code::SelfMotion);
+    (verdict.complex, verdict.real, verdict.certified, verdict.at_infinity) = (0, 0, 0, 0);
+    (verdict.self_motion, verdict.complex_complete) = (more, false);
+    solution.modes = Vec::new();
+    solution.arm = Some(ArmAnswer::default());
+}
+
+/// The answer where no choice of held joints reaches the pose: others may.
+fn nothing_found(mut solution: Solution, more: usize) -> Solution {
+    let verdict = &mut solution.verdict;
+    (verdict.status, verdict.proof, verdict.code) = (Status::Incomplete, Proof::None, Code::TooFew);
+    (verdict.complex, verdict.real, verdict.certified, verdict.complex_complete) = (0, 0, 0, false);
+    verdict.reason = format!("not proved: no configuration was found with {more} joints held at some values");
+    solution.modes = Vec::new();
+    solution.families = Vec::new();
+    solution.arm = Some(ArmAnswer::default());
+    solution
+}

@@ -1,0 +1,126 @@
+//! Self-motions and near solutions of one case as its answer lists them.
+
+use super::FullMode;
+use super::family::{Family, Joints, Shape};
+use super::near::{Near, Neighbourhood, Start};
+use super::single_loop::{SingleLoop, SixUnknowns, full_mode};
+use crate::assembly::{Assembly, Gap, Hits, Mode};
+use crate::kinematics::chain::Placement;
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::tolerance::Tolerance;
+use crate::solve::curve::CLOSES_WITHIN;
+use crate::solve::dense;
+use crate::solve::newton::{Six, closure};
+use crate::solve::self_motion::SelfMotion;
+use crate::verdict::Status;
+use num_complex::Complex;
+
+/// One case of a loop of six unknowns.
+pub(super) struct Vicinity<'a> {
+    /// The mechanism.
+    pub of: &'a SingleLoop,
+    /// Its solver.
+    pub prepared: &'a SixUnknowns,
+    /// The value of the locked variable.
+    pub locked: f64,
+    /// What the case leaves open.
+    pub gap: &'a Gap,
+}
+
+impl Vicinity<'_> {
+    fn closed(&self) -> (ClosedLoop<f64>, f64) {
+        self.prepared.solver.closed(self.gap)
+    }
+
+    /// Self-motions as families.
+    pub fn families(&self, found: &[SelfMotion]) -> Vec<Family> {
+        let (closed, scale) = self.closed();
+        let inside: Vec<SelfMotion> = found.iter().map(|motion| scaled(motion, &closed, 1.0 / scale)).collect();
+        self.listed(&closed, scale, inside.iter().map(|motion| (motion, 0.0)), CLOSES_WITHIN)
+    }
+
+    /// Self-motions in the unit of the loop, each with its distance.
+    fn listed<'b>(
+        &self,
+        closed: &ClosedLoop<f64>,
+        scale: f64,
+        found: impl Iterator<Item = (&'b SelfMotion, f64)>,
+        within: f64,
+    ) -> Vec<Family> {
+        let layout = &self.prepared.layout;
+        let joints = Joints { variables: &layout.variables, limits: &self.of.limits };
+        let configuration = |point: &Six<f64>| layout.assemble(&in_unit(point, closed, scale), self.locked);
+        let one = |(motion, distance): (&SelfMotion, f64)| {
+            let between = |first: usize, part: f64| Some(configuration(&motion.between(closed, first, part, within)?));
+            let moving = layout.assemble(&motion.moving, false);
+            let shape = Shape {
+                dimension: motion.dimension,
+                moving: (0..moving.len()).filter(|&k| moving[k]).collect(),
+                distance,
+                points: motion.points.iter().map(configuration).collect(),
+                is_closed: motion.is_closed,
+            };
+            joints.families(&shape, &between)
+        };
+        found.flat_map(one).collect()
+    }
+
+    /// What is near the pose of an arm. Where the list of solutions is not known, only what was met is looked at.
+    pub fn near(&self, pose: &Placement, tolerance: Tolerance, status: Status, assembly: &Assembly) -> Near {
+        let is_moving = status == Status::SelfMotion;
+        let (closed, scale) = self.closed();
+        let unit = |variable: Variable| if variable == Variable::Rotation { 1.0 } else { scale };
+        let start = |mode: &Mode| Start {
+            unknowns: std::array::from_fn(|k| mode.unknowns[k] / unit(closed.variables[k])),
+            is_real: mode.real,
+            condition: mode.condition,
+        };
+        let modes = if status == Status::Incomplete { &[] } else { assembly.modes.as_slice() };
+        let starts: Vec<Start> = modes.iter().map(start).collect();
+        let inside: Vec<SelfMotion> =
+            assembly.families.iter().map(|motion| scaled(motion, &closed, 1.0 / scale)).collect();
+        let (exact, seen) = if is_moving { (inside, Vec::new()) } else { (Vec::new(), inside) };
+        let (chain, layout) = (&self.of.chain, &self.prepared.layout);
+        Neighbourhood { chain, layout, pose, closed: &closed, scale, tolerance }.run(&starts, &exact, &seen)
+    }
+
+    /// Adds what is near to an answer, behind what is exact.
+    pub fn list(&self, near: &Near, tolerance: Tolerance, modes: &mut Vec<FullMode>, families: &mut Vec<Family>) {
+        let (closed, scale) = self.closed();
+        let within = tolerance.angle.max(tolerance.length / scale).max(CLOSES_WITHIN);
+        let found = near.families.iter().map(|(motion, distance)| (motion, distance.max(f64::MIN_POSITIVE)));
+        families.extend(self.listed(&closed, scale, found, within));
+        for (point, error) in &near.modes {
+            let unknowns: Six<Complex<f64>> = in_unit(point, &closed, scale).map(Complex::from);
+            let here = closure(&closed, &point.map(|x| x));
+            let inverse = dense::inverse(&here.jacobian);
+            let mode = Mode {
+                unknowns,
+                real: true,
+                multiplicity: 0,
+                residual: here.relative_defect(&closed, &point.map(Complex::from), true),
+                condition: inverse.map_or(f64::INFINITY, |inverse| dense::norm(&here.jacobian) * dense::norm(&inverse)),
+                certificate: None,
+                hits: Hits::first(0),
+            };
+            let layout = &self.prepared.layout;
+            let q = layout.assemble(&mode.unknowns, Complex::from(self.locked));
+            let own = full_mode(&mode, q, &layout.variables, &self.of.limits);
+            modes.push(FullMode { near: true, error: Some(*error), ..own });
+        }
+    }
+}
+
+/// A point with its translations in another unit.
+fn in_unit(point: &Six<f64>, closed: &ClosedLoop<f64>, unit: f64) -> Six<f64> {
+    std::array::from_fn(|k| match closed.variables[k] {
+        Variable::Rotation => point[k],
+        Variable::Translation => point[k] * unit,
+    })
+}
+
+/// A self-motion with its translations in another unit.
+fn scaled(motion: &SelfMotion, closed: &ClosedLoop<f64>, unit: f64) -> SelfMotion {
+    let points = motion.points.iter().map(|point| in_unit(point, closed, unit)).collect();
+    SelfMotion { points, ..motion.clone() }
+}
