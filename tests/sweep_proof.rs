@@ -1,10 +1,12 @@
 //! Proved sweeps: loops of the library, exact counts at random inputs, and circuits far smaller than a step.
 #![allow(clippy::unwrap_used)]
 
+use looproot::assembly::{Assembly, Roots, Workspace};
 use looproot::catalogue::entry::{Case, Entry, Input, InputValue};
 use looproot::catalogue::{Format, Options, load, load_text};
 use looproot::derivation::derive;
 use looproot::kinematics::closed_loop::Variable;
+use looproot::mechanism::Mechanism;
 use looproot::sweep::{Branch, Range, Sweep, sweep};
 use looproot::verdict::{Code, Proof, Status};
 use rand::{Rng, SeedableRng};
@@ -80,8 +82,52 @@ fn loops_of_degree_8_at_most_are_proved() {
 fn other_loops_and_rounded_numbers_are_not_proved() {
     let found = turn(&entry("rssr"), 1, 6);
     assert_eq!((found.verdict.proof, found.verdict.code), (Proof::RoundedData, Code::BranchesProved));
-    let found = turn(&entry("goldberg_a"), 1, 6);
+    let found = turn(&entry("general_7r"), 1, 6);
     assert_eq!((found.verdict.proof, found.verdict.code), (Proof::None, Code::NoExactRoute));
+}
+
+#[test]
+fn overconstrained_loops_of_five_and_six_joints_are_proved() {
+    let mut random = ChaCha8Rng::seed_from_u64(16);
+    for (name, joint) in [
+        ("goldberg_a", 1),
+        ("goldberg_subtractive", 4),
+        ("myard_b", 1),
+        ("rrrrp_parallel_pairs", 1),
+        ("bennett_dyads_b", 1),
+        ("bricard_trihedral_a", 1),
+        ("bricard_plane_symmetric_a", 1),
+        ("waldron_hybrid", 1),
+        ("wohlhart_hybrid_a", 2),
+    ] {
+        let loaded = entry(name);
+        let found = turn(&loaded, joint, 6);
+        assert_eq!(found.verdict.code, Code::BranchesProved, "{name}: {}", found.verdict.reason);
+        assert_eq!((found.verdict.proof, found.unresolved()), (Proof::Proved, 0), "{name}");
+        for _ in 0..4 {
+            let half_tangent = Rational::from((random.random_range(-90..90), 40));
+            let input = 2.0 * half_tangent.to_f64().atan();
+            let exact = looproot::algebra::number::HalfTangent::Finite(half_tangent);
+            let angle = looproot::algebra::number::Angle::from_half_tangent(exact);
+            let case = Case::given(Input { joint, value: InputValue::Angle(angle) }, 0);
+            let mechanism = Mechanism::prepare(&Entry { cases: vec![case.clone()], ..loaded.clone() }).unwrap();
+            let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+            let solution = mechanism.solve(&case, Roots::All, &mut workspace, &mut assembly).unwrap();
+            assert_eq!(solution.verdict.proof, Proof::Proved, "{name}: {}", solution.verdict.reason);
+            assert_eq!(branches_at(&found, input), solution.verdict.real, "{name} at {input}");
+        }
+    }
+}
+
+#[test]
+fn every_joint_of_a_slider_crank_is_an_input() {
+    let loaded = entry("slider_crank");
+    for joint in 1..=3 {
+        let found = turn(&loaded, joint, 6);
+        assert_eq!(found.verdict.code, Code::BranchesProved, "{joint}: {}", found.verdict.reason);
+    }
+    let found = swept(&loaded, 4, Variable::Translation, [-6.0, 6.0], 6);
+    assert_eq!(found.verdict.code, Code::BranchesProved, "{}", found.verdict.reason);
 }
 
 #[test]
@@ -133,5 +179,85 @@ fn the_smallest_circuit_is_met_with_few_steps() {
         assert!(width > 0.0 && width < 7e-3, "{width}");
         let found = turn(&rssr(&low), 1, steps);
         assert_eq!((found.branches.len(), found.verdict.status), (0, Status::Unreachable));
+    }
+}
+
+/// A four-bar of parallel or concurrent axes: what each link has for a length, or for the tangent of half its twist.
+fn four_bar(links: [&str; 4], is_planar: bool) -> Entry {
+    let key = if is_planar { ("a", "tan_half_alpha") } else { ("tan_half_alpha", "a") };
+    let joint = |link: &str| format!("{{ type = \"R\", {} = \"{link}\", {} = 0, d = 0 }},\n", key.0, key.1);
+    let joints: String = links.iter().map(|link| joint(link)).collect();
+    read(&format!("[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [\n{joints}]\n"))
+}
+
+/// How many positions a planar four-bar has: two circles meet, about the ends of the links at the input.
+fn circles(lengths: [f64; 4], joint: usize, input: f64) -> usize {
+    let length = |k: usize| lengths[(joint + k) % 4];
+    let (before, behind) = (length(2), length(3));
+    let apart = (before * before + behind * behind + 2.0 * before * behind * input.cos()).sqrt();
+    let (one, two) = (length(0), length(1));
+    2 * usize::from((one - two).abs() < apart && apart < one + two)
+}
+
+#[test]
+fn planar_four_bars_that_fold_are_proved() {
+    let mut random = ChaCha8Rng::seed_from_u64(15);
+    for (lengths, standing) in [
+        // Parallelogram, rhombus, kite, two that only fold, and one with a joint that never turns round.
+        ([2, 3, 2, 3], [0; 4]),
+        ([2, 2, 2, 2], [1; 4]),
+        ([2, 2, 3, 3], [0, 1, 0, 1]),
+        ([2, 5, 4, 3], [0; 4]),
+        ([1, 5, 3, 3], [0; 4]),
+        ([7, 3, 4, 6], [0; 4]),
+    ] {
+        let loaded = four_bar(lengths.map(|x: i32| x.to_string()).each_ref().map(String::as_str), true);
+        for joint in 1..=4 {
+            let found = turn(&loaded, joint, 6);
+            assert_eq!(found.verdict.code, Code::BranchesProved, "{lengths:?} {joint}: {}", found.verdict.reason);
+            assert_eq!((found.verdict.proof, found.unresolved()), (Proof::Proved, 0));
+            assert_eq!(found.standing.len(), standing[joint - 1], "{lengths:?} {joint}: {:?}", found.standing);
+            for _ in 0..40 {
+                let input = random.random_range(-PI..PI);
+                let count = circles(lengths.map(f64::from), joint, input);
+                assert_eq!(branches_at(&found, input), count, "{lengths:?}, joint {joint} at {input}");
+            }
+        }
+    }
+}
+
+#[test]
+fn branches_pass_each_other_where_a_parallelogram_is_flat() {
+    let found = turn(&four_bar(["2", "3", "2", "3"], true), 1, 24);
+    assert_eq!((found.branches.len(), found.limits.len()), (2, 0));
+    let opposite = |branch: &Branch| {
+        let turned = |row: &looproot::sweep::Row| {
+            let q = &found.samples[row.step].modes[row.mode];
+            (q[0] - q[2]).sin().abs() < 1e-9 && (q[0] + q[1]).sin().abs() < 1e-9
+        };
+        // Flat positions belong to both.
+        branch.rows.iter().filter(|row| turned(row)).count()
+    };
+    let counts: Vec<usize> = found.branches.iter().map(opposite).collect();
+    assert!(counts.iter().any(|count| *count >= 22) && counts.iter().any(|count| *count <= 3), "{counts:?}");
+}
+
+#[test]
+fn spherical_four_bars_that_fold_are_proved() {
+    for links in [
+        ["1/3", "1/2", "1/3", "1/2"],
+        ["1/3", "1/3", "1/3", "1/3"],
+        ["1/3", "1/3", "1/2", "1/2"],
+        // tan(a + b) of half angles: 1/2 and 1/3 are as much as 1/5 and 2/3.
+        ["1/2", "1/3", "1/5", "2/3"],
+        ["1/2", "1/5", "1/3", "2/3"],
+    ] {
+        let loaded = four_bar(links, false);
+        for joint in 1..=4 {
+            for steps in [6, 24] {
+                let found = turn(&loaded, joint, steps);
+                assert_eq!(found.verdict.code, Code::BranchesProved, "{links:?} {joint}: {}", found.verdict.reason);
+            }
+        }
     }
 }

@@ -73,9 +73,15 @@ pub(super) fn lift(
     if homeless > 0 {
         complaints.push(format!("{homeless} poses of the numeric solution belong to no root of the polynomial"));
     }
-    let empty = polynomial.roots.iter().filter(|root| root.poses.is_empty()).count();
-    // Of two poses at a real root neither may be real: mirror images at a complex height.
-    if empty > 0 && known.is_some() {
+    let Some(known) = known else { return complaints };
+    // Of two poses at a real root neither may be real: they share a real rotation, and their positions are complex.
+    let is_complex = |root: &Root| {
+        let proved = modes.iter().filter(|mode| !mode.real && mode.certificate.is_some());
+        let values = proved.map(|mode| known.coordinate.at(&std::array::from_fn(|k| mode.study[k])));
+        values.into_iter().any(|value| (value - root.value).norm() < NEAR * (1.0 + root.value.abs()))
+    };
+    let empty = polynomial.roots.iter().filter(|root| root.poses.is_empty() && !is_complex(root)).count();
+    if empty > 0 {
         complaints.push(format!("no pose was found at {empty} of the real roots"));
     }
     complaints

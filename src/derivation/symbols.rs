@@ -48,7 +48,7 @@ impl Symbols {
 
     /// The names of all variables.
     pub fn names(&self) -> Result<Names> {
-        Names::given(self.list())
+        Ok(Names::given(self.list())?)
     }
 
     /// Cosine, sine and half-angle tangent of each unknown rotation. A translation has neither cosine nor sine: it has

@@ -1,5 +1,6 @@
 //! Closure equations to one matrix pencil in the hidden unknown, over any field.
 
+pub mod affine_platform;
 pub mod border;
 pub mod characteristic;
 pub mod common_roots;

@@ -3,6 +3,7 @@
 //! The equations of the general platform have 40 solutions with `N = x.x != 0`. In special geometry some of them, or
 //! whole curves, have `N = 0` and are no poses: they are the eigenvalue 0 of multiplication by N.
 
+use super::affine_platform::AffinePlatform;
 use super::border::{
     Arithmetic, BorderBasis, DIMENSION, MOST_DIRECTIONS, Residues, Setting, SideBySide, exact_directions,
 };
@@ -76,13 +77,7 @@ pub fn setting_side_by_side(
 type ModularLegs = ([[u64; 7]; 6], [Form<u64>; 6]);
 
 fn modular_legs(modulus: &Modulus, legs: &LinearLegs<Rational>, squares: &[Rational; 6]) -> Option<ModularLegs> {
-    let image = |q: &Rational| -> Option<u64> {
-        if *q.denom() == 1 {
-            return Some(modulus.reduce(q.numer()));
-        }
-        let denominator = modulus.reduce(q.denom());
-        (denominator != 0).then(|| Modulus::mul(modulus, modulus.reduce(q.numer()), modulus.inverse(denominator)))
-    };
+    let image = |q: &Rational| residue(modulus, q);
     let mut matrix = [[0; 7]; 6];
     let mut forms: [Form<u64>; 6] = [[[0; 4]; 4]; 6];
     for i in 0..6 {
@@ -100,6 +95,16 @@ fn modular_legs(modulus: &Modulus, legs: &LinearLegs<Rational>, squares: &[Ratio
     Some((matrix, forms))
 }
 
+/// A rational number modulo a prime; `None` where its denominator vanishes.
+#[must_use]
+pub fn residue(modulus: &Modulus, q: &Rational) -> Option<u64> {
+    if *q.denom() == 1 {
+        return Some(modulus.reduce(q.numer()));
+    }
+    let denominator = modulus.reduce(q.denom());
+    (denominator != 0).then(|| Modulus::mul(modulus, modulus.reduce(q.numer()), modulus.inverse(denominator)))
+}
+
 /// `1/x`, where there is one.
 #[must_use]
 pub fn inverse(modulus: &Modulus, x: u64) -> Option<u64> {
@@ -107,7 +112,8 @@ pub fn inverse(modulus: &Modulus, x: u64) -> Option<u64> {
 }
 
 /// A platform with its base and plate turned by rotations that are no multiples of a right angle, exactly.
-pub(super) fn turned(platform: &Platform<Rational>, choice: usize) -> Platform<Rational> {
+#[must_use]
+pub fn turned(platform: &Platform<Rational>, choice: usize) -> Platform<Rational> {
     let turn = |points: &[[Rational; 3]; 6], q: [i32; 4]| {
         let [w, x, y, z] = q.map(Rational::from);
         let q = Quaternion { scalar: w, vector: [x, y, z] };
@@ -125,7 +131,8 @@ pub(super) fn turned(platform: &Platform<Rational>, choice: usize) -> Platform<R
 }
 
 /// The quaternions by which [`turned`] turns base and plate.
-pub(super) fn turns<R: Ring>(choice: usize) -> [Quaternion<R>; 2] {
+#[must_use]
+pub fn turns<R: Ring>(choice: usize) -> [Quaternion<R>; 2] {
     TURNS[choice].map(|q| {
         let [w, x, y, z] = q.map(R::from_integer);
         Quaternion { scalar: w, vector: [x, y, z] }
@@ -138,6 +145,9 @@ pub(super) fn turns<R: Ring>(choice: usize) -> [Quaternion<R>; 2] {
 #[must_use]
 pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<PlatformDegree> {
     let modulus = Modulus::new(drawn::prime());
+    if let Some(poses) = affine_degree(&modulus, platform, legs_squared) {
+        return Some(PlatformDegree::Finite { poses, null: DIMENSION - poses, curves: true });
+    }
     let mut settings = Vec::new();
     for choice in 0..TURNS.len() {
         let legs = linear_legs(&turned(platform, choice));
@@ -158,6 +168,17 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
     };
     let poses = regular_part(&modulus, |x| inverse(&modulus, x), &products)?.pivots.len();
     Some(PlatformDegree::Finite { poses, null: DIMENSION.saturating_sub(poses), curves: true })
+}
+
+/// The number of poses where base and plate are affine images of the same points, and there are as many as these can have.
+fn affine_degree(modulus: &Modulus, platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<usize> {
+    let has_all = |choice: usize| {
+        let platform = AffinePlatform::new(&turned(platform, choice), legs_squared)?;
+        platform.products_of_poses(modulus, |x| inverse(modulus, x), |q| residue(modulus, q))?;
+        let (rotations, positions) = platform.counts();
+        Some(rotations * positions)
+    };
+    (0..TURNS.len()).find_map(has_all)
 }
 
 /// Multiplication by `z_1/z_0`, `z_2/z_0` and `z_3/z_0`: row k is the product with basis element k.

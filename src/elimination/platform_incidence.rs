@@ -1,6 +1,7 @@
-//! Points of a platform that coincide exactly, and what that says of the number of its poses, whatever the lengths of the
-//! legs are. docs/platforms.md, theorem 3, has the proof.
+//! Points of a platform that coincide exactly, or lie in an affine relation, and what that says of the number of its poses, whatever the lengths of the
+//! legs are. docs/platforms.md, theorems 3 and 4, has the proofs.
 
+use super::affine_platform::AffineRelation;
 use super::triangle_platform::pairs;
 use crate::kinematics::motion::{Vector, cross};
 use crate::kinematics::platform::Platform;
@@ -17,12 +18,19 @@ pub fn most_poses(platform: &Platform<Rational>) -> Option<(usize, &'static str)
     if meet(&platform.plate) || meet(&platform.base) {
         return Some((POSES, "three legs meet in a point"));
     }
-    let pairs = pairs(platform)?;
+    let affine = AffineRelation::of(platform).map(|relation| relation.bound());
+    let pairs = in_pairs(platform).then_some((POSES, "the legs meet in pairs in the corners of a triangle"));
+    let affine = affine.map(|bound| (bound.poses, bound.because));
+    pairs.into_iter().chain(affine).min_by_key(|(poses, _)| *poses)
+}
+
+/// Whether the legs meet in pairs in the corners of a triangle.
+fn in_pairs(platform: &Platform<Rational>) -> bool {
+    let Some(pairs) = pairs(platform) else { return false };
     let points = if pairs.at_base { &platform.base } else { &platform.plate };
     let [a, b, c] = pairs.legs.map(|[leg, _]| &points[leg]);
     let side = |p: &Vector<Rational>| -> Vector<Rational> { std::array::from_fn(|k| Rational::from(&p[k] - &a[k])) };
-    let is_triangle = cross(&side(b), &side(c)).iter().any(|x| *x != 0);
-    is_triangle.then_some((POSES, "the legs meet in pairs in the corners of a triangle"))
+    cross(&side(b), &side(c)).iter().any(|x| *x != 0)
 }
 
 #[cfg(test)]
@@ -43,7 +51,9 @@ mod tests {
         assert_eq!(most_poses(&platform).map(|most| most.0), Some(16));
         let platform = Platform { base: points(triple), plate: points(GENERAL) };
         assert_eq!(most_poses(&platform).map(|most| most.0), Some(16));
-        assert_eq!(most_poses(&Platform { base: points(GENERAL), plate: points(GENERAL) }), None);
+        let mut other = GENERAL;
+        other[3] = [2, 7, -4];
+        assert_eq!(most_poses(&Platform { base: points(GENERAL), plate: points(other) }), None);
     }
 
     #[test]

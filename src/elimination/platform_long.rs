@@ -1,8 +1,8 @@
-//! The quotient algebra of a platform in numbers of 384 bits, for poses that f64 does not reach.
+//! The quotient algebra of a platform in long numbers, for poses that f64 does not reach.
 
 use super::border::{BorderBasis, DIMENSION, LongReals, MOST_DIRECTIONS, Setting, exact_directions};
 use super::platform_degree::{turned, turns};
-use crate::algebra::long_float::LongFloat;
+use crate::algebra::long_float::LongNumber;
 use crate::algebra::ring::{Field, Ring};
 use crate::closure::study::{Form, linear_legs};
 use crate::kinematics::dual_quaternion::Quaternion;
@@ -11,24 +11,28 @@ use rug::Rational;
 
 /// The algebra of a platform whose base and plate are turned.
 #[derive(Clone, Debug)]
-pub struct LongAlgebra {
+pub struct LongAlgebra<const LIMBS: usize> {
     /// What it was made from.
-    pub setting: Setting<LongFloat>,
+    pub setting: Setting<LongNumber<LIMBS>>,
     /// `z_i b` for i = 1..3 and every basis element b.
-    pub products: [Vec<[LongFloat; DIMENSION]>; 3],
+    pub products: [Vec<[LongNumber<LIMBS>; DIMENSION]>; 3],
     /// The quaternions by which base and plate are turned: rotations are `before^* z behind`.
-    pub turns: [Quaternion<LongFloat>; 2],
+    pub turns: [Quaternion<LongNumber<LIMBS>>; 2],
 }
 
 /// The algebra of a platform with legs of these squared lengths; `None` where the border basis of the general platform
 /// does not exist.
 #[must_use]
-pub fn long_algebra(platform: &Platform<Rational>, squares: &[Rational; 6], choice: usize) -> Option<LongAlgebra> {
+pub fn long_algebra<const LIMBS: usize>(
+    platform: &Platform<Rational>,
+    squares: &[Rational; 6],
+    choice: usize,
+) -> Option<LongAlgebra<LIMBS>> {
     let legs = linear_legs(&turned(platform, choice));
-    let image = |q: &Rational| LongFloat::from_rational(q);
-    let zero = LongFloat::zero();
+    let image = |q: &Rational| LongNumber::<LIMBS>::from_rational(q);
+    let zero = LongNumber::<LIMBS>::zero();
     let mut matrix = [[zero; 7]; 6];
-    let mut forms: [Form<LongFloat>; 6] = [[[zero; 4]; 4]; 6];
+    let mut forms: [Form<LongNumber<LIMBS>>; 6] = [[[zero; 4]; 4]; 6];
     for i in 0..6 {
         for k in 0..7 {
             matrix[i][k] = image(&legs.matrix[i][k])?;
@@ -40,12 +44,12 @@ pub fn long_algebra(platform: &Platform<Rational>, squares: &[Rational; 6], choi
             }
         }
     }
-    let directions = exact_directions(&LongReals, |x: LongFloat| x.inverse(), &matrix)?;
-    let setting = Setting::new(&LongReals, &directions, &forms);
+    let directions = exact_directions(&LongReals::<LIMBS>, |x: LongNumber<LIMBS>| x.inverse(), &matrix)?;
+    let setting = Setting::new(&LongReals::<LIMBS>, &directions, &forms);
     if setting.count > MOST_DIRECTIONS {
         return None;
     }
-    let mut basis = BorderBasis::new(&LongReals);
-    basis.build(&LongReals, &setting).ok()?;
+    let mut basis = BorderBasis::new(&LongReals::<LIMBS>);
+    basis.build(&LongReals::<LIMBS>, &setting).ok()?;
     Some(LongAlgebra { setting, products: basis.products, turns: turns(choice) })
 }

@@ -3,10 +3,11 @@
 //! In the quotient algebra of the equations modulo a prime, multiplication by a quotient of two coordinates of the rotation
 //! is a matrix; its characteristic polynomial is the image of the one over the rationals. Enough primes give that.
 
+use super::affine_platform::AffinePlatform;
 use super::border::{Arithmetic, BorderBasis, DIMENSION, Residues, SIDE, SideBySide};
 use super::characteristic::characteristic_polynomial;
 use super::platform_degree::{
-    Products, general_products, inverse, modular_setting, regular_part, row_times, setting_side_by_side,
+    Products, general_products, inverse, modular_setting, regular_part, residue, row_times, setting_side_by_side,
     special_products,
 };
 use super::platform_height::PlatformHeight;
@@ -14,6 +15,7 @@ use crate::algebra::drawn;
 use crate::algebra::modp::{Modulus, primes};
 use crate::algebra::modular::primes::{PRIME_BITS, largest_primes};
 use crate::algebra::ring::Ring;
+use crate::algebra::univariate::Univariate;
 use crate::closure::study::{LinearLegs, linear_legs};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
@@ -28,8 +30,8 @@ pub struct PlatformPolynomial {
     pub coefficients: Vec<Integer>,
     /// What its variable is.
     pub coordinate: Coordinate,
-    /// Whether solutions with `N = 0` form curves, so that the algebra was taken from the graded ring.
-    pub special: bool,
+    /// Which algebra it was taken from.
+    pub quotient: Quotient,
     /// How many primes agree with it in all coefficients.
     pub primes: usize,
     /// Whether it is proved that its roots are those of all isolated poses, with multiplicity: the product of the primes
@@ -37,6 +39,17 @@ pub struct PlatformPolynomial {
     /// fewer than 2^20 bits, whose numerator fewer than 2^15 of the more than 2^55 primes of 62 bits divide; the
     /// probability of error is below 2^-40, if the last prime is as good as drawn.
     pub proved: bool,
+}
+
+/// The quotient algebra of the poses of a platform, or of their rotations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quotient {
+    /// The border basis of general platforms.
+    General,
+    /// The graded ring: solutions with `N = 0` form curves.
+    Graded,
+    /// The algebra of the rotations, where base and plate are affine images of the same points.
+    Affine,
 }
 
 /// A quotient of coordinates of a rotation x, `weights.(z_1, z_2, z_3) / z_0` with `x = turn z`.
@@ -115,8 +128,9 @@ struct Modular<'a> {
     squares: &'a [Rational; 6],
     height: PlatformHeight,
     weights: [i32; 3],
-    /// Whether the general border basis does not exist.
-    special: bool,
+    quotient: Quotient,
+    /// The forms of rotations, where these have an algebra of their own.
+    affine: Option<AffinePlatform>,
     /// Whether no solution has `N = 0`, as is known from the first prime.
     all_regular: bool,
 }
@@ -124,11 +138,14 @@ struct Modular<'a> {
 impl Modular<'_> {
     /// The monic polynomial modulo a prime, its degree the number of poses; `None` for an unlucky prime or coordinate.
     fn polynomial(&self, modulus: &Modulus, memory: &mut BorderBasis<u64>) -> Option<Vec<u64>> {
-        let setting = modular_setting(modulus, self.legs, self.squares)?;
-        let products = if self.special {
-            special_products(modulus, |x| inverse(modulus, x), &setting)?
+        let products = if let Some(affine) = &self.affine {
+            affine.products(modulus, |x| inverse(modulus, x), |q| residue(modulus, q))?
         } else {
-            general_products(modulus, &setting, memory)?
+            let setting = modular_setting(modulus, self.legs, self.squares)?;
+            match self.quotient {
+                Quotient::General => general_products(modulus, &setting, memory)?,
+                _ => special_products(modulus, |x| inverse(modulus, x), &setting)?,
+            }
         };
         let weights = self.weights.map(|w| modulus.reduce(&Integer::from(w)));
         self.characteristic(modulus, |x| inverse(modulus, x), products, weights)
@@ -136,13 +153,20 @@ impl Modular<'_> {
 
     /// The same modulo several primes side by side; `None` where these differ in what is 0.
     fn polynomials(&self, field: &SideBySide, memory: &mut BorderBasis<Residues>) -> Option<[Vec<u64>; SIDE]> {
-        let setting = setting_side_by_side(field, self.legs, self.squares)?;
-        let products = if self.special {
-            special_products(field, |x| field.inverse(x), &setting)?
-        } else {
-            general_products(field, &setting, memory)?
-        };
         let moduli = field.moduli();
+        let products = if let Some(affine) = &self.affine {
+            let image = |q: &Rational| {
+                let [a, b, c, d] = moduli.each_ref().map(|modulus| residue(modulus, q));
+                Some(field.join([a?, b?, c?, d?]))
+            };
+            affine.products(field, |x| field.inverse(x), image)?
+        } else {
+            let setting = setting_side_by_side(field, self.legs, self.squares)?;
+            match self.quotient {
+                Quotient::General => general_products(field, &setting, memory)?,
+                _ => special_products(field, |x| field.inverse(x), &setting)?,
+            }
+        };
         let weights = self.weights.map(|w| field.join(moduli.map(|m| m.reduce(&Integer::from(w)))));
         let joined = self.characteristic(field, |x| field.inverse(x), products, weights)?;
         Some(std::array::from_fn(|k| joined.iter().map(|c| field.part(c, k)).collect()))
@@ -183,25 +207,36 @@ impl Modular<'_> {
 pub(super) struct PlatformAlgebra {
     legs: LinearLegs<Rational>,
     squares: [Rational; 6],
-    special: bool,
+    quotient: Quotient,
+    affine: Option<AffinePlatform>,
     weights: [i32; 3],
 }
 
 impl PlatformAlgebra {
     /// The algebra of the polynomial of a platform.
     pub(super) fn new(platform: &Platform<Rational>, squares: &[Rational; 6], polynomial: &PlatformPolynomial) -> Self {
-        let (mut legs, mut squares) = (linear_legs(&polynomial.coordinate.turned(platform)), squares.clone());
+        let turned = polynomial.coordinate.turned(platform);
+        let quotient = polynomial.quotient;
+        let affine = (quotient == Quotient::Affine).then(|| AffinePlatform::new(&turned, squares)).flatten();
+        let (mut legs, mut squares) = (linear_legs(&turned), squares.clone());
         clear(&mut legs, &mut squares);
-        Self { legs, squares, special: polynomial.special, weights: polynomial.coordinate.weights }
+        Self { legs, squares, quotient, affine, weights: polynomial.coordinate.weights }
+    }
+
+    /// How many poses belong to every element of a basis.
+    pub(super) fn positions(&self) -> usize {
+        self.affine.as_ref().map_or(1, |affine| affine.counts().1)
     }
 
     /// Multiplication by `z_i / z_0`, i = 1..3, on what has N != 0; `None` for an unlucky prime.
     pub(super) fn products(&self, modulus: &Modulus) -> Option<Products<u64>> {
+        if let Some(affine) = &self.affine {
+            return affine.products(modulus, |x| inverse(modulus, x), |q| residue(modulus, q));
+        }
         let setting = modular_setting(modulus, &self.legs, &self.squares)?;
-        let products = if self.special {
-            special_products(modulus, |x| inverse(modulus, x), &setting)?
-        } else {
-            general_products(modulus, &setting, &mut BorderBasis::new(modulus))?
+        let products = match self.quotient {
+            Quotient::General => general_products(modulus, &setting, &mut BorderBasis::new(modulus))?,
+            _ => special_products(modulus, |x| inverse(modulus, x), &setting)?,
         };
         let regular = regular_part(modulus, |x| inverse(modulus, x), &products)?;
         Some(products.each_ref().map(|matrix| {
@@ -272,6 +307,23 @@ pub fn multiple_platform_polynomial(
     polynomial_in(&COORDINATES[COORDINATES.len() - 2..], platform, legs_squared, |_, _| true)
 }
 
+/// Whether a platform with 40 poses has different values of some coordinate at all of them: they are simple then. What is said
+/// modulo a prime is no more than a hint where the answer is no.
+#[must_use]
+pub fn are_simple(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> bool {
+    let modulus = Modulus::new(drawn::prime());
+    let mut memory = BorderBasis::new(&modulus);
+    COORDINATES.iter().any(|coordinate| {
+        let (mut legs, mut squares) = (linear_legs(&coordinate.turned(platform)), legs_squared.clone());
+        let height = PlatformHeight::new(&legs, &squares);
+        clear(&mut legs, &mut squares);
+        let (legs, squares, weights, quotient) = (&legs, &squares, coordinate.weights, Quotient::General);
+        let modular = Modular { legs, squares, height, weights, quotient, affine: None, all_regular: true };
+        let image = modular.polynomial(&modulus, &mut memory);
+        image.is_some_and(|image| image.len() == DIMENSION + 1 && is_square_free(&modulus, &image))
+    })
+}
+
 /// The polynomial in the first coordinate whose polynomial modulo a prime is accepted.
 fn polynomial_in(
     coordinates: &[Coordinate],
@@ -280,18 +332,21 @@ fn polynomial_in(
     accepts: impl Fn(&Modulus, &[u64]) -> bool,
 ) -> Option<PlatformPolynomial> {
     let modulus = Modulus::new(drawn::prime());
+    if let Some(found) = affine_polynomial(&modulus, coordinates, platform, legs_squared, &accepts) {
+        return found;
+    }
     let mut memory = BorderBasis::new(&modulus);
     let mut in_general = false;
-    for special in [false, true] {
+    for quotient in [Quotient::General, Quotient::Graded] {
         for coordinate in coordinates {
             let (mut legs, mut squares) = (linear_legs(&coordinate.turned(platform)), legs_squared.clone());
             let height = PlatformHeight::new(&legs, &squares);
             clear(&mut legs, &mut squares);
             let (legs, squares, weights) = (&legs, &squares, coordinate.weights);
-            let mut modular = Modular { legs, squares, height, weights, special, all_regular: false };
+            let mut modular = Modular { legs, squares, height, weights, quotient, affine: None, all_regular: false };
             let Some(first) = modular.polynomial(&modulus, &mut memory) else { continue };
-            in_general |= !special;
-            modular.all_regular = !special && first.len() == DIMENSION + 1;
+            in_general |= quotient == Quotient::General;
+            modular.all_regular = in_general && first.len() == DIMENSION + 1;
             if first.len() > 1 && accepts(&modulus, &first) {
                 return lifted(&modular, *coordinate, first.len());
             }
@@ -302,6 +357,57 @@ fn polynomial_in(
         }
     }
     None
+}
+
+/// The polynomial where base and plate are affine images of the same points; the outer `None` where they are not, or have
+/// fewer poses than such platforms in general, the inner one where no coordinate is accepted.
+#[expect(clippy::option_option, reason = "whether the way is gone, and what is found on it")]
+fn affine_polynomial(
+    modulus: &Modulus,
+    coordinates: &[Coordinate],
+    platform: &Platform<Rational>,
+    squares: &[Rational; 6],
+    accepts: &impl Fn(&Modulus, &[u64]) -> bool,
+) -> Option<Option<PlatformPolynomial>> {
+    let mut is_whole = false;
+    for coordinate in coordinates {
+        let turned = coordinate.turned(platform);
+        let affine = AffinePlatform::new(&turned, squares)?;
+        let (rotations, positions) = affine.counts();
+        let Some(products) = affine.products_of_poses(modulus, |x| inverse(modulus, x), |q| residue(modulus, q)) else {
+            continue;
+        };
+        is_whole = true;
+        let legs = linear_legs(&turned);
+        let height = PlatformHeight::new(&legs, squares);
+        let (weights, quotient) = (coordinate.weights, Quotient::Affine);
+        let modular =
+            Modular { legs: &legs, squares, height, weights, quotient, affine: Some(affine), all_regular: true };
+        let images = weights.map(|w| modulus.reduce(&Integer::from(w)));
+        let first = modular.characteristic(modulus, |x| inverse(modulus, x), products, images);
+        // Two positions make every root a double one.
+        let image = first.map(|first| if positions == 1 { first } else { square(modulus, &first) });
+        if image.is_some_and(|image| accepts(modulus, &image)) {
+            let found = lifted(&modular, *coordinate, rotations + 1);
+            return Some(found.map(|found| if positions == 1 { found } else { squared(found) }));
+        }
+    }
+    is_whole.then_some(None)
+}
+
+/// The square of a polynomial modulo a prime.
+fn square(modulus: &Modulus, polynomial: &[u64]) -> Vec<u64> {
+    let mut square = vec![0; 2 * polynomial.len() - 1];
+    for (k, &c) in polynomial.iter().enumerate() {
+        modulus.add_multiple(&mut square[k..k + polynomial.len()], c, polynomial);
+    }
+    square
+}
+
+/// The polynomial of poses of which two belong to every rotation.
+fn squared(found: PlatformPolynomial) -> PlatformPolynomial {
+    let half = Univariate::new(found.coefficients);
+    PlatformPolynomial { coefficients: half.mul(&half).coefficients().to_vec(), ..found }
 }
 
 /// Multiplies every leg by the common denominator of its coefficients: quotients are costly modulo a prime.
@@ -348,13 +454,13 @@ fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<Pl
             && proof.missing(Some(polynomial), used) == 0
         {
             let coefficients = guess.take()?;
-            let special = modular.special;
+            let quotient = modular.quotient;
             let proved = proof.bits.is_some();
-            return Some(PlatformPolynomial { coefficients, coordinate, special, primes: used, proved });
+            return Some(PlatformPolynomial { coefficients, coordinate, quotient, primes: used, proved });
         }
     }
-    let special = modular.special;
-    guess.map(|coefficients| PlatformPolynomial { coefficients, coordinate, special, primes: used, proved: false })
+    let quotient = modular.quotient;
+    guess.map(|coefficients| PlatformPolynomial { coefficients, coordinate, quotient, primes: used, proved: false })
 }
 
 /// The primes that are worked with, largest first, and less than the binary logarithm of each: short ones where these
@@ -406,9 +512,15 @@ impl Proof {
         // coefficient at most.
         let bits = height.measure(&modular.weights) + length as f64 + 1.0;
         // Where some of the 40 solutions have N = 0, not all primes may have one more of these.
-        let least = if length == DIMENSION + 1 && !modular.special { 0.0 } else { height.norm() };
+        // Where base and plate are affine images of the same points, the number of poses is that of all such platforms.
+        let is_counted = match modular.quotient {
+            Quotient::General => length == DIMENSION + 1,
+            Quotient::Graded => false,
+            Quotient::Affine => true,
+        };
+        let least = if is_counted { 0.0 } else { height.norm() };
         // The graded ring takes its time.
-        let within_reach = !modular.special || f64::max(bits, least) < MOST_SPECIAL_BITS;
+        let within_reach = modular.quotient != Quotient::Graded || f64::max(bits, least) < MOST_SPECIAL_BITS;
         Self { bits: within_reach.then_some(bits), least, prime_bits }
     }
 

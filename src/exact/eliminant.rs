@@ -7,46 +7,68 @@
 //! order of the number of roots that come together in it. Near a point of a curve of solutions a general loop nearby
 //! has solutions, too: the order exceeds the number of isolated solutions where there is such a curve.
 
+use crate::algebra::ball::Ball;
 use crate::algebra::determinant::modular as modular_determinant;
 use crate::algebra::drawn::Drawn;
-use crate::algebra::ring::Ring;
+use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::degree::closure_polynomial;
-use crate::elimination::pencil::{before_second_link, bilinear, pencil};
+use crate::elimination::pencil::{Pencil, before_second_link, bilinear, pencil};
 use crate::kinematics::closed_loop::ClosedLoop;
 use rug::{Integer, Rational};
 use std::cmp::Reverse;
 
 /// Degree of the determinant of a pencil, with the roots at infinity.
-const DEGREE: usize = 16;
+pub(super) const DEGREE: usize = 16;
 
 /// The eliminant of one unknown.
 #[derive(Clone, Debug)]
 pub struct Eliminant {
     /// Which of the six unknowns.
     pub unknown: usize,
-    /// The polynomial in the tangent of half the unknown, without factors `1 + x^2`: primitive integers.
-    pub polynomial: Univariate<Integer>,
+    /// Square-free factors of the polynomial in the tangent of half the unknown, each with the order of its roots, without factors
+    /// `1 + x^2`; no two have a root in common.
+    pub factors: Vec<(Coefficients, usize)>,
     /// The order of the root at infinity, where the angle is pi.
     pub at_pi: usize,
 }
+
+/// Bits of the coefficients of eliminants: those of the longest balls in which roots are compared, and what dividing and
+/// isolating them loses.
+pub const WIDE: u32 = 1536;
+
+/// The real coefficients of a polynomial, constant first; the last one is not 0.
+pub type Coefficients = Vec<Ball<WIDE>>;
 
 impl Eliminant {
     /// The number of roots with multiplicity: no more isolated solutions, with multiplicity, are there.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.polynomial.degree().unwrap_or(0) + self.at_pi
+        let degree = |(factor, order): &(Coefficients, usize)| factor.len().saturating_sub(1) * order;
+        self.factors.iter().map(degree).sum::<usize>() + self.at_pi
     }
+
+    /// The eliminant by a polynomial over the integers.
+    fn over_integers(unknown: usize, polynomial: &Univariate<Integer>, at_pi: usize) -> Option<Self> {
+        let factors = polynomial.square_free_decomposition().into_iter();
+        let factors = factors.map(|(factor, order)| Some((in_balls(&factor)?, order))).collect::<Option<_>>()?;
+        Some(Self { unknown, factors, at_pi })
+    }
+}
+
+/// Coefficients in balls.
+pub(super) fn in_balls<const BITS: u32>(polynomial: &Univariate<Integer>) -> Option<Vec<Ball<BITS>>> {
+    polynomial.coefficients().iter().map(|c| Ball::from_rational(&Rational::from(c))).collect()
 }
 
 /// A cut and the unknown that it hides, with what its determinant is modulo a prime.
 #[derive(Clone, Copy, Debug)]
 pub struct Way {
-    cut: Cut,
-    hidden: Hidden,
+    pub(super) cut: Cut,
+    pub(super) hidden: Hidden,
     /// Which of the six unknowns is left.
     pub unknown: usize,
     /// The number of roots other than those of `1 + x^2`, modulo the prime.
@@ -57,7 +79,7 @@ pub struct Way {
 /// All ways to eliminate a loop whose determinant does not vanish modulo the prime, best first: those with the fewest
 /// roots, and of these the ones with the most distinct roots. A filter; nothing rests on it.
 #[must_use]
-pub fn ways(closed: &ClosedLoop<Drawn>) -> Vec<Way> {
+pub fn ways<F: Field + Domain>(closed: &ClosedLoop<F>) -> Vec<Way> {
     let hidings = [(Hidden::First, 0), (Hidden::Second, 1)];
     let all =
         Cut::ALL.into_iter().flat_map(|cut| hidings.map(|(hidden, place)| (cut, hidden, cut.unknown_index(place))));
@@ -76,6 +98,22 @@ pub fn ways(closed: &ClosedLoop<Drawn>) -> Vec<Way> {
 /// Numbers of more bits in a loop make the relations of its ring over the rationals long.
 const SHORT: u32 = 64;
 
+/// Whether no number of a loop is long.
+fn is_short(closed: &ClosedLoop<Rational>) -> bool {
+    let bits = |x: &Rational| x.numer().significant_bits().max(x.denom().significant_bits());
+    let numbers = closed.constants.iter().flat_map(|g| g.rotation.iter().flatten().chain(&g.translation));
+    numbers.map(bits).max() <= Some(SHORT)
+}
+
+/// Whether it is proved that a loop has no solution, complex ones included: 1 is a combination of its closure equations over
+/// the rationals. `false` where that is not found, and where numbers are long. The plan is that of the loop modulo a prime.
+///
+/// The plan says which combinations lead there; each of them is formed again over the rationals.
+#[must_use]
+pub fn has_no_solution(closed: &ClosedLoop<Rational>, plan: &Plan) -> bool {
+    plan.count() == 0 && is_short(closed) && plan.ring(closed).is_some()
+}
+
 /// The eliminant of an unknown as the characteristic polynomial of its values in the ring of the closure equations over the
 /// rationals, for loops whose determinants vanish: its roots have the multiplicities of the solutions. `None` where
 /// solutions form families, and where numbers are long.
@@ -88,9 +126,7 @@ pub fn eliminant_by_ring(
     modular: &ClosedLoop<Drawn>,
     unknown: usize,
 ) -> Option<Eliminant> {
-    let bits = |x: &Rational| x.numer().significant_bits().max(x.denom().significant_bits());
-    let numbers = closed.constants.iter().flat_map(|g| g.rotation.iter().flatten().chain(&g.translation));
-    if numbers.map(bits).max() > Some(SHORT) {
+    if !is_short(closed) {
         return None;
     }
     let cut = Cut { rotation: unknown, reversed: false };
@@ -99,22 +135,45 @@ pub fn eliminant_by_ring(
     let pencil = ring.tangent_pencil((6 - rotated) % 6);
     let count = pencil[0].len();
     let polynomial = Univariate::new(modular_determinant(&pencil).primitive_integers());
-    Some(Eliminant { unknown, at_pi: count - polynomial.degree()?, polynomial })
+    Eliminant::over_integers(unknown, &polynomial, count - polynomial.degree()?)
 }
 
 /// The eliminant that a way leads to; `None` where its determinant vanishes identically.
 #[must_use]
 pub fn eliminant(closed: &ClosedLoop<Rational>, way: &Way) -> Option<Eliminant> {
+    let (polynomial, at_pi) = polynomial(closed, way)?;
+    Eliminant::over_integers(way.unknown, &polynomial, at_pi)
+}
+
+/// The number of roots of the eliminant that a way leads to.
+#[must_use]
+pub fn count(closed: &ClosedLoop<Rational>, way: &Way) -> Option<usize> {
+    let (polynomial, at_pi) = polynomial(closed, way)?;
+    Some(polynomial.degree()? + at_pi)
+}
+
+/// The pencil that a way leads to, in the tangent of half the hidden unknown of its cut; `None` where the cut is degenerate.
+pub(super) fn pencil_of<F: Field>(closed: &ClosedLoop<F>, way: &Way) -> Option<Pencil<F>> {
     let view = way.cut.of(closed);
     let rows = bilinear(&before_second_link(&half_angle_form(&view)?, &view.constants[1]), &view);
-    let determinant = modular_determinant(&pencil(&rows, way.hidden).coefficients);
-    let sign = |(k, c): (usize, &Rational)| if way.cut.reversed && k % 2 == 1 { c.neg() } else { c.clone() };
-    let signed = determinant.coefficients().iter().enumerate().map(sign).collect();
+    Some(pencil(&rows, way.hidden))
+}
+
+/// The coefficients of a determinant in the unknown of the loop: that of a reversed cut is its negative.
+pub(super) fn in_unknown<R: Ring>(way: &Way, coefficients: &[R]) -> Vec<R> {
+    let sign = |(k, c): (usize, &R)| if way.cut.reversed && k % 2 == 1 { c.neg() } else { c.clone() };
+    coefficients.iter().enumerate().map(sign).collect()
+}
+
+/// The polynomial of an eliminant and the order of its root at infinity.
+fn polynomial(closed: &ClosedLoop<Rational>, way: &Way) -> Option<(Univariate<Integer>, usize)> {
+    let determinant = modular_determinant(&pencil_of(closed, way)?.coefficients);
+    let signed = in_unknown(way, determinant.coefficients());
     let mut polynomial = Univariate::new(Univariate::<Rational>::new(signed).primitive_integers());
     let at_pi = DEGREE - polynomial.degree()?;
     let circle = Univariate::new([1, 0, 1].map(Integer::from).to_vec());
     while let Some(quotient) = polynomial.quotient(&circle) {
         polynomial = quotient;
     }
-    Some(Eliminant { unknown: way.unknown, polynomial, at_pi })
+    Some((polynomial, at_pi))
 }

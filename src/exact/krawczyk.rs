@@ -5,9 +5,10 @@
 //! Where E is near the identity in the whole box that zero closes the loop: a complex orthogonal matrix that is symmetric
 //! and near the identity is the identity. \[Krawczyk1969\]
 
-use super::values::Pair;
+use super::values::{Pair, moved};
 use crate::algebra::ball::Ball;
 use crate::algebra::ring::Ring;
+use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::Motion;
 use rug::Float;
 
@@ -15,19 +16,27 @@ type Matrix<const BITS: u32> = Vec<Vec<Ball<BITS>>>;
 
 /// A radius about which exactly one solution lies near the values, in every unknown; `None` where that is not proved.
 #[must_use]
-pub fn radius<const BITS: u32>(constants: &[Motion<Ball<BITS>>], pairs: &[Pair<BITS>; 6]) -> Option<Float> {
-    let here = function(&closure(constants, pairs));
-    let inverse = inverse(&jacobian(constants, pairs))?;
+pub fn radius<const BITS: u32>(
+    variables: [Variable; 6],
+    constants: &[Motion<Ball<BITS>>],
+    pairs: &[Pair<BITS>; 6],
+) -> Option<Float> {
+    let at = |pairs: &[Pair<BITS>; 6]| steps(variables, constants, pairs);
+    let here = function(&closure(&at(pairs)));
+    let inverse = inverse(&jacobian(variables, constants, pairs))?;
     let step =
         |row: &Vec<Ball<BITS>>| row.iter().zip(&here).fold(Ball::zero(), |sum, (a, f)| sum.add(&a.mul(f))).upper();
     let step = inverse.iter().map(step).fold(Float::new(32), |a, b| if b > a { b } else { a });
     // Wider than the step, and than what rounding in the derivative needs.
     let radius = Float::with_val(32, &step * 4_u32) + (Float::with_val(32, 1) >> (BITS / 2));
-    let around = pairs.each_ref().map(|pair| widened(pair, &radius));
-    if !is_near_identity(&closure(constants, &around)) {
+    let around = std::array::from_fn(|k| match variables[k] {
+        Variable::Rotation => widened(&pairs[k], &radius),
+        Variable::Translation => (pairs[k].0.clone().enlarged(&radius), Ball::zero()),
+    });
+    if !is_near_identity(&closure(&at(&around))) {
         return None;
     }
-    let slopes = jacobian(constants, &around);
+    let slopes = jacobian(variables, constants, &around);
     let deviation = |(i, row): (usize, &Vec<Ball<BITS>>)| {
         let entry = |j: usize| {
             let product = (0..6).fold(Ball::zero(), |sum: Ball<BITS>, k| sum.add(&row[k].mul(&slopes[k][j])));
@@ -48,11 +57,21 @@ fn widened<const BITS: u32>((cos, sin): &Pair<BITS>, radius: &Float) -> Pair<BIT
     (cos.mul(&one).sub(&sin.mul(&nought)), sin.mul(&one).add(&cos.mul(&nought)))
 }
 
+/// The unknowns, each with the constant behind it.
+fn steps<const BITS: u32>(
+    variables: [Variable; 6],
+    constants: &[Motion<Ball<BITS>>],
+    pairs: &[Pair<BITS>; 6],
+) -> Vec<Motion<Ball<BITS>>> {
+    let step = |((variable, pair), constant): ((&Variable, &Pair<BITS>), &Motion<Ball<BITS>>)| {
+        moved(*variable, pair).then_after(constant)
+    };
+    variables.iter().zip(pairs).zip(constants).map(step).collect()
+}
+
 /// `E`
-fn closure<const BITS: u32>(constants: &[Motion<Ball<BITS>>], pairs: &[Pair<BITS>; 6]) -> Motion<Ball<BITS>> {
-    pairs.iter().zip(constants).fold(Motion::identity(), |product, ((cos, sin), constant)| {
-        product.then_after(&Motion::rotation_z(cos.clone(), sin.clone())).then_after(constant)
-    })
+fn closure<const BITS: u32>(steps: &[Motion<Ball<BITS>>]) -> Motion<Ball<BITS>> {
+    steps.iter().fold(Motion::identity(), |product, step| product.then_after(step))
 }
 
 /// The translation and the skew part of the rotation.
@@ -62,12 +81,12 @@ fn function<const BITS: u32>(motion: &Motion<Ball<BITS>>) -> Vec<Ball<BITS>> {
 }
 
 /// The derivatives of the function by the six unknowns, row by row.
-fn jacobian<const BITS: u32>(constants: &[Motion<Ball<BITS>>], pairs: &[Pair<BITS>; 6]) -> Matrix<BITS> {
-    let step = |j: usize| {
-        let (cos, sin) = &pairs[j];
-        Motion::rotation_z(cos.clone(), sin.clone()).then_after(&constants[j])
-    };
-    let steps: Vec<Motion<Ball<BITS>>> = (0..6).map(step).collect();
+fn jacobian<const BITS: u32>(
+    variables: [Variable; 6],
+    constants: &[Motion<Ball<BITS>>],
+    pairs: &[Pair<BITS>; 6],
+) -> Matrix<BITS> {
+    let steps = steps(variables, constants, pairs);
     let mut behind = vec![Motion::identity(); 6];
     for j in (0..5).rev() {
         behind[j] = steps[j + 1].then_after(&behind[j + 1]);
@@ -76,6 +95,10 @@ fn jacobian<const BITS: u32>(constants: &[Motion<Ball<BITS>>], pairs: &[Pair<BIT
     let mut columns = Vec::new();
     for (j, (cos, sin)) in pairs.iter().enumerate() {
         let mut turned = Motion::rotation_z(sin.neg(), cos.clone());
+        if variables[j] == Variable::Translation {
+            turned = Motion::translation_z(Ball::one());
+            turned.rotation = std::array::from_fn(|_| std::array::from_fn(|_| Ball::zero()));
+        }
         turned.rotation[2][2] = Ball::zero();
         // Constant translations before the unknown do not depend on it.
         let frame = Motion { translation: std::array::from_fn(|_| Ball::zero()), ..before.clone() };

@@ -1,4 +1,4 @@
-//! Unknowns without an eliminant from the others: at most three rotations with all else in a loop known.
+//! Unknowns without an eliminant from the others: at most three rotations or translations with all else in a loop known.
 
 use super::values::Pair;
 use crate::algebra::ball::Ball;
@@ -18,9 +18,52 @@ pub enum Rest<const BITS: u32> {
     Undetermined,
 }
 
-/// The rotations in `V1 M1 V2 M2 ... = I`, of which there are at most three.
+/// The unknowns in `V1 M1 V2 M2 ... = I`, of which there are at most three, all of one kind.
 #[must_use]
-pub fn rest<const BITS: u32>(constants: &[Motion<Ball<BITS>>]) -> Rest<BITS> {
+pub fn rest<const BITS: u32>(kind: Variable, constants: &[Motion<Ball<BITS>>]) -> Rest<BITS> {
+    match kind {
+        Variable::Rotation => rotations(constants),
+        Variable::Translation => distances(constants),
+    }
+}
+
+/// Translations: three linear equations.
+fn distances<const BITS: u32>(constants: &[Motion<Ball<BITS>>]) -> Rest<BITS> {
+    let mut whole: Motion<Ball<BITS>> = Motion::identity();
+    let mut directions = Vec::new();
+    for constant in constants {
+        directions.push([0, 1, 2].map(|i| whole.rotation[i][2].clone()));
+        whole = whole.then_after(constant);
+    }
+    if !overlap(&Motion::translation(whole.translation.clone()), &whole) {
+        return Rest::Open;
+    }
+    let n = directions.len();
+    // Rows: the directions' coordinates, and what they have to make up for.
+    let mut rows: Vec<Vec<Ball<BITS>>> =
+        (0..3).map(|i| directions.iter().map(|u| u[i].clone()).chain([whole.translation[i].neg()]).collect()).collect();
+    for k in 0..n {
+        let Some(pivot) = (k..3).max_by(|&a, &b| rows[a][k].lower().total_cmp(&rows[b][k].lower())) else {
+            return Rest::Undetermined;
+        };
+        rows.swap(k, pivot);
+        let Some(inverse) = rows[k][k].inverse() else { return Rest::Undetermined };
+        let own: Vec<Ball<BITS>> = rows[k].iter().map(|x| x.mul(&inverse)).collect();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != k) {
+            let factor = row[k].clone();
+            for (x, p) in row.iter_mut().zip(&own) {
+                *x = x.sub(&factor.mul(p));
+            }
+        }
+        rows[k] = own;
+    }
+    if rows[n..].iter().any(|row| !row[n].contains_zero()) {
+        return Rest::Open;
+    }
+    Rest::Unique(rows[..n].iter().map(|row| (row[n].clone(), Ball::zero())).collect())
+}
+
+fn rotations<const BITS: u32>(constants: &[Motion<Ball<BITS>>]) -> Rest<BITS> {
     match constants {
         [one] => last(one, Vec::new()),
         [one, two] => first_of_two(one, &two.inverse(), Vec::new()),
@@ -150,16 +193,47 @@ mod tests {
             }
             let mut constants = links;
             constants[count - 1] = open.inverse();
-            let Rest::Unique(found) = rest(&constants) else { panic!("{count} rotations are determined") };
+            let Rest::Unique(found) = rest(Variable::Rotation, &constants) else {
+                panic!("{count} rotations are determined")
+            };
             assert!(found.iter().zip(&angles).all(|(a, b)| meet(a, b)), "{count}");
             constants[count - 1].translation[2] = ball(99, 7);
-            assert!(matches!(rest(&constants), Rest::Open), "{count}");
+            assert!(matches!(rest(Variable::Rotation, &constants), Rest::Open), "{count}");
         }
     }
 
     #[test]
     fn two_rotations_about_one_axis_are_not_determined() {
         let along = Motion::translation_z(ball(2, 1));
-        assert!(matches!(rest(&[along.clone(), along.inverse()]), Rest::Undetermined));
+        assert!(matches!(rest(Variable::Rotation, &[along.clone(), along.inverse()]), Rest::Undetermined));
+    }
+
+    #[test]
+    fn translations_are_found_from_the_rest_of_a_loop() {
+        for count in 1..=3 {
+            // Links that turn about x alone would leave all directions in one plane.
+            let out_of_plane = |k: i32| {
+                let (cos, sin) = pair(1, k + 2);
+                Motion::rotation_z(cos, sin).then_after(&link(k + 1, 3, k + 2))
+            };
+            let mut constants: Vec<Motion<Short>> = (0..count).map(out_of_plane).collect();
+            let distances = [ball(5, 3), ball(-2, 1), ball(1, 7)];
+            let count = constants.len();
+            let mut open: Motion<Short> = Motion::identity();
+            for (k, distance) in distances[..count].iter().enumerate() {
+                open = open.then_after(&Motion::translation_z(distance.clone()));
+                if k + 1 < count {
+                    open = open.then_after(&constants[k]);
+                }
+            }
+            constants[count - 1] = open.inverse();
+            let Rest::Unique(found) = rest(Variable::Translation, &constants) else { panic!("{count} are determined") };
+            assert!(found.iter().zip(&distances).all(|((a, _), b)| a.overlaps(b)), "{count}");
+            constants[count - 1] = constants[count - 1].then_after(&link(1, 5, 1));
+            assert!(matches!(rest(Variable::Translation, &constants), Rest::Open), "{count}");
+        }
+        let along = Motion::translation_z(ball(2, 1));
+        let parallel = [along.clone(), along.inverse()];
+        assert!(matches!(rest::<128>(Variable::Translation, &parallel), Rest::Undetermined));
     }
 }

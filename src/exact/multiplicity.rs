@@ -75,6 +75,44 @@ impl Balance<'_> {
         let all: Vec<usize> = known.into_iter().flatten().collect();
         (all.iter().sum::<usize>() == left).then_some(all)
     }
+
+    /// The multiplicities of the open combinations, where those of all solutions are `exponents` in some order, if there are
+    /// as many solutions as combinations; `None` where that leaves them open.
+    pub fn by_exponents(&self, exponents: &[usize]) -> Option<Vec<usize>> {
+        if exponents.len() != self.simple.len() + self.open.len() {
+            return None;
+        }
+        let mut left = exponents.to_vec();
+        for _ in self.simple {
+            left.swap_remove(left.iter().position(|&exponent| exponent == 1)?);
+        }
+        left.sort_unstable();
+        let mut found = Vec::new();
+        self.assign(&mut Vec::new(), &mut left, &mut found);
+        if found.len() == 1 { found.pop() } else { None }
+    }
+
+    /// Gives the next open combination each of the exponents that are left, as far as the orders allow; stops at two ways to
+    /// do so.
+    fn assign(&self, given: &mut Vec<usize>, left: &mut Vec<usize>, found: &mut Vec<Vec<usize>>) {
+        let Some(tuple) = self.open.get(given.len()) else { return found.push(given.clone()) };
+        let taken = |unknown: usize| {
+            let same = self.open.iter().zip(&*given).filter(|(other, _)| other[unknown] == tuple[unknown]);
+            same.map(|(_, exponent)| exponent).sum::<usize>()
+        };
+        let room = (0..6).map(|j| self.room(j, tuple[j]).saturating_sub(taken(j))).min().unwrap_or(0);
+        for k in 0..left.len() {
+            // Equal exponents stand together: the first one of each kind is enough.
+            if left[k] > room || found.len() > 1 || (k > 0 && left[k - 1] == left[k]) {
+                continue;
+            }
+            let exponent = left.remove(k);
+            given.push(exponent);
+            self.assign(given, left, found);
+            given.pop();
+            left.insert(k, exponent);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -99,5 +137,18 @@ mod tests {
         let open = [[0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 1]];
         let balance = Balance { orders: &orders, simple: &[], open: &open };
         assert_eq!(balance.multiplicities(4), Some(vec![3, 1]));
+    }
+
+    #[test]
+    fn exponents_settle_what_shared_values_leave_open() {
+        // Two unknowns of two values each, all four combinations: the orders alone allow 3, 1, 1, 3.
+        let orders: [Vec<usize>; 6] = std::array::from_fn(|_| vec![4, 4]);
+        let open = [[0, 0, 0, 0, 0, 0], [0, 1, 0, 1, 0, 1], [1, 0, 1, 0, 1, 0], [1, 1, 1, 1, 1, 1]];
+        let balance = Balance { orders: &orders, simple: &[], open: &open };
+        assert_eq!(balance.multiplicities(8), None);
+        assert_eq!(balance.by_exponents(&[2, 2, 2, 2]), Some(vec![2, 2, 2, 2]));
+        // Which are the triple ones is open, and three roots do not say which combination is none.
+        assert_eq!(balance.by_exponents(&[3, 1, 1, 3]), None);
+        assert_eq!(balance.by_exponents(&[4, 2, 2]), None);
     }
 }

@@ -1,21 +1,22 @@
-//! All solutions of a loop of six rotations from the roots of its eliminants.
+//! All solutions of a loop of six unknowns from the roots of its eliminants.
 //!
 //! The value of every unknown at a solution is a root of its eliminant, so that a solution is a combination of roots, and
 //! no two solutions are the same combination. Combinations that are left when balls have refuted the others are solutions
 //! with the multiplicities that the orders of the roots leave, where the number of all solutions is known from below.
 
-use super::eliminant::{Eliminant, Way, eliminant, eliminant_by_ring, ways};
+use super::eliminant::{Eliminant, ways};
+use super::fibre::Fibre;
+use super::ground::Ground;
 use super::krawczyk;
 use super::multiplicity::Balance;
 use super::tuples::{Closing, Tuple, closing_tuples};
 use super::values::{Pair, Value, meet, pair_around, values};
 use crate::algebra::ball::Ball;
-use crate::algebra::drawn::Drawn;
 use crate::algebra::ring::Ring;
-use crate::elimination::coordinate_ring::Plan;
-use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::motion::Motion;
 use num_complex::Complex;
-use rug::{Float, Rational};
+use rug::Float;
 
 /// A solution that is known to be simple: exactly one lies within the radius, in every unknown.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +26,11 @@ pub struct Known {
     /// The radius.
     pub radius: f64,
 }
+
+/// Bits of the balls in which exact roots are compared first: solutions that differ by more than about `1e-70` are told apart.
+pub const BALL_BITS: u32 = 256;
+/// Four times as many, for solutions that crowd and for lengths of very different sizes.
+const LONG_BITS: u32 = 1024;
 
 /// Where a solution comes from.
 #[derive(Clone, Debug)]
@@ -44,11 +50,11 @@ pub enum Solution<const BITS: u32> {
 
 /// What the eliminants say of all solutions.
 #[derive(Clone, Debug)]
-pub enum Resolution<const BITS: u32> {
+pub enum Resolution {
     /// The known solutions are all there are: as many as an eliminant has roots.
     AllKnown,
     /// All solutions.
-    All(Vec<Solution<BITS>>),
+    All(Vec<Solution<BALL_BITS>>),
     /// The eliminants of these unknowns vanish: solutions may form families.
     Vanishing(Vec<usize>),
     /// Every unknown has an eliminant, so that the solutions are finite in number, but this does not tell them all.
@@ -58,112 +64,144 @@ pub enum Resolution<const BITS: u32> {
     },
 }
 
-/// Decides what the solutions of a loop of six rotations are, some of which are known.
+/// Decides what the solutions of a loop are, some of which are known.
 #[must_use]
-pub fn resolve<const BITS: u32>(
-    closed: &ClosedLoop<Rational>,
-    modular: &ClosedLoop<Drawn>,
-    known: &[Known],
-) -> Resolution<BITS> {
-    let ways = ways(modular);
-    if ways.first().is_some_and(|best| best.count == known.len() && is_met(closed, best, known.len())) {
+pub fn resolve(ground: &impl Ground, known: &[Known]) -> Resolution {
+    let ways = ways(ground.modular());
+    if ways.first().is_some_and(|best| best.count == known.len() && ground.count(best) == Some(known.len())) {
         return Resolution::AllKnown;
-    }
-    if closed.variables.contains(&Variable::Translation) {
-        return Resolution::Finite { most: ways.first().map_or(16, |best| best.count) };
     }
     let mut found: [Option<Eliminant>; 6] = std::array::from_fn(|unknown| {
         let mut own = ways.iter().filter(|way| way.unknown == unknown);
-        own.find_map(|way| eliminant(closed, way))
+        own.find_map(|way| ground.eliminant(way))
     });
     let vanishing: Vec<usize> = (0..6).filter(|&j| found[j].is_none()).collect();
-    let mut result = resolution(closed, modular, known, &found);
+    let mut result = resolution(ground, known, &found);
     if matches!(result, Resolution::Vanishing(_)) {
-        // What the others do not determine has values in the ring, if solutions form no families.
-        for &unknown in &vanishing {
-            found[unknown] = eliminant_by_ring(closed, modular, unknown);
+        // What the others do not determine has values in the ring, if solutions form no families. Translations follow from the
+        // rotations.
+        let is_rotation = |unknown: &&usize| ground.variables()[**unknown] == Variable::Rotation;
+        for &unknown in vanishing.iter().filter(is_rotation) {
+            found[unknown] = ground.eliminant_by_ring(unknown);
             if found[unknown].is_none() {
                 return result;
             }
         }
-        result = resolution(closed, modular, known, &found);
+        result = resolution(ground, known, &found);
     }
     result
 }
 
 /// What these eliminants say.
-fn resolution<const BITS: u32>(
-    closed: &ClosedLoop<Rational>,
-    modular: &ClosedLoop<Drawn>,
-    known: &[Known],
-    found: &[Option<Eliminant>; 6],
-) -> Resolution<BITS> {
+fn resolution(ground: &impl Ground, known: &[Known], found: &[Option<Eliminant>; 6]) -> Resolution {
     let vanishing: Vec<usize> = (0..6).filter(|&j| found[j].is_none()).collect();
     if vanishing.len() > MOST_MISSING {
         return Resolution::Vanishing(vanishing);
     }
-    let most = found.iter().flatten().map(Eliminant::count).min().unwrap_or(16);
-    let lists = found.each_ref().map(|eliminant| eliminant.as_ref().map(values));
-    let is_told_apart = lists.iter().all(|list| !matches!(list, Some(None)));
-    let search = Search { closed, modular, values: lists.map(Option::flatten) };
-    let resolved = if is_told_apart { search.run(known) } else { None };
+    let resolved = match solutions::<BALL_BITS>(ground, known, found) {
+        Err(Obstacle::Digits) => solutions::<LONG_BITS>(ground, known, found).map(rounded),
+        resolved => resolved,
+    };
     match resolved {
-        Some(all) => Resolution::All(all),
-        None if vanishing.is_empty() => Resolution::Finite { most },
-        None => Resolution::Vanishing(vanishing),
+        Ok(all) => Resolution::All(all),
+        Err(_) if vanishing.is_empty() => {
+            Resolution::Finite { most: found.iter().flatten().map(Eliminant::count).min().unwrap_or(16) }
+        }
+        Err(_) => Resolution::Vanishing(vanishing),
     }
+}
+
+/// Why the eliminants do not tell all solutions.
+#[derive(Clone, Copy, Debug)]
+enum Obstacle {
+    /// Balls of more digits may tell.
+    Digits,
+    /// Balls tell no more.
+    Other,
+}
+
+/// All solutions, as far as balls of that precision tell them.
+fn solutions<const BITS: u32>(
+    ground: &impl Ground,
+    known: &[Known],
+    found: &[Option<Eliminant>; 6],
+) -> Result<Vec<Solution<BITS>>, Obstacle> {
+    let lists = found.each_ref().map(|eliminant| eliminant.as_ref().map(values));
+    if lists.iter().any(|list| matches!(list, Some(None))) {
+        return Err(Obstacle::Digits);
+    }
+    let constants = ground.constants().ok_or(Obstacle::Other)?;
+    Search { ground, constants, values: lists.map(Option::flatten) }.run(known)
+}
+
+/// The same solutions in balls of fewer digits.
+fn rounded<const BITS: u32, const LESS: u32>(solutions: Vec<Solution<BITS>>) -> Vec<Solution<LESS>> {
+    let shorter = |solution| match solution {
+        Solution::Known(place) => Solution::Known(place),
+        Solution::Found { pairs, is_real, multiplicity } => {
+            let pairs = pairs.each_ref().map(|(cos, sin)| (Ball::of_precision(cos), Ball::of_precision(sin)));
+            Solution::Found { pairs: Box::new(pairs), is_real, multiplicity }
+        }
+    };
+    solutions.into_iter().map(shorter).collect()
 }
 
 /// Up to this many rotations follow from the others.
 const MOST_MISSING: usize = 3;
+/// A loop of rotations has no more isolated solutions.
+const MOST_SOLUTIONS: usize = 16;
 /// Stands for no bound on the number of solutions: more than any loop has.
 const UNBOUNDED: usize = 1000;
 
-/// Whether an eliminant over the integers has no more roots than that.
-fn is_met(closed: &ClosedLoop<Rational>, way: &Way, count: usize) -> bool {
-    eliminant(closed, way).is_some_and(|eliminant| eliminant.count() == count)
-}
-
 /// A loop with the values of all its unknowns.
-struct Search<'a, const BITS: u32> {
-    closed: &'a ClosedLoop<Rational>,
-    modular: &'a ClosedLoop<Drawn>,
+struct Search<'a, const BITS: u32, G> {
+    ground: &'a G,
+    constants: Vec<Motion<Ball<BITS>>>,
     /// By unknown; `None` for those without an eliminant.
     values: [Option<Vec<Value<BITS>>>; 6],
 }
 
-impl<const BITS: u32> Search<'_, BITS> {
-    fn run(&self, known: &[Known]) -> Option<Vec<Solution<BITS>>> {
+impl<const BITS: u32, G: Ground> Search<'_, BITS, G> {
+    fn run(&self, known: &[Known]) -> Result<Vec<Solution<BITS>>, Obstacle> {
         let (simple, places): (Vec<Tuple>, Vec<usize>) =
             known.iter().enumerate().filter_map(|(k, known)| Some((self.tuple(known)?, k))).unzip();
         // Two solutions are never the same combination.
         if (1..simple.len()).any(|k| simple[..k].contains(&simple[k])) {
-            return None;
+            return Err(Obstacle::Digits);
         }
         let orders = self.values.each_ref().map(|list| match list {
             Some(list) => list.iter().map(|value| value.order).collect::<Vec<_>>(),
             None => vec![UNBOUNDED],
         });
-        let found = self.open(&simple, &orders)?;
+        let found = self.open(&simple, &orders).ok_or(Obstacle::Other)?;
+        if simple.len() + found.len() > MOST_SOLUTIONS {
+            return Err(Obstacle::Digits);
+        }
         let (proved, found): (Vec<_>, Vec<_>) = found.into_iter().partition(|closing| self.is_simple(closing));
         let simple: Vec<Tuple> = simple.into_iter().chain(proved.iter().map(|closing| closing.tuple)).collect();
         let open: Vec<Tuple> = found.iter().map(|closing| closing.tuple).collect();
         let balance = Balance { orders: &orders, simple: &simple, open: &open };
-        let multiplicities =
-            if open.is_empty() { Vec::new() } else { balance.multiplicities(number(self.modular, balance.most())?)? };
+        let multiplicities = self.multiplicities(&balance).ok_or(Obstacle::Digits)?;
         let known = places.into_iter().map(Solution::Known);
         let proved = proved.iter().map(|closing| self.resolved(closing, 1));
         let more = found.iter().zip(multiplicities).filter(|(_, multiplicity)| *multiplicity > 0);
         let more = more.map(|(closing, multiplicity)| self.resolved(closing, multiplicity));
-        Some(known.chain(proved).chain(more).collect())
+        Ok(known.chain(proved).chain(more).collect())
+    }
+
+    /// The multiplicities of the open combinations, by the solutions modulo the prime.
+    fn multiplicities(&self, balance: &Balance) -> Option<Vec<usize>> {
+        if balance.open.is_empty() {
+            return Some(Vec::new());
+        }
+        let fibre = Fibre::of(self.ground.modular(), balance.most())?;
+        balance.multiplicities(fibre.count()).or_else(|| balance.by_exponents(&fibre.exponents()))
     }
 
     /// Whether a combination is proved to be a simple solution.
     fn is_simple(&self, closing: &Closing<BITS>) -> bool {
-        let constants = self.closed.constants.each_ref().map(|motion| motion.map(Ball::from_rational));
-        let constants: Option<Vec<_>> = constants.into_iter().collect();
         let pairs = self.pairs(closing);
-        let Some(radius) = constants.and_then(|constants| krawczyk::radius(&constants, &pairs)) else { return false };
+        let Some(radius) = krawczyk::radius(self.ground.variables(), &self.constants, &pairs) else { return false };
         // The solution has roots of the eliminants as its values: these very ones, if no others are as near.
         let wide = Float::with_val(32, radius * 2_u32);
         let around = |(cos, sin): &Pair<BITS>| {
@@ -171,7 +209,7 @@ impl<const BITS: u32> Search<'_, BITS> {
             let by = Float::with_val(32, size * &wide);
             (cos.clone().enlarged(&by), sin.clone().enlarged(&by))
         };
-        (0..6).all(|j| {
+        (0..6).filter(|&j| self.values[j].is_some()).all(|j| {
             let own = around(&pairs[j]);
             let values = self.values[j].iter().flatten().enumerate();
             values.filter(|(place, _)| *place != closing.tuple[j]).all(|(_, value)| !meet(&value.pair, &own))
@@ -208,7 +246,7 @@ impl<const BITS: u32> Search<'_, BITS> {
             let values = self.values[j].as_ref()?;
             Some(unsettled[j].iter().map(|&value| &values[value]).collect())
         });
-        let mut found = closing_tuples(self.closed, &lists)?;
+        let mut found = closing_tuples(self.ground.variables(), &self.constants, &lists)?;
         for closing in &mut found {
             closing.tuple = std::array::from_fn(|j| unsettled[j][closing.tuple[j]]);
         }
@@ -231,13 +269,4 @@ impl<const BITS: u32> Search<'_, BITS> {
         let is_real = (0..6).all(|j| self.values[j].as_ref().is_none_or(|values| values[closing.tuple[j]].is_real));
         Solution::Found { pairs: Box::new(self.pairs(closing)), is_real, multiplicity }
     }
-}
-
-/// The number of solutions, with multiplicity, from below: as many as there are modulo the prime, where these are finite in
-/// number, because the closure equations of a loop form a complete intersection, which is flat there. Asked only as far as
-/// `most`.
-fn number(modular: &ClosedLoop<Drawn>, most: usize) -> Option<usize> {
-    let plan = Plan::of(modular).filter(|plan| plan.count() <= most)?;
-    let ring = plan.ring(modular)?;
-    ring.is_exact().then(|| plan.count())
 }

@@ -1,5 +1,6 @@
 //! All complex roots of a square-free integer polynomial, each in a ball of its own.
 
+use super::eliminant::in_balls;
 use crate::algebra::ball::Ball;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::ring::Ring;
@@ -29,16 +30,21 @@ pub struct Isolated<const BITS: u32> {
 /// (z_k - z_j))`, holds a root, and exactly one if it meets no other disc. \[Smith1970\]
 #[must_use]
 pub fn isolated_roots<const BITS: u32>(polynomial: &Univariate<Integer>) -> Option<Vec<Isolated<BITS>>> {
-    let degree = polynomial.degree()?;
-    if degree == 0 {
+    isolated_in_balls(&in_balls(polynomial)?)
+}
+
+/// The roots of a square-free polynomial with real coefficients in balls.
+pub(super) fn isolated_in_balls<const BITS: u32>(coefficients: &[Ball<BITS>]) -> Option<Vec<Isolated<BITS>>> {
+    if coefficients.last()?.contains_zero() {
+        return None;
+    }
+    if coefficients.len() == 1 {
         return Some(Vec::new());
     }
-    let coefficients: Vec<Ball<BITS>> =
-        polynomial.coefficients().iter().map(|c| Ball::from_rational(&Rational::from(c))).collect::<Option<_>>()?;
-    let starts = starts::<LongFloat>(polynomial).or_else(|| starts::<LongerFloat>(polynomial))?;
+    let starts = starts::<LongFloat, BITS>(coefficients).or_else(|| starts::<LongerFloat, BITS>(coefficients))?;
     let mut midpoints: Vec<Ball<BITS>> = starts.iter().map(ball_of).collect();
     for _ in 0..STEPS {
-        let corrections = corrections(&coefficients, &midpoints)?;
+        let corrections = corrections(coefficients, &midpoints)?;
         let is_done = corrections.iter().zip(&midpoints).all(|(w, z)| {
             let size = z.midpoint().upper();
             w.midpoint().upper() <= (size >> (BITS - 24))
@@ -48,18 +54,17 @@ pub fn isolated_roots<const BITS: u32>(polynomial: &Univariate<Integer>) -> Opti
             break;
         }
     }
-    isolated(&coefficients, &midpoints)
+    isolated(coefficients, &midpoints)
 }
 
 /// Approximations of all roots; `None` where some did not settle.
-fn starts<R: Extended>(polynomial: &Univariate<Integer>) -> Option<Vec<(Float, Float)>> {
-    let scale = Scale::of(polynomial)?;
-    let image =
-        Univariate::new(polynomial.coefficients().iter().zip(0..).map(|(c, k)| scale.coefficient(c, k)).collect());
-    let roots: Vec<Complex<R>> = polynomial_roots(&image.map(R::from_rational)?)?;
+fn starts<R: Extended, const BITS: u32>(coefficients: &[Ball<BITS>]) -> Option<Vec<(Float, Float)>> {
+    let scale = Scale::of(coefficients)?;
+    let image: Option<Vec<R>> =
+        coefficients.iter().zip(0..).map(|(c, k)| R::from_rational(&scale.coefficient(c, k)?)).collect();
+    let roots: Vec<Complex<R>> = polynomial_roots(&Univariate::new(image?))?;
     let outward = |x: R| wide(x) << scale.root;
-    (Some(roots.len()) == polynomial.degree())
-        .then(|| roots.into_iter().map(|z| (outward(z.re), outward(z.im))).collect())
+    (roots.len() + 1 == coefficients.len()).then(|| roots.into_iter().map(|z| (outward(z.re), outward(z.im))).collect())
 }
 
 /// Powers of two by which coefficients and roots come into the range of f64.
@@ -72,19 +77,21 @@ struct Scale {
 
 impl Scale {
     /// The geometric mean of the roots becomes about 1, and the largest coefficient, too.
-    fn of(polynomial: &Univariate<Integer>) -> Option<Self> {
-        let bits = |c: &Integer| i32::try_from(c.significant_bits()).ok();
-        let coefficients = polynomial.coefficients();
-        let first = coefficients.iter().position(|c| *c != 0)?;
+    fn of<const BITS: u32>(coefficients: &[Ball<BITS>]) -> Option<Self> {
+        let bits = |c: &Ball<BITS>| c.re().get_exp();
+        let first = coefficients.iter().position(|c| !c.contains_zero())?;
         let span = i32::try_from(coefficients.len() - 1 - first).ok()?.max(1);
         let root = (bits(&coefficients[first])? - bits(coefficients.last()?)?) / span;
-        let sizes = coefficients.iter().zip(0..).filter(|(c, _)| **c != 0).map(|(c, k)| Some(bits(c)? + root * k));
+        let sizes =
+            coefficients.iter().zip(0..).filter(|(c, _)| !c.contains_zero()).map(|(c, k)| Some(bits(c)? + root * k));
         Some(Self { root, size: sizes.collect::<Option<Vec<i32>>>()?.into_iter().max()? })
     }
 
-    fn coefficient(&self, c: &Integer, k: i32) -> Rational {
-        let shift = self.root * k - self.size;
-        if shift >= 0 { Rational::from(c) << shift.unsigned_abs() } else { Rational::from(c) >> shift.unsigned_abs() }
+    fn coefficient<const BITS: u32>(&self, c: &Ball<BITS>, k: i32) -> Option<Rational> {
+        if c.contains_zero() {
+            return Some(Rational::new());
+        }
+        Float::with_val(BITS, c.re() << (self.root * k - self.size)).to_rational()
     }
 }
 

@@ -3,10 +3,8 @@
 use super::missing::{Rest, rest};
 use super::values::{Pair, Value};
 use crate::algebra::ball::Ball;
-use crate::algebra::ring::Ring;
-use crate::kinematics::closed_loop::ClosedLoop;
+use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::Motion;
-use rug::Rational;
 
 /// Combinations on one side of a loop that are looked at: 16 values of each of three unknowns.
 const MOST: usize = 16 * 16 * 16;
@@ -31,27 +29,33 @@ pub struct Closing<const BITS: u32> {
 }
 
 /// All combinations of values for which balls do not prove that the loop does not close; `None` where there are too many
-/// combinations, and where one of them may belong to several solutions. `values[j]` are those of unknown j, all of them
-/// rotations; up to three unknowns have none.
+/// combinations, and where one of them may belong to several solutions. `values[j]` are those of unknown j, a rotation; up to
+/// three unknowns have none, all of them rotations or all of them translations.
 #[must_use]
 pub fn closing_tuples<const BITS: u32>(
-    closed: &ClosedLoop<Rational>,
+    variables: [Variable; 6],
+    constants: &[Motion<Ball<BITS>>],
     values: &[Option<Vec<&Value<BITS>>>; 6],
 ) -> Option<Vec<Closing<BITS>>> {
-    let constants = closed.constants.each_ref().map(|motion| motion.map(Ball::from_rational));
-    let constants: Vec<Motion<Ball<BITS>>> = constants.into_iter().collect::<Option<_>>()?;
+    let missing: Vec<Variable> = (0..6).filter(|&j| values[j].is_none()).map(|j| variables[j]).collect();
+    let kind = missing.first().copied().unwrap_or(Variable::Rotation);
+    if missing.iter().any(|own| *own != kind) {
+        return None;
+    }
     match values {
         [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] => {
-            let found = from_both_sides(&constants, [a, b, c, d, e, f])?;
+            let found = from_both_sides(constants, [a, b, c, d, e, f])?;
             Some(found.into_iter().map(|tuple| Closing { tuple, rest: Vec::new() }).collect())
         }
-        _ if values.iter().filter(|list| list.is_none()).count() == 1 => with_one_left(&constants, values),
-        _ => with_rest(&constants, values),
+        _ if missing.len() == 1 => with_one_left(kind, constants, values),
+        _ => with_rest(kind, constants, values),
     }
 }
 
-/// Combinations of five unknowns, by the axis of the sixth one as both sides of the loop see it.
+/// Combinations of five unknowns, by what both sides of the loop see of the sixth one and it does not change: the axis of a rotation,
+/// the frame's directions of a translation.
 fn with_one_left<const BITS: u32>(
+    kind: Variable,
     constants: &[Motion<Ball<BITS>>],
     values: &[Option<Vec<&Value<BITS>>>; 6],
 ) -> Option<Vec<Closing<BITS>>> {
@@ -62,15 +66,16 @@ fn with_one_left<const BITS: u32>(
     let near = sides([0, 1, 2].map(|k| &constants[place(k)]), [lists[0], lists[1], lists[2]])?;
     let mut found = Vec::new();
     let last = &constants[missing];
-    // near far V G = I with the missing rotation V, which keeps its axis: far z = near^-1 G^-1 z.
-    let seen: Vec<_> = near.iter().map(|side| axis_discs(&last.then_after(&side.motion).inverse())).collect();
+    // near far V G = I with the missing V, which keeps what is compared: of a rotation far z = near^-1 G^-1 z.
+    let kept = |motion: &Motion<Ball<BITS>>| kept_discs(kind, motion);
+    let seen: Vec<_> = near.iter().map(|side| kept(&last.then_after(&side.motion).inverse())).collect();
     for (i, fourth) in lists[3].iter().enumerate() {
         for (j, fifth) in lists[4].iter().enumerate() {
             let far = step(&fourth.pair, &constants[place(3)]).then_after(&step(&fifth.pair, &constants[place(4)]));
-            let axis = axis_discs(&far);
-            for (side, _) in near.iter().zip(&seen).filter(|(_, other)| may_meet(&axis, other)) {
+            let own = kept(&far);
+            for (side, _) in near.iter().zip(&seen).filter(|(_, other)| may_meet(&own, other)) {
                 let whole = last.then_after(&side.motion).then_after(&far);
-                let rest = match rest(&[whole]) {
+                let rest = match rest(kind, &[whole]) {
                     Rest::Open => continue,
                     Rest::Undetermined => return None,
                     Rest::Unique(rest) => rest,
@@ -86,10 +91,14 @@ fn with_one_left<const BITS: u32>(
     Some(found)
 }
 
-/// Discs in f64 around the direction and the origin of the z axis after a motion.
-fn axis_discs<const BITS: u32>(motion: &Motion<Ball<BITS>>) -> [[f64; 3]; 6] {
+/// Discs in f64 around what an unknown does not change of a motion before it: direction and origin of the z axis, or two of the
+/// directions.
+fn kept_discs<const BITS: u32>(kind: Variable, motion: &Motion<Ball<BITS>>) -> [[f64; 3]; 6] {
     let [a, b, c] = [0, 1, 2].map(|i| disc(&motion.rotation[i][2]));
-    let [x, y, z] = motion.translation.each_ref().map(disc);
+    let [x, y, z] = match kind {
+        Variable::Rotation => motion.translation.each_ref().map(disc),
+        Variable::Translation => [0, 1, 2].map(|i| disc(&motion.rotation[i][0])),
+    };
     [a, b, c, x, y, z]
 }
 
@@ -118,6 +127,7 @@ fn from_both_sides<const BITS: u32>(
 
 /// Combinations of the unknowns with values, and what they leave of the others.
 fn with_rest<const BITS: u32>(
+    kind: Variable,
     constants: &[Motion<Ball<BITS>>],
     values: &[Option<Vec<&Value<BITS>>>; 6],
 ) -> Option<Vec<Closing<BITS>>> {
@@ -144,7 +154,7 @@ fn with_rest<const BITS: u32>(
                 _ => between.push(constants[j].clone()),
             }
         }
-        match rest(&between) {
+        match rest(kind, &between) {
             Rest::Open => {}
             Rest::Undetermined => return None,
             Rest::Unique(rest) => found.push(Closing { tuple, rest: in_loop_order(start, values, rest) }),

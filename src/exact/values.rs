@@ -1,14 +1,25 @@
 //! The values that one unknown has at the solutions: the roots of its eliminant, as cosines and sines.
 
-use super::eliminant::Eliminant;
-use super::roots::{Isolated, isolated_roots};
+use super::eliminant::{Eliminant, WIDE};
+use super::roots::{Isolated, isolated_in_balls};
 use crate::algebra::ball::Ball;
 use crate::algebra::ring::Ring;
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::motion::Motion;
 use num_complex::Complex;
 use rug::Float;
 
-/// Cosine and sine of an angle.
+/// Cosine and sine of an angle, or a distance and 0.
 pub type Pair<const BITS: u32> = (Ball<BITS>, Ball<BITS>);
+
+/// The motion of an unknown.
+#[must_use]
+pub fn moved<const BITS: u32>(variable: Variable, (first, second): &Pair<BITS>) -> Motion<Ball<BITS>> {
+    match variable {
+        Variable::Rotation => Motion::rotation_z(first.clone(), second.clone()),
+        Variable::Translation => Motion::translation_z(first.clone()),
+    }
+}
 
 /// One root of an eliminant.
 #[derive(Clone, Debug)]
@@ -25,9 +36,9 @@ pub struct Value<const BITS: u32> {
 #[must_use]
 pub fn values<const BITS: u32>(eliminant: &Eliminant) -> Option<Vec<Value<BITS>>> {
     let mut all = Vec::new();
-    for (factor, order) in eliminant.polynomial.square_free_decomposition() {
-        for Isolated { ball, is_real } in isolated_roots::<BITS>(&factor)? {
-            all.push(Value { pair: pair(&ball)?, order, is_real });
+    for (factor, order) in &eliminant.factors {
+        for Isolated { ball, is_real } in isolated_in_balls(&shorter(factor))? {
+            all.push(Value { pair: pair(&ball)?, order: *order, is_real });
         }
     }
     if eliminant.at_pi > 0 {
@@ -38,6 +49,11 @@ pub fn values<const BITS: u32>(eliminant: &Eliminant) -> Option<Vec<Value<BITS>>
     let apart = |j: usize, k: usize| !meet(&all[j].pair, &all[k].pair);
     let are_apart = (0..all.len()).all(|k| (0..k).all(|j| apart(j, k)));
     are_apart.then_some(all)
+}
+
+/// Coefficients in balls of fewer digits.
+fn shorter<const BITS: u32>(coefficients: &[Ball<WIDE>]) -> Vec<Ball<BITS>> {
+    coefficients.iter().map(Ball::of_precision).collect()
 }
 
 /// Cosine and sine of the angle with this half-angle tangent; `None` where the ball is not clear of +-i.

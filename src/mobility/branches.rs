@@ -1,8 +1,8 @@
 //! Which configurations of a mobile loop lie on one and the same curve: the curve is followed in floating point.
 
 use super::answer::Configuration;
-use super::linkage::{Axis, JointValue, Linkage};
 use super::order::Germ;
+use crate::exact::linkage::{Axis, JointValue, Linkage};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
 use crate::kinematics::motion::dot;

@@ -1,12 +1,12 @@
 //! How many configurations a chain that does not move can have, by exact arithmetic alone.
 
-use super::linkage::{JointValue, Linkage};
-use super::positions::{Conjugates, Positions, positions};
 use super::stillness::conditions;
 use crate::algebra::determinant::{by_interpolation, determinant};
 use crate::algebra::drawn::Drawn;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
+use crate::exact::linkage::{JointValue, Linkage};
+use crate::exact::positions::{Conjugates, Positions, positions};
 use crate::kinematics::closed_loop::Variable;
 use rug::Rational;
 

@@ -3,11 +3,9 @@
 use super::answer::{Configuration, JointVariable, Mobility};
 use super::branches::branches;
 use super::ground::Grounded;
-use super::linkage::{Axis, JointValue, Linkage};
 use super::nearby::{Nearby, nearby};
 use super::open::{of_arm, of_platform};
 use super::order::{Germ, Local, MOST_SOLUTIONS};
-use super::positions::Conjugates;
 use super::rounded::{Closing, closing, has_long_decimals, is_exact};
 use super::search::{Outcome, Search, at, decide, is_open_everywhere, search, search_over};
 use super::stillness::{all_stand_still, all_stand_still_modulo};
@@ -18,6 +16,8 @@ use crate::algebra::univariate::Univariate;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::{Error, Result};
+use crate::exact::linkage::{Axis, JointValue, Linkage};
+use crate::exact::positions::Conjugates;
 use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screw_system::ScrewSystem;
@@ -350,16 +350,18 @@ impl Subject<'_> {
 
     /// Loops of six variables in which no curve was found; `why` as above.
     fn structure(&self, why: Option<&str>) -> Result<Mobility> {
-        // A loop is an arm that holds its own base.
-        let mut arm = self.entry.clone();
-        arm.design = Design::Arm(self.chain.clone());
         let is_complete = |verdict: &Verdict| matches!(verdict.status, Status::Complete | Status::Unreachable);
-        let solution = match solve(&arm, Case::at(Placement::identity(), 0)) {
+        // Modes that a small error has left of a motion are crowded: as a loop it is solved in longer numbers at once.
+        // Where it is known that no curve is among them, the configurations themselves need no proof that takes seconds.
+        let is_still = why.is_some();
+        let solution = match solve(self.entry, Case::free(0), is_still) {
             Ok(solution) if is_complete(&solution.verdict) => solution,
-            // Modes that a small error has left of a motion are crowded: as a loop it is solved in longer numbers.
             Ok(solution) => {
-                let longer = solve(self.entry, Case::free(0)).ok();
-                longer.filter(|longer| is_complete(&longer.verdict)).unwrap_or(solution)
+                // A loop is an arm that holds its own base.
+                let mut arm = self.entry.clone();
+                arm.design = Design::Arm(self.chain.clone());
+                let other = solve(&arm, Case::at(Placement::identity(), 0), is_still).ok();
+                other.filter(|other| is_complete(&other.verdict)).unwrap_or(solution)
             }
             Err(Error::Unsupported(_) | Error::UnsupportedMobility(_)) => {
                 let nothing = why.unwrap_or(
@@ -510,9 +512,10 @@ fn order_clause(shaky: Option<usize>) -> String {
     shaky.map_or_else(String::new, |order| format!("; shaky of order {order}: infinitesimally mobile only"))
 }
 
-/// Solves one case of a mechanism.
-pub(super) fn solve(entry: &Entry, case: Case) -> Result<Solution> {
+/// Solves one case of a mechanism; `leaves_fields` as in [`Workspace::leaves_fields`].
+pub(super) fn solve(entry: &Entry, case: Case, leaves_fields: bool) -> Result<Solution> {
     let entry = Entry { cases: vec![case], ..entry.clone() };
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+    workspace.leaves_fields = leaves_fields;
     Mechanism::prepare(&entry)?.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly)
 }

@@ -4,13 +4,13 @@
 use super::answer::{Configuration, Held, JointVariable, Mobility};
 use super::branches::{Curve, floating};
 use super::decision::{Subject, solve};
-use super::linkage::{Axis, JointValue, Linkage};
 use super::order::Local;
 use super::search::{Outcome, Search, search};
 use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
 use crate::assembly::{Assembly, Roots, Solver, Workspace};
 use crate::catalogue::entry::{Case, Input, InputValue};
 use crate::certify::refined_certificate;
+use crate::exact::linkage::{Axis, JointValue, Linkage};
 use crate::kinematics::chain::JointKind;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::freedom::Freedom;
@@ -174,7 +174,7 @@ impl Subject<'_> {
                     }
                 };
                 // What a single input cannot hold is held otherwise.
-                let solution = solve(self.entry, Case::given(Input { joint, value }, 0)).ok()?;
+                let solution = solve(self.entry, Case::given(Input { joint, value }, 0), false).ok()?;
                 let certified: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real && m.certified).collect();
                 if !certified.is_empty() {
                     let configurations: Vec<Configuration> = certified.into_iter().map(|m| self.measured(m)).collect();

@@ -1,18 +1,17 @@
 //! Loops whose numbers lie in one real number field, and their positions.
 
-use super::cut::Cut;
-use super::linkage::{Axis, JointValue, Linkage, Study, joint, one, times};
-use super::positions::{Conjugates, Ground, Here, position};
 use crate::algebra::determinant;
-use crate::algebra::number::{Angle, Number};
 use crate::algebra::number_field::{Algebraic, NumberField};
 use crate::algebra::real_field::RealField;
 use crate::algebra::residue_field::{Reduction, Residue};
 use crate::algebra::ring::{Field, Ring};
-use crate::algebra::surd::Closed;
 use crate::algebra::univariate::Univariate;
+use crate::exact::cut::Cut;
+use crate::exact::linkage::{Axis, JointValue, Linkage, Study, joint, one, times};
+use crate::exact::positions::{Conjugates, Ground, Here, position};
 use crate::kinematics::chain::{Chain, Geometry};
-use crate::kinematics::closed_loop::{Parameter, Parameters, Variable};
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::data_field::{DataField, numbers};
 use rug::{Float, Rational};
 use std::sync::Arc;
 
@@ -29,47 +28,12 @@ pub(super) struct Grounded {
     pub(super) balls: Vec<usize>,
 }
 
-/// The constants of a chain as elements of a field.
-struct Constants<'a>(&'a RealField);
-
-impl Parameters<Algebraic> for Constants<'_> {
-    fn angle(&self, _joint: usize, _parameter: Parameter, value: &Angle) -> Option<(Algebraic, Algebraic)> {
-        let (cos, sin) = value.phase()?;
-        Some((self.0.element(&cos)?, self.0.element(&sin)?))
-    }
-    fn length(&self, _joint: usize, _parameter: Parameter, value: &Number) -> Option<Algebraic> {
-        self.0.element(&value.closed()?)
-    }
-}
-
-/// The numbers of a chain in closed form; `None` where one has none.
-fn numbers(chain: &Chain) -> Option<Vec<Closed>> {
-    let mut found = Vec::new();
-    match &chain.geometry {
-        Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
-            for joint in joints {
-                found.extend([joint.a.closed()?, joint.d.closed()?]);
-                for (cos, sin) in [joint.alpha.phase()?, joint.theta0.phase()?] {
-                    found.extend([cos, sin]);
-                }
-            }
-        }
-        Geometry::Screws { joints, .. } => {
-            for number in joints.iter().flat_map(|joint| joint.axis.iter().chain(&joint.point)) {
-                found.push(number.closed()?);
-            }
-        }
-    }
-    Some(found)
-}
-
 impl Grounded {
     /// The loop of a chain over the field of its numbers; `None` if they lie in no field of a moderate degree, or the chain has a
     /// constant motion that was rounded.
     pub(super) fn of(chain: &Chain, balls: Vec<usize>) -> Option<Self> {
         let numbers = numbers(chain)?;
-        let field = RealField::containing(&numbers)?;
-        let constants = Constants(&field);
+        let field = DataField(RealField::containing(&numbers)?);
         let mut motions = vec![&chain.base, &chain.tool];
         if let Geometry::Screws { home, .. } = &chain.geometry {
             motions.push(home);
@@ -80,14 +44,14 @@ impl Grounded {
         let linkage = match &chain.geometry {
             Geometry::Screws { joints, home } => {
                 let home = home.exact.map(Algebraic::from_rational)?;
-                Linkage::about_axes(joints, &home, |number| field.element(&number.closed()?))?
+                Linkage::about_axes(joints, &home, |number| field.0.element(&number.closed()?))?
             }
             Geometry::Dh(_) | Geometry::ModifiedDh(_) => {
-                let (variables, motions) = chain.unknowns_and_constants_over(&constants)?;
+                let (variables, motions) = chain.unknowns_and_constants_over(&field)?;
                 Linkage::of_motions(variables, motions)?
             }
         };
-        Some(Self { field, linkage, balls })
+        Some(Self { field: field.0, linkage, balls })
     }
 
     /// The loop modulo a prime at which the field has residues.
@@ -131,7 +95,7 @@ impl Grounded {
         Cut::<Algebraic>::all(n).find_map(|cut| self.separated(&linkage, &Cut::of(&linkage, cut)))
     }
 
-    /// What one cut finds, as [`super::positions::positions`] does over the rationals.
+    /// What one cut finds, as [`crate::exact::positions::positions`] does over the rationals.
     fn separated(&self, linkage: &Linkage<Algebraic>, cut: &Cut<Algebraic>) -> Option<Vec<Conjugates>> {
         let conditions = cut.conditions(|matrix| determinant::by_interpolation(matrix));
         let determinant = conditions.into_iter().reduce(|a, b| a.gcd(&b))?;

@@ -1,9 +1,8 @@
 //! How often an isolated position counts: the dimension of its local ring, order by order.
 
-use super::linkage::{Position, Study, one, times, times_axis};
-use super::order::equations;
 use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::Field;
+use crate::exact::linkage::{Position, equations};
 use std::collections::HashMap;
 
 /// Orders are looked at that have no more monomials, and hence columns, than this: 5 for four variables, 4 for five and 3 for
@@ -18,11 +17,11 @@ const MOST_MONOMIALS: usize = 126;
 /// # Source
 /// docs/mobility.md, theorem 7.
 pub(super) fn multiplicity<F: Field>(position: &Position<F>) -> Option<usize> {
-    let n = position.variables.len();
+    let n = position.joints();
     if monomials(n, 2).len() > MOST_MONOMIALS {
         return None;
     }
-    let products: Vec<[F; 6]> = (0..1_usize << n).map(|mask| equations(&product(position, mask))).collect();
+    let products: Vec<[F; 6]> = (0..1_usize << n).map(|mask| equations(&position.with_units(mask))).collect();
     let mut last = 1;
     for order in 1.. {
         let monomials = monomials(n, order);
@@ -51,15 +50,6 @@ pub(super) fn multiplicity<F: Field>(position: &Position<F>) -> Option<usize> {
         last = dimension;
     }
     None
-}
-
-/// The product round the chain in which the joints of `mask` stand for their units along the axis, the others for 1.
-fn product<F: Field>(position: &Position<F>, mask: usize) -> Study<F> {
-    position.links.iter().enumerate().fold(one(), |product, (k, link)| {
-        let turned =
-            if mask >> k & 1 == 1 { times_axis(&product, position.variables[k], &position.axes[k]) } else { product };
-        times(&turned, link)
-    })
 }
 
 /// The exponents of all monomials in n variables up to a degree.

@@ -1,8 +1,7 @@
 //! Loops that do not move, near ones that do: data of a mobile loop that were rounded, or measured.
 
 use super::branches::{Curve, floating};
-use super::linkage::{Linkage, Study, one, times};
-use super::order::equations;
+use crate::exact::linkage::{Linkage, Study, equations, one, times};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
 use nalgebra::{DMatrix, DVector};

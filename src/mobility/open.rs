@@ -52,7 +52,7 @@ pub(super) fn of_arm(chain: &Chain, variables: Vec<JointVariable>) -> Mobility {
 pub(super) fn of_platform(entry: &Entry) -> Result<Mobility> {
     let variables = (1..=6).map(|joint| JointVariable { joint, variable: Variable::Translation }).collect();
     let case = entry.cases.first().ok_or_else(|| Error::Invalid("a platform without legs".to_owned()))?;
-    let solution = solve(entry, case.clone())?;
+    let solution = solve(entry, case.clone(), false)?;
     let verdict = &solution.verdict;
     let are_regular = solution.modes.iter().all(|mode| mode.certified && mode.multiplicity == 1);
     let proof = verdict.proof;

@@ -1,9 +1,9 @@
 //! Does a closed chain move from one of its positions: the closure equations as power series.
 
-use super::linkage::{Position, Study, is_unit, one, times, times_axis};
 use super::multiplicity::multiplicity;
 use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::Field;
+use crate::exact::linkage::{Position, Study, equations, is_unit, one, times, times_axis};
 use crate::kinematics::screw_system::{Screw, ScrewSystem};
 
 /// Most solutions that a generic closed chain of six joint variables has, and so the highest multiplicity that an isolated
@@ -299,9 +299,4 @@ impl<'a, F: Field> Expansion<'a, F> {
         }
         Local::Curve
     }
-}
-
-/// The six closure equations of a product: what must vanish beside the scalars.
-pub(super) fn equations<F: Field>(product: &Study<F>) -> [F; 6] {
-    [1, 2, 3, 5, 6, 7].map(|i| product[i].clone())
 }

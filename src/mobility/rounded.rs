@@ -1,11 +1,11 @@
 //! Loops whose numbers are rounded: whether they close, to rounding, through the whole range of a joint.
 
 use super::answer::JointVariable;
-use super::linkage::is_square;
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::error::Result;
+use crate::exact::linkage::is_square;
 use crate::kinematics::chain::{Chain, Geometry, JointKind, ScrewJoint};
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{FullMode, Mechanism};

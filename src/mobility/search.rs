@@ -2,13 +2,13 @@
 
 use super::answer::{Configuration, Held};
 use super::ground::{Grounded, in_terms_of};
-use super::linkage::{JointValue, Linkage, is_unit};
 use super::order::{Germ, Local};
-use super::positions::{Conjugates, Positions, is_properly_open, positions};
 use super::stillness::all_stand_still;
 use crate::algebra::number_field::Algebraic;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
+use crate::exact::linkage::{JointValue, Linkage, is_unit};
+use crate::exact::positions::{Conjugates, Positions, is_properly_open, positions};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screw_system::{Screw, ScrewSystem};
 use rug::{Float, Rational};

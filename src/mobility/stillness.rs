@@ -1,12 +1,12 @@
 //! Proofs that a joint variable stands still: that it takes finitely many values in all configurations of a chain.
 
-use super::cut::Cut;
-use super::linkage::{JointValue, Linkage};
 use crate::algebra::determinant;
 use crate::algebra::echelon::Echelon;
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::ring::{Domain, Field};
 use crate::algebra::univariate::Univariate;
+use crate::exact::cut::Cut;
+use crate::exact::linkage::{JointValue, Linkage};
 use crate::kinematics::closed_loop::Variable;
 use rug::Rational;
 

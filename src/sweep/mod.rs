@@ -75,6 +75,9 @@ pub struct Sweep {
     pub is_overconstrained: bool,
     /// What to know of the angles of balls.
     pub note: Option<String>,
+    /// Inputs of the range at which the loop moves while its input stands still, where branches are proved: no branches,
+    /// but configurations that these may meet.
+    pub standing: Vec<f64>,
     /// Is every branch found.
     pub verdict: SweepVerdict,
 }
@@ -138,14 +141,15 @@ pub fn sweep(
     let is_whole = samples.len() == range.steps + 1;
     let turn = variable == Variable::Rotation && ((range.to - range.from).abs() - TAU).abs() < 1e-12;
     let is_full_turn = turn && is_whole;
-    let (web, unproved) = match proved(&swept, &entry, range, &samples, is_full_turn)? {
-        Ok(web) => (web, None),
-        Err(code) => (connect(&swept, range, &samples, is_full_turn)?, Some(code)),
+    let (web, standing, unproved) = match proved(&swept, &entry, range, &samples, is_full_turn)? {
+        Ok((web, standing)) => (web, standing, None),
+        Err(code) => (connect(&swept, range, &samples, is_full_turn)?, Vec::new(), Some(code)),
     };
     let (branches, limits) = web.branches(&curve, &samples, range);
     let note = curve.note().map(ToOwned::to_owned);
     let verdict = SweepVerdict::none();
-    let mut found = Sweep { range, samples, branches, limits, is_full_turn, is_overconstrained, note, verdict };
+    let mut found =
+        Sweep { range, samples, branches, limits, is_full_turn, is_overconstrained, note, standing, verdict };
     found.verdict = SweepVerdict::of(&found, unproved, entry.rounded);
     Ok(found)
 }
@@ -157,14 +161,15 @@ type Proved<T> = std::result::Result<T, Code>;
 /// A sample to follow branches from, and the step that it is or stands for.
 type Node = (Sample, Option<usize>);
 
-/// All modes between neighbouring samples, as the closure polynomial proves them.
+/// All modes between neighbouring samples, as the closure polynomial proves them, and the inputs at which the loop moves
+/// by itself.
 fn proved(
     swept: &Swept<'_>,
     entry: &Entry,
     range: Range,
     samples: &[Sample],
     is_full_turn: bool,
-) -> Result<Proved<Web>> {
+) -> Result<Proved<(Web, Vec<f64>)>> {
     let exact = match Exact::of(entry, &entry.cases[0], swept.variable) {
         Ok(exact) => exact,
         Err(code) => return Ok(Err(code)),
@@ -189,7 +194,8 @@ fn proved(
         _ => None,
     };
     let spans = bridges.into_iter().chain(last).map(|bridge| (Vec::new(), vec![bridge])).collect();
-    Ok(Ok(Web::of(nodes, spans, is_full_turn)))
+    let standing = range.having(&exact.standing(), swept.variable);
+    Ok(Ok((Web::of(nodes, spans, is_full_turn), standing)))
 }
 
 /// Follows all modes between all neighbouring samples.

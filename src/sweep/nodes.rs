@@ -39,16 +39,20 @@ impl Range {
         (input - self.from) * (input - self.to) <= 0.0
     }
 
-    /// The critical inputs in the range, of which one of every turn is given.
-    pub(super) fn criticals(&self, given: &[f64], variable: Variable, is_full_turn: bool) -> Vec<Critical> {
+    /// The inputs in the range that are these, but for full turns, each turn by itself; the end of the range left out.
+    pub(super) fn having(&self, given: &[f64], variable: Variable) -> Vec<f64> {
+        let is_inside = |input: &f64| self.contains(*input) && input.total_cmp(&self.to).is_ne();
+        self.turned(given, variable).into_iter().filter(is_inside).collect()
+    }
+
+    /// Inputs of which one of every turn is given, from a turn before the range to a turn behind it.
+    fn turned(&self, given: &[f64], variable: Variable) -> Vec<f64> {
         let (low, high) = (self.from.min(self.to), self.from.max(self.to));
-        let unit = if variable == Variable::Rotation { 1.0 } else { high - low };
         let mut all: Vec<f64> = Vec::new();
         for input in given {
             match variable {
                 Variable::Translation => all.push(*input),
                 Variable::Rotation => {
-                    // From a turn before the range to a turn behind it, so that all have neighbours.
                     let mut turned = input + TAU * ((low - TAU - input) / TAU).ceil();
                     while turned <= high + TAU {
                         all.push(turned);
@@ -58,6 +62,15 @@ impl Range {
             }
         }
         all.sort_by(f64::total_cmp);
+        all
+    }
+
+    /// The critical inputs in the range, of which one of every turn is given.
+    pub(super) fn criticals(&self, given: &[f64], variable: Variable, is_full_turn: bool) -> Vec<Critical> {
+        let (low, high) = (self.from.min(self.to), self.from.max(self.to));
+        let unit = if variable == Variable::Rotation { 1.0 } else { high - low };
+        // Beyond the range, too, so that all have neighbours.
+        let all = self.turned(given, variable);
         let gap = |k: usize| if k + 1 < all.len() { all[k + 1] - all[k] } else { f64::INFINITY };
         let reach = |k: usize| {
             let neighbours = gap(k).min(if k > 0 { gap(k - 1) } else { f64::INFINITY });

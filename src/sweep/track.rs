@@ -3,15 +3,8 @@
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::InputCurve;
 use crate::solve::curve::{ALONG_INPUT, INPUT, Point};
+use crate::solve::walk::{LONGEST, Place, along, difference, dot, norm, step};
 
-/// The longest step, in radians or scaled lengths.
-const LONGEST: f64 = 0.1;
-/// The shortest step before following is given up.
-const SHORTEST: f64 = 1e-8;
-/// The correction of a predicted point over the length of the step above which the step is taken shorter.
-const CORRECTION: f64 = 0.02;
-/// The cosine between directions at both ends of a step below which it is taken shorter.
-const TURN: f64 = 0.97;
 /// The most steps between two inputs.
 const MOST_STEPS: usize = 2000;
 /// Translations beyond this, in scaled lengths, are on their way to infinity.
@@ -55,30 +48,6 @@ pub(super) struct Track {
 /// The end of a way, if it is met.
 type Reached = Result<Option<Destination>, Untraceable>;
 
-/// A point of the curve and the direction in which it is run through.
-#[derive(Clone, Copy)]
-struct Place {
-    point: Point,
-    direction: Point,
-}
-
-fn norm(v: &Point) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn dot(a: &Point, b: &Point) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-fn difference(a: &Point, b: &Point) -> Point {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-/// The point `at + step h + bend h^2`.
-fn along(at: &Point, step: &Point, bend: &Point, h: f64) -> Point {
-    std::array::from_fn(|k| at[k] + h * (step[k] + h * bend[k]))
-}
-
 /// Follows the branch of a point at input `point[INPUT]` to the input `target`, both in the unit of the curve.
 pub(super) fn follow(curve: &InputCurve, point: &Point, target: f64) -> Track {
     let mut track = Track { destination: Destination::Lost, folds: Vec::new() };
@@ -116,7 +85,7 @@ impl Walk<'_> {
                 return Some(Destination::Infinite(here.point[INPUT]));
             }
             let reach = norm(&here.point).max(4.0) / 4.0;
-            let Some((next, h)) = self.step(&here, longest.min(LONGEST * reach)) else {
+            let Some((next, h)) = step(self.curve, &here, longest.min(LONGEST * reach)) else {
                 return self.pole(&first?, &here);
             };
             match self.events(&here, &next, h, folds) {
@@ -148,25 +117,6 @@ impl Walk<'_> {
         let is_ahead = (two - last.point[INPUT]) * last.direction[INPUT] > 0.0;
         let is_inside = (two - self.begin) * (two - self.target) <= 0.0;
         (is_same && is_far && is_ahead && is_inside).then_some(Destination::Infinite(two))
-    }
-
-    /// One step along the curve, no longer than `longest`, and its length.
-    fn step(&self, here: &Place, longest: f64) -> Option<(Place, f64)> {
-        let [_, slope, bend] = self.curve.taylor::<3>(&here.point, &here.direction)?;
-        let curvature = norm(&bend);
-        let mut h = if curvature * longest > 0.2 { 0.2 / curvature } else { longest };
-        while h > SHORTEST {
-            let predicted = along(&here.point, &slope, &bend, h);
-            if let Some((point, correction)) = self.curve.corrected(&predicted, &here.direction)
-                && correction < CORRECTION * h
-                && let Some(direction) = self.curve.tangent(&point, &here.direction)
-                && dot(&direction, &here.direction) > TURN
-            {
-                return Some((Place { point, direction }, h));
-            }
-            h /= 2.0;
-        }
-        None
     }
 
     /// What happens between two neighbouring places: a limit position, the end of the way.

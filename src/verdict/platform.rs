@@ -50,7 +50,8 @@ pub fn platform_verdict(assembly: &PlatformAssembly, roots: Roots, knowledge: &P
         judged = real_list(assembly, knowledge).unwrap_or(judged);
     }
     if assembly.rescued > 0 {
-        judged.reason += &format!("; {} of them found or proved in 384-bit arithmetic only", assembly.rescued);
+        let (rescued, bits) = (assembly.rescued, assembly.rescued_in);
+        judged.reason += &format!("; {rescued} of them found or proved in {bits}-bit arithmetic only");
     }
     Verdict {
         status: judged.status,

@@ -162,3 +162,28 @@ fn overconstrained_loops_have_their_dimension_and_count() {
         assert!((value.re - expected).abs() <= mode.radius.max(1e-15), "{value} {expected}");
     }
 }
+
+/// Source: the counts of common roots of two closure polynomials each, by another route of the program.
+#[test]
+fn loops_of_six_revolute_joints_are_proved_at_an_input() {
+    for (name, complex, real) in [
+        ("bennett_dyads_b", 2, 2),
+        ("bricard_line_symmetric_a", 2, 2),
+        ("bricard_plane_symmetric_a", 4, 2),
+        ("bricard_trihedral_b", 4, 2),
+        ("dietmaier_a", 4, 2),
+        ("double_goldberg", 1, 1),
+        ("waldron_hybrid", 1, 1),
+        ("wohlhart_hybrid_a", 4, 4),
+        ("bennett_dyads_broken", 0, 0),
+        ("dietmaier_broken", 0, 0),
+    ] {
+        let entry = looproot::catalogue::load(name, &Options::default()).unwrap();
+        let mechanism = Mechanism::prepare(&entry).unwrap();
+        let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+        let found = mechanism.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap();
+        let verdict = &found.verdict;
+        assert_eq!((verdict.proof, verdict.complex, verdict.real), (Proof::Proved, complex, real), "{name}");
+        assert!(found.modes.iter().all(|mode| mode.certified && mode.residual < 1e-11), "{name}");
+    }
+}

@@ -1,11 +1,14 @@
 //! The cases of `cases.txt`, and random platforms of every class.
 
-use looproot::algebra::number::nearest_f64;
+use looproot::algebra::number::{Number, nearest_f64};
 use looproot::assembly::Roots;
 use looproot::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
+use looproot::benchmark::platform::sample::{PlatformSet, sample};
+use looproot::catalogue::entry::{Case as CatalogueCase, Design, Entry};
 use looproot::kinematics::dual_quaternion::Quaternion;
 use looproot::kinematics::motion::Motion;
 use looproot::kinematics::platform::Platform;
+use looproot::mechanism::{Mechanism, Solution};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rug::Rational;
@@ -80,6 +83,26 @@ pub fn solved(platform: &Platform<Rational>, legs: &[Rational; 6], roots: Roots)
     assembly
 }
 
+/// As the command line solves it.
+pub fn answer(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Solution {
+    let numbers = |p: &[[Rational; 3]; 6]| p.each_ref().map(|p| p.each_ref().map(|x| Number::exact(x.clone())));
+    let design = Platform { base: numbers(&platform.base), plate: numbers(&platform.plate) };
+    let case = CatalogueCase::legs(squares.each_ref().map(|s| Number::exact(s.clone())), 0);
+    let entry = Entry {
+        design: Design::Platform(Box::new(design)),
+        cases: vec![case],
+        ..sample(PlatformSet::General, 1, 0).unwrap().entry
+    };
+    let (mut workspace, mut assembly) = Default::default();
+    Mechanism::prepare(&entry).unwrap().solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap()
+}
+
+/// The rotation 1 and a translation.
+pub fn translation(translation: [Rational; 3]) -> Motion<Rational> {
+    let identity = Quaternion { scalar: Rational::from(1), vector: [0; 3].map(Rational::from) };
+    Motion { rotation: identity.scaled_rotation(), translation }
+}
+
 /// How far the nearest real pose of a list is from a given one.
 pub fn nearest(assembly: &PlatformAssembly, pose: &[f64; 7]) -> f64 {
     let reach = pose[4..].iter().fold(1.0_f64, |reach, x| reach.max(x.abs()));
@@ -101,6 +124,11 @@ impl Draw {
 
     pub fn number(&mut self) -> Rational {
         Rational::from(self.0.random_range(-20..=20))
+    }
+
+    /// One of so many.
+    pub fn choice(&mut self, most: u64) -> u64 {
+        self.0.random_range(0..most)
     }
 
     pub fn point(&mut self) -> [Rational; 3] {

@@ -1,16 +1,15 @@
 //! Special geometries: counts of another program, poses f64 does not reach, self-motions, legs of length zero.
 
-use super::cases::{Draw, solved};
-use looproot::algebra::number::{Number, nearest_f64};
+use super::cases::{Draw, answer, solved, translation};
+use looproot::algebra::number::nearest_f64;
 use looproot::assembly::Roots;
 use looproot::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
 use looproot::benchmark::platform::sample::{PlatformSet, sample};
-use looproot::catalogue::entry::{Case, Design, Entry};
 use looproot::elimination::platform_degree::{PlatformDegree, platform_degree};
 use looproot::kinematics::dual_quaternion::Quaternion;
 use looproot::kinematics::motion::Motion;
 use looproot::kinematics::platform::Platform;
-use looproot::mechanism::{Mechanism, Solution};
+use looproot::mechanism::Solution;
 use looproot::verdict::Status;
 use rug::Rational;
 
@@ -29,20 +28,6 @@ fn count(platform: &Exact, squares: &[Rational; 6]) -> PlatformDegree {
 
 fn certified(assembly: &PlatformAssembly) -> usize {
     assembly.modes.iter().filter(|mode| mode.certificate.is_some()).count()
-}
-
-/// As the command line solves it.
-fn answer(platform: &Exact, squares: &[Rational; 6]) -> Solution {
-    let numbers = |p: &[[Rational; 3]; 6]| p.each_ref().map(|p| p.each_ref().map(|x| Number::exact(x.clone())));
-    let design = Platform { base: numbers(&platform.base), plate: numbers(&platform.plate) };
-    let case = Case::legs(squares.each_ref().map(|s| Number::exact(s.clone())), 0);
-    let entry = Entry {
-        design: Design::Platform(Box::new(design)),
-        cases: vec![case],
-        ..sample(PlatformSet::General, 1, 0).unwrap().entry
-    };
-    let (mut workspace, mut assembly) = Default::default();
-    Mechanism::prepare(&entry).unwrap().solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap()
 }
 
 #[test]
@@ -103,7 +88,7 @@ fn numbers_of_384_bits_alone_find_every_pose_of_special_geometries() {
         let real = solved(&platform, &squares, Roots::All).real();
         let solver = PlatformSolver::prepare(&platform.map(|x| Some(nearest_f64(x))).unwrap());
         let (mut workspace, mut assembly) = (PlatformWorkspace::default(), PlatformAssembly::default());
-        solver.rescue(&platform, &squares, poses, &mut workspace, &mut assembly);
+        solver.rescue::<6>(&platform, &squares, poses, &mut workspace, &mut assembly);
         assert_eq!((assembly.total(), certified(&assembly), assembly.real()), (poses, poses, real), "{set:?}");
     }
 }
@@ -114,6 +99,21 @@ fn turned_about_z(translation: [i32; 3]) -> Motion<Rational> {
     let (zero, one) = (Rational::new(), Rational::from(1));
     let rotation = [[c.clone(), -s.clone(), zero.clone()], [s, c, zero.clone()], [zero.clone(), zero, one]];
     Motion { rotation, translation: translation.map(Rational::from) }
+}
+
+/// One family, whose poses have legs of these lengths; of a curve more than one pose.
+fn check_family(platform: &Exact, squares: &[Rational; 6], solution: &Solution, dimension: usize) {
+    let [family] = solution.families.as_slice() else { panic!("{} families", solution.families.len()) };
+    assert_eq!((family.dimension, family.samples.len() > 10), (dimension, dimension == 1));
+    for pose in family.samples.iter().chain([&family.sample]) {
+        let pose: Vec<Rational> = pose.iter().map(|x| Rational::from_f64(*x).unwrap()).collect();
+        let [w, x, y, z, position @ ..] = &pose[..] else { panic!("a pose of {} numbers", pose.len()) };
+        let q = Quaternion { scalar: w.clone(), vector: [x.clone(), y.clone(), z.clone()] };
+        let motion = Motion { rotation: q.scaled_rotation(), translation: position.to_vec().try_into().unwrap() };
+        for (found, wanted) in platform.legs_squared(&motion).iter().zip(squares) {
+            assert!(Rational::from(found - wanted).abs() < wanted.clone() / 1_000_000_u32, "{found} {wanted}");
+        }
+    }
 }
 
 #[test]
@@ -132,6 +132,7 @@ fn the_dimension_of_a_self_motion_is_not_its_corank() {
     assert_eq!(count(&platform, &squares), PlatformDegree::Infinite { dimension: 1 });
     let solution = answer(&platform, &squares);
     assert_eq!((solution.verdict.status, solution.verdict.self_motion), (Status::SelfMotion, 1));
+    check_family(&platform, &squares, &solution, 1);
     assert!(solution.modes.iter().all(|mode| mode.certified), "points of a curve are listed as isolated poses");
 
     // A congruent plate on six equal legs: translations on a sphere, all with one rotation.
@@ -140,6 +141,7 @@ fn the_dimension_of_a_self_motion_is_not_its_corank() {
     assert_eq!(count(&platform, &squares), PlatformDegree::Infinite { dimension: 2 });
     let solution = answer(&platform, &squares);
     assert_eq!((solution.verdict.status, solution.verdict.self_motion), (Status::SelfMotion, 2));
+    check_family(&platform, &squares, &solution, 2);
 
     // Four legs to one point: the plate turns about it, two legs left to hold it.
     let mut base = points(BASE);
@@ -174,8 +176,7 @@ fn poses_where_the_ends_of_legs_coincide_are_found_with_their_multiplicity() {
     let mut draw = Draw::new(43);
     for (zero, multiplicity) in [(0, 1), (1, 2), (2, 4), (3, 8)] {
         let mut platform = draw.platform();
-        let identity = Quaternion { scalar: Rational::from(1), vector: [0; 3].map(Rational::from) };
-        let pose = Motion { rotation: identity.scaled_rotation(), translation: [3, -5, 8].map(Rational::from) };
+        let pose = translation([3, -5, 8].map(Rational::from));
         for k in 0..zero {
             platform.plate[k] = std::array::from_fn(|c| Rational::from(&platform.base[k][c] - &pose.translation[c]));
         }
@@ -207,8 +208,7 @@ fn six_legs_that_meet_one_line_make_a_double_pose() {
             })
         });
         let platform = Platform { base, plate };
-        let identity = Quaternion { scalar: Rational::from(1), vector: [0; 3].map(Rational::from) };
-        let pose = Motion { rotation: identity.scaled_rotation(), translation: [0; 3].map(Rational::from) };
+        let pose = translation([0; 3].map(Rational::from));
         let solution = answer(&platform, &platform.legs_squared(&pose));
         assert_eq!((solution.verdict.complex, solution.verdict.certified), (40, 39), "{}", solution.verdict.reason);
         assert!(solution.verdict.proof.is_proved(), "{}", solution.verdict.reason);

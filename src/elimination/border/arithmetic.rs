@@ -4,7 +4,7 @@
 use super::echelon;
 use super::orthogonal;
 use super::pivoted;
-use crate::algebra::long_float::LongFloat;
+use crate::algebra::long_float::LongNumber;
 use crate::algebra::modp::Modulus;
 use crate::algebra::ring::Ring;
 
@@ -132,33 +132,35 @@ impl Arithmetic for Reals {
     }
 }
 
-/// The numbers of 384 bits. What is left of a sum in which all but the last bits cancel is zero.
+/// The numbers of so many words of 64 bits. What is left of a sum in which all but the last bits cancel is zero.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct LongReals;
+pub struct LongReals<const LIMBS: usize>;
 
-/// Leading bits that cancel only where nothing is left.
-const CANCELLED: i32 = 300;
+impl<const LIMBS: usize> LongReals<LIMBS> {
+    /// Leading bits that cancel only where nothing is left: a fifth of the bits are room for rounding.
+    const CANCELLED: i32 = LongNumber::<LIMBS>::BITS.cast_signed() / 32 * 25;
+}
 
-impl Arithmetic for LongReals {
-    type Element = LongFloat;
-    fn zero(&self) -> LongFloat {
-        LongFloat::zero()
+impl<const LIMBS: usize> Arithmetic for LongReals<LIMBS> {
+    type Element = LongNumber<LIMBS>;
+    fn zero(&self) -> LongNumber<LIMBS> {
+        LongNumber::zero()
     }
-    fn one(&self) -> LongFloat {
-        LongFloat::one()
+    fn one(&self) -> LongNumber<LIMBS> {
+        LongNumber::one()
     }
-    fn add(&self, a: LongFloat, b: LongFloat) -> LongFloat {
+    fn add(&self, a: LongNumber<LIMBS>, b: LongNumber<LIMBS>) -> LongNumber<LIMBS> {
         let sum = a.add(&b);
         let largest = a.exponent().max(b.exponent());
-        if sum.exponent() < largest.saturating_sub(CANCELLED) { LongFloat::zero() } else { sum }
+        if sum.exponent() < largest.saturating_sub(Self::CANCELLED) { LongNumber::zero() } else { sum }
     }
-    fn sub(&self, a: LongFloat, b: LongFloat) -> LongFloat {
+    fn sub(&self, a: LongNumber<LIMBS>, b: LongNumber<LIMBS>) -> LongNumber<LIMBS> {
         self.add(a, b.neg())
     }
-    fn mul(&self, a: LongFloat, b: LongFloat) -> LongFloat {
+    fn mul(&self, a: LongNumber<LIMBS>, b: LongNumber<LIMBS>) -> LongNumber<LIMBS> {
         Ring::mul(&a, &b)
     }
-    fn add_multiple(&self, target: &mut [LongFloat], factor: LongFloat, source: &[LongFloat]) {
+    fn add_multiple(&self, target: &mut [LongNumber<LIMBS>], factor: LongNumber<LIMBS>, source: &[LongNumber<LIMBS>]) {
         if factor.is_zero() {
             return;
         }
@@ -170,9 +172,9 @@ impl Arithmetic for LongReals {
     }
     fn solve(
         &self,
-        relations: &mut Relations<LongFloat>,
+        relations: &mut Relations<LongNumber<LIMBS>>,
         rank: usize,
-        split: &mut Split<LongFloat>,
+        split: &mut Split<LongNumber<LIMBS>>,
     ) -> Result<f64, usize> {
         pivoted::solve(relations, rank, split)
     }

@@ -1,17 +1,23 @@
-//! Relations between candidates solved in numbers of 384 bits: elimination with the largest pivot of all.
+//! Relations between candidates solved in long numbers: elimination with the largest pivot of all.
 
 use super::arithmetic::{LEVEL, LOW, MOST_CANDIDATES, Relations, STRIDE, Split, WIDTH};
-use crate::algebra::long_float::LongFloat;
+use crate::algebra::long_float::LongNumber;
 use crate::algebra::ring::{Field, Ring};
 
-/// Pivots of this relative size or less are rounding of zero.
-const NO_PIVOT: f64 = 1e-60;
+/// Pivots of this relative size or less are rounding of zero: half the digits.
+fn no_pivot<const LIMBS: usize>() -> f64 {
+    (-0.5 * f64::from(LongNumber::<LIMBS>::BITS)).exp2()
+}
 
 /// Solves for the candidates with the largest pivots; those without one are the new basis elements.
 ///
 /// # Errors
 /// The rank found, where it is not the one asked for.
-pub fn solve(relations: &mut Relations<LongFloat>, rank: usize, split: &mut Split<LongFloat>) -> Result<f64, usize> {
+pub fn solve<const LIMBS: usize>(
+    relations: &mut Relations<LongNumber<LIMBS>>,
+    rank: usize,
+    split: &mut Split<LongNumber<LIMBS>>,
+) -> Result<f64, usize> {
     let (count, n, low) = (relations.count, relations.candidates, relations.low);
     let rows = &mut relations.rows;
     let mut pivots = [0; MOST_CANDIDATES];
@@ -27,7 +33,7 @@ pub fn solve(relations: &mut Relations<LongFloat>, rank: usize, split: &mut Spli
             }
         }
         first = if k == 0 { best } else { first };
-        if !(best > NO_PIVOT * first) {
+        if !(best > no_pivot::<LIMBS>() * first) {
             return Err(k);
         }
         smallest = smallest.min(best / first);
@@ -46,7 +52,7 @@ pub fn solve(relations: &mut Relations<LongFloat>, rank: usize, split: &mut Spli
             if factor.is_zero() {
                 continue;
             }
-            row[column] = LongFloat::zero();
+            row[column] = LongNumber::zero();
             let others = pivot_row[..n].iter().chain(&pivot_row[LOW..LOW + low]);
             for (j, (x, p)) in used(row, n, low).zip(others).enumerate() {
                 if j != column {
@@ -56,23 +62,23 @@ pub fn solve(relations: &mut Relations<LongFloat>, rank: usize, split: &mut Spli
         }
     }
     let rest = rows[rank * STRIDE..count * STRIDE].chunks_exact_mut(STRIDE);
-    if rest.flat_map(|row| used(row, n, low)).any(|x| x.pivot_size() > NO_PIVOT * first.max(1.0)) {
+    if rest.flat_map(|row| used(row, n, low)).any(|x| x.pivot_size() > no_pivot::<LIMBS>() * first.max(1.0)) {
         return Err(n);
     }
     let normal = &mut split.normal;
     let free = (0..n).filter(|j| !pivots[..rank].contains(j));
     let left = n - rank;
-    split.lift[..n * LEVEL].fill(LongFloat::zero());
+    split.lift[..n * LEVEL].fill(LongNumber::zero());
     for (t, column) in free.enumerate() {
         let row = &mut normal[column * WIDTH..][..low + left];
-        row.fill(LongFloat::zero());
-        row[low + t] = LongFloat::one();
-        split.lift[column * LEVEL + t] = LongFloat::one();
+        row.fill(LongNumber::zero());
+        row[low + t] = LongNumber::one();
+        split.lift[column * LEVEL + t] = LongNumber::one();
     }
     // A row is free of the pivots found before it: from the last one back.
     for k in (0..rank).rev() {
         let row = &rows[k * STRIDE..(k + 1) * STRIDE];
-        let mut solved = [LongFloat::zero(); WIDTH];
+        let mut solved = [LongNumber::zero(); WIDTH];
         for (target, source) in solved.iter_mut().zip(&row[LOW..LOW + low]) {
             *target = source.neg();
         }
@@ -87,7 +93,11 @@ pub fn solve(relations: &mut Relations<LongFloat>, rank: usize, split: &mut Spli
 }
 
 /// The entries of a row that are in use.
-fn used(row: &mut [LongFloat], n: usize, low: usize) -> impl Iterator<Item = &mut LongFloat> {
+fn used<const LIMBS: usize>(
+    row: &mut [LongNumber<LIMBS>],
+    n: usize,
+    low: usize,
+) -> impl Iterator<Item = &mut LongNumber<LIMBS>> {
     let (lead, behind) = row.split_at_mut(LOW);
     lead[..n].iter_mut().chain(&mut behind[..low])
 }

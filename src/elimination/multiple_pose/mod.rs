@@ -13,7 +13,8 @@ mod rotation;
 
 use super::platform_polynomial::PlatformPolynomial;
 use crate::algebra::number_field::{Algebraic, NumberField};
-use crate::algebra::ring::Ring;
+use crate::algebra::real_roots::RealRoot;
+use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
@@ -37,7 +38,7 @@ pub struct ExactPoses {
 }
 
 /// Factors with more roots are left: their numbers are long.
-const MOST_CONJUGATES: usize = 12;
+const MOST_CONJUGATES: usize = 20;
 /// More poses than a platform can have.
 const MOST: usize = 40;
 
@@ -51,8 +52,27 @@ pub fn multiple_poses(
 ) -> Vec<ExactPoses> {
     let whole = Univariate::new(polynomial.coefficients.clone());
     let factors = whole.square_free_decomposition().into_iter();
-    let several = factors.filter(|(factor, m)| *m > 1 && factor.degree() <= Some(MOST_CONJUGATES));
-    several.flat_map(|(factor, m)| at_factor(platform, squares, polynomial, &factor, m)).collect()
+    let several =
+        factors.filter(|(_, m)| *m > 1).flat_map(|(factor, m)| parts(&factor).into_iter().map(move |f| (f, m)));
+    let within_reach = several.filter(|(factor, _)| factor.degree() <= Some(MOST_CONJUGATES));
+    within_reach.flat_map(|(factor, m)| at_factor(platform, squares, polynomial, &factor, m)).collect()
+}
+
+/// The linear factors of the rational roots of a square-free polynomial, and what is left of it: a field of small degree has
+/// short numbers.
+fn parts(factor: &Univariate<Integer>) -> Vec<Univariate<Integer>> {
+    let mut parts: Vec<Univariate<Integer>> = Vec::new();
+    let Some(mut rest) = factor.map(|c| Some(Rational::from(c))) else { return Vec::new() };
+    for root in factor.real_roots().iter_mut().filter_map(RealRoot::rational) {
+        let (numerator, denominator) = root.into_numer_denom();
+        let linear = Univariate::new(vec![-numerator, denominator]);
+        let divisor = linear.coefficients().iter().map(Rational::from).collect();
+        rest = rest.div_rem(&Univariate::new(divisor)).0;
+        parts.push(linear);
+    }
+    // Integers, since the linear factors have none in common.
+    parts.extend(rest.map(|c| Some(c.numer().clone())).filter(|rest| rest.degree() > Some(0)));
+    parts
 }
 
 /// The poses at the roots of one factor.
@@ -102,6 +122,8 @@ fn over(
     match positions(&here, &lengths, &x)? {
         Positions::One(p) => at(&x, p, polynomial).map(|pose| vec![pose]),
         Positions::Two(pair) => {
+            // Where both positions coincide at some roots only, these are looked at alone.
+            pair.discriminant.inverse()?;
             if let Some(root) = pair.root() {
                 [root.clone(), root.neg()].iter().map(|root| at(&x, pair.at(root)?, polynomial)).collect()
             } else {

@@ -12,8 +12,8 @@ use crate::kinematics::platform::Platform;
 use rug::{Integer, Rational};
 use std::sync::Arc;
 
-/// More primes than rotations of a few hundred digits ask for.
-const MOST_PRIMES: usize = 60;
+/// More primes than rotations of a thousand digits ask for.
+const MOST_PRIMES: usize = 120;
 
 type Matrix = Vec<Vec<u64>>;
 
@@ -53,6 +53,7 @@ pub fn rotation(
 ) -> Option<Rotation> {
     let degree = factor.degree()?;
     let algebra = PlatformAlgebra::new(platform, squares, polynomial);
+    let multiplicity = multiplicity / algebra.positions();
     let mut combined = Combined::new(3 * degree + 1);
     let mut before = None;
     for modulus in primes().take(MOST_PRIMES) {

@@ -1,5 +1,6 @@
 //! What becomes of every mode between two neighbouring inputs, proved from the closure polynomial.
 
+use super::node::Node;
 use super::output::{Chart, Critical, Event, Output};
 use super::plane_curve::{PlaneCurve, Rectangle, sign_changes};
 use crate::algebra::univariate::Univariate;
@@ -31,12 +32,12 @@ pub(super) struct Piece {
 
 /// A real root of the closure polynomial at an end, and its mode.
 #[derive(Clone, Debug)]
-struct Sheet {
+pub(super) struct Sheet {
     /// The half tangent or the distance; none at the angle pi.
-    t: Option<Rational>,
+    pub t: Option<Rational>,
     /// The angle or the distance.
     value: f64,
-    mode: usize,
+    pub mode: usize,
 }
 
 /// A branch that passes a critical input, and where it was proved to stay.
@@ -93,6 +94,10 @@ fn sheets(output: &Output, curve: &PlaneCurve, s: &Rational, sample: &Sample) ->
     if (0..values.len()).all(is_met) { Ok(sheets) } else { Err(Code::BranchesNotMatched) }
 }
 
+fn sorted([a, b]: [&Rational; 2]) -> [&Rational; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
+
 /// The bridge between two samples by one output, or why it is not proved.
 pub(super) fn bridge(
     output: &Output,
@@ -102,13 +107,13 @@ pub(super) fn bridge(
 ) -> Result<Bridge, Code> {
     let chart = &output.charts[piece.chart];
     let [a, b] = &piece.ends;
-    let interval = if a < b { [a, b] } else { [b, a] };
+    let interval = sorted([a, b]);
     let inside = output.between(piece.chart, interval).ok_or(Code::SingularNotDecided)?;
     let from = sheets(output, &chart.curve, a, low)?;
     let to = sheets(output, &chart.curve, b, high)?;
     match inside.as_slice() {
         [] => in_order(output, chart, interval, [from, to]),
-        [critical] => across(output, chart, curve, interval, critical, [low, high], [&from, &to]),
+        [critical] => across(output, chart, curve, [a, b], critical, [low, high], [&from, &to]),
         _ => Err(Code::SingularNotDecided),
     }
 }
@@ -163,16 +168,17 @@ fn free_angle(chart: &Chart, [low, high]: [&Rational; 2], from: &[Sheet], to: &[
     })
 }
 
-/// One critical input: every branch must be proved to pass it, but for two that meet.
+/// One critical input between two places: every branch must be proved to pass it, but for two that meet.
 fn across(
     output: &Output,
     chart: &Chart,
     curve: &InputCurve,
-    interval: [&Rational; 2],
+    places: [&Rational; 2],
     critical: &Critical,
     samples: [&Sample; 2],
     [from, to]: [&[Sheet]; 2],
 ) -> Result<Bridge, Code> {
+    let interval = sorted(places);
     if critical.event == Event::Locked {
         return Err(Code::InputLocked);
     }
@@ -203,6 +209,13 @@ fn across(
         ([], [one, two], Event::Meeting(1)) => {
             let fates = meeting(chart, curve, interval, [samples[1], samples[0]], [one, two], passing, input)?;
             Ok(bridge.settle(false, [one.mode, two.mode], &fates))
+        }
+        ([one, two], [three, four], Event::Meeting(order)) if chart.curve.degree() == 2 && order % 2 == 0 => {
+            let node = Node { chart, kind: output.kind, interval, ends: places, sheets: [[one, two], [three, four]] };
+            for [x, y] in node.pairs(order).ok_or(Code::SingularNotDecided)? {
+                (bridge.forwards[x], bridge.backwards[y]) = (Fate::On(y, Vec::new()), Fate::On(x, Vec::new()));
+            }
+            Ok(bridge)
         }
         _ => Err(Code::SingularNotDecided),
     }
@@ -260,12 +273,12 @@ fn passages<'a>(
 }
 
 /// Whether t is no larger than 1.
-fn is_small(sheet: &Sheet) -> bool {
+pub(super) fn is_small(sheet: &Sheet) -> bool {
     sheet.t.as_ref().is_some_and(|t| Rational::from(t.abs_ref()) <= 1)
 }
 
 /// t or 1/t.
-fn place(sheet: &Sheet, is_inverted: bool) -> Option<Rational> {
+pub(super) fn place(sheet: &Sheet, is_inverted: bool) -> Option<Rational> {
     match &sheet.t {
         None => is_inverted.then(Rational::new),
         Some(t) if is_inverted => (!t.is_zero()).then(|| t.clone().recip()),
@@ -281,23 +294,13 @@ fn rectangle_of_graph(
 ) -> Option<Rectangle> {
     let [Some(x), Some(y)] = places else { return None };
     HEIGHTS.into_iter().find_map(|height| {
-        let rectangle = rectangle(interval, [&x, &y], height);
+        let rectangle = Rectangle::over(interval, [&x, &y], height);
         curve.is_graph_in(&rectangle).then_some(rectangle)
     })
 }
 
-/// The rectangle over an interval about two places, a multiple of their distance high.
-fn rectangle([low, high]: [&Rational; 2], [x, y]: [&Rational; 2], height: i32) -> Rectangle {
-    let half = |a: &Rational, b: &Rational| Rational::from(a + b) / 2;
-    let rise = Rational::from(y - x).abs() * height;
-    // Beyond rounding, where both places are the same.
-    let margin = (Rational::from(x.abs_ref()) + 1) / 100_000_000_i32;
-    let centre = [half(low, high), half(x, y)];
-    Rectangle { centre, reach: [Rational::from(high - low) / 2, rise + margin] }
-}
-
 /// Whether some of the polynomials has no zero in a rectangle.
-fn is_some_nonzero(list: &[PlaneCurve], rectangle: &Rectangle, is_inverted: bool) -> bool {
+pub(super) fn is_some_nonzero(list: &[PlaneCurve], rectangle: &Rectangle, is_inverted: bool) -> bool {
     let nonzero =
         |p: &PlaneCurve| if is_inverted { p.inverted().is_nonzero_in(rectangle) } else { p.is_nonzero_in(rectangle) };
     list.iter().any(nonzero)
@@ -351,7 +354,7 @@ fn meeting(
         let is_inverted = !(is_small(one) && is_small(two));
         let places = [one, two].map(|sheet| place(sheet, is_inverted));
         let [Some(x), Some(y)] = places else { return Err(Code::SingularNotDecided) };
-        let rectangle = rectangle(interval, [&x, &y], 1);
+        let rectangle = Rectangle::over(interval, [&x, &y], 1);
         if !is_closed_in(chart, &rectangle, is_inverted) {
             return Err(Code::SingularNotDecided);
         }
@@ -372,7 +375,7 @@ fn meeting(
 }
 
 /// Whether no branch leaves a rectangle through its upper or its lower side.
-fn is_closed_in(chart: &Chart, rectangle: &Rectangle, is_inverted: bool) -> bool {
+pub(super) fn is_closed_in(chart: &Chart, rectangle: &Rectangle, is_inverted: bool) -> bool {
     let [s, t] = &rectangle.centre;
     let [across, along] = &rectangle.reach;
     let side = |t: Rational| Rectangle { centre: [s.clone(), t], reach: [across.clone(), Rational::new()] };

@@ -5,7 +5,8 @@
 //! same coordinates but for a turn about z: five equations in the input and the output V1. Both angles follow from them
 //! uniquely, unless L carries axis and origin to places on the axis z.
 
-use super::relation::{InOutput, Relation};
+use super::plane_curve::integral_form;
+use super::relation::{Content, InOutput, Relation};
 use crate::algebra::circle_fraction::CircleFraction;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
@@ -66,14 +67,17 @@ fn relation(
     let (scale, turned_axis, turned_origin) = carried(output.kind, before, behind);
     let square = scale.mul(&scale);
     let less = |x: InOutput, factor: &InOutput, y: CircleFraction| x.sub(&factor.scale(&y));
-    let equations = vec![
+    let equations = [
         less(turned_axis[2].clone(), &scale, axis[2].clone()),
         less(turned_origin[2].clone(), &scale, origin[2].clone()),
         less(dot(&turned_axis, &turned_origin), &square, dot(&axis, origin)),
         less(dot(&turned_origin, &turned_origin), &square, dot(origin, origin)),
         less(cross(&turned_axis, &turned_origin)[2].clone(), &square, cross(&axis, origin)[2].clone()),
     ];
-    Some(Relation { output: output.joint, kind: output.kind, equations, parallel: Vec::new(), gap: Vec::new() })
+    let simple = scale.degree().unwrap_or(0).max(usize::from(output.kind == Variable::Translation));
+    let degrees = [simple, simple, 2 * simple, 2 * simple, 2 * simple];
+    let equations = equations.iter().zip(degrees).map(|(f, degree)| integral_form(f, degree)).collect();
+    Some(Relation { content: Content::Standing, ..Relation::of(output.joint, output.kind, equations) })
 }
 
 /// The images of the axis z and of the origin by `before V behind`, both times the first polynomial.

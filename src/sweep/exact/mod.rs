@@ -7,8 +7,10 @@
 //! all of it, and which passes into which; at the critical inputs themselves each branch is proved to pass, or two of
 //! them meet in a limit position, or go to infinity.
 
+mod by_cut;
 mod crossing;
 mod four_joints;
+mod node;
 mod output;
 mod plane_curve;
 mod relation;
@@ -79,9 +81,18 @@ impl Exact {
 
     /// The critical inputs of the first output: angles in (-pi, pi], or distances.
     pub fn criticals(&self) -> Vec<f64> {
-        let Some(output) = self.output(0) else { return Vec::new() };
+        self.output(0).map_or_else(Vec::new, |output| self.inputs(output.criticals.iter().map(|one| one.value)))
+    }
+
+    /// The inputs at which the loop moves while its input stands still, as the first output knows them.
+    pub fn standing(&self) -> Vec<f64> {
+        self.output(0).map_or_else(Vec::new, |output| self.inputs(output.standing.iter().copied()))
+    }
+
+    /// Angles in (-pi, pi], or distances, that half tangents or distances of the chart stand for.
+    fn inputs(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
         let input = |x: f64| if self.input == Variable::Rotation { wrapped(self.offset + 2.0 * x.atan()) } else { x };
-        output.criticals.iter().map(|critical| input(critical.value)).collect()
+        values.map(input).collect()
     }
 
     /// The bridge between two samples as the first output that serves proves it, or the reason of the first one. The

@@ -2,7 +2,7 @@
 //! go to infinity.
 
 use super::plane_curve::{Integral, PlaneCurve, S, T, in_one, integral};
-use super::relation::{InOutput, Relation};
+use super::relation::{Content, InOutput, Relation};
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::real_roots::RealRoot;
@@ -62,6 +62,13 @@ pub(super) struct Output {
     /// By the half tangent of the input, and by that of the input less half a turn.
     pub charts: [Chart; 2],
     pub criticals: Vec<Critical>,
+    /// Inputs at which every output is one of a configuration: the loop moves while its input stands still.
+    pub standing: Vec<f64>,
+}
+
+/// The real roots of a polynomial, none of a constant.
+fn real_roots(polynomial: &Univariate<Integer>) -> Vec<RealRoot> {
+    if polynomial.degree() > Some(0) { polynomial.real_roots() } else { Vec::new() }
 }
 
 /// The polynomial in the input of a polynomial without output.
@@ -98,8 +105,7 @@ impl Output {
     /// The output of a relation. `turns` says whether the input is an angle, which must not be critical at half a turn
     /// from where it is counted: `Ok(None)` where it is.
     pub fn of(relation: &Relation, turns: bool) -> Result<Option<Self>, Code> {
-        let equations: Vec<Integral> = relation.equations.iter().map(integral).collect();
-        let equations: Vec<&Integral> = equations.iter().filter(|f| !f.polynomial.is_zero()).collect();
+        let equations: Vec<&Integral> = relation.equations.iter().filter(|f| !f.polynomial.is_zero()).collect();
         let (first, others) = equations.split_first().ok_or(Code::NoExactRoute)?;
         let whole = others.iter().fold(first.polynomial.clone(), |gcd, f| gcd.gcd(&f.polynomial));
         if turns && !equations.iter().any(|f| f.is_finite()) {
@@ -107,7 +113,8 @@ impl Output {
         }
         let content = whole.content_in(T);
         let mut f = whole.checked_div_exact(&content).ok_or(Code::NoExactRoute)?;
-        if f.degree(T) == 0 {
+        let is_half_turn = relation.kind == Variable::Rotation && equations.iter().all(|f| f.is_half_turn);
+        if f.degree(T) == 0 && !is_half_turn {
             return Err(Code::NoExactRoute);
         }
         let mut discriminant = discriminant(&f);
@@ -115,7 +122,13 @@ impl Output {
             f = f.square_free_part();
             discriminant = self::discriminant(&f);
         }
-        let curve = PlaneCurve::of(&f);
+        let mut curve = PlaneCurve::of(&f);
+        if is_half_turn {
+            curve = curve.with_half_turn();
+            // Others pass half a turn where their leading coefficient vanishes.
+            let leading = f.coefficients_in(T).last().map_or_else(Univariate::one, of_input);
+            discriminant = discriminant.mul(&leading).mul(&leading);
+        }
         let full = (2 * curve.degree() - 2) * curve.input_degree();
         if turns && discriminant.degree() != Some(full) {
             return Ok(None);
@@ -141,12 +154,20 @@ impl Output {
         let leading = f.coefficients_in(T).last().map(of_input).filter(|_| relation.kind == Variable::Translation);
         let together = meeting.unwrap_or_else(Univariate::one);
         let infinite = [together.clone(), pole.clone()].into_iter().chain(leading);
-        let criticals = criticals(&discriminant, infinite, &of_input(&content));
+        let content = of_input(&content);
+        let one = Univariate::one;
+        let (standing, locked) = match relation.content {
+            Content::Standing => (content, one()),
+            Content::Nothing => (one(), one()),
+            Content::Open => (one(), content),
+        };
+        let criticals = criticals(&discriminant, infinite, &locked);
         let gap = relation.gap.iter().map(|p| PlaneCurve::of(&integral(p).polynomial)).collect();
         let parallel = parallel.iter().map(PlaneCurve::of).collect();
         let chart = Chart { curve, parallel, gap, dependent, together, common, pole };
         let charts = [chart.clone(), chart.half_turned()];
-        Ok(Some(Self { joint: relation.output, kind: relation.kind, charts, criticals }))
+        let standing = real_roots(&standing).iter_mut().map(RealRoot::to_f64).collect();
+        Ok(Some(Self { joint: relation.output, kind: relation.kind, charts, criticals, standing }))
     }
 
     /// The critical inputs between two inputs of a chart, `None` where one of these is critical itself.
@@ -187,7 +208,7 @@ impl Chart {
     /// As the half tangent of the input less half a turn has it.
     fn half_turned(&self) -> Self {
         let all = |list: &[PlaneCurve]| list.iter().map(PlaneCurve::half_turned).collect();
-        let input = |p: &Univariate<Integer>| PlaneCurve::of_input(p).half_turned().at_output_zero();
+        let input = |p: &Univariate<Integer>| PlaneCurve::of_input(p).half_turned().coefficient(0);
         Self {
             curve: self.curve.half_turned(),
             parallel: all(&self.parallel),
@@ -218,12 +239,10 @@ fn criticals(
 ) -> Vec<Critical> {
     let mut criticals = Vec::new();
     let mut add = |polynomial: &Univariate<Integer>, event: &dyn Fn(usize) -> Event| {
-        if polynomial.degree() > Some(0) {
-            criticals.extend(polynomial.real_roots().into_iter().map(|mut root| {
-                let (event, value) = (event(root.multiplicity()), root.to_f64());
-                Critical { root, event, value }
-            }));
-        }
+        criticals.extend(real_roots(polynomial).into_iter().map(|mut root| {
+            let (event, value) = (event(root.multiplicity()), root.to_f64());
+            Critical { root, event, value }
+        }));
     };
     add(discriminant, &Event::Meeting);
     let mut known = discriminant.clone();

@@ -8,6 +8,7 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
 use crate::algebra::univariate::Univariate;
 use rug::{Integer, Rational};
+use std::cmp::Ordering;
 
 /// The variables of polynomials in input and output.
 pub(super) const S: usize = 0;
@@ -28,6 +29,18 @@ pub(super) struct Rectangle {
     pub reach: [Rational; 2],
 }
 
+impl Rectangle {
+    /// The rectangle over an interval about two places, a multiple of their distance high.
+    pub fn over([low, high]: [&Rational; 2], [x, y]: [&Rational; 2], height: i32) -> Self {
+        let half = |a: &Rational, b: &Rational| Rational::from(a + b) / 2;
+        let rise = Rational::from(y - x).abs() * height;
+        // Beyond rounding, where both places are the same.
+        let margin = (Rational::from(x.abs_ref()) + 1) / 100_000_000_i32;
+        let centre = [half(low, high), half(x, y)];
+        Self { centre, reach: [Rational::from(high - low) / 2, rise + margin] }
+    }
+}
+
 /// `1 + x^2`
 fn circle(variable: usize) -> Polynomial<Int> {
     let x = Polynomial::<Int>::variable(variable);
@@ -41,9 +54,30 @@ pub(super) struct Integral {
     pub polynomial: Polynomial<Int>,
     /// Its degree in the half tangent of the input, unless it vanishes where that is infinite.
     pub full_degree: usize,
+    /// Whether it vanishes at half a turn of the output, whatever the input, as far as is known.
+    pub is_half_turn: bool,
 }
 
 impl Integral {
+    /// A polynomial that is, or is not, zero for all outputs where the half tangent of the input is infinite, and that as a
+    /// form has half a turn of the output so often for a zero.
+    pub fn of_form(polynomial: Polynomial<Int>, is_finite: bool, half_turns: usize) -> Self {
+        let full_degree = polynomial.degree(S) as usize + usize::from(!is_finite);
+        let mut found = Self { polynomial, full_degree, is_half_turn: half_turns > 0 };
+        found.remove_circles();
+        found
+    }
+
+    /// Divides by factors that have no real zero.
+    fn remove_circles(&mut self) {
+        for variable in [S, T] {
+            while let Some(quotient) = self.polynomial.checked_div_exact(&circle(variable)) {
+                self.polynomial = quotient;
+                self.full_degree -= if variable == S { 2.min(self.full_degree) } else { 0 };
+            }
+        }
+    }
+
     /// Whether it is not zero for all outputs where the half tangent of the input is infinite.
     pub fn is_finite(&self) -> bool {
         self.polynomial.degree(S) as usize == self.full_degree
@@ -60,17 +94,18 @@ pub(super) fn integral(relation: &InOutput) -> Integral {
     });
     let polynomial = Polynomial::from_terms(terms);
     if polynomial.is_zero() {
-        return Integral { polynomial: Polynomial::zero(), full_degree: 0 };
+        return Integral { polynomial: Polynomial::zero(), full_degree: 0, is_half_turn: true };
     }
-    let mut rest = polynomial.primitive().0;
-    let mut full_degree = 2 * power as usize;
-    for variable in [S, T] {
-        while let Some(quotient) = rest.checked_div_exact(&circle(variable)) {
-            rest = quotient;
-            full_degree -= if variable == S { 2.min(full_degree) } else { 0 };
-        }
-    }
-    Integral { polynomial: rest, full_degree }
+    let full_degree = 2 * power as usize;
+    let mut found = Integral { polynomial: polynomial.primitive().0, full_degree, is_half_turn: false };
+    found.remove_circles();
+    found
+}
+
+/// The same of a form of a certain degree in the output.
+pub(super) fn integral_form(relation: &InOutput, degree: usize) -> Integral {
+    let is_half_turn = relation.degree().is_none_or(|own| own < degree);
+    Integral { is_half_turn, ..integral(relation) }
 }
 
 /// A polynomial in one variable over the integers.
@@ -84,14 +119,25 @@ impl PlaneCurve {
         Self { rows: polynomial.coefficients_in(T).iter().map(|row| in_one(row, S)).collect() }
     }
 
+    /// With half a turn of the output for one more zero at every input.
+    pub fn with_half_turn(mut self) -> Self {
+        self.rows.push(Univariate::zero());
+        self
+    }
+
+    /// The coefficient of `t^k`.
+    pub fn coefficient(&self, k: usize) -> Univariate<Integer> {
+        self.rows.get(k).cloned().unwrap_or_else(Univariate::zero)
+    }
+
+    /// The sign of the coefficient of `t^k` at an input.
+    pub fn sign_of(&self, k: usize, s: &Rational) -> Ordering {
+        self.rows.get(k).map_or(Ordering::Equal, |row| row.sign_at(s))
+    }
+
     /// A polynomial in the input alone.
     pub fn of_input(polynomial: &Univariate<Integer>) -> Self {
         Self { rows: vec![polynomial.clone()] }
-    }
-
-    /// The constant coefficient in the output.
-    pub fn at_output_zero(&self) -> Univariate<Integer> {
-        self.rows.first().cloned().unwrap_or_else(Univariate::zero)
     }
 
     /// The degree in the output.

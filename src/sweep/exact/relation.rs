@@ -1,6 +1,7 @@
 //! The closure polynomial between the input and one output, without division, for each kind of loop that has one of
 //! degree 8 at most.
 
+use super::plane_curve::{Integral, integral};
 use crate::algebra::circle_fraction::CircleFraction;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
@@ -29,12 +30,37 @@ pub(super) struct Relation {
     /// Whether it is an angle, of which the polynomials have the half tangent, or a distance.
     pub kind: Variable,
     /// All of them vanish together exactly where the loop closes: their greatest common divisor is the closure polynomial.
-    pub equations: Vec<InOutput>,
+    pub equations: Vec<Integral>,
     /// All of them vanish where the directions of the translations are dependent, or another joint is left free; none for
     /// loops without such places.
     pub parallel: Vec<InOutput>,
     /// Where those vanish and these do not all vanish, the loop does not close: translations go to infinity.
     pub gap: Vec<InOutput>,
+    /// What a factor in the input alone says.
+    pub content: Content,
+}
+
+/// What it means that all equations vanish at an input, whatever the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Content {
+    /// The loop moves while its input stands still.
+    Standing,
+    /// Nothing of branches: apart from such inputs each zero is a configuration.
+    Nothing,
+    /// The loop may move while its input stands still, and zeros may be lost.
+    Open,
+}
+
+impl Relation {
+    /// A relation whose translations are never dependent.
+    pub(super) fn of(output: usize, kind: Variable, equations: Vec<Integral>) -> Self {
+        Self { output, kind, equations, parallel: Vec::new(), gap: Vec::new(), content: Content::Open }
+    }
+
+    /// The same with one equation.
+    fn plain(output: usize, kind: Variable, equation: &InOutput) -> Self {
+        Self::of(output, kind, vec![integral(equation)])
+    }
 }
 
 /// Half tangents are counted from 0.
@@ -75,7 +101,8 @@ pub(super) fn relations(chain: &Chain, layout: &Layout, input: Variable, offset:
     let indices = filled.joint_variables();
     if layout.missing() > 0 {
         let is_plain = layout.ball.is_none();
-        return if is_plain { super::four_joints::relations(&closed, indices) } else { Vec::new() };
+        let found = if is_plain { super::four_joints::relations(&closed, indices) } else { Vec::new() };
+        return if found.is_empty() { super::by_cut::relations(chain, layout, offset) } else { found };
     }
     let Some(indices) = indices.into_iter().collect::<Option<Vec<usize>>>() else { return Vec::new() };
     if let Some(ball) = layout.ball_unknown() {
@@ -92,13 +119,7 @@ pub(super) fn relations(chain: &Chain, layout: &Layout, input: Variable, offset:
 fn coupled(chain: &Chain, layout: &Layout, filling: &Motion<CircleFraction>) -> Option<Relation> {
     let coupled = chain.open_coupled::<CircleFraction>(layout, &Numbers).ok()?.close(filling);
     let equation = of_row(coupled.variable, &spherical_pair::equation(&coupled));
-    Some(Relation {
-        output: coupled.indices[2],
-        kind: coupled.variable,
-        equations: vec![equation],
-        parallel: Vec::new(),
-        gap: Vec::new(),
-    })
+    Some(Relation::plain(coupled.indices[2], coupled.variable, &equation))
 }
 
 /// One spherical joint: its centre is reached from both sides.
@@ -123,13 +144,7 @@ fn separated(equations: &Separated<CircleFraction>, hidden: usize, output: usize
     }
     let kind = equations.kinds[hidden];
     let polynomial = quartic(&equations.conic(hidden, &other), &powers(kind, &origin()));
-    Some(Relation {
-        output,
-        kind,
-        equations: vec![Univariate::new(polynomial.to_vec())],
-        parallel: Vec::new(),
-        gap: Vec::new(),
-    })
+    Some(Relation::plain(output, kind, &Univariate::new(polynomial.to_vec())))
 }
 
 /// Three rotations, which close by themselves, and three translations.
@@ -138,12 +153,11 @@ fn triangles(closed: &ClosedLoop<CircleFraction>, indices: &[usize]) -> Vec<Rela
     let one = |dropped: usize| {
         let triangle = triangle_without(&form, dropped);
         let found = conditions(&form, &triangle, &origin())?;
+        let output = indices[form.rotations[(dropped + 2) % 3]];
         Some(Relation {
-            output: indices[form.rotations[(dropped + 2) % 3]],
-            kind: Variable::Rotation,
-            equations: vec![found.roots],
             parallel: vec![found.determinant.0],
             gap: found.bridged.into_iter().map(|(gap, _)| gap).collect(),
+            ..Relation::plain(output, Variable::Rotation, &found.roots)
         })
     };
     (0..3).filter_map(one).collect()
@@ -191,11 +205,10 @@ fn four_bar(form: &LinkForm<CircleFraction, 4, 2>, base: usize, hidden: Hidden, 
     let bar = FourBar::new(form, base)?;
     let equations = bar.equations();
     let found = root_conditions(&bar, &equations, hidden, &origin());
+    let output = indices[form.rotations[(base + usize::from(hidden == Hidden::Second)) % 4]];
     Some(Relation {
-        output: indices[form.rotations[(base + usize::from(hidden == Hidden::Second)) % 4]],
-        kind: Variable::Rotation,
-        equations: vec![closure_polynomial(&equations, hidden, &origin())],
         parallel: found.parallel.to_vec(),
         gap: found.gap.to_vec(),
+        ..Relation::plain(output, Variable::Rotation, &closure_polynomial(&equations, hidden, &origin()))
     })
 }

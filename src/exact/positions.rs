@@ -79,7 +79,7 @@ pub enum Positions {
 
 impl Conjugates {
     /// Positions over a field that contains that of the links.
-    pub(super) fn over_ground(
+    pub(crate) fn over_ground(
         polynomial: Univariate<Rational>,
         field: Arc<NumberField>,
         values: Vec<JointValue<Algebraic>>,
@@ -90,7 +90,7 @@ impl Conjugates {
     }
 
     /// The position with all joint variables at 0, if the chain closes there.
-    pub(super) fn home(linkage: &Linkage<Rational>) -> Option<Self> {
+    pub(crate) fn home(linkage: &Linkage<Rational>) -> Option<Self> {
         let linkage: Linkage<Algebraic> = linkage.map()?;
         let values = vec![[Algebraic::one(), Algebraic::zero()]; linkage.variables.len()];
         let closes = linkage.at(&values).closes();
@@ -139,6 +139,12 @@ impl Conjugates {
         let roots = factor.real_roots();
         let roots = ground.as_ref().map_or_else(|| roots.clone(), |ground| ground.own(roots.clone()));
         Self { roots, polynomial: Some(factor.clone()), field: Some(field), values, ground }
+    }
+
+    /// Whether the joint screws are independent at each of these positions: the chain closes there once.
+    pub(crate) fn are_regular(&self, linkage: &Linkage<Rational>) -> bool {
+        let Some(linkage) = linkage.map::<Algebraic>() else { return false };
+        self.each(|part| linkage.at(&part.values).is_regular()).iter().all(|(_, is_regular)| *is_regular)
     }
 
     /// What `compute` finds at these positions: once for all of them where it never meets a number that is zero at some of
@@ -254,7 +260,7 @@ impl<'a> Separation<'a> {
 }
 
 /// What there is at one value of the hidden variable of a cut, in a field that holds the images of all numbers.
-pub(super) fn position<F: Field>(
+pub(crate) fn position<F: Field>(
     linkage: &Linkage<F>,
     cut: &Cut<F>,
     image: impl Fn(&F) -> Option<Algebraic>,
@@ -299,7 +305,7 @@ pub(super) fn position<F: Field>(
 }
 
 /// What a cut has at one value of its hidden variable.
-pub(super) enum Here {
+pub(crate) enum Here {
     /// No solution.
     Nothing,
     /// A solution that is no position.

@@ -1,5 +1,6 @@
 //! A closed chain of any number of joint variables over a field, and its positions.
 
+use crate::algebra::echelon::Echelon;
 use crate::algebra::number::Number;
 use crate::algebra::ring::{Field, Ring};
 use crate::error::{Error, Result};
@@ -11,7 +12,7 @@ use crate::kinematics::motion::{Motion, cross, dot};
 use rug::{Float, Integer, Rational};
 
 /// Study's parameters `x0..x3, y0..y3` of a motion up to a factor.
-pub(super) type Study<R> = [R; 8];
+pub(crate) type Study<R> = [R; 8];
 
 /// The value of a joint variable as a ratio `c : s`. A rotation is `c + s e` with the quaternion e of its axis, its angle twice
 /// that of tangent s/c times the length of e, so that the angle pi is no exception; a translation is `c + s eps e`, by the
@@ -29,7 +30,7 @@ pub enum Axis<F> {
 
 impl<F: Field> Axis<F> {
     /// The square of its length.
-    pub(super) fn square(&self) -> F {
+    pub(crate) fn square(&self) -> F {
         match self {
             Self::Z => F::one(),
             Self::Along(e) => dot(e, e),
@@ -46,7 +47,7 @@ impl<F: Field> Axis<F> {
 
 impl Axis<Rational> {
     /// Its length.
-    pub(super) fn length(&self, bits: u32) -> Float {
+    pub(crate) fn length(&self, bits: u32) -> Float {
         Float::with_val(bits, self.square()).sqrt()
     }
 }
@@ -66,9 +67,9 @@ pub struct Linkage<F> {
 /// A chain in one of its positions: the joint values have become part of the links, so that every joint stands at 0.
 #[derive(Clone, Debug)]
 pub struct Position<F> {
-    pub(super) variables: Vec<Variable>,
-    pub(super) axes: Vec<Axis<F>>,
-    pub(super) links: Vec<Study<F>>,
+    pub(crate) variables: Vec<Variable>,
+    pub(crate) axes: Vec<Axis<F>>,
+    pub(crate) links: Vec<Study<F>>,
 }
 
 impl Linkage<Rational> {
@@ -128,7 +129,7 @@ impl Linkage<Rational> {
     /// The same loop with a rotation in front of every spherical joint and its inverse behind: other angles stand for the
     /// same motions, so that the positions at which two of the three axes coincide are others. Every rotation has such angles, so
     /// that a curve of configurations of the one loop is one of the other.
-    pub(super) fn with_turned_balls(&self, balls: &[usize]) -> Self {
+    pub(crate) fn with_turned_balls(&self, balls: &[usize]) -> Self {
         let n = self.variables.len();
         let mut linkage = self.clone();
         for (number, k) in (0..).zip(balls.iter().copied()) {
@@ -155,7 +156,7 @@ impl Linkage<Rational> {
 impl<F: Field> Linkage<F> {
     /// The loop of these joint variables about z axes, and the motions before, between and behind them; `None` without
     /// variables.
-    pub(super) fn of_motions(variables: Vec<Variable>, mut motions: Vec<Motion<F>>) -> Option<Self> {
+    pub(crate) fn of_motions(variables: Vec<Variable>, mut motions: Vec<Motion<F>>) -> Option<Self> {
         // What stands before the first variable comes behind the last one: conjugation.
         let first = motions.remove(0);
         let last = motions.last_mut()?;
@@ -166,7 +167,7 @@ impl<F: Field> Linkage<F> {
 
     /// The loop of a list of screw axes of R, P and C joints, each along its own vector, whose numbers are these; `None` for other
     /// joints.
-    pub(super) fn about_axes(
+    pub(crate) fn about_axes(
         joints: &[ScrewJoint],
         home: &Motion<F>,
         image: impl Fn(&Number) -> Option<F>,
@@ -269,14 +270,14 @@ impl<F: Field> Position<F> {
     }
 
     /// The number of joint variables.
-    pub(super) fn joints(&self) -> usize {
+    pub(crate) fn joints(&self) -> usize {
         self.variables.len()
     }
 
     /// The same position with other coordinates of the spherical joints, whose three variables begin at these places: rotations
     /// about x, y and z. They are coordinates of all rotations near every position, also where two of the three axes of the
     /// joint variables coincide.
-    pub(super) fn with_regular_balls(mut self, balls: &[usize]) -> Self {
+    pub(crate) fn with_regular_balls(mut self, balls: &[usize]) -> Self {
         for k in balls.iter().copied() {
             for axis in 0..3 {
                 let unit = std::array::from_fn(|i| if i == axis { F::one() } else { F::zero() });
@@ -286,6 +287,21 @@ impl<F: Field> Position<F> {
             (self.links[k], self.links[k + 1], self.links[k + 2]) = (one(), one(), whole);
         }
         self
+    }
+
+    /// The product round the chain in which the joints of `mask` stand for their units along the axis, the others for 1.
+    pub(crate) fn with_units(&self, mask: usize) -> Study<F> {
+        self.links.iter().enumerate().fold(one(), |product, (k, link)| {
+            let turned =
+                if mask >> k & 1 == 1 { times_axis(&product, self.variables[k], &self.axes[k]) } else { product };
+            times(&turned, link)
+        })
+    }
+
+    /// Whether no joints of a chain that closes here move to first order: their screws are independent.
+    pub(crate) fn is_regular(&self) -> bool {
+        let rows: Vec<Vec<F>> = (0..self.joints()).map(|k| equations(&self.with_units(1 << k)).into()).collect();
+        Echelon::of(rows, 6).rank() == self.joints()
     }
 
     /// The chain in which joint variable `k` is rigid.
@@ -309,19 +325,24 @@ impl<F: Field> Position<F> {
     }
 }
 
+/// The six closure equations of a product: what must vanish beside the scalars.
+pub(crate) fn equations<F: Field>(product: &Study<F>) -> [F; 6] {
+    [1, 2, 3, 5, 6, 7].map(|i| product[i].clone())
+}
+
 /// Whether this is no zero. Over algebraic numbers what is zero at some roots only makes itself known by the attempt to
 /// invert it.
-pub(super) fn is_unit<F: Field>(x: &F) -> bool {
+pub(crate) fn is_unit<F: Field>(x: &F) -> bool {
     !x.is_zero() && x.inverse().is_some()
 }
 
 /// The dual quaternion 1.
-pub(super) fn one<R: Ring>() -> Study<R> {
+pub(crate) fn one<R: Ring>() -> Study<R> {
     std::array::from_fn(|i| if i == 0 { R::one() } else { R::zero() })
 }
 
 /// `V(c : s)`.
-pub(super) fn joint<R: Ring>(variable: Variable, axis: &Axis<R>, value: &JointValue<R>) -> Study<R> {
+pub(crate) fn joint<R: Ring>(variable: Variable, axis: &Axis<R>, value: &JointValue<R>) -> Study<R> {
     let mut study: Study<R> = std::array::from_fn(|_| R::zero());
     study[0] = value[0].clone();
     // Where the unit k, or eps k, stands.
@@ -337,7 +358,7 @@ pub(super) fn joint<R: Ring>(variable: Variable, axis: &Axis<R>, value: &JointVa
 }
 
 /// `a b`.
-pub(super) fn times<R: Ring>(a: &Study<R>, b: &Study<R>) -> Study<R> {
+pub(crate) fn times<R: Ring>(a: &Study<R>, b: &Study<R>) -> Study<R> {
     // i j = k and so on: the product of units u and v is `sign` times unit `u ^ v`.
     const SIGN: [[bool; 4]; 4] =
         [[true, true, true, true], [true, false, true, false], [true, false, false, true], [true, true, false, false]];
@@ -357,7 +378,7 @@ pub(super) fn times<R: Ring>(a: &Study<R>, b: &Study<R>) -> Study<R> {
 }
 
 /// `a e` with the quaternion e of the axis of a joint, for a translation `a eps e`.
-pub(super) fn times_axis<R: Ring>(a: &Study<R>, variable: Variable, axis: &Axis<R>) -> Study<R> {
+pub(crate) fn times_axis<R: Ring>(a: &Study<R>, variable: Variable, axis: &Axis<R>) -> Study<R> {
     let turned = |b: usize| match axis {
         Axis::Z => [a[b + 3].neg(), a[b + 2].clone(), a[b + 1].neg(), a[b].clone()],
         Axis::Along(e) => {
@@ -381,12 +402,12 @@ pub(super) fn times_axis<R: Ring>(a: &Study<R>, variable: Variable, axis: &Axis<
 }
 
 /// Whether a rational number is the square of one.
-pub(super) fn is_square(q: &Rational) -> bool {
+pub(crate) fn is_square(q: &Rational) -> bool {
     q.numer().is_perfect_square() && q.denom().is_perfect_square()
 }
 
 /// The dual quaternion of a motion, up to a factor; rational for rational motions.
-pub(super) fn dual_quaternion<F: Field>(motion: &Motion<F>) -> DualQuaternion<F> {
+pub(crate) fn dual_quaternion<F: Field>(motion: &Motion<F>) -> DualQuaternion<F> {
     let r = &motion.rotation;
     let two = F::from_integer(2);
     let sum = |i: usize, j: usize| r[i][j].add(&r[j][i]);

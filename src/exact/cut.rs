@@ -9,7 +9,7 @@ use crate::kinematics::closed_loop::Variable;
 ///
 /// The dual quaternions of a side are linear in the tensor product of the pairs `c : s` of its variables but the hidden one,
 /// and linear in that. A configuration is a pair of tensor products in the kernel of the matrix.
-pub(super) struct Cut<F> {
+pub(crate) struct Cut<F> {
     /// The variables in loop order from the cut.
     pub order: Vec<usize>,
     /// Place of the hidden one in this order; it belongs to the first side.
