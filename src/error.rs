@@ -2,6 +2,7 @@
 //!
 //! Mathematical outcomes (unreachable pose, self-motion) are values and never errors.
 
+use looproot_algebra as algebra;
 use thiserror::Error;
 
 /// Shorthand for a result with this crate's [`enum@Error`].
@@ -46,6 +47,17 @@ pub enum Error {
     /// A chain of joints beyond what is implemented. The message names its mobility.
     #[error("unsupported: {0}")]
     UnsupportedMobility(String),
+}
+
+impl From<algebra::error::Error> for Error {
+    fn from(error: algebra::error::Error) -> Self {
+        match error {
+            algebra::error::Error::File { path, line, message } => Self::File { path, line, message },
+            algebra::error::Error::Io { path, message } => Self::Io { path, message },
+            algebra::error::Error::Invalid(message) => Self::Invalid(message),
+            other => Self::Invalid(other.to_string()),
+        }
+    }
 }
 
 impl Error {

@@ -4,11 +4,13 @@
 
 pub mod error;
 
-pub mod algebra;
+pub use looproot_algebra as algebra;
 
 pub mod kinematics;
 
 pub mod catalogue;
+
+pub mod certificate;
 
 pub mod closure;
 
@@ -25,6 +27,12 @@ pub mod verdict;
 
 pub mod mechanism;
 
+pub mod displacement;
+pub mod lines;
+pub mod synthesis;
+
+pub mod linkage;
+
 pub mod derivation;
 
 pub mod sweep;
@@ -39,4 +47,12 @@ pub mod benchmark;
 
 pub mod claims;
 
+pub mod scene;
+
 pub mod report;
+
+pub mod view;
+
+pub mod face;
+
+pub use face::{Arm, Loop, Platform};

@@ -109,6 +109,8 @@ fn the_document_follows_its_schema() {
             &["solve", "dietmaier_40real", "--json"],
             &["solve", "platform/hexapod", "--json", "--complex"],
             &["solve", "platform/circle", "--json"],
+            &["solve", "general_7r", "--json", "--scene"],
+            &["solve", "dietmaier_40real", "--json", "--scene"],
             &["solve", "crcrr_2_angle", "--json", "--complex", "--derivatives"],
         ],
     );
@@ -139,6 +141,16 @@ fn the_document_follows_its_schema() {
         &[
             &["sweep", "cccr_1_angle", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
             &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
+            &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json", "--scene"],
+        ],
+    );
+    follows(
+        "synthesis.schema.json",
+        &[
+            &["synthesize", "burmester5_2real_a", "--json", "--complex"],
+            &["synthesize", "burmester4_a", "--json"],
+            &["synthesize", "function5_1real_a", "--json", "--complex"],
+            &["synthesize", "cc5_a", "--json"],
         ],
     );
     follows("conditions.schema.json", &[&["conditions", "4R", "--json"], &["conditions", "bennett", "--json"]]);
@@ -555,8 +567,8 @@ fn bad_input_names_its_place_and_exits_with_1() {
         ("no_convention.toml", good.replace("convention = \"dh\"\n", "").into(), "convention"),
         ("joint_type.toml", good.replacen("\"R\"", "\"Q\"", 1).into(), "found \"q\""),
         ("not_rigid.toml", stretched.into(), "rotation"),
-        ("five.toml", joints(5).into(), "5 joints"),
-        ("eight.toml", joints(8).into(), "8 joints"),
+        ("none.toml", joints(0).into(), "found 0 joints"),
+        ("many.toml", joints(25).into(), "found 25 joints"),
         ("nan.toml", good.replacen("a = ", "a = nan #", 1).into(), "nan"),
         ("truncated.toml", good.as_bytes()[..good.len() / 2].into(), "expected"),
         ("binary.toml", (0..=255).cycle().take(5000).collect(), "expected text"),
@@ -686,15 +698,17 @@ fn a_file_of_the_wrong_kind_is_told_with_its_verb() {
         ("arm/puma560", "an arm", "solve"),
         ("loop/general_7r", "a loop", "solve"),
         ("platform/hexapod", "a platform", "solve"),
+        ("synthesis/burmester4_a", "a synthesis", "synthesize"),
     ];
-    let wrong: [(&[&str], &str, &[usize]); 7] = [
-        (&["solve"], entry, &[0, 1, 2]),
+    let wrong: [(&[&str], &str, &[usize]); 8] = [
+        (&["solve"], entry, &[0, 1, 2, 6]),
         (&["derive"], entry, &[0, 1, 2]),
         (&["sweep", "--from", "0", "--to", "1"], entry, &[0, 1, 2]),
         (&["sweep", "--from", "0", "--to", "1"], "expected a loop, which has an input to sweep", &[3, 5]),
         (&["mobility"], moving, &[0, 2]),
         (&["factor"], "expected a rational motion", &[1, 2, 3, 4, 5]),
-        (&["conditions"], "expected a loop, with symbols or numbers", &[0, 1, 3, 5]),
+        (&["conditions"], "expected a loop, with symbols or numbers", &[0, 1, 3, 5, 6]),
+        (&["synthesize"], "expected a synthesis", &[0, 1, 2, 3, 4, 5]),
     ];
     for (arguments, expected, files) in wrong {
         for (name, noun, verb) in files.iter().map(|&index| kinds[index]) {

@@ -162,7 +162,7 @@ fn a_table_and_a_robot_description_are_read() {
     let tip = |name: &str| Options { tip_link: Some(name.to_owned()), ..Options::default() };
     let named = |name: &str| load_text(URDF, "six.urdf", Format::Urdf, &tip(name));
     assert!(named("l6").is_ok());
-    assert!(named("l5").unwrap_err().to_string().contains("found 5 joints"));
+    assert_eq!(named("l5").unwrap().chain().unwrap().freedoms(), 5);
     assert!(named("flnge").unwrap_err().to_string().contains("did you mean `flange`"));
     let csv = |text: &str| load_text(text, "arm.csv", Format::Csv, &options).unwrap_err().to_string();
     assert!(csv("a,b\n").starts_with("arm.csv:1: found the header"));
@@ -181,7 +181,8 @@ fn screws_are_read() {
     let home = "home = [[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]";
     assert!(read(&text(&joint.repeat(6), home)).is_ok());
     assert!(complaint(&text(&joint.repeat(6), "")).contains("found no `home`"));
-    assert!(complaint(&text(&joint.repeat(5), home)).contains("found 5 joints"));
+    assert!(read(&text(&joint.repeat(5), home)).is_ok());
+    assert!(complaint(&text(&joint.repeat(25), home)).contains("found 25 joints"));
     assert!(complaint(&text(&joint.replace("0, 0, 1", "0, 0, 0").repeat(6), home)).contains("a direction"));
     assert!(complaint(&text(&joint.replace("0, 0, 1", "0, 0").repeat(6), home)).contains("a list of 3"));
 }
@@ -229,11 +230,11 @@ fn mistakes_are_named_with_their_line() {
         ("alpha = \"pi/2\",", "alpha = 0, tan_half_alpha = 0,", "test.toml:8: found both `alpha` and `tan_half_alpha`"),
         ("alpha = \"pi/2\", d = 0", "alpha = \"pi/2\"", "test.toml:8: found no `d` in an R joint"),
         ("type = \"R\", a = 0, alpha = \"pi/2\"", "a = 0, alpha = \"pi/2\"", "test.toml:8: found no `type` in a joint"),
-        ("    { type = \"R\", a = 0, alpha = 0, d = 0 },\n", "", "test.toml:7: found 5 joints with 5 variables"),
+        ("    { type = \"R\", a = 0, alpha = 0, d = 0 },\n", "", "test.toml:15: found 6 pairs of limits, expected 5"),
         (
             "    { type = \"R\", a = 0, alpha = 0, d = 0 },\n",
             "{ type = \"S\", a = 0, alpha = 0 },",
-            "test.toml:7: found 6 joints with 8 variables",
+            "test.toml:15: found 6 pairs of limits, expected 8",
         ),
         ("[0, 1, 0, 0], ", "", "test.toml:15: found a list of 3 as `tool`, expected a list of 4"),
         ("[0.6, -0.8, 0, 0.3]", "[0.6, -0.8, 0]", "test.toml:20: found a list of 3 as `matrix`"),
@@ -598,4 +599,68 @@ fn faults_of_robot_descriptions_are_refused_with_their_line() {
     let robot = load_text(&URDF.replace("</robot>", frame), "six.urdf", Format::Urdf, &Options::default()).unwrap();
     assert_eq!(robot.labels.links, Some(["l0".to_owned(), "flange".to_owned()]));
     assert_eq!(robot.labels.joints[4].as_deref(), Some("j5"));
+}
+
+/// A robot of four joints and a gripper of two fingers, as its maker describes it.
+const GRIPPER: &str = r#"<robot name="gripping">
+<link name="world"/><link name="a"/><link name="b"/><link name="c"/><link name="d"/><link name="camera"/>
+<link name="ns/ee_link"/><link name="left"/><link name="right"/>
+<joint name="fix" type="fixed"><parent link="world"/><child link="camera"/></joint>
+<joint name="waist" type="revolute"><parent link="world"/><child link="a"/><origin xyz="0 0 0.1" rpy="0 0 1.5708"/>
+  <axis xyz="0 0 1"/><limit lower="-3" upper="3"/></joint>
+<joint name="shoulder" type="continuous"><parent link="a"/><child link="b"/><origin xyz="0 0 0.1" rpy="1.5707963267948966 0 0"/>
+  <axis xyz="0 0 1"/></joint>
+<joint name="elbow" type="continuous"><parent link="b"/><child link="c"/><origin xyz="0.3 0 0"/><axis xyz="0 0 1"/></joint>
+<joint name="wrist" type="continuous"><parent link="c"/><child link="d"/><origin xyz="0.2 0 0"/><axis xyz="0 0 1"/></joint>
+<joint name="tip" type="fixed"><parent link="d"/><child link="ns/ee_link"/><origin xyz="0.1 0 0"/></joint>
+<joint name="finger" type="prismatic"><parent link="ns/ee_link"/><child link="left"/><axis xyz="0 1 0"/>
+  <limit lower="0" upper="0.02"/></joint>
+<joint name="other" type="prismatic"><parent link="ns/ee_link"/><child link="right"/><axis xyz="0 1 0"/>
+  <limit lower="0" upper="0.02"/><mimic joint="finger"/></joint>
+</robot>"#;
+
+#[test]
+fn the_tip_of_the_only_arm_is_found_by_its_name() {
+    let read = |text: &str, options: &Options| load_text(text, "g.urdf", Format::Urdf, options);
+    let robot = read(GRIPPER, &Options::default()).unwrap();
+    assert_eq!(robot.labels.links, Some(["world".to_owned(), "ns/ee_link".to_owned()]));
+    assert_eq!(robot.chain().unwrap().freedoms(), 4);
+    assert!(robot.labels.remarks[0].contains("the tip is link `ns/ee_link`"), "{:?}", robot.labels.remarks);
+    let named: Vec<_> = robot.labels.joints.iter().flatten().map(String::as_str).collect();
+    assert_eq!(named, ["waist", "shoulder", "elbow", "wrist"]);
+    // Without a name that shows it, the arm and the finger beyond it are both possible.
+    let unnamed = read(&GRIPPER.replace("ns/ee_link", "palm"), &Options::default()).unwrap_err().to_string();
+    assert!(unnamed.contains("found 3 end links (camera, left, right)"), "{unnamed}");
+    let tip = Options { tip_link: Some("palm".to_owned()), ..Options::default() };
+    assert_eq!(read(&GRIPPER.replace("ns/ee_link", "palm"), &tip).unwrap().chain().unwrap().freedoms(), 4);
+}
+
+#[test]
+fn printed_multiples_of_pi_are_the_angles_meant() {
+    let read = |options: &Options| load_text(GRIPPER, "g.urdf", Format::Urdf, options).unwrap().labels.snapped;
+    let taken =
+        |snapped: &[looproot::catalogue::Snapped]| snapped.iter().map(|s| (s.meant(), s.taken)).collect::<Vec<_>>();
+    assert_eq!(taken(&read(&Options::default())), [("90 deg".to_owned(), false), ("90 deg".to_owned(), true)]);
+    let snap = Options { snap: true, ..Options::default() };
+    assert_eq!(taken(&read(&snap)), [("90 deg".to_owned(), true), ("90 deg".to_owned(), true)]);
+    let table = TABLE.replacen("R,0,0,", "R,0,90,", 1);
+    let fault = load_text(&table, "arm.csv", Format::Csv, &Options::default()).unwrap_err().to_string();
+    assert!(fault.contains("found the twist 90") && fault.contains("write `90 deg`"), "{fault}");
+}
+
+#[test]
+fn a_planning_group_names_the_chain() {
+    let path = std::env::temp_dir().join(format!("looproot-group-{}.srdf", std::process::id()));
+    let srdf = r#"<robot name="gripping"><group name="arm"><chain base_link="a" tip_link="d"/></group>
+<group name="joints"><joint name="waist"/><joint name="shoulder"/></group><group name="all"><group name="arm"/></group></robot>"#;
+    std::fs::write(&path, srdf).unwrap();
+    let read = |group: &str| {
+        let options = Options { group: Some((path.clone(), group.to_owned())), ..Options::default() };
+        load_text(GRIPPER, "g.urdf", Format::Urdf, &options).map(|robot| robot.labels.links.unwrap().join(" to "))
+    };
+    assert_eq!(read("arm").unwrap(), "a to d");
+    assert_eq!(read("all").unwrap(), "a to d");
+    assert_eq!(read("joints").unwrap(), "world to b");
+    assert!(read("leg").unwrap_err().to_string().contains("found no group `leg`, expected one of arm, joints, all"));
+    let _ = std::fs::remove_file(path);
 }

@@ -58,6 +58,8 @@ fn mode(real: bool, multiplicity: usize, certified: bool) -> FullMode {
         certified,
         radius: if certified { 2e-15 } else { f64::INFINITY },
         within_limits: real.then_some(multiplicity == 1),
+        near: false,
+        error: None,
         platform: None,
     }
 }
@@ -77,7 +79,16 @@ fn answer(status: Status, modes: Vec<FullMode>, reason: &str) -> Solution {
         reason: reason.to_owned(),
     };
     let warnings = vec!["the rotation matrix is off by 3e-7; the nearest rotation was taken".to_owned()];
-    Solution { families: Vec::new(), verdict, modes, warnings, prepare_us: 71.25, solve_us: 46.0, platform: None }
+    Solution {
+        arm: None,
+        families: Vec::new(),
+        verdict,
+        modes,
+        warnings,
+        prepare_us: 71.25,
+        solve_us: 46.0,
+        platform: None,
+    }
 }
 
 fn answers() -> Vec<(&'static str, Solution)> {
@@ -181,6 +192,8 @@ fn pose(real: bool, mirror: Option<usize>) -> FullMode {
     FullMode {
         q: q.to_vec(),
         within_limits: None,
+        near: false,
+        error: None,
         platform: Some(PlatformMode { velocity: real.then_some(velocity), mirror }),
         ..mode(real, 1, true)
     }
@@ -191,6 +204,7 @@ fn platforms_read_as_agreed() {
     let entry = platform();
     let legs = [1.0, 2.0, 2.0_f64.sqrt(), 1.5, 1.0, 0.0];
     let answered = |status, modes, reason: &str| Solution {
+        arm: None,
         families: Vec::new(),
         platform: Some(PlatformAnswer { legs, route: "the only one".to_owned() }),
         ..answer(status, modes, reason)
@@ -205,7 +219,8 @@ fn platforms_read_as_agreed() {
     ];
     let mut text = model::text(&entry);
     for answer in &answers {
-        let answer = Solution { verdict: Verdict { at_infinity: 0, ..answer.verdict.clone() }, ..answer.clone() };
+        let answer =
+            Solution { arm: None, verdict: Verdict { at_infinity: 0, ..answer.verdict.clone() }, ..answer.clone() };
         text += &format!("===\n{}", solution(&entry, 1, &entry.cases[0], &answer, &View::default()));
         let view = View { complex: true, ..View::default() };
         text += &format!("{}\n", json::result(1, &entry.cases[0], &answer, &[], &view));

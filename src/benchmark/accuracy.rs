@@ -7,7 +7,7 @@ use crate::derivation::derive;
 use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{FullMode, Mechanism, Solution};
-use crate::verdict::Status;
+use crate::verdict::{Proof, Status};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
@@ -46,6 +46,8 @@ pub struct Counts {
     pub complex: BTreeMap<usize, usize>,
     /// How many got each verdict.
     pub verdicts: BTreeMap<&'static str, usize>,
+    /// How many verdicts are proved, probable and so on.
+    pub proofs: BTreeMap<&'static str, usize>,
     /// Why lists are incomplete.
     pub reasons: BTreeMap<String, usize>,
     /// Modes found, and how many of them are certified.
@@ -165,6 +167,7 @@ impl Counts {
         counts.real.insert(solution.verdict.real, 1);
         counts.complex.insert(solution.verdict.complex, 1);
         counts.verdicts.insert(solution.verdict.status.word(), 1);
+        counts.proofs.insert(solution.verdict.proof.word(), 1);
         if solution.verdict.status == Status::Incomplete {
             // Numbers differ from sample to sample: the reason is what is counted.
             let reason = solution.verdict.reason.split_whitespace();
@@ -197,6 +200,9 @@ impl Counts {
         for (key, count) in other.verdicts {
             *self.verdicts.entry(key).or_default() += count;
         }
+        for (key, count) in other.proofs {
+            *self.proofs.entry(key).or_default() += count;
+        }
         for (key, count) in other.reasons {
             *self.reasons.entry(key).or_default() += count;
         }
@@ -227,7 +233,7 @@ pub fn table(rows: &[(&str, Counts)]) -> String {
     };
     let mut text = line(columns.map(str::to_owned));
     for (name, counts) in rows {
-        let word = |word: &str| counts.verdicts.get(word).copied().unwrap_or(0);
+        let proved = counts.proofs.get(Proof::Proved.word()).copied().unwrap_or(0);
         let complex = counts.complex.iter().map(|(key, count)| format!("{key}:{count}")).collect::<Vec<_>>().join(" ");
         let worst = counts.residuals.iter().copied().fold(0.0, f64::max);
         text += &line([
@@ -237,7 +243,7 @@ pub fn table(rows: &[(&str, Counts)]) -> String {
             counts.lost.len().to_string(),
             counts.spurious.to_string(),
             counts.duplicates.to_string(),
-            (word("complete") + word("unreachable")).to_string(),
+            proved.to_string(),
             format!("{worst:.1e}"),
             complex,
         ]);
@@ -292,8 +298,10 @@ impl Display for Counts {
                 writeln!(f, "  {what:<21}{}", shown.join(" "))?;
             }
         }
-        let verdicts: Vec<String> = self.verdicts.iter().map(|(word, count)| format!("{count} {word}")).collect();
-        writeln!(f, "  verdicts             {}", verdicts.join(", "))?;
+        for (what, words) in [("verdicts", &self.verdicts), ("proofs", &self.proofs)] {
+            let words: Vec<String> = words.iter().map(|(word, count)| format!("{count} {word}")).collect();
+            writeln!(f, "  {what:<21}{}", words.join(", "))?;
+        }
         writeln!(f, "  certified            {} of {} modes", self.modes.1, self.modes.0)?;
         for (name, values) in [("closure residual", &self.residuals), ("distance to planted", &self.errors)] {
             let [median, p99, p999, largest] = quantiles(values);

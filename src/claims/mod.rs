@@ -1,9 +1,12 @@
 //! Are the claims of a mechanism file true: counts against what is found, solutions against the closure itself.
 
+mod calculus;
 mod joints;
+mod linkage;
 mod mobility;
 mod moving;
 mod poses;
+mod synthesis;
 
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::Any;
@@ -105,7 +108,10 @@ pub fn judge_any(any: &Any) -> Result<Judgement> {
     match any {
         Any::Entry(entry) => judge(entry),
         Any::Framework(file) => moving::framework(file),
+        Any::Linkage(file) => linkage::linkage(file),
         Any::Motion(file) => moving::motion(file),
+        Any::Calculus(file) => calculus::calculus(file),
+        Any::Synthesis(file) => Ok(synthesis::judge(file)),
         Any::Conditions(_) => Err(Error::Invalid(any.kind().unexpected("a file that can make claims"))),
     }
 }

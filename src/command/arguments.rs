@@ -1,11 +1,13 @@
 //! The words of the command line.
 
+use super::help;
 use super::poly::arguments::{PolyOptions, format};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use looproot::algebra::text::Format;
 use looproot::catalogue::{Chains, Options};
+use looproot::report::convert::Target;
 use looproot::report::paper::Style;
 use std::path::PathBuf;
 
@@ -31,18 +33,28 @@ pub enum Verb {
     Derive(DeriveOptions),
     /// Run the input of a loop through a range: branches, limit positions
     Sweep(SweepOptions),
-    /// Decide whether a loop moves, with proof
+    /// Draw what solve, sweep or mobility finds as a page that stands by itself
+    View(Box<ViewOptions>),
+    /// Decide whether a loop, an arm, a platform or a framework moves, with proof
     Mobility(MobilityOptions),
+    /// Find all dyads through given positions, or all four-bars for pairs of angles
+    Synthesize(SynthesizeOptions),
     /// Factor a rational motion and close loops of its factorisations
     Factor(FactorOptions),
     /// Derive for which parameters a closed chain of revolute joints moves
     Conditions(ConditionsOptions),
+    /// Convert a rotation or a displacement into every parametrisation, with all branches
+    Motion(MotionOptions),
     /// List the built-in library
     List(ListOptions),
     /// Print a mechanism as it was understood
     Show(ShowOptions),
+    /// Write an arm as a file of another format
+    Convert(ConvertOptions),
     /// Test every claim of mechanism files
     Check(CheckOptions),
+    /// Check certificates of answers, without solving anything
+    Verify(VerifyOptions),
     /// Polynomials: multiply out, eliminate, determinants, real roots
     Poly(PolyOptions),
     /// Measure accuracy and speed on random arms and platforms
@@ -51,34 +63,59 @@ pub enum Verb {
     Completions(CompletionsOptions),
 }
 
-/// How to read the mechanism.
-#[derive(Args)]
-pub struct ReadOptions {
+/// How to read numbers.
+#[derive(Args, Clone)]
+pub struct NumberOptions {
     /// Decimal digits of the rationals that replace irrational numbers in exact work
     #[arg(long, value_name = "N", default_value_t = 15)]
     pub digits: u32,
+}
+
+impl NumberOptions {
+    /// As the reader wants them.
+    pub fn options(&self) -> Options {
+        Options { digits: self.digits, ..Options::default() }
+    }
+}
+
+/// How to read the mechanism.
+#[derive(Args, Clone)]
+pub struct ReadOptions {
+    #[command(flatten)]
+    pub numbers: NumberOptions,
     /// URDF: the link at the root of the chain
     #[arg(long, value_name = "LINK")]
     pub base_link: Option<String>,
     /// URDF: the link at the end of the chain
     #[arg(long, value_name = "LINK")]
     pub tip_link: Option<String>,
+    /// URDF: the SRDF file of the planning group that names the chain
+    #[arg(long, value_name = "FILE", requires = "group")]
+    pub srdf: Option<PathBuf>,
+    /// URDF: the planning group of the SRDF file
+    #[arg(long, value_name = "NAME", requires = "srdf")]
+    pub group: Option<String>,
+    /// URDF and DH tables: take truncated multiples of pi (1.5708, 3.14159) as the angles meant
+    #[arg(long)]
+    pub snap: bool,
 }
 
 impl ReadOptions {
     /// As the reader wants them.
     pub fn options(&self) -> Options {
         Options {
-            digits: self.digits,
+            digits: self.numbers.digits,
             base_link: self.base_link.clone(),
             tip_link: self.tip_link.clone(),
+            snap: self.snap,
+            group: self.srdf.clone().zip(self.group.clone()),
             ..Options::default()
         }
     }
 }
 
 /// Which case of a mechanism is meant.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct CaseOptions {
     /// This pose (of a platform: set of legs) of the file only, counted from 1
     #[arg(long, value_name = "K")]
@@ -92,9 +129,21 @@ pub struct CaseOptions {
     /// Platform: legs of these lengths: "1, 1.2, 900 mm, ..."
     #[arg(long, value_name = "L", conflicts_with = "pose", allow_hyphen_values = true)]
     pub legs: Option<String>,
-    /// Platform: the legs that this pose asks for: "x, y, z; w, x, y, z", position and quaternion
-    #[arg(long, value_name = "POSE", conflicts_with_all = ["pose", "legs"], allow_hyphen_values = true)]
+    /// This pose of the tool, of a platform of its plate: "x, y, z; w, x, y, z", position and quaternion, or
+    /// "x, y, z; roll, pitch, yaw"
+    #[arg(long, value_name = "POSE", conflicts_with_all = ["pose", "input", "joints", "legs"], allow_hyphen_values = true)]
     pub at: Option<String>,
+}
+
+/// What is asked of an arm beside its pose.
+#[derive(Args, Clone)]
+pub struct DemandOptions {
+    /// Arms: hold a joint at a value, by its name or number: elbow="10 deg"; once for every joint that is held
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub lock: Vec<String>,
+    /// Arms: what is asked of the tool: pose, position+axis, position+tilt, position, orientation [default: pose]
+    #[arg(long, value_name = "TASK")]
+    pub task: Option<String>,
 }
 
 impl CaseOptions {
@@ -107,7 +156,7 @@ impl CaseOptions {
 }
 
 /// Where the output goes.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct OutputOptions {
     /// Write to a file instead of standard output
     #[arg(short, long, value_name = "FILE")]
@@ -138,7 +187,8 @@ pub enum Limits {
 }
 
 /// `looproot solve`
-#[derive(Args)]
+#[derive(Args, Clone)]
+#[command(after_help = help::SOLVE)]
 pub struct SolveOptions {
     /// A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input
     pub mechanism: String,
@@ -154,14 +204,39 @@ pub struct SolveOptions {
     /// JSON Lines: one result a line, as soon as it is there
     #[arg(long, conflicts_with = "json")]
     pub jsonl: bool,
+    /// JSON: add the scene and the poses of its bodies at every configuration, so that another program can draw it
+    #[arg(long)]
+    pub scene: bool,
     #[command(flatten)]
     pub asked: CaseOptions,
+    /// Many poses, one a row: CSV with the header x,y,z,qw,qx,qy,qz or x,y,z,roll,pitch,yaw or m00,...,m23 (a suffix gives a
+    /// unit: x_mm, roll_deg), or JSON lines; - for standard input
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pose", "input", "joints", "legs", "at"])]
+    pub poses: Option<String>,
+    #[command(flatten)]
+    pub demand: DemandOptions,
+    /// The rows of --poses are a path: which solution continues which one, jumps and singularities, the largest move of a joint
+    #[arg(long, requires = "poses")]
+    pub follow: bool,
+    /// Sort real solutions by their distance to these joint values
+    #[arg(long, value_name = "Q", allow_hyphen_values = true)]
+    pub near: Option<String>,
+    /// Every representative of an angle within the joint limits, not one alone
+    #[arg(long)]
+    pub turns: bool,
     /// Loops: velocities and accelerations of all joints per unit rate of the input, at every real mode
     #[arg(long)]
     pub derivatives: bool,
     /// Solutions outside the joint limits
     #[arg(long, value_name = "HOW", default_value = "mark")]
     pub limits: Limits,
+    /// Arms: how far a solution may miss the pose and still be listed [default: 1e-9 m, 1e-9 rad; of arms with fewer than six
+    /// joints 1e-6 m, 1e-6 rad, or the last digit typed]
+    #[arg(long, value_name = "LENGTH,ANGLE")]
+    pub tolerance: Option<String>,
+    /// Write a certificate of every proved answer to this file, one a line: `looproot verify` and verify/verify.py check it
+    #[arg(long, value_name = "FILE", conflicts_with = "real")]
+    pub certificate: Option<PathBuf>,
     /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
     pub seed: Option<u64>,
@@ -187,6 +262,7 @@ fn style() -> impl TypedValueParser<Value = Style> {
 
 /// `looproot derive`
 #[derive(Args)]
+#[command(after_help = help::DERIVE)]
 pub struct DeriveOptions {
     /// A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input; of several
     /// poses or inputs the first one, unless one is asked for; with --bless files and folders
@@ -243,6 +319,7 @@ pub struct DeriveOptions {
 
 /// `looproot sweep`
 #[derive(Args)]
+#[command(after_help = help::SWEEP)]
 pub struct SweepOptions {
     /// A file of a loop, the name of a built-in entry, or - for standard input
     pub mechanism: String,
@@ -268,6 +345,9 @@ pub struct SweepOptions {
     /// One JSON document
     #[arg(long)]
     pub json: bool,
+    /// JSON: add the scene and the poses of its bodies at every configuration, so that another program can draw it
+    #[arg(long, requires = "json")]
+    pub scene: bool,
     /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
     pub seed: Option<u64>,
@@ -283,10 +363,54 @@ pub struct SweepOptions {
     pub output: OutputOptions,
 }
 
+/// `looproot view`
+#[derive(Args)]
+#[command(
+    mut_arg("mechanism", |arg| arg.value_name("FILE|RESULT").help(VIEWED)),
+    mut_arg("json", |arg| arg.hide(true)),
+    mut_arg("jsonl", |arg| arg.hide(true)),
+    mut_arg("scene", |arg| arg.hide(true)),
+    mut_arg("derivatives", |arg| arg.hide(true)),
+    mut_arg("quiet", |arg| arg.hide(true)),
+    mut_arg("color", |arg| arg.hide(true))
+)]
+pub struct ViewOptions {
+    #[command(flatten)]
+    pub solve: SolveOptions,
+    /// Loops: run the input through a range, all branches moving
+    #[arg(long, requires_all = ["from", "to"])]
+    pub sweep: bool,
+    /// --sweep: the joint to sweep [default: the input of the file]
+    #[arg(long, value_name = "JOINT", requires = "sweep")]
+    pub joint: Option<String>,
+    /// --sweep: where the input begins
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "sweep")]
+    pub from: Option<String>,
+    /// --sweep: where it ends
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "sweep")]
+    pub to: Option<String>,
+    /// --sweep: number of equal steps between
+    #[arg(long, value_name = "N", default_value = "360", value_parser = steps)]
+    pub steps: usize,
+    /// A picture for a paper in place of a page: stick figures, or the map
+    #[arg(long)]
+    pub svg: bool,
+    /// Arms: the number of real solutions over a plane through the pose, with the orientation kept: xy, xz or yz
+    #[arg(long, value_name = "PLANE", conflicts_with = "sweep")]
+    pub map: Option<String>,
+    /// Show the page in the browser; without -o it is written to the folder for temporary files
+    #[arg(long)]
+    pub open: bool,
+}
+
+const VIEWED: &str = "A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or what solve, sweep, mobility or bench --json has \
+                      written (- for standard input)";
+
 /// `looproot conditions`
 #[derive(Args)]
+#[command(after_help = help::CONDITIONS)]
 pub struct ConditionsOptions {
-    /// 4R (all parameters symbols), a file of a loop with symbols or numbers, the name of a built-in one, or - for standard
+    /// 4R, 5R or 6R (all parameters symbols), a file of a loop with symbols or numbers, the name of a built-in one, or - for standard
     /// input
     pub mechanism: String,
     /// One JSON document
@@ -301,11 +425,15 @@ pub struct ConditionsOptions {
     /// The whole derivation in Markdown with LaTeX formulas
     #[arg(long, conflicts_with_all = ["json", "format"])]
     pub explain: bool,
+    /// Seed of the numbers that are drawn: the same seed repeats an answer [default: 1 of five and six
+    /// joints, else drawn]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
+    pub seed: Option<u64>,
     /// Print the verdict only
     #[arg(short, long, conflicts_with_all = ["json", "format", "explain"])]
     pub quiet: bool,
     #[command(flatten)]
-    pub read: ReadOptions,
+    pub read: NumberOptions,
     #[command(flatten)]
     pub output: OutputOptions,
 }
@@ -321,6 +449,7 @@ fn steps(text: &str) -> Result<usize, String> {
 
 /// `looproot mobility`
 #[derive(Args)]
+#[command(after_help = help::MOBILITY)]
 pub struct MobilityOptions {
     /// A file of a loop, an arm, a platform or a framework, the name of a built-in entry, or - for standard input; inputs of
     /// the file are not looked at
@@ -331,6 +460,9 @@ pub struct MobilityOptions {
     /// One JSON document
     #[arg(long)]
     pub json: bool,
+    /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
+    pub seed: Option<u64>,
     /// Print the verdict only
     #[arg(short, long, conflicts_with = "json")]
     pub quiet: bool,
@@ -340,8 +472,42 @@ pub struct MobilityOptions {
     pub output: OutputOptions,
 }
 
+/// `looproot synthesize`
+#[derive(Args)]
+#[command(after_help = help::SYNTHESIZE)]
+pub struct SynthesizeOptions {
+    /// A file of a synthesis (kind "synthesis"), the name of a built-in one, or - for standard input
+    pub mechanism: String,
+    /// Sort by the distance from these numbers: those of the fixed and the moving point, or of the fixed point only
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    pub near: Option<String>,
+    /// The linkage of these dyads, or the four-bar of this number, as a file: 1,3
+    #[arg(long, value_name = "I,J", requires = "toml")]
+    pub linkage: Option<String>,
+    /// A linkage as a mechanism file; `--linkage` names its dyads
+    #[arg(long, requires = "linkage", conflicts_with_all = ["json", "quiet", "svg"])]
+    pub toml: bool,
+    /// A drawing of the positions, the dyads and the curves of their points, in the plane
+    #[arg(long, conflicts_with_all = ["json", "quiet"])]
+    pub svg: bool,
+    /// Complex dyads, too
+    #[arg(long)]
+    pub complex: bool,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub read: NumberOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
 /// `looproot factor`
 #[derive(Args)]
+#[command(after_help = help::FACTOR)]
 pub struct FactorOptions {
     /// A file of a rational motion (kind "motion"), the name of a built-in one, or - for standard input
     pub mechanism: String,
@@ -358,7 +524,7 @@ pub struct FactorOptions {
     #[arg(short, long, conflicts_with = "json")]
     pub quiet: bool,
     #[command(flatten)]
-    pub read: ReadOptions,
+    pub read: NumberOptions,
     #[command(flatten)]
     pub output: OutputOptions,
 }
@@ -370,16 +536,60 @@ fn pair(text: &str) -> Result<(usize, usize), String> {
     numbers.ok_or_else(|| "expected two numbers from 1, such as 1,6".to_owned())
 }
 
+/// `looproot motion`
+#[derive(Args)]
+#[command(after_help = help::MOTION)]
+pub struct MotionOptions {
+    /// What the numbers are: matrix, quaternion, euler, bryan, axis, euler-vector, rodrigues, wiener, cayley-klein, motion
+    #[arg(long, value_name = "KIND")]
+    pub from: String,
+    /// The numbers, separated by commas, parts by semicolons; plain angles are radians, "10 deg" is read
+    #[arg(allow_hyphen_values = true)]
+    pub numbers: String,
+    /// The order of the axes of Euler angles
+    #[arg(long, value_name = "AXES", default_value = "zxz")]
+    pub axes: String,
+    /// Motions: the parametrisations over the dual numbers, each number as [value, dual part]
+    #[arg(long)]
+    pub dual: bool,
+    /// The rates of all parameters at this angular velocity, in axes fixed in space: "x, y, z"
+    #[arg(long, value_name = "OMEGA", allow_hyphen_values = true)]
+    pub rates: Option<String>,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
 /// `looproot list`
 #[derive(Args)]
+#[command(after_help = help::LIST)]
 pub struct ListOptions {
+    /// What: robots lists the arms of makers by name [default: everything]
+    #[arg(value_parser = ["robots"])]
+    pub what: Option<String>,
     /// A JSON document
     #[arg(long)]
     pub json: bool,
 }
 
+/// `looproot verify`
+#[derive(Args)]
+#[command(after_help = help::VERIFY)]
+pub struct VerifyOptions {
+    /// A file of certificates, as solve --certificate writes them
+    pub certificate: String,
+    /// The mechanism of which they have to be: a file, or the name of a built-in entry
+    #[arg(long, value_name = "FILE")]
+    pub file: Option<String>,
+    #[command(flatten)]
+    pub read: ReadOptions,
+}
+
 /// `looproot show`
 #[derive(Args)]
+#[command(after_help = help::SHOW)]
 pub struct ShowOptions {
     /// A file, the name of a built-in entry, or - for standard input
     pub mechanism: String,
@@ -393,8 +603,32 @@ pub struct ShowOptions {
     pub read: ReadOptions,
 }
 
+/// The formats that are written, by their names.
+fn target() -> impl TypedValueParser<Value = Target> {
+    PossibleValuesParser::new(Target::NAMED.map(|(name, _)| name)).map(|name| {
+        let found = Target::NAMED.iter().find(|(known, _)| *known == name);
+        found.map_or(Target::Toml, |(_, target)| *target)
+    })
+}
+
+/// `looproot convert`
+#[derive(Args)]
+#[command(after_help = help::CONVERT)]
+pub struct ConvertOptions {
+    /// A file of an arm (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input
+    pub mechanism: String,
+    /// The format; opw is the seven lengths of arms with an ortho-parallel base and a spherical wrist
+    #[arg(long, value_name = "FORMAT", value_parser = target())]
+    pub to: Target,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
 /// `looproot check`
 #[derive(Args)]
+#[command(after_help = help::CHECK)]
 pub struct CheckOptions {
     /// Files, folders, names of built-in entries; the whole built-in library if none is given
     pub paths: Vec<String>,
@@ -501,6 +735,7 @@ pub struct SpeedOptions {
 
 /// `looproot completions`
 #[derive(Args)]
+#[command(after_help = help::COMPLETIONS)]
 pub struct CompletionsOptions {
     /// The shell
     pub shell: Shell,

@@ -152,7 +152,7 @@ fn document(counts: &Counts, set: &str, options: &AccuracyOptions) -> serde_json
         "exactly_counted": counts.counted, "miscounted": counts.miscounted,
         "miscounted_samples": counts.miscounted_in,
         "modes": counts.modes.0, "certified": counts.modes.1,
-        "verdicts": counts.verdicts, "reasons": counts.reasons,
+        "verdicts": counts.verdicts, "proofs": counts.proofs, "reasons": counts.reasons,
         "residual": spread(&counts.residuals), "distance": spread(&counts.errors),
         "real": histogram(&counts.real), "complex": histogram(&counts.complex),
         "exact": exact,

@@ -3,7 +3,9 @@
 use super::arguments::CheckOptions;
 use super::exit::{Exit, Fault, complain};
 use super::output::{pool, print};
-use looproot::catalogue::{Any, Options, builtin_any, builtin_names, builtin_page, is_ansatz, load_any, moving_names};
+use looproot::catalogue::{
+    Any, Options, builtin_any, builtin_names, builtin_page, calculus_names, is_ansatz, load_any, moving_names,
+};
 use looproot::claims::{Finding, Judgement, Sort, judge_any};
 use looproot::error::Error;
 use looproot::report::atlas::judged;
@@ -25,7 +27,8 @@ struct Checked {
 /// Solves everything named and compares it with its claims.
 pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
     let is_library = options.paths.is_empty();
-    let names = if is_library { [builtin_names(), moving_names()].concat() } else { files(&options.paths)? };
+    let names =
+        if is_library { [builtin_names(), moving_names(), calculus_names()].concat() } else { files(&options.paths)? };
     let checked: Vec<Checked> = pool(options.threads)?.install(|| {
         let one = |name: &String| {
             let start = Instant::now();

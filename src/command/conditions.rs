@@ -3,6 +3,8 @@
 use super::arguments::ConditionsOptions;
 use super::exit::{Exit, Fault};
 use super::output::Output;
+use super::seed::plant;
+use looproot::algebra::drawn::seed_used;
 use looproot::catalogue::ansatz::Ansatz;
 use looproot::catalogue::load_ansatz;
 use looproot::conditions::decide::{Decision, decide};
@@ -10,6 +12,7 @@ use looproot::conditions::four_bar::{FourBar, derive};
 use looproot::conditions::number_field::decide_over_field;
 use looproot::error::{Error, Result};
 use looproot::report::conditions::{json, markdown, proof, system, text, verdict};
+use looproot::report::document::complete_ansatz;
 use looproot::report::json::tenths;
 use looproot::report::number::duration;
 use std::io::Write;
@@ -17,6 +20,7 @@ use std::time::Instant;
 
 /// Derives for which parameters a loop moves.
 pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
+    plant(options.seed);
     let ansatz = read(options)?;
     match ansatz.joints.len() {
         4 => {}
@@ -37,6 +41,7 @@ pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
     let decided = start.elapsed().as_secs_f64() * 1e6 - derived;
     let written = if options.json {
         let mut document = json(&theorem, &ansatz, &decision);
+        complete_ansatz(&mut document, &ansatz, seed_used());
         document["timings_us"] = serde_json::json!({ "derive": tenths(derived), "decide": tenths(decided) });
         format!("{document}\n")
     } else if let Some(format) = options.format {

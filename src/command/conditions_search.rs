@@ -7,10 +7,11 @@ use indicatif::{ProgressBar, ProgressDrawTarget};
 use looproot::catalogue::ansatz::Ansatz;
 use looproot::conditions::search::search;
 use looproot::report::conditions_search::{empty, json, markdown, proof, system, text, verdict};
+use looproot::report::document::complete_ansatz;
 use std::io::Write;
 use std::time::Duration;
 
-/// The seed of all random choices: the same question has the same answer.
+/// The seed of all random choices where none is given: the same question has the same answer.
 const SEED: u64 = 1;
 
 /// Searches for conditions under which a loop moves.
@@ -19,11 +20,14 @@ pub fn run(options: &ConditionsOptions, ansatz: &Ansatz) -> Result<Exit, Fault> 
     let progress = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
     progress.set_message("searching");
     progress.enable_steady_tick(Duration::from_millis(200));
-    let found = search(ansatz, SEED);
+    let seed = options.seed.unwrap_or(SEED);
+    let found = search(ansatz, seed);
     progress.finish_and_clear();
     let found = found?;
     let written = if options.json {
-        format!("{}\n", json(ansatz, &found))
+        let mut document = json(ansatz, &found);
+        complete_ansatz(&mut document, ansatz, Some(seed));
+        format!("{document}\n")
     } else if let Some(format) = options.format {
         system(ansatz, &found, options.family.as_deref(), format)?
     } else if options.explain {

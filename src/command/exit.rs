@@ -3,7 +3,7 @@
 use looproot::catalogue::FileKind;
 use looproot::error::Error;
 use looproot::mechanism::Solution;
-use looproot::verdict::Status;
+use looproot::verdict::{Status, Verdict};
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
@@ -38,6 +38,12 @@ impl From<Error> for Fault {
     }
 }
 
+impl From<looproot::algebra::error::Error> for Fault {
+    fn from(error: looproot::algebra::error::Error) -> Self {
+        Self::Error(error.into())
+    }
+}
+
 impl From<std::io::Error> for Fault {
     fn from(error: std::io::Error) -> Self {
         Self::Output(error)
@@ -47,8 +53,13 @@ impl From<std::io::Error> for Fault {
 impl Exit {
     /// The code of an answer: what is not proved is never told as an answer without doubt.
     pub fn of(solution: &Solution) -> Self {
-        let is_proved = solution.verdict.proof.is_proved();
-        match solution.verdict.status {
+        Self::of_verdict(&solution.verdict)
+    }
+
+    /// The exit code of a verdict.
+    pub fn of_verdict(verdict: &Verdict) -> Self {
+        let is_proved = verdict.proof.is_proved();
+        match verdict.status {
             Status::Complete if is_proved => Self::Complete,
             Status::Unreachable if is_proved => Self::Unreachable,
             Status::Complete | Status::Unreachable | Status::Incomplete | Status::SelfMotion => Self::NotProved,

@@ -4,7 +4,7 @@ use super::arguments::ListOptions;
 use super::exit::{Exit, Fault};
 use super::output::print;
 use looproot::catalogue::entry::{Entry, Kind};
-use looproot::catalogue::{Any, Options, all_names, builtin_any};
+use looproot::catalogue::{Any, Options, all_names, builtin_any, robot_names};
 use looproot::report::model::{cases, claimed, listed};
 use looproot::report::table::Columns;
 use serde_json::{Value, json};
@@ -12,7 +12,8 @@ use serde_json::{Value, json};
 /// Prints the built-in library, one entry a line.
 pub fn run(options: &ListOptions) -> Result<Exit, Fault> {
     let mut entries = Vec::new();
-    for name in all_names() {
+    let names = if options.what.is_some() { robot_names() } else { all_names() };
+    for name in names {
         let any = builtin_any(&name, &Options::default())?;
         entries.push((name, any));
     }
@@ -27,6 +28,15 @@ fn table(entries: &[(String, Any)]) -> String {
         let ([mechanism, source, title], _) = listed(any);
         let [cases, complex, real] = match any {
             Any::Entry(entry) => [cases(entry), claimed(entry, |e| e.complex), claimed(entry, |e| e.real)],
+            Any::Linkage(file) => {
+                let first = |claim: fn(&looproot::catalogue::LinkageClaims) -> Option<usize>| {
+                    file.cases
+                        .iter()
+                        .find_map(|case| claim(&case.expected))
+                        .map_or(String::new(), |count| count.to_string())
+                };
+                [file.cases.len().to_string(), first(|e| e.complex), first(|e| e.real)]
+            }
             _ => Default::default(),
         };
         table.row([name.clone(), mechanism, cases, complex, real, source, title]);

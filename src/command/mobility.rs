@@ -3,6 +3,7 @@
 use super::arguments::MobilityOptions;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
+use super::seed::plant;
 use looproot::catalogue::{Any, Chains, FrameworkFile, Options, load_any};
 use looproot::mobility::{Mobility, mobility};
 use looproot::report::document::complete;
@@ -12,6 +13,7 @@ use std::io::Write;
 
 /// Decides whether a mechanism moves.
 pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
+    plant(options.seed);
     let entry = match load_any(&options.mechanism, &Options { chains: Chains::Any, ..options.read.options() })? {
         Any::Entry(entry) => entry,
         Any::Framework(file) => return of_framework(options, &file),
@@ -46,14 +48,18 @@ fn of_framework(options: &MobilityOptions, file: &FrameworkFile) -> Result<Exit,
     let mut output = Output::open(&options.output, &options.mechanism)?;
     output.writer.write_all(written.as_bytes())?;
     output.writer.flush()?;
-    Ok(if answer.is_proved() { Exit::Complete } else { Exit::NotProved })
+    Ok(match (answer.is_proved(), answer.freedom()) {
+        (false, _) => Exit::NotProved,
+        (true, (_, 0)) => Exit::Unreachable,
+        _ => Exit::Complete,
+    })
 }
 
-/// Without a proof nothing is decided; a mechanism that can nowhere be assembled has no real solution.
+/// Without a proof nothing is decided; that nothing moves is an answer like no real solution.
 fn exit(answer: &Mobility) -> Exit {
     if !answer.proof.is_proved() {
         Exit::NotProved
-    } else if answer.mobility == Some(0) && answer.is_listed && answer.configurations.is_empty() {
+    } else if answer.mobility == Some(0) {
         Exit::Unreachable
     } else {
         Exit::Complete

@@ -3,9 +3,11 @@
 use super::arguments::{Colour, OutputOptions};
 use super::exit::Fault;
 use looproot::error::Error;
+use std::cell::RefCell;
 use std::fs::File;
 use std::io::{BufWriter, IsTerminal, Write, stdout};
 use std::path::Path;
+use std::rc::Rc;
 
 /// Standard output or a file, and whether to colour it.
 pub struct Output {
@@ -40,6 +42,33 @@ impl Output {
             Colour::Never => false,
         };
         Ok(Self { writer, colour, is_terminal })
+    }
+}
+
+/// What is written here can be read afterwards.
+#[derive(Clone, Default)]
+pub struct Memory(Rc<RefCell<Vec<u8>>>);
+
+impl Memory {
+    /// An output that is kept.
+    pub fn output(&self) -> Output {
+        Output { writer: Box::new(self.clone()), colour: false, is_terminal: false }
+    }
+
+    /// What was written.
+    pub fn take(&self) -> Vec<u8> {
+        self.0.take()
+    }
+}
+
+impl Write for Memory {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
     }
 }
 

@@ -16,7 +16,9 @@ use looproot::kinematics::closed_loop::Variable;
 use looproot::kinematics::freedom::Freedom;
 use looproot::report::document::complete;
 use looproot::report::picture::svg;
+use looproot::report::scene;
 use looproot::report::sweep::{self as report, Swept};
+use looproot::scene::Stage;
 use looproot::sweep::{Range, Sweep, sweep};
 use looproot::verdict::Status;
 use std::io::Write;
@@ -24,6 +26,11 @@ use std::sync::atomic::Ordering;
 
 /// Sweeps an input through its range and prints the branches.
 pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
+    run_to(options, || Output::open(&options.output, &options.mechanism))
+}
+
+/// The same, written where `open` says, which is asked once the mechanism is read.
+pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Fault>) -> Result<Exit, Fault> {
     plant(options.seed);
     // The input is that of the command line, where one is given.
     let chains = if options.joint.is_some() { Chains::Swept } else { Chains::Solved };
@@ -40,7 +47,7 @@ pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
         return Err(Error::Invalid(message).into());
     }
     let range = Range { from, to, steps: options.steps };
-    let output = Output::open(&options.output, &options.mechanism)?;
+    let output = open()?;
     let target = if output.is_terminal || options.quiet {
         ProgressDrawTarget::hidden()
     } else {
@@ -66,6 +73,10 @@ fn write(options: &SweepOptions, entry: &Entry, swept: Swept, found: &Sweep, mut
     if options.json {
         let mut document = report::json(entry, swept, found);
         complete(&mut document, entry);
+        if let Some(stage) = Stage::of(entry).filter(|_| options.scene) {
+            document["scene"] = scene::json(&stage.scene);
+            scene::pose_sweep(&mut document, &stage);
+        }
         writeln!(out, "{document}")?;
     } else if options.svg {
         write!(out, "{}", svg(entry, swept, found))?;
@@ -136,7 +147,7 @@ fn end(name: &str, text: &str, swept: Swept, reading: &Reading) -> Result<f64, E
         Variable::Rotation => Angle::parse(text, reading).map(|angle| angle.radians()),
         Variable::Translation => Number::parse(text, Quantity::Length, reading).map(|length| length.to_f64()),
     };
-    value.map_err(|error| match error {
+    value.map_err(|error| match error.into() {
         Error::Invalid(message) => Error::Invalid(format!("{name}: {message}")),
         other => other,
     })

@@ -3,12 +3,15 @@
 use super::arguments::CaseOptions;
 use looproot::algebra::number::{Angle, Number, Quantity, Reading};
 use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue, Kind};
+use looproot::catalogue::poses::typed_pose;
 use looproot::error::Error;
-use looproot::kinematics::chain::{Chain, JointKind, Placement};
-use looproot::kinematics::closed_loop::{Layout, Variable, angle_motion, distance_motion};
+use looproot::kinematics::chain::{Chain, JointKind};
+use looproot::kinematics::closed_loop::{Layout, Variable};
 use looproot::kinematics::freedom::Freedom;
-use looproot::kinematics::platform::Platform;
+use looproot::kinematics::tolerance::Tolerance;
+use looproot::report::document;
 use looproot::report::model::case_noun;
+use looproot::report::text::reading;
 use std::ops::Range;
 
 /// The cases asked for. A case given on the command line takes the place of those of the file; its numbers follow the units
@@ -17,15 +20,19 @@ pub fn wanted(options: &CaseOptions, mechanism: &str, entry: &mut Entry) -> Resu
     refuse(options, entry.kind())?;
     let reading = &entry.reading;
     let (own, number) = match &entry.design {
-        Design::Arm(chain) => (options.joints.as_ref().map(|joints| reached(chain, joints, reading)), options.pose),
+        Design::Arm(chain) => {
+            let joints = options.joints.as_ref().map(|joints| reached(chain, joints, reading));
+            let at = options.at.as_ref().map(|pose| typed_pose(pose, &entry.design, reading));
+            (joints.or(at), options.pose)
+        }
         Design::Loop(chain) => match options.input.as_ref().map(|input| (input, input.split_once('='))) {
             Some((_, Some((joint, value)))) => (Some(given(chain, joint, value, reading)), None),
             Some((input, None)) => (None, Some(number_of(input)?)),
             None => (None, None),
         },
-        Design::Platform(platform) => match (&options.legs, &options.at) {
+        Design::Platform(_) => match (&options.legs, &options.at) {
             (Some(legs), _) => (Some(of_lengths(legs, reading)), None),
-            (None, Some(pose)) => (Some(placed(platform, pose, reading)), None),
+            (None, Some(pose)) => (Some(typed_pose(pose, &entry.design, reading)), None),
             (None, None) => (None, options.pose),
         },
     };
@@ -36,13 +43,31 @@ pub fn wanted(options: &CaseOptions, mechanism: &str, entry: &mut Entry) -> Resu
     match number {
         None if count == 0 => {
             // Tables and robot descriptions are arms without poses; other files have a case.
-            let hint = "expected a [[pose]], or --joints with joint values that reach one";
-            Err(Error::Invalid(format!("{mechanism}: found nothing to solve, {hint}")))
+            Err(Error::Invalid(nothing_to_solve(mechanism, entry)))
         }
         None => Ok(0..count),
         Some(number) if (1..=count).contains(&number) => Ok(number - 1..number),
         Some(number) => Err(Error::Invalid(format!("found {} {number}, expected 1 to {count}", case_noun(entry)))),
     }
+}
+
+/// What to type next where a mechanism has no pose.
+fn nothing_to_solve(mechanism: &str, entry: &Entry) -> String {
+    let labels = document::labels(entry);
+    let zeros = vec!["0"; labels.len()].join(",");
+    let mut text = format!("{mechanism}: found nothing to solve, expected a pose; type next one of");
+    text += &format!(
+        "\n  looproot solve {mechanism} --at \"X,Y,Z; QW,QX,QY,QZ\"   the pose of the tool, metres, quaternion"
+    );
+    text += &format!(
+        "\n  looproot solve {mechanism} --joints \"{zeros}\"   the pose of these joints: {}",
+        labels.join(", ")
+    );
+    text += &format!("\n  looproot solve {mechanism} --poses poses.csv   many, with the header x,y,z,qw,qx,qy,qz");
+    for remark in reading(entry) {
+        text += &format!("\nnote: {remark}");
+    }
+    text
 }
 
 /// The same complaint with its place in the file, and with the mobility of the loop where the message does not name it.
@@ -69,7 +94,7 @@ fn refuse(options: &CaseOptions, kind: Kind) -> Result<(), Error> {
         ("--at", options.at.is_some()),
     ];
     let (what, fitting): (&str, &[&str]) = match kind {
-        Kind::Arm => ("an arm", &["--pose", "--joints"]),
+        Kind::Arm => ("an arm", &["--pose", "--joints", "--at"]),
         Kind::Loop => ("a loop", &["--input"]),
         Kind::Platform => ("a platform", &["--pose", "--legs", "--at"]),
     };
@@ -121,17 +146,24 @@ fn reached(chain: &Chain, joints: &str, reading: &Reading) -> Result<Case, Error
             "found {found} values in --joints, expected {expected}, separated by commas"
         )));
     }
-    let mut motions = Vec::new();
+    let mut values = Vec::new();
     for (text, variable) in texts.into_iter().zip(variables) {
-        let motion = match variable {
-            Variable::Rotation => angle_motion(&Angle::parse(text, reading)?),
-            Variable::Translation => distance_motion(&Number::parse(text, Quantity::Length, reading)?),
-        };
-        motions.extend(motion);
+        values.push(match variable {
+            Variable::Rotation => InputValue::Angle(Angle::parse(text, reading)?),
+            Variable::Translation => InputValue::Distance(Number::parse(text, Quantity::Length, reading)?),
+        });
     }
-    let pose = chain.forward(&motions).map(Placement::from_motion_exact);
-    let pose = pose.ok_or_else(|| Error::Invalid("the joints of --joints reach no pose".to_owned()))?;
-    Ok(Case::at(pose, 1))
+    Case::reached(chain, &values, 1).ok_or_else(|| Error::Invalid("the joints of --joints reach no pose".to_owned()))
+}
+
+/// The tolerance of `--tolerance`.
+pub fn tolerance(text: Option<&str>, entry: &Entry) -> Result<Option<Tolerance>, Error> {
+    let Some(text) = text else { return Ok(None) };
+    if entry.kind() != Kind::Arm {
+        let message = "found --tolerance for a mechanism without a pose of its tool, expected an arm";
+        return Err(Error::Invalid(message.to_owned()));
+    }
+    Tolerance::parse(text, &entry.reading).map(Some)
 }
 
 /// So many numbers, separated by commas.
@@ -157,17 +189,4 @@ fn of_lengths(text: &str, reading: &Reading) -> Result<Case, Error> {
         return Err(Error::Invalid(format!("found the negative length {length} of leg {number}, expected 0 or more")));
     }
     Ok(Case::legs(lengths.map(|length| length.squared()), 1))
-}
-
-/// A case with the legs that this pose of the plate asks for.
-fn placed(platform: &Platform<Number>, text: &str, reading: &Reading) -> Result<Case, Error> {
-    let Some((position, quaternion)) = text.split_once(';') else {
-        return Err(Error::Invalid(format!("found --at \"{text}\", expected \"x, y, z; w, x, y, z\"")));
-    };
-    let position: [Number; 3] = numbers(position, Quantity::Length, "the position of --at", reading)?;
-    let quaternion: [Number; 4] = numbers(quaternion, Quantity::Ratio, "the quaternion of --at", reading)?;
-    let (pose, warning) = Placement::from_quaternion_position(&quaternion, &position)?;
-    let mut case = Case::legs_at(platform, pose, 1);
-    case.warnings.extend(warning);
-    Ok(case)
 }

@@ -223,7 +223,7 @@ pub fn system(decision: &Decision, family: Option<&str>, format: Format) -> Resu
             names.join("; ")
         )));
     };
-    format.system(&found.conditions.iter().map(rational).collect::<Vec<_>>(), &decision.names)
+    Ok(format.system(&found.conditions.iter().map(rational).collect::<Vec<_>>(), &decision.names)?)
 }
 
 /// The derivation as Markdown with formulas in LaTeX.

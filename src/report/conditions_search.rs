@@ -763,7 +763,7 @@ pub fn system(ansatz: &Ansatz, search: &Search, family: Option<&str>, format: Fo
     }
     let wanted = family.unwrap_or_default().to_lowercase();
     if let Some((_, conditions, names)) = families.iter().find(|(name, ..)| name.to_lowercase().contains(&wanted)) {
-        return format.system(conditions, names);
+        return Ok(format.system(conditions, names)?);
     }
     let known: Vec<&str> = families.iter().map(|(name, ..)| name.as_str()).collect();
     Err(Error::Invalid(format!("found no family `{wanted}`, expected a part of one of: {}", known.join("; "))))

@@ -240,7 +240,7 @@ pub(super) fn file(polynomials: &[Polynomial<Rational>], names: &Names, format: 
             (used.iter().map(exponent).collect(), c.clone())
         }))
     };
-    format.system(&polynomials.iter().map(compact).collect::<Vec<_>>(), &names)
+    Ok(format.system(&polynomials.iter().map(compact).collect::<Vec<_>>(), &names)?)
 }
 
 /// The derivation as a paper, every displayed equation one of those that were used, and what came of putting solutions

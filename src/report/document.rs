@@ -2,6 +2,8 @@
 
 use super::model;
 use crate::algebra::drawn;
+use crate::catalogue::Snapped;
+use crate::catalogue::ansatz::Ansatz;
 use crate::catalogue::entry::Entry;
 use serde_json::{Map, Value, json};
 
@@ -11,14 +13,31 @@ pub fn keys(entry: &Entry) -> Map<String, Value> {
     let mut object = Map::new();
     object.insert("name".into(), json!(entry.name));
     object.insert("version".into(), json!(env!("CARGO_PKG_VERSION")));
-    object.insert("units".into(), json!({ "length": "m", "angle": "rad" }));
+    object.insert("units".into(), units());
     if let Some([base, tip]) = &entry.labels.links {
         object.insert("base_link".into(), json!(base));
         object.insert("tip_link".into(), json!(tip));
     }
+    if !entry.labels.snapped.is_empty() {
+        object.insert("snapped".into(), entry.labels.snapped.iter().map(snapped).collect());
+    }
+    if !entry.labels.remarks.is_empty() {
+        object.insert("remarks".into(), json!(entry.labels.remarks));
+    }
     object.insert("joint_variables".into(), joint_variables(entry));
     object.insert("mechanism".into(), model::json(entry));
     object
+}
+
+/// An angle that stands for a multiple of half a degree.
+fn snapped(snapped: &Snapped) -> Value {
+    json!({ "place": snapped.place, "written": snapped.written, "meant": snapped.meant(), "taken": snapped.taken })
+}
+
+/// The units of every number.
+#[must_use]
+pub fn units() -> Value {
+    json!({ "length": "m", "angle": "rad" })
 }
 
 /// Adds these keys to a document that is complete, and the seed of the primes if any was drawn.
@@ -28,6 +47,20 @@ pub fn complete(document: &mut Value, entry: &Entry) {
         object.entry(key).or_insert(value);
     }
     if let Some(seed) = drawn::seed_used() {
+        object.insert("seed".into(), json!(seed));
+    }
+}
+
+/// Completes the document of a loop with symbols, whose joints are all revolute. The seed stands in it if anything was drawn.
+pub fn complete_ansatz(document: &mut Value, ansatz: &Ansatz, seed: Option<u64>) {
+    let Some(object) = document.as_object_mut() else { return };
+    let angle = |joint: usize| json!({ "name": format!("q{joint}"), "kind": "angle", "joint": joint, "label": format!("q{joint}") });
+    object.insert("name".into(), json!(ansatz.name));
+    object.insert("version".into(), json!(env!("CARGO_PKG_VERSION")));
+    object.insert("units".into(), units());
+    object.insert("joint_variables".into(), (1..=ansatz.joints.len()).map(angle).collect());
+    object.insert("mechanism".into(), model::ansatz_json(ansatz));
+    if let Some(seed) = seed {
         object.insert("seed".into(), json!(seed));
     }
 }

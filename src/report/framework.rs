@@ -1,6 +1,8 @@
 //! Whether a framework moves, as text and JSON.
 
+use super::document;
 use super::json::number;
+use super::model;
 use super::number::{at_most, counted, short};
 use super::table::{Columns, paragraph};
 use crate::catalogue::FrameworkFile;
@@ -146,6 +148,11 @@ pub fn json(file: &FrameworkFile, answer: &Mobility) -> Value {
     });
     let shaky = if let Verdict::Shaky(order) = answer.verdict { Some(order) } else { None };
     json!({
+        "name": file.heading.name,
+        "version": env!("CARGO_PKG_VERSION"),
+        "units": document::units(),
+        "joint_variables": [],
+        "mechanism": model::framework_json(file),
         "title": file.heading.title,
         "kind": "framework",
         "mobility": if least == most { json!(least) } else { json!([least, most]) },

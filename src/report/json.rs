@@ -3,8 +3,9 @@
 use super::model::asked;
 use super::text::View;
 use crate::catalogue::entry::{Case, Entry, Kind};
-use crate::mechanism::{Family, FullMode, Solution};
-use crate::verdict::Proof;
+use crate::kinematics::tolerance::PoseError;
+use crate::mechanism::{ArmAnswer, Family, FullMode, Solution};
+use crate::verdict::{Proof, Verdict};
 use num_complex::Complex;
 use serde_json::{Map, Value, json};
 
@@ -29,6 +30,16 @@ pub fn head(entry: &Entry, keys: &Map<String, Value>) -> String {
     text + " \"results\": ["
 }
 
+/// The first of several lines of JSON: what holds for all of them.
+#[must_use]
+pub fn line_of_document(entry: &Entry, keys: &Map<String, Value>) -> Value {
+    let mut object = Map::new();
+    object.insert("title".into(), json!(entry.title));
+    object.insert("kind".into(), json!(kind(entry.kind())));
+    object.extend(keys.clone());
+    json!({ "document": object })
+}
+
 /// What stands behind the results of the document: the closing bracket, and the seed of the primes if any was drawn.
 #[must_use]
 pub fn foot(seed: Option<u64>) -> String {
@@ -38,26 +49,11 @@ pub fn foot(seed: Option<u64>) -> String {
 /// The answer to one case; `number` is its number in the file, from 1, and `labels` those of the joint variables.
 #[must_use]
 pub fn result(number: usize, case: &Case, solution: &Solution, labels: &[String], view: &View) -> Value {
-    let verdict = &solution.verdict;
-    let mut result = json!({
-        "case": number,
-        "asked": Value::Object(asked(case)),
-        "verdict": {
-            "status": verdict.status.word(),
-            "proof": verdict.proof.word(),
-            "code": verdict.code.word(),
-            "complex_complete": verdict.complex_complete,
-            "complex": verdict.complex,
-            "real": verdict.real,
-            "at_infinity": verdict.at_infinity,
-            "self_motion": verdict.self_motion,
-            "certified": verdict.certified,
-            "reason": verdict.reason,
-        },
-    });
-    if let Proof::Probable { error, seed } = verdict.proof {
-        result["verdict"]["probability_of_error"] = self::number(error);
-        result["verdict"]["seed"] = json!(seed);
+    let mut verdict = verdict(&solution.verdict);
+    verdict["near"] = json!(solution.near());
+    let mut result = json!({ "case": number, "asked": Value::Object(asked(case)), "verdict": verdict });
+    if let Some(arm) = &solution.arm {
+        insert_arm(&mut result, arm);
     }
     if let Some(platform) = &solution.platform {
         result["legs"] = json!(platform.legs.map(self::number));
@@ -70,6 +66,45 @@ pub fn result(number: usize, case: &Case, solution: &Solution, labels: &[String]
     result["warnings"] = json!(solution.warnings);
     result["timings_us"] = json!({ "prepare": tenths(solution.prepare_us), "solve": tenths(solution.solve_us) });
     result
+}
+
+/// A verdict, key by key.
+#[must_use]
+pub fn verdict(verdict: &Verdict) -> Value {
+    let mut object = json!({
+        "status": verdict.status.word(),
+        "proof": verdict.proof.word(),
+        "code": verdict.code.word(),
+        "complex_complete": verdict.complex_complete,
+        "complex": verdict.complex,
+        "real": verdict.real,
+        "at_infinity": verdict.at_infinity,
+        "self_motion": verdict.self_motion,
+        "certified": verdict.certified,
+        "near": 0,
+        "reason": verdict.reason,
+    });
+    if let Proof::Probable { error, seed } = verdict.proof {
+        object["probability_of_error"] = number(error);
+        object["seed"] = json!(seed);
+    }
+    object
+}
+
+/// What only arms of few or many joints have.
+fn insert_arm(result: &mut Value, arm: &ArmAnswer) {
+    if !arm.conditions.is_empty() {
+        result["verdict"]["conditions"] = json!(arm.conditions);
+    }
+    if let Some((q, miss)) = &arm.nearest {
+        let q: Value = q.iter().map(|x| number(*x)).collect();
+        result["nearest"] = json!({ "q": q, "error": error(miss) });
+    }
+}
+
+/// By how much a pose is missed.
+fn error(miss: &PoseError) -> Value {
+    json!({ "position": number(miss.position), "orientation": number(miss.orientation) })
 }
 
 /// A set of solutions of dimension 1 and more; joint variables are numbered from 1.
@@ -110,6 +145,12 @@ fn mode(id: usize, mode: &FullMode) -> Value {
     object["condition"] = number(mode.condition);
     object["certified"] = json!(mode.certified);
     object["radius"] = number(mode.radius);
+    if mode.near {
+        object["near"] = json!(true);
+    }
+    if let Some(miss) = &mode.error {
+        object["error"] = error(miss);
+    }
     match &mode.platform {
         Some(platform) => {
             let velocity = platform.velocity.as_ref();

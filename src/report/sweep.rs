@@ -155,6 +155,10 @@ fn remarks(sweep: &Sweep, swept: Swept) -> String {
         let more = if samples.len() > NAMED { format!(" and {} more", samples.len() - NAMED) } else { String::new() };
         paragraph(&mut text, &format!("{words}: input {}{more} ({})", inputs.join(", "), first.reason));
     }
+    if !sweep.standing.is_empty() {
+        let inputs: Vec<String> = sweep.standing.iter().map(|input| shown(*input, swept.variable)).collect();
+        paragraph(&mut text, &format!("the loop also moves while its input stands still at {}", inputs.join(", ")));
+    }
     if sweep.is_overconstrained && sweep.branches.is_empty() {
         let note = "fewer than seven joint variables: such a loop may close at single inputs between these, which a sweep does not \
                     look for; `looproot solve` finds the positions of a loop without input";
@@ -223,6 +227,7 @@ pub fn json(entry: &Entry, swept: Swept, sweep: &Sweep) -> Value {
         "variables": names.iter().map(|(name, _)| name).collect::<Vec<_>>(),
         "branches": sweep.branches.iter().map(|branch| branch_json(sweep, branch)).collect::<Vec<_>>(),
         "limits": sweep.limits.iter().map(limit_json).collect::<Vec<_>>(),
+        "standing": sweep.standing.iter().map(|input| number(*input)).collect::<Vec<_>>(),
         "inputs": inputs.collect::<Vec<_>>(),
     })
 }

@@ -6,7 +6,7 @@ use super::table::{Columns, paragraph};
 use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::Variable;
-use crate::mechanism::{FullMode, Solution};
+use crate::mechanism::{Family, FullMode, PoseError, Solution};
 use crate::verdict::{Code, Status};
 use num_complex::Complex;
 use std::fmt::Write;
@@ -49,7 +49,8 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
                 0 => String::new(),
                 n => format!(", {n} more at infinity"),
             };
-            format!("{found} of {found} roots ({} real{at_infinity}), {}", verdict.real, quality(solution))
+            let near = near(solution);
+            format!("{found} of {found} roots ({} real{at_infinity}{near}), {}", verdict.real, quality(solution))
         }
         Status::Unreachable => {
             let what = match kind {
@@ -68,7 +69,7 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
         Status::SelfMotion => {
             let beside = match found {
                 0 => "no isolated root".to_owned(),
-                n => format!("{} beside it ({} real)", counted(n, "isolated root"), verdict.real),
+                n => format!("{} beside it ({} real{})", counted(n, "isolated root"), verdict.real, near(solution)),
             };
             format!("self-motion of dimension {}, {beside}, {}", verdict.self_motion, measured(solution))
         }
@@ -82,6 +83,14 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
     }
 }
 
+/// `, 2 near it`
+fn near(solution: &Solution) -> String {
+    match solution.near() {
+        0 => String::new(),
+        several => format!(", {several} near"),
+    }
+}
+
 /// `all certified, residual <= 3e-16, 0.05 ms`
 fn quality(solution: &Solution) -> String {
     format!("{}, {}", certified(solution), measured(solution))
@@ -91,7 +100,7 @@ fn quality(solution: &Solution) -> String {
 fn certified(solution: &Solution) -> String {
     let proved = solution.verdict.certified;
     let multiple: Vec<usize> = solution.modes.iter().map(|m| m.multiplicity).filter(|k| *k > 1).collect();
-    match solution.modes.len() {
+    match solution.modes.iter().filter(|mode| !mode.near).count() {
         0 => "none to certify".to_owned(),
         all if proved == all => "all certified".to_owned(),
         all if proved + multiple.len() == all => {
@@ -130,6 +139,10 @@ pub fn solution(entry: &Entry, number: usize, case: &Case, solution: &Solution, 
         };
     }
     let _ = writeln!(text, "{}", heading(entry, number, case));
+    if !solution.families.is_empty() {
+        text.push('\n');
+        text.push_str(&families(entry, &solution.families).text());
+    }
     let shown: Vec<&FullMode> = solution.modes.iter().filter(|mode| view.shows(mode)).collect();
     if !shown.is_empty() {
         text.push('\n');
@@ -148,6 +161,8 @@ fn heading(entry: &Entry, number: usize, case: &Case) -> String {
     let mut text = entry.title.clone();
     if entry.cases.len() > 1 {
         let _ = write!(text, ", {} {number} of {}", case_noun(entry), entry.cases.len());
+    } else if entry.cases.is_empty() {
+        let _ = write!(text, ", {} {number}", case_noun(entry));
     }
     for input in &case.input {
         let value = match &input.value {
@@ -195,8 +210,19 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
         let roots = counted(nearly.len(), "complex root");
         let _ = writeln!(text, "nearly real: {roots}, imaginary parts <= {size}{unit}");
     }
+    let errors: Vec<PoseError> = solution.modes.iter().filter(|mode| mode.near).filter_map(|mode| mode.error).collect();
+    if !errors.is_empty() {
+        let largest = |part: fn(&PoseError) -> f64| at_most(errors.iter().map(part).fold(0.0, f64::max));
+        let (position, orientation) = (largest(|error| error.position), largest(|error| error.orientation));
+        let modes = counted(errors.len(), "mode");
+        let miss = if errors.len() == 1 { "misses" } else { "miss" };
+        let _ = writeln!(text, "near: {modes} {miss} the pose by up to {position} m and {orientation} rad");
+    }
     for warning in &solution.warnings {
         paragraph(&mut text, &format!("warning: {warning}"));
+    }
+    for remark in reading(entry) {
+        paragraph(&mut text, &format!("note: {remark}"));
     }
     let proved = matches!(solution.verdict.status, Status::Complete | Status::Unreachable);
     // Fewer roots than there are in general are complete by exact work on the geometry only.
@@ -207,8 +233,25 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
     text
 }
 
+/// What the reader of the file decided.
+#[must_use]
+pub fn reading(entry: &Entry) -> Vec<String> {
+    let angles = |taken: bool| {
+        let of_kind = entry.labels.snapped.iter().filter(move |snapped| snapped.taken == taken);
+        let mut angles: Vec<String> = of_kind.map(|own| format!("{} for {}", own.written, own.meant())).collect();
+        angles.sort_unstable();
+        angles.dedup();
+        angles.join(", ")
+    };
+    let (taken, noticed) = (angles(true), angles(false));
+    let taken = (!taken.is_empty()).then(|| format!("printed angles that stand for exact ones: {taken}"));
+    let noticed = (!noticed.is_empty())
+        .then(|| format!("truncated angles, read as they stand: {noticed}; --snap takes them as the angles meant"));
+    entry.labels.remarks.iter().cloned().chain(taken).chain(noticed).collect()
+}
+
 fn limits(entry: &Entry) -> String {
-    let variables = entry.chain().map(variables).unwrap_or_default();
+    let variables = labelled(entry);
     let pairs = entry.limits.iter().zip(&variables).map(|([low, high], (name, variable))| match variable {
         Variable::Rotation => {
             format!("{name} {}..{} deg", short(low.to_degrees(), 2), short(high.to_degrees(), 2))
@@ -216,6 +259,13 @@ fn limits(entry: &Entry) -> String {
         Variable::Translation => format!("{name} {}..{} m", short(*low, 4), short(*high, 4)),
     });
     pairs.collect::<Vec<_>>().join(", ")
+}
+
+/// The label of every joint variable, as the file calls its joint, and what it measures.
+#[must_use]
+pub fn labelled(entry: &Entry) -> Vec<(String, Variable)> {
+    let variables = entry.chain().map(Chain::variables).unwrap_or_default();
+    super::document::labels(entry).into_iter().zip(variables.iter().map(|own| own.variable)).collect()
 }
 
 /// The name of every joint variable and what it measures: `q1`, ..., of a C joint `q3` and `d3`, of a U joint `q3z` and `q3x`.
@@ -234,16 +284,47 @@ enum Measure {
 
 /// The columns of what a mode is made of.
 fn columns(entry: &Entry) -> Vec<(String, Measure)> {
-    let Some(chain) = entry.chain() else {
+    if entry.chain().is_none() {
         let quaternion = ["qw", "qx", "qy", "qz"].map(|name| (name.to_owned(), Measure::Ratio));
         let position = ["x [m]", "y [m]", "z [m]"].map(|name| (name.to_owned(), Measure::Length));
         return quaternion.into_iter().chain(position).collect();
-    };
+    }
     let column = |(name, variable): (String, Variable)| match variable {
         Variable::Rotation => (format!("{name} [deg]"), Measure::Angle),
         Variable::Translation => (format!("{name} [m]"), Measure::Length),
     };
-    variables(chain).into_iter().map(column).collect()
+    labelled(entry).into_iter().map(column).collect()
+}
+
+/// The families, one a row: what moves, and a configuration of it.
+fn families(entry: &Entry, families: &[Family]) -> Columns {
+    let columns = columns(entry);
+    let is_near = families.iter().any(|family| family.distance > 0.0);
+    let mut header = vec!["family".to_owned(), "moving".to_owned()];
+    header.extend(columns.iter().map(|(name, _)| name.clone()));
+    header.push("samples".to_owned());
+    if is_near {
+        header.push("distance".to_owned());
+    }
+    let mut table = Columns::new(&header, &["family", "moving"]);
+    let names: Vec<String> =
+        entry.chain().map(variables).unwrap_or_default().into_iter().map(|(name, _)| name).collect();
+    for family in families {
+        let moving: Vec<&str> = family.moving.iter().filter_map(|at| names.get(*at)).map(String::as_str).collect();
+        let kind = match family.dimension {
+            1 => "curve".to_owned(),
+            dimension => format!("dimension {dimension}"),
+        };
+        let mut row = vec![kind, moving.join(" ")];
+        let values = family.sample.iter().zip(&columns);
+        row.extend(values.map(|(value, (_, measure))| shown(&Complex::from(*value), *measure, true)));
+        row.push(family.samples.len().max(1).to_string());
+        if is_near {
+            row.push(if family.distance > 0.0 { at_most(family.distance) } else { "0".to_owned() });
+        }
+        table.row(row);
+    }
+    table
 }
 
 /// The modes, one a row; columns that would say nothing are left out.
@@ -273,7 +354,16 @@ fn modes(entry: &Entry, modes: &[&FullMode]) -> Columns {
             row.push(if mode.multiplicity == 0 { "?".to_owned() } else { mode.multiplicity.to_string() });
         }
         row.extend([at_most(mode.residual), magnitude(mode.condition)]);
-        row.push(if mode.certified { "yes" } else { "no" }.to_owned());
+        row.push(
+            if mode.near {
+                "near"
+            } else if mode.certified {
+                "yes"
+            } else {
+                "no"
+            }
+            .to_owned(),
+        );
         if limited {
             row.push(mode.within_limits.map_or("", |within| if within { "yes" } else { "no" }).to_owned());
         }

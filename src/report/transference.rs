@@ -58,5 +58,5 @@ pub fn json(transfer: &Transfer) -> Value {
 /// # Errors
 /// Where the language has no way to say it.
 pub fn system(transfer: &Transfer, format: Format) -> Result<String> {
-    format.system(&[transfer.f.clone(), transfer.g.clone()], &transfer.names)
+    Ok(format.system(&[transfer.f.clone(), transfer.g.clone()], &transfer.names)?)
 }

@@ -67,7 +67,9 @@ fn scan(folder: &Path, primes: &mut BTreeSet<u64>) {
 /// The product of the primes in the sources and of the first ones of the search below `2^49`.
 fn product() -> Integer {
     let mut primes = BTreeSet::new();
-    scan(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut primes);
+    for folder in ["src", "crates"] {
+        scan(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &mut primes);
+    }
     assert!(primes.contains(&((1 << 61) - 1)) && primes.contains(&((1 << 62) - 57)), "{primes:?}");
     primes.extend((0..1_u64 << 49).rev().filter(|n| is_prime(*n)).take(6));
     primes.iter().fold(Integer::from(1), |product, prime| product * prime)

@@ -123,7 +123,7 @@ fn both_precisions_find_the_same_complex_poses() {
             (PlatformWorkspace::default(), PlatformAssembly::default(), PlatformAssembly::default());
         let rationals = squares.each_ref().map(|square| square.rational().clone());
         let geometry = drawn.platform.map(|x| Rational::from_f64(*x)).unwrap();
-        solver.rescue(&geometry, &rationals, count, &mut workspace, &mut exact);
+        solver.rescue::<6>(&geometry, &rationals, count, &mut workspace, &mut exact);
         solver.solve(&squares.each_ref().map(Number::to_f64), Roots::All, &mut workspace, &mut fast);
         assert_eq!((fast.total(), exact.total()), (count, count), "{set:?}");
         assert!(exact.modes.iter().all(|mode| mode.certificate.is_some()), "{set:?}");

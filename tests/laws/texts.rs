@@ -1,12 +1,12 @@
 //! Laws of texts: what is written is read back the same, and what is read means what it says.
 
+use looproot::algebra::error::Error;
 use looproot::algebra::{
     modp::{ModP, PRIME_61},
     polynomial::Polynomial,
     ring::Ring,
     text::{Expression, Format, Fraction, Names, read_json, read_number, write_json},
 };
-use looproot::error::Error;
 use proptest::prelude::*;
 use rug::{Integer, Rational};
 

@@ -53,10 +53,11 @@ impl Source {
 
     /// A fault of this text.
     pub fn fault(&self, fault: text::Fault) -> Error {
-        match &self.path {
+        let fault = match &self.path {
             Some(path) => fault.in_file(path),
             None => fault.in_text(&self.text),
-        }
+        };
+        fault.into()
     }
 
     fn polynomials(&self, names: &mut Names) -> Result<Vec<Fraction>, Error> {
@@ -86,7 +87,7 @@ fn bounded(reader: impl Read, path: &str) -> Result<String, Error> {
 /// The names that the command line gives, else none yet.
 pub fn names(options: &ReadOptions) -> Result<Names, Error> {
     match &options.vars {
-        Some(names) => Names::given(names.iter().map(|name| name.trim())),
+        Some(names) => Ok(Names::given(names.iter().map(|name| name.trim()))?),
         None => Ok(Names::collected()),
     }
 }
@@ -128,5 +129,5 @@ pub fn files(arguments: &[&str]) -> Vec<PathBuf> {
 pub fn number(text: &str) -> Result<Rational, Error> {
     let source = |fault: text::Fault| fault.in_text(text);
     let mut none = Names::given::<&str>([])?;
-    Expression::parse(text, &mut none).map_err(source)?.value(&[])
+    Ok(Expression::parse(text, &mut none).map_err(source)?.value(&[])?)
 }

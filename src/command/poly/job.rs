@@ -146,7 +146,7 @@ impl<'j> Job<'j> {
             Self::Expand(variables, text, None, _) => polynomials(variables, &[text]),
             Self::Expand(variables, text, Some(divisor), _) => polynomials(variables, &[text, divisor]),
             Self::RootsOfList(numbers) => {
-                let numbers: Outcome<Vec<Rational>> = numbers.iter().map(|number| read_number(number)).collect();
+                let numbers: Result<Vec<Rational>, _> = numbers.iter().map(|number| read_number(number)).collect();
                 Ok(Input::Univariate(Univariate::new(numbers?)))
             }
             Self::Roots(variables, text) => {
@@ -227,7 +227,7 @@ fn divide(dividend: &Fraction, divisor: &Fraction) -> Outcome<Fraction> {
 
 fn expand(text: &str, names: &mut Names) -> Outcome<Fraction> {
     let expression = Expression::parse(text, names).and_then(|expression| expression.expand());
-    expression.map_err(|fault| fault.in_text(text))
+    expression.map_err(|fault| fault.in_text(text).into())
 }
 
 fn string<'j>(value: &'j Value, key: &str) -> Outcome<&'j str> {

@@ -90,7 +90,8 @@ fn unknown(file: &Ansatz) -> Vec<&str> {
 }
 
 /// Joints and relations, in symbols, metres and degrees.
-pub(super) fn json(file: &Ansatz) -> Value {
+#[must_use]
+pub fn json(file: &Ansatz) -> Value {
     let mut object = identity(file);
     super::remarks(&mut object, file.source.as_ref(), file.notes.as_deref());
     let joints = file.joints.iter().map(|joint| {

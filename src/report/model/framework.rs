@@ -67,7 +67,8 @@ pub(super) fn text(file: &FrameworkFile) -> String {
 }
 
 /// Vertices, bars and bodies, lengths in metres.
-pub(super) fn json(file: &FrameworkFile) -> Value {
+#[must_use]
+pub fn json(file: &FrameworkFile) -> Value {
     let mut object = identity(file);
     super::remarks(&mut object, file.heading.source.as_ref(), file.heading.notes.as_deref());
     let vertex = |vertex: &[rug::Rational; 3]| vertex.each_ref().map(|x| number(nearest_f64(x)));

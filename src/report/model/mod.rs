@@ -1,10 +1,18 @@
 //! A mechanism in its normalised form: what was understood of a file, for the reader to compare.
 
 mod ansatz;
+mod calculus;
 mod chain;
 mod framework;
+mod linkage;
 mod motion;
 mod platform;
+mod synthesis;
+
+pub use ansatz::json as ansatz_json;
+pub use framework::json as framework_json;
+pub use linkage::json as linkage_json;
+pub use synthesis::json as synthesis_json;
 
 use super::json::{kind, number};
 use super::number::counted;
@@ -21,8 +29,11 @@ pub fn any_text(any: &Any) -> String {
     match any {
         Any::Entry(entry) => text(entry),
         Any::Framework(file) => framework::text(file),
+        Any::Linkage(file) => linkage::text(file),
         Any::Motion(file) => motion::text(file),
+        Any::Synthesis(file) => synthesis::text(file),
         Any::Conditions(file) => ansatz::text(file),
+        Any::Calculus(file) => calculus::text(file),
     }
 }
 
@@ -32,8 +43,11 @@ pub fn any_json(any: &Any) -> Value {
     match any {
         Any::Entry(entry) => json(entry),
         Any::Framework(file) => framework::json(file),
+        Any::Linkage(file) => linkage::json(file),
         Any::Motion(file) => motion::json(file),
+        Any::Synthesis(file) => synthesis::json(file),
         Any::Conditions(file) => ansatz::json(file),
+        Any::Calculus(file) => calculus::json(file),
     }
 }
 
@@ -43,8 +57,11 @@ pub fn listed(any: &Any) -> ([String; 3], Value) {
     let (short, object) = match any {
         Any::Entry(entry) => (format!("{} {}", joints(entry), kind(entry.kind())), identity(entry)),
         Any::Framework(file) => (framework::short(file), framework::identity(file)),
+        Any::Linkage(file) => (linkage::short(file), linkage::identity(file)),
         Any::Motion(file) => (motion::short(file), motion::identity(file)),
+        Any::Synthesis(file) => (synthesis::short(file), synthesis::identity(file)),
         Any::Conditions(file) => (ansatz::short(file), ansatz::identity(file)),
+        Any::Calculus(file) => (calculus::short(file), calculus::identity(file)),
     };
     let word = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let words = [short, word(&object["source"]["key"]), word(&object["title"])];

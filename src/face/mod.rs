@@ -1,0 +1,26 @@
+//! The short way in: arms, loops and platforms by name, with numbers in and numbers out.
+//!
+//! Everything else of this crate is what these are made of. Angles are radians, lengths metres, quaternions have w first.
+//!
+//! # Example
+//! ```
+//! use looproot::Arm;
+//!
+//! let arm = Arm::robot("ur5")?;
+//! let pose = arm.fk(&[0.1, -1.0, 1.2, 0.3, 0.7, -0.4])?;
+//! let answer = arm.ik(&pose)?;
+//! assert!(answer.modes.iter().all(|mode| mode.certified));
+//! assert_eq!(answer.verdict.real, answer.modes.len());
+//! # Ok::<(), looproot::error::Error>(())
+//! ```
+
+mod arm;
+mod closed;
+mod forward;
+mod model;
+mod pose;
+
+pub use arm::{Arm, Convention, DhRow, ScrewRow};
+pub use closed::{Loop, Platform};
+pub use model::{Model, conditions, mobility, verify};
+pub use pose::Matrix;

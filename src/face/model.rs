@@ -1,0 +1,215 @@
+//! A mechanism that was read, and the documents that the command line prints of it.
+
+use crate::assembly::{Assembly, Roots, Workspace};
+use crate::catalogue::ansatz::Ansatz;
+use crate::catalogue::entry::{Case, Design, Entry, Labels};
+use crate::catalogue::{Any, Chains, Options, load, load_ansatz, load_any};
+use crate::certificate::check_all;
+use crate::conditions::decide::decide;
+use crate::conditions::number_field::decide_over_field;
+use crate::conditions::{four_bar, search};
+use crate::derivation::derive;
+use crate::error::{Error, Result};
+use crate::kinematics::joint::Variable;
+use crate::mechanism::{Mechanism, Solution};
+use crate::report::sweep::Swept;
+use crate::report::text::View;
+use crate::report::{conditions as conditions_report, conditions_search, derivation, document, framework, json, scene};
+use crate::scene::Stage;
+use crate::sweep::{Range, sweep};
+use serde_json::{Value, json};
+use std::sync::OnceLock;
+
+/// A mechanism, prepared when it is first solved. Threads share it.
+pub struct Model {
+    /// What was read.
+    pub entry: Entry,
+    mechanism: OnceLock<Result<Mechanism>>,
+}
+
+impl Model {
+    /// A mechanism that was read.
+    #[must_use]
+    pub fn new(entry: Entry) -> Self {
+        Self { entry, mechanism: OnceLock::new() }
+    }
+
+    /// A mechanism without a file; it has no case.
+    #[must_use]
+    pub(super) fn bare(name: &str, design: Design, limits: Vec<[f64; 2]>, rounded: bool) -> Self {
+        Self::new(Entry {
+            name: name.to_owned(),
+            title: name.to_owned(),
+            source: None,
+            notes: None,
+            design,
+            limits,
+            cases: Vec::new(),
+            rounded,
+            reading: crate::algebra::number::Reading::default(),
+            labels: Labels::default(),
+        })
+    }
+
+    /// Reads a file, or an entry of the library.
+    ///
+    /// # Errors
+    /// As [`load`].
+    pub fn load(name: &str, tip_link: Option<&str>, base_link: Option<&str>) -> Result<Self> {
+        let (tip_link, base_link) = (tip_link.map(str::to_owned), base_link.map(str::to_owned));
+        let options = Options { tip_link, base_link, chains: Chains::Swept, ..Options::default() };
+        load(name, &options).map(Self::new)
+    }
+
+    /// What solves it.
+    ///
+    /// # Errors
+    /// As [`Mechanism::prepare`].
+    pub fn mechanism(&self) -> Result<&Mechanism> {
+        self.mechanism.get_or_init(|| Mechanism::prepare(&self.entry)).as_ref().map_err(Clone::clone)
+    }
+
+    /// The answer to one case.
+    ///
+    /// # Errors
+    /// As [`Mechanism::solve`].
+    pub fn solve(&self, case: &Case, complex: bool) -> Result<Solution> {
+        let mut workspace = Workspace::default();
+        workspace.only_real_list = !complex;
+        let mechanism = self.mechanism()?;
+        mechanism.solve(case, Roots::All, &mut workspace, &mut Assembly::default())
+    }
+
+    /// What `solve --json --scene` prints of these answers.
+    #[must_use]
+    pub fn document(&self, answers: &[(Case, Solution)], complex: bool) -> Value {
+        let view = View { complex, ..View::default() };
+        let labels = document::labels(&self.entry);
+        let stage = Stage::of(&self.entry);
+        let results = answers.iter().zip(1..).map(|((case, solution), number)| {
+            let mut result = json::result(number, case, solution, &labels, &view);
+            if let Some(stage) = &stage {
+                scene::pose_result(&mut result, stage);
+            }
+            result
+        });
+        let mut document = json!({ "title": self.entry.title, "kind": json::kind(self.entry.kind()) });
+        document["results"] = results.collect();
+        if let Some(stage) = &stage {
+            document["scene"] = scene::json(&stage.scene);
+        }
+        document::complete(&mut document, &self.entry);
+        document
+    }
+
+    /// What `derive --json` prints of one case.
+    ///
+    /// # Errors
+    /// As [`derive()`].
+    pub fn derive(&self, case: &Case) -> Result<Value> {
+        let derivation = derive(&self.entry, case)?;
+        let mut document = derivation::json(&self.entry, 1, &derivation);
+        document::complete(&mut document, &self.entry);
+        Ok(document)
+    }
+
+    /// What `sweep --json --scene` prints. `running` is asked now and then and stops the sweep.
+    ///
+    /// # Errors
+    /// As [`sweep`].
+    pub fn sweep(
+        &self,
+        joint: usize,
+        variable: Variable,
+        range: Range,
+        running: impl Fn() -> bool + Sync,
+    ) -> Result<Value> {
+        let found = sweep(&self.entry, joint, variable, range, running, || ())?;
+        let mut document = crate::report::sweep::json(&self.entry, Swept { joint, variable }, &found);
+        document::complete(&mut document, &self.entry);
+        if let Some(stage) = Stage::of(&self.entry) {
+            document["scene"] = scene::json(&stage.scene);
+            scene::pose_sweep(&mut document, &stage);
+        }
+        Ok(document)
+    }
+
+    /// The certificate of the answer to one case: docs/certificate.md.
+    ///
+    /// # Errors
+    /// As [`Mechanism::solve`], and [`Error::Unsupported`] with the reason for an answer of which there is no certificate.
+    pub fn certificate(&self, case: &Case) -> Result<Value> {
+        let solution = self.solve(case, true)?;
+        let found = crate::report::certificate::certificate(&self.entry, 1, case, &solution);
+        found.map_err(|reason| Error::Unsupported(format!("there is no certificate: {reason}")))
+    }
+
+    /// What `mobility --json` prints.
+    ///
+    /// # Errors
+    /// As [`crate::mobility::mobility`].
+    pub fn mobility(&self) -> Result<Value> {
+        let answer = crate::mobility::mobility(&self.entry)?;
+        let mut document = crate::report::mobility::json(&self.entry, &answer);
+        document::complete(&mut document, &self.entry);
+        Ok(document)
+    }
+}
+
+/// What `mobility --json` prints of a file or an entry of the library, frameworks among them.
+///
+/// # Errors
+/// For what cannot be read, and for what is no mechanism.
+pub fn mobility(name: &str) -> Result<Value> {
+    /// As many steps as the command line follows a motion.
+    const STEPS: usize = 60;
+    match load_any(name, &Options { chains: Chains::Any, ..Options::default() })? {
+        Any::Entry(entry) => Model::new(*entry).mobility(),
+        Any::Framework(file) => Ok(framework::json(&file, &file.mobility(STEPS)?)),
+        other => Err(Error::Invalid(other.kind().unexpected("a loop, an arm, a platform or a framework"))),
+    }
+}
+
+/// Checks certificates, one a line, and compares their data with a file where one is named: a list of objects with `holds`,
+/// `complex`, `real` and `fault`.
+///
+/// # Errors
+/// For text that is no certificate, and for a file that cannot be read.
+pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
+    let entry = file.map(|file| load(file, &Options::default())).transpose()?;
+    let mut found = Vec::new();
+    let read = check_all(certificates, entry.as_ref(), |_, outcome| {
+        found.push(match outcome {
+            Ok(holds) => json!({ "holds": true, "complex": holds.complex, "real": holds.real, "fault": null }),
+            Err(fault) => json!({ "holds": false, "complex": null, "real": null, "fault": fault.to_string() }),
+        });
+    });
+    read.map_err(|fault| Error::Invalid(fault.to_string()))?;
+    Ok(Value::Array(found))
+}
+
+/// What `conditions --json` prints of `4R`, `5R`, `6R`, a file or an entry of the library.
+///
+/// # Errors
+/// For what cannot be read, and for loops that are beyond it.
+pub fn conditions(name: &str) -> Result<Value> {
+    /// The seed of the command line: the same question has the same answer.
+    const SEED: u64 = 1;
+    let ansatz = match name.to_ascii_uppercase().as_str() {
+        "4R" => Ansatz::general(4),
+        "5R" => Ansatz::general(5),
+        "6R" => Ansatz::general(6),
+        _ => load_ansatz(name, &Options::default())?,
+    };
+    if ansatz.joints.len() != 4 {
+        let found = search::search(&ansatz, SEED)?;
+        return Ok(conditions_search::json(&ansatz, &found));
+    }
+    let theorem = four_bar::derive();
+    let chain = ansatz.chain.as_ref().filter(|_| ansatz.rounded);
+    let decision = match chain.and_then(|chain| decide_over_field(&theorem, chain)) {
+        Some(decision) => decision,
+        None => decide(&theorem, &ansatz)?,
+    };
+    Ok(conditions_report::json(&theorem, &ansatz, &decision))
+}
