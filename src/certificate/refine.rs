@@ -15,6 +15,8 @@ const STEPS: usize = 8;
 const DECIMALS: u32 = 30;
 /// Radii that are tried, as exponents of ten: the largest one is the easiest to check in f64.
 const RADII: [u32; 8] = [8, 9, 10, 12, 14, 16, 20, 25];
+/// The proof must hold in a ball so many times wider as well: another checker may bound the second derivatives less tightly.
+const ROOM: u32 = 10;
 
 /// The unknowns of a solution, and whether it is real.
 pub type Near = (Vec<Complex<f64>>, bool);
@@ -39,12 +41,16 @@ fn all<const N: usize>(closed: &Closed, closure: &impl Closure<N>, near: &[Near]
                 Ball { centre: centre.clone(), radius, real: *real }
             };
             let by = |proves: &dyn Fn(&Ball) -> bool| RADII[start..].iter().map(ball).find(|ball| proves(ball));
-            by(&|ball| holds_one::<N, Nearby>(closure, ball))
-                .or_else(|| by(&|ball| holds_one::<N, Longer>(closure, ball)))
+            by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Nearby>(closure, ball)))
+                .or_else(|| by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Longer>(closure, ball))))
         };
         let balls: Vec<Ball> = centres.iter().zip(near).map(one).collect::<Option<_>>()?;
         proved_modes(closed, &balls).is_ok().then_some(balls)
     })
+}
+
+fn wider(ball: &Ball) -> Ball {
+    Ball { radius: Rational::from(&ball.radius * ROOM), ..ball.clone() }
 }
 
 /// A solution to thirty decimals.
