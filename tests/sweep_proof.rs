@@ -30,7 +30,7 @@ fn swept(entry: &Entry, joint: usize, variable: Variable, [from, to]: [f64; 2], 
     sweep(entry, joint, variable, Range { from, to, steps }, || true, || {}).unwrap()
 }
 
-/// How many branches there are at an input.
+/// The number of branches at an input.
 fn branches_at(found: &Sweep, input: f64) -> usize {
     let times = |branch: &Branch| {
         let (low, high) = (branch.from.min(branch.to), branch.from.max(branch.to));

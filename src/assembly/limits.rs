@@ -39,7 +39,7 @@ pub const CASTS: usize = 40;
 pub const NEAR: f64 = 1e-2;
 /// Norm of the inverse Jacobian above which a solution may be one of a pair, to be proved together.
 pub const SINGULAR: f64 = 1e5;
-/// And below this they are rounding of a real double solution.
+/// Imaginary parts below this are rounding of a real double solution.
 pub const NEAR_DOUBLE: f64 = 1e-6;
 /// Separation of the kernel below which a root that does not close may belong to a family.
 pub const SHARED: f64 = 1e-7;

@@ -1,4 +1,4 @@
-//! What of a cut is computed once for all poses.
+//! The data of a cut that are computed once for all poses.
 
 use crate::closure::half_angle::HalfAngleForm;
 use crate::closure::woernle_lee::MarkedLine;

@@ -93,7 +93,7 @@ fn scaled(motion: &Motion<f64>, scale: f64) -> Motion<f64> {
 #[derive(Default)]
 pub struct Workspace {
     eigen: EigenWorkspace,
-    /// That of platforms.
+    /// The workspace of platforms.
     pub platform: PlatformWorkspace,
     /// What was found last of a platform.
     pub platform_assembly: PlatformAssembly,

@@ -24,7 +24,7 @@ use std::time::Instant;
 const INPUTS: usize = 4;
 /// How often an input is solved before the next one: a steady state is asked for, not that of cold caches.
 const ROUNDS: usize = 3;
-/// Of so many passes over the loops one is made over the exact polynomials.
+/// One of this many passes over the loops is made over the exact polynomials.
 const PASSES: usize = 5;
 /// Sequences of unknowns whose closure polynomials are derived: degrees 2, 4, 8 and 16.
 const DERIVED: [&str; 7] = ["CCC", "CRCR", "SRRR", "PRPRRR", "CRRRR", "PRRRRR", "RRRRRR"];

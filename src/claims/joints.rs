@@ -16,7 +16,7 @@ pub(super) struct Joints<'a> {
 }
 
 impl<'a> Joints<'a> {
-    /// Those of a chain.
+    /// The joints of a chain.
     pub(super) fn of(chain: &'a Chain) -> Result<Self> {
         Ok(Self { chain, variables: Layout::of(chain, None)?.variables })
     }

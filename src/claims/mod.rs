@@ -20,9 +20,9 @@ use poses::Poses;
 /// The sorts of claims, in the order of reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sort {
-    /// How many isolated complex solutions there are.
+    /// The number of isolated complex solutions.
     Complex,
-    /// How many isolated real solutions there are.
+    /// The number of isolated real solutions.
     Real,
     /// The dimension of the solution set.
     Dimension,

@@ -166,7 +166,7 @@ pub fn tolerance(text: Option<&str>, entry: &Entry) -> Result<Option<Tolerance>,
     Tolerance::parse(text, &entry.reading).map(Some)
 }
 
-/// So many numbers, separated by commas.
+/// Reads N numbers, separated by commas.
 fn numbers<const N: usize>(
     text: &str,
     quantity: Quantity,

@@ -129,7 +129,7 @@ pub(super) fn moves<const P: u64>(members: &Members<'_, ModP<P>>, values: &[ModP
     members.links(values).is_some_and(|links| configurations(&links, limit).all_move())
 }
 
-/// How many conditions there are for the symbols that run.
+/// The number of conditions on the symbols that run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scouted {
     /// Almost no draw has a mobile member.

@@ -280,7 +280,7 @@ const TANGENTS: [(i32, i32); 10] = [(1, 2), (1, 3), (2, 3), (1, 4), (3, 4), (1, 
 /// The rotations are taken from so many of these.
 const ROTATIONS: usize = 3;
 
-/// So many positions of screw rank 6 are met before no other one is expected.
+/// After this many positions of screw rank 6 no position of another rank is expected.
 const RIGID: usize = 60;
 
 /// A member of an ansatz of a 6R loop that satisfies the relations, with an exact position, both over the rationals: the

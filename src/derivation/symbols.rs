@@ -41,7 +41,7 @@ impl Symbols {
         Self { kinds: vec![Variable::Rotation; labels.len()], labels }
     }
 
-    /// How many unknowns there are; each has three variables.
+    /// The number of unknowns; each has three variables.
     pub fn len(&self) -> usize {
         self.kinds.len()
     }

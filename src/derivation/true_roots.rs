@@ -165,7 +165,7 @@ impl SolutionRing {
         Some(Self { view, plan, repeats: if exact.ball.is_some() { 2 } else { 1 } })
     }
 
-    /// How many solutions there are.
+    /// The number of solutions.
     fn count(&self) -> usize {
         self.plan.count() / self.repeats
     }

@@ -23,7 +23,7 @@ pub enum PlatformDegree {
     Finite {
         /// Poses, with multiplicity.
         poses: usize,
-        /// What of the 40 solutions of the general platform is no pose here (`N = 0`).
+        /// Those solutions of the 40 of the general platform that are no pose here (`N = 0`).
         null: usize,
         /// Whether solutions with `N = 0` form curves, so that the general border basis does not exist.
         curves: bool,

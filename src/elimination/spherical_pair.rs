@@ -28,7 +28,7 @@ pub fn equation<R: Ring>(coupled: &Coupled<R>) -> [R; 3] {
     }
 }
 
-/// How many positions there are, exactly; `None` where V is not determined.
+/// Returns the exact number of positions; `None` where V is not determined.
 #[must_use]
 pub fn count<F: Field>(coupled: &Coupled<F>) -> Option<usize> {
     let [constant, first, second] = equation(coupled);

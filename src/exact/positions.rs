@@ -97,7 +97,7 @@ impl Conjugates {
         closes.then_some(Self { polynomial: None, field: None, roots: Vec::new(), values, ground: None })
     }
 
-    /// How many positions there are.
+    /// The number of positions.
     #[must_use]
     pub fn count(&self) -> usize {
         let degree = self.polynomial.as_ref().and_then(Univariate::degree).unwrap_or(1);

@@ -46,9 +46,9 @@ pub struct Layout {
     pub variables: Vec<Variable>,
     /// Index of the locked variable, for loops.
     pub locked: Option<usize>,
-    /// Index of the first of the three variables of a ball, if there is one.
+    /// Index of the first of the three variables of a spherical joint, if there is one.
     pub ball: Option<usize>,
-    /// The same of a second ball: then the link between the two spins freely, an eighth variable.
+    /// Index of the first variable of a second spherical joint: the link between the two spins freely, an eighth variable.
     pub second_ball: Option<usize>,
     /// What makes up for too few unknowns, in the order of the joint variables behind which they stand.
     pub idle: Vec<Idle>,
@@ -205,7 +205,7 @@ impl Layout {
         Ok(Self { variables, locked, ball, second_ball, idle: Vec::new() })
     }
 
-    /// How many unknowns there are too few; 0 where there are six or more.
+    /// The number of unknowns that are missing to six; 0 where there are six or more.
     #[must_use]
     pub fn missing(&self) -> usize {
         6_usize.saturating_sub(self.variables.len() - usize::from(self.locked.is_some()))

@@ -38,7 +38,7 @@ impl<T> ByInput<T> {
         Ok(Self(all))
     }
 
-    /// That of one case.
+    /// What was prepared for the locked joint of one case.
     pub fn of(&self, chain: &Chain, case: &Case) -> Result<&Prepared<T>> {
         let locked = locked_variable(chain, case)?;
         let found = self.0.iter().find(|known| known.locked == locked);

@@ -508,7 +508,7 @@ impl ShortLoop {
         Ok(candidates)
     }
 
-    /// How many solutions there are, exactly: at most this many, by the common roots of two choices of idle unknowns.
+    /// An exact upper bound of the number of solutions, by the common roots of two choices of virtual unknowns.
     fn count(&self, rung: &Rung, case: &Case, enough: usize) -> Option<usize> {
         let Counting { loops, is_idle } = rung.counting.get_or_init(|| self.counting(&rung.layout)).as_ref()?;
         let filling: Motion<Mod> = filling(case).ok()?;

@@ -411,7 +411,7 @@ impl Question<'_> {
         Verdict { proof: verdict.proof.of_rounded(is_rounded), ..verdict }
     }
 
-    /// How many solutions there are, where all are wanted and not found.
+    /// The number of solutions, where all are wanted and not found.
     fn expected(&self, verdict: &Verdict) -> Option<usize> {
         if self.roots == Roots::Real || self.rank() < 6 {
             return None;

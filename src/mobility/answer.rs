@@ -76,7 +76,7 @@ pub struct Mobility {
     pub held: Held,
     /// The real configurations there; of an immobile loop all of them. Every one of a mobile loop lies on a branch.
     pub configurations: Vec<Configuration>,
-    /// How many configurations there are, complex ones included.
+    /// The number of configurations, complex ones included.
     pub complex: usize,
     /// Whether these are all configurations there, or more may have been missed.
     pub is_listed: bool,

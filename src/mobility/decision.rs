@@ -140,7 +140,7 @@ impl Subject<'_> {
         Ok(Mobility { reason, ..answer })
     }
 
-    /// The same of nothing but the loop as given.
+    /// Decides the loop as given, without rounding it to a special one.
     fn as_given(&self) -> Result<Mobility> {
         if let Some(answer) = self.over_its_field()? {
             return Ok(answer);
@@ -466,7 +466,7 @@ impl Subject<'_> {
         self.placed(mode.q.iter().map(|z| z.re).collect(), local)
     }
 
-    /// The same of these joint values, near which the configurations form what `local` says.
+    /// The configuration of these joint values, near which the configurations form what `local` says.
     pub(super) fn placed(&self, q: Vec<f64>, local: Local) -> Configuration {
         let value = |(k, q): (usize, &f64)| -> JointValue<f64> {
             let length = self.linkage.axes[k].length(53).to_f64();

@@ -54,7 +54,7 @@ pub(super) struct Search {
     pub held: Held,
     /// Real configurations that move.
     pub configurations: Vec<Configuration>,
-    /// How many configurations there are, complex ones included.
+    /// The number of configurations, complex ones included.
     pub complex: usize,
 }
 

@@ -36,7 +36,7 @@ pub(super) fn all_stand_still(linkage: &Linkage<Rational>) -> bool {
     true
 }
 
-/// The same of a chain whose numbers have images in a prime field: what is not 0 there is not 0.
+/// Whether all joints of a chain stand still, by images of its numbers in a prime field: what is not 0 there is not 0.
 ///
 /// # Source
 /// docs/mobility.md, theorem 5 and (a) of theorem 6.

@@ -133,7 +133,7 @@ impl Stage {
         Self::of_design(&entry.design, entry.labels.links.as_ref())
     }
 
-    /// The same of a design alone; `links` are the names of the first and the last link of an arm.
+    /// The stage of a design alone; `links` are the names of the first and the last link of an arm.
     #[must_use]
     pub fn of_design(design: &Design, links: Option<&[String; 2]>) -> Option<Self> {
         let (scene, poser) = match design {

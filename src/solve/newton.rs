@@ -342,7 +342,7 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
 #[must_use]
 pub fn approach(closed: &ClosedLoop<f64>, start: &Six<f64>) -> Six<f64> {
     const STEPS: usize = 60;
-    /// So many steps that bring no progress end the search.
+    /// The search ends after this many steps without progress.
     const IDLE: usize = 10;
     let mut unknowns = *start;
     let mut before = f64::INFINITY;

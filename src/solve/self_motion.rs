@@ -323,7 +323,7 @@ impl Explorer<'_> {
     }
 }
 
-/// How many more screws there are than the dimension of the algebra of motions that they span; `None` unless they are more,
+/// Returns by how many the screws outnumber the dimension of the algebra of motions that they span; `None` unless they do,
 /// and span it.
 fn surplus(screws: &[Vector6<f64>]) -> Option<usize> {
     let mut basis: Vec<Vector6<f64>> = Vec::new();

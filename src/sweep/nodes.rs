@@ -13,9 +13,9 @@ const REACH: f64 = 1e-5;
 const PART: f64 = 0.25;
 /// Inputs are no farther apart than this, in radians, where critical inputs are known: a chart has room for it.
 const LONGEST: f64 = 0.5;
-/// So many inputs there are at least, for a full turn or any range of a distance, where critical inputs are not known.
+/// The least number of inputs for a full turn, or for any range of a distance, where critical inputs are not known.
 const FEWEST: f64 = 360.0;
-/// The same of overconstrained loops, whose solutions are counted at every input, which takes long.
+/// The least number of inputs of overconstrained loops, whose solutions are counted at every input, which takes long.
 const FEWEST_OVERCONSTRAINED: f64 = 60.0;
 
 /// A critical input and how far on both sides it is looked at.

@@ -15,7 +15,7 @@ pub(super) struct Shape {
 /// is tried. They are small, so that the numbers of the equations stay small, and no two are proportional.
 const FORMS: [[i32; 2]; 6] = [[2, 3], [-3, 5], [7, -4], [-5, -11], [13, 17], [29, -23]];
 
-/// How many choices of linear forms there are.
+/// The number of choices of linear forms.
 pub(super) const CHOICES: usize = FORMS.len();
 
 /// One affine cell of a projective space: with `x0 + c1 x1 + c2 x2 = y0` and `yk = xk`, the vectors whose first `number` of the

@@ -11,7 +11,7 @@ pub const MOST_POSES: usize = 40;
 /// What is known of the poses of one set of legs beside the list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlatformKnowledge {
-    /// How many isolated poses there are, with multiplicity.
+    /// The number of isolated poses, counted with multiplicity.
     pub count: Option<Bound>,
     /// The dimension of a family of poses, complex ones included, as it was counted; no more than a measurement.
     pub infinite: Option<usize>,

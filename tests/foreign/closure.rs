@@ -212,7 +212,7 @@ fn singular(equations: &str, names: &[String]) -> Option<(i32, usize)> {
     Some((dimension, usize::try_from(count).unwrap_or(0)))
 }
 
-/// How many real solutions there are, by isolation over the rationals.
+/// The number of real solutions, by isolation over the rationals.
 fn msolve(equations: &str, names: &[String]) -> Option<usize> {
     let text = format!("{}\n0\n{}\n", names.join(","), equations.replace(", ", ",\n"));
     let (input, output) = (file("closure.ms", &text), file("closure.ms.out", ""));

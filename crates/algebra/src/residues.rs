@@ -7,7 +7,7 @@ use super::ring::{Domain, Field, Ring};
 use rug::Rational;
 use std::sync::LazyLock;
 
-/// How many primes there are.
+/// The number of primes.
 pub const MOST: usize = 64;
 
 static MODULI: LazyLock<[Modulus; MOST]> = LazyLock::new(|| {

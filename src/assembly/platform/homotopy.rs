@@ -39,7 +39,7 @@ const CLOSED: f64 = 1e-6;
 const HELD: f64 = 1e-7;
 /// `|N|` over `|x|^2` below which a singular end belongs to no pose.
 const NULL: f64 = 1e-4;
-/// The same of a regular end.
+/// The bound at a regular end.
 const REGULAR_NULL: f64 = 1e-13;
 /// `|x|` below which an end is at infinity.
 const FAR: f64 = 1e-5;

@@ -1,4 +1,4 @@
-//! What of a platform is computed once for all leg lengths.
+//! The data of a platform that are computed once for all leg lengths.
 
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::number::nearest_f64;

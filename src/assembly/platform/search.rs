@@ -34,7 +34,7 @@ const NEARLY_NULL: f64 = 1e-2;
 const DOUBTFUL: f64 = 1e-4;
 /// Eigenvalues this near to each other may be one multiple eigenvalue.
 const CLUSTER: f64 = 1e-3;
-/// So many real rotations without a pose are kept.
+/// The number of real rotations without a pose that are kept.
 const STRAYS: usize = 8;
 /// Imprecision of solutions that are not proved.
 const SINGULAR: f64 = 1e-4;
@@ -105,7 +105,7 @@ pub struct Search<'a> {
     pub curvature: &'a Curvature,
     /// What is looked for.
     pub roots: Roots,
-    /// How many poses there are, where that is known.
+    /// The number of poses, where it is known.
     pub expected: Option<usize>,
     /// What was found, without conjugates.
     pub found: &'a mut Vec<Found>,

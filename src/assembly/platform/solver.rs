@@ -33,7 +33,7 @@ const MOST_RUNS: usize = 2;
 /// A radius above this is wide: two poses that are nearly one may differ by less.
 const WIDE_BALL: f64 = 1e-10;
 
-/// So many times more are where it is known that poses are missing.
+/// The factor by which more paths are followed where poses are known to be missing.
 const PATIENCE: usize = 4;
 
 /// How much is done for a set of legs.

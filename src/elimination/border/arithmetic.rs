@@ -27,7 +27,7 @@ pub struct Relations<E> {
     pub rows: Vec<E>,
     /// How many rows are in use.
     pub count: usize,
-    /// How many candidates there are.
+    /// The number of candidates.
     pub candidates: usize,
     /// How many basis elements lower levels have.
     pub low: usize,
@@ -46,7 +46,7 @@ pub struct Split<E> {
 /// The most elements of one level.
 pub const LEVEL: usize = 9;
 
-/// So many products of residues modulo a prime below 2^62 are less than `p 2^64`.
+/// The sum of this many products of residues modulo a prime below 2^62 is less than `p 2^64`.
 const PRODUCTS: usize = 4;
 
 /// Numbers, and how relations between them are solved.

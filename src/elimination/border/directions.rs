@@ -19,7 +19,7 @@ const ZERO: f64 = 1e-12;
 pub struct Directions<E> {
     /// Rank of K.
     pub rank: usize,
-    /// How many unknowns tau there are.
+    /// The number of unknowns tau.
     pub count: usize,
     /// A right inverse of the part of K that is kept.
     pub particular: [[E; 6]; 7],

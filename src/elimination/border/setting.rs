@@ -7,7 +7,7 @@ use crate::closure::study::Form;
 /// `u_k = z^T forms_k z + sum_a null_a[k] tau_a`, with the conditions `z^T dropped_a z = sum_b slopes_ab tau_b`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting<E> {
-    /// How many unknowns tau there are.
+    /// The number of unknowns tau.
     pub count: usize,
     /// The forms of u = N (p.p, p, R^T p).
     pub forms: [Form<E>; 7],

@@ -17,7 +17,7 @@ use rug::{Integer, Rational};
 
 type Plane = Polynomial<Int>;
 
-/// So many outputs have a relation: a second one is asked where the first one leaves something open.
+/// The number of outputs with a relation: a second one is asked where the first one leaves something open.
 const OUTPUTS: usize = 2;
 /// Mixtures of the rows that are tried: the first rows as they are, and others where those are dependent.
 const MIXTURES: i32 = 3;

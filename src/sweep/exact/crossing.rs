@@ -18,7 +18,7 @@ use std::f64::consts::{PI, TAU};
 /// A mode and a root of the closure polynomial agree if they are no farther apart, in radians or lengths over 1 plus
 /// their size: samples are solved to more digits than that, also 1e-5 beside a limit position.
 const SAME: f64 = 1e-6;
-/// So many of the widest gaps between outputs are tried for one that no output passes.
+/// The number of widest gaps between outputs that are tried for one that no output passes.
 const GAPS: usize = 4;
 /// Rectangles about a branch are tried with these multiples of what it rises.
 const HEIGHTS: [i32; 3] = [1, 3, 10];

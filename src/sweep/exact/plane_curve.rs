@@ -102,7 +102,7 @@ pub(super) fn integral(relation: &InOutput) -> Integral {
     found
 }
 
-/// The same of a form of a certain degree in the output.
+/// The integral polynomial of a form of a certain degree in the output.
 pub(super) fn integral_form(relation: &InOutput, degree: usize) -> Integral {
     let is_half_turn = relation.degree().is_none_or(|own| own < degree);
     Integral { is_half_turn, ..integral(relation) }

@@ -15,7 +15,7 @@ pub trait Lanes: Copy {
     type Element: Copy;
     /// A sum of products, not reduced.
     type Sum: Copy;
-    /// So many products may be subtracted before a sum must be reduced.
+    /// The number of products that may be subtracted before a sum must be reduced.
     const CHUNK: usize;
 
     /// Zero.

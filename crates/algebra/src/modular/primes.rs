@@ -13,7 +13,7 @@ const DISTANCES: [u16; 64] = [
     2115, 2185,
 ];
 
-/// So many primes that their product exceeds `2^bits`.
+/// Returns enough primes for their product to exceed `2^bits`.
 pub(super) fn primes_beyond(bits: f64) -> Vec<u64> {
     let (mut primes, mut left) = (Vec::new(), bits);
     for p in largest_primes() {
