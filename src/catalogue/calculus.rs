@@ -69,13 +69,14 @@ impl CalculusFile {
 }
 
 /// The keys of the lists that questions are made of.
-const PARTS: [&str; 8] = ["element", "rotation", "pair", "screw", "point", "line", "complex", "configuration"];
+const PARTS: [&str; 10] =
+    ["element", "rotation", "pair", "screw", "point", "line", "complex", "plane", "force", "couple"];
 
 /// Reads a file of the calculus.
 pub(super) fn calculus(scope: &mut Scope<'_>, root: &Node, name: &str, kind: FileKind) -> Result<CalculusFile> {
-    let parts = &PARTS[..7];
-    let heading = heading_with(scope, root, name, parts)?;
-    let keys = [&["title", "source", "notes", "units", "mechanism", "expected"], parts].concat();
+    let parts = &PARTS;
+    let heading = heading_with(scope, root, name, parts.as_slice())?;
+    let keys = [&["title", "source", "notes", "units", "mechanism", "expected"], parts.as_slice()].concat();
     let table = scope.table(root, "the file", &keys)?;
     let question = if kind == FileKind::Lines {
         Question::Lines(Box::new(lines(scope, &table)?))

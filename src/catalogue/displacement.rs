@@ -3,11 +3,13 @@
 use super::calculus::{counted, direction, found, line_of, parts, point};
 use super::lines::pluecker;
 use super::node::Node;
+use super::planes::{MovingPoint, moving, places, planes};
 use super::scope::{Scope, Table};
 use crate::algebra::number::{HalfTangent, Quantity};
 use crate::error::Result;
 use crate::kinematics::motion::{Motion, Vector};
 use looproot_calculus::displacement::points::Moved;
+use looproot_calculus::line::plane::Plane;
 use looproot_calculus::line::pluecker::Line;
 use looproot_calculus::rotation::matrix::Matrix;
 use rug::Rational;
@@ -27,6 +29,16 @@ pub enum Displacement {
     Points(Vec<Moved<Rational>>),
     /// The displacements that take the first line to the second, or the rotations that do so with their directions.
     Line([Line<Rational>; 2], Through),
+    /// The rotation of a point of the body through three positions on a circle.
+    Circle([Vector<Rational>; 3]),
+    /// The rotation at a share of the way from one to another.
+    Between([Matrix<Rational>; 2], Rational),
+    /// The product of reflections in planes, in their order.
+    Reflections(Vec<Plane<Rational>>),
+    /// The lines of Roth's theorem of a screw and of points.
+    Midpoints(Box<GivenScrew>, Vec<Vector<Rational>>),
+    /// The motion of a body by the velocities and accelerations of three points.
+    Velocities(Box<[MovingPoint; 3]>),
 }
 
 /// Which displacements take a line to a line.
@@ -60,15 +72,32 @@ impl Displacement {
             Self::Resultant(_) => "resultant",
             Self::Points(_) => "points",
             Self::Line(..) => "line",
+            Self::Circle(_) => "circle",
+            Self::Between(..) => "between",
+            Self::Reflections(_) => "reflections",
+            Self::Midpoints(..) => "midpoints",
+            Self::Velocities(_) => "velocities",
         }
     }
 }
 
 /// Reads the question of a file of kind `displacement`.
 pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
-    let words = ["elements", "three-rotations", "calibration", "resultant", "points", "line"];
-    let (find, mechanism, line) = found(scope, table, &words, &["axes", "through"])?;
-    for (key, of) in [("axes", "three-rotations"), ("through", "line")] {
+    let words = [
+        "elements",
+        "three-rotations",
+        "calibration",
+        "resultant",
+        "points",
+        "line",
+        "circle",
+        "between",
+        "reflections",
+        "midpoints",
+        "velocities",
+    ];
+    let (find, mechanism, line) = found(scope, table, &words, &["axes", "through", "share"])?;
+    for (key, of) in [("axes", "three-rotations"), ("through", "line"), ("share", "between")] {
         if let (Some(node), false) = (mechanism.get(key), find == of) {
             return Err(scope
                 .fail(node.line, format!("found `{key}` with `find = \"{find}\"`, expected it with \"{of}\" only")));
@@ -80,6 +109,42 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
         "calibration" => calibration(scope, table),
         "resultant" => resultant(scope, table),
         "points" => points(scope, table),
+        "circle" => {
+            let points = counted(scope, line_of(table, "point"), places(scope, table, &[])?, "point", 3)?;
+            let points: [Vector<Rational>; 3] =
+                points.try_into().map_err(|_| scope.fail(line, "found another number of points, expected three"))?;
+            if Plane::through(&points).normal.iter().all(|c| *c == 0) {
+                let message = "found points in a line, expected three on a circle";
+                return Err(scope.fail(line_of(table, "point"), message));
+            }
+            Ok(Displacement::Circle(points))
+        }
+        "between" => {
+            let found = rotations(scope, table)?;
+            let found = counted(scope, line_of(table, "rotation"), found, "rotation", 2)?;
+            let share = scope.number(scope.need(&mechanism, "share")?, Quantity::Ratio, "share")?.rational().clone();
+            let both =
+                found.try_into().map_err(|_| scope.fail(line, "found another number of rotations, expected two"))?;
+            Ok(Displacement::Between(both, share))
+        }
+        "reflections" => {
+            let found = planes(scope, table, &[])?;
+            if found.is_empty() {
+                return Err(scope.fail(line, "found no [[plane]], expected one or many"));
+            }
+            Ok(Displacement::Reflections(found))
+        }
+        "midpoints" => {
+            let screws = counted(scope, line_of(table, "screw"), screws(scope, table, &["point"])?, "screw", 1)?;
+            let screw = screws.into_iter().next();
+            let screw = screw.ok_or_else(|| scope.fail(line, "found no [[screw]], expected one"))?;
+            let points = places(scope, table, &["screw"])?;
+            if points.is_empty() {
+                return Err(scope.fail(line, "found no [[point]], expected one or many"));
+            }
+            Ok(Displacement::Midpoints(Box::new(screw), points))
+        }
+        "velocities" => Ok(Displacement::Velocities(Box::new(moving(scope, table)?))),
         _ => {
             let given = parts(scope, table, "line", &super::lines::LINE, &[])?;
             let given = counted(scope, line_of(table, "line"), given, "line", 2)?;
@@ -129,6 +194,11 @@ fn elements(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
 fn three_rotations(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>) -> Result<Displacement> {
     let [a, b, c] = scope.exactly::<3>(scope.need(mechanism, "axes")?, "axes")?;
     let axes = [direction(scope, a, "axes")?, direction(scope, b, "axes")?, direction(scope, c, "axes")?];
+    Ok(Displacement::ThreeRotations(axes, rotations(scope, table)?))
+}
+
+/// The rotations of a file, one or many.
+fn rotations(scope: &Scope<'_>, table: &Table<'_>) -> Result<Vec<Matrix<Rational>>> {
     let given = parts(scope, table, "rotation", &["matrix", "quaternion"], &[])?;
     if given.is_empty() {
         return Err(scope.fail(line_of(table, "rotation"), "found no [[rotation]], expected one or many"));
@@ -141,7 +211,7 @@ fn three_rotations(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>) 
             Err(scope.fail(node.line, message))
         }
     });
-    Ok(Displacement::ThreeRotations(axes, rotations.collect::<Result<_>>()?))
+    rotations.collect()
 }
 
 fn calibration(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
@@ -163,8 +233,13 @@ fn calibration(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
 }
 
 fn resultant(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
+    Ok(Displacement::Resultant(screws(scope, table, &[])?))
+}
+
+/// The finite screws of a file.
+fn screws(scope: &Scope<'_>, table: &Table<'_>, others: &[&str]) -> Result<Vec<GivenScrew>> {
     let keys = ["direction", "point", "angle", "tan_half", "translation"];
-    let given = parts(scope, table, "screw", &keys, &[])?;
+    let given = parts(scope, table, "screw", &keys, others)?;
     let screws = given.iter().map(|(screw, node)| {
         let along = direction(scope, scope.need(screw, "direction")?, "direction")?;
         let at = point(scope, scope.need(screw, "point")?, "point")?;
@@ -179,7 +254,7 @@ fn resultant(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
         let translation = scope.length(scope.need(screw, "translation")?, "translation")?.rational().clone();
         Ok(GivenScrew { axis: Line::at(&at, &along), half_tangent: angle.half_tangent().clone(), translation })
     });
-    Ok(Displacement::Resultant(screws.collect::<Result<_>>()?))
+    screws.collect()
 }
 
 fn points(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {

@@ -2,12 +2,14 @@
 
 use super::calculus::{counted, direction, found, line_of, parts, point};
 use super::node::Node;
+use super::planes::{Turning, complexes, places, planes, turnings};
 use super::scope::{Scope, Table};
 use crate::algebra::number::Quantity;
 use crate::error::Result;
-use crate::kinematics::motion::{Vector, dot};
+use crate::kinematics::motion::{Vector, cross, dot};
 use looproot_calculus::displacement::cylindroid::Pitched;
 use looproot_calculus::line::complex::Complex;
+use looproot_calculus::line::plane::Plane;
 use looproot_calculus::line::pluecker::Line;
 use rug::Rational;
 
@@ -29,6 +31,44 @@ pub enum Lines {
     Congruence([Complex<Rational>; 2]),
     /// The quadric of three lines.
     Regulus([Line<Rational>; 3]),
+    /// The plane through three points.
+    Plane([Vector<Rational>; 3]),
+    /// The line of two planes.
+    Planes([Plane<Rational>; 2]),
+    /// What a complex makes of points, planes and lines.
+    Polarity(Box<Polarity>),
+    /// A generator of a ruled surface, and its rate.
+    Generator(Box<[Line<Rational>; 2]>),
+    /// Two bodies that turn about lines, one against the other.
+    Relative([Turning; 2]),
+    /// The resultant of forces and couples, and the screws on which it works.
+    Wrench(Box<Wrench>),
+    /// The screws that are reciprocal to some screws.
+    Reciprocal(Vec<Pitched<Rational>>),
+}
+
+/// A complex, and what its polarity is applied to.
+#[derive(Clone, Debug)]
+pub struct Polarity {
+    /// The complex.
+    pub complex: Complex<Rational>,
+    /// Points, whose null planes are asked for.
+    pub points: Vec<Vector<Rational>>,
+    /// Planes, whose null points are asked for.
+    pub planes: Vec<Plane<Rational>>,
+    /// Lines, whose reciprocal polars are asked for.
+    pub lines: Vec<Line<Rational>>,
+}
+
+/// Forces with their points, couples, and velocity screws.
+#[derive(Clone, Debug)]
+pub struct Wrench {
+    /// Points and forces.
+    pub forces: Vec<(Vector<Rational>, Vector<Rational>)>,
+    /// Free couples.
+    pub couples: Vec<Vector<Rational>>,
+    /// Velocity screws of the body, for the power.
+    pub screws: Vec<Turning>,
 }
 
 impl Lines {
@@ -42,13 +82,34 @@ impl Lines {
             Self::Perpendicular(_) => "perpendicular",
             Self::Congruence(_) => "congruence",
             Self::Regulus(_) => "regulus",
+            Self::Plane(_) => "plane",
+            Self::Planes(_) => "planes",
+            Self::Polarity(_) => "polarity",
+            Self::Generator(_) => "generator",
+            Self::Relative(_) => "relative",
+            Self::Wrench(_) => "wrench",
+            Self::Reciprocal(_) => "reciprocal",
         }
     }
 }
 
 /// Reads the question of a file of kind `lines`.
 pub(super) fn lines(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
-    let words = ["transversals", "complex", "cylindroid", "perpendicular", "congruence", "regulus"];
+    let words = [
+        "transversals",
+        "complex",
+        "cylindroid",
+        "perpendicular",
+        "congruence",
+        "regulus",
+        "plane",
+        "planes",
+        "polarity",
+        "generator",
+        "relative",
+        "wrench",
+        "reciprocal",
+    ];
     let (find, _, line) = found(scope, table, &words, &[])?;
     let wrong = || scope.fail(line, "found another number of parts than the question has, expected that number");
     Ok(match find {
@@ -57,16 +118,7 @@ pub(super) fn lines(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
         "regulus" => Lines::Regulus(given(scope, table, 3, &[])?.try_into().map_err(|_| wrong())?),
         "complex" => {
             let lines = given(scope, table, 5, &["point"])?;
-            let points = match table.get("point") {
-                Some(node) => {
-                    let one = |item: &Node| {
-                        let own = scope.table(item, "[[point]]", &["at"])?;
-                        point(scope, scope.need(&own, "at")?, "at")
-                    };
-                    scope.list(node, "point")?.iter().map(one).collect::<Result<_>>()?
-                }
-                None => Vec::new(),
-            };
+            let points = places(scope, table, &["line"])?;
             Lines::Complex(lines, points)
         }
         "cylindroid" => {
@@ -81,25 +133,88 @@ pub(super) fn lines(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
             let screws: Vec<_> = screws.iter().map(one).collect::<Result<_>>()?;
             Lines::Cylindroid(screws.try_into().map_err(|_| wrong())?)
         }
-        _ => {
-            let complexes = parts(scope, table, "complex", &["a", "b"], &[])?;
-            let complexes = counted(scope, line_of(table, "complex"), complexes, "complex", 2)?;
-            let one = |(own, node): &(Table<'_>, &Node)| {
-                let vector = |key: &str, quantity: Quantity| {
-                    let found = scope.vector(scope.need(own, key)?, quantity, key)?;
-                    Ok::<_, crate::error::Error>(found.each_ref().map(|c| c.rational().clone()))
-                };
-                let complex = Complex { a: vector("a", Quantity::Ratio)?, b: vector("b", Quantity::Length)? };
-                if complex.a.iter().chain(&complex.b).all(|c| *c == 0) {
-                    return Err(scope
-                        .fail(node.line, "found a [[complex]] of zeros, expected two vectors that are not both zero"));
-                }
-                Ok(complex)
+        "plane" => {
+            let points = counted(scope, line_of(table, "point"), places(scope, table, &[])?, "point", 3)?;
+            let points: [Vector<Rational>; 3] = points.try_into().map_err(|_| wrong())?;
+            if Plane::through(&points).normal.iter().all(|c| *c == 0) {
+                let message = "found points in a line, which lies in many planes, expected three that are not";
+                return Err(scope.fail(line_of(table, "point"), message));
+            }
+            Lines::Plane(points)
+        }
+        "planes" => {
+            let planes = counted(scope, line_of(table, "plane"), planes(scope, table, &[])?, "plane", 2)?;
+            Lines::Planes(planes.try_into().map_err(|_| wrong())?)
+        }
+        "polarity" => {
+            let found = complexes(scope, table, &["point", "plane", "line"])?;
+            let [complex]: [Complex<Rational>; 1] =
+                counted(scope, line_of(table, "complex"), found, "complex", 1)?.try_into().map_err(|_| wrong())?;
+            let lines = match table.get("line") {
+                None => Vec::new(),
+                Some(_) => parts(scope, table, "line", &LINE, &["complex", "point", "plane"])?
+                    .iter()
+                    .map(|(line, node)| pluecker(scope, line, node))
+                    .collect::<Result<_>>()?,
             };
-            let complexes: Vec<_> = complexes.iter().map(one).collect::<Result<_>>()?;
+            let points = places(scope, table, &["complex", "plane", "line"])?;
+            let planes = planes(scope, table, &["complex", "point", "line"])?;
+            Lines::Polarity(Box::new(Polarity { complex, points, planes, lines }))
+        }
+        "generator" => generator(scope, table)?,
+        "relative" => {
+            let screws = counted(scope, line_of(table, "screw"), turnings(scope, table, &[])?, "screw", 2)?;
+            Lines::Relative(screws.try_into().map_err(|_| wrong())?)
+        }
+        "wrench" => {
+            let forces = parts(scope, table, "force", &["at", "vector"], &["couple", "screw"])?;
+            let forces = forces.iter().map(|(own, _)| {
+                let vector = |key: &str| point(scope, scope.need(own, key)?, key);
+                Ok((vector("at")?, vector("vector")?))
+            });
+            let forces = forces.collect::<Result<_>>()?;
+            let couples = match table.get("couple") {
+                None => Vec::new(),
+                Some(_) => parts(scope, table, "couple", &["vector"], &["force", "screw"])?
+                    .iter()
+                    .map(|(own, _)| point(scope, scope.need(own, "vector")?, "vector"))
+                    .collect::<Result<_>>()?,
+            };
+            let screws = turnings(scope, table, &["force", "couple"])?;
+            Lines::Wrench(Box::new(Wrench { forces, couples, screws }))
+        }
+        "reciprocal" => {
+            let screws = parts(scope, table, "screw", &["direction", "point", "pitch"], &[])?;
+            let one = |(screw, _): &(Table<'_>, &Node)| {
+                let along = direction(scope, scope.need(screw, "direction")?, "direction")?;
+                let at = point(scope, scope.need(screw, "point")?, "point")?;
+                let pitch = scope.length(scope.need(screw, "pitch")?, "pitch")?.rational().clone();
+                Ok(Pitched { axis: Line::at(&at, &along), pitch })
+            };
+            Lines::Reciprocal(screws.iter().map(one).collect::<Result<_>>()?)
+        }
+        _ => {
+            let found = complexes(scope, table, &[])?;
+            let complexes = counted(scope, line_of(table, "complex"), found, "complex", 2)?;
             Lines::Congruence(complexes.try_into().map_err(|_| wrong())?)
         }
     })
+}
+
+/// A line with the rates of its point and of its direction.
+fn generator(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
+    let given = parts(scope, table, "line", &["point", "direction", "point_rate", "direction_rate"], &[])?;
+    let given = counted(scope, line_of(table, "line"), given, "line", 1)?;
+    let [(own, _)] = given.as_slice() else { return Err(scope.fail(table.line(), "found no line, expected one")) };
+    let vector = |key: &str| point(scope, scope.need(own, key)?, key);
+    let along = direction(scope, scope.need(own, "direction")?, "direction")?;
+    let rate = scope.vector(scope.need(own, "direction_rate")?, Quantity::Ratio, "direction_rate")?;
+    let rate = rate.each_ref().map(|c| c.rational().clone());
+    let (at, slip) = (vector("point")?, vector("point_rate")?);
+    // The rate of the moment p x d.
+    let (one, two) = (cross(&slip, &along), cross(&at, &rate));
+    let moment = std::array::from_fn(|i| Rational::from(&one[i] + &two[i]));
+    Ok(Lines::Generator(Box::new([Line::at(&at, &along), Line { direction: rate, moment }])))
 }
 
 /// Exactly this many lines.

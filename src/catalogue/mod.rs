@@ -16,6 +16,7 @@ mod linkage;
 mod motion;
 mod node;
 mod options;
+pub mod planes;
 mod platform;
 pub mod poses;
 mod robot_tip;

@@ -3,11 +3,12 @@
 use crate::algebra::enclosure::Enclosure;
 use crate::verdict::{Code, Proof, Status, Verdict};
 use looproot_calculus::displacement::screw::Screw;
-use looproot_calculus::motion::Motion;
+use looproot_calculus::motion::{Motion, Vector};
 use looproot_calculus::rotation::matrix::{Matrix, from_matrix};
 use looproot_calculus::rotation::vectors::unit;
+use looproot_calculus::unit::{direction, length};
 use num_complex::Complex;
-use rug::Float;
+use rug::{Float, Rational};
 use serde_json::{Map, Value, json};
 
 /// A solution.
@@ -131,6 +132,65 @@ pub fn screw(motion: &Motion<f64>) -> Value {
         "translation": number(found.translation),
         "pitch": found.pitch().map_or(Value::Null, number),
     })
+}
+
+/// The one solution of linear equations: numbers with names, each rounded once.
+#[derive(Clone, Debug, Default)]
+pub struct Named {
+    rounding: Rounding,
+    values: Map<String, Value>,
+}
+
+impl Named {
+    /// A number.
+    pub fn number(&mut self, name: &str, found: &Rational) {
+        let rounded = self.rounding.number(&Enclosure::of(found));
+        self.put(name, number(rounded));
+    }
+
+    /// A vector.
+    pub fn vector(&mut self, name: &str, found: &Vector<Rational>) {
+        let rounded = self.rounded(found);
+        self.put(name, list(&rounded));
+    }
+
+    /// The unit vector along a vector; null of the zero vector.
+    pub fn unit(&mut self, name: &str, along: &Vector<Rational>) {
+        let unit = direction(&along.each_ref().map(Enclosure::of));
+        let rounded = unit.map(|unit| list(&self.rounding.vector(&unit)));
+        self.put(name, rounded.unwrap_or(Value::Null));
+    }
+
+    /// The length of a vector.
+    pub fn length(&mut self, name: &str, of: &Vector<Rational>) {
+        let found = length(&of.each_ref().map(Enclosure::of)).map(|found| number(self.rounding.number(&found)));
+        self.put(name, found.unwrap_or(Value::Null));
+    }
+
+    /// A vector in f64, its rounding remembered.
+    pub fn rounded(&mut self, vector: &Vector<Rational>) -> [f64; 3] {
+        self.rounding.vector(&vector.each_ref().map(Enclosure::of))
+    }
+
+    /// Any other value.
+    pub fn put(&mut self, name: &str, value: Value) {
+        self.values.insert(name.to_owned(), value);
+    }
+
+    /// The numbers as one value.
+    #[must_use]
+    pub fn into_value(self) -> Value {
+        Value::Object(self.values)
+    }
+
+    /// The answer that has this solution and no other.
+    #[must_use]
+    pub fn answer(self, reason: impl Into<String>) -> Answer {
+        let Self { rounding, values } = self;
+        let mode = Mode { real: true, multiplicity: 1, residual: 0.0, radius: Some(rounding.radius), values };
+        let counted = Counted { complex: 1, code: Code::GeneralBoundMet, at_infinity: 0, reason: reason.into() };
+        Answer::complete(vec![mode], counted)
+    }
 }
 
 /// What is known of the number of solutions.

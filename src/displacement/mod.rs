@@ -8,8 +8,10 @@ mod calibration;
 mod elements;
 mod line;
 mod points;
+mod positions;
 mod resultant;
 mod three_rotations;
+mod velocities;
 
 use crate::catalogue::displacement::Displacement;
 use crate::error::Result;
@@ -29,5 +31,10 @@ pub fn answers(question: &Displacement) -> Result<Vec<Answer>> {
         Displacement::Resultant(screws) => vec![resultant::answer(screws)],
         Displacement::Points(points) => vec![points::answer(points)],
         Displacement::Line(lines, through) => vec![line::answer(lines, *through)],
+        Displacement::Circle(points) => vec![positions::circle(points)],
+        Displacement::Between(both, share) => vec![positions::slerp(both, share)],
+        Displacement::Reflections(planes) => vec![positions::reflections(planes)],
+        Displacement::Midpoints(screw, points) => vec![positions::midpoints(screw, points)],
+        Displacement::Velocities(points) => vec![velocities::answer(points)],
     })
 }

@@ -15,12 +15,11 @@ use serde_json::Map;
 pub fn answer(screws: &[GivenScrew]) -> Answer {
     let all = screws.iter().try_fold(Motion::<Enclosure>::identity(), |all, screw| Some(one(screw)?.then_after(&all)));
     let modes = all.map(|all| {
-        let mut rounding = Rounding::default();
-        let found = Motion { rotation: rounding.matrix(&all.rotation), translation: rounding.vector(&all.translation) };
+        let (found, radius) = rounded(&all);
         let mut values = Map::new();
         insert_motion(&mut values, &found);
         values.insert("screw".into(), screw(&found));
-        Mode { real: true, multiplicity: 1, residual: 0.0, radius: Some(rounding.radius), values }
+        Mode { real: true, multiplicity: 1, residual: 0.0, radius: Some(radius), values }
     });
     let reason = "a product of displacements is one displacement".to_owned();
     Answer::complete(
@@ -29,8 +28,15 @@ pub fn answer(screws: &[GivenScrew]) -> Answer {
     )
 }
 
+/// A motion in f64, and how far its numbers are from those enclosed at most.
+pub(super) fn rounded(motion: &Motion<Enclosure>) -> (Motion<f64>, f64) {
+    let mut rounding = Rounding::default();
+    let rotation = rounding.matrix(&motion.rotation);
+    (Motion { rotation, translation: rounding.vector(&motion.translation) }, rounding.radius)
+}
+
 /// The motion of a screw, enclosed.
-fn one(screw: &GivenScrew) -> Option<Motion<Enclosure>> {
+pub(super) fn one(screw: &GivenScrew) -> Option<Motion<Enclosure>> {
     let enclosed = |v: &[rug::Rational; 3]| v.each_ref().map(Enclosure::of);
     let axis = Line { direction: enclosed(&screw.axis.direction), moment: enclosed(&screw.axis.moment) }.unit()?;
     let (cos, sin) = match &screw.half_tangent {

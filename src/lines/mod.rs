@@ -4,8 +4,11 @@
 
 mod complex;
 mod cylindroid;
+mod forces;
 mod meeting;
+mod planes;
 mod regulus;
+mod ruled;
 
 use crate::catalogue::CalculusFile;
 use crate::catalogue::calculus::Question;
@@ -46,5 +49,12 @@ pub fn answer(question: &Lines) -> Answer {
         Lines::Cylindroid(screws) => cylindroid::answer(screws),
         Lines::Perpendicular([first, second]) => regulus::perpendicular(first, second),
         Lines::Regulus(lines) => regulus::answer(lines),
+        Lines::Plane(points) => planes::plane(points),
+        Lines::Planes(both) => planes::line(both),
+        Lines::Polarity(question) => planes::polarity(question),
+        Lines::Generator(both) => ruled::generator(both),
+        Lines::Relative(both) => ruled::relative(both),
+        Lines::Wrench(question) => forces::wrench(question),
+        Lines::Reciprocal(screws) => forces::reciprocal(screws),
     }
 }

@@ -5,6 +5,7 @@
 
 pub mod complex;
 pub mod pencil;
+pub mod plane;
 pub mod pluecker;
 pub mod regulus;
 pub mod ruled;

@@ -57,3 +57,37 @@ pub fn generator<R: Unit>(line: &Line<R>, rate: &Line<R>) -> Option<Generator<R>
     let distribution = dot(&slip, &cross(d, &across)).mul(&inverse);
     Some(Generator { striction, distribution })
 }
+
+/// The generator of the fixed and of the moving axode of a motion: the axis of its velocity screw, with its rate. Given are the
+/// velocity screw as `omega` and the velocity at the origin, and the rates of these two at places fixed in space. `None` in a
+/// translation, and where the axis keeps its direction.
+///
+/// Both axodes have the same striction point and distribution parameter: they touch along the axis, and one rolls and slides on
+/// the other.
+///
+/// # Example
+/// ```
+/// use looproot_calculus::line::{pluecker::Line, ruled::axode};
+/// // A body that turns about an axis, which itself turns about the origin: cones, whose apex is the striction point.
+/// let screw = Line { direction: [1.0, 0.0, 1.0], moment: [0.0; 3] };
+/// let rate = Line { direction: [0.0, 1.0, 0.0], moment: [0.0; 3] };
+/// let found = axode(&screw, &rate).unwrap();
+/// assert_eq!((found.striction, found.distribution), ([0.0; 3], 0.0));
+/// ```
+///
+/// # Source
+/// \[Wittenburg2016, 9.5\]
+#[must_use]
+pub fn axode<R: Unit>(screw: &Line<R>, rate: &Line<R>) -> Option<Generator<R>> {
+    let (d, m, dd, dm) = (&screw.direction, &screw.moment, &rate.direction, &rate.moment);
+    let square = dot(d, d).reciprocal()?;
+    let pitch = dot(d, m).mul(&square);
+    // The rate of (d . m)/(d . d).
+    let twice = pitch.add(&pitch);
+    let slope = dot(dd, m).add(&dot(d, dm)).sub(&twice.mul(&dot(d, dd))).mul(&square);
+    let part = |m: &Vector<R>, d: &Vector<R>| -> Vector<R> { std::array::from_fn(|i| m[i].sub(&d[i].mul(&pitch))) };
+    let axis = Line { direction: d.clone(), moment: part(m, d) };
+    let turned = part(dm, dd);
+    let moment = std::array::from_fn(|i| turned[i].sub(&d[i].mul(&slope)));
+    generator(&axis, &Line { direction: dd.clone(), moment })
+}
