@@ -122,6 +122,8 @@ fn the_document_follows_its_schema() {
             &["derive", "bricard_line_symmetric", "--json"],
             &["derive", "platform/hexapod", "--json"],
             &["derive", "crcrr_4_angle", "--symbolic", "--json"],
+            &["derive", "linkage/stephenson_3_triad", "--json"],
+            &["derive", "linkage/coupler_curve", "--trace", "coupler.P", "--json"],
         ],
     );
     follows(

@@ -23,8 +23,23 @@ pub struct LinkageFile {
     pub linkage: Linkage,
     /// What is asked, one case for every `[[input]]`; without any the linkage is a structure.
     pub cases: Vec<LinkageCase>,
+    /// Claims about curves of points.
+    pub traces: Vec<TraceClaim>,
     /// Whether every number of bodies and joints is exact.
     pub exact: bool,
+}
+
+/// A claim about the curve of a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TraceClaim {
+    /// The body of the point.
+    pub body: usize,
+    /// Its name and where it is in the body.
+    pub point: (String, Gaussian),
+    /// The degree of the curve.
+    pub degree: u64,
+    /// Line of the file, from 1.
+    pub line: usize,
 }
 
 /// One problem of a linkage.
@@ -70,8 +85,8 @@ pub struct LinkageClaim {
 
 /// Reads a linkage file.
 pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<LinkageFile> {
-    let heading = heading_with(scope, root, name, &["input", "solution"])?;
-    let keys = ["title", "source", "notes", "units", "mechanism", "expected", "input", "solution"];
+    let heading = heading_with(scope, root, name, &["input", "solution", "trace"])?;
+    let keys = ["title", "source", "notes", "units", "mechanism", "expected", "input", "solution", "trace"];
     let table = scope.table(root, "the file", &keys)?;
     let node = scope.need(&table, "mechanism")?;
     let mechanism =
@@ -108,7 +123,29 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
         }
         first.expected = top;
     }
-    Ok(LinkageFile { heading, linkage, cases, exact })
+    let traces = match table.get("trace") {
+        Some(list) => {
+            scope.list(list, "trace")?.iter().map(|node| traced(scope, node, &linkage)).collect::<Result<_>>()?
+        }
+        None => Vec::new(),
+    };
+    Ok(LinkageFile { heading, linkage, cases, traces, exact })
+}
+
+/// A claim about the curve of a point, `BODY.POINT`.
+fn traced(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -> Result<TraceClaim> {
+    let table = scope.table(node, "[[trace]]", &["point", "degree"])?;
+    let point = scope.need(&table, "point")?;
+    let text = scope.text(point, "point")?;
+    let Some((body, name)) = text.split_once('.') else {
+        return Err(scope.fail(point.line, format!("found the point `{text}`, expected BODY.POINT")));
+    };
+    let body = body_named(scope, linkage, body, point.line)?;
+    let Some(place) = linkage.bodies[body].point(name) else {
+        return Err(scope.fail(point.line, format!("found the point `{text}`, which that body does not have")));
+    };
+    let degree = scope.count(scope.need(&table, "degree")?, "degree")? as u64;
+    Ok(TraceClaim { body, point: (name.to_owned(), place.clone()), degree, line: table.line() })
 }
 
 /// Every body is joined to the ground, if by others.

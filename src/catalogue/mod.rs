@@ -38,7 +38,7 @@ pub use library::{
     all_names, ansatz_names, builtin, builtin_any, builtin_names, builtin_page, builtin_text, calculus_names, citation,
     moving_names, namesakes,
 };
-pub use linkage::{LinkageCase, LinkageClaim, LinkageClaims, LinkageFile};
+pub use linkage::{LinkageCase, LinkageClaim, LinkageClaims, LinkageFile, TraceClaim};
 pub use motion::MotionFile;
 pub use options::{Chains, Options};
 pub use robots::robot_names;

@@ -2,6 +2,7 @@
 
 use super::{Finding, Judgement, Sort};
 use crate::catalogue::{LinkageClaim, LinkageFile};
+use crate::derivation::trace;
 use crate::error::Result;
 use crate::linkage::answer::{LinkageAnswer, LinkageMode, solve};
 use crate::verdict::Status;
@@ -48,6 +49,13 @@ pub(super) fn linkage(file: &LinkageFile) -> Result<Judgement> {
             };
             add(claim.line, Sort::Found, nearest.is_some_and(|distance| distance <= tolerance), message);
         }
+    }
+    for claim in &file.traces {
+        let given = file.cases.first().map_or(&[][..], |case| &case.given);
+        let degree = trace(&file.linkage, given, claim.body, &claim.point.1)?.degree();
+        let message = format!("claims a curve of degree {} of {}, found {degree}", claim.degree, claim.point.0);
+        let holds = degree == claim.degree;
+        judgement.findings.push(Finding { case: 1, file: None, line: claim.line, sort: Sort::Complex, holds, message });
     }
     Ok(judgement)
 }

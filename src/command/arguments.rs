@@ -303,6 +303,9 @@ pub struct DeriveOptions {
     /// all parameters symbols: rccc, ccrr, 4r, hooke
     #[arg(long, conflicts_with_all = ["explain", "symbolic", "bless", "pose", "input", "joints", "legs", "at"])]
     pub transference: bool,
+    /// Linkages: the curve of a point of a body, as a polynomial in its coordinates
+    #[arg(long, value_name = "BODY.POINT", conflicts_with_all = ["explain", "symbolic", "bless", "format"])]
+    pub trace: Option<String>,
     /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
     pub seed: Option<u64>,

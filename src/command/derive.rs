@@ -2,12 +2,12 @@
 
 use super::arguments::DeriveOptions;
 use super::bless;
-use super::exit::{Exit, Fault};
+use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use super::seed::plant;
 use super::wanted::{in_place, wanted};
 use looproot::catalogue::entry::Entry;
-use looproot::catalogue::{Options, load};
+use looproot::catalogue::{Any, Options, load_solvable};
 use looproot::derivation::{Derivation, derive, derive_symbolic};
 use looproot::error::Error;
 use looproot::report::derivation::{json, paper, system, text, verdict};
@@ -30,7 +30,14 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     }
     plant(options.seed);
     let read = Options { chains: options.asked.chains(), ..options.read.options() };
-    let mut entry = load(mechanism, &read)?;
+    let mut entry = match load_solvable(mechanism, &read)? {
+        Any::Entry(entry) => *entry,
+        Any::Linkage(file) => return super::linkage_derive::run(options, mechanism, &file),
+        other => return Err(unexpected(mechanism, other.kind(), "an arm, a loop, a platform or a linkage")),
+    };
+    if options.trace.is_some() {
+        return Err(unexpected(mechanism, entry.kind().into(), "a linkage, whose points have curves"));
+    }
     let whole = entry.clone();
     let index = wanted(&options.asked, mechanism, &mut entry)?.start;
     let case = &entry.cases[index];

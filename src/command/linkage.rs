@@ -16,7 +16,7 @@ use std::sync::atomic::Ordering;
 pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result<Exit, Fault> {
     refuse(options)?;
     let stop = stop_on_interrupt();
-    let wanted = wanted(options, file)?;
+    let wanted = wanted(options.asked.input.as_deref(), file)?;
     let mut output = output;
     let mut exit = Exit::Complete;
     let mut results = Vec::new();
@@ -78,8 +78,8 @@ fn refuse(options: &SolveOptions) -> Result<(), Error> {
 }
 
 /// The cases asked for: all, or the one of `--input K`.
-fn wanted(options: &SolveOptions, file: &LinkageFile) -> Result<std::ops::Range<usize>, Error> {
-    let Some(asked) = &options.asked.input else { return Ok(0..file.cases.len()) };
+pub fn wanted(input: Option<&str>, file: &LinkageFile) -> Result<std::ops::Range<usize>, Error> {
+    let Some(asked) = input else { return Ok(0..file.cases.len()) };
     match asked.trim().parse::<usize>() {
         Ok(number) if (1..=file.cases.len()).contains(&number) => Ok(number - 1..number),
         _ => {

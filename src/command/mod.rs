@@ -17,6 +17,7 @@ pub mod factor;
 pub mod follow;
 pub mod help;
 pub mod linkage;
+pub mod linkage_derive;
 pub mod list;
 pub mod mobility;
 pub mod motion;

@@ -7,6 +7,7 @@ mod chain;
 mod cuts;
 mod equation;
 mod four_bar;
+mod linkage;
 mod platform;
 mod polynomial;
 mod pose;
@@ -19,6 +20,7 @@ mod true_roots;
 mod two_sides;
 
 pub use equation::Equation;
+pub use linkage::{Curve, GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage, trace};
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;
 pub use substitution::Substitution;

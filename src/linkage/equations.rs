@@ -186,6 +186,36 @@ impl Closure {
         Some(Self { equations: Equations { cycles, slides, classes }, clusters })
     }
 
+    /// The class of the cluster in which a body is, and the rotation of the body against its class.
+    #[must_use]
+    pub fn class_of(&self, state: &State, body: usize) -> Option<(usize, Number)> {
+        let (name, place) = &state.bodies[body];
+        let node = self.clusters.iter().find(|node| node.name == *name)?;
+        Some((node.class, node.turn.mul(&place.turn)))
+    }
+
+    /// The equations with one cycle more: the place of a point of a body in coordinates of the body `base`, whose class
+    /// rests so that `base` has the rotation 1. Less a point of the plane, it is zero where the point of the body is there.
+    #[must_use]
+    pub fn traced(&self, state: &State, base: usize, body: usize, point: &Number) -> Option<Equations<Number>> {
+        let node_of = |body: usize| self.clusters.iter().find(|node| node.name == state.bodies[body].0);
+        let (ground, carrier) = (node_of(base)?, node_of(body)?);
+        let place = |body: usize| &state.bodies[body].1;
+        let mut from = ground.origin.clone();
+        from.add_class(ground.class, &ground.turn.mul(&place(base).origin));
+        let mut to = carrier.origin.clone();
+        to.add_class(carrier.class, &carrier.turn.mul(&place(body).apply(point)));
+        let step = to.sub(&from);
+        let back = ground.turn.mul(&place(base).turn).mirrored();
+        let turned = |list: &[Number]| list.iter().map(|n| n.mul(&back)).collect::<Vec<Number>>();
+        let mut equations = self.equations.clone();
+        equations.cycles.push(turned(&step.classes));
+        for (slide, coefficient) in equations.slides.iter_mut().zip(turned(&step.slides)) {
+            slide.coefficients.push(coefficient);
+        }
+        Some(equations)
+    }
+
     /// Moves the clusters of a branch to where a solution puts them: one rotation for every class, one displacement for
     /// every slide, in parts of the length of its direction.
     #[must_use]

@@ -4,7 +4,7 @@
 use super::equations::Equations;
 use super::isotropic::Isotropic;
 use super::krawczyk::{Proved, prove};
-use super::pencil::Pencil;
+use super::pencil::{Parameter, Pencil};
 use super::polynomial::{ClosurePolynomial, closure_polynomial, turned};
 use super::state::Number;
 use crate::algebra::modp::ModP;
@@ -47,6 +47,7 @@ impl Found {
 /// A choice of classes with its matrix and polynomial.
 struct Choice {
     rest: usize,
+    hidden: usize,
     pencil: Pencil<Gaussian>,
     found: ClosurePolynomial,
     turn: Isotropic<Gaussian>,
@@ -114,17 +115,18 @@ fn best_choice(exact: &Equations<Isotropic<Gaussian>>) -> Option<Choice> {
         rest.iter().flat_map(|rest| (0..exact.classes).map(move |hidden| (*rest, hidden))).filter(|(a, b)| a != b);
     // Which class rests and which is hidden makes no difference without slides.
     let pairs = pairs.filter(|(a, b)| a < b || !exact.slides.is_empty());
-    let mut pencils: Vec<(usize, Pencil<Residue>)> =
-        pairs.filter_map(|(rest, hidden)| Some((rest, Pencil::new(&residues, rest, hidden)?))).collect();
-    pencils.retain(|(_, pencil)| !pencil.sets.is_empty());
-    pencils.sort_by_key(|(_, pencil)| pencil.sets.len());
+    let mut pencils: Vec<(usize, usize, Pencil<Residue>)> = pairs
+        .filter_map(|(rest, hidden)| Some((rest, hidden, Pencil::new(&residues, rest, &[Parameter::Turn(hidden)])?)))
+        .collect();
+    pencils.retain(|(_, _, pencil)| !pencil.sets.is_empty());
+    pencils.sort_by_key(|(_, _, pencil)| pencil.sets.len());
     let mut ranked: Vec<(usize, usize, usize)> = Vec::new();
-    for (rest, pencil) in &pencils {
+    for (rest, hidden, pencil) in &pencils {
         if ranked.len() >= if pencil.sets.len() > SMALL { LARGE_PAIRS } else { PAIRS } {
             break;
         }
         if let Some(degree) = torus_degree(pencil) {
-            ranked.push((degree, *rest, pencil.hidden));
+            ranked.push((degree, *rest, *hidden));
         }
     }
     ranked.sort_by_key(|(degree, ..)| *degree);
@@ -135,20 +137,25 @@ fn best_choice(exact: &Equations<Isotropic<Gaussian>>) -> Option<Choice> {
 const PRIME: u64 = 2_305_843_009_213_693_921;
 const ROOT_OF_MINUS_ONE: u64 = 583_529_827_753_931_384;
 
-type Residue = ModP<PRIME>;
+/// A number modulo a prime that has a square root of -1.
+pub type Residue = ModP<PRIME>;
 
-fn residue(z: &Gaussian) -> Option<Residue> {
+/// The image of an exact complex number modulo the prime.
+#[must_use]
+pub fn residue(z: &Gaussian) -> Option<Residue> {
     Some(Residue::from_rational(&z.re)?.add(&Residue::new(ROOT_OF_MINUS_ONE).mul(&Residue::from_rational(&z.im)?)))
 }
 
-/// How many roots the determinant has that are neither zero nor infinite, modulo the prime; `None` where it vanishes.
-fn torus_degree(pencil: &Pencil<Residue>) -> Option<usize> {
+/// How many roots the determinant of a pencil with one rotation as parameter has that are neither zero nor infinite,
+/// modulo the prime; `None` where it vanishes.
+#[must_use]
+pub fn torus_degree(pencil: &Pencil<Residue>) -> Option<usize> {
     let size = pencil.sets.len();
     let points = (1..=2 * size as u64 + 1).map(|k| {
         let x = Residue::new(k);
         let inverse = x.inverse()?;
         let power = (0..size).fold(Residue::one(), |power, _| power.mul(&x));
-        Some((x, determinant(pencil.at(&x, &inverse)).mul(&power)))
+        Some((x, determinant(pencil.at(&[[x, inverse]])).mul(&power)))
     });
     let polynomial = Univariate::interpolate(&points.collect::<Option<Vec<_>>>()?);
     let lowest = polynomial.coefficients().iter().position(|c| !c.is_zero())?;
@@ -182,7 +189,7 @@ fn determinant(mut matrix: Vec<Vec<Residue>>) -> Residue {
 
 /// The polynomial of a choice, its hidden class turned until the half turn is no root.
 fn choice(exact: &Equations<Isotropic<Gaussian>>, rest: usize, hidden: usize) -> Option<Choice> {
-    let pencil = Pencil::new(exact, rest, hidden)?;
+    let pencil = Pencil::new(exact, rest, &[Parameter::Turn(hidden)])?;
     for k in 0..TURNS {
         let turn = turned(k);
         let found = if k == 0 {
@@ -192,11 +199,11 @@ fn choice(exact: &Equations<Isotropic<Gaussian>>, rest: usize, hidden: usize) ->
             for cycle in &mut rotated.cycles {
                 cycle[hidden] = cycle[hidden].mul(&turn);
             }
-            closure_polynomial(&Pencil::new(&rotated, rest, hidden)?)?
+            closure_polynomial(&Pencil::new(&rotated, rest, &[Parameter::Turn(hidden)])?)?
         };
-        if found.is_finite {
+        if found.at_pi == 0 {
             // The kernel is that of the matrix in the rotation of the class itself.
-            return Some(Choice { rest, pencil, found, turn });
+            return Some(Choice { rest, hidden, pencil, found, turn });
         }
     }
     None
@@ -220,7 +227,7 @@ fn start(choice: &Choice, equations: &Equations<Isotropic<Complex<f64>>>, x: Com
     let narrow = |z: &Gaussian| Complex::new(z.re.to_f64(), z.im.to_f64());
     let mut matrix = DMatrix::from_element(size, size, Complex::new(0.0, 0.0));
     for (k, row) in choice.pencil.rows.iter().enumerate() {
-        matrix[(k, k)] = narrow(&row.own[0]) + narrow(&row.own[1]) * x + narrow(&row.own[2]) / x;
+        matrix[(k, k)] = narrow(&row.constant) + narrow(&row.by[0][0]) * x + narrow(&row.by[0][1]) / x;
         for (column, factor) in &row.others {
             matrix[(k, *column)] = narrow(factor);
         }
@@ -231,7 +238,7 @@ fn start(choice: &Choice, equations: &Equations<Isotropic<Complex<f64>>>, x: Com
     }
     let kernel = kernel(matrix)?;
     let mut turns = vec![Complex::new(1.0, 0.0); equations.classes];
-    turns[choice.pencil.hidden] = x;
+    turns[choice.hidden] = x;
     for (j, class) in choice.pencil.classes.iter().enumerate() {
         let pairs = (0..size).filter(|k| choice.pencil.sets[*k] >> j & 1 == 1);
         let pairs = pairs

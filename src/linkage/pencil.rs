@@ -1,8 +1,9 @@
-//! Cramer's rule on the cycles of a group: a square matrix in the rotation of one class, singular at every solution.
+//! Cramer's rule on the cycles of a group: a square matrix in a few parameters, singular at every solution.
 //!
 //! Of the classes one is at rest, one is hidden with the rotation x, and m others are left; the equations are vectors of
 //! 2 L halves, `e0(x) = (c_0 + c_x x; c_0' + c_x'/x)`, `a_j = (c_j; 0)`, `b_j = (0; c_j')`, and a constant vector for
-//! every slide of the class at rest. For a set S of classes let N_S be the rows a_j (j not in S), b_j (j in S) and all
+//! every slide of the class at rest. Further parameters, an input or a point that is
+//! traced, stand in e0 as x does. For a set S of classes let N_S be the rows a_j (j not in S), b_j (j in S) and all
 //! slides. Where N_S has full rank, with the vector n_S of its maximal minors and `v_S = prod_(j in S) 1/theta_j`,
 //!
 //! `(e0(x) n_S) v_S + sum_(j in S) (a_j n_S) v_(S - j) + sum_(j not in S) (b_j n_S) v_(S + j) = 0`.
@@ -15,11 +16,24 @@ use super::isotropic::Isotropic;
 use crate::algebra::ring::{Field, Ring};
 use std::collections::BTreeMap;
 
+/// What the entries of the matrix depend on, beside the data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// The rotation x of a class: its first halves stand before x, its second ones before 1/x.
+    Turn(usize),
+    /// The displacement s of a slide of the class at rest.
+    Shift(usize),
+    /// A point z of the class at rest, which the last cycle subtracts: its mirror image stands in the second half.
+    Point,
+}
+
 /// One row: the equation of a set.
 #[derive(Clone, Debug)]
 pub struct Row<R> {
-    /// Coefficients of 1, x and 1/x before the set itself.
-    pub own: [R; 3],
+    /// The coefficient of the set itself, without parameters.
+    pub constant: R,
+    /// For every parameter the coefficients of it and of its mirror image there; a shift has the first alone.
+    pub by: Vec<[R; 2]>,
     /// Columns of other sets with their coefficients.
     pub others: Vec<(usize, R)>,
 }
@@ -31,10 +45,10 @@ pub struct Pencil<R> {
     pub sets: Vec<u32>,
     /// One row for every set.
     pub rows: Vec<Row<R>>,
-    /// The classes that are neither at rest nor hidden.
+    /// The classes that are neither at rest nor parameters.
     pub classes: Vec<usize>,
-    /// The hidden class.
-    pub hidden: usize,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
 }
 
 /// A vector that is orthogonal to the rows of a matrix with one column more than rows; `None` where these are dependent.
@@ -82,14 +96,18 @@ fn dot<R: Ring>(row: &[R], vector: &[R]) -> R {
 }
 
 impl<R: Field> Pencil<R> {
-    /// The matrix with the class `rest` at rest, which has all slides, and the class `hidden` hidden; `None` for other
-    /// slides and for systems that are not square.
+    /// The matrix with the class `rest` at rest, which has all slides, and these parameters; `None` for other slides and for
+    /// systems that are not square.
     #[must_use]
-    pub fn new(equations: &Equations<Isotropic<R>>, rest: usize, hidden: usize) -> Option<Self> {
+    pub fn new(equations: &Equations<Isotropic<R>>, rest: usize, parameters: &[Parameter]) -> Option<Self> {
         let loops = equations.loops();
-        let classes: Vec<usize> = (0..equations.classes).filter(|class| *class != rest && *class != hidden).collect();
-        let slides = equations.slides.len();
-        if classes.len() + slides + 1 != 2 * loops || equations.slides.iter().any(|slide| slide.class != rest) {
+        let has = |parameter: Parameter| parameters.contains(&parameter);
+        let classes: Vec<usize> =
+            (0..equations.classes).filter(|class| *class != rest && !has(Parameter::Turn(*class))).collect();
+        let slides: Vec<usize> = (0..equations.slides.len()).filter(|q| !has(Parameter::Shift(*q))).collect();
+        // Sets are bits of a word.
+        let is_square = classes.len() + slides.len() + 1 == 2 * loops && classes.len() < 32;
+        if !is_square || equations.slides.iter().any(|slide| slide.class != rest) {
             return None;
         }
         let zeros = || vec![R::zero(); loops];
@@ -97,14 +115,26 @@ impl<R: Field> Pencil<R> {
         let second = |class: usize| -> Vec<R> { equations.cycles.iter().map(|cycle| cycle[class].w.clone()).collect() };
         let a: Vec<Vec<R>> = classes.iter().map(|class| [first(*class), zeros()].concat()).collect();
         let b: Vec<Vec<R>> = classes.iter().map(|class| [zeros(), second(*class)].concat()).collect();
-        let along = equations.slides.iter().map(|slide| {
-            let halves =
-                |half: fn(&Isotropic<R>) -> &R| slide.coefficients.iter().map(half).cloned().collect::<Vec<R>>();
+        let along = |slide: usize| {
+            let halves = |half: fn(&Isotropic<R>) -> &R| {
+                equations.slides[slide].coefficients.iter().map(half).cloned().collect::<Vec<R>>()
+            };
             [halves(|n| &n.z), halves(|n| &n.w)].concat()
-        });
-        let along: Vec<Vec<R>> = along.collect();
+        };
+        let columns: Vec<[Vec<R>; 2]> = parameters
+            .iter()
+            .map(|parameter| match parameter {
+                Parameter::Turn(class) => [[first(*class), zeros()].concat(), [zeros(), second(*class)].concat()],
+                Parameter::Shift(slide) => [along(*slide), [zeros(), zeros()].concat()],
+                Parameter::Point => [loops - 1, 2 * loops - 1].map(|place| {
+                    let mut column = [zeros(), zeros()].concat();
+                    column[place] = R::one().neg();
+                    column
+                }),
+            })
+            .collect();
+        let along: Vec<Vec<R>> = slides.iter().map(|slide| along(*slide)).collect();
         let constant = [first(rest), second(rest)].concat();
-        let (plus, minus) = ([first(hidden), zeros()].concat(), [zeros(), second(hidden)].concat());
         let mut vectors: BTreeMap<u32, Vec<R>> = BTreeMap::new();
         for set in 0..1_u32 << classes.len() {
             // Of the halves of L equations each at most L rows are independent.
@@ -122,7 +152,7 @@ impl<R: Field> Pencil<R> {
         let mut rows = Vec::with_capacity(sets.len());
         for set in &sets {
             let vector = vectors.get(set)?;
-            let own = [dot(&constant, vector), dot(&plus, vector), dot(&minus, vector)];
+            let by = columns.iter().map(|[own, mirror]| [dot(own, vector), dot(mirror, vector)]).collect();
             let mut others = Vec::new();
             for j in 0..classes.len() {
                 let factor = dot(if set >> j & 1 == 1 { &a[j] } else { &b[j] }, vector);
@@ -131,18 +161,19 @@ impl<R: Field> Pencil<R> {
                     others.push((column, factor));
                 }
             }
-            rows.push(Row { own, others });
+            rows.push(Row { constant: dot(&constant, vector), by, others });
         }
-        Some(Self { sets, rows, classes, hidden })
+        Some(Self { sets, rows, classes, parameters: parameters.to_vec() })
     }
 
-    /// The matrix at a value of x and its inverse.
+    /// The matrix at values of the parameters and of their mirror images.
     #[must_use]
-    pub fn at(&self, x: &R, inverse: &R) -> Vec<Vec<R>> {
+    pub fn at(&self, values: &[[R; 2]]) -> Vec<Vec<R>> {
         let size = self.sets.len();
         let mut matrix = vec![vec![R::zero(); size]; size];
         for (k, row) in self.rows.iter().enumerate() {
-            matrix[k][k] = row.own[0].add(&row.own[1].mul(x)).add(&row.own[2].mul(inverse));
+            let terms = row.by.iter().zip(values).map(|(by, value)| by[0].mul(&value[0]).add(&by[1].mul(&value[1])));
+            matrix[k][k] = terms.fold(row.constant.clone(), |sum, term| sum.add(&term));
             for (column, factor) in &row.others {
                 matrix[k][*column] = factor.clone();
             }

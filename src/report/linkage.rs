@@ -6,13 +6,13 @@ use super::model;
 use super::number::{counted, duration, short};
 use super::table::{Columns, paragraph};
 use crate::catalogue::{LinkageCase, LinkageFile};
-use crate::kinematics::linkage::{Given, Linkage};
+use crate::kinematics::linkage::{Given, Linkage, LinkageJoint};
 use crate::linkage::answer::{Coordinate, LinkageAnswer, LinkageMode};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 /// What is given, in words such as `A = 53.130 deg`.
-fn asked(linkage: &Linkage, given: &[Given]) -> String {
+pub(super) fn asked(linkage: &Linkage, given: &[Given]) -> String {
     let one = |given: &Given| match given {
         Given::Turn { joint, turn, .. } => {
             let angle = turn.im.to_f64().atan2(turn.re.to_f64()).to_degrees();
@@ -62,21 +62,26 @@ fn asked_json(linkage: &Linkage, given: &[Given]) -> Value {
     json!({ "joints": joints, "bodies": bodies })
 }
 
+/// The joints that have a value, in the order of the file.
+pub(super) fn joint_variables(file: &LinkageFile) -> Value {
+    let joints = file.linkage.joints.iter().enumerate().filter(|(_, joint)| !joint.is_gear());
+    let variable = |(index, joint): (usize, &LinkageJoint)| {
+        let kind = if joint.is_prismatic() { "distance" } else { "angle" };
+        json!({ "name": joint.name, "kind": kind, "joint": index + 1, "label": joint.name })
+    };
+    joints.map(variable).collect()
+}
+
 /// One document for all cases.
 #[must_use]
 pub fn json(file: &LinkageFile, results: &[Value]) -> Value {
-    let linkage = &file.linkage;
-    let variables = linkage.joints.iter().enumerate().filter(|(_, joint)| !joint.is_gear()).map(|(index, joint)| {
-        let kind = if joint.is_prismatic() { "distance" } else { "angle" };
-        json!({ "name": joint.name, "kind": kind, "joint": index + 1, "label": joint.name })
-    });
     json!({
         "title": file.heading.title,
         "kind": "linkage",
         "name": file.heading.name,
         "version": env!("CARGO_PKG_VERSION"),
         "units": units(),
-        "joint_variables": variables.collect::<Value>(),
+        "joint_variables": joint_variables(file),
         "mechanism": model::linkage_json(file),
         "results": results,
     })

@@ -12,6 +12,7 @@ pub mod document;
 pub mod framework;
 pub mod json;
 pub mod linkage;
+pub mod linkage_derivation;
 pub mod mobility;
 pub mod model;
 pub mod motion;

@@ -1,0 +1,420 @@
+//! The closure polynomial of every group of a linkage, and how its output depends on its input.
+
+use super::without_circles;
+use crate::algebra::int::Int;
+use crate::algebra::modular::determinant;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::{Domain, Ring};
+use crate::algebra::univariate::Univariate;
+use crate::derivation::equation::primitive;
+use crate::error::Result;
+use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
+use crate::linkage::assembly::{Assemblies, assemblies, glued};
+use crate::linkage::equations::{Closure, Equations};
+use crate::linkage::general::{residue, torus_degree};
+use crate::linkage::isotropic::Isotropic;
+use crate::linkage::parts::{foundations, group_of};
+use crate::linkage::pencil::{Parameter, Pencil};
+use crate::linkage::polynomial::closure_polynomial;
+use crate::linkage::real_form::RealForm;
+use crate::linkage::state::{State, place_of};
+use rug::{Integer, Rational};
+
+/// Rows of a matrix whose determinant is taken for every body of a group; of larger ones the best body is taken alone.
+const SMALL: usize = 20;
+/// Rows of a matrix beyond which there is no polynomial.
+const LARGE: usize = 70;
+
+/// Numbers of a group, exact.
+type Exact = Equations<Isotropic<Gaussian>>;
+
+/// The polynomial of one body of a group.
+#[derive(Clone, Debug)]
+pub struct GroupPolynomial {
+    /// The number of the group, in the order in which they are solved.
+    pub group: usize,
+    /// The body whose half-angle tangent is the variable.
+    pub body: usize,
+    /// The body against which its angle is measured.
+    pub against: usize,
+    /// Integers without common factor, constant term first, the last one positive.
+    pub coefficients: Univariate<Integer>,
+    /// How many roots are the half turn.
+    pub at_pi: usize,
+    /// The assemblies of the groups on which this one stands, and of itself, with multiplicity; `None` where they are not
+    /// known.
+    pub assemblies: Option<usize>,
+    /// Rows of the matrix.
+    pub rows: usize,
+}
+
+impl GroupPolynomial {
+    /// The roots with multiplicity.
+    #[must_use]
+    pub fn roots(&self) -> usize {
+        self.coefficients.degree().unwrap_or(0) + self.at_pi
+    }
+
+    /// Whether every root is one of an assembly, and every assembly has its root: it is proved by the numbers of both.
+    #[must_use]
+    pub fn is_proved(&self) -> bool {
+        self.assemblies == Some(self.roots())
+    }
+}
+
+/// How the angle of a body depends on the input.
+#[derive(Clone, Debug)]
+pub struct InputOutput {
+    /// The joint whose value is the first variable: a half-angle tangent or metres.
+    pub input: usize,
+    /// The body whose half-angle tangent is the second variable.
+    pub body: usize,
+    /// The body against which its angle is measured.
+    pub against: usize,
+    /// The polynomial in both.
+    pub polynomial: Polynomial<Int>,
+    /// Whether at the value of the input it is the closure polynomial.
+    pub agrees: bool,
+}
+
+/// What there is to derive of a case.
+#[derive(Clone, Debug)]
+pub struct LinkageDerivation {
+    /// The polynomials, those of the last group first, the best of every group before the others.
+    pub polynomials: Vec<GroupPolynomial>,
+    /// How the output depends on the input, where one joint is given.
+    pub input_output: Option<InputOutput>,
+    /// The numbers of assemblies of the groups, in the order in which they are solved.
+    pub groups: Vec<(Vec<Vec<usize>>, usize)>,
+    /// The closure equations behind the best polynomial, two for every cycle; `variables` are theirs.
+    pub equations: Vec<Polynomial<Rational>>,
+    /// What the variables of the equations are.
+    pub variables: Vec<Symbol>,
+    /// Why some polynomials are not there.
+    pub warnings: Vec<String>,
+}
+
+/// A variable of the closure equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Symbol {
+    /// The cosine of the angle of a body.
+    Cosine(usize),
+    /// Its sine.
+    Sine(usize),
+    /// The displacement of a joint, in parts of the length of its direction.
+    Shift(usize),
+}
+
+/// The equations of a part of a linkage.
+struct Part {
+    closure: Closure,
+    state: State,
+    exact: Exact,
+}
+
+impl Part {
+    fn new(linkage: &Linkage, given: &[Given], joints: Vec<usize>) -> Option<Self> {
+        let mut merged = glued(linkage, given).ok()?.0;
+        let state = glued_state(linkage, given)?;
+        let closure = Closure::new(linkage, &group_of(linkage, joints, &mut merged), &state)?;
+        let exact = closure.equations.exact()?;
+        Some(Self { closure, state, exact })
+    }
+
+    /// Class and rotation of a body against it, exactly.
+    fn class_of(&self, body: usize) -> Option<(usize, Isotropic<Gaussian>)> {
+        let (class, turn) = self.closure.class_of(&self.state, body)?;
+        let half = |value: &crate::linkage::isotropic::Value| value.exact.as_ref()?.to_gaussian();
+        Some((class, Isotropic { z: half(&turn.z)?, w: half(&turn.w)? }))
+    }
+
+    /// The equations in which a class is turned so that its rotation is that of `body` against `base`, or the inverse
+    /// one where `is_inverse`: the class at rest and the class that turns.
+    fn measured(&self, base: usize, body: usize, is_inverse: bool, exact: &mut Exact) -> Option<(usize, usize)> {
+        let ((rest, own), (hidden, turned)) = (self.class_of(base)?, self.class_of(body)?);
+        if rest == hidden {
+            return None;
+        }
+        // With the class of the base at rest, theta_body / theta_base = theta_class turned / own.
+        let (rest, hidden, factor) = if is_inverse {
+            (hidden, rest, turned.mul(&own.mirrored()))
+        } else {
+            (rest, hidden, own.mul(&turned.mirrored()))
+        };
+        for cycle in &mut exact.cycles {
+            cycle[hidden] = cycle[hidden].mul(&factor);
+        }
+        Some((rest, hidden))
+    }
+
+    /// The closure equations in cosines and sines of the angles against `base`.
+    fn equations(&self, base: usize) -> Option<(Vec<Symbol>, Vec<Polynomial<Rational>>)> {
+        let (rest, own) = self.class_of(base)?;
+        let exact = &self.exact;
+        // The first body of every class stands for it.
+        let firsts: Vec<(usize, Isotropic<Gaussian>)> = (0..exact.classes)
+            .map(|class| {
+                let bodies = (0..self.state.bodies.len()).filter_map(|body| Some((body, self.class_of(body)?)));
+                let mut bodies = bodies.filter(|(_, (of, _))| *of == class);
+                bodies.next().map(|(body, (_, turn))| (body, own.mul(&turn.mirrored())))
+            })
+            .collect::<Option<_>>()?;
+        let mut symbols = Vec::new();
+        let mut turns = Vec::new();
+        for (class, (body, _)) in firsts.iter().enumerate() {
+            turns.push(if class == rest {
+                [Polynomial::one(), Polynomial::zero()]
+            } else {
+                symbols.extend([Symbol::Cosine(*body), Symbol::Sine(*body)]);
+                [symbols.len() - 2, symbols.len() - 1].map(Polynomial::variable)
+            });
+        }
+        let shifts: Vec<Polynomial<Rational>> = exact
+            .slides
+            .iter()
+            .map(|slide| {
+                symbols.push(Symbol::Shift(slide.joint));
+                Polynomial::variable(symbols.len() - 1)
+            })
+            .collect();
+        let mut equations = Vec::new();
+        for (k, cycle) in exact.cycles.iter().enumerate() {
+            let mut sum = [Polynomial::zero(), Polynomial::zero()];
+            let mut add = |class: usize, factor: &Isotropic<Gaussian>, by: &Polynomial<Rational>| {
+                let factor = if class == rest { factor.z.clone() } else { factor.mul(&firsts[class].1).z };
+                let [cos, sin] = &turns[class];
+                // (re + i im)(c + i s)
+                let parts = [(&factor.re, &factor.im, true), (&factor.im, &factor.re, false)];
+                for (total, (one, two, is_minus)) in sum.iter_mut().zip(parts) {
+                    let second = sin.scale(two);
+                    let second = if is_minus { second.neg() } else { second };
+                    *total = total.add(&cos.scale(one).add(&second).mul(by));
+                }
+            };
+            for (class, factor) in cycle.iter().enumerate() {
+                add(class, factor, &Polynomial::one());
+            }
+            for (slide, shift) in exact.slides.iter().zip(&shifts) {
+                add(slide.class, &slide.coefficients[k], shift);
+            }
+            equations.extend(sum.iter().map(primitive));
+        }
+        Some((symbols, equations))
+    }
+
+    /// Whether the class of another body must rest, because all slides are fixed in it.
+    fn rests(&self, base: usize, body: usize) -> Option<bool> {
+        let slides: Vec<usize> = self.exact.slides.iter().map(|slide| slide.class).collect();
+        let is_all = |body: usize| self.class_of(body).map(|(class, _)| slides.iter().all(|own| *own == class));
+        match (is_all(base)?, is_all(body)?) {
+            (true, _) => Some(false),
+            (false, true) => Some(true),
+            (false, false) => None,
+        }
+    }
+}
+
+/// The branch in which everything is as inputs glue it.
+pub(super) fn glued_state(linkage: &Linkage, given: &[Given]) -> Option<State> {
+    let mut state = State::new(linkage.bodies.len(), 1);
+    for one in given {
+        let [a, b] = one.bodies(linkage);
+        state.glue(a, b, &place_of(linkage, one)?);
+    }
+    Some(state)
+}
+
+/// The polynomial with the variable of the other sign.
+fn mirrored(polynomial: &Univariate<Integer>) -> Univariate<Integer> {
+    let signs = polynomial.coefficients().iter().enumerate();
+    Univariate::new(signs.map(|(k, c)| if k % 2 == 1 { Integer::from(-c) } else { c.clone() }).collect())
+}
+
+/// With the last coefficient positive.
+fn positive(polynomial: Univariate<Integer>) -> Univariate<Integer> {
+    let is_negative = polynomial.coefficients().last().is_some_and(|c| *c < 0);
+    if is_negative { polynomial.scale(&Integer::from(-1)) } else { polynomial }
+}
+
+/// Derives the closure polynomials of all groups, and the polynomial of input and output.
+///
+/// # Errors
+/// As [`crate::linkage::assembly::groups_of`].
+pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDerivation> {
+    let found = assemblies(linkage, given)?;
+    let merged = glued(linkage, given)?.0;
+    let is_known = found.doubt.is_none() && found.curves.is_empty();
+    let mut warnings = Vec::new();
+    let mut polynomials = Vec::new();
+    for number in (0..found.groups.len()).rev() {
+        let needed = foundations(linkage, &found.groups, number, linkage.ground, &merged);
+        let known = is_known.then(|| needed.iter().map(|k| found.groups[*k].count).product());
+        let own = of_group(linkage, given, &found, &needed, known);
+        if own.is_empty() {
+            warnings.push(format!("group {} has no polynomial of its own: {}", number + 1, WITHOUT));
+        }
+        polynomials.extend(own);
+    }
+    let input_output = polynomials.first().and_then(|best| input_output(linkage, given, &found, &merged, best));
+    let groups = found.groups.iter().map(|group| (group.bodies.clone(), group.count)).collect();
+    let equations = polynomials.first().and_then(|best| {
+        let needed = foundations(linkage, &found.groups, best.group, linkage.ground, &merged);
+        Part::new(linkage, given, joints_of(&found, &needed))?.equations(best.against)
+    });
+    let (variables, equations) = equations.unwrap_or_default();
+    Ok(LinkageDerivation { polynomials, input_output, groups, equations, variables, warnings })
+}
+
+const WITHOUT: &str =
+    "its data are not rational, its slides are fixed in bodies that turn, or its matrix is singular or too large";
+
+/// The joints of some groups.
+fn joints_of(found: &Assemblies, needed: &[usize]) -> Vec<usize> {
+    needed.iter().flat_map(|k| found.groups[*k].joints.iter().copied()).collect()
+}
+
+/// The polynomials of the bodies of the last of these groups, the best first.
+fn of_group(
+    linkage: &Linkage,
+    given: &[Given],
+    found: &Assemblies,
+    needed: &[usize],
+    known: Option<usize>,
+) -> Vec<GroupPolynomial> {
+    let Some(number) = needed.last().copied() else { return Vec::new() };
+    let group = &found.groups[number];
+    let Some(part) = Part::new(linkage, given, joints_of(found, needed)) else { return Vec::new() };
+    let is_end = |body: &usize| group.joints.iter().any(|joint| linkage.joints[*joint].of.contains(body));
+    let Some(cluster) = group.bodies.iter().find(|bodies| bodies.contains(&linkage.ground)).or(group.bodies.first())
+    else {
+        return Vec::new();
+    };
+    let against =
+        if cluster.contains(&linkage.ground) { Some(linkage.ground) } else { cluster.iter().copied().find(is_end) };
+    let Some(against) = against else { return Vec::new() };
+    // Bodies with the rows of their matrix and its roots modulo a prime.
+    let mut ranked: Vec<(usize, usize, usize, bool)> = Vec::new();
+    for bodies in group.bodies.iter().filter(|bodies| *bodies != cluster) {
+        let Some(body) = bodies.iter().copied().find(is_end) else { continue };
+        let Some(is_inverse) = part.rests(against, body) else { continue };
+        let mut exact = part.exact.clone();
+        let Some((rest, hidden)) = part.measured(against, body, is_inverse, &mut exact) else { continue };
+        let residues = exact.map(|n| Some(Isotropic { z: residue(&n.z)?, w: residue(&n.w)? }));
+        let pencil = residues.and_then(|residues| Pencil::new(&residues, rest, &[Parameter::Turn(hidden)]));
+        if let Some(pencil) = pencil.filter(|pencil| !pencil.sets.is_empty() && pencil.sets.len() <= LARGE)
+            && let Some(degree) = torus_degree(&pencil)
+        {
+            ranked.push((degree, pencil.sets.len(), body, is_inverse));
+        }
+    }
+    // Bodies that are joined to the one at rest are outputs rather than couplers.
+    let is_output = |body: usize| {
+        let ends = |joint: &usize| linkage.joints[*joint].of;
+        group.joints.iter().any(|joint| ends(joint).contains(&body) && ends(joint).contains(&against))
+    };
+    ranked.sort_by_key(|(degree, rows, body, _)| (*degree, *rows, !is_output(*body)));
+    let mut list: Vec<GroupPolynomial> = Vec::new();
+    for (_, rows, body, is_inverse) in ranked {
+        if rows > SMALL && !list.is_empty() {
+            continue;
+        }
+        let mut exact = part.exact.clone();
+        let Some((rest, hidden)) = part.measured(against, body, is_inverse, &mut exact) else { continue };
+        let pencil = Pencil::new(&exact, rest, &[Parameter::Turn(hidden)]);
+        if let Some(closure) = pencil.as_ref().and_then(closure_polynomial) {
+            let polynomial = if is_inverse { mirrored(&closure.polynomial) } else { closure.polynomial };
+            list.push(GroupPolynomial {
+                group: number,
+                body,
+                against,
+                coefficients: positive(polynomial),
+                at_pi: closure.at_pi,
+                assemblies: known,
+                rows,
+            });
+        }
+    }
+    list
+}
+
+/// The polynomial of the input, where one joint is given, and the body of the best polynomial.
+fn input_output(
+    linkage: &Linkage,
+    given: &[Given],
+    found: &Assemblies,
+    merged: &crate::linkage::groups::Merged,
+    best: &GroupPolynomial,
+) -> Option<InputOutput> {
+    let [one] = given else { return None };
+    let (Given::Turn { joint, .. } | Given::Shift { joint, .. }) = one else { return None };
+    let mut joints = joints_of(found, &foundations(linkage, &found.groups, best.group, linkage.ground, merged));
+    joints.push(*joint);
+    let part = Part::new(linkage, &[], joints)?;
+    let of = linkage.joints[*joint].of;
+    let mut exact = part.exact.clone();
+    let (rest, hidden) = part.measured(best.against, best.body, false, &mut exact)?;
+    let parameter = match one {
+        Given::Turn { .. } => {
+            let is_inverse = part.class_of(of[1])?.0 == rest;
+            let (from, to) = if is_inverse { (of[1], of[0]) } else { (of[0], of[1]) };
+            if part.class_of(from)?.0 != rest {
+                return None;
+            }
+            let (_, class) = part.measured(from, to, false, &mut exact)?;
+            (Parameter::Turn(class), is_inverse)
+        }
+        _ => (Parameter::Shift(part.exact.slides.iter().position(|slide| slide.joint == *joint)?), false),
+    };
+    let (parameter, is_inverse) = parameter;
+    if parameter == Parameter::Turn(hidden) {
+        return None;
+    }
+    let pencil = Pencil::new(&exact, rest, &[parameter, Parameter::Turn(hidden)])?;
+    if pencil.sets.is_empty() || pencil.sets.len() > SMALL {
+        return None;
+    }
+    let terms = determinant(&RealForm::new(&pencil)?.matrix, 2)?;
+    let tangents: &[usize] = if matches!(parameter, Parameter::Turn(_)) { &[0, 1] } else { &[1] };
+    let mut polynomial = without_circles(&terms, 2, tangents)?;
+    if is_inverse {
+        polynomial = polynomial.substitute(0, &Polynomial::variable(0).neg()).primitive_part();
+    }
+    // Factors of the input alone are places where the matrix is singular for all outputs.
+    let content = polynomial.content_in(1);
+    if let Some(rest) = polynomial.checked_div_exact(&content).filter(|_| content.to_constant().is_none()) {
+        polynomial = rest;
+    }
+    let agrees = at_input(&polynomial, linkage, one).is_some_and(|own| is_multiple(&own, &best.coefficients));
+    if let Pair::Prismatic { length, .. } = &linkage.joints[*joint].pair {
+        // In metres.
+        let shift = Polynomial::variable(0).scale(&Rational::from(length.recip_ref()));
+        let rational = polynomial.map(|c| Some(Rational::from(c.to_integer())))?;
+        polynomial = rational.substitute(0, &shift).primitive().0;
+    }
+    Some(InputOutput { input: *joint, body: best.body, against: best.against, polynomial, agrees })
+}
+
+/// The polynomial at the value of the input; `None` for a half turn.
+fn at_input(polynomial: &Polynomial<Int>, linkage: &Linkage, given: &Given) -> Option<Univariate<Rational>> {
+    let value = match given {
+        Given::Turn { turn, .. } => {
+            let below = Rational::from(1 + &turn.re);
+            (below != 0).then(|| Rational::from(&turn.im / &below))?
+        }
+        Given::Shift { joint, shift, .. } => {
+            let Pair::Prismatic { .. } = linkage.joints[*joint].pair else { return None };
+            shift.clone()
+        }
+        Given::Place { .. } => return None,
+    };
+    let rational = polynomial.map(|c| Some(Rational::from(c.to_integer())))?;
+    let value = Polynomial::constant(value);
+    rational.substitute(0, &value).to_univariate(1)
+}
+
+/// Whether two polynomials agree up to a factor.
+fn is_multiple(one: &Univariate<Rational>, two: &Univariate<Integer>) -> bool {
+    let (a, b) = (one.coefficients(), two.coefficients());
+    let (Some(last), Some(other)) = (a.last(), b.last()) else { return false };
+    a.len() == b.len() && a.iter().zip(b).all(|(x, y)| Rational::from(x * other) == Rational::from(last * y))
+}

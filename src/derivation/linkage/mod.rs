@@ -1,0 +1,31 @@
+//! Closure polynomials, input-output polynomials and coupler curves of planar linkages, exactly.
+
+mod closure;
+mod trace;
+
+pub use closure::{GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage};
+pub use trace::{Curve, trace};
+
+use crate::algebra::int::Int;
+use crate::algebra::modular::Terms;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::{Domain, Ring};
+
+/// The primitive polynomial of a determinant without the factors `1 + t^2` of those variables that are half-angle tangents;
+/// `None` for zero.
+fn without_circles(terms: &Terms, variables: usize, tangents: &[usize]) -> Option<Polynomial<Int>> {
+    let list = terms.iter(variables).map(|(exponents, c)| (exponents.to_vec(), Int::from(c.clone())));
+    let mut polynomial = Polynomial::from_terms(list);
+    if polynomial.is_zero() {
+        return None;
+    }
+    polynomial = polynomial.primitive_part();
+    for variable in tangents {
+        let t = Polynomial::<Int>::variable(*variable);
+        let circle = t.mul(&t).add(&Ring::one());
+        while let Some(quotient) = polynomial.checked_div_exact(&circle) {
+            polynomial = quotient;
+        }
+    }
+    Some(polynomial)
+}

@@ -1,0 +1,133 @@
+//! The curve of a point of a body, as a polynomial in its coordinates.
+//!
+//! The place of the point is one cycle more, with all rotations unknown: the matrix is linear in the coordinates x and y, and
+//! its determinant vanishes at every place of the point. \[Wampler2001\]
+
+use super::closure::glued_state;
+use super::without_circles;
+use crate::algebra::int::Int;
+use crate::algebra::modular::determinant;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::{Domain, Ring};
+use crate::error::{Error, Result};
+use crate::kinematics::linkage::{Gaussian, Given, Linkage};
+use crate::linkage::assembly::glued;
+use crate::linkage::equations::Closure;
+use crate::linkage::groups::{Merged, groups};
+use crate::linkage::parts::least_mover;
+use crate::linkage::pencil::{Parameter, Pencil};
+use crate::linkage::real_form::RealForm;
+use crate::linkage::state::number;
+use rug::Rational;
+
+/// Rows of a matrix beyond which its determinant in two variables is not taken.
+const LARGE: usize = 20;
+
+/// The curve of a point.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// The bodies whose joints make the curve, the ground among them.
+    pub bodies: Vec<usize>,
+    /// A polynomial in x and y, metres, that vanishes along every curve on which the point moves: primitive and without
+    /// multiple factors.
+    pub polynomial: Polynomial<Int>,
+    /// Points of the ground whose isotropic lines were divided out of the determinant: the square of the distance from such a
+    /// point, and how often. There a rotation is zero or infinite.
+    pub removed: Vec<(Polynomial<Int>, usize)>,
+    /// Rows of its matrix.
+    pub rows: usize,
+    /// Degree and multiplicity of the square-free factors of the determinant.
+    pub factors: Vec<(u64, usize)>,
+}
+
+impl Curve {
+    /// The degree in both coordinates.
+    #[must_use]
+    pub fn degree(&self) -> u64 {
+        self.polynomial.total_degree().unwrap_or(0)
+    }
+}
+
+/// The curve of a point of a body in coordinates of the ground. Of a linkage of several freedoms all given values but the
+/// first are held.
+///
+/// # Errors
+/// For a point that does not move on a curve, and where the curve is beyond what is implemented.
+pub fn trace(linkage: &Linkage, given: &[Given], body: usize, point: &Gaussian) -> Result<Curve> {
+    let links: Vec<(usize, [usize; 2])> = linkage.joints.iter().enumerate().map(|(k, joint)| (k, joint.of)).collect();
+    if let Some(gear) = linkage.joints.iter().find(|joint| joint.is_gear()) {
+        return Err(Error::Unsupported(format!(
+            "curves of linkages with gears, such as {}, are not derived",
+            gear.name
+        )));
+    }
+    let freedoms = groups(linkage.bodies.len(), &links, Merged::new(linkage.bodies.len())).freedoms;
+    let held = match freedoms {
+        0 => return Err(Error::Invalid("found a rigid linkage, expected one whose points move".to_owned())),
+        1 => &[][..],
+        more if given.len() == more => &given[1..],
+        more => {
+            let message = format!(
+                "found {} values given of a linkage of {more} freedoms, expected {more}: the first moves, the others are held",
+                given.len()
+            );
+            return Err(Error::Invalid(message));
+        }
+    };
+    let (mut merged, joints) = glued(linkage, held)?;
+    let name = &linkage.bodies[body].name;
+    let unsupported = |what: &str| Error::Unsupported(format!("the curve of {name} {what}"));
+    let group = least_mover(linkage, &joints, &mut merged, linkage.ground, body)
+        .ok_or_else(|| unsupported("is made by no part of one freedom among at most 16 bodies"))?;
+    let state = glued_state(linkage, held).ok_or_else(|| unsupported("depends on a value that is not there"))?;
+    let closure = Closure::new(linkage, &group, &state).ok_or_else(|| unsupported("is one of gears"))?;
+    let traced = closure.traced(&state, linkage.ground, body, &number(point));
+    let exact = traced.and_then(|equations| equations.exact());
+    let rest = closure.class_of(&state, linkage.ground).map(|(class, _)| class);
+    let (Some(exact), Some(rest)) = (exact, rest) else {
+        return Err(unsupported("has data that are not rational"));
+    };
+    let pencil = Pencil::new(&exact, rest, &[Parameter::Point]);
+    let pencil = pencil.ok_or_else(|| unsupported("depends on slides that are fixed in bodies that turn"))?;
+    let rows = pencil.sets.len();
+    if rows > LARGE {
+        return Err(unsupported(&format!("is the determinant of a matrix of {rows} rows, at most {LARGE} are taken")));
+    }
+    let terms = RealForm::new(&pencil).and_then(|form| determinant(&form.matrix, 2));
+    let polynomial = terms.as_ref().and_then(|terms| without_circles(terms, 2, &[]));
+    let polynomial =
+        polynomial.ok_or_else(|| unsupported("is not the zero set of this determinant, which vanishes"))?;
+    let (polynomial, removed) = without_isotropic_lines(polynomial, linkage, &group.joints);
+    let factors = polynomial.square_free_decomposition();
+    let factors = factors.iter().map(|(factor, k)| (factor.total_degree().unwrap_or(0), *k)).collect();
+    let bodies = (0..linkage.bodies.len()).filter(|body| group.clusters.contains(&merged.root(*body))).collect();
+    Ok(Curve { bodies, polynomial: polynomial.square_free_part(), removed, rows, factors })
+}
+
+/// Divides out the squares of the distances from the joints of the ground. Such a factor vanishes on two isotropic lines, of
+/// which only the joint itself is real.
+fn without_isotropic_lines(
+    mut polynomial: Polynomial<Int>,
+    linkage: &Linkage,
+    joints: &[usize],
+) -> (Polynomial<Int>, Vec<(Polynomial<Int>, usize)>) {
+    let mut removed: Vec<(Polynomial<Int>, usize)> = Vec::new();
+    for joint in joints {
+        let joint = &linkage.joints[*joint];
+        for (_, at) in joint.of.iter().zip(&joint.at).filter(|(body, _)| **body == linkage.ground) {
+            let [x, y] = [(0, &at.re), (1, &at.im)]
+                .map(|(k, own)| Polynomial::<Rational>::variable(k).sub(&Polynomial::constant(own.clone())));
+            let distance = x.mul(&x).add(&y.mul(&y)).primitive().0;
+            let mut power = 0;
+            while polynomial.total_degree() > Some(2) {
+                let Some(quotient) = polynomial.checked_div_exact(&distance) else { break };
+                polynomial = quotient;
+                power += 1;
+            }
+            if power > 0 {
+                removed.push((distance, power));
+            }
+        }
+    }
+    (polynomial, removed)
+}

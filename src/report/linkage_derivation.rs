@@ -1,0 +1,323 @@
+//! Derivations of linkages as text and as JSON.
+
+use super::document::units;
+use super::json::number;
+use super::linkage::{asked, joint_variables};
+use super::model;
+use super::number::counted;
+use super::table::paragraph;
+use crate::algebra::int::Int;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::{Domain, Ring};
+use crate::algebra::text::{Format, Names};
+use crate::algebra::univariate::Univariate;
+use crate::catalogue::{LinkageCase, LinkageFile};
+use crate::derivation::{Curve, GroupPolynomial, InputOutput, LinkageDerivation, Symbol};
+use rug::{Integer, Rational};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// The text of a polynomial in these variables, or in v1, v2, ... where they are no names.
+fn written(polynomial: &Polynomial<Rational>, names: &[String]) -> String {
+    let plain = || Names::given((1..=names.len()).map(|k| format!("v{k}")));
+    Names::given(names)
+        .or_else(|_| plain())
+        .map_or_else(|_| String::new(), |names| Format::Text.polynomial(polynomial, &names))
+}
+
+fn rational(polynomial: &Polynomial<Int>) -> Polynomial<Rational> {
+    polynomial.map(|c| Some(Rational::from(c.to_integer()))).unwrap_or_else(Polynomial::zero)
+}
+
+fn univariate(polynomial: &Univariate<Integer>) -> Polynomial<Rational> {
+    let coefficients = polynomial.coefficients().iter().map(Rational::from).collect();
+    Polynomial::from_univariate(0, &Univariate::new(coefficients))
+}
+
+/// The half-angle tangent of a body.
+fn tangent(file: &LinkageFile, body: usize) -> String {
+    format!("t_{}", file.linkage.bodies[body].name)
+}
+
+/// The variables of input and output.
+fn pair(file: &LinkageFile, found: &InputOutput) -> [String; 2] {
+    let joint = &file.linkage.joints[found.input];
+    let letter = if joint.is_prismatic() { 'd' } else { 't' };
+    let input = format!("{letter}_{}", joint.name);
+    let output = tangent(file, found.body);
+    if input == output { ["s".to_owned(), "t".to_owned()] } else { [input, output] }
+}
+
+fn symbol(file: &LinkageFile, symbol: Symbol) -> String {
+    let linkage = &file.linkage;
+    match symbol {
+        Symbol::Cosine(body) => format!("c_{}", linkage.bodies[body].name),
+        Symbol::Sine(body) => format!("s_{}", linkage.bodies[body].name),
+        Symbol::Shift(joint) => format!("d_{}", linkage.joints[joint].name),
+    }
+}
+
+/// What the variable of a polynomial is.
+fn meaning(file: &LinkageFile, polynomial: &GroupPolynomial) -> String {
+    let [body, against] = [polynomial.body, polynomial.against].map(|body| &file.linkage.bodies[body].name);
+    format!("{} is the tangent of half the angle of {body} against {against}", tangent(file, polynomial.body))
+}
+
+/// The verdict on one line.
+#[must_use]
+pub fn verdict(file: &LinkageFile, derivation: &LinkageDerivation) -> String {
+    let Some(best) = derivation.polynomials.first() else { return "no closure polynomial".to_owned() };
+    let degree = best.coefficients.degree().unwrap_or(0);
+    let real = best.coefficients.real_roots().len();
+    let at_pi =
+        if best.at_pi > 0 { format!(", {} at the half turn", counted(best.at_pi, "root")) } else { String::new() };
+    let proof = match best.assemblies {
+        _ if best.is_proved() => "every root is one of an assembly (proved)".to_owned(),
+        Some(known) => format!("of {known} assemblies: other roots belong to none"),
+        None => "every assembly has its root, other roots are not excluded".to_owned(),
+    };
+    let name = tangent(file, best.body);
+    format!("closure polynomial of degree {degree} in {name}, {}{at_pi}; {proof}", counted(real, "distinct real root"))
+}
+
+/// What to know of how the polynomials came about.
+fn steps(file: &LinkageFile, derivation: &LinkageDerivation) -> Vec<String> {
+    let mut steps = vec![
+        "Every cycle of bodies gives an equation in the rotations exp(i angle) and its conjugate.".to_owned(),
+        "Cramer's rule on these makes a square matrix in the rotation of one body, singular at every assembly."
+            .to_owned(),
+    ];
+    if let Some(best) = derivation.polynomials.first() {
+        steps.push(format!(
+            "The closure polynomial is the determinant of the matrix of {}, without factors 1 + t^2; {}.",
+            counted(best.rows, "row"),
+            meaning(file, best)
+        ));
+    }
+    steps
+}
+
+fn group_json(file: &LinkageFile, one: &GroupPolynomial) -> Value {
+    let names = |body: usize| file.linkage.bodies[body].name.clone();
+    json!({
+        "group": one.group + 1,
+        "body": names(one.body),
+        "against": names(one.against),
+        "variable": tangent(file, one.body),
+        "coefficients": coefficients(&one.coefficients),
+        "at_pi": one.at_pi,
+        "assemblies": one.assemblies,
+        "proved": one.is_proved(),
+    })
+}
+
+fn coefficients(polynomial: &Univariate<Integer>) -> Vec<String> {
+    polynomial.coefficients().iter().map(ToString::to_string).collect()
+}
+
+/// The exponents and the coefficient of every term.
+fn terms(polynomial: &Polynomial<Int>) -> Value {
+    let term = |(exponents, c): (Vec<u32>, &Int)| {
+        let exponent = |k: usize| exponents.get(k).copied().unwrap_or(0);
+        json!([exponent(0), exponent(1), c.to_integer().to_string()])
+    };
+    polynomial.terms().map(term).collect()
+}
+
+/// The keys that every document of a linkage has.
+fn document(file: &LinkageFile, case: usize) -> Value {
+    json!({
+        "name": file.heading.name,
+        "version": env!("CARGO_PKG_VERSION"),
+        "units": units(),
+        "joint_variables": joint_variables(file),
+        "mechanism": model::linkage_json(file),
+        "title": file.heading.title,
+        "kind": "linkage",
+        "case": case,
+    })
+}
+
+/// The derivation of a case, its number counted from 1, as one document.
+#[must_use]
+pub fn json(file: &LinkageFile, case: usize, derivation: &LinkageDerivation) -> Value {
+    let mut document = document(file, case);
+    let names: Vec<String> = derivation.variables.iter().map(|one| symbol(file, *one)).collect();
+    let equations = derivation.equations.iter().enumerate().map(|(k, equation)| {
+        let half = if k % 2 == 0 { "x" } else { "y" };
+        json!({ "name": format!("cycle {}, {half}", k / 2 + 1), "text": written(equation, &names) })
+    });
+    document["verdict"] = json!(verdict(file, derivation));
+    document["equations"] = equations.collect();
+    document["steps"] = json!(steps(file, derivation));
+    document["warnings"] = json!(derivation.warnings);
+    document["removed_factors"] = json!([]);
+    document["groups"] = derivation
+        .groups
+        .iter()
+        .map(|(bodies, count)| {
+            let names =
+                |bodies: &Vec<usize>| bodies.iter().map(|k| file.linkage.bodies[*k].name.clone()).collect::<Vec<_>>();
+            json!({ "bodies": bodies.iter().map(names).collect::<Vec<_>>(), "count": count })
+        })
+        .collect();
+    document["polynomials"] = derivation.polynomials.iter().map(|one| group_json(file, one)).collect();
+    document["input_output"] = derivation.input_output.as_ref().map_or(Value::Null, |found| {
+        let variables = pair(file, found);
+        json!({
+            "input": file.linkage.joints[found.input].name,
+            "body": file.linkage.bodies[found.body].name,
+            "against": file.linkage.bodies[found.against].name,
+            "variables": variables,
+            "degrees": [found.polynomial.degree(0), found.polynomial.degree(1)],
+            "polynomial": written(&rational(&found.polynomial), &variables),
+            "terms": terms(&found.polynomial),
+            "agrees": found.agrees,
+        })
+    });
+    let best = derivation.polynomials.first();
+    document["unknowns"] = best.iter().map(|best| tangent(file, best.body)).collect();
+    document["degree"] = json!(best.map(|best| best.coefficients.degree().unwrap_or(0)));
+    document["real_roots"] = Value::Null;
+    document["polynomial"] = Value::Null;
+    if let Some(best) = best {
+        let roots = best.coefficients.real_roots();
+        document["real_roots"] = json!(roots.len());
+        document["proved"] = json!(best.is_proved());
+        document["at_pi"] = json!(best.at_pi);
+        document["polynomial"] =
+            json!({ "variable": tangent(file, best.body), "coefficients": coefficients(&best.coefficients) });
+        document["roots"] = roots
+            .into_iter()
+            .map(|mut root| {
+                let exact = root.exact().map(|q| q.to_string());
+                json!({ "value": number(root.to_f64()), "exact": exact, "multiplicity": root.multiplicity() })
+            })
+            .collect();
+        document["square_free"] = best
+            .coefficients
+            .square_free_decomposition()
+            .iter()
+            .map(|(factor, k)| json!({ "degree": factor.degree().unwrap_or(0), "multiplicity": k }))
+            .collect();
+    }
+    document
+}
+
+/// The derivation of a case for a reader.
+#[must_use]
+pub fn text(file: &LinkageFile, case: &LinkageCase, number: usize, derivation: &LinkageDerivation) -> String {
+    let mut text = format!("{}, case {number}: {}\n", file.heading.title, asked(&file.linkage, &case.given));
+    paragraph(&mut text, &verdict(file, derivation));
+    let names: Vec<String> = derivation.variables.iter().map(|one| symbol(file, *one)).collect();
+    if !derivation.equations.is_empty() {
+        text.push_str("\nClosure equations (= 0)\n");
+    }
+    for (k, equation) in derivation.equations.iter().enumerate() {
+        let half = if k % 2 == 0 { "x" } else { "y" };
+        let _ = writeln!(text, "cycle {}, {half}:\n  {}", k / 2 + 1, written(equation, &names));
+    }
+    text.push_str("\nElimination\n");
+    for step in steps(file, derivation) {
+        paragraph(&mut text, &step);
+    }
+    for one in &derivation.polynomials {
+        let variable = [tangent(file, one.body)];
+        let proof = if one.is_proved() { "" } else { ", with further roots" };
+        let _ = writeln!(text, "\nGroup {}, angle of {}{proof}", one.group + 1, file.linkage.bodies[one.body].name);
+        let _ = writeln!(text, "  {}", written(&univariate(&one.coefficients), &variable));
+    }
+    if let Some(found) = &derivation.input_output {
+        let variables = pair(file, found);
+        let joint = &file.linkage.joints[found.input].name;
+        let _ = writeln!(text, "\nInput {joint} and output {}", file.linkage.bodies[found.body].name);
+        let _ = writeln!(text, "  {}", written(&rational(&found.polynomial), &variables));
+    }
+    for warning in &derivation.warnings {
+        paragraph(&mut text, &format!("warning: {warning}"));
+    }
+    text
+}
+
+/// How often the curve passes the circular points: the power of x^2 + y^2 in its highest terms.
+fn circularity(curve: &Curve) -> usize {
+    let highest = curve
+        .polynomial
+        .terms()
+        .filter(|(exponents, _)| exponents.iter().map(|e| u64::from(*e)).sum::<u64>() == curve.degree());
+    let mut form = Polynomial::from_terms(highest.map(|(exponents, c)| (exponents, c.clone())));
+    let [x, y] = [0, 1].map(Polynomial::<Int>::variable);
+    let circle = x.mul(&x).add(&y.mul(&y));
+    let mut power = 0;
+    while let Some(quotient) = form.checked_div_exact(&circle).filter(|_| !form.is_zero()) {
+        form = quotient;
+        power += 1;
+    }
+    power
+}
+
+const COORDINATES: [&str; 2] = ["x", "y"];
+
+/// The verdict on a curve.
+#[must_use]
+pub fn curve_verdict(of: &str, curve: &Curve) -> String {
+    format!("curve of {of}: a polynomial of degree {} with {} terms", curve.degree(), curve.polynomial.len())
+}
+
+fn bodies(file: &LinkageFile, curve: &Curve) -> Vec<String> {
+    curve.bodies.iter().map(|body| file.linkage.bodies[*body].name.clone()).collect()
+}
+
+/// The curve of a point as one document.
+#[must_use]
+pub fn curve_json(file: &LinkageFile, case: usize, body: &str, point: &str, curve: &Curve) -> Value {
+    let mut document = document(file, case);
+    let names = COORDINATES.map(str::to_owned);
+    let factors = curve.factors.iter().map(|(degree, k)| json!({ "degree": degree, "multiplicity": k }));
+    document["verdict"] = json!(curve_verdict(&format!("{body}.{point}"), curve));
+    for key in ["unknowns", "equations", "steps", "warnings"] {
+        document[key] = json!([]);
+    }
+    for key in ["degree", "real_roots", "polynomial"] {
+        document[key] = Value::Null;
+    }
+    let removed = curve.removed.iter().map(|(factor, power)| {
+        let reason = "only the joint of the ground is real on it, and a rotation is zero or infinite elsewhere";
+        json!({ "factor": written(&rational(factor), &names), "multiplicity": power, "reason": reason })
+    });
+    document["removed_factors"] = removed.collect();
+    document["trace"] = json!({
+        "body": body,
+        "point": point,
+        "degree": curve.degree(),
+        "circularity": circularity(curve),
+        "polynomial": written(&rational(&curve.polynomial), &names),
+        "terms": terms(&curve.polynomial),
+        "bodies": bodies(file, curve),
+        "rows": curve.rows,
+        "square_free": factors.collect::<Value>(),
+    });
+    document
+}
+
+/// The curve of a point for a reader.
+#[must_use]
+pub fn curve_text(file: &LinkageFile, of: &str, curve: &Curve) -> String {
+    let mut text = format!("{}\n", file.heading.title);
+    paragraph(&mut text, &curve_verdict(of, curve));
+    let with = format!(
+        "the determinant of {} rows from the cycles of {} vanishes at every place of the point; x^2 + y^2 divides the highest terms {}",
+        curve.rows,
+        bodies(file, curve).join(", "),
+        counted(circularity(curve), "time")
+    );
+    paragraph(&mut text, &with);
+    let names = COORDINATES.map(str::to_owned);
+    for (factor, power) in &curve.removed {
+        let times = if *power > 1 { format!(", {power} times") } else { String::new() };
+        let factor = written(&rational(factor), &names);
+        paragraph(&mut text, &format!("divided out: {factor}{times}, on which a rotation is zero or infinite"));
+    }
+    let _ = writeln!(text, "\n{} = 0", written(&rational(&curve.polynomial), &names));
+    text
+}
