@@ -8,7 +8,7 @@ use super::seed::plant;
 use super::wanted::{in_place, wanted};
 use looproot::catalogue::entry::Entry;
 use looproot::catalogue::{Any, Options, load_solvable};
-use looproot::derivation::{Derivation, derive, derive_symbolic};
+use looproot::derivation::{Derivation, derive, derive_with_symbols};
 use looproot::error::Error;
 use looproot::report::derivation::{json, paper, system, text, verdict};
 use looproot::report::document::complete;
@@ -43,7 +43,8 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     let case = &entry.cases[index];
     let (written, exit) = if let Some(list) = &options.symbolic {
         let names: Vec<String> = list.split(',').map(|name| name.trim().to_owned()).filter(|n| !n.is_empty()).collect();
-        let derivation = derive_symbolic(&entry, case, &names).map_err(|error| in_place(error, mechanism, &entry))?;
+        let derivation =
+            derive_with_symbols(&entry, case, &names).map_err(|error| in_place(error, mechanism, &entry))?;
         let written = if options.json {
             document(symbolic::json(&entry, index + 1, &derivation), &whole)
         } else if let Some(format) = options.format {
@@ -55,7 +56,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         } else {
             symbolic::text(&derivation)
         };
-        (written, Exit::Complete)
+        (written, if derivation.proved { Exit::Complete } else { Exit::NotProved })
     } else {
         let derivation = derive(&entry, case).map_err(|error| in_place(error, mechanism, &entry))?;
         let written = if options.json {

@@ -24,7 +24,7 @@ pub use linkage::{Curve, GroupPolynomial, InputOutput, LinkageDerivation, Symbol
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;
 pub use substitution::Substitution;
-pub use symbolic::{Displayed, Quotient, Symbolic, SymbolicPolynomial, derive_symbolic};
+pub use symbolic::{Displayed, Quotient, Symbolic, SymbolicPolynomial, derive_symbolic, derive_with_symbols};
 
 use crate::algebra::number::Number;
 use crate::algebra::polynomial::Polynomial;

@@ -25,7 +25,8 @@ pub fn verdict(symbolic: &Symbolic) -> String {
         }
         None => counted(symbolic.equations.len(), "equation"),
     };
-    format!("{what} in {symbols}; at the numbers of the file equal to {}", symbolic.compared)
+    let certainty = if symbolic.proved { "" } else { " (probability of error below 2^-40)" };
+    format!("{what} in {symbols}; {}{certainty}", symbolic.compared)
 }
 
 fn plain(polynomial: &Polynomial<Rational>, names: &Names) -> String {
@@ -42,12 +43,15 @@ fn quotient(quotient: &Quotient, names: &Names) -> String {
 #[must_use]
 pub fn text(symbolic: &Symbolic) -> String {
     let names = &symbolic.names;
-    let mut text = verdict(symbolic) + "\n\nSymbols (c and s: cosine and sine; ca, sa: those of alpha)\n";
+    let mut text = verdict(symbolic)
+        + "\n\nSymbols (c and s: cosine and sine; ca, sa: those of alpha; t, ta: half-angle tangents)\n";
     let _ = writeln!(text, "  {}", symbolic.symbols.join(", "));
     if !symbolic.numbers.is_empty() {
         let _ = writeln!(text, "  numbers of the file: {}", symbolic.numbers.join(", "));
     }
-    text.push_str("\nClosure equations (= 0)\n");
+    if !symbolic.equations.is_empty() {
+        text.push_str("\nClosure equations (= 0)\n");
+    }
     for equation in &symbolic.equations {
         let terms = counted(equation.polynomial.len(), "term");
         let _ = writeln!(text, "{}, {terms}:\n  {}", equation.name, plain(&equation.compact, names));
@@ -129,6 +133,7 @@ pub fn json(entry: &Entry, case: usize, symbolic: &Symbolic) -> Value {
         document["unknowns"] = json!([name]);
         document["degree"] = json!(expanded.degree(polynomial.variable));
         document["terms"] = json!(expanded.len());
+        document["proved"] = json!(symbolic.proved);
         document["polynomial"] = json!({
             "variable": name,
             "coefficients": coefficients,
@@ -164,7 +169,9 @@ pub fn paper(entry: &Entry, case: usize, symbolic: &Symbolic, found: &Substituti
     if !symbolic.numbers.is_empty() {
         paper.sentence(&format!("Numbers of the file: {}.", symbolic.numbers.join(", ")));
     }
-    paper.heading("Closure equations");
+    if !symbolic.equations.is_empty() {
+        paper.heading("Closure equations");
+    }
     for equation in &symbolic.equations {
         paper.label(&format!("{}, {} expanded", equation.name, counted(equation.polynomial.len(), "term")));
         paper.equation(&equation.compact);

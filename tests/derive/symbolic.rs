@@ -7,7 +7,7 @@ use looproot::algebra::text::Format;
 use looproot::algebra::univariate::Univariate;
 use looproot::catalogue::entry::{Case, Design, Entry, Input, InputValue};
 use looproot::derivation::transference::SpatialFourBar;
-use looproot::derivation::{Symbolic, derive, derive_symbolic};
+use looproot::derivation::{Symbolic, derive, derive_symbolic, derive_with_symbols};
 use looproot::kinematics::chain::{Chain, Geometry, Joint, JointKind};
 use rug::{Integer, Rational};
 use std::collections::BTreeMap;
@@ -315,4 +315,51 @@ fn symbols_can_be_chosen_and_refused() {
     assert!(code == 4 && err.contains("platforms"), "{err}");
     let (code, out, _) = run(&["derive", "rssr", "--symbolic", "--format", "singular"]);
     assert!(code == 0 && out.contains("poly f1 = ") && out.contains("t4^2"), "{out}");
+}
+
+/// What is left with the numbers of the file in the place of the symbols, as a primitive polynomial in the unknown.
+fn at_the_numbers(derived: &Symbolic) -> Univariate<Integer> {
+    let values: Vec<(usize, Polynomial<Rational>)> =
+        derived.values.iter().map(|(variable, value)| (*variable, Polynomial::constant(value.clone()))).collect();
+    let polynomial = derived.polynomial.as_ref().unwrap();
+    let at = polynomial.displayed.polynomial.substitute_all(&values);
+    let coefficients: Vec<Rational> = at
+        .coefficients_in(polynomial.variable)
+        .iter()
+        .map(|c| c.terms().next().map_or(Rational::new(), |(_, c)| c.clone()))
+        .collect();
+    Univariate::new(Univariate::new(coefficients).primitive_integers())
+}
+
+/// The numbers of the file are none of the values between which the polynomial was interpolated.
+#[test]
+fn interpolated_polynomials_are_those_of_the_numbers() {
+    for (path, symbols, degrees) in
+        [("loop/c5r_angle.toml", &["a2"][..], [16, 8]), ("arm/puma560.toml", &["z"], [8, 8])]
+    {
+        let entry = entry(path);
+        let symbols: Vec<String> = symbols.iter().map(|&name| name.to_owned()).collect();
+        let derived = derive_with_symbols(&entry, &entry.cases[0], &symbols).unwrap();
+        let expected = derive(&entry, &entry.cases[0]).unwrap().polynomial.unwrap().coefficients;
+        let found = at_the_numbers(&derived);
+        assert!(found == expected || found == expected.scale(&Integer::from(-1)), "{path}");
+        let polynomial = derived.polynomial.as_ref().unwrap();
+        assert_eq!(polynomial.displayed.polynomial.degree(polynomial.variable), degrees[0], "{path}");
+        assert_eq!(polynomial.displayed.polynomial.degree(derived.values[0].0), degrees[1], "{path}");
+        let found = derived.substituted(&entry, &entry.cases[0]).unwrap();
+        assert!(found.solutions > 0 && found.largest < 1e-8, "{path}: {found:?}");
+    }
+}
+
+#[test]
+fn interpolation_says_what_it_cannot_do() {
+    for (arguments, code, word) in [
+        (["derive", "general_7r", "--symbolic=a9"], 1, "found the symbol a9, expected some of alpha1"),
+        (["derive", "general_7r", "--symbolic=a1,a2,a3,a4"], 4, "found 4 symbols, expected one to 3"),
+        (["derive", "arm/puma560", "--symbolic=x,x"], 1, "found the symbol x twice"),
+        (["derive", "platform/points_6_3", "--symbolic=a1"], 1, "expected some of leg1, leg2"),
+    ] {
+        let (found, _, err) = run(&arguments);
+        assert!(found == code && err.contains(word), "{arguments:?}: {found} {err}");
+    }
 }

@@ -29,6 +29,7 @@ pub mod monomial;
 pub mod number;
 pub mod number_field;
 pub mod polynomial;
+pub mod projective;
 pub mod ratio;
 pub mod rational;
 pub mod real_field;

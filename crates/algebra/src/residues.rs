@@ -7,16 +7,22 @@ use super::ring::{Domain, Field, Ring};
 use rug::Rational;
 use std::sync::LazyLock;
 
-/// The number of primes.
+/// The number of primes that most numbers need.
 pub const MOST: usize = 64;
 
-static MODULI: LazyLock<[Modulus; MOST]> = LazyLock::new(|| {
+/// The number of primes at hand.
+const AT_HAND: usize = 256;
+
+static MODULI: LazyLock<[Modulus; AT_HAND]> = LazyLock::new(|| {
     let mut primes = primes();
     std::array::from_fn(|_| primes.next().expect("there are more primes below 2^62"))
 });
 
-/// Residues modulo the 64 largest primes below `2^62`. As a field it gives up, without an inverse, where a number is 0 modulo some
-/// of the primes only, which chance does not bring about.
+/// Residues modulo the 64 largest primes below `2^62`.
+pub type Residues = ManyResidues<MOST>;
+
+/// Residues modulo the N largest primes below `2^62`, at most 256 of them. As a field it gives up, without an inverse, where a
+/// number is 0 modulo some of the primes only, which chance does not bring about.
 ///
 /// # Example
 /// ```
@@ -27,10 +33,20 @@ static MODULI: LazyLock<[Modulus; MOST]> = LazyLock::new(|| {
 /// assert_eq!(x.inverse().unwrap().rational(), Some(Rational::from((-7, 22))));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Residues([u64; MOST]);
+pub struct ManyResidues<const N: usize>([u64; N]);
 
-impl Residues {
-    /// The rational number of least height with these residues, if numerator and denominator are below `2^1983`.
+impl<const N: usize> ManyResidues<N> {
+    /// The residues modulo the first `M` of the primes.
+    ///
+    /// # Panics
+    /// When `M` exceeds N.
+    #[must_use]
+    pub fn first<const M: usize>(&self) -> ManyResidues<M> {
+        ManyResidues(std::array::from_fn(|k| self.0[k]))
+    }
+
+    /// The rational number of least height with these residues, if numerator and denominator are below the square root of
+    /// half the product of the primes, `2^1983` for 64 of them.
     #[must_use]
     pub fn rational(&self) -> Option<Rational> {
         let pair = |(r, modulus): (&u64, &Modulus)| (modulus.leave(*r), modulus.prime());
@@ -46,9 +62,9 @@ impl Residues {
     }
 }
 
-impl Ring for Residues {
+impl<const N: usize> Ring for ManyResidues<N> {
     fn zero() -> Self {
-        Self([0; MOST])
+        Self([0; N])
     }
     fn one() -> Self {
         Self(std::array::from_fn(|k| MODULI[k].enter(1)))
@@ -77,13 +93,13 @@ impl Ring for Residues {
     }
 }
 
-impl Domain for Residues {
+impl<const N: usize> Domain for ManyResidues<N> {
     fn checked_div_exact(&self, other: &Self) -> Option<Self> {
         Some(self.mul(&other.inverse()?))
     }
 }
 
-impl Field for Residues {
+impl<const N: usize> Field for ManyResidues<N> {
     fn inverse(&self) -> Option<Self> {
         let inverse = |k: usize| MODULI[k].inverse(self.0[k]);
         self.0.iter().all(|r| *r != 0).then(|| Self(std::array::from_fn(inverse)))

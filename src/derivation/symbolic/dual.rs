@@ -203,7 +203,7 @@ pub(super) fn neighbours(
         removed: Polynomial::one(),
         polynomial: Some((kept, polynomial, over_names)),
         translations: Vec::new(),
-        compared: "the closure polynomial derived from the numbers, with coplanar translations for g".to_owned(),
+        compared: "at the numbers of the file equal to the closure polynomial derived from the numbers, with coplanar translations for g".to_owned(),
     })
 }
 
@@ -269,7 +269,7 @@ pub(super) fn four_revolutes(chain: &Chain, table: &Table<'_>, symbols: &Symbols
         translations: Vec::new(),
         compare,
         removed: Polynomial::one(),
-        compared: "the same equations over the rationals".to_owned(),
+        compared: "at the numbers of the file equal to the same equations over the rationals".to_owned(),
     })
 }
 

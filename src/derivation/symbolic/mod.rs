@@ -2,8 +2,10 @@
 //! polynomials.
 
 mod dual;
+mod interpolated;
 mod parts;
 mod routes;
+mod setting;
 mod size;
 mod table;
 
@@ -76,8 +78,27 @@ pub struct Symbolic {
     pub translations: Vec<Quotient>,
     /// The variables of the symbols with the numbers of the file.
     pub values: Vec<(usize, Rational)>,
-    /// With what the result was compared, after putting in the numbers of the file; it was equal.
+    /// With what the result was compared, as a clause: `at the numbers of the file equal to ...`.
     pub compared: String,
+    /// Whether every step is an identity; if not, the probability of error is below 2^-40.
+    pub proved: bool,
+}
+
+/// Derives one case with symbols: by [`derive_symbolic`] where an elimination works with symbols, else, for up to three symbols that
+/// are named, by interpolation between derivations with numbers. The symbols are then link parameters, the input, the position
+/// `x`, `y`, `z` of the pose of an arm, or the lengths `leg1` to `leg6` of a platform.
+///
+/// # Errors
+/// Those of [`derive_symbolic`]; [`Error::Unsupported`] where the polynomial has too many terms, or no derivation with numbers exists.
+pub fn derive_with_symbols(entry: &Entry, case: &Case, wanted: &[String]) -> Result<Symbolic> {
+    let is_of_pose = |name: &String| setting::COORDINATES.contains(&name.as_str());
+    if case.pose.is_some() && wanted.iter().any(is_of_pose) {
+        return interpolated::derive_interpolated(entry, case, wanted);
+    }
+    match derive_symbolic(entry, case, wanted) {
+        Err(Error::Unsupported(_)) if !wanted.is_empty() => interpolated::derive_interpolated(entry, case, wanted),
+        other => other,
+    }
 }
 
 /// Derives one case with symbols for its link parameters and its input: for the parameters named, or for all that are
@@ -140,7 +161,6 @@ fn four_rotations(chain: &Chain) -> Symbols {
 
 /// Compares with the numbers, and gives names to coefficients.
 fn finished(table: &Table<'_>, symbols: &Symbols, outcome: Outcome) -> Result<Symbolic> {
-    let unknowns = 3 * symbols.len();
     let values: Vec<(usize, Polynomial<Rational>)> =
         table.values().into_iter().map(|(variable, value)| (variable, Polynomial::constant(value))).collect();
     let are_equal = |left: &Polynomial<Rational>, right: &Polynomial<Rational>| match (left.is_zero(), right.is_zero())
@@ -156,7 +176,33 @@ fn finished(table: &Table<'_>, symbols: &Symbols, outcome: Outcome) -> Result<Sy
             return Err(Error::Invalid(message.to_owned()));
         }
     }
-    let mut parts = Parts::new(unknowns + table.names.len());
+    let header = Header {
+        unknowns: symbols.list(),
+        variables: table.names.clone(),
+        symbols: table.symbols.iter().map(|symbol| symbol.name.clone()).collect(),
+        numbers: table.numbers.clone(),
+        values: table.values(),
+        proved: true,
+    };
+    assembled(header, outcome)
+}
+
+/// What stands at the head of a derivation with symbols.
+struct Header {
+    /// The names of the unknowns, three for each.
+    unknowns: Vec<String>,
+    /// The names of the symbols' variables, which come after them.
+    variables: Vec<String>,
+    symbols: Vec<String>,
+    numbers: Vec<String>,
+    values: Vec<(usize, Rational)>,
+    proved: bool,
+}
+
+/// Gives names to coefficients.
+fn assembled(header: Header, outcome: Outcome) -> Result<Symbolic> {
+    let unknowns = header.unknowns.len();
+    let mut parts = Parts::new(unknowns + header.variables.len());
     let mut equations = Vec::new();
     for (name, polynomial) in outcome.equations {
         let compact = parts.compact(&polynomial, unknowns);
@@ -171,7 +217,7 @@ fn finished(table: &Table<'_>, symbols: &Symbols, outcome: Outcome) -> Result<Sy
     });
     // Names of sub-expressions come first, so that they stand before the powers that they multiply.
     let count = parts.list.len();
-    let all = unknowns + table.names.len() + count;
+    let all = unknowns + header.variables.len() + count;
     let moved = |polynomial: &Polynomial<Rational>| {
         Polynomial::from_terms(polynomial.terms().map(|(mut exponents, c)| {
             exponents.resize(all, 0);
@@ -183,22 +229,23 @@ fn finished(table: &Table<'_>, symbols: &Symbols, outcome: Outcome) -> Result<Sy
         let (polynomial, compact) = (moved(&one.polynomial), moved(&one.compact));
         Displayed { name: one.name.clone(), polynomial, compact }
     };
-    let names = parts.list.iter().map(|(name, _)| name.clone()).chain(symbols.list());
+    let names = parts.list.iter().map(|(name, _)| name.clone()).chain(header.unknowns);
     let quotient = |one: &Quotient| {
         let (numerator, denominator) = (moved(&one.numerator), moved(&one.denominator));
         Quotient { variable: one.variable + count, numerator, denominator }
     };
     Ok(Symbolic {
-        names: Names::given(names.chain(table.names.iter().cloned()))?,
-        symbols: table.symbols.iter().map(|symbol| symbol.name.clone()).collect(),
-        numbers: table.numbers.clone(),
+        names: Names::given(names.chain(header.variables))?,
+        symbols: header.symbols,
+        numbers: header.numbers,
         equations: equations.iter().map(displayed).collect(),
         steps: outcome.steps,
         polynomial: polynomial
             .map(|(variable, one)| SymbolicPolynomial { variable: variable + count, displayed: displayed(&one) }),
         translations: outcome.translations.iter().map(quotient).collect(),
-        values: table.values().into_iter().map(|(variable, number)| (variable + count, number)).collect(),
+        values: header.values.into_iter().map(|(variable, number)| (variable + count, number)).collect(),
         parts: parts.list.iter().map(|(name, part)| (name.clone(), moved(part))).collect(),
         compared: outcome.compared,
+        proved: header.proved,
     })
 }

@@ -215,6 +215,6 @@ fn finish(
         removed,
         polynomial: Some((variable, polynomial, Some(over_names))),
         translations: Vec::new(),
-        compared: "the closure polynomial derived from the numbers".to_owned(),
+        compared: "at the numbers of the file equal to the closure polynomial derived from the numbers".to_owned(),
     })
 }

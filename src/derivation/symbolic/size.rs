@@ -71,8 +71,8 @@ pub(super) fn too_large(chain: &Chain, case: &Case, exact: &Exact) -> Error {
         Err(error) => return error,
     };
     Error::Unsupported(format!(
-        "{what} is too large for symbols: {size}; symbols are for loops with three unknown rotations, both \
-         translations along two of four axes, a ball, two balls, or four revolutes alone"
+        "{what} is too large for symbols in all its parameters: {size}; name up to three of them (--symbolic=a1); all parameters are kept in loops \
+         with three unknown rotations, both translations along two of four axes, one or two spherical joints, or four revolutes alone"
     ))
 }
 

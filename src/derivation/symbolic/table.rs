@@ -49,7 +49,8 @@ fn is_right(angle: &Angle) -> bool {
     }
 }
 
-fn shown(value: &Value) -> String {
+/// A parameter's value for a reader.
+pub(super) fn shown(value: &Value) -> String {
     match value {
         Value::Length(length) => length.rational().to_string(),
         Value::Angle(angle) => match angle.half_tangent() {
@@ -148,10 +149,10 @@ impl<'c> Table<'c> {
 }
 
 /// A parameter in order: where it stands, its name, the names of its variables, its value.
-type Entry = (Option<(usize, Parameter)>, String, Vec<String>, Value);
+pub(super) type Entry = (Option<(usize, Parameter)>, String, Vec<String>, Value);
 
 /// Every parameter that a loop has: link by link, then the input.
-fn all(joints: &[Joint], input: Option<&Input>) -> Vec<Entry> {
+pub(super) fn all(joints: &[Joint], input: Option<&Input>) -> Vec<Entry> {
     let mut list: Vec<Entry> = Vec::new();
     for (at, joint) in joints.iter().enumerate() {
         let n = at + 1;

@@ -1,0 +1,142 @@
+//! Interpolation of vectors that are known up to a factor at every point: what a primitive polynomial is at a value of a
+//! parameter.
+//!
+//! Let the vector `F(y)` have entries of degree `D`, and let `v_j = F(y_j) / s_j` be known at `N = D + 1 + k` points, the factors
+//! `s_j` unknown. Divided differences of order `N - 1` of `y^e F` vanish for `e < k`, so that
+//! `sum_j w_j y_j^e v_j s_j = 0` with `w_j = 1 / prod_(i != j) (y_j - y_i)`: linear equations for the factors, as many for every `e`
+//! as the vector has entries.
+
+use super::echelon::Echelon;
+use super::ring::Field;
+use super::univariate::Univariate;
+
+/// Equations beyond the number of unknowns that must hold as well: chance meets so many modulo a prime with a probability below
+/// `2^-400`.
+const SPARE: usize = 8;
+
+/// The degree of vectors known up to a factor, and the equations that determine the factors.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// The degree D of the entries.
+    pub degree: usize,
+    /// Exponents e and entries of the vectors whose equations determine the factors.
+    equations: Vec<(usize, usize)>,
+}
+
+impl Shape {
+    /// The least number of points that leaves nothing open for entries of this degree in vectors of so many entries; vectors of one
+    /// entry are all alike up to a factor.
+    ///
+    /// # Panics
+    /// When there is only one entry.
+    #[must_use]
+    pub fn points(degree: usize, entries: usize) -> usize {
+        // k powers with `k entries >= N + SPARE`, N = degree + 1 + k.
+        degree + 1 + (degree + 1 + SPARE).div_ceil(entries - 1)
+    }
+
+    /// The shape of the vectors at these points; `None` where the points are too few for it.
+    ///
+    /// # Panics
+    /// When the vectors are of different lengths, or have only one entry.
+    #[must_use]
+    pub fn of<F: Field>(points: &[F], vectors: &[Vec<F>]) -> Option<Self> {
+        let entries = vectors.first()?.len();
+        let most = (0..points.len()).rev().find(|&degree| Self::points(degree, entries) <= points.len())?;
+        let moments = moments(points)?;
+        let echelon = |degree: usize| {
+            let powers = points.len() - 1 - degree;
+            let equations: Vec<(usize, usize)> = (0..powers).flat_map(|e| (0..entries).map(move |m| (e, m))).collect();
+            let rows = equations.iter().map(|&(e, m)| equation(&moments, vectors, e, m)).collect();
+            (Echelon::of(rows, points.len()), equations)
+        };
+        let (found, _) = echelon(most);
+        // A factor of degree more fits as well: one more free factor for every degree too many.
+        let free = points.len() - found.rank();
+        let degree = most.checked_sub(free.checked_sub(1)?)?;
+        let (found, equations) = echelon(degree);
+        let independent = found.independent_rows().iter().map(|&row| equations[row]).collect();
+        (found.rank() + 1 == points.len()).then_some(Self { degree, equations: independent })
+    }
+
+    /// The entries as polynomials, up to a common factor; `None` where the vectors are not of this shape.
+    ///
+    /// # Panics
+    /// When the vectors are of different lengths.
+    #[must_use]
+    pub fn interpolate<F: Field>(&self, points: &[F], vectors: &[Vec<F>]) -> Option<Vec<Univariate<F>>> {
+        let moments = moments(points)?;
+        let rows = self.equations.iter().map(|&(e, m)| equation(&moments, vectors, e, m)).collect();
+        let echelon = Echelon::of(rows, points.len());
+        let null_space = echelon.null_space();
+        let [factors] = null_space.as_slice() else { return None };
+        if factors.iter().any(F::is_zero) {
+            return None;
+        }
+        let (first, rest) = (self.degree + 1, self.degree + 1..points.len());
+        let entries = vectors.first()?.len();
+        let polynomial = |m: usize| {
+            let value = |j: usize| (points[j].clone(), vectors[j][m].mul(&factors[j]));
+            let polynomial = Univariate::interpolate(&(0..first).map(value).collect::<Vec<_>>());
+            let holds = rest.clone().all(|j| value(j).1.sub(&polynomial.eval(&points[j])).is_zero());
+            holds.then_some(polynomial)
+        };
+        (0..entries).map(polynomial).collect()
+    }
+}
+
+/// The points with `w_j y_j^e` for e = 0, 1, ... made when asked for: here `w_j` and `y_j`.
+fn moments<F: Field>(points: &[F]) -> Option<Vec<(F, F)>> {
+    let weight = |j: usize| {
+        let others = points.iter().enumerate().filter(|(i, _)| *i != j);
+        others.fold(F::one(), |product, (_, y)| product.mul(&points[j].sub(y))).inverse()
+    };
+    (0..points.len()).map(|j| Some((weight(j)?, points[j].clone()))).collect()
+}
+
+/// `w_j y_j^e v_j[m]` for every point j
+fn equation<F: Field>(moments: &[(F, F)], vectors: &[Vec<F>], e: usize, m: usize) -> Vec<F> {
+    let power = |y: &F| (0..e).fold(F::one(), |power, _| power.mul(y));
+    moments.iter().zip(vectors).map(|((w, y), v)| w.mul(&power(y)).mul(&v[m])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rug::Rational;
+
+    fn rationals(numbers: &[i64]) -> Vec<Rational> {
+        numbers.iter().map(|&n| Rational::from(n)).collect()
+    }
+
+    /// `(1 + y^2, 3 y, y^2 - 4, 7)` up to a factor that differs from point to point.
+    fn sample(count: i64) -> (Vec<Rational>, Vec<Vec<Rational>>) {
+        let points: Vec<i64> = (2..2 + count).collect();
+        let vector = |y: &i64| {
+            let factor = Rational::from((y * y + 5, 3 * y - 1));
+            rationals(&[1 + y * y, 3 * y, y * y - 4, 7]).into_iter().map(|x| x * &factor).collect()
+        };
+        (rationals(&points), points.iter().map(vector).collect())
+    }
+
+    #[test]
+    fn vectors_up_to_a_factor_are_interpolated() {
+        let (points, vectors) = sample(9);
+        let shape = Shape::of(&points, &vectors).unwrap();
+        assert_eq!(shape.degree, 2);
+        let entries = shape.interpolate(&points, &vectors).unwrap();
+        let scale = Rational::from(7) / entries[3].eval(&Rational::new());
+        let scaled: Vec<_> = entries.iter().map(|p| p.scale(&scale).coefficients().to_vec()).collect();
+        assert_eq!(scaled, [rationals(&[1, 0, 1]), rationals(&[0, 3]), rationals(&[-4, 0, 1]), rationals(&[7])]);
+    }
+
+    #[test]
+    fn too_few_points_and_another_shape_are_noticed() {
+        let (points, vectors) = sample(5);
+        assert_eq!(Shape::of(&points, &vectors), None);
+        let (points, mut vectors) = sample(9);
+        let shape = Shape::of(&points, &vectors).unwrap();
+        vectors[4][1] += 1;
+        assert_eq!(shape.interpolate(&points, &vectors), None);
+    }
+}
