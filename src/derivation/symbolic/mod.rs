@@ -89,7 +89,8 @@ pub struct Symbolic {
 /// `x`, `y`, `z` of the pose of an arm, or the lengths `leg1` to `leg6` of a platform.
 ///
 /// # Errors
-/// Those of [`derive_symbolic`]; [`Error::Unsupported`] where the polynomial has too many terms, or no derivation with numbers exists.
+/// [`Error::Unsupported`] where the polynomial has too many terms, or no derivation with numbers exists; [`Error::Invalid`] for an
+/// unknown parameter.
 pub fn derive_with_symbols(entry: &Entry, case: &Case, wanted: &[String]) -> Result<Symbolic> {
     let is_of_pose = |name: &String| setting::COORDINATES.contains(&name.as_str());
     if case.pose.is_some() && wanted.iter().any(is_of_pose) {
