@@ -22,6 +22,8 @@ fn main() -> ExitCode {
         Verb::Factor(options) => command::factor::run(options),
         Verb::Conditions(options) => command::conditions::run(options),
         Verb::Motion(options) => command::motion::run(options),
+        Verb::Instant(options) => command::instant::run(options),
+        Verb::Dynamics(options) => command::dynamics::run(options),
         Verb::List(options) => command::list::run(options),
         Verb::Show(options) => command::show::run(options),
         Verb::Convert(options) => command::convert::run(options),

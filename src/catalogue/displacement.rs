@@ -32,7 +32,7 @@ pub enum Displacement {
     /// The rotation of a point of the body through three positions on a circle.
     Circle([Vector<Rational>; 3]),
     /// The rotation at a share of the way from one to another.
-    Between([Matrix<Rational>; 2], Rational),
+    Between(Box<[Matrix<Rational>; 2]>, Rational),
     /// The product of reflections in planes, in their order.
     Reflections(Vec<Plane<Rational>>),
     /// The lines of Roth's theorem of a screw and of points.
@@ -125,7 +125,7 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
             let share = scope.number(scope.need(&mechanism, "share")?, Quantity::Ratio, "share")?.rational().clone();
             let both =
                 found.try_into().map_err(|_| scope.fail(line, "found another number of rotations, expected two"))?;
-            Ok(Displacement::Between(both, share))
+            Ok(Displacement::Between(Box::new(both), share))
         }
         "reflections" => {
             let found = planes(scope, table, &[])?;

@@ -146,43 +146,13 @@ pub(super) fn lines(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
             let planes = counted(scope, line_of(table, "plane"), planes(scope, table, &[])?, "plane", 2)?;
             Lines::Planes(planes.try_into().map_err(|_| wrong())?)
         }
-        "polarity" => {
-            let found = complexes(scope, table, &["point", "plane", "line"])?;
-            let [complex]: [Complex<Rational>; 1] =
-                counted(scope, line_of(table, "complex"), found, "complex", 1)?.try_into().map_err(|_| wrong())?;
-            let lines = match table.get("line") {
-                None => Vec::new(),
-                Some(_) => parts(scope, table, "line", &LINE, &["complex", "point", "plane"])?
-                    .iter()
-                    .map(|(line, node)| pluecker(scope, line, node))
-                    .collect::<Result<_>>()?,
-            };
-            let points = places(scope, table, &["complex", "plane", "line"])?;
-            let planes = planes(scope, table, &["complex", "point", "line"])?;
-            Lines::Polarity(Box::new(Polarity { complex, points, planes, lines }))
-        }
+        "polarity" => polarity(scope, table)?,
         "generator" => generator(scope, table)?,
         "relative" => {
             let screws = counted(scope, line_of(table, "screw"), turnings(scope, table, &[])?, "screw", 2)?;
             Lines::Relative(screws.try_into().map_err(|_| wrong())?)
         }
-        "wrench" => {
-            let forces = parts(scope, table, "force", &["at", "vector"], &["couple", "screw"])?;
-            let forces = forces.iter().map(|(own, _)| {
-                let vector = |key: &str| point(scope, scope.need(own, key)?, key);
-                Ok((vector("at")?, vector("vector")?))
-            });
-            let forces = forces.collect::<Result<_>>()?;
-            let couples = match table.get("couple") {
-                None => Vec::new(),
-                Some(_) => parts(scope, table, "couple", &["vector"], &["force", "screw"])?
-                    .iter()
-                    .map(|(own, _)| point(scope, scope.need(own, "vector")?, "vector"))
-                    .collect::<Result<_>>()?,
-            };
-            let screws = turnings(scope, table, &["force", "couple"])?;
-            Lines::Wrench(Box::new(Wrench { forces, couples, screws }))
-        }
+        "wrench" => wrench(scope, table)?,
         "reciprocal" => {
             let screws = parts(scope, table, "screw", &["direction", "point", "pitch"], &[])?;
             let one = |(screw, _): &(Table<'_>, &Node)| {
@@ -199,6 +169,43 @@ pub(super) fn lines(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
             Lines::Congruence(complexes.try_into().map_err(|_| wrong())?)
         }
     })
+}
+
+/// A complex, and the points, planes and lines that it is applied to.
+fn polarity(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
+    let found = complexes(scope, table, &["point", "plane", "line"])?;
+    let [complex]: [Complex<Rational>; 1] = counted(scope, line_of(table, "complex"), found, "complex", 1)?
+        .try_into()
+        .map_err(|_| scope.fail(table.line(), "found another number of complexes, expected one"))?;
+    let lines = match table.get("line") {
+        None => Vec::new(),
+        Some(_) => parts(scope, table, "line", &LINE, &["complex", "point", "plane"])?
+            .iter()
+            .map(|(line, node)| pluecker(scope, line, node))
+            .collect::<Result<_>>()?,
+    };
+    let points = places(scope, table, &["complex", "plane", "line"])?;
+    let planes = planes(scope, table, &["complex", "point", "line"])?;
+    Ok(Lines::Polarity(Box::new(Polarity { complex, points, planes, lines })))
+}
+
+/// Forces, couples and velocity screws.
+fn wrench(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
+    let forces = parts(scope, table, "force", &["at", "vector"], &["couple", "screw"])?;
+    let forces = forces.iter().map(|(own, _)| {
+        let vector = |key: &str| point(scope, scope.need(own, key)?, key);
+        Ok((vector("at")?, vector("vector")?))
+    });
+    let forces = forces.collect::<Result<_>>()?;
+    let couples = match table.get("couple") {
+        None => Vec::new(),
+        Some(_) => parts(scope, table, "couple", &["vector"], &["force", "screw"])?
+            .iter()
+            .map(|(own, _)| point(scope, scope.need(own, "vector")?, "vector"))
+            .collect::<Result<_>>()?,
+    };
+    let screws = turnings(scope, table, &["force", "couple"])?;
+    Ok(Lines::Wrench(Box::new(Wrench { forces, couples, screws })))
 }
 
 /// A line with the rates of its point and of its direction.

@@ -2,6 +2,7 @@
 
 use super::heading::{Heading, heading_with};
 use super::job::digits;
+use super::masses::{Masses, masses};
 use super::node::{Field, Node, Value};
 use super::scope::{Scope, Table, nearest};
 use crate::algebra::number::{Angle, Number, Quantity};
@@ -27,6 +28,8 @@ pub struct LinkageFile {
     pub traces: Vec<TraceClaim>,
     /// Whether every number of bodies and joints is exact.
     pub exact: bool,
+    /// Masses and gravity.
+    pub masses: Masses,
 }
 
 /// A claim about the curve of a point.
@@ -89,8 +92,8 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
     let keys = ["title", "source", "notes", "units", "mechanism", "expected", "input", "solution", "trace"];
     let table = scope.table(root, "the file", &keys)?;
     let node = scope.need(&table, "mechanism")?;
-    let mechanism =
-        scope.table(node, "the [mechanism] of a linkage", &["kind", "space", "ground", "joints", "bodies"])?;
+    let keys = ["kind", "space", "ground", "joints", "bodies", "mass", "gravity"];
+    let mechanism = scope.table(node, "the [mechanism] of a linkage", &keys)?;
     let space = scope.need(&mechanism, "space")?;
     let word = scope.word(space, "space", &["plane", "sphere", "space"])?;
     if word != "plane" {
@@ -129,7 +132,8 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
         }
         None => Vec::new(),
     };
-    Ok(LinkageFile { heading, linkage, cases, traces, exact })
+    let masses = masses(scope, &mechanism, &linkage)?;
+    Ok(LinkageFile { heading, linkage, cases, traces, exact, masses })
 }
 
 /// A claim about the curve of a point, `BODY.POINT`.

@@ -13,6 +13,7 @@ mod job;
 mod library;
 pub mod lines;
 mod linkage;
+pub mod masses;
 mod motion;
 mod node;
 mod options;

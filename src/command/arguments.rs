@@ -45,6 +45,10 @@ pub enum Verb {
     Conditions(ConditionsOptions),
     /// Convert a rotation or a displacement into every parametrisation, with all branches
     Motion(MotionOptions),
+    /// The instantaneous motion of a body of a linkage: pole, inflection circle, centres of curvature
+    Instant(InstantOptions),
+    /// The equations of motion of a linkage with masses, the forces in its joints, and its motion in time
+    Dynamics(DynamicsOptions),
     /// List the built-in library
     List(ListOptions),
     /// Print a mechanism as it was understood
@@ -561,6 +565,69 @@ pub struct MotionOptions {
     /// One JSON document
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// `looproot instant`
+#[derive(Args)]
+#[command(after_help = help::INSTANT)]
+pub struct InstantOptions {
+    /// A file of a linkage, the name of a built-in one, or - for standard input
+    pub mechanism: String,
+    /// The body whose motion is asked for
+    #[arg(long, value_name = "BODY")]
+    pub body: String,
+    /// The body that is held to stand still [default: the ground]
+    #[arg(long, value_name = "BODY")]
+    pub against: Option<String>,
+    /// This input of the file only, counted from 1
+    #[arg(long, value_name = "K")]
+    pub input: Option<String>,
+    /// This point of the body only: coupler.P
+    #[arg(long, value_name = "BODY.POINT", conflicts_with = "inverse")]
+    pub point: Option<String>,
+    /// The inverse motion: that of the other body against this one
+    #[arg(long)]
+    pub inverse: bool,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub read: NumberOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// `looproot dynamics`
+#[derive(Args)]
+#[command(after_help = help::DYNAMICS)]
+pub struct DynamicsOptions {
+    /// A file of a linkage with masses, the name of a built-in one, or - for standard input
+    pub mechanism: String,
+    /// This input of the file only, counted from 1
+    #[arg(long, value_name = "K")]
+    pub input: Option<String>,
+    /// The rates of the inputs, radians or metres per second: 2, or "1, -2"
+    #[arg(long, value_name = "W", default_value = "0", allow_hyphen_values = true)]
+    pub rate: String,
+    /// The forces in all joints, on the second body of each
+    #[arg(long)]
+    pub forces: bool,
+    /// Follow the motion for this time, in seconds: a measurement, with the energy in every row
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub time: Option<f64>,
+    /// --time: the mode from which the motion starts, counted from 1
+    #[arg(long, value_name = "MODE", default_value_t = 1, requires = "time")]
+    pub from: usize,
+    /// --time: number of rows beside the first
+    #[arg(long, value_name = "N", default_value_t = 100, requires = "time")]
+    pub steps: usize,
+    /// One JSON document
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub read: NumberOptions,
     #[command(flatten)]
     pub output: OutputOptions,
 }

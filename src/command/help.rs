@@ -58,6 +58,18 @@ Examples:
   looproot motion --from euler \"10 deg, 20 deg, 30 deg\" --axes zyz
   looproot motion --from motion \"1, 2, 3; 1, 0, 0, 1\" --dual    the screw, and dual angles";
 
+/// Of `instant`.
+pub const INSTANT: &str = "\
+Examples:
+  looproot instant linkage/coupler_instant --body coupler
+  looproot instant linkage/coupler_instant --body rocker --against crank --json";
+
+/// Of `dynamics`.
+pub const DYNAMICS: &str = "\
+Examples:
+  looproot dynamics linkage/weighted_four_bar --rate 2 --forces
+  looproot dynamics linkage/weighted_four_bar --time 3 --steps 30 --json";
+
 /// Of `list`.
 pub const LIST: &str = "\
 Examples:

@@ -52,7 +52,8 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
     Ok(exit)
 }
 
-fn code(verdict: &Verdict) -> Exit {
+/// The exit code of a verdict.
+pub fn code(verdict: &Verdict) -> Exit {
     match (verdict.status, verdict.proof) {
         (Status::Complete, Proof::Proved) => Exit::Complete,
         (Status::Unreachable, Proof::Proved) => Exit::Unreachable,

@@ -66,6 +66,8 @@ fn read(options: &MotionOptions) -> Result<Asked> {
             return Err(Error::Invalid(format!("found `--from {found}`, expected one of {}", KINDS.join(", "))));
         }
     };
+    let parameters =
+        (options.from == "quaternion").then(|| typed.numbers::<4>("four numbers w, x, y, z")).transpose()?;
     let rates = options.rates.as_deref().map(|rates| {
         let typed = Typed { parts: vec![rates.split(',').map(str::trim).collect()] };
         typed.numbers::<3>("three numbers for --rates")
@@ -76,6 +78,7 @@ fn read(options: &MotionOptions) -> Result<Asked> {
         is_motion: options.from == "motion",
         order,
         dual: options.dual,
+        typed: parameters.map(|[scalar, x, y, z]| Quaternion { scalar, vector: [x, y, z] }),
         rates: rates.transpose()?,
         warnings,
     })

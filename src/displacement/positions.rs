@@ -84,7 +84,7 @@ pub fn reflections(planes: &[Plane<Rational>]) -> Answer {
     let mut named = Named::default();
     let rotation = all.rotation.each_ref().map(|row| named.rounded(row));
     let motion = Motion { rotation, translation: named.rounded(&all.translation) };
-    let is_displacement = planes.len() % 2 == 0;
+    let is_displacement = planes.len().is_multiple_of(2);
     named.put("determinant", json!(if is_displacement { 1 } else { -1 }));
     if is_displacement {
         let mut values = Map::new();

@@ -7,15 +7,19 @@
 
 pub mod answer;
 pub mod assembly;
+pub mod dynamics;
 pub mod equations;
 pub mod general;
 pub mod groups;
+pub mod instant;
 pub mod isotropic;
 pub mod krawczyk;
 pub mod parts;
 pub mod pencil;
 pub mod polynomial;
 pub mod quadratic;
+pub mod rates;
 pub mod real_form;
 pub mod state;
 pub mod tower;
+pub mod tree;

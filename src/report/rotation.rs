@@ -8,7 +8,7 @@ use crate::kinematics::motion::Motion;
 use looproot_calculus::rotation::cayley_klein::CayleyKlein;
 use looproot_calculus::rotation::euler::{Angles, Order};
 use looproot_calculus::rotation::matrix::{from_matrix, matrix};
-use looproot_calculus::rotation::rates::quaternion_rate;
+use looproot_calculus::rotation::rates::{corrected, quaternion_rate};
 use looproot_calculus::rotation::turn::Turn;
 use looproot_calculus::rotation::vectors::{axis_angle, euler_vectors, rodrigues, unit, wiener};
 use looproot_calculus::unit::Analytic;
@@ -28,6 +28,8 @@ pub struct Asked {
     pub order: Order,
     /// Whether parametrisations over the dual numbers are asked for.
     pub dual: bool,
+    /// The Euler-Rodrigues parameters as they were typed.
+    pub typed: Option<Quaternion<f64>>,
     /// The angular velocity whose rates are asked for.
     pub rates: Option<[f64; 3]>,
     /// Warnings.
@@ -43,6 +45,10 @@ pub fn json(asked: &Asked) -> Value {
     let q = unit(&from_matrix(&asked.motion.rotation)).map(|q| snapped(&q));
     if let Some(q) = &q {
         object.extend(parametrisations(q, asked.order, &|x: &f64| number(*x)));
+    }
+    if let Some(corrected) = asked.typed.as_ref().and_then(corrected) {
+        let [x, y, z] = corrected.vector;
+        object.insert("corrected".into(), list(&[corrected.scalar, x, y, z]));
     }
     if asked.is_motion {
         object.insert("position".into(), list(&asked.motion.translation));

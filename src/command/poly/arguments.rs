@@ -35,6 +35,8 @@ pub enum Task {
     Gcd(GcdOptions),
     /// The exact value at numbers
     Evaluate(EvaluateOptions),
+    /// The envelope of a family of curves or surfaces
+    Envelope(EnvelopeOptions),
     /// Time a job of the comparison with other systems
     Job(JobOptions),
 }
@@ -116,6 +118,21 @@ pub struct ResultantOptions {
     /// where one exists
     #[arg(long)]
     pub lift: bool,
+    #[command(flatten)]
+    pub read: ReadOptions,
+    #[command(flatten)]
+    pub write: WriteOptions,
+}
+
+/// `looproot poly envelope`
+#[derive(Args)]
+pub struct EnvelopeOptions {
+    /// A family: a polynomial in the coordinates and the parameter
+    #[arg(allow_hyphen_values = true)]
+    pub family: String,
+    /// The parameter of the family
+    #[arg(long, value_name = "T")]
+    pub parameter: String,
     #[command(flatten)]
     pub read: ReadOptions,
     #[command(flatten)]

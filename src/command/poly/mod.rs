@@ -2,6 +2,7 @@
 
 pub mod arguments;
 mod determinant;
+mod envelope;
 mod evaluate;
 mod expand;
 mod factors;
@@ -25,6 +26,7 @@ pub fn run(options: &PolyOptions) -> Result<Exit, Fault> {
         Task::FactorFree(options) => factors::square_free(options),
         Task::Gcd(options) => factors::common(options),
         Task::Evaluate(options) => evaluate::run(options),
+        Task::Envelope(options) => envelope::run(options),
         Task::Job(options) => job::run(options),
     }
 }

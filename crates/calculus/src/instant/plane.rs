@@ -68,6 +68,17 @@ impl<R: Ring> Instant<R> {
         self.pole.add(&self.second)
     }
 
+    /// The points of the body whose first, second and third derivatives of the place by the angle vanish: the pole, the
+    /// inflection pole, and the third of them.
+    ///
+    /// # Source
+    /// \[Wittenburg2016, 15.3.1\]: `z' = i u`, `z'' = a_2 - u`, `z''' = a_3 - i u`.
+    #[must_use]
+    pub fn normal_poles(&self) -> [Complex<R>; 3] {
+        let third = Complex { re: self.third.im.clone(), im: self.third.re.neg() };
+        [self.pole.clone(), self.inflection_pole(), self.pole.add(&third)]
+    }
+
     /// `|u|^2 - Re(conj(u) a_2)`: zero on the inflection circle.
     #[must_use]
     pub fn inflection(&self, point: &Complex<R>) -> R {
@@ -138,6 +149,17 @@ impl<R: Unit> Instant<R> {
         Some(self.pole.add(&scaled(&along, &share)))
     }
 
+    /// The point opposite to the pole on the circle of the points without tangential acceleration; `None` where the angular
+    /// acceleration is 0 and the circle a line.
+    ///
+    /// # Source
+    /// The second circle of Bresse, \[Wittenburg2016, 15.2.3\]: `u = i omega^2 a_2/alpha`.
+    #[must_use]
+    pub fn tangential_pole(&self, omega: &R, alpha: &R) -> Option<Complex<R>> {
+        let factor = omega.mul(omega).over(alpha)?;
+        Some(self.pole.add(&scaled(&turned(&self.second), &factor)))
+    }
+
     /// The point of the body without acceleration, for its angular velocity and acceleration; `None` at rest.
     ///
     /// # Source
@@ -156,6 +178,26 @@ impl<R: Root> Instant<R> {
     #[must_use]
     pub fn inflection_diameter(&self) -> Option<R> {
         scalar(&self.second, &self.second).sqrt()
+    }
+
+    /// The lengths m, n of the cubic of stationary curvature `1/r = 1/(m sin b) + 1/(n cos b)`, in polar coordinates r, b about
+    /// the pole, b from the pole tangent, the normal pointing to the inflection pole. `None` where one of them is infinite: the
+    /// cubic falls apart.
+    ///
+    /// # Source
+    /// \[Wittenburg2016, 15.3.5\]: with the diameter d of the inflection circle and the parts of a_3 along tangent and normal,
+    /// `m = 3 d^2/(a_t + 3 d)` and `n = 3 d^2/a_n`.
+    #[must_use]
+    pub fn cubic(&self) -> Option<[R; 2]> {
+        let diameter = self.inflection_diameter()?;
+        let inverse = diameter.reciprocal()?;
+        let normal = scaled(&self.second, &inverse);
+        // The normal is the tangent turned by a right angle: t = -i n.
+        let tangent = Complex { re: normal.im.clone(), im: normal.re.neg() };
+        let three = R::from_integer(3);
+        let square = three.mul(&diameter).mul(&diameter);
+        let along = scalar(&tangent, &self.third).add(&three.mul(&diameter));
+        Some([square.over(&along)?, square.over(&scalar(&normal, &self.third))?])
     }
 
     /// The curvatures of the fixed and of the moving centrode at the pole, positive to the left of the pole's way; `None` where
