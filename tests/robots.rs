@@ -2,7 +2,7 @@
 //! kinematics written here from the definition of the format.
 #![allow(clippy::unwrap_used)]
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::path::PathBuf;
@@ -376,6 +376,30 @@ fn seven_joints_move_along_curves_within_the_limits() {
     }
     // Points lie a tenth apart at most.
     assert!(nearest < 0.06, "{nearest}");
+}
+
+#[test]
+fn singular_poses_of_seven_joints_have_their_families() {
+    // Stretched upwards, four axes are one line; with the second joint at 0 the first and the third are.
+    let cases: [(&str, &str, u64, &[u64]); 2] = [
+        ("iiwa7", "0, 0, 0, 0, 0, 0, 0", 3, &[1, 3, 5, 7]),
+        ("panda", "20 deg, 0, -40 deg, -100 deg, 25 deg, 95 deg, 30 deg", 1, &[1, 3]),
+    ];
+    for (robot, q, dimension, joints) in cases {
+        let output = run(&["solve", robot, "--joints", q, "--jsonl"]);
+        let result = &lines(&output)[0];
+        let is_it = |family: &&Value| {
+            family["dimension"] == json!(dimension)
+                && family["joints"] == json!(joints)
+                && family["distance"] == json!(0.0)
+        };
+        assert!(
+            result["families"].as_array().unwrap().iter().any(|own| is_it(&own)),
+            "{robot}: {}",
+            result["families"]
+        );
+        assert_eq!(result["verdict"]["self_motion"], json!(dimension), "{robot}");
+    }
 }
 
 #[test]

@@ -102,6 +102,8 @@ pub struct Workspace {
     /// Whether solutions that crowd are listed as they are found, not proved to be all, where the numbers lie in a number
     /// field: there the proof takes seconds.
     pub leaves_fields: bool,
+    /// Whether solutions are listed as f64 finds them, and that they are all is not proved.
+    pub only_lists: bool,
 }
 
 impl Workspace {

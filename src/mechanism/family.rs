@@ -4,6 +4,7 @@ use super::single_loop::within_limits;
 use super::turns::Turns;
 use crate::assembly::wrapped;
 use crate::kinematics::closed_loop::Variable;
+use crate::solve::walk::LONGEST;
 use num_complex::Complex;
 use std::f64::consts::TAU;
 
@@ -56,7 +57,7 @@ impl Joints<'_> {
     /// configuration at a part of the way from one point of a curve, by number, to the next one.
     #[must_use]
     pub fn families(&self, shape: &Shape, between: &dyn Fn(usize, f64) -> Option<Vec<f64>>) -> Vec<Family> {
-        let all: Vec<Vec<f64>> = shape.points.iter().map(|q| self.placed(q.clone())).collect();
+        let (at, all) = self.looked_at(shape, between);
         let family = |samples: Vec<Vec<f64>>| {
             let sample = self.best(&samples)?;
             let samples = if samples.len() > 1 { samples } else { Vec::new() };
@@ -70,8 +71,9 @@ impl Joints<'_> {
         }
         let parts = parts(&inside, shape.is_closed);
         let crossing = |outer: usize, inner: usize| {
-            let (first, from_inner) = (outer.min(inner), inner < outer);
-            self.crossing(|part| between(first, if from_inner { part } else { 1.0 - part }))
+            let first = at[inner].0.min(at[outer].0);
+            let [from, to] = [at[inner], at[outer]].map(|(number, part)| (number - first) as f64 + part);
+            self.crossing(|part| between(first, from + part * (to - from)))
         };
         let last = all.len() - 1;
         let step = |k: usize, by: usize| if shape.is_closed { (k + by) % last } else { k + by };
@@ -89,6 +91,58 @@ impl Joints<'_> {
             family(enter.into_iter().chain(within).chain(leave).collect())
         };
         parts.iter().filter_map(cut).collect()
+    }
+
+    /// The points of a shape, each with a number and a part of the way to the next one, and between two points outside the limits the one that comes within them, if
+    /// there is one: a part of a curve within the limits may be shorter than a step, or a corner of them alone.
+    fn looked_at(
+        &self,
+        shape: &Shape,
+        between: &dyn Fn(usize, f64) -> Option<Vec<f64>>,
+    ) -> (Vec<(usize, f64)>, Vec<Vec<f64>>) {
+        /// Steps of the search: each leaves two thirds of the chord.
+        const THIRDS: usize = 60;
+        let placed: Vec<Vec<f64>> = shape.points.iter().map(|q| self.placed(q.clone())).collect();
+        let outside: Vec<f64> = placed.iter().map(|q| self.outside(q)).collect();
+        let (mut at, mut all) = (Vec::new(), Vec::new());
+        for (k, q) in placed.into_iter().enumerate() {
+            at.push((k, 0.0));
+            all.push(q);
+            let ends = outside.get(k + 1).map(|next| [outside[k], *next]);
+            // A joint goes no farther than a step.
+            let Some([one, other]) = ends.filter(|ends| ends.iter().all(|x| *x > 0.0 && *x < LONGEST)) else {
+                continue;
+            };
+            if one + other > LONGEST || shape.dimension > 1 {
+                continue;
+            }
+            let value = |part: f64| between(k, part).map_or(f64::INFINITY, |q| self.outside(&q));
+            let (mut low, mut high) = (0.0_f64, 1.0_f64);
+            for _ in 0..THIRDS {
+                let [one, other] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+                if value(one) < value(other) { high = other } else { low = one }
+            }
+            let part = f64::midpoint(low, high);
+            if let Some(q) = between(k, part).map(|q| self.placed(q)).filter(|q| self.is_inside(q)) {
+                at.push((k, part));
+                all.push(q);
+            }
+        }
+        (at, all)
+    }
+
+    /// How far a configuration is outside the limits; 0 within them.
+    fn outside(&self, q: &[f64]) -> f64 {
+        let own =
+            q.iter().zip(self.variables).zip(self.limits).map(|((value, variable), [low, high])| match variable {
+                Variable::Translation => (low - value).max(value - high),
+                Variable::Rotation => {
+                    // Infinite limits have no turns.
+                    let above = if low.is_finite() { value + TAU * ((low - value) / TAU).ceil() } else { *value };
+                    (above - high).min(low - (above - TAU))
+                }
+            });
+        own.fold(0.0, f64::max)
     }
 
     /// The last configuration within the limits on the way out of them, by bisection; `at` runs from 0 inside to 1 outside.
@@ -178,6 +232,21 @@ mod tests {
         assert_eq!(parts(&[true, true, false, true, false], false), [(0, 2), (3, 1)]);
         assert_eq!(parts(&[true, false, false, true, true], true), [(3, 2)]);
         assert_eq!(parts(&[false, true, true, false, false], true), [(1, 2)]);
+    }
+
+    #[test]
+    fn a_corner_of_the_limits_that_a_curve_touches_is_found() {
+        // Two joints run in opposite directions and meet their upper limits at one configuration, between two points.
+        let corner = 0.437;
+        let at = |k: f64| vec![0.1 * k, 2.0 * corner - 0.1 * k, 0.0, 0.0, 0.0, 0.0];
+        let mut limits = [[-1.0, 1.0]; 6];
+        (limits[0][1], limits[1][1]) = (corner, corner);
+        let points = (-9..=15).map(|k| at(f64::from(k))).collect();
+        let shape = Shape { dimension: 1, moving: vec![0, 1], distance: 0.0, points, is_closed: false };
+        let joints = Joints { variables: &[Variable::Rotation; 6], limits: &limits };
+        let families = joints.families(&shape, &|first, part| Some(at(first as f64 + part - 9.0)));
+        assert_eq!(families.len(), 1, "{families:?}");
+        assert!(families[0].sample[..2].iter().all(|q| (q - corner).abs() < 1e-8), "{families:?}");
     }
 
     #[test]

@@ -191,6 +191,7 @@ impl SingleLoop {
             case,
             roots,
             leaves_fields: workspace.leaves_fields,
+            only_lists: workspace.only_lists,
             gap: &gap,
             by_cuts: OnceCell::new(),
             ring: OnceCell::new(),
@@ -349,6 +350,8 @@ struct Question<'a> {
     roots: Roots,
     /// As in [`Workspace::leaves_fields`].
     leaves_fields: bool,
+    /// As in [`Workspace::only_lists`].
+    only_lists: bool,
     gap: &'a Gap,
     /// The exact count of all cuts.
     by_cuts: OnceCell<Option<Degree>>,
@@ -399,11 +402,11 @@ impl Question<'_> {
         let SixUnknowns { solver, .. } = self.prepared;
         let everywhere = || {
             // The exact count costs more than a search for real roots, and rarely helps one.
-            let skip = self.roots == Roots::Real && !solver.is_special();
+            let skip = self.only_lists || self.roots == Roots::Real && !solver.is_special();
             if skip { Bound::general(self.prepared.general()) } else { self.prepared.bound(&self.of.chain).clone() }
         };
         let (rank, general) = (self.rank(), self.prepared.general());
-        let here = || self.count_here(assembly.total());
+        let here = || if self.only_lists { None } else { self.count_here(assembly.total()) };
         let verdict = verdict(assembly, self.roots, rank, general, everywhere, here, solver.too_far(self.gap));
         // Incidences of rounded axes may be those of the rounded numbers only.
         let is_of_axes = verdict.code == Code::GeometryBoundMet;
@@ -413,7 +416,7 @@ impl Question<'_> {
 
     /// The number of solutions, where all are wanted and not found.
     fn expected(&self, verdict: &Verdict) -> Option<usize> {
-        if self.roots == Roots::Real || self.rank() < 6 {
+        if self.only_lists || self.roots == Roots::Real || self.rank() < 6 {
             return None;
         }
         // What moves in f64 does not by its exact equations, unless rounded data made that so.
@@ -483,7 +486,7 @@ impl Question<'_> {
         if let Some(verdict) = self.by_longer_numbers(workspace, assembly) {
             return self.by_exact_roots(verdict, assembly).0;
         }
-        let most = || self.prepared.bound(&self.of.chain).count;
+        let most = || if self.only_lists { self.prepared.general() } else { self.prepared.bound(&self.of.chain).count };
         let SixUnknowns { solver, .. } = self.prepared;
         if self.has_eliminants() {
             solver.solve_by_pencils(self.gap, &most, workspace, assembly);
@@ -535,7 +538,7 @@ impl Question<'_> {
     /// Whether the solutions are roots of eliminants that decide what f64 leaves open.
     fn has_eliminants(&self) -> bool {
         let rotations = self.prepared.layout.loop_kinds().iter().all(|kind| *kind == Variable::Rotation);
-        self.roots == Roots::All && rotations && self.prepared.layout.ball_unknown().is_none()
+        !self.only_lists && self.roots == Roots::All && rotations && self.prepared.layout.ball_unknown().is_none()
     }
 
     /// The verdict by the roots of the exact eliminants, where the one at hand is not proved, and whether that is the last
@@ -546,7 +549,10 @@ impl Question<'_> {
         if is_final && verdict.complex_complete {
             return (verdict, true);
         }
-        let is_asked = self.roots == Roots::All && self.prepared.layout.ball_unknown().is_none() && self.rank() == 6;
+        let is_asked = !self.only_lists
+            && self.roots == Roots::All
+            && self.prepared.layout.ball_unknown().is_none()
+            && self.rank() == 6;
         if !is_asked {
             return (verdict, false);
         }

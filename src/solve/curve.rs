@@ -37,10 +37,21 @@ pub const CLOSES_WITHIN: f64 = 1e-11;
 /// has no part in it.
 const COBORDER: [f64; 6] = [0.41, -0.37, 0.53, 0.29, -0.47, 0.33];
 
+/// How the loop closes at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct Closing {
+    /// The skew-symmetric part of the rotation of the product round the loop as a vector, and its translation.
+    pub residual: [f64; 6],
+    /// The largest entry by which the product is not the identity.
+    pub defect: f64,
+}
+
 /// The closure at a point.
 struct Here {
     /// The skew-symmetric part of the rotation of the product round the loop as a vector, and its translation.
     residual: [f64; 6],
+    /// The largest entry by which the product is not the identity.
+    defect: f64,
     /// Column j is the twist of variable j.
     jacobian: [[f64; 7]; 6],
 }
@@ -79,17 +90,44 @@ impl Curve {
     }
 
     /// The self-motion of a loop of six unknowns, which need not close better than within `closes_within`: the seventh
-    /// variable stays at 0, and unknowns that are not `unlocked` stay where they are.
+    /// variable stays at 0.
     #[must_use]
-    pub fn of_self_motion(closed: &ClosedLoop<f64>, unlocked: &[bool; 6], closes_within: f64) -> Self {
+    pub fn of_self_motion(closed: &ClosedLoop<f64>, closes_within: f64) -> Self {
         let still = |j: usize| closed.constants.get(j).cloned().unwrap_or_else(Motion::identity);
         Self {
             variables: std::array::from_fn(|j| closed.variables.get(j).copied().unwrap_or(Variable::Rotation)),
-            idle: std::array::from_fn(|j| !unlocked.get(j).is_some_and(|unlocked| *unlocked)),
+            idle: std::array::from_fn(|j| j == INPUT),
             constants: std::array::from_fn(still),
             scale: 1.0,
             closes_within,
         }
+    }
+
+    /// The curve along which variables that are not `unlocked` stay where they are, and which need not close better than
+    /// within `closes_within`.
+    #[must_use]
+    pub fn unlocked(&self, unlocked: &[bool; 7], closes_within: f64) -> Self {
+        let idle = std::array::from_fn(|j| self.idle[j] || !unlocked[j]);
+        Self { idle, closes_within, ..self.clone() }
+    }
+
+    /// Which variables stay where they are.
+    #[must_use]
+    pub fn idle(&self) -> &[bool; 7] {
+        &self.idle
+    }
+
+    /// Which variables turn.
+    #[must_use]
+    pub fn turns(&self) -> [bool; 7] {
+        self.variables.map(|variable| variable == Variable::Rotation)
+    }
+
+    /// How a point closes the loop, and the twists of all variables.
+    #[must_use]
+    pub fn closure(&self, at: &Point) -> (Closing, [[f64; 7]; 6]) {
+        let Here { residual, defect, jacobian } = self.here(at);
+        (Closing { residual, defect }, jacobian)
     }
 
     /// What each variable does.
@@ -189,7 +227,10 @@ impl Curve {
             None => (skew[i][0] - skew[i][1]) / 2.0,
             Some(k) => frame.translation[k],
         });
-        Here { residual, jacobian }
+        let off = |i: usize, j: usize| (frame.rotation[i][j] - if i == j { 1.0 } else { 0.0 }).abs();
+        let turned = (0..9).map(|k| off(k / 3, k % 3));
+        let defect = turned.chain(frame.translation.map(f64::abs)).fold(0.0, f64::max);
+        Here { residual, defect, jacobian }
     }
 
     /// The Taylor coefficients of the curve at a point of it, by a parameter of which `border . q` is a linear function of

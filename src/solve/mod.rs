@@ -5,6 +5,7 @@ pub mod biquadratic;
 pub mod curve;
 pub mod dense;
 pub mod eigen;
+pub mod explorer;
 pub mod francis;
 pub mod hessenberg;
 pub mod kernel;

@@ -1,8 +1,9 @@
 //! Arms of more free joints than conditions: some joints are held, and what is found is a point of a family.
 
 use super::trace::Tracer;
-use super::{ArmAnswer, Inner, TaskArm, Tools};
+use super::{ArmAnswer, Found, Inner, TaskArm, Tools};
 use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::assembly::Roots;
 use crate::catalogue::entry::Case;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Placement;
@@ -20,7 +21,7 @@ use std::sync::OnceLock;
 const PLACES: [f64; 7] = [0.5, 0.25, 0.75, 0.375, 0.625, 0.125, 0.875];
 /// Half-angle tangents are rounded to multiples of one over this: short numbers make exact work short.
 const PARTS: f64 = 16.0;
-/// How many choices of joints to hold are tried.
+/// How many choices of joints to hold are tried where several are held.
 const CHOICES: usize = 2;
 /// A joint moves along a family where its part of the motion is larger.
 const MOVES: f64 = 1e-7;
@@ -83,7 +84,9 @@ impl TaskArm {
             Inner { held, filled: Vec::new(), solver: OnceLock::new() }
         };
         let of_choice = |chosen: &Vec<usize>| PLACES.map(|part| inner(chosen, part));
-        choices.iter().take(CHOICES).flat_map(of_choice).collect()
+        // A curve along which a joint stands still is met where another one is held: each is held in turn.
+        let tried = if more == 1 { choices.len() } else { CHOICES };
+        choices.iter().take(tried).flat_map(of_choice).collect()
     }
 
     /// The families of configurations that reach the pose, or one of them.
@@ -95,17 +98,42 @@ impl TaskArm {
         pose: &Placement,
         with: &mut Tools<'_>,
     ) -> Result<Solution> {
-        let mut tracer = if more == 1 { Tracer::of(self, pose) } else { None };
+        // A curve is what counts here: that its points are all solutions with a joint held need not be proved.
+        let (lists, roots) = (std::mem::replace(&mut with.workspace.only_lists, true), with.roots);
+        with.roots = Roots::Real;
+        let mut answer = self.met(more, ways, case, pose, with);
+        // Where rounding took the pose out of reach, what comes near it is beside complex solutions.
+        if roots == Roots::All && answer.as_ref().is_ok_and(|solution| solution.families.is_empty()) {
+            with.roots = Roots::All;
+            answer = self.met(more, ways, case, pose, with);
+        }
+        (with.workspace.only_lists, with.roots) = (lists, roots);
+        answer
+    }
+
+    /// The families that are met where joints are held in these ways.
+    fn met(
+        &self,
+        more: usize,
+        ways: &[Inner],
+        case: &Case,
+        pose: &Placement,
+        with: &mut Tools<'_>,
+    ) -> Result<Solution> {
+        let tolerance = with.tolerance.unwrap_or_default();
+        let mut tracer = if more == 1 { Tracer::of(self, pose, tolerance) } else { None };
         let (mut last, mut any): (Option<Solution>, Option<Vec<f64>>) = (None, None);
         for inner in ways {
-            let (solution, found) = self.by(inner, case, pose, with)?;
-            for found in found.iter().filter(|found| found.mode.real && !found.mode.near) {
-                let q: Vec<f64> = found.mode.q.iter().map(|value| value.re).collect();
+            let (solution, found) = match self.by(inner, case, pose, with) {
+                Ok(answer) => answer,
+                // With some joints held the others may be dependent: others are held then.
+                Err(error) if error.unsupported().is_some() => continue,
+                Err(error) => return Err(error),
+            };
+            for (q, is_near, is_inside) in starts(&solution, &found) {
                 match &mut tracer {
-                    Some(tracer) => tracer.follow(&q),
-                    None if found.mode.within_limits != Some(false) => {
-                        return Ok(self.one_family(solution, q, pose, more));
-                    }
+                    Some(tracer) => tracer.follow(&q, is_near),
+                    None if is_inside => return Ok(self.one_family(solution, q, pose, more)),
                     None => {}
                 }
                 any = any.or(Some(q));
@@ -157,13 +185,25 @@ impl TaskArm {
     }
 }
 
+/// Configurations that a joint held leaves: whether each only comes near the pose, and whether it is within the limits as far
+/// as is known.
+fn starts(solution: &Solution, found: &[Found]) -> Vec<(Vec<f64>, bool, bool)> {
+    let modes = found.iter().filter(|found| found.mode.real).map(|found| {
+        let q = found.mode.q.iter().map(|value| value.re).collect();
+        (q, found.mode.near, found.mode.within_limits != Some(false))
+    });
+    let family = |family: &Family| (family.sample.clone(), family.distance > 0.0, true);
+    modes.chain(solution.families.iter().map(family)).collect()
+}
+
 /// The answer with curves that were followed.
 fn traced(mut solution: Solution, families: Vec<Family>) -> Solution {
-    moves(&mut solution, 1);
+    let dimension = families.iter().filter(|family| family.distance == 0.0).map(|family| family.dimension).max();
+    moves(&mut solution, dimension.unwrap_or(1));
     let number = families.len();
     solution.verdict.reason = format!(
-        "the arm has 1 more freedom than the task has conditions: {number} curves were followed from configurations with a joint held; \
-         that none is missed is not proved"
+        "the arm has 1 more freedom than the task has conditions: {number} families were followed from configurations with a joint \
+         held; that none is missed is not proved"
     );
     solution.families = families;
     solution
