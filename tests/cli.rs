@@ -144,6 +144,19 @@ fn the_document_follows_its_schema() {
             &["sweep", "cccr_1_angle", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
             &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
             &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json", "--scene"],
+            &[
+                "sweep",
+                "linkage/coupler_curve",
+                "--from",
+                "-2",
+                "--to",
+                "2",
+                "--steps",
+                "4",
+                "--trace",
+                "coupler.P",
+                "--json",
+            ],
         ],
     );
     follows(

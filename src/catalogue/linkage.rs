@@ -5,7 +5,7 @@ use super::job::digits;
 use super::masses::{Masses, masses};
 use super::node::{Field, Node, Value};
 use super::scope::{Scope, Table, nearest};
-use crate::algebra::number::{Angle, Number, Quantity};
+use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::algebra::ring::{Ring, exact_cos_sin};
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Body, Gaussian, Given, Linkage, LinkageJoint, Pair};
@@ -30,6 +30,8 @@ pub struct LinkageFile {
     pub exact: bool,
     /// Masses and gravity.
     pub masses: Masses,
+    /// How numbers of the file are read.
+    pub reading: Reading,
 }
 
 /// A claim about the curve of a point.
@@ -133,7 +135,7 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
         None => Vec::new(),
     };
     let masses = masses(scope, &mechanism, &linkage)?;
-    Ok(LinkageFile { heading, linkage, cases, traces, exact, masses })
+    Ok(LinkageFile { heading, linkage, cases, traces, exact, masses, reading: scope.reading.clone() })
 }
 
 /// A claim about the curve of a point, `BODY.POINT`.

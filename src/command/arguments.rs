@@ -328,10 +328,10 @@ pub struct DeriveOptions {
 #[derive(Args)]
 #[command(after_help = help::SWEEP)]
 pub struct SweepOptions {
-    /// A file of a loop, the name of a built-in entry, or - for standard input
+    /// A file of a loop or a linkage, the name of a built-in entry, or - for standard input
     pub mechanism: String,
-    /// The joint to sweep, counted from 1; of a C joint its angle (3 or q3) or its distance (d3) [default: the input of the
-    /// file]
+    /// The joint to sweep, counted from 1; of a C joint its angle (3 or q3) or its distance (d3); of a linkage its name
+    /// [default: the input of the file]
     #[arg(long, value_name = "JOINT")]
     pub joint: Option<String>,
     /// Where the input begins: "-180 deg", "pi/3", "20 mm"; without a unit in those of the file
@@ -346,9 +346,12 @@ pub struct SweepOptions {
     /// CSV: one row for every branch and step, radians and metres
     #[arg(long, conflicts_with_all = ["json", "svg"])]
     pub csv: bool,
-    /// A picture: every joint variable against the input
+    /// A picture: every joint variable against the input; of a linkage the curve of the point of --trace
     #[arg(long, conflicts_with = "json")]
     pub svg: bool,
+    /// Linkages: the place of a point of a body at every step
+    #[arg(long, value_name = "BODY.POINT")]
+    pub trace: Option<String>,
     /// One JSON document
     #[arg(long)]
     pub json: bool,

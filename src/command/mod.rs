@@ -20,6 +20,7 @@ pub mod help;
 pub mod instant;
 pub mod linkage;
 pub mod linkage_derive;
+pub mod linkage_sweep;
 pub mod list;
 pub mod mobility;
 pub mod motion;

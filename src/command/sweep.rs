@@ -9,7 +9,7 @@ use super::wanted::in_place;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use looproot::algebra::number::{Angle, Number, Quantity, Reading};
 use looproot::catalogue::entry::{Design, Entry};
-use looproot::catalogue::{Chains, Options, load};
+use looproot::catalogue::{Any, Chains, Options, load_solvable};
 use looproot::error::Error;
 use looproot::kinematics::chain::{Chain, JointKind};
 use looproot::kinematics::closed_loop::Variable;
@@ -34,7 +34,20 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     plant(options.seed);
     // The input is that of the command line, where one is given.
     let chains = if options.joint.is_some() { Chains::Swept } else { Chains::Solved };
-    let entry = load(&options.mechanism, &Options { chains, ..options.read.options() })?;
+    let entry = match load_solvable(&options.mechanism, &Options { chains, ..options.read.options() })? {
+        Any::Entry(entry) => *entry,
+        Any::Linkage(file) => return super::linkage_sweep::run(options, &file, open),
+        other => {
+            return Err(unexpected(
+                &options.mechanism,
+                other.kind(),
+                "a loop or a linkage, which has an input to sweep",
+            ));
+        }
+    };
+    if options.trace.is_some() {
+        return Err(unexpected(&options.mechanism, entry.kind().into(), "a linkage, whose points have curves"));
+    }
     let Design::Loop(chain) = &entry.design else {
         return Err(unexpected(&options.mechanism, entry.kind().into(), "a loop, which has an input to sweep"));
     };

@@ -120,6 +120,7 @@ fn sweep_options(options: &ViewOptions) -> SweepOptions {
         steps: options.steps,
         csv: false,
         svg: false,
+        trace: None,
         json: true,
         scene: true,
         seed: solve.seed,

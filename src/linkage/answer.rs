@@ -148,7 +148,11 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
         let status = if real == 0 { Status::Unreachable } else { Status::Complete };
         (status, rounded, code, reason)
     } else if real == 0 {
-        let reason = format!("no assembly is real: all {complex} of groups of {counts} are complex");
+        let far = match found.gap {
+            Some(gap) if gap > 0.0 => format!("; links of a dyad are too short or too long by {gap:.6} m at least"),
+            _ => String::new(),
+        };
+        let reason = format!("no assembly is real: all {complex} of groups of {counts} are complex{far}");
         (Status::Unreachable, rounded, code, reason)
     } else {
         let reason = format!("{complex} assemblies, with multiplicity, of groups of {counts}: {because}");

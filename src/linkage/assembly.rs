@@ -1,6 +1,6 @@
 //! All assemblies of a linkage: its groups solved one after the other, branch by branch.
 
-use super::equations::Closure;
+use super::equations::{Closure, Equations};
 use super::general::general;
 use super::groups::{Group, Groups, MOST_CLUSTERS, Merged, groups};
 use super::isotropic::{Isotropic, Value};
@@ -15,6 +15,8 @@ use crate::kinematics::linkage::{Given, Linkage};
 const DEEP: usize = 5;
 /// Towers that hold i alone, and square roots that are no new ones.
 const SHALLOW: usize = 1;
+/// What is said of an assembly of which it is not known whether it is real.
+const UNDECIDED: &str = "an assembly is neither proved real nor proved complex";
 /// Most branches that are listed.
 const MOST_BRANCHES: usize = 1 << 14;
 
@@ -51,6 +53,8 @@ pub struct Assemblies {
     pub groups: Vec<Solution>,
     /// Why the list may not be complete.
     pub doubt: Option<String>,
+    /// The least distance, metres, by which a dyad of a real branch does not close; none where all close.
+    pub gap: Option<f64>,
 }
 
 /// A joint with its two bodies.
@@ -162,7 +166,7 @@ fn attempt(linkage: &Linkage, given: &[Given], groups: &Groups, highest: usize) 
         };
         start.glue(a, b, &place);
     }
-    let mut found = Assemblies { modes: Vec::new(), curves: Vec::new(), groups: Vec::new(), doubt: None };
+    let mut found = Assemblies { modes: Vec::new(), curves: Vec::new(), groups: Vec::new(), doubt: None, gap: None };
     let mut branches = vec![start];
     for group in &groups.list {
         let mut names: Vec<usize> = Vec::new();
@@ -199,13 +203,12 @@ fn branch(
     next: &mut Vec<State>,
     found: &mut Assemblies,
 ) {
-    let mut doubt = |reason: String| {
-        found.doubt.get_or_insert(reason);
-    };
     let equations = &closure.equations;
     if equations.loops() == 1 {
         match one_cycle(equations, &state.top) {
-            Solved::Undecided(reason) => doubt(reason),
+            Solved::Undecided(reason) => {
+                found.doubt.get_or_insert(reason);
+            }
             Solved::Curve(roots) => {
                 for root in &roots {
                     let state = closure.assembled(state, &root.turns, &root.shifts);
@@ -215,9 +218,13 @@ fn branch(
             Solved::Roots(roots) => {
                 solution.count = solution.count.max(roots.iter().map(|root| root.multiplicity).sum());
                 let real = realness(&roots);
+                if state.real && real.iter().all(|real| *real == Some(false)) {
+                    let gap = dyad_gap(equations);
+                    found.gap = [found.gap, gap].into_iter().flatten().reduce(f64::min);
+                }
                 for (root, real) in roots.iter().zip(real) {
                     let Some(real) = (if state.real { real } else { Some(false) }) else {
-                        doubt("an assembly is neither proved real nor proved complex".to_owned());
+                        found.doubt.get_or_insert_with(|| UNDECIDED.to_owned());
                         continue;
                     };
                     let mut next_state = closure.assembled(state, &root.turns, &root.shifts);
@@ -241,17 +248,28 @@ fn branch(
     solution.count = solution.count.max(general.most.unwrap_or(proved));
     if general.most != Some(proved) {
         let reason = general.doubt.unwrap_or_else(|| "the number of assemblies of a group is not known".to_owned());
-        doubt(format!("{reason} (group of {} bodies)", group.clusters.len()));
+        found.doubt.get_or_insert(format!("{reason} (group of {} bodies)", group.clusters.len()));
     }
     for proved in &general.solutions {
         let Some(real) = (if state.real { proved.real } else { Some(false) }) else {
-            doubt("an assembly is neither proved real nor proved complex".to_owned());
+            found.doubt.get_or_insert_with(|| UNDECIDED.to_owned());
             continue;
         };
         let mut next_state = closure.assembled(state, &proved.root.turns, &proved.root.shifts);
         next_state.real = real;
         next.push(next_state);
     }
+}
+
+/// How far the ends of a dyad are apart beyond what its links reach, metres; `None` with slides.
+fn dyad_gap(equations: &Equations<Number>) -> Option<f64> {
+    let [cycle] = equations.cycles.as_slice() else { return None };
+    if !equations.slides.is_empty() {
+        return None;
+    }
+    let lengths: Vec<f64> = cycle.iter().map(|n| n.z.middle().norm()).collect();
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    Some((2.0 * longest - lengths.iter().sum::<f64>()).max(0.0))
 }
 
 /// The mirror image of a number: the one of the conjugate assembly.

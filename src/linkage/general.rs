@@ -6,6 +6,7 @@ use super::isotropic::Isotropic;
 use super::krawczyk::{Proved, prove};
 use super::pencil::{Parameter, Pencil};
 use super::polynomial::{ClosurePolynomial, closure_polynomial, turned};
+use super::quadratic::Root;
 use super::state::Number;
 use crate::algebra::modp::ModP;
 use crate::algebra::ring::{Field, Ring};
@@ -22,7 +23,7 @@ const PAIRS: usize = 40;
 /// And for larger ones, where each takes a tenth of a second.
 const LARGE_PAIRS: usize = 6;
 const SMALL: usize = 24;
-/// Choices whose polynomial is asked for until there is one.
+/// Choices whose polynomials are asked for until every root of one of them is a solution.
 const TRIES: usize = 3;
 
 /// What is known of a group of several cycles.
@@ -59,54 +60,82 @@ pub fn general(equations: &Equations<Number>) -> Found {
     let Some(exact) = equations.exact() else {
         return Found::nothing("a group of several loops stands on an assembly whose numbers are not rational");
     };
-    let Some(choice) = best_choice(&exact) else {
-        return Found::nothing(
-            "the matrix of the group is singular for every choice of a hidden body, or has no square form",
-        );
-    };
-    let degree = choice.found.polynomial.degree().unwrap_or(0);
-    let square_free = choice.found.polynomial.square_free_part();
-    let roots = hidden_rotations(&square_free);
-    let Some(roots) = roots else {
-        return Found {
-            size: choice.found.size,
-            ..Found::nothing("the roots of the closure polynomial were not told apart")
-        };
-    };
     let approximate = exact.map(|n| Some(n.map(|z| Complex::new(z.re.to_f64(), z.im.to_f64()))));
     let Some(approximate) = approximate else { return Found::nothing("no approximation of the data") };
-    let mut solutions: Vec<Proved> = Vec::new();
-    let mut lost = 0;
+    let mut found =
+        Found::nothing("the matrix of the group is singular for every choice of a hidden body, or has no square form");
+    // Roots of one choice that lead nowhere may be no roots of another, or lead on from there.
+    for (rest, hidden) in ranked(&exact).into_iter().take(TRIES) {
+        let Some(choice) = choice(&exact, rest, hidden) else { continue };
+        extend(&mut found, equations, &approximate, &choice);
+        if found.most == Some(found.solutions.len()) {
+            found.doubt = None;
+            break;
+        }
+    }
+    found
+}
+
+/// Adds the solutions to which the roots of a choice lead, and the bound that is their number.
+fn extend(
+    found: &mut Found,
+    equations: &Equations<Number>,
+    approximate: &Equations<Isotropic<Complex<f64>>>,
+    choice: &Choice,
+) {
+    if found.size == 0 {
+        found.size = choice.found.size;
+    }
+    let degree = choice.found.polynomial.degree().unwrap_or(0);
+    let square_free = choice.found.polynomial.square_free_part();
+    let Some(roots) = hidden_rotations(&square_free) else {
+        if found.most.is_none() {
+            found.doubt = Some("the roots of the closure polynomial were not told apart".to_owned());
+        }
+        return;
+    };
+    let mut led = 0;
     for t in roots {
         let i = Complex::new(0.0, 1.0);
         let x = (1.0 + i * t) / (1.0 - i * t) * Complex::new(choice.turn.z.re.to_f64(), choice.turn.z.im.to_f64());
         let proved =
-            start(&choice, &approximate, x).and_then(|(turns, shifts)| prove(equations, choice.rest, &turns, &shifts));
-        match proved {
-            Some(proved) if solutions.iter().all(|known| differ(known, &proved)) => solutions.push(proved),
-            _ => lost += 1,
+            start(choice, approximate, x).and_then(|(turns, shifts)| prove(equations, choice.rest, &turns, &shifts));
+        if let Some(proved) = proved {
+            led += 1;
+            if found.solutions.iter().all(|known| differ(known, &proved, choice.rest)) {
+                found.solutions.push(proved);
+            }
         }
     }
-    let multiple = degree - square_free.degree().unwrap_or(0);
-    let doubt = match (lost, multiple) {
-        (0, 0) => None,
-        (0, _) => Some(format!("{multiple} roots of the closure polynomial are repetitions of others")),
-        _ => Some(format!("{lost} roots of the closure polynomial belong to no solution that was proved")),
-    };
-    Found { solutions, most: Some(degree), size: choice.found.size, doubt }
+    let distinct = square_free.degree().unwrap_or(0);
+    let multiple = degree - distinct;
+    if found.most.is_none_or(|most| degree <= most) {
+        found.most = Some(degree);
+        found.doubt = Some(if multiple > 0 && led == distinct {
+            format!("{multiple} roots of the closure polynomial are repetitions of others")
+        } else {
+            let lost = degree.saturating_sub(found.solutions.len());
+            format!("{lost} roots of the closure polynomial belong to no solution that was proved")
+        });
+    }
 }
 
-/// Whether two solutions are proved to be different.
-fn differ(one: &Proved, two: &Proved) -> bool {
+/// Whether two solutions are proved to be different: by rotations against the class `rest`, and by slides.
+fn differ(one: &Proved, two: &Proved, rest: usize) -> bool {
     let apart = |a: &Number, b: &Number| a.z.disc.sub(&b.z.disc).is_not_zero();
     let (one, two) = (&one.root, &two.root);
-    one.turns.iter().zip(&two.turns).any(|(a, b)| apart(a, b))
+    let against = |root: &Root| -> Vec<Number> {
+        let back = root.turns[rest].mirrored();
+        root.turns.iter().map(|turn| turn.mul(&back)).collect()
+    };
+    against(one).iter().zip(&against(two)).any(|(a, b)| apart(a, b))
         || one.shifts.iter().zip(&two.shifts).any(|(a, b)| apart(a, b))
 }
 
-/// The classes at rest and hidden whose determinant has the fewest roots modulo a prime, and its polynomial.
-fn best_choice(exact: &Equations<Isotropic<Gaussian>>) -> Option<Choice> {
-    let residues = exact.map(|n| Some(Isotropic { z: residue(&n.z)?, w: residue(&n.w)? }))?;
+/// Classes at rest and hidden, those whose determinant has the fewest roots modulo a prime first.
+fn ranked(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize)> {
+    let residues = exact.map(|n| Some(Isotropic { z: residue(&n.z)?, w: residue(&n.w)? }));
+    let Some(residues) = residues else { return Vec::new() };
     let mut rest: Vec<usize> = (0..exact.classes).collect();
     if let Some(slide) = exact.slides.first() {
         rest.retain(|class| *class == slide.class);
@@ -130,7 +159,7 @@ fn best_choice(exact: &Equations<Isotropic<Gaussian>>) -> Option<Choice> {
         }
     }
     ranked.sort_by_key(|(degree, ..)| *degree);
-    ranked.into_iter().take(TRIES).find_map(|(_, rest, hidden)| choice(exact, rest, hidden))
+    ranked.into_iter().map(|(_, rest, hidden)| (rest, hidden)).collect()
 }
 
 /// A prime congruent to 1 modulo 4, and a root of -1 modulo it.

@@ -9,12 +9,14 @@ mod branch;
 mod bridge;
 mod exact;
 mod hidden;
+mod linkage;
 mod nodes;
 mod sample;
 mod track;
 mod verdict;
 
 pub use branch::{Branch, End, Limit, Row};
+pub use linkage::{LinkageBranch, LinkageLimit, LinkageRow, LinkageSample, LinkageSweep, sweep_linkage};
 pub use sample::{Sample, case};
 pub use verdict::SweepVerdict;
 
