@@ -117,7 +117,7 @@ impl Loaded<'_> {
         DVector::from_vec(moved(self.linkage).iter().flat_map(|body| part(&bodies[*body])).collect())
     }
 
-    /// The same set.
+    /// Sets the coefficients of one order of angle and origin of every moving body.
     fn set(&self, bodies: &mut [Body], order: usize, values: &DVector<f64>) {
         for (k, body) in moved(self.linkage).iter().enumerate() {
             let Body { angle, origin: [x, y] } = &mut bodies[*body];
