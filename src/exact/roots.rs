@@ -2,16 +2,13 @@
 
 use super::eliminant::in_balls;
 use crate::algebra::ball::Ball;
-use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
-use crate::solve::polynomial_roots::polynomial_roots;
-use crate::solve::scalar::Extended;
-use num_complex::Complex;
-use rug::{Float, Integer, Rational};
+use crate::solve::crowded_roots::approximations;
+use rug::{Float, Integer};
 
-/// Weierstrass' iteration doubles the digits of simple roots: from the 384 bits of the start this reaches any precision in
-/// use, with some steps to spare for crowded roots.
+/// Weierstrass' iteration doubles the digits of simple roots: from those of an f64 this reaches any precision in use, with some
+/// steps to spare for crowded roots.
 const STEPS: usize = 12;
 
 /// A root in a ball that holds no other root of its polynomial.
@@ -41,8 +38,7 @@ pub(super) fn isolated_in_balls<const BITS: u32>(coefficients: &[Ball<BITS>]) ->
     if coefficients.len() == 1 {
         return Some(Vec::new());
     }
-    let starts = starts::<LongFloat, BITS>(coefficients).or_else(|| starts::<LongerFloat, BITS>(coefficients))?;
-    let mut midpoints: Vec<Ball<BITS>> = starts.iter().map(ball_of).collect();
+    let mut midpoints = approximations(coefficients)?;
     for _ in 0..STEPS {
         let corrections = corrections(coefficients, &midpoints)?;
         let is_done = corrections.iter().zip(&midpoints).all(|(w, z)| {
@@ -55,56 +51,6 @@ pub(super) fn isolated_in_balls<const BITS: u32>(coefficients: &[Ball<BITS>]) ->
         }
     }
     isolated(coefficients, &midpoints)
-}
-
-/// Approximations of all roots; `None` where some did not settle.
-fn starts<R: Extended, const BITS: u32>(coefficients: &[Ball<BITS>]) -> Option<Vec<(Float, Float)>> {
-    let scale = Scale::of(coefficients)?;
-    let image: Option<Vec<R>> =
-        coefficients.iter().zip(0..).map(|(c, k)| R::from_rational(&scale.coefficient(c, k)?)).collect();
-    let roots: Vec<Complex<R>> = polynomial_roots(&Univariate::new(image?))?;
-    let outward = |x: R| wide(x) << scale.root;
-    (roots.len() + 1 == coefficients.len()).then(|| roots.into_iter().map(|z| (outward(z.re), outward(z.im))).collect())
-}
-
-/// Powers of two by which coefficients and roots come into the range of f64.
-struct Scale {
-    /// Roots are over 2 to this power.
-    root: i32,
-    /// Coefficients, those of the scaled roots, are over 2 to this power.
-    size: i32,
-}
-
-impl Scale {
-    /// The geometric mean of the roots becomes about 1, and the largest coefficient, too.
-    fn of<const BITS: u32>(coefficients: &[Ball<BITS>]) -> Option<Self> {
-        let bits = |c: &Ball<BITS>| c.re().get_exp();
-        let first = coefficients.iter().position(|c| !c.contains_zero())?;
-        let span = i32::try_from(coefficients.len() - 1 - first).ok()?.max(1);
-        let root = (bits(&coefficients[first])? - bits(coefficients.last()?)?) / span;
-        let sizes =
-            coefficients.iter().zip(0..).filter(|(c, _)| !c.contains_zero()).map(|(c, k)| Some(bits(c)? + root * k));
-        Some(Self { root, size: sizes.collect::<Option<Vec<i32>>>()?.into_iter().max()? })
-    }
-
-    fn coefficient<const BITS: u32>(&self, c: &Ball<BITS>, k: i32) -> Option<Rational> {
-        if c.contains_zero() {
-            return Some(Rational::new());
-        }
-        Float::with_val(BITS, c.re() << (self.root * k - self.size)).to_rational()
-    }
-}
-
-/// A long number as a Float, to its first three doubles' digits.
-fn wide<R: Extended>(x: R) -> Float {
-    let first = x.to_f64();
-    let second = x.sub(&R::from(first)).to_f64();
-    let third = x.sub(&R::from(first)).sub(&R::from(second)).to_f64();
-    Float::with_val(192, first) + second + third
-}
-
-fn ball_of<const BITS: u32>((re, im): &(Float, Float)) -> Ball<BITS> {
-    Ball::point(re, im).midpoint()
 }
 
 /// Weierstrass' corrections with rigorous error bounds; `None` where two approximations are one.

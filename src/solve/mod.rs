@@ -2,6 +2,7 @@
 
 pub mod back_substitution;
 pub mod biquadratic;
+pub mod crowded_roots;
 pub mod curve;
 pub mod dense;
 pub mod eigen;

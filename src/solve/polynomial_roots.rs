@@ -3,14 +3,19 @@
 //! Newton's correction N = p/p' at every approximation x_k, with the other approximations divided out of p:
 //! `x_k -= N / (1 - N sum_j 1/(x_k - x_j))`. It converges with order three to simple roots. \[Aberth1973\]
 
+use super::crowded_roots::approximations;
 use super::scalar::{Extended, Number, extended, narrowed};
+use crate::algebra::ball::Ball;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
 use num_complex::Complex;
+use rug::Float;
 use std::f64::consts::TAU;
 
 /// Rounds in 384 bits without a root that settles after which none will.
 const PATIENCE: usize = 60;
+/// No fewer bits than any long number has.
+const MOST_BITS: u32 = 1024;
 
 /// The simple roots of a polynomial with real coefficients; those at infinity and multiple ones, which do not settle, are
 /// left out. `None` for zero.
@@ -26,9 +31,11 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
     if !radii.iter().all(|radius| *radius > 0.0 && radius.is_finite()) {
         return None;
     }
-    // Turned, so that no two approximations are conjugate and stay so.
-    let start = |k: usize| Complex::from_polar(radii[k], TAU * (k as f64 + 0.3) / degree as f64 + 0.4);
-    let mut roots: Vec<Complex<R>> = (0..degree).map(|k| extended(start(k))).collect();
+    let mut roots: Vec<Complex<R>> = starts(coefficients).unwrap_or_else(|| {
+        // Turned, so that no two approximations are conjugate and stay so.
+        let start = |k: usize| Complex::from_polar(radii[k], TAU * (k as f64 + 0.3) / degree as f64 + 0.4);
+        (0..degree).map(|k| extended(start(k))).collect()
+    });
     // Corrections of this relative size are rounding.
     let settled = R::UNIT_ROUNDOFF.powf(0.75);
     // More digits tell nearer roots apart, to which approximations come nearer by a constant factor only.
@@ -70,13 +77,49 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
     Some(roots.into_iter().zip(open).filter(|(_, open)| !open).map(|(root, _)| root).collect())
 }
 
+/// Approximations of all roots, crowded ones told apart as far as the digits go.
+fn starts<R: Extended>(coefficients: &[R]) -> Option<Vec<Complex<R>>> {
+    let image = |c: &R| {
+        let whole = whole(*c);
+        let error = Float::with_val(32, whole.abs_ref()) * R::UNIT_ROUNDOFF;
+        Ball::<MOST_BITS>::point(&whole, &Float::new(32)).enlarged(&error)
+    };
+    let found = approximations(&coefficients.iter().map(image).collect::<Vec<_>>())?;
+    let part = |x: &Float| R::from_rational(&x.to_rational()?);
+    let roots: Option<Vec<Complex<R>>> =
+        found.iter().map(|z| Some(Complex::new(part(z.re())?, part(z.im())?))).collect();
+    // Two that are one would stay so.
+    roots.filter(|roots| (1..roots.len()).all(|k| roots[..k].iter().all(|other| !roots[k].sub(other).is_zero())))
+}
+
+/// All digits of a long number.
+fn whole<R: Extended>(mut x: R) -> Float {
+    let mut sum = Float::new(MOST_BITS);
+    while !x.is_zero() {
+        let part = x.to_f64();
+        if part == 0.0 || !part.is_finite() {
+            break;
+        }
+        sum += part;
+        x = x.sub(&R::from(part));
+    }
+    sum
+}
+
 /// How far from the origin the roots may be, by the sizes of the coefficients: every edge of their upper convex hull, on
 /// a logarithmic scale, stands for as many roots as it is long, and its slope for their size. Roots at 0 share the
 /// smallest radius.
 fn radii(sizes: &[f64]) -> Vec<f64> {
-    let slope = |i: usize, j: usize| (sizes[j].ln() - sizes[i].ln()) / (j - i) as f64;
+    let logs: Vec<f64> = sizes.iter().map(|size| size.ln()).collect();
+    sizes_of_roots(&logs).into_iter().map(f64::exp).collect()
+}
+
+/// Logarithms of the sizes that the roots may have, smallest first, from those of the coefficients, which are minus infinite for
+/// a zero.
+pub(super) fn sizes_of_roots(logs: &[f64]) -> Vec<f64> {
+    let slope = |i: usize, j: usize| (logs[j] - logs[i]) / (j - i) as f64;
     let mut hull: Vec<usize> = Vec::new();
-    for k in (0..sizes.len()).filter(|&k| sizes[k] > 0.0) {
+    for k in (0..logs.len()).filter(|&k| logs[k] > f64::NEG_INFINITY) {
         while let [.., i, j] = hull[..]
             && slope(i, j) <= slope(j, k)
         {
@@ -84,13 +127,13 @@ fn radii(sizes: &[f64]) -> Vec<f64> {
         }
         hull.push(k);
     }
-    let mut radii = Vec::new();
+    let mut sizes = Vec::new();
     for edge in hull.windows(2) {
-        radii.resize(edge[1], (-slope(edge[0], edge[1])).exp());
+        sizes.resize(edge[1], -slope(edge[0], edge[1]));
     }
     // A power of the variable alone has no edge.
-    radii.resize(sizes.len().saturating_sub(1), 1.0);
-    radii
+    sizes.resize(logs.len().saturating_sub(1), 0.0);
+    sizes
 }
 
 /// A real polynomial and its derivative at a point.
