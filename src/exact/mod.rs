@@ -15,6 +15,7 @@ pub(crate) mod positions;
 mod rank;
 mod resolution;
 mod roots;
+mod rough;
 mod tuples;
 mod values;
 
