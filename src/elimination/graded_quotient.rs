@@ -178,23 +178,29 @@ impl<'a, A: Arithmetic> GradedQuotient<'a, A> {
     pub fn times(&self, degree: usize, index: usize, v: &[A::Element]) -> Vec<A::Element> {
         let (lower, upper) = (&self.degrees[degree], &self.degrees[degree + weight(index)]);
         let mut product = vec![self.field.zero(); upper.standard.len()];
-        for (standard, c) in lower.standard.iter().zip(v) {
+        let zero = self.field.zero();
+        for (standard, c) in lower.standard.iter().zip(v).filter(|(_, c)| **c != zero) {
             self.field.add_multiple(&mut product, *c, &upper.normal[&(standard + unknown(index))]);
         }
         product
     }
 
-    /// `N v` for v of a degree.
+    /// Multiplication by N from a degree on: row k is the product with basis element k.
     #[must_use]
-    pub fn times_norm(&self, degree: usize, v: &[A::Element]) -> Vec<A::Element> {
-        let mut sum = vec![self.field.zero(); self.dimension(degree + 2)];
-        for index in 0..4 {
-            let product = self.times(degree + 1, index, &self.times(degree, index, v));
-            for (s, p) in sum.iter_mut().zip(&product) {
-                *s = self.field.add(*s, *p);
+    pub fn norm(&self, degree: usize) -> Vec<Vec<A::Element>> {
+        let row = |k: usize| {
+            let mut unit = vec![self.field.zero(); self.dimension(degree)];
+            unit[k] = self.field.one();
+            let mut sum = vec![self.field.zero(); self.dimension(degree + 2)];
+            for index in 0..4 {
+                let product = self.times(degree + 1, index, &self.times(degree, index, &unit));
+                for (s, p) in sum.iter_mut().zip(&product) {
+                    *s = self.field.add(*s, *p);
+                }
             }
-        }
-        sum
+            sum
+        };
+        (0..self.dimension(degree)).map(row).collect()
     }
 }
 

@@ -307,14 +307,19 @@ fn finite_products<A: Arithmetic>(
             ring.advance(inverse)?;
             known += 1;
         }
+        let norms: Vec<_> = (0..power).map(|step| ring.norm(degree + 1 + 2 * step)).collect();
         // N^power times the products of an unknown with every basis element m of a degree.
         let images = |from: usize, index: usize| -> Vec<Vec<A::Element>> {
             let image = |k: usize| {
                 let mut v = vec![field.zero(); ring.dimension(from)];
                 v[k] = field.one();
                 let mut v = ring.times(from, index, &v);
-                for step in 0..power {
-                    v = ring.times_norm(degree + 1 + 2 * step, &v);
+                for norm in &norms {
+                    let mut product = vec![field.zero(); norm.first().map_or(0, Vec::len)];
+                    for (&c, row) in v.iter().zip(norm).filter(|(c, _)| **c != field.zero()) {
+                        field.add_multiple(&mut product, c, row);
+                    }
+                    v = product;
                 }
                 v
             };
