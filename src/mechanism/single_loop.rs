@@ -205,20 +205,25 @@ impl SingleLoop {
             && !fast.as_ref().is_some_and(is_settled)
             && let Some((verdict, modes)) = self.exactly(&prepared.layout, case, fast.is_some())?
         {
-            let solve_us = start.elapsed().as_secs_f64() * 1e6;
-            let warnings = case.warnings.clone();
-            return Ok(Solution {
-                arm: None,
-                families: Vec::new(),
-                verdict,
-                modes,
-                warnings,
-                prepare_us: *prepare_us,
-                solve_us,
-                platform: None,
-            });
+            return Ok(exact_solution(case, verdict, modes, *prepare_us, start));
         }
         let (mut verdict, solve_us) = fast.unwrap_or_else(|| question.answer(workspace, assembly));
+        if roots == Roots::All
+            && (verdict.status, verdict.proof) == (Status::SelfMotion, Proof::None)
+            && prepared.layout.ball.is_none()
+            && matches!(question.data(), Data::Rational)
+            && let Some((exact, modes)) = self.exactly(&prepared.layout, case, true)?
+        {
+            match (exact.status, &case.pose) {
+                (Status::SelfMotion, _) => {
+                    let reason = format!("{}; the isolated ones are listed, not proved complete", exact.reason);
+                    verdict = Verdict { proof: exact.proof, self_motion: exact.self_motion, reason, ..verdict };
+                }
+                (_, None) => return Ok(exact_solution(case, exact, modes, *prepare_us, start)),
+                // What reaches a pose nearly is answered as well: the families stay as they were measured.
+                (_, Some(_)) => {}
+            }
+        }
         if solver.structural_rank() < 6 {
             verdict.reason += &dependent(&self.chain, &prepared.layout, solver.axis_triples());
             if case.pose.is_none() {
@@ -291,18 +296,7 @@ impl SingleLoop {
         let Some((mut verdict, balls)) = settled else {
             let (mut verdict, modes) = self.coupled_exactly(layout, case)?;
             verdict.reason = format!("{}; {idle}", verdict.reason);
-            let solve_us = start.elapsed().as_secs_f64() * 1e6;
-            let warnings = case.warnings.clone();
-            return Ok(Solution {
-                arm: None,
-                families: Vec::new(),
-                verdict,
-                modes,
-                warnings,
-                prepare_us,
-                solve_us,
-                platform: None,
-            });
+            return Ok(exact_solution(case, verdict, modes, prepare_us, start));
         };
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
         verdict.reason = format!("{}; {idle}", verdict.reason);
@@ -314,16 +308,7 @@ impl SingleLoop {
             q[coupled.indices[2]] = mode.unknowns[5];
             full_mode(mode, q, &layout.variables, &self.limits)
         });
-        Ok(Solution {
-            arm: None,
-            families: Vec::new(),
-            verdict,
-            modes: modes.collect(),
-            warnings: case.warnings.clone(),
-            prepare_us,
-            solve_us,
-            platform: None,
-        })
+        Ok(Solution { solve_us, ..exact_solution(case, verdict, modes.collect(), prepare_us, start) })
     }
 }
 
@@ -670,6 +655,20 @@ impl Question<'_> {
             return measured;
         }
         self.modular().map_or(measured, |closed| closed.rank().max(measured))
+    }
+}
+
+/// An answer without families, the search for which began at that time.
+fn exact_solution(case: &Case, verdict: Verdict, modes: Vec<FullMode>, prepare_us: f64, start: Instant) -> Solution {
+    Solution {
+        arm: None,
+        families: Vec::new(),
+        verdict,
+        modes,
+        warnings: case.warnings.clone(),
+        prepare_us,
+        solve_us: start.elapsed().as_secs_f64() * 1e6,
+        platform: None,
     }
 }
 

@@ -22,7 +22,7 @@ use rug::{Float, float::Round};
 /// it, and what general loops of five take, or some special ones, is hours.
 const EFFORT: u64 = 1_500_000;
 
-/// From so many unknowns on a cut is quicker than a Gröbner basis, of which it is out of reach.
+/// With so many unknowns a cut is quicker than a Gröbner basis, of which it is out of reach.
 const MANY: usize = 5;
 
 /// What is asked of a loop.
@@ -50,7 +50,7 @@ impl Question<'_> {
     pub fn answer(&self) -> Result<Option<Answer>> {
         let Some(cycle) = Cycle::of(self.chain, self.layout, self.case)? else { return Ok(None) };
         if cycle.before.is_none()
-            && cycle.steps.len() >= MANY
+            && cycle.steps.len() == MANY
             && let Some(found) = by_cut::solutions(&cycle)
         {
             return Ok(Some(self.simple(&cycle, &found)));
