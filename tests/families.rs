@@ -7,7 +7,7 @@ use looproot::catalogue::entry::{Design, Entry};
 use looproot::catalogue::{Format, Options, load_text};
 use looproot::kinematics::chain::Placement;
 use looproot::mechanism::{Family, Mechanism, Solution, Tolerance, redundancy};
-use looproot::verdict::Status;
+use looproot::verdict::{Proof, Status};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
@@ -263,6 +263,37 @@ fn three_coaxial_joints_of_a_straight_arm_are_a_surface() {
         assert_eq!((surfaces.len(), answer.families.len()), (1, 1), "{:?}", answer.families);
         assert_eq!(surfaces[0].moving, [0, 3, 5]);
     }
+}
+
+/// The fourth and the fifth axis coincide, so that their joints turn against each other: a curve, by construction. Theorem 5 of
+/// docs/exact.md decides it.
+#[test]
+fn the_self_motion_of_two_coaxial_joints_is_proved() {
+    let joint =
+        |a: &str, half_tangent: &str, d: &str| json!({ "type": "R", "a": a, "tan_half_alpha": half_tangent, "d": d });
+    let joints = [
+        joint("2", "inf", "-1"),
+        joint("-4", "inf", "-1/2"),
+        joint("2", "-1", "0"),
+        joint("0", "0", "0"),
+        joint("-4/7", "1", "1"),
+        joint("-2", "0", "1"),
+    ];
+    let matrix = json!([
+        [0, "1056/2425", "-2183/2425", "56843/16975"],
+        [-1, 0, 0, 1],
+        [0, "2183/2425", "1056/2425", "15273/33950"],
+        [0, 0, 0, 1],
+    ]);
+    let mechanism = json!({ "kind": "arm", "convention": "dh", "joints": joints });
+    let text = json!({ "title": "coaxial", "mechanism": mechanism, "pose": [{ "matrix": matrix }] }).to_string();
+    let verdict = solved(&text).verdict;
+    assert_eq!(
+        (verdict.status, verdict.proof, verdict.self_motion),
+        (Status::SelfMotion, Proof::Proved, 1),
+        "{}",
+        verdict.reason
+    );
 }
 
 #[test]

@@ -2,10 +2,14 @@
 
 use super::eliminant::in_balls;
 use crate::algebra::ball::Ball;
+use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 use crate::solve::crowded_roots::approximations;
-use rug::{Float, Integer};
+use crate::solve::polynomial_roots::polynomial_roots;
+use crate::solve::scalar::Extended;
+use num_complex::Complex;
+use rug::{Float, Integer, Rational};
 
 /// Weierstrass' iteration doubles the digits of simple roots: from those of an f64 this reaches any precision in use, with some
 /// steps to spare for crowded roots.
@@ -38,7 +42,18 @@ pub(super) fn isolated_in_balls<const BITS: u32>(coefficients: &[Ball<BITS>]) ->
     if coefficients.len() == 1 {
         return Some(Vec::new());
     }
-    let mut midpoints = approximations(coefficients)?;
+    // Most crowds are told apart by f64 about their middle; long numbers tell the others apart in more time.
+    approximations(coefficients)
+        .and_then(|midpoints| isolated_from(coefficients, midpoints))
+        .or_else(|| isolated_from(coefficients, starts::<LongFloat, BITS>(coefficients)?))
+        .or_else(|| isolated_from(coefficients, starts::<LongerFloat, BITS>(coefficients)?))
+}
+
+/// The discs after some steps from these approximations.
+fn isolated_from<const BITS: u32>(
+    coefficients: &[Ball<BITS>],
+    mut midpoints: Vec<Ball<BITS>>,
+) -> Option<Vec<Isolated<BITS>>> {
     for _ in 0..STEPS {
         let corrections = corrections(coefficients, &midpoints)?;
         let is_done = corrections.iter().zip(&midpoints).all(|(w, z)| {
@@ -51,6 +66,53 @@ pub(super) fn isolated_in_balls<const BITS: u32>(coefficients: &[Ball<BITS>]) ->
         }
     }
     isolated(coefficients, &midpoints)
+}
+
+/// Approximations of all roots by Aberth's iteration in long numbers; `None` where some did not settle.
+fn starts<R: Extended, const BITS: u32>(coefficients: &[Ball<BITS>]) -> Option<Vec<Ball<BITS>>> {
+    let scale = Scale::of(coefficients)?;
+    let image: Option<Vec<R>> =
+        coefficients.iter().zip(0..).map(|(c, k)| R::from_rational(&scale.coefficient(c, k)?)).collect();
+    let roots: Vec<Complex<R>> = polynomial_roots(&Univariate::new(image?))?;
+    let outward = |x: R| wide(x) << scale.root;
+    let ball = |z: Complex<R>| Ball::point(&outward(z.re), &outward(z.im)).midpoint();
+    (roots.len() + 1 == coefficients.len()).then(|| roots.into_iter().map(ball).collect())
+}
+
+/// Powers of two by which coefficients and roots come into the range of f64.
+struct Scale {
+    /// Roots are over 2 to this power.
+    root: i32,
+    /// Coefficients, those of the scaled roots, are over 2 to this power.
+    size: i32,
+}
+
+impl Scale {
+    /// The geometric mean of the roots becomes about 1, and the largest coefficient, too.
+    fn of<const BITS: u32>(coefficients: &[Ball<BITS>]) -> Option<Self> {
+        let bits = |c: &Ball<BITS>| c.re().get_exp();
+        let first = coefficients.iter().position(|c| !c.contains_zero())?;
+        let span = i32::try_from(coefficients.len() - 1 - first).ok()?.max(1);
+        let root = (bits(&coefficients[first])? - bits(coefficients.last()?)?) / span;
+        let sizes =
+            coefficients.iter().zip(0..).filter(|(c, _)| !c.contains_zero()).map(|(c, k)| Some(bits(c)? + root * k));
+        Some(Self { root, size: sizes.collect::<Option<Vec<i32>>>()?.into_iter().max()? })
+    }
+
+    fn coefficient<const BITS: u32>(&self, c: &Ball<BITS>, k: i32) -> Option<Rational> {
+        if c.contains_zero() {
+            return Some(Rational::new());
+        }
+        Float::with_val(BITS, c.re() << (self.root * k - self.size)).to_rational()
+    }
+}
+
+/// A long number as a Float, to its first three doubles' digits.
+fn wide<R: Extended>(x: R) -> Float {
+    let first = x.to_f64();
+    let second = x.sub(&R::from(first)).to_f64();
+    let third = x.sub(&R::from(first)).sub(&R::from(second)).to_f64();
+    Float::with_val(192, first) + second + third
 }
 
 /// Weierstrass' corrections with rigorous error bounds; `None` where two approximations are one.

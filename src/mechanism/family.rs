@@ -93,8 +93,9 @@ impl Joints<'_> {
         parts.iter().filter_map(cut).collect()
     }
 
-    /// The points of a shape, each with a number and a part of the way to the next one, and between two points outside the limits the one that comes within them, if
-    /// there is one: a part of a curve within the limits may be shorter than a step, or a corner of them alone.
+    /// The points of a shape, each with a number and a part of the way to the next one. Between two points outside the limits the
+    /// point that comes within them is looked for: a part of a curve within the limits may be shorter than a step, or a corner of
+    /// them alone.
     fn looked_at(
         &self,
         shape: &Shape,

@@ -216,7 +216,11 @@ impl SingleLoop {
         {
             match (exact.status, &case.pose) {
                 (Status::SelfMotion, _) => {
-                    let reason = format!("{}; the isolated ones are listed, not proved complete", exact.reason);
+                    let rest = "the isolated ones are listed, not proved complete";
+                    let reason = match solver.structural_rank() {
+                        6 => format!("{}; {rest}", exact.reason),
+                        _ => format!("{}; {}; {rest}", verdict.reason, exact.reason),
+                    };
                     verdict = Verdict { proof: exact.proof, self_motion: exact.self_motion, reason, ..verdict };
                 }
                 (_, None) => return Ok(exact_solution(case, exact, modes, *prepare_us, start)),
