@@ -4,14 +4,14 @@
 #![allow(clippy::unwrap_used)]
 
 use divan::{Bencher, black_box};
-use looproot::assembly::{Assembly, Roots, Solver, Workspace};
-use looproot::benchmark::sample::{Set, sample};
-use looproot::catalogue::entry::{Entry, InputValue, Kind};
-use looproot::catalogue::{Options, builtin, builtin_names};
-use looproot::kinematics::closed_loop::{Layout, OpenLoop, Variable, angle_motion, distance_motion};
-use looproot::kinematics::motion::Motion;
-use looproot::solve::eigen::EigenWorkspace;
-use looproot::solve::francis;
+use looproot::internal::assembly::{Assembly, Roots, Solver, Workspace};
+use looproot::internal::benchmark::sample::{Set, sample};
+use looproot::internal::catalogue::entry::{Entry, InputValue, Kind};
+use looproot::internal::catalogue::{Options, builtin, builtin_names};
+use looproot::internal::kinematics::closed_loop::{Layout, OpenLoop, Variable, angle_motion, distance_motion};
+use looproot::internal::kinematics::motion::Motion;
+use looproot::internal::solve::eigen::EigenWorkspace;
+use looproot::internal::solve::francis;
 
 fn main() {
     divan::main();

@@ -1,58 +1,48 @@
 #![doc = include_str!("../README.md")]
 //
-// The modules in layer order, apart so that no formatter sorts them: none imports a later one.
+// What the product is stands at the root. What it is made of stands in one hidden module, for the command line, the bindings, tests
+// and benches: its names may change with every version.
 
-pub mod error;
+use looproot_algebra as algebra;
 
-pub use looproot_algebra as algebra;
+/// What the library is made of, in layer order: none of these modules imports a later one.
+#[doc(hidden)]
+#[path = ""]
+#[rustfmt::skip]
+pub mod internal {
+    pub mod error;
+    pub mod kinematics;
+    pub mod catalogue;
+    pub mod certificate;
+    pub mod closure;
+    pub mod elimination;
+    pub mod solve;
+    pub mod certify;
+    pub mod exact;
+    pub mod assembly;
+    pub mod verdict;
+    pub mod mechanism;
+    pub mod displacement;
+    pub mod lines;
+    pub mod synthesis;
+    pub mod linkage;
+    pub mod derivation;
+    pub mod sweep;
+    pub mod mobility;
+    pub mod factoring;
+    pub mod conditions;
+    pub mod benchmark;
+    pub mod claims;
+    pub mod scene;
+    pub mod report;
+    pub mod view;
+    pub mod face;
+}
 
-pub mod kinematics;
-
-pub mod catalogue;
-
-pub mod certificate;
-
-pub mod closure;
-
-pub mod elimination;
-
-pub mod solve;
-
-pub mod certify;
-pub mod exact;
-
-pub mod assembly;
-
-pub mod verdict;
-
-pub mod mechanism;
-
-pub mod displacement;
-pub mod lines;
-pub mod synthesis;
-
-pub mod linkage;
-
-pub mod derivation;
-
-pub mod sweep;
-
-pub mod mobility;
-
-pub mod factoring;
-
-pub mod conditions;
-
-pub mod benchmark;
-
-pub mod claims;
-
-pub mod scene;
-
-pub mod report;
-
-pub mod view;
-
-pub mod face;
+use internal::{
+    assembly, benchmark, catalogue, certificate, certify, claims, closure, conditions, derivation, displacement,
+    elimination, error, exact, face, factoring, kinematics, lines, linkage, mechanism, mobility, report, scene, solve,
+    sweep, synthesis, verdict,
+};
 
 pub use face::{Arm, Loop, Platform};

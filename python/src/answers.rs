@@ -1,7 +1,7 @@
 //! Answers as arrays and dictionaries.
 
-use looproot::mechanism::Solution;
-use looproot::verdict::{Proof, Verdict};
+use looproot::internal::mechanism::Solution;
+use looproot::internal::verdict::{Proof, Verdict};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
@@ -40,7 +40,8 @@ pub fn modes<'py>(python: Python<'py>, solution: &Solution, freedoms: usize) -> 
     let condition: Vec<f64> = modes.iter().map(|mode| mode.condition).collect();
     let within: Vec<i8> = modes.iter().map(|mode| mode.within_limits.map_or(-1, i8::from)).collect();
     let near: Vec<bool> = modes.iter().map(|mode| mode.near).collect();
-    let error = |mode: &looproot::mechanism::FullMode| mode.error.map_or([0.0; 2], |e| [e.position, e.orientation]);
+    let error =
+        |mode: &looproot::internal::mechanism::FullMode| mode.error.map_or([0.0; 2], |e| [e.position, e.orientation]);
     let error: Vec<f64> = modes.iter().flat_map(error).collect();
     Ok((
         rows(q, freedoms)?.into_pyarray(python),
@@ -75,7 +76,7 @@ pub fn verdict<'py>(python: Python<'py>, verdict: &Verdict, near: usize) -> PyRe
 
 /// The families of an answer: dimension, moving variables from 0, distance, sample and samples.
 pub fn families<'py>(python: Python<'py>, solution: &Solution) -> PyResult<Vec<Bound<'py, PyDict>>> {
-    let one = |family: &looproot::mechanism::Family| {
+    let one = |family: &looproot::internal::mechanism::Family| {
         let object = PyDict::new(python);
         object.set_item("dimension", family.dimension)?;
         object.set_item("moving", &family.moving)?;

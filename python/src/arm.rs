@@ -2,10 +2,10 @@
 
 use crate::answers::{Modes, families, modes, rows, stack, verdict};
 use crate::faults::{guarded, panic_text};
-use looproot::error::Error;
-use looproot::face::{self, Convention, DhRow, Matrix, ScrewRow};
-use looproot::kinematics::chain::JointKind;
-use looproot::mechanism::Solution;
+use looproot::internal::error::Error;
+use looproot::internal::face::{self, Convention, DhRow, Matrix, ScrewRow};
+use looproot::internal::kinematics::chain::JointKind;
+use looproot::internal::mechanism::Solution;
 use numpy::ndarray::ArrayView1;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;

@@ -2,9 +2,9 @@
 
 use crate::arm::matrix;
 use crate::faults::guarded;
-use looproot::face::{self, Model};
-use looproot::kinematics::joint::Variable;
-use looproot::sweep::Range;
+use looproot::internal::face::{self, Model};
+use looproot::internal::kinematics::joint::Variable;
+use looproot::internal::sweep::Range;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -36,7 +36,7 @@ impl Loop {
 
     #[getter]
     fn names(&self) -> Vec<String> {
-        looproot::report::document::labels(&self.0.model.entry)
+        looproot::internal::report::document::labels(&self.0.model.entry)
     }
 
     /// The number of the input joint, from 1, and whether it is an angle.

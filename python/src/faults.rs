@@ -1,6 +1,6 @@
 //! Errors as exceptions. No panic leaves this crate as one.
 
-use looproot::error::Error;
+use looproot::internal::error::Error;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyKeyError, PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;

@@ -5,7 +5,7 @@ mod arm;
 mod closed;
 mod faults;
 
-use looproot::face;
+use looproot::internal::face;
 use pyo3::prelude::*;
 
 /// The private module of the package `looproot`.
@@ -30,7 +30,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
 /// The names of the library.
 #[pyfunction]
 fn robots() -> Vec<String> {
-    looproot::catalogue::all_names()
+    looproot::internal::catalogue::all_names()
 }
 
 /// Arm, loop or platform: what a file or a name is.
@@ -38,7 +38,7 @@ fn robots() -> Vec<String> {
 fn kind(name: &str, tip_link: Option<&str>, base_link: Option<&str>) -> PyResult<&'static str> {
     faults::guarded(|| {
         let model = face::Model::load(name, tip_link, base_link)?;
-        Ok(looproot::report::json::kind(model.entry.kind()))
+        Ok(looproot::internal::report::json::kind(model.entry.kind()))
     })
 }
 
@@ -66,11 +66,15 @@ fn page(python: Python<'_>, document: &str, svg: bool) -> PyResult<String> {
     python.detach(|| {
         faults::guarded(|| {
             let fault = |fault: serde_json::Error| {
-                looproot::error::Error::Invalid(format!("found text that is no document: {fault}"))
+                looproot::internal::error::Error::Invalid(format!("found text that is no document: {fault}"))
             };
             let mut document = serde_json::from_str(document).map_err(fault)?;
-            looproot::view::drawable(&mut document)?;
-            Ok(if svg { looproot::view::figures(&document) } else { looproot::view::page(&document, None) })
+            looproot::internal::view::drawable(&mut document)?;
+            Ok(if svg {
+                looproot::internal::view::figures(&document)
+            } else {
+                looproot::internal::view::page(&document, None)
+            })
         })
     })
 }

@@ -24,8 +24,8 @@ use crate::solve::singular::structural_rank;
 ///
 /// # Example
 /// ```
-/// use looproot::assembly::{Assembly, Roots, Solver, Workspace};
-/// use looproot::kinematics::{closed_loop::{OpenLoop, Variable}, motion::Motion};
+/// use looproot::internal::assembly::{Assembly, Roots, Solver, Workspace};
+/// use looproot::internal::kinematics::{closed_loop::{OpenLoop, Variable}, motion::Motion};
 /// // Six axes, each link turned and shifted against the last.
 /// let link = |k: usize| {
 ///     let k = k as f64;

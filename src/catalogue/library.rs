@@ -83,8 +83,8 @@ fn collect(folder: &Dir<'_>, names: &mut Vec<String>) {
 ///
 /// # Example
 /// ```
-/// assert_eq!(looproot::catalogue::namesakes("bennett"), ["conditions/bennett", "motion/bennett"]);
-/// assert_eq!(looproot::catalogue::namesakes("motion/bennett"), ["motion/bennett"]);
+/// assert_eq!(looproot::internal::catalogue::namesakes("bennett"), ["conditions/bennett", "motion/bennett"]);
+/// assert_eq!(looproot::internal::catalogue::namesakes("motion/bennett"), ["motion/bennett"]);
 /// ```
 #[must_use]
 pub fn namesakes(name: &str) -> Vec<String> {
@@ -136,7 +136,7 @@ pub fn builtin_page(name: &str) -> Option<(String, &'static str)> {
 ///
 /// # Example
 /// ```
-/// let citation = looproot::catalogue::citation("LeeLiang1988").unwrap();
+/// let citation = looproot::internal::catalogue::citation("LeeLiang1988").unwrap();
 /// assert!(citation.starts_with("H.-Y. Lee"));
 /// ```
 #[must_use]
@@ -200,9 +200,9 @@ pub(super) fn unknown(name: &str) -> Error {
 ///
 /// # Example
 /// ```
-/// let puma = looproot::catalogue::builtin("puma560", &Default::default())?;
+/// let puma = looproot::internal::catalogue::builtin("puma560", &Default::default())?;
 /// assert_eq!(puma.name, "puma560");
-/// # Ok::<(), looproot::error::Error>(())
+/// # Ok::<(), looproot::internal::error::Error>(())
 /// ```
 pub fn builtin(name: &str, options: &Options) -> Result<Entry> {
     let Some((full, text)) = find(name) else {

@@ -123,10 +123,10 @@ pub fn judge_any(any: &Any) -> Result<Judgement> {
 ///
 /// # Example
 /// ```
-/// use looproot::{catalogue, claims};
+/// use looproot::internal::{catalogue, claims};
 /// let puma = catalogue::builtin("puma560", &Default::default())?;
 /// assert_eq!(claims::judge(&puma)?.failures().count(), 0);
-/// # Ok::<(), looproot::error::Error>(())
+/// # Ok::<(), looproot::internal::error::Error>(())
 /// ```
 pub fn judge(entry: &Entry) -> Result<Judgement> {
     let mechanism = Mechanism::prepare(entry)?;

@@ -32,7 +32,7 @@ pub type CosSin<R> = (R, R);
 ///
 /// # Example
 /// ```
-/// use looproot::derivation::transference::spherical_four_bar;
+/// use looproot::internal::derivation::transference::spherical_four_bar;
 ///
 /// // Hooke's joint: right twists but the last; tan theta1 tan theta4 = cos beta.
 /// let angle = |phi: f64| (phi.cos(), phi.sin());

@@ -11,7 +11,7 @@
 //! let answer = arm.ik(&pose)?;
 //! assert!(answer.modes.iter().all(|mode| mode.certified));
 //! assert_eq!(answer.verdict.real, answer.modes.len());
-//! # Ok::<(), looproot::error::Error>(())
+//! # Ok::<(), looproot::internal::error::Error>(())
 //! ```
 
 mod arm;

@@ -29,7 +29,7 @@ impl Freedom {
     ///
     /// # Example
     /// ```
-    /// use looproot::{catalogue, kinematics::freedom::Freedom};
+    /// use looproot::internal::{catalogue, kinematics::freedom::Freedom};
     ///
     /// let bennett = catalogue::builtin("bennett_a", &Default::default())?;
     /// let freedom = Freedom::of(bennett.chain().unwrap());
@@ -38,7 +38,7 @@ impl Freedom {
     ///     freedom.to_string(),
     ///     "mobility -2 by Gruebler's count (4 - 6), screw rank 4 in general position"
     /// );
-    /// # Ok::<(), looproot::error::Error>(())
+    /// # Ok::<(), looproot::internal::error::Error>(())
     /// ```
     #[must_use]
     pub fn of(chain: &Chain) -> Self {

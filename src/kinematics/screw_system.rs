@@ -87,7 +87,7 @@ impl<F: Field> Screw<F> {
 /// # Example
 /// Three axes through one point span the rotations about it; what is reciprocal to them are the forces through it.
 /// ```
-/// use looproot::kinematics::screw_system::{Screw, ScrewSystem};
+/// use looproot::internal::kinematics::screw_system::{Screw, ScrewSystem};
 /// use rug::Rational;
 ///
 /// let vector = |v: [i32; 3]| v.map(Rational::from);

@@ -23,10 +23,10 @@ use crate::error::Result;
 ///
 /// # Example
 /// ```
-/// use looproot::catalogue::{Any, Options, load_solvable};
+/// use looproot::internal::catalogue::{Any, Options, load_solvable};
 /// let Any::Calculus(file) = load_solvable("lines/transversals", &Options::default())? else { panic!() };
-/// assert_eq!(looproot::lines::answers(&file)?[0].verdict.complex, 2);
-/// # Ok::<(), looproot::error::Error>(())
+/// assert_eq!(looproot::internal::lines::answers(&file)?[0].verdict.complex, 2);
+/// # Ok::<(), looproot::internal::error::Error>(())
 /// ```
 pub fn answers(file: &CalculusFile) -> Result<Vec<Answer>> {
     let mut answers = match &file.question {

@@ -44,11 +44,11 @@ const SIMPLE: u32 = 6;
 ///
 /// # Example
 /// ```
-/// use looproot::{catalogue, mobility};
+/// use looproot::internal::{catalogue, mobility};
 /// let entry = catalogue::builtin("bennett_a", &Default::default())?;
 /// let answer = mobility::mobility(&entry)?;
 /// assert_eq!((answer.mobility, answer.gruebler(), answer.screw_rank()), (Some(1), -2, Some(3)));
-/// # Ok::<(), looproot::error::Error>(())
+/// # Ok::<(), looproot::internal::error::Error>(())
 /// ```
 pub fn mobility(entry: &Entry) -> Result<Mobility> {
     let chain = match &entry.design {

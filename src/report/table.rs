@@ -8,7 +8,7 @@ const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().f
 ///
 /// # Example
 /// ```
-/// let mut table = looproot::report::table::Columns::new(&["name", "roots"], &["name"]);
+/// let mut table = looproot::internal::report::table::Columns::new(&["name", "roots"], &["name"]);
 /// table.row(["puma560", "8"]);
 /// assert!(table.text().lines().last().unwrap().trim_start().starts_with("puma560"));
 /// ```

@@ -35,13 +35,13 @@ const EFFORT: u64 = 2_000_000_000;
 ///
 /// # Example
 /// ```
-/// use looproot::{catalogue, synthesis};
+/// use looproot::internal::{catalogue, synthesis};
 /// let catalogue::Any::Synthesis(file) = catalogue::builtin_any("synthesis/burmester5_4real_a", &Default::default())? else {
 ///     panic!("a synthesis");
 /// };
 /// let answer = synthesis::synthesize(&file);
 /// assert_eq!((answer.verdict.complex, answer.verdict.real), (4, 4));
-/// # Ok::<(), looproot::error::Error>(())
+/// # Ok::<(), looproot::internal::error::Error>(())
 /// ```
 #[must_use]
 pub fn synthesize(file: &SynthesisFile) -> Answer {

@@ -19,7 +19,7 @@ use rug::Rational;
 const JOINTS: std::ops::RangeInclusive<usize> = 3..=7;
 
 /// Reads a loop with symbols, or one with numbers only.
-pub(in crate::catalogue) fn ansatz(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<Ansatz> {
+pub(in crate::internal::catalogue) fn ansatz(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<Ansatz> {
     let keys = [
         "title",
         "source",

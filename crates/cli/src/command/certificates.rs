@@ -1,0 +1,53 @@
+//! The file of `--certificate`.
+
+use looproot::internal::catalogue::entry::{Case, Entry};
+use looproot::internal::error::Error;
+use looproot::internal::mechanism::Solution;
+use looproot::internal::report::certificate::certificate;
+use looproot::internal::report::model::case_noun;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// Certificates, written one a line as they come. The file is made with the first one.
+pub struct Certificates {
+    path: PathBuf,
+    file: Option<BufWriter<File>>,
+}
+
+impl Certificates {
+    pub fn new(path: &Path) -> Self {
+        Self { path: path.to_owned(), file: None }
+    }
+
+    /// Writes the certificate of an answer, or says on stderr why there is none.
+    pub fn add(&mut self, entry: &Entry, number: usize, case: &Case, solution: &Solution) -> Result<(), Error> {
+        match certificate(entry, number, case, solution) {
+            Ok(value) => self.write(&format!("{value}\n")),
+            Err(reason) => {
+                let noun = case_noun(entry);
+                let _ = writeln!(std::io::stderr(), "note: no certificate of {noun} {number}: {reason}");
+                Ok(())
+            }
+        }
+    }
+
+    fn write(&mut self, line: &str) -> Result<(), Error> {
+        let fail = |error: std::io::Error| failed(&self.path, &error);
+        if self.file.is_none() {
+            self.file = Some(BufWriter::new(File::create(&self.path).map_err(fail)?));
+        }
+        let file = self.file.as_mut();
+        file.map_or(Ok(()), |file| file.write_all(line.as_bytes())).map_err(|error| failed(&self.path, &error))
+    }
+
+    /// Writes what is left.
+    pub fn close(&mut self) -> Result<(), Error> {
+        let file = self.file.as_mut();
+        file.map_or(Ok(()), Write::flush).map_err(|error| failed(&self.path, &error))
+    }
+}
+
+fn failed(path: &Path, error: &std::io::Error) -> Error {
+    Error::Io { path: path.display().to_string(), message: error.to_string() }
+}

@@ -1,0 +1,95 @@
+//! `looproot derive`
+
+use super::arguments::DeriveOptions;
+use super::bless;
+use super::exit::{Exit, Fault, unexpected};
+use super::output::Output;
+use super::seed::plant;
+use super::wanted::{in_place, wanted};
+use looproot::internal::catalogue::entry::Entry;
+use looproot::internal::catalogue::{Any, Options, load_solvable};
+use looproot::internal::derivation::{Derivation, derive, derive_with_symbols};
+use looproot::internal::error::Error;
+use looproot::internal::report::derivation::{json, paper, system, text, verdict};
+use looproot::internal::report::document::complete;
+use looproot::internal::report::symbolic;
+use serde_json::Value;
+use std::io::Write;
+
+/// Derives closure equations and closure polynomial of the case asked for, else of the first one.
+pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
+    if options.bless {
+        return bless::run(&options.mechanisms, options.quiet);
+    }
+    let [mechanism] = options.mechanisms.as_slice() else {
+        let message = format!("found {} mechanisms, expected one, or --bless", options.mechanisms.len());
+        return Err(Error::Invalid(message).into());
+    };
+    if options.transference {
+        return super::transference::run(options, mechanism);
+    }
+    plant(options.seed);
+    let read = Options { chains: options.asked.chains(), ..options.read.options() };
+    let mut entry = match load_solvable(mechanism, &read)? {
+        Any::Entry(entry) => *entry,
+        Any::Linkage(file) => return super::linkage_derive::run(options, mechanism, &file),
+        other => return Err(unexpected(mechanism, other.kind(), "an arm, a loop, a platform or a linkage")),
+    };
+    if options.trace.is_some() {
+        return Err(unexpected(mechanism, entry.kind().into(), "a linkage, whose points have curves"));
+    }
+    let whole = entry.clone();
+    let index = wanted(&options.asked, mechanism, &mut entry)?.start;
+    let case = &entry.cases[index];
+    let (written, exit) = if let Some(list) = &options.symbolic {
+        let names: Vec<String> = list.split(',').map(|name| name.trim().to_owned()).filter(|n| !n.is_empty()).collect();
+        let derivation =
+            derive_with_symbols(&entry, case, &names).map_err(|error| in_place(error, mechanism, &entry))?;
+        let written = if options.json {
+            document(symbolic::json(&entry, index + 1, &derivation), &whole)
+        } else if let Some(format) = options.format {
+            symbolic::system(&derivation, format)?
+        } else if let Some(style) = options.explain {
+            symbolic::paper(&entry, index + 1, &derivation, &derivation.substituted(&entry, case)?, style)
+        } else if options.quiet {
+            symbolic::verdict(&derivation) + "\n"
+        } else {
+            symbolic::text(&derivation)
+        };
+        (written, if derivation.proved { Exit::Complete } else { Exit::NotProved })
+    } else {
+        let derivation = derive(&entry, case).map_err(|error| in_place(error, mechanism, &entry))?;
+        let written = if options.json {
+            document(json(&entry, index + 1, &derivation), &whole)
+        } else if let Some(format) = options.format {
+            system(&derivation, format)?
+        } else if let Some(style) = options.explain {
+            paper(&entry, index + 1, &derivation, &derivation.substituted(&entry, case)?, style)
+        } else if options.quiet {
+            verdict(&derivation) + "\n"
+        } else {
+            text(&derivation)
+        };
+        (written, exit(&derivation))
+    };
+    let mut output = Output::open(&options.output, mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(exit)
+}
+
+/// A document with the keys of every document.
+fn document(mut value: Value, entry: &Entry) -> String {
+    complete(&mut value, entry);
+    format!("{value}\n")
+}
+
+/// Without a polynomial nothing is proved; without a real root nothing is reached.
+fn exit(derivation: &Derivation) -> Exit {
+    match &derivation.polynomial {
+        None => Exit::NotProved,
+        Some(_) if !derivation.proved => Exit::NotProved,
+        Some(polynomial) if polynomial.roots.is_empty() && polynomial.at_pi == 0 => Exit::Unreachable,
+        Some(_) => Exit::Complete,
+    }
+}

@@ -1,0 +1,119 @@
+//! What the program tells the shell.
+
+use looproot::internal::catalogue::FileKind;
+use looproot::internal::error::Error;
+use looproot::internal::mechanism::Solution;
+use looproot::internal::verdict::{Status, Verdict};
+use std::io::{ErrorKind, Write};
+use std::process::ExitCode;
+
+/// The exit codes, from harmless to grave: of several answers the gravest counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Exit {
+    /// Answered and proved.
+    Complete,
+    /// No real solution, and that is proved.
+    Unreachable,
+    /// Any other answer: incomplete, probable, of rounded data, or a self-motion.
+    NotProved,
+    /// Beyond what is implemented.
+    Unsupported,
+    /// Usage or input.
+    Misuse,
+    /// Ctrl-C.
+    Interrupted,
+}
+
+/// What stopped a verb.
+pub enum Fault {
+    /// A fault of the input or the mechanism.
+    Error(Error),
+    /// The output could not be written.
+    Output(std::io::Error),
+}
+
+impl From<Error> for Fault {
+    fn from(error: Error) -> Self {
+        Self::Error(error)
+    }
+}
+
+impl From<looproot_algebra::error::Error> for Fault {
+    fn from(error: looproot_algebra::error::Error) -> Self {
+        Self::Error(error.into())
+    }
+}
+
+impl From<std::io::Error> for Fault {
+    fn from(error: std::io::Error) -> Self {
+        Self::Output(error)
+    }
+}
+
+impl Exit {
+    /// The code of an answer: what is not proved is never told as an answer without doubt.
+    pub fn of(solution: &Solution) -> Self {
+        Self::of_verdict(&solution.verdict)
+    }
+
+    /// The exit code of a verdict.
+    pub fn of_verdict(verdict: &Verdict) -> Self {
+        let is_proved = verdict.proof.is_proved();
+        match verdict.status {
+            Status::Complete if is_proved => Self::Complete,
+            Status::Unreachable if is_proved => Self::Unreachable,
+            Status::Complete | Status::Unreachable | Status::Incomplete | Status::SelfMotion => Self::NotProved,
+            Status::Unsupported => Self::Unsupported,
+        }
+    }
+
+    /// The code of an error.
+    pub fn of_error(error: &Error) -> Self {
+        if error.exit_code() == 4 { Self::Unsupported } else { Self::Misuse }
+    }
+
+    /// Reports what stopped a verb on stderr. A reader that went away (`looproot list | head`) is no fault.
+    pub fn from_fault(fault: &Fault) -> Self {
+        match fault {
+            Fault::Error(error) => {
+                complain(&error.to_string());
+                Self::of_error(error)
+            }
+            Fault::Output(error) if error.kind() == ErrorKind::BrokenPipe => Self::Complete,
+            Fault::Output(error) => {
+                complain(&format!("cannot write the output: {error}"));
+                Self::Misuse
+            }
+        }
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(match exit {
+            Exit::Complete => 0,
+            Exit::Misuse => 1,
+            Exit::NotProved => 2,
+            Exit::Unreachable => 3,
+            Exit::Unsupported => 4,
+            Exit::Interrupted => 130,
+        })
+    }
+}
+
+/// Prints help, version or a complaint of the argument parser, whose own exit code for misuse means something else here.
+pub fn misuse(message: &clap::Error) -> Exit {
+    // Nothing is left to do when not even this can be printed.
+    let _ = message.print();
+    if message.use_stderr() { Exit::Misuse } else { Exit::Complete }
+}
+
+/// What stops a verb at a file of a kind that it is not for.
+pub fn unexpected(name: &str, kind: FileKind, expected: &str) -> Fault {
+    Error::Invalid(format!("{name}: {}", kind.unexpected(expected))).into()
+}
+
+/// One line on stderr, which may be closed.
+pub fn complain(message: &str) {
+    let _ = writeln!(std::io::stderr(), "error: {message}");
+}

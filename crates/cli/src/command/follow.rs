@@ -1,0 +1,159 @@
+//! Poses as a path: which solution of a row continues which one of the row before.
+
+use looproot::internal::catalogue::entry::Entry;
+use looproot::internal::kinematics::chain::Chain;
+use looproot::internal::kinematics::closed_loop::Variable;
+use looproot::internal::mechanism::Solution;
+use looproot::internal::report::document;
+use looproot::internal::report::number::short;
+use looproot::internal::report::text::View;
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+/// A joint that moves by more from a row to the next one jumps: half a radian is no step of a path.
+const JUMP: f64 = 0.5;
+/// Condition numbers beyond this are those of a singular configuration, as far as a controller is concerned.
+const SINGULAR: f64 = 1e4;
+
+/// A solution that was followed from row to row.
+struct Branch {
+    /// The rows at which it begins and ends so far.
+    rows: [usize; 2],
+    q: Vec<f64>,
+    /// The largest move of a joint from a row to the next one: how far, which joint, and to which row.
+    largest: (f64, usize, usize),
+}
+
+/// The branches of a path.
+pub struct Follow {
+    variables: Vec<Variable>,
+    labels: Vec<String>,
+    branches: Vec<Branch>,
+    /// The branches that reach the last row.
+    open: Vec<usize>,
+}
+
+/// What a row says of the path.
+pub struct Row {
+    /// The branch of every mode, counted from 1; none of complex modes.
+    pub branches: Vec<Option<usize>>,
+    /// What happens there.
+    pub events: Vec<Value>,
+}
+
+impl Row {
+    /// Adds the branches and what happens to a result.
+    pub fn insert(&self, result: &mut Value, solution: &Solution, view: &View) {
+        let shown = solution.modes.iter().zip(&self.branches).filter(|(mode, _)| view.shows(mode));
+        for (index, (_, branch)) in shown.enumerate() {
+            result["modes"][index]["branch"] = json!(branch);
+        }
+        result["events"] = json!(self.events);
+    }
+}
+
+impl Follow {
+    /// A path without rows.
+    pub fn of(entry: &Entry) -> Self {
+        let variables = entry.chain().map(Chain::variables).unwrap_or_default();
+        let variables = variables.iter().map(|own| own.variable).collect();
+        Self { variables, labels: document::labels(entry), branches: Vec::new(), open: Vec::new() }
+    }
+
+    /// Adds the solutions of a row.
+    pub fn add(&mut self, number: usize, solution: &Solution) -> Row {
+        let real = solution.modes.iter().enumerate().filter(|(_, mode)| mode.real);
+        let modes: Vec<(usize, Vec<f64>)> =
+            real.map(|(k, mode)| (k, mode.q.iter().map(|value| value.re).collect())).collect();
+        let mut pairs: Vec<(f64, usize, usize, usize)> = Vec::new();
+        for &branch in &self.open {
+            for (mode, (_, q)) in modes.iter().enumerate() {
+                let (move_by, joint) = self.largest_move(&self.branches[branch].q, q);
+                pairs.push((move_by, joint, branch, mode));
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut row = Row { branches: vec![None; solution.modes.len()], events: Vec::new() };
+        let mut taken: Vec<Option<usize>> = vec![None; modes.len()];
+        let mut continued = Vec::new();
+        for (move_by, joint, branch, mode) in pairs {
+            if taken[mode].is_some() || continued.contains(&branch) {
+                continue;
+            }
+            if move_by > JUMP {
+                let joint = &self.labels[joint];
+                row.events.push(json!({ "event": "jump", "branch": branch + 1, "joint": joint, "move": move_by }));
+            }
+            taken[mode] = Some(branch);
+            continued.push(branch);
+            let own = &mut self.branches[branch];
+            (own.rows[1], own.q) = (number, modes[mode].1.clone());
+            if move_by > own.largest.0 {
+                own.largest = (move_by, joint, number);
+            }
+        }
+        for &branch in self.open.iter().filter(|branch| !continued.contains(branch)) {
+            row.events.push(json!({ "event": "ends", "branch": branch + 1 }));
+        }
+        let is_first = self.branches.is_empty();
+        for (mode, (_, q)) in modes.iter().enumerate().filter(|(mode, _)| taken[*mode].is_none()).collect::<Vec<_>>() {
+            self.branches.push(Branch { rows: [number; 2], q: q.clone(), largest: (0.0, 0, number) });
+            taken[mode] = Some(self.branches.len() - 1);
+            if !is_first {
+                row.events.push(json!({ "event": "begins", "branch": self.branches.len() }));
+            }
+        }
+        for ((at, _), branch) in modes.iter().zip(&taken) {
+            row.branches[*at] = branch.map(|branch| branch + 1);
+            if !(solution.modes[*at].condition < SINGULAR) {
+                row.events.push(json!({ "event": "singular", "branch": branch.map(|branch| branch + 1) }));
+            }
+        }
+        self.open = taken.into_iter().flatten().collect();
+        row
+    }
+
+    /// The largest move of a joint between two configurations, and which joint that is.
+    fn largest_move(&self, one: &[f64], other: &[f64]) -> (f64, usize) {
+        let off = |(k, (a, b)): (usize, (&f64, &f64))| {
+            let off = a - b;
+            let turns = self.variables.get(k) == Some(&Variable::Rotation);
+            (if turns { (off - TAU * (off / TAU).round()).abs() } else { off.abs() }, k)
+        };
+        let moves = one.iter().zip(other).enumerate().map(off);
+        moves.fold((0.0, 0), |best, own| if own.0 > best.0 { own } else { best })
+    }
+
+    /// The branches at the end of the path.
+    pub fn json(&self) -> Value {
+        let branch = |(number, own): (usize, &Branch)| {
+            let (move_by, joint, row) = own.largest;
+            json!({
+                "branch": number,
+                "from": own.rows[0],
+                "to": own.rows[1],
+                "largest_move": { "joint": self.labels.get(joint), "value": move_by, "case": row },
+            })
+        };
+        (1..).zip(&self.branches).map(branch).collect()
+    }
+
+    /// The same for a reader.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        for (number, own) in (1..).zip(&self.branches) {
+            let ([from, to], (move_by, joint, row)) = (own.rows, own.largest);
+            let is_angle = self.variables.get(joint) == Some(&Variable::Rotation);
+            let size = if is_angle {
+                format!("{} deg", short(move_by.to_degrees(), 3))
+            } else {
+                format!("{} m", short(move_by, 6))
+            };
+            let label = self.labels.get(joint).map_or("", String::as_str);
+            let _ =
+                writeln!(text, "branch {number}: poses {from} to {to}, largest move {size} of {label} at pose {row}");
+        }
+        text
+    }
+}

@@ -1,0 +1,73 @@
+//! `looproot instant`
+
+use super::arguments::InstantOptions;
+use super::exit::{Exit, Fault, unexpected};
+use super::linkage::{code, wanted};
+use super::output::Output;
+use looproot::internal::catalogue::{Any, LinkageFile, load_any};
+use looproot::internal::error::Error;
+use looproot::internal::linkage::answer::solve;
+use looproot::internal::report::instant::{Asked, result, text};
+use looproot::internal::report::linkage as report;
+use std::io::Write;
+
+/// Finds every assembly of the cases asked for, and how a body moves there.
+pub fn run(options: &InstantOptions) -> Result<Exit, Fault> {
+    let file = match load_any(&options.mechanism, &options.read.options())? {
+        Any::Linkage(file) => file,
+        other => return Err(unexpected(&options.mechanism, other.kind(), "a linkage")),
+    };
+    let body = named(&file, &options.body)?;
+    let against = options.against.as_ref().map_or(Ok(file.linkage.ground), |name| named(&file, name))?;
+    if body == against {
+        let message = format!("found --body {} against itself, expected two bodies", options.body);
+        return Err(Error::Invalid(message).into());
+    }
+    let point = options.point.as_ref().map(|point| point_of(&file, body, point)).transpose()?;
+    let asked = Asked { body, against, point, inverse: options.inverse };
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    let mut exit = Exit::Complete;
+    let mut results = Vec::new();
+    for index in wanted(options.input.as_deref(), &file)? {
+        let case = &file.cases[index];
+        if case.given.is_empty() {
+            let message = "found no input of the linkage, expected an [[input]], which runs at unit rate";
+            return Err(Error::Invalid(message.to_owned()).at(&options.mechanism, case.line).into());
+        }
+        let answer = solve(&file.linkage, &case.given, file.exact && case.exact)
+            .map_err(|error| error.at(&options.mechanism, case.line))?;
+        exit = exit.max(code(&answer.verdict));
+        let found = result(&file, case, index + 1, &answer, &asked);
+        if options.json {
+            results.push(found);
+        } else {
+            write!(output.writer, "{}", text(&file, &answer, &found))?;
+        }
+    }
+    if options.json {
+        writeln!(output.writer, "{:#}", report::json(&file, &results))?;
+    }
+    output.writer.flush()?;
+    Ok(exit)
+}
+
+/// A body by its name.
+fn named(file: &LinkageFile, name: &str) -> Result<usize, Error> {
+    let found = file.linkage.bodies.iter().position(|body| body.name == name);
+    found.ok_or_else(|| {
+        let known: Vec<&str> = file.linkage.bodies.iter().take(12).map(|body| body.name.as_str()).collect();
+        let name: String = name.chars().take(40).collect();
+        Error::Invalid(format!("found the unknown body `{name}`, expected one of {}", known.join(", ")))
+    })
+}
+
+/// The point of `BODY.P`, which must be one of the body asked for.
+fn point_of<'a>(file: &LinkageFile, body: usize, asked: &'a str) -> Result<&'a str, Error> {
+    let own = &file.linkage.bodies[body];
+    let found = asked.strip_prefix(own.name.as_str()).and_then(|rest| rest.strip_prefix('.'));
+    found.filter(|name| own.point(name).is_some()).ok_or_else(|| {
+        let known: Vec<String> = own.points.iter().take(12).map(|(name, _)| format!("{}.{name}", own.name)).collect();
+        let asked: String = asked.chars().take(40).collect();
+        Error::Invalid(format!("found --point {asked}, expected one of {}", known.join(", ")))
+    })
+}

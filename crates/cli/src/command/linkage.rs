@@ -1,0 +1,94 @@
+//! `looproot solve` for linkages.
+
+use super::arguments::SolveOptions;
+use super::exit::{Exit, Fault};
+use super::output::Output;
+use super::solve::stop_on_interrupt;
+use looproot::internal::catalogue::LinkageFile;
+use looproot::internal::error::Error;
+use looproot::internal::linkage::answer::solve;
+use looproot::internal::report::linkage as report;
+use looproot::internal::verdict::{Proof, Status, Verdict};
+use std::io::Write;
+use std::sync::atomic::Ordering;
+
+/// Finds every assembly of every case, or of the one asked for.
+pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result<Exit, Fault> {
+    refuse(options)?;
+    let stop = stop_on_interrupt();
+    let wanted = wanted(options.asked.input.as_deref(), file)?;
+    let mut output = output;
+    let mut exit = Exit::Complete;
+    let mut results = Vec::new();
+    for index in wanted {
+        if stop.load(Ordering::Relaxed) {
+            exit = Exit::Interrupted;
+            break;
+        }
+        let case = &file.cases[index];
+        let exact = file.exact && case.exact;
+        let line = case.given.first().map_or(case.line, looproot::internal::kinematics::linkage::Given::line);
+        let answer = solve(&file.linkage, &case.given, exact).map_err(|error| error.at(&options.mechanism, line))?;
+        exit = exit.max(code(&answer.verdict));
+        if options.json || options.jsonl {
+            let result = report::result(file, case, index + 1, &answer, options.complex);
+            if options.jsonl {
+                writeln!(output.writer, "{result}")?;
+                output.writer.flush()?;
+            } else {
+                results.push(result);
+            }
+        } else if options.quiet {
+            writeln!(output.writer, "{}", report::verdict(&answer))?;
+        } else {
+            let gap = if index > 0 && options.asked.input.is_none() { "\n" } else { "" };
+            write!(output.writer, "{gap}{}", report::text(file, case, index + 1, &answer, options.complex))?;
+        }
+    }
+    if options.json {
+        writeln!(output.writer, "{:#}", report::json(file, &results))?;
+    }
+    output.writer.flush()?;
+    Ok(exit)
+}
+
+/// The exit code of a verdict.
+pub fn code(verdict: &Verdict) -> Exit {
+    match (verdict.status, verdict.proof) {
+        (Status::Complete, Proof::Proved) => Exit::Complete,
+        (Status::Unreachable, Proof::Proved) => Exit::Unreachable,
+        (Status::Unsupported, _) => Exit::Unsupported,
+        _ => Exit::NotProved,
+    }
+}
+
+/// The options that linkages do not have.
+fn refuse(options: &SolveOptions) -> Result<(), Error> {
+    let found = [
+        (options.poses.is_some(), "--poses"),
+        (options.derivatives, "--derivatives"),
+        (options.scene, "--scene"),
+        (options.near.is_some(), "--near"),
+        (options.turns, "--turns"),
+        (options.tolerance.is_some(), "--tolerance"),
+    ];
+    match found.iter().find(|(is_there, _)| *is_there) {
+        Some((_, option)) => Err(Error::Invalid(format!("found {option} for a linkage, which has none"))),
+        None => Ok(()),
+    }
+}
+
+/// The cases asked for: all, or the one of `--input K`.
+pub fn wanted(input: Option<&str>, file: &LinkageFile) -> Result<std::ops::Range<usize>, Error> {
+    let Some(asked) = input else { return Ok(0..file.cases.len()) };
+    match asked.trim().parse::<usize>() {
+        Ok(number) if (1..=file.cases.len()).contains(&number) => Ok(number - 1..number),
+        _ => {
+            let message = format!(
+                "found --input {asked}, expected the number of an input of the file, 1 to {}",
+                file.cases.len()
+            );
+            Err(Error::Invalid(message))
+        }
+    }
+}

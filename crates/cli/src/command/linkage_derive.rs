@@ -1,0 +1,88 @@
+//! `looproot derive` for linkages.
+
+use super::arguments::DeriveOptions;
+use super::exit::{Exit, Fault};
+use super::linkage::wanted;
+use super::output::Output;
+use looproot::internal::catalogue::LinkageFile;
+use looproot::internal::derivation::{derive_linkage, trace};
+use looproot::internal::error::Error;
+use looproot::internal::kinematics::linkage::{Gaussian, Given};
+use looproot::internal::report::linkage_derivation as report;
+use std::io::Write;
+
+/// Derives the closure polynomials of the case asked for, else of the first one, or the curve of a point.
+pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Result<Exit, Fault> {
+    refuse(options)?;
+    let index = wanted(options.asked.input.as_deref(), file)?.start;
+    let case = &file.cases[index];
+    let line = case.given.first().map_or(case.line, Given::line);
+    let in_place = |error: Error| error.at(mechanism, line);
+    let (written, exit) = if let Some(asked) = &options.trace {
+        let (body, point, place) = point_of(file, asked)?;
+        let curve = trace(&file.linkage, &case.given, body, &place).map_err(in_place)?;
+        let name = &file.linkage.bodies[body].name;
+        let written = if options.json {
+            format!("{}\n", report::curve_json(file, index + 1, name, point, &curve))
+        } else if options.quiet {
+            report::curve_verdict(asked, &curve) + "\n"
+        } else {
+            report::curve_text(file, asked, &curve)
+        };
+        (written, if file.exact { Exit::Complete } else { Exit::NotProved })
+    } else {
+        let derivation = derive_linkage(&file.linkage, &case.given).map_err(in_place)?;
+        let written = if options.json {
+            format!("{}\n", report::json(file, index + 1, &derivation))
+        } else if options.quiet {
+            report::verdict(file, &derivation) + "\n"
+        } else {
+            report::text(file, case, index + 1, &derivation)
+        };
+        let best = derivation.polynomials.first();
+        let is_exact = file.exact && case.exact;
+        let exit = match best {
+            Some(best) if best.is_proved() && is_exact => {
+                let is_reached = best.at_pi > 0 || !best.coefficients.real_roots().is_empty();
+                if is_reached { Exit::Complete } else { Exit::Unreachable }
+            }
+            _ => Exit::NotProved,
+        };
+        (written, exit)
+    };
+    let mut output = Output::open(&options.output, mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(exit)
+}
+
+/// A point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and where it is.
+pub fn point_of<'a>(file: &LinkageFile, asked: &'a str) -> Result<(usize, &'a str, Gaussian), Error> {
+    let found = |what: String| Error::Invalid(format!("found --trace {asked}, {what}"));
+    let bodies = &file.linkage.bodies;
+    let names = || bodies.iter().take(12).map(|body| body.name.as_str()).collect::<Vec<_>>().join(", ");
+    let Some((body, point)) = asked.split_once('.') else {
+        return Err(found(format!("expected a point of a body, such as {}.POINT", bodies[0].name)));
+    };
+    let number = bodies.iter().position(|own| own.name == body);
+    let number = number.ok_or_else(|| found(format!("expected one of the bodies {}", names())))?;
+    let place = bodies[number].point(point).cloned().ok_or_else(|| {
+        let known: Vec<&str> = bodies[number].points.iter().take(12).map(|(name, _)| name.as_str()).collect();
+        found(format!("expected one of the points {} of {body}", known.join(", ")))
+    })?;
+    Ok((number, point, place))
+}
+
+/// The options that linkages do not have.
+fn refuse(options: &DeriveOptions) -> Result<(), Error> {
+    let found = [
+        (options.format.is_some(), "--format"),
+        (options.explain.is_some(), "--explain"),
+        (options.transference, "--transference"),
+        (options.symbolic.is_some(), "--symbolic"),
+    ];
+    match found.iter().find(|(is_there, _)| *is_there) {
+        Some((_, option)) => Err(Error::Unsupported(format!("found {option} for a linkage, which has none yet"))),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,87 @@
+//! `looproot sweep` for linkages.
+
+use super::arguments::SweepOptions;
+use super::exit::{Exit, Fault};
+use super::linkage_derive::point_of;
+use super::output::{Output, pool};
+use looproot::internal::catalogue::LinkageFile;
+use looproot::internal::error::Error;
+use looproot::internal::kinematics::linkage::Given;
+use looproot::internal::report::linkage_sweep::{self as report, Asked, Traced};
+use looproot::internal::sweep::{Range, sweep_linkage};
+use looproot_algebra::number::{Angle, Number, Quantity};
+use std::io::Write;
+
+/// Sweeps a joint through its range and prints the branches.
+pub fn run(
+    options: &SweepOptions,
+    file: &LinkageFile,
+    open: impl FnOnce() -> Result<Output, Fault>,
+) -> Result<Exit, Fault> {
+    let refused = |what: &str| Error::Invalid(format!("found {what}"));
+    if options.scene {
+        return Err(refused("--scene for a linkage, which has none").into());
+    }
+    let traced = match &options.trace {
+        Some(asked) => {
+            let (body, _, place) = point_of(file, asked)?;
+            Some(Traced { body, name: asked.clone(), place })
+        }
+        None => None,
+    };
+    if options.svg && traced.is_none() {
+        return Err(refused("--svg of a linkage without --trace, expected the point whose curve is drawn").into());
+    }
+    let case = &file.cases[0];
+    let joint = joint_of(options, file, &case.given)?;
+    let ends = [("--from", &options.from), ("--to", &options.to)];
+    let [from, to] = ends.map(|(name, text)| end(name, text, file, joint));
+    let range = Range { from: from?, to: to?, steps: options.steps };
+    let pool = pool(options.threads)?;
+    let found = pool.install(|| sweep_linkage(&file.linkage, &case.given, joint, range, || ()));
+    let found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
+    let asked = Asked { file, traced: traced.as_ref() };
+    let mut output = open()?;
+    let out = &mut output.writer;
+    match &traced {
+        _ if options.json => writeln!(out, "{}", report::json(asked, &found))?,
+        Some(traced) if options.svg => write!(out, "{}", report::svg(file, traced, &found))?,
+        _ if options.csv => write!(out, "{}", report::csv(asked, &found))?,
+        _ if options.quiet => writeln!(out, "{}", report::verdict(&found))?,
+        _ => write!(out, "{}", report::text(asked, &found))?,
+    }
+    out.flush()?;
+    // Between the inputs nothing is proved.
+    Ok(Exit::NotProved)
+}
+
+/// The joint asked for, by name, or the first one that the file gives.
+fn joint_of(options: &SweepOptions, file: &LinkageFile, given: &[Given]) -> Result<usize, Error> {
+    let joints = &file.linkage.joints;
+    let Some(name) = &options.joint else {
+        let first = given.iter().find_map(|one| match one {
+            Given::Turn { joint, .. } | Given::Shift { joint, .. } => Some(*joint),
+            Given::Place { .. } => None,
+        });
+        return first.ok_or_else(|| Error::Invalid("found no joint given in the file, expected --joint".to_owned()));
+    };
+    let found = joints.iter().position(|joint| joint.name == *name && !joint.is_gear());
+    found.ok_or_else(|| {
+        let known: Vec<&str> =
+            joints.iter().filter(|joint| !joint.is_gear()).take(12).map(|joint| joint.name.as_str()).collect();
+        Error::Invalid(format!("found --joint {name}, expected one of {}", known.join(", ")))
+    })
+}
+
+/// An end of the range; a number without a unit has that of the file.
+fn end(name: &str, text: &str, file: &LinkageFile, joint: usize) -> Result<f64, Error> {
+    let value = if file.linkage.joints[joint].is_prismatic() {
+        Number::parse(text, Quantity::Length, &file.reading).map(|length| length.to_f64())
+    } else {
+        Angle::parse(text, &file.reading).map(|angle| angle.radians())
+    };
+    value.map_err(|error| match error.into() {
+        Error::Invalid(message) => Error::Invalid(format!("{name}: {message}")),
+        other => other,
+    })
+}

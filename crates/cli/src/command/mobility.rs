@@ -1,0 +1,67 @@
+//! `looproot mobility`
+
+use super::arguments::MobilityOptions;
+use super::exit::{Exit, Fault, unexpected};
+use super::output::Output;
+use super::seed::plant;
+use looproot::internal::catalogue::{Any, Chains, FrameworkFile, Options, load_any};
+use looproot::internal::mobility::{Mobility, mobility};
+use looproot::internal::report::document::complete;
+use looproot::internal::report::framework as report;
+use looproot::internal::report::mobility::{json, text, verdict};
+use std::io::Write;
+
+/// Decides whether a mechanism moves.
+pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
+    plant(options.seed);
+    let entry = match load_any(&options.mechanism, &Options { chains: Chains::Any, ..options.read.options() })? {
+        Any::Entry(entry) => entry,
+        Any::Framework(file) => return of_framework(options, &file),
+        other => return Err(unexpected(&options.mechanism, other.kind(), "a loop, an arm, a platform or a framework")),
+    };
+    let answer = mobility(&entry)?;
+    let written = if options.json {
+        let mut document = json(&entry, &answer);
+        complete(&mut document, &entry);
+        format!("{document:#}\n")
+    } else if options.quiet {
+        verdict(&answer) + "\n"
+    } else {
+        text(&entry, &answer)
+    };
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(exit(&answer))
+}
+
+/// Decides whether a framework moves.
+fn of_framework(options: &MobilityOptions, file: &FrameworkFile) -> Result<Exit, Fault> {
+    let answer = file.mobility(options.steps)?;
+    let written = if options.json {
+        format!("{:#}\n", report::json(file, &answer))
+    } else if options.quiet {
+        report::verdict(&answer) + "\n"
+    } else {
+        report::text(file, &answer)
+    };
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(match (answer.is_proved(), answer.freedom()) {
+        (false, _) => Exit::NotProved,
+        (true, (_, 0)) => Exit::Unreachable,
+        _ => Exit::Complete,
+    })
+}
+
+/// Without a proof nothing is decided; that nothing moves is an answer like no real solution.
+fn exit(answer: &Mobility) -> Exit {
+    if !answer.proof.is_proved() {
+        Exit::NotProved
+    } else if answer.mobility == Some(0) {
+        Exit::Unreachable
+    } else {
+        Exit::Complete
+    }
+}

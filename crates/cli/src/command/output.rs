@@ -1,0 +1,87 @@
+//! Where output goes, and what may be written there.
+
+use super::arguments::{Colour, OutputOptions};
+use super::exit::Fault;
+use looproot::internal::error::Error;
+use std::cell::RefCell;
+use std::fs::File;
+use std::io::{BufWriter, IsTerminal, Write, stdout};
+use std::path::Path;
+use std::rc::Rc;
+
+/// Standard output or a file, and whether to colour it.
+pub struct Output {
+    /// Buffered: flush where a reader waits.
+    pub writer: Box<dyn Write>,
+    /// Use colours.
+    pub colour: bool,
+    /// Someone watches it grow.
+    pub is_terminal: bool,
+}
+
+impl Output {
+    /// Opens the output. The file that is read is never written.
+    pub fn open(options: &OutputOptions, input: &str) -> Result<Self, Fault> {
+        let is_terminal = options.output.is_none() && stdout().is_terminal();
+        let writer: Box<dyn Write> = match &options.output {
+            None => Box::new(BufWriter::new(stdout())),
+            Some(path) => {
+                let same = |a: &Path| Some(a.canonicalize().ok()? == path.canonicalize().ok()?);
+                let fault = |message: String| Error::Io { path: path.display().to_string(), message };
+                if same(Path::new(input)) == Some(true) {
+                    return Err(fault("is the input, which is never changed".to_owned()).into());
+                }
+                let file = File::create(path).map_err(|error| fault(error.to_string()))?;
+                Box::new(BufWriter::new(file))
+            }
+        };
+        let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+        let colour = match options.color {
+            Colour::Auto => is_terminal && wanted,
+            Colour::Always => true,
+            Colour::Never => false,
+        };
+        Ok(Self { writer, colour, is_terminal })
+    }
+}
+
+/// What is written here can be read afterwards.
+#[derive(Clone, Default)]
+pub struct Memory(Rc<RefCell<Vec<u8>>>);
+
+impl Memory {
+    /// An output that is kept.
+    pub fn output(&self) -> Output {
+        Output { writer: Box::new(self.clone()), colour: false, is_terminal: false }
+    }
+
+    /// What was written.
+    pub fn take(&self) -> Vec<u8> {
+        self.0.take()
+    }
+}
+
+impl Write for Memory {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Prints a finished text on standard output.
+pub fn print(text: &str) -> Result<(), Fault> {
+    let mut out = stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()?;
+    Ok(())
+}
+
+/// The threads to work with: `None` is all cores.
+pub fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Fault> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
+    pool.map_err(|error| Error::Invalid(format!("cannot start the threads: {error}")).into())
+}

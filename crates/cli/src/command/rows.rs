@@ -1,0 +1,109 @@
+//! The poses of `--poses`, read row by row while others are solved.
+
+use looproot::internal::catalogue::entry::{Case, Design};
+use looproot::internal::catalogue::poses::PoseRows;
+use looproot::internal::error::Error;
+use looproot_algebra::number::Reading;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+
+/// Longest row, bytes: a pose of twelve numbers of sixty digits has less than a thousand.
+const LONGEST: u64 = 1 << 16;
+
+/// A row of a table of poses.
+pub struct Row {
+    /// Its line, from 1.
+    pub line: usize,
+    /// Its text, or why there is none.
+    text: Result<String, Error>,
+}
+
+/// The rows of a table that are not empty, in their order.
+pub struct Rows<'a> {
+    path: &'a str,
+    input: Box<dyn BufRead + Send>,
+    line: usize,
+    /// A row that was read to find out what the table is.
+    first: Option<Row>,
+}
+
+/// Opens a table of poses, or standard input.
+pub fn open<'a>(path: &'a str, design: &'a Design, reading: &Reading) -> Result<(PoseRows<'a>, Rows<'a>), Error> {
+    let input: Box<dyn BufRead + Send> = if path == "-" {
+        Box::new(BufReader::new(std::io::stdin()))
+    } else {
+        let file = File::open(path).map_err(|fault| Error::Io { path: path.to_owned(), message: fault.to_string() })?;
+        Box::new(BufReader::with_capacity(1 << 20, file))
+    };
+    let mut rows = Rows { path, input, line: 0, first: None };
+    let Some(first) = rows.next() else {
+        return Err(Error::Invalid("found no rows, expected a table of poses".to_owned()).at(path, 1));
+    };
+    let text = first.text.clone()?;
+    let (reader, is_row) = PoseRows::of(&text, first.line, path, design, reading)?;
+    rows.first = is_row.then_some(first);
+    Ok((reader, rows))
+}
+
+impl Iterator for Rows<'_> {
+    type Item = Row;
+
+    fn next(&mut self) -> Option<Row> {
+        if let Some(first) = self.first.take() {
+            return Some(first);
+        }
+        loop {
+            let mut bytes = Vec::new();
+            let read = self.input.by_ref().take(LONGEST).read_until(b'\n', &mut bytes);
+            self.line += 1;
+            let line = self.line;
+            match read {
+                Ok(0) => return None,
+                Err(fault) => {
+                    let fault = Error::Io { path: self.path.to_owned(), message: fault.to_string() };
+                    return Some(Row { line, text: Err(fault) });
+                }
+                Ok(_) => {}
+            }
+            let is_whole = bytes.ends_with(b"\n") || (bytes.len() as u64) < LONGEST;
+            if !is_whole && !self.skip_line() {
+                return None;
+            }
+            let fault = |message: &str| Error::Invalid(message.to_owned()).at(self.path, line);
+            let text = if is_whole {
+                String::from_utf8(bytes).map_err(|_| fault("found bytes that are not UTF-8, expected text"))
+            } else {
+                Err(fault("found a row of more than 64 KiB, expected a pose"))
+            };
+            if text.as_ref().is_ok_and(|text| text.trim().is_empty()) {
+                continue;
+            }
+            return Some(Row { line, text });
+        }
+    }
+}
+
+impl Rows<'_> {
+    /// Reads on to the end of the line; false where the input cannot be read.
+    fn skip_line(&mut self) -> bool {
+        loop {
+            let Ok(buffer) = self.input.fill_buf() else { return false };
+            if buffer.is_empty() {
+                return true;
+            }
+            let end = buffer.iter().position(|byte| *byte == b'\n');
+            let (length, is_end) = (end.map_or(buffer.len(), |at| at + 1), end.is_some());
+            self.input.consume(length);
+            if is_end {
+                return true;
+            }
+        }
+    }
+}
+
+impl Row {
+    /// The pose of the row.
+    pub fn case(&self, reader: &PoseRows<'_>) -> Result<Case, Error> {
+        reader.case(self.text.as_ref().map_err(Clone::clone)?, self.line)
+    }
+}

@@ -1,0 +1,10 @@
+//! The seed of the primes of this run.
+
+use looproot_algebra::drawn;
+
+/// Draws the primes of this run by a seed, where one is given.
+pub fn plant(seed: Option<u64>) {
+    if let Some(seed) = seed {
+        drawn::plant(seed);
+    }
+}

@@ -1,0 +1,488 @@
+//! `looproot solve`
+
+use super::arguments::{Limits, SolveOptions};
+use super::calculus;
+use super::certificates::Certificates;
+use super::demand::demand;
+use super::exit::{Exit, Fault, complain, unexpected};
+use super::follow::Follow;
+use super::order::Order;
+use super::output::{Output, pool};
+use super::rows::{self, Row};
+use super::seed::plant;
+use super::stream::ordered;
+use super::wanted::{in_place, tolerance, wanted};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use looproot::internal::assembly::{Assembly, Roots, Workspace};
+use looproot::internal::catalogue::entry::{Case, Entry, Kind};
+use looproot::internal::catalogue::poses::PoseRows;
+use looproot::internal::catalogue::{Any, Chains, Options, load_solvable};
+use looproot::internal::error::Error;
+use looproot::internal::mechanism::{Derivatives, InputCurve, Mechanism, Solution};
+use looproot::internal::report::derivatives;
+use looproot::internal::report::document;
+use looproot::internal::report::json;
+use looproot::internal::report::model::case_noun;
+use looproot::internal::report::number::{counted, duration};
+use looproot::internal::report::scene;
+use looproot::internal::report::text::{self, View};
+use looproot::internal::scene::Stage;
+use looproot::internal::verdict::{Code, Proof, Status, Verdict};
+use looproot_algebra::drawn::seed_used;
+use serde_json::{Map, Value, json};
+use std::borrow::Cow;
+use std::io::Write;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// Finds every solution of every case, or of the one asked for, and prints them in the order of the file.
+pub fn run(options: &SolveOptions) -> Result<Exit, Fault> {
+    run_to(options, || Output::open(&options.output, &options.mechanism))
+}
+
+/// The same, written where `open` says, which is asked once the mechanism is read.
+pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Fault>) -> Result<Exit, Fault> {
+    let chains = if options.poses.is_some() { Chains::Swept } else { options.asked.chains() };
+    let read = Options { chains, ..options.read.options() };
+    let mut entry = match load_solvable(&options.mechanism, &read)? {
+        Any::Entry(entry) => *entry,
+        Any::Calculus(file) => return calculus::run(options, &file, open),
+        Any::Linkage(file) => return super::linkage::run(options, &file, open()?),
+        other => return Err(unexpected(&options.mechanism, other.kind(), "an arm, a loop or a platform with numbers")),
+    };
+    plant(options.seed);
+    let stage = staged(options, &entry)?;
+    let mut keys = if options.json || stage.is_some() { document::keys(&entry) } else { Map::new() };
+    if let Some(stage) = &stage {
+        keys.insert("scene".into(), scene::json(&stage.scene));
+    }
+    if options.poses.is_some() {
+        refuse_loop(&entry)?;
+        entry.cases.clear();
+    }
+    let wanted = if options.poses.is_some() { 0..0 } else { wanted(&options.asked, &options.mechanism, &mut entry)? };
+    let demand = demand(&options.demand, &entry)?;
+    let order = Order::of(options, &entry)?;
+    if options.derivatives && entry.kind() != Kind::Loop {
+        let what = if entry.kind() == Kind::Arm { "an arm" } else { "a platform" };
+        let message = format!("found --derivatives for {what}, expected a loop: derivatives are by its input");
+        return Err(Error::Invalid(message).into());
+    }
+    let tolerance = tolerance(options.tolerance.as_deref(), &entry)?;
+    let table = options.poses.as_ref().map(|path| rows::open(path, &entry.design, &entry.reading)).transpose()?;
+    let (reader, rows) = table.unzip();
+    let total = reader.is_none().then_some(wanted.len());
+    let mut report = Report::new(options, &entry, keys, (stage, order), total, open()?);
+    let prepared = Mechanism::prepare_for(&entry, &demand).map(|mechanism| mechanism.with_tolerance(tolerance));
+    let exit = match prepared {
+        Ok(mechanism) => {
+            let listed = wanted.map(Job::Listed);
+            let jobs = listed.chain(rows.into_iter().flatten().map(Job::Row));
+            let work = Work { options, entry: &entry, mechanism: &mechanism, reader };
+            work.solve(jobs, total, &mut report)?
+        }
+        // The document of a mechanism that cannot be solved says so, case by case.
+        Err(error) if error.unsupported().is_some() && report.is_json() => {
+            for index in wanted {
+                report.add(
+                    index + 1,
+                    &entry.cases[index],
+                    &unsupported(&in_place(error.clone(), &options.mechanism, &entry)),
+                    None,
+                )?;
+            }
+            Exit::Unsupported
+        }
+        Err(error) => return Err(in_place(error, &options.mechanism, &entry).into()),
+    };
+    report.close()?;
+    Ok(exit)
+}
+
+/// Refuses `--poses` for what has no poses.
+fn refuse_loop(entry: &Entry) -> Result<(), Error> {
+    match entry.kind() {
+        Kind::Loop => Err(Error::Invalid("found --poses for a loop, expected --input".to_owned())),
+        Kind::Arm | Kind::Platform => Ok(()),
+    }
+}
+
+/// Something to solve.
+enum Job {
+    /// A case of the file, by its index.
+    Listed(usize),
+    /// A row of a table.
+    Row(Row),
+}
+
+/// What every thread works with.
+struct Work<'a> {
+    options: &'a SolveOptions,
+    entry: &'a Entry,
+    mechanism: &'a Mechanism,
+    reader: Option<PoseRows<'a>>,
+}
+
+/// The stage on which the bodies are posed, where the scene is asked for.
+fn staged(options: &SolveOptions, entry: &Entry) -> Result<Option<Stage>, Error> {
+    if options.scene && !options.json && !options.jsonl {
+        return Err(Error::Invalid("found --scene alone, expected it with --json or --jsonl".to_owned()));
+    }
+    Ok(Stage::of(entry).filter(|_| options.scene))
+}
+
+/// A solution, and where they are asked for the derivatives at each of its modes.
+type Answer = (Solution, Option<Vec<Option<Derivatives>>>);
+
+/// What became of a job: its case and the answer, or what is wrong with the row.
+type Outcome<'a> = Result<(Cow<'a, Case>, Result<Answer, Error>), Error>;
+
+impl<'a> Work<'a> {
+    /// Solves the jobs on all threads and reports them in order.
+    fn solve(
+        &self,
+        jobs: impl Iterator<Item = Job> + Send,
+        total: Option<usize>,
+        report: &mut Report<'_>,
+    ) -> Result<Exit, Fault> {
+        let stop = stop_on_interrupt();
+        let pool = pool(if total == Some(1) { Some(1) } else { self.options.threads })?;
+        let memory = || {
+            let mut workspace = Workspace::default();
+            workspace.only_real_list = !self.options.complex && self.options.certificate.is_none();
+            (workspace, Assembly::default())
+        };
+        let one = |memory: &mut (Workspace, Assembly), job: &Job| {
+            let stopped = stop.load(Ordering::Relaxed);
+            (!stopped).then(|| self.outcome(job, memory))
+        };
+        let mut exit = Exit::Complete;
+        let mut number = 0;
+        let take = |batch: Vec<(Job, Option<Outcome<'_>>)>| -> Result<bool, Fault> {
+            for (job, outcome) in batch {
+                let Some(outcome) = outcome else {
+                    exit = Exit::Interrupted;
+                    return Ok(false);
+                };
+                let place = if let Job::Listed(index) = job { index + 1 } else { number + 1 };
+                exit = exit.max(report_one(report, &job, place, outcome)?);
+                number += 1;
+            }
+            report.flush()?;
+            Ok(true)
+        };
+        ordered(&pool, jobs, memory, one, take)?;
+        Ok(exit)
+    }
+
+    /// Reads and solves one job.
+    fn outcome(&self, job: &Job, memory: &mut (Workspace, Assembly)) -> Outcome<'a> {
+        let case = match (job, &self.reader) {
+            (Job::Listed(index), _) => Cow::Borrowed(&self.entry.cases[*index]),
+            (Job::Row(row), Some(reader)) => Cow::Owned(row.case(reader)?),
+            (Job::Row(_), None) => return Err(Error::Invalid("a row without a table".to_owned())),
+        };
+        let answer = self.answer(&case, memory);
+        Ok((case, answer))
+    }
+
+    /// Solves one case.
+    fn answer(&self, case: &Case, memory: &mut (Workspace, Assembly)) -> Result<Answer, Error> {
+        let roots = if self.options.real { Roots::Real } else { Roots::All };
+        let solution = self.mechanism.solve(case, roots, &mut memory.0, &mut memory.1)?;
+        let curve = if self.options.derivatives { Some(InputCurve::of(self.entry, case)?) } else { None };
+        let derivatives = curve.map(|curve| solution.modes.iter().map(|mode| curve.derivatives(mode)).collect());
+        Ok((solution, derivatives))
+    }
+}
+
+/// Reports one job, and says what it means for the exit code.
+fn report_one(report: &mut Report<'_>, job: &Job, number: usize, outcome: Outcome<'_>) -> Result<Exit, Fault> {
+    match (outcome, job) {
+        (Err(error), Job::Row(row)) => {
+            report.refuse(number, row.line, &error)?;
+            Ok(Exit::Misuse)
+        }
+        (Ok((case, Err(error))), _) if error.unsupported().is_some() => {
+            let solution = unsupported(&error);
+            report.add(number, &case, &solution, None)?;
+            Ok(Exit::of(&solution))
+        }
+        (Err(error), Job::Listed(_)) | (Ok((_, Err(error))), _) => Err(error.into()),
+        (Ok((case, Ok((solution, derivatives)))), _) => {
+            let exit = Exit::of(&solution);
+            report.add(number, &case, &solution, derivatives.as_deref())?;
+            Ok(exit)
+        }
+    }
+}
+
+/// Raised by the first Ctrl-C, which lets what is done be printed; the second one ends the program at once.
+pub fn stop_on_interrupt() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let raised = Arc::clone(&stop);
+    // Without a handler Ctrl-C still ends the program, only less politely.
+    let _ = ctrlc::set_handler(move || {
+        if raised.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
+    stop
+}
+
+/// The answer where there is no solver.
+fn unsupported(error: &Error) -> Solution {
+    let reason = error.unsupported().map_or_else(|| error.to_string(), str::to_owned);
+    let status = Status::Unsupported;
+    let verdict = Verdict {
+        status,
+        proof: Proof::None,
+        code: Code::Unsupported,
+        complex_complete: false,
+        complex: 0,
+        real: 0,
+        at_infinity: 0,
+        self_motion: 0,
+        certified: 0,
+        reason,
+    };
+    let (modes, families) = (Vec::new(), Vec::new());
+    Solution {
+        arm: None,
+        verdict,
+        modes,
+        families,
+        warnings: Vec::new(),
+        prepare_us: 0.0,
+        solve_us: 0.0,
+        platform: None,
+    }
+}
+
+/// The form of the output.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Text,
+    Document,
+    Lines,
+}
+
+/// The results, written as they come.
+struct Report<'a> {
+    entry: &'a Entry,
+    keys: Map<String, Value>,
+    stage: Option<Stage>,
+    labels: Vec<String>,
+    output: Output,
+    form: Form,
+    view: View,
+    order: Order,
+    follow: Option<Follow>,
+    written: usize,
+    /// How many rows were no poses.
+    refused: usize,
+    /// How many there are, where that is known beforehand.
+    total: Option<usize>,
+    tally: [usize; 5],
+    start: Instant,
+    progress: ProgressBar,
+    certificates: Option<Certificates>,
+}
+
+impl<'a> Report<'a> {
+    fn new(
+        options: &SolveOptions,
+        entry: &'a Entry,
+        keys: Map<String, Value>,
+        (stage, order): (Option<Stage>, Order),
+        total: Option<usize>,
+        output: Output,
+    ) -> Self {
+        let labels = document::labels(entry);
+        let form = match (options.json, options.jsonl) {
+            (true, _) => Form::Document,
+            (_, true) => Form::Lines,
+            _ => Form::Text,
+        };
+        let view = View {
+            complex: options.complex,
+            drop_outside_limits: options.limits == Limits::Drop,
+            quiet: options.quiet,
+            colour: output.colour,
+        };
+        // Hidden by itself where stderr is no terminal; a terminal that shows the results needs no bar.
+        let target = if output.is_terminal || options.quiet || total.is_some_and(|total| total < 2) {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr()
+        };
+        let progress = ProgressBar::with_draw_target(total.map(|total| total as u64), target);
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta}") {
+            progress.set_style(style);
+        }
+        let start = Instant::now();
+        let (written, refused, tally) = (0, 0, [0; 5]);
+        let follow = options.follow.then(|| Follow::of(entry));
+        let certificates = options.certificate.as_ref().map(|path| Certificates::new(path));
+        Self {
+            entry,
+            keys,
+            stage,
+            labels,
+            output,
+            form,
+            view,
+            order,
+            follow,
+            written,
+            refused,
+            total,
+            tally,
+            start,
+            progress,
+            certificates,
+        }
+    }
+
+    fn is_json(&self) -> bool {
+        self.form != Form::Text
+    }
+
+    fn add(
+        &mut self,
+        number: usize,
+        case: &Case,
+        solution: &Solution,
+        derivatives: Option<&[Option<Derivatives>]>,
+    ) -> Result<(), Fault> {
+        if let Some(certificates) = &mut self.certificates {
+            certificates.add(self.entry, number, case, solution)?;
+        }
+        let sorted = self.order.sorted(solution);
+        let solution = sorted.as_ref();
+        let row = self.follow.as_mut().map(|follow| follow.add(number, solution));
+        let document = || {
+            let mut result = json::result(number, case, solution, &self.labels, &self.view);
+            if let Some(derivatives) = derivatives {
+                derivatives::insert(&mut result, solution, derivatives, &self.view);
+            }
+            if let Some(stage) = &self.stage {
+                scene::pose_result(&mut result, stage);
+            }
+            self.order.insert_turns(&mut result, solution, &self.view);
+            if let Some(row) = &row {
+                row.insert(&mut result, solution, &self.view);
+            }
+            result
+        };
+        match self.form {
+            Form::Text => {
+                let mut text = String::new();
+                if self.written > 0 && !self.view.quiet {
+                    text.push('\n');
+                }
+                text += &text::solution(self.entry, number, case, solution, &self.view);
+                if let (Some(derivatives), false) = (derivatives, self.view.quiet) {
+                    text += &derivatives::text(self.entry, case, solution, derivatives, &self.view);
+                }
+                text += &self.order.turns_text(solution, &self.view);
+                self.output.writer.write_all(text.as_bytes())?;
+            }
+            Form::Document | Form::Lines => {
+                let document = document();
+                self.write_value(&document)?;
+            }
+        }
+        self.written += 1;
+        self.tally[solution.verdict.status as usize] += 1;
+        self.progress.inc(1);
+        Ok(())
+    }
+
+    /// An element of the list of results.
+    fn write_value(&mut self, value: &Value) -> Result<(), Fault> {
+        let out = &mut self.output.writer;
+        match self.form {
+            Form::Document if self.written == 0 => {
+                write!(out, "{}\n  {value}", json::head(self.entry, &self.keys))?;
+            }
+            Form::Document => write!(out, ",\n  {value}")?,
+            Form::Lines | Form::Text => {
+                // What holds for all lines stands in a first one.
+                if let (Some(_), 0) = (&self.stage, self.written) {
+                    writeln!(out, "{}", json::line_of_document(self.entry, &self.keys))?;
+                }
+                writeln!(out, "{value}")?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A row that is no pose.
+    fn refuse(&mut self, number: usize, line: usize, error: &Error) -> Result<(), Fault> {
+        let message = match error {
+            Error::File { message, .. } => message.clone(),
+            other => other.to_string(),
+        };
+        if self.is_json() {
+            let value = json!({ "case": number, "line": line, "error": { "code": "bad-row", "message": message } });
+            self.write_value(&value)?;
+        } else {
+            complain(&error.to_string());
+        }
+        self.written += usize::from(self.is_json());
+        self.refused += 1;
+        self.progress.inc(1);
+        Ok(())
+    }
+
+    fn flush(&mut self) -> Result<(), Fault> {
+        Ok(self.output.writer.flush()?)
+    }
+
+    /// Ends the output, finished or interrupted.
+    fn close(mut self) -> Result<(), Fault> {
+        if let Some(certificates) = &mut self.certificates {
+            certificates.close()?;
+        }
+        self.progress.finish_and_clear();
+        let out = &mut self.output.writer;
+        match self.form {
+            Form::Document if self.written == 0 => {
+                writeln!(out, "{}{}", json::head(self.entry, &self.keys), json::foot(seed_used()))?;
+            }
+            Form::Document => {
+                let foot = json::foot(seed_used());
+                let branches = self.follow.as_ref().map(|follow| format!("], \"branches\": {}", follow.json()));
+                let foot = branches.map_or_else(|| foot.clone(), |text| text + foot.trim_start_matches(']'));
+                writeln!(out, "\n{foot}")?;
+            }
+            Form::Lines => {
+                if let Some(follow) = &self.follow {
+                    writeln!(out, "{}", json!({ "branches": follow.json() }))?;
+                }
+            }
+            Form::Text if self.total != Some(1) => {
+                let noun = case_noun(self.entry);
+                let words = ["complete", "incomplete", "unreachable", "self-motion", "unsupported"];
+                let counts = words.iter().zip(self.tally).filter(|(_, count)| *count > 0);
+                let counts: Vec<String> = counts.map(|(word, count)| format!("{count} {word}")).collect();
+                let time = duration(self.start.elapsed().as_secs_f64() * 1e6);
+                let missing = match self.total {
+                    Some(total) if self.written < total => format!(" of {total}"),
+                    _ if self.refused > 0 => format!(" and {}", counted(self.refused, "row without a pose")),
+                    _ => String::new(),
+                };
+                let gap = if self.view.quiet { "" } else { "\n" };
+                let done = counted(self.written, noun);
+                writeln!(out, "{gap}{done}{missing}: {} in {time}", counts.join(", "))?;
+                if let Some(follow) = &self.follow {
+                    write!(out, "{}", follow.text())?;
+                }
+            }
+            Form::Text => {}
+        }
+        self.flush()
+    }
+}

@@ -1,0 +1,167 @@
+//! `looproot sweep`
+
+use super::arguments::SweepOptions;
+use super::exit::{Exit, Fault, unexpected};
+use super::output::{Output, pool};
+use super::seed::plant;
+use super::solve::stop_on_interrupt;
+use super::wanted::in_place;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use looproot::internal::catalogue::entry::{Design, Entry};
+use looproot::internal::catalogue::{Any, Chains, Options, load_solvable};
+use looproot::internal::error::Error;
+use looproot::internal::kinematics::chain::{Chain, JointKind};
+use looproot::internal::kinematics::closed_loop::Variable;
+use looproot::internal::kinematics::freedom::Freedom;
+use looproot::internal::report::document::complete;
+use looproot::internal::report::picture::svg;
+use looproot::internal::report::scene;
+use looproot::internal::report::sweep::{self as report, Swept};
+use looproot::internal::scene::Stage;
+use looproot::internal::sweep::{Range, Sweep, sweep};
+use looproot::internal::verdict::Status;
+use looproot_algebra::number::{Angle, Number, Quantity, Reading};
+use std::io::Write;
+use std::sync::atomic::Ordering;
+
+/// Sweeps an input through its range and prints the branches.
+pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
+    run_to(options, || Output::open(&options.output, &options.mechanism))
+}
+
+/// The same, written where `open` says, which is asked once the mechanism is read.
+pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Fault>) -> Result<Exit, Fault> {
+    plant(options.seed);
+    // The input is that of the command line, where one is given.
+    let chains = if options.joint.is_some() { Chains::Swept } else { Chains::Solved };
+    let entry = match load_solvable(&options.mechanism, &Options { chains, ..options.read.options() })? {
+        Any::Entry(entry) => *entry,
+        Any::Linkage(file) => return super::linkage_sweep::run(options, &file, open),
+        other => {
+            return Err(unexpected(
+                &options.mechanism,
+                other.kind(),
+                "a loop or a linkage, which has an input to sweep",
+            ));
+        }
+    };
+    if options.trace.is_some() {
+        return Err(unexpected(&options.mechanism, entry.kind().into(), "a linkage, whose points have curves"));
+    }
+    let Design::Loop(chain) = &entry.design else {
+        return Err(unexpected(&options.mechanism, entry.kind().into(), "a loop, which has an input to sweep"));
+    };
+    let swept = swept(options, &entry, chain)?;
+    let ends = [("--from", &options.from), ("--to", &options.to)];
+    let [from, to] = ends.map(|(name, text)| end(name, text, swept, &entry.reading));
+    let (from, to) = (from?, to?);
+    if from == to {
+        let message = format!("found --from and --to both {}, expected a range", options.from);
+        return Err(Error::Invalid(message).into());
+    }
+    let range = Range { from, to, steps: options.steps };
+    let output = open()?;
+    let target = if output.is_terminal || options.quiet {
+        ProgressDrawTarget::hidden()
+    } else {
+        // Hidden by itself where stderr is no terminal.
+        ProgressDrawTarget::stderr()
+    };
+    let progress = ProgressBar::with_draw_target(Some(options.steps as u64 + 1), target);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta}") {
+        progress.set_style(style);
+    }
+    let stop = stop_on_interrupt();
+    let running = || !stop.load(Ordering::Relaxed);
+    let pool = pool(options.threads)?;
+    let found = pool.install(|| sweep(&entry, swept.joint, swept.variable, range, running, || progress.inc(1)));
+    let found = found.map_err(|error| in_place(error, &options.mechanism, &entry))?;
+    progress.finish_and_clear();
+    write(options, &entry, swept, &found, output)?;
+    Ok(exit(&found))
+}
+
+fn write(options: &SweepOptions, entry: &Entry, swept: Swept, found: &Sweep, mut output: Output) -> Result<(), Fault> {
+    let out = &mut output.writer;
+    if options.json {
+        let mut document = report::json(entry, swept, found);
+        complete(&mut document, entry);
+        if let Some(stage) = Stage::of(entry).filter(|_| options.scene) {
+            document["scene"] = scene::json(&stage.scene);
+            scene::pose_sweep(&mut document, &stage);
+        }
+        writeln!(out, "{document}")?;
+    } else if options.svg {
+        write!(out, "{}", svg(entry, swept, found))?;
+    } else if options.csv {
+        write!(out, "{}", report::csv(entry, found))?;
+    } else if options.quiet {
+        writeln!(out, "{}", report::verdict(found))?;
+    } else {
+        write!(out, "{}", report::text(entry, swept, found))?;
+        if let Some(chain) = entry.chain().filter(|_| found.branches.is_empty()) {
+            writeln!(out, "\nthe loop has {}; `looproot mobility` decides whether it moves", Freedom::of(chain))?;
+        }
+    }
+    Ok(out.flush()?)
+}
+
+fn exit(found: &Sweep) -> Exit {
+    if found.samples.len() <= found.range.steps {
+        return Exit::Interrupted;
+    }
+    match (found.verdict.proof.is_proved(), found.verdict.status) {
+        (true, Status::Unreachable) => Exit::Unreachable,
+        (true, _) => Exit::Complete,
+        _ => Exit::NotProved,
+    }
+}
+
+/// The joint variable to sweep: the one asked for, or the input of the file.
+fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, Error> {
+    let Some(name) = &options.joint else {
+        let input = entry.cases.first().and_then(|case| case.input.first());
+        let input = input.ok_or_else(|| Error::Invalid("found no input in the file, expected --joint".to_owned()))?;
+        return Ok(Swept { joint: input.joint, variable: input.value.variable() });
+    };
+    let kinds = chain.joint_kinds();
+    let found = |what: &str| Error::Invalid(format!("found --joint {name}, {what}"));
+    let (letter, digits) = match name.trim().split_at_checked(1) {
+        Some((letter @ ("q" | "d"), digits)) => (letter, digits),
+        _ => ("", name.trim()),
+    };
+    let joint: usize = digits.parse().map_err(|_| found("expected the number of a joint, or q3, or d3"))?;
+    let kind = joint.checked_sub(1).and_then(|index| kinds.get(index));
+    let kind = kind.ok_or_else(|| {
+        found(&format!("expected one from 1 to {}: the loop has {}", kinds.len(), Freedom::of(chain)))
+    })?;
+    let variable = match (kind, letter) {
+        (JointKind::Revolute | JointKind::Cylindrical, "" | "q") => Variable::Rotation,
+        (JointKind::Prismatic | JointKind::Cylindrical, _) => Variable::Translation,
+        (JointKind::Revolute, _) => {
+            let freedom = Freedom::of(chain);
+            return Err(found(&format!(
+                "which turns and has no distance; expected q before its number: the loop has {freedom}"
+            )));
+        }
+        (JointKind::Helical | JointKind::Universal | JointKind::Spherical, _) => {
+            return Err(found(&format!(
+                "which is {kind:?}; expected a joint R, P or C: the loop has {}",
+                Freedom::of(chain)
+            )));
+        }
+    };
+    Ok(Swept { joint, variable })
+}
+
+/// An end of the range; a number without a unit has that of the file.
+fn end(name: &str, text: &str, swept: Swept, reading: &Reading) -> Result<f64, Error> {
+    let value = match swept.variable {
+        Variable::Rotation => Angle::parse(text, reading).map(|angle| angle.radians()),
+        Variable::Translation => Number::parse(text, Quantity::Length, reading).map(|length| length.to_f64()),
+    };
+    value.map_err(|error| match error.into() {
+        Error::Invalid(message) => Error::Invalid(format!("{name}: {message}")),
+        other => other,
+    })
+}

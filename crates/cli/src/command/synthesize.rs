@@ -1,0 +1,70 @@
+//! `looproot synthesize`
+
+use super::arguments::SynthesizeOptions;
+use super::exit::{Exit, Fault, unexpected};
+use super::output::Output;
+use looproot::internal::catalogue::{Any, load_any};
+use looproot::internal::error::Error;
+use looproot::internal::report::synthesis::{json, linkage, picture, text, verdict};
+use looproot::internal::synthesis::{Answer, synthesize};
+use looproot::internal::verdict::Status;
+use std::io::Write;
+
+/// Finds all dyads of a file, or four-bars, and prints them or a linkage of them.
+pub fn run(options: &SynthesizeOptions) -> Result<Exit, Fault> {
+    let file = match load_any(&options.mechanism, &options.read.options())? {
+        Any::Synthesis(file) => file,
+        other => return Err(unexpected(&options.mechanism, other.kind(), "a synthesis")),
+    };
+    let mut answer = synthesize(&file);
+    if let Some(near) = &options.near {
+        answer.sort_near(&numbers(near)?)?;
+    }
+    let written = if let Some(list) = &options.linkage {
+        linkage::toml(&file, &answer, &numbered(list)?)?
+    } else if options.svg {
+        picture::svg(&file, &answer)?
+    } else if options.json {
+        format!("{:#}\n", json(&file, &answer, options.complex))
+    } else if options.quiet {
+        verdict(&file, &answer) + "\n"
+    } else {
+        text(&file, &answer, options.complex)
+    };
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(exit(&answer))
+}
+
+/// Numbers with commas between.
+fn numbers(text: &str) -> Result<Vec<f64>, Error> {
+    let one = |part: &str| {
+        let number = part.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+        number.ok_or_else(|| {
+            Error::Invalid(format!("found `{}` in --near, expected numbers such as \"1, -2\"", part.trim()))
+        })
+    };
+    text.split(',').map(one).collect()
+}
+
+/// Numbers of modes, counted from 1, as counted from 0.
+fn numbered(text: &str) -> Result<Vec<usize>, Error> {
+    let one = |part: &str| {
+        let number = part.trim().parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+        number.ok_or_else(|| {
+            Error::Invalid(format!("found `{}` in --linkage, expected numbers from 1, such as 1,3", part.trim()))
+        })
+    };
+    text.split(',').map(one).collect()
+}
+
+fn exit(answer: &Answer) -> Exit {
+    let is_proved = answer.verdict.proof.is_proved();
+    match answer.verdict.status {
+        Status::Complete if is_proved => Exit::Complete,
+        Status::Unreachable if is_proved => Exit::Unreachable,
+        Status::Unsupported => Exit::Unsupported,
+        _ => Exit::NotProved,
+    }
+}

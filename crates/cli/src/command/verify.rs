@@ -1,0 +1,52 @@
+//! `looproot verify`
+
+use super::arguments::VerifyOptions;
+use super::exit::{Exit, Fault, complain};
+use super::output::print;
+use looproot::internal::catalogue::load;
+use looproot::internal::certificate::{Fault as Broken, check_all};
+use looproot::internal::error::Error;
+use std::fs::File;
+use std::io::Read;
+
+/// Largest file of certificates, bytes.
+const LARGEST: u64 = 128 << 20;
+
+/// Checks every certificate of a file.
+pub fn run(options: &VerifyOptions) -> Result<Exit, Fault> {
+    let path = &options.certificate;
+    let text = text(path)?;
+    let entry = options.file.as_ref().map(|file| load(file, &options.read.options())).transpose()?;
+    let (mut lines, mut exit) = (String::new(), Exit::Complete);
+    let read = check_all(&text, entry.as_ref(), |number, outcome| match outcome {
+        Ok(holds) => {
+            lines += &format!(
+                "{path}:{number}: holds: {} solutions, {} of them real: complete, proved\n",
+                holds.complex, holds.real
+            );
+        }
+        Err(fault) => {
+            lines += &format!("{path}:{number}: {fault}\n");
+            exit = exit.max(Exit::NotProved);
+        }
+    });
+    print(&lines)?;
+    match read {
+        Ok(()) => Ok(exit),
+        Err(Broken::Unreadable(message) | Broken::Refused(message)) => {
+            complain(&format!("{path}: {message}"));
+            Ok(Exit::Misuse)
+        }
+    }
+}
+
+fn text(path: &str) -> Result<String, Error> {
+    let fail = |message: String| Error::Io { path: path.to_owned(), message };
+    let file = File::open(path).map_err(|error| fail(error.to_string()))?;
+    let mut bytes = Vec::new();
+    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|error| fail(error.to_string()))?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(fail(format!("found more than {LARGEST} bytes")));
+    }
+    String::from_utf8(bytes).map_err(|_| fail("found bytes that are no UTF-8".to_owned()))
+}

@@ -1,0 +1,158 @@
+//! Solving a prepared arm at one pose after another asks for no memory.
+#![allow(unsafe_code, reason = "counting allocations takes an allocator, and its trait is unsafe")]
+#![allow(clippy::unwrap_used)]
+
+use looproot::internal::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
+use looproot::internal::assembly::{Assembly, Roots, Solver, Workspace};
+use looproot::internal::benchmark::sample::{CHAINS, Set, motions, sample};
+use looproot::internal::kinematics::closed_loop::{Layout, OpenLoop};
+use looproot::internal::kinematics::motion::Motion;
+use looproot::internal::kinematics::platform::Platform;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::alloc::{GlobalAlloc, Layout as Block, System};
+use std::cell::Cell;
+use std::f64::consts::PI;
+
+struct Counting;
+
+thread_local! {
+    /// How often this thread has asked for memory: other threads of the test harness do not count.
+    static REQUESTS: Cell<usize> = const { Cell::new(0) };
+}
+
+fn count() {
+    // A thread that is ending has no counter any more.
+    let _ = REQUESTS.try_with(|requests| requests.set(requests.get() + 1));
+}
+
+// SAFETY: everything is passed on to the system's allocator; the counter neither allocates nor unwinds.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, block: Block) -> *mut u8 {
+        count();
+        unsafe { System.alloc(block) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, block: Block) {
+        unsafe { System.dealloc(pointer, block) }
+    }
+    unsafe fn alloc_zeroed(&self, block: Block) -> *mut u8 {
+        count();
+        unsafe { System.alloc_zeroed(block) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, block: Block, size: usize) -> *mut u8 {
+        count();
+        unsafe { System.realloc(pointer, block, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn requests() -> usize {
+    REQUESTS.with(Cell::get)
+}
+
+/// A general arm prepared, and what fills its gap at random poses.
+fn arm(index: u64, poses: usize) -> (Solver, Vec<Motion<f64>>) {
+    let chain = sample(Set::General, 5, index).unwrap().chain;
+    let open: OpenLoop<f64> = chain.open_loop(&Layout::of(&chain, None).unwrap()).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(index);
+    let mut filling = || {
+        let turns: [Motion<f64>; 6] = std::array::from_fn(|_| {
+            let (sin, cos) = random.random_range(-PI..PI).sin_cos();
+            Motion::rotation_z(cos, sin)
+        });
+        chain.forward::<f64>(&turns).unwrap().inverse()
+    };
+    let fillings = (0..poses).map(|_| filling()).collect();
+    (Solver::prepare(&open), fillings)
+}
+
+#[test]
+fn the_counter_counts() {
+    let before = requests();
+    let list = std::hint::black_box(vec![1_u8; 100]);
+    assert!(requests() > before, "{}", list.len());
+}
+
+#[test]
+fn solving_pose_after_pose_allocates_nothing() {
+    for roots in [Roots::Real, Roots::All] {
+        let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+        let mut solutions = 0;
+        for index in 0..10 {
+            let (solver, fillings) = arm(index, 21);
+            // The list of modes grows to its size once.
+            solver.solve(&fillings[0], Roots::All, &mut workspace, &mut assembly);
+            for (k, filling) in fillings[1..].iter().enumerate() {
+                let before = requests();
+                solver.solve(filling, roots, &mut workspace, &mut assembly);
+                assert_eq!(requests() - before, 0, "{roots:?}, arm {index}, pose {k}");
+                solutions += assembly.modes.len();
+            }
+        }
+        assert!(solutions >= 200, "{roots:?}: {solutions}");
+    }
+}
+
+#[test]
+fn solving_a_platform_for_leg_after_leg_allocates_nothing() {
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let (mut workspace, mut assembly) = (PlatformWorkspace::default(), PlatformAssembly::default());
+    for (trial, flat) in [false, false, false, true].into_iter().enumerate() {
+        let mut points = || -> [[f64; 3]; 6] {
+            std::array::from_fn(|_| {
+                std::array::from_fn(|k| if flat && k == 2 { 0.0 } else { random.random_range(-1.0..1.0) })
+            })
+        };
+        let solver = PlatformSolver::prepare(&Platform { base: points(), plate: points() });
+        for round in 0..10 {
+            let legs = std::array::from_fn(|_| random.random_range(1.0..4.0));
+            let before = requests();
+            solver.solve(&legs, if round % 3 == 2 { Roots::Real } else { Roots::All }, &mut workspace, &mut assembly);
+            // The list of modes grows to its size once.
+            assert!(requests() == before || (trial, round) == (0, 0), "platform {trial}, legs {round}");
+        }
+    }
+}
+
+#[test]
+fn special_platforms_allocate_no_more() {
+    let mut random = ChaCha8Rng::seed_from_u64(9);
+    let (mut workspace, mut assembly) = (PlatformWorkspace::default(), PlatformAssembly::default());
+    let base: [[f64; 3]; 6] = std::array::from_fn(|_| std::array::from_fn(|_| random.random_range(-1.0..1.0)));
+    // The plate similar to the base: a homotopy; plate points that coincide in pairs: two resultants.
+    let paired: [[f64; 3]; 6] = std::array::from_fn(|k| base[k / 2]);
+    for (trial, plate) in [base.map(|p| p.map(|x| 0.75 * x)), paired].into_iter().enumerate() {
+        let solver = PlatformSolver::prepare(&Platform { base, plate });
+        for round in 0..3 {
+            let legs = std::array::from_fn(|_| random.random_range(1.0..4.0));
+            let before = requests();
+            solver.solve(&legs, if round == 2 { Roots::Real } else { Roots::All }, &mut workspace, &mut assembly);
+            assert!(requests() == before || (trial, round) == (0, 0), "platform {trial}, legs {round}");
+        }
+    }
+}
+
+#[test]
+fn no_chain_allocates_once_the_list_of_modes_has_its_size() {
+    for (index, (name, count)) in CHAINS.into_iter().enumerate() {
+        // A draw whose complex solutions f64 can prove: of others the rounding of the constants leaves some open.
+        let drawn = sample(Set::Chain(index), 6, 0).unwrap();
+        let layout = Layout::of(&drawn.chain, None).unwrap();
+        let open: OpenLoop<f64> = drawn.chain.open_loop(&layout).unwrap();
+        let solver = match layout.ball_unknown() {
+            Some(ball) => Solver::with_ball(&open, ball),
+            None => Solver::prepare(&open),
+        };
+        let filling = drawn.chain.forward::<f64>(&motions(&drawn.variables, &drawn.planted)).unwrap().inverse();
+        for roots in [Roots::Real, Roots::All] {
+            let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+            solver.solve(&filling, Roots::All, &mut workspace, &mut assembly);
+            assert_eq!(assembly.total(), count, "{name}");
+            let before = requests();
+            solver.solve(&filling, roots, &mut workspace, &mut assembly);
+            assert_eq!(requests() - before, 0, "{name}, {roots:?}");
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! Synthesis: counts, claims, degenerate positions, and the linkages that come out.
+#![allow(clippy::unwrap_used)]
+
+use looproot::internal::catalogue::{Any, Format, Options, SynthesisFile, any_from_text, moving_names};
+use looproot::internal::claims::judge_any;
+use looproot::internal::error::Error;
+use looproot::internal::synthesis::{Answer, synthesize};
+use looproot::internal::verdict::{Proof, Status};
+
+fn read(text: &str) -> Result<Box<SynthesisFile>, Error> {
+    match any_from_text(text, "test.toml", Format::Toml, &Options::default())? {
+        Any::Synthesis(file) => Ok(file),
+        _ => panic!("a synthesis"),
+    }
+}
+
+/// A synthesis in the plane: tangent of half the angle, x and y of each position.
+fn plane(dyad: &str, positions: &[[&str; 3]]) -> Answer {
+    let mut text =
+        format!("[mechanism]\nkind = \"synthesis\"\nspace = \"plane\"\ntask = \"motion\"\ndyad = \"{dyad}\"\n");
+    for [angle, x, y] in positions {
+        text += &format!("[[position]]\ntan_half = \"{angle}\"\nposition = [{x}, {y}]\n");
+    }
+    synthesize(&read(&text).unwrap())
+}
+
+/// A synthesis in space: quaternion and position of each.
+fn space(dyad: &str, positions: &[[i32; 7]]) -> Answer {
+    let mut text =
+        format!("[mechanism]\nkind = \"synthesis\"\nspace = \"space\"\ntask = \"motion\"\ndyad = \"{dyad}\"\n");
+    for p in positions {
+        text += &format!("[[position]]\nquaternion = {:?}\nposition = {:?}\n", &p[..4], &p[4..]);
+    }
+    synthesize(&read(&text).unwrap())
+}
+
+#[test]
+fn every_entry_is_as_it_claims() {
+    let names: Vec<String> = moving_names().into_iter().filter(|name| name.starts_with("synthesis/")).collect();
+    assert!(names.len() >= 11, "{names:?}");
+    for name in names {
+        let any = looproot::internal::catalogue::builtin_any(&name, &Options::default()).unwrap();
+        let judgement = judge_any(&any).unwrap();
+        assert!(!judgement.findings.is_empty(), "{name}");
+        let failures: Vec<&str> = judgement.failures().map(|failure| failure.message.as_str()).collect();
+        assert!(failures.is_empty(), "{name}: {failures:?}");
+    }
+}
+
+#[test]
+fn fewer_positions_leave_a_family_and_more_leave_nothing() {
+    let positions = [
+        ["0", "-7", "2"],
+        ["1/2", "5", "-3"],
+        ["-2", "0", "4"],
+        ["3", "1", "-8"],
+        ["-1/3", "6", "6"],
+        ["5/4", "-2", "9"],
+    ];
+    for (dyad, free) in [("RR", 4), ("PR", 3), ("RP", 3)] {
+        for count in 2..=6 {
+            let answer = plane(dyad, &positions[..count]);
+            let verdict = &answer.verdict;
+            assert_eq!(verdict.proof, Proof::Proved);
+            if count <= free {
+                assert_eq!(
+                    (verdict.status, verdict.self_motion),
+                    (Status::SelfMotion, free + 1 - count),
+                    "{dyad} {count}"
+                );
+                assert!(answer.families[0].sample.is_some());
+            } else {
+                let expected = if count > free + 1 {
+                    0
+                } else if dyad == "RR" {
+                    4
+                } else {
+                    1
+                };
+                assert_eq!((verdict.self_motion, verdict.complex), (0, expected), "{dyad} {count}");
+            }
+        }
+    }
+}
+
+/// The point of the body and the point of the ground of a real dyad have one distance in all positions.
+#[test]
+fn dyads_take_their_positions() {
+    let positions = [["0", "0", "0"], ["6", "-5", "-5"], ["-1", "5", "6"], ["1", "-2", "3"], ["-4/5", "-6", "3"]];
+    let answer = plane("RR", &positions);
+    assert_eq!((answer.verdict.complex, answer.verdict.real), (4, 4));
+    for mode in &answer.modes {
+        assert!(mode.is_certified() && mode.dyad.radius < 1e-14);
+        let (fixed, moving, length) = (mode.dyad.real("fixed"), mode.dyad.real("moving"), mode.dyad.real("length")[0]);
+        for [angle, x, y] in positions {
+            let parts: Vec<f64> = angle.split('/').map(|part| part.parse().unwrap()).collect();
+            let (sin, cos) = (2.0 * (parts[0] / parts.get(1).unwrap_or(&1.0)).atan()).sin_cos();
+            let [x, y] = [x, y].map(|text: &str| text.parse::<f64>().unwrap());
+            let at = [x + cos * moving[0] - sin * moving[1], y + sin * moving[0] + cos * moving[1]];
+            assert!(((at[0] - fixed[0]).hypot(at[1] - fixed[1]) - length).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn special_positions_are_answers_with_a_dimension() {
+    // Two equal positions: four different ones are left, and their curve.
+    let equal = plane("RR", &[["0", "0", "0"], ["1", "2", "3"], ["1", "2", "3"], ["2", "-1", "4"], ["-1/2", "3", "3"]]);
+    assert_eq!((equal.verdict.status, equal.verdict.self_motion), (Status::SelfMotion, 1));
+    assert!(equal.warnings[0].contains("equal"));
+    // Three translations: the links are parallel to one another, and every point of the body has one.
+    let moved = plane("RR", &[["0", "0", "0"], ["0", "1", "2"], ["0", "3", "-1"]]);
+    assert_eq!(moved.verdict.self_motion, 2);
+    // Four translations in general: no circle goes through four points that are not on one.
+    let none = plane("RR", &[["0", "0", "0"], ["0", "1", "2"], ["0", "3", "-1"], ["0", "4", "4"]]);
+    assert_eq!((none.verdict.status, none.verdict.complex), (Status::Unreachable, 0));
+    // Rotations about one point: every point of the body is on a circle about it.
+    let about = plane("RR", &[["0", "0", "0"], ["1", "0", "0"], ["2", "0", "0"], ["3", "0", "0"], ["-1", "0", "0"]]);
+    assert_eq!((about.verdict.status, about.verdict.self_motion), (Status::SelfMotion, 2));
+    assert!(about.warnings[0].contains("rotations about one point"));
+}
+
+#[test]
+fn seven_positions_of_points_on_planes_have_none_and_six_have_ten() {
+    let positions = [
+        [1, 0, 0, 0, 0, 0, 0],
+        [-5, 9, -7, -1, 6, -2, -6],
+        [-6, 6, 5, 6, 6, -5, -1],
+        [3, -3, -6, 6, 1, 3, -2],
+        [-9, 3, 4, -9, -1, -4, 1],
+        [2, 1, -3, 4, 5, 5, -2],
+        [1, 1, 2, -2, 0, 7, 3],
+    ];
+    let six = space("PPS", &positions[..6]);
+    assert_eq!((six.verdict.complex, six.verdict.proof, six.verdict.certified), (10, Proof::Proved, 10));
+    let seven = space("PPS", &positions);
+    assert_eq!((seven.verdict.complex, seven.verdict.status), (0, Status::Unreachable));
+}
+
+#[test]
+fn irrational_angles_are_rounded_data() {
+    let text = "[mechanism]\nkind = \"synthesis\"\nspace = \"plane\"\ntask = \"function\"\n\
+                [[pair]]\ninput = \"0 deg\"\noutput = \"0 deg\"\n[[pair]]\ninput = \"30 deg\"\noutput = \"20 deg\"\n\
+                [[pair]]\ninput = \"60 deg\"\noutput = \"35 deg\"\n[[pair]]\ninput = \"90 deg\"\noutput = { angle = \"55 deg\" }\n\
+                [[pair]]\ninput = \"120 deg\"\noutput = \"70 deg\"\n";
+    let answer = synthesize(&read(text).unwrap());
+    assert_eq!((answer.verdict.complex, answer.verdict.proof), (3, Proof::RoundedData));
+}
+
+#[test]
+fn faults_name_line_and_expectation() {
+    let head = "[mechanism]\nkind = \"synthesis\"\nspace = \"plane\"\ntask = \"motion\"\ndyad = \"RR\"\n";
+    let position = "[[position]]\nangle = 0\nposition = [0, 0]\n";
+    for (text, line, words) in [
+        (format!("{head}{position}"), 6, "expected 2 to 20"),
+        (format!("{head}{position}[[position]]\nposition = [1, 2]\n"), 9, "found neither of `angle` and `tan_half`"),
+        (format!("{head}{position}[[position]]\nangle = 1\nposition = [1, 2, 3]\n"), 11, "a list of 2"),
+        (format!("{head}{position}{position}[[pair]]\ninput = 0\noutput = 0\n"), 12, "expected [[position]]"),
+        (head.replace("RR", "SS") + position + position, 5, "expected one of RR, PR, RP"),
+        (head.replace("plane", "flat") + position + position, 3, "expected one of plane, sphere, space"),
+        (head.replace("dyad = \"RR\"\n", "") + position + position, 1, "found no `dyad`"),
+    ] {
+        let Err(Error::File { line: found, message, .. }) = read(&text) else { panic!("{text}") };
+        assert!(message.contains(words), "{message}");
+        assert_eq!(found, line, "{message}");
+    }
+    let path = head.replace("motion", "path") + "[[point]]\nat = [1, 2]\n";
+    assert!(matches!(read(&path), Err(Error::Unsupported(_))));
+}

@@ -1,0 +1,134 @@
+//! The verbs `instant` and `dynamics` on the library: figures that were found by hand or with 60 digits.
+#![allow(clippy::unwrap_used)]
+
+use serde_json::Value;
+use std::process::{Command, Stdio};
+
+fn run(arguments: &[&str], code: i32) -> Value {
+    let output = Command::new(env!("CARGO_BIN_EXE_looproot"))
+        .args(arguments)
+        .arg("--json")
+        .current_dir(crate::ROOT)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let fault = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{fault}");
+    serde_json::from_slice(&output.stdout).unwrap_or(Value::String(fault))
+}
+
+fn near(value: &Value, expected: f64) {
+    let found = value.as_f64().unwrap();
+    assert!((found - expected).abs() < 1e-9 * expected.abs().max(1.0), "{found} is not {expected}");
+}
+
+/// The four-bar of the case, in the assembly whose coupler stands higher, against figures of 20 digits.
+#[test]
+fn the_coupler_moves_as_differentiation_says() {
+    let document = run(&["instant", "linkage/weighted_four_bar", "--body", "coupler"], 0);
+    let modes = document["results"][0]["modes"].as_array().unwrap();
+    let mode = modes.iter().find(|mode| mode["bodies"]["coupler"]["angle"].as_f64().unwrap() > 0.0).unwrap();
+    let instant = &mode["instant"];
+    let pairs = [
+        ("pole", [5.286_872_718_720_292, 7.049_163_624_960_39]),
+        ("inflection_pole", [-32.331_224_156_675_31, -2.249_027_401_625_795_6]),
+        ("a3", [263.028_384_115_206_1, 115.828_665_464_164_55]),
+        ("ball", [2.606_321_256_731_716, 13.136_267_510_333_587]),
+    ];
+    for (key, [x, y]) in pairs {
+        near(&instant[key][0], x);
+        near(&instant[key][1], y);
+    }
+    near(&instant["inflection_diameter"], 38.750_194_436_848_13);
+    // The pivots lie on the cubic of stationary curvature, and the pivots of the frame are their centres.
+    for (point, x) in [("B", 0.0), ("C", 6.0)] {
+        assert_eq!(instant["points"][point]["stationary"], 0.0);
+        near(&instant["points"][point]["centre"][0], x);
+    }
+}
+
+#[test]
+fn poles_of_three_bodies_lie_in_a_line() {
+    let document = run(&["instant", "linkage/coupler_instant", "--body", "coupler"], 0);
+    for mode in document["results"][0]["modes"].as_array().unwrap() {
+        let poles = &mode["instant"]["poles"];
+        let pole = |name: &str| [0, 1].map(|k| poles[name][k].as_f64().unwrap());
+        for triple in [
+            ["frame crank", "crank coupler", "frame coupler"],
+            ["frame rocker", "coupler rocker", "frame coupler"],
+            ["frame crank", "crank rocker", "frame rocker"],
+            ["crank coupler", "coupler rocker", "crank rocker"],
+        ] {
+            let [[ax, ay], [bx, by], [cx, cy]] = triple.map(pole);
+            assert!(((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).abs() < 1e-9, "{triple:?}");
+        }
+    }
+}
+
+#[test]
+fn the_inverse_motion_has_the_same_pole_and_the_opposite_inflection_circle() {
+    let of = |more: &[&str]| {
+        let own = [&["instant", "linkage/involute_flanks", "--body", "wheel", "--against", "pinion"], more].concat();
+        run(&own, 0)["results"][0]["modes"][0]["instant"].clone()
+    };
+    let (motion, inverse) = (of(&[]), of(&["--inverse"]));
+    near(&inverse["rate"], -motion["rate"].as_f64().unwrap());
+    near(&inverse["inflection_diameter"], motion["inflection_diameter"].as_f64().unwrap());
+}
+
+#[test]
+fn reduced_inertia_and_accelerations_are_those_of_sixty_digits() {
+    let document = run(&["dynamics", "linkage/weighted_four_bar", "--rate", "2"], 0);
+    let mode = &document["results"][0]["modes"][1]["dynamics"];
+    near(&mode["reduced_inertia"], 5.407_113_165_271_28);
+    near(&mode["reduced_inertia_derivative"], 7.074_210_225_42);
+    near(&mode["potential_derivative"], 17.463_634_063_700_9);
+    near(&mode["acceleration"], -5.846_383_004_81);
+}
+
+#[test]
+fn forces_in_a_double_pendulum_are_those_of_newton() {
+    let document = run(&["dynamics", "linkage/double_pendulum", "--rate", "1, 2", "--forces"], 0);
+    let mode = &document["results"][0]["modes"][0]["dynamics"];
+    for (joint, [x, y]) in [("A", [-2.0, 0.0]), ("B", [0.0, -6.0])] {
+        near(&mode["joints"][joint]["force"][0], x);
+        near(&mode["joints"][joint]["force"][1], y);
+    }
+    for (k, acceleration) in [-7.0, 6.0].into_iter().enumerate() {
+        near(&mode["acceleration"][k], acceleration);
+    }
+}
+
+#[test]
+fn velocities_in_a_tree_are_the_same_by_paths_and_by_recursion() {
+    let document = run(&["dynamics", "linkage/branched_tree", "--rate", "1, 2, 3"], 0);
+    let tree = &document["results"][0]["modes"][0]["dynamics"]["tree"];
+    for body in ["arm", "fork", "slider"] {
+        let (path, step) = (&tree["explicit"][body], &tree["recursive"][body]);
+        near(&path["rate"], step["rate"].as_f64().unwrap());
+        for k in 0..2 {
+            near(&path["velocity"][k], step["velocity"][k].as_f64().unwrap());
+        }
+    }
+}
+
+#[test]
+fn a_motion_keeps_its_energy() {
+    for (name, time) in [("linkage/double_pendulum", "1"), ("linkage/weighted_four_bar", "1")] {
+        let document = run(&["dynamics", name, "--time", time, "--steps", "20"], 2);
+        let motion = &document["results"][0]["motion"];
+        assert_eq!(motion["rows"].as_array().unwrap().len(), 21);
+        let drift = motion["energy_drift"].as_f64().unwrap();
+        assert!(drift < 1e-6, "{name}: {drift}");
+    }
+}
+
+#[test]
+fn limits_and_wrong_words_are_answers() {
+    let message = |arguments: &[&str]| run(arguments, 1).as_str().unwrap().to_owned();
+    assert!(message(&["instant", "linkage/coupler_instant", "--body", "nobody"]).contains("unknown body"));
+    let point = ["instant", "linkage/coupler_instant", "--body", "coupler", "--point", "crank.A"];
+    assert!(message(&point).contains("coupler.B"));
+    assert!(message(&["dynamics", "linkage/coupler_instant"]).contains("mass"));
+    assert!(message(&["dynamics", "linkage/weighted_four_bar", "--rate", "x"]).contains("--rate"));
+}

@@ -1,0 +1,21 @@
+//! The tests that run the program.
+
+mod book;
+mod cli;
+mod conditions;
+mod conditions_search;
+mod derive;
+mod foreign;
+mod framework;
+mod instant;
+mod mobility;
+mod mobility_verb;
+mod motion;
+mod poly;
+mod robots;
+mod scene;
+mod sweep;
+mod view;
+
+/// The folder of the project: the program is a crate below it.
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
