@@ -45,4 +45,12 @@ use internal::{
     sweep, synthesis, verdict,
 };
 
-pub use face::{Arm, Loop, Platform};
+pub use error::{Error, Result};
+pub use face::{Arm, Convention, DhRow, Loop, Matrix, Platform, ScrewRow, Workspace, conditions, mobility, verify};
+pub use kinematics::chain::JointKind;
+pub use kinematics::joint::Variable;
+pub use kinematics::velocity::Velocity;
+pub use mechanism::{ArmAnswer, Family, FullMode, PlatformAnswer, PlatformMode, PoseError, Solution};
+pub use scene::Pose;
+pub use sweep::Range;
+pub use verdict::{Code, Proof, Status, Verdict};

@@ -4,7 +4,8 @@ use super::forward::Forward;
 use super::model::Model;
 use super::pose::{Matrix, matrix, placement};
 use crate::algebra::number::{Angle, Number, Reading};
-use crate::assembly::{Assembly, Roots, Workspace};
+use super::workspace::Workspace;
+use crate::assembly::Roots;
 use crate::catalogue::entry::{Case, Design, Kind};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
@@ -12,6 +13,7 @@ use crate::mechanism::Solution;
 use crate::report::document;
 use crate::scene::{Pose, Stage};
 use rayon::prelude::*;
+use serde_json::Value;
 
 /// How rows of four numbers describe links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,9 +50,10 @@ pub struct ScrewRow {
     pub point: [f64; 3],
 }
 
-/// An arm.
+/// A robot arm, prepared when it is first solved. Threads share it.
 pub struct Arm {
     /// What it is made of.
+    #[doc(hidden)]
     pub model: Model,
     forward: Forward,
     stage: Option<Stage>,
@@ -75,6 +78,7 @@ impl Arm {
     ///
     /// # Errors
     /// For what is no arm, and for arms that are not solved.
+    #[doc(hidden)]
     pub fn new(mut model: Model) -> Result<Self> {
         let is_bare = model.entry.cases.is_empty();
         if is_bare {
@@ -238,6 +242,7 @@ impl Arm {
     ///
     /// # Errors
     /// For a matrix that is no pose.
+    #[doc(hidden)]
     pub fn case(&self, pose: &Matrix) -> Result<Case> {
         let (placement, noted) = placement(pose)?;
         let mut case = Case::at(placement, 1);
@@ -245,42 +250,57 @@ impl Arm {
         Ok(case)
     }
 
-    /// Every joint position that reaches a pose; only real ones are listed.
+    /// Returns every joint position that reaches a pose, the real ones only, with the verdict on their list. The geometry is prepared by the
+    /// first call and kept.
     ///
     /// # Errors
     /// For a matrix that is no pose. A pose out of reach is an answer.
     pub fn ik(&self, pose: &Matrix) -> Result<Solution> {
-        let mut memory = Memory::default();
-        self.ik_with(pose, &mut memory)
+        self.ik_with(pose, &mut Workspace::default())
     }
 
-    fn ik_with(&self, pose: &Matrix, memory: &mut Memory) -> Result<Solution> {
+    /// Solves as [`Arm::ik`] does, in memory that is kept from pose to pose: a thread that solves many poses has one workspace.
+    ///
+    /// # Errors
+    /// As [`Arm::ik`].
+    pub fn ik_with(&self, pose: &Matrix, workspace: &mut Workspace) -> Result<Solution> {
         let case = self.case(pose)?;
-        memory.workspace.only_real_list = true;
+        workspace.solver.only_real_list = true;
         let mechanism = self.model.mechanism()?;
-        let mut solution = mechanism.solve(&case, Roots::All, &mut memory.workspace, &mut memory.assembly)?;
+        let mut solution = mechanism.solve(&case, Roots::All, &mut workspace.solver, &mut workspace.assembly)?;
         solution.modes.retain(|mode| mode.real);
         Ok(solution)
+    }
+
+    /// Returns what `looproot derive --json` prints of a pose: the closure equations and the exact closure polynomial
+    /// (`equations/derivation.schema.json`).
+    ///
+    /// # Errors
+    /// For a matrix that is no pose, and for arms whose closure polynomial is beyond `derive`.
+    pub fn derive(&self, pose: &Matrix) -> Result<Value> {
+        self.model.derive(&self.case(pose)?)
+    }
+
+    /// Returns the certificate of the answer to a pose, which [`crate::verify`] and `verify/verify.py` check.
+    ///
+    /// # Errors
+    /// For a matrix that is no pose, and [`Error::Unsupported`] with the reason for an answer of which there is no certificate.
+    pub fn certificate(&self, pose: &Matrix) -> Result<Value> {
+        self.model.certificate(&self.case(pose)?)
     }
 
     /// The same for many poses on all threads; a bad pose does not stop the others.
     #[must_use]
     pub fn ik_batch(&self, poses: &[Matrix]) -> Vec<Result<Solution>> {
-        poses.par_iter().map_init(Memory::default, |memory, pose| self.ik_with(pose, memory)).collect()
+        poses.par_iter().map_init(Workspace::default, |workspace, pose| self.ik_with(pose, workspace)).collect()
     }
 
     /// The pose of a case as a matrix.
+    #[doc(hidden)]
     #[must_use]
     pub fn matrix(case: &Case) -> Option<Matrix> {
         case.pose.as_ref().map(|pose| matrix(&pose.float))
     }
-}
-
-/// What one thread needs to solve.
-#[derive(Default)]
-struct Memory {
-    workspace: Workspace,
-    assembly: Assembly,
 }
 
 #[cfg(test)]

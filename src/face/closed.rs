@@ -7,16 +7,20 @@ use crate::catalogue::entry::{Case, Design, Input, InputValue, Kind};
 use crate::error::{Error, Result};
 use crate::kinematics::joint::Variable;
 use crate::mechanism::Solution;
+use crate::sweep::Range;
+use serde_json::Value;
 
 /// A closed loop.
 pub struct Loop {
     /// What it is made of.
+    #[doc(hidden)]
     pub model: Model,
 }
 
 /// A Stewart platform.
 pub struct Platform {
     /// What it is made of.
+    #[doc(hidden)]
     pub model: Model,
 }
 
@@ -32,6 +36,7 @@ impl Loop {
     ///
     /// # Errors
     /// For what cannot be read, and for what is no loop.
+    #[doc(hidden)]
     pub fn new(model: Model) -> Result<Self> {
         if model.entry.kind() != Kind::Loop {
             return Err(Error::Invalid(format!("found {:?}, expected a loop", model.entry.kind())));
@@ -43,6 +48,14 @@ impl Loop {
             own.model.entry.cases.push(case);
         }
         Ok(own)
+    }
+
+    /// A loop of a file or of the library.
+    ///
+    /// # Errors
+    /// For what cannot be read, and for what is no loop.
+    pub fn from_file(name: &str) -> Result<Self> {
+        Self::new(Model::load(name, None, None)?)
     }
 
     /// The joint that is given, from 1, and what of it: the one of the file, else the first one.
@@ -58,6 +71,7 @@ impl Loop {
     ///
     /// # Errors
     /// For a value that is not finite.
+    #[doc(hidden)]
     pub fn case(&self, value: f64) -> Result<Case> {
         finite("the input", &[value])?;
         let (joint, variable) = self.input();
@@ -75,6 +89,40 @@ impl Loop {
     pub fn solve(&self, input: f64) -> Result<Solution> {
         self.model.solve(&self.case(input)?, false)
     }
+
+    /// Returns what `looproot sweep --json --scene` prints: all branches, circuits and limit positions while the input runs through a
+    /// range. `running` is asked now and then and stops the sweep where it says no.
+    ///
+    /// # Errors
+    /// For loops that are not solved.
+    pub fn sweep(&self, range: Range, running: impl Fn() -> bool + Sync) -> Result<Value> {
+        let (joint, variable) = self.input();
+        self.model.sweep(joint, variable, range, running)
+    }
+
+    /// Returns what `looproot derive --json` prints at this value of the input.
+    ///
+    /// # Errors
+    /// For a value that is not finite, and for loops whose closure polynomial is beyond `derive`.
+    pub fn derive(&self, input: f64) -> Result<Value> {
+        self.model.derive(&self.case(input)?)
+    }
+
+    /// Returns what `looproot mobility --json` prints.
+    ///
+    /// # Errors
+    /// For loops of which that is not known.
+    pub fn mobility(&self) -> Result<Value> {
+        self.model.mobility()
+    }
+
+    /// Returns the certificate of the answer at this value of the input, which [`crate::verify`] checks.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] with the reason for an answer of which there is no certificate.
+    pub fn certificate(&self, input: f64) -> Result<Value> {
+        self.model.certificate(&self.case(input)?)
+    }
 }
 
 impl Platform {
@@ -82,6 +130,15 @@ impl Platform {
     ///
     /// # Errors
     /// For what cannot be read, and for what is no platform.
+    pub fn from_file(name: &str) -> Result<Self> {
+        Self::new(Model::load(name, None, None)?)
+    }
+
+    /// A platform of a file or of the library.
+    ///
+    /// # Errors
+    /// For what cannot be read, and for what is no platform.
+    #[doc(hidden)]
     pub fn new(model: Model) -> Result<Self> {
         match model.entry.kind() {
             Kind::Platform => Ok(Self { model }),
@@ -105,6 +162,7 @@ impl Platform {
     ///
     /// # Errors
     /// For lengths that are negative or not finite.
+    #[doc(hidden)]
     pub fn case(&self, legs: &[f64; 6]) -> Result<Case> {
         finite("legs", legs)?;
         if let Some(at) = legs.iter().position(|leg| *leg < 0.0) {
@@ -119,6 +177,22 @@ impl Platform {
     /// For lengths that are negative or not finite.
     pub fn solve(&self, legs: &[f64; 6]) -> Result<Solution> {
         self.model.solve(&self.case(legs)?, false)
+    }
+
+    /// Returns what `looproot derive --json` prints of legs of these lengths.
+    ///
+    /// # Errors
+    /// For lengths that are negative or not finite.
+    pub fn derive(&self, legs: &[f64; 6]) -> Result<Value> {
+        self.model.derive(&self.case(legs)?)
+    }
+
+    /// Returns the certificate of the answer to legs of these lengths, which [`crate::verify`] checks.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] with the reason for an answer of which there is no certificate.
+    pub fn certificate(&self, legs: &[f64; 6]) -> Result<Value> {
+        self.model.certificate(&self.case(legs)?)
     }
 
     /// The lengths of the legs at a pose of the plate.

@@ -1,6 +1,6 @@
 //! The short way in: arms, loops and platforms by name, with numbers in and numbers out.
 //!
-//! Everything else of this crate is what these are made of. Angles are radians, lengths metres, quaternions have w first.
+//! Angles are radians, lengths metres, quaternions have w first.
 //!
 //! # Example
 //! ```
@@ -11,7 +11,7 @@
 //! let answer = arm.ik(&pose)?;
 //! assert!(answer.modes.iter().all(|mode| mode.certified));
 //! assert_eq!(answer.verdict.real, answer.modes.len());
-//! # Ok::<(), looproot::internal::error::Error>(())
+//! # Ok::<(), looproot::Error>(())
 //! ```
 
 mod arm;
@@ -19,8 +19,10 @@ mod closed;
 mod forward;
 mod model;
 mod pose;
+mod workspace;
 
 pub use arm::{Arm, Convention, DhRow, ScrewRow};
 pub use closed::{Loop, Platform};
 pub use model::{Model, conditions, mobility, verify};
 pub use pose::Matrix;
+pub use workspace::Workspace;

@@ -171,6 +171,18 @@ fn lib_declares_the_layers_in_order() {
     assert!(places.is_sorted(), "{places:?}");
 }
 
+/// What the library shows is small enough to be read: 60 to 80 names are meant.
+#[test]
+fn the_root_has_few_names_and_hides_the_rest() {
+    let text = fs::read_to_string(root().join("src/lib.rs")).unwrap();
+    assert!(text.contains("#[doc(hidden)]\n#[path = \"\"]\n#[rustfmt::skip]\npub mod internal {"), "one hidden module");
+    assert_eq!(text.lines().filter(|line| line.starts_with("pub mod ")).count(), 1);
+    let shown = text.split_once("pub use ").unwrap().1;
+    let names =
+        shown.split([',', '{', ';']).filter(|name| !name.trim().is_empty() && !name.trim().ends_with('}')).count();
+    assert!((20..=80).contains(&names), "{names}");
+}
+
 #[test]
 fn one_file_names_the_eigenvalue_library() {
     for (path, text) in all_sources() {

@@ -8,6 +8,7 @@ mod certificate;
 mod chains;
 mod entries;
 mod exact;
+mod examples;
 mod families;
 mod files;
 mod golden;
