@@ -5,6 +5,7 @@ pub mod agreement;
 pub mod framework;
 pub mod mobility;
 pub mod platform;
+pub mod published;
 pub mod sample;
 pub mod speed;
 pub mod speed_loops;

@@ -4,6 +4,7 @@
 mod degenerate;
 mod platforms;
 mod primes;
+mod published;
 mod rescued;
 mod verdicts;
 

@@ -731,6 +731,8 @@ pub enum Measure {
     Accuracy(AccuracyOptions),
     /// Overconstrained loops with a small error in one link: none of them may be called mobile
     Mobility(DisturbOptions),
+    /// The answers of any solver to problems of `bench accuracy --export`: found, lost, spurious, errors, times
+    Score(ScoreOptions),
     /// Times on one core beside faer's eigenvalues of one 16 x 16 or 40 x 40 matrix
     Speed(SpeedOptions),
 }
@@ -739,9 +741,13 @@ pub enum Measure {
 #[derive(Args)]
 pub struct AccuracyOptions {
     /// general, structured, near-singular, badly-scaled or calibrated arms; loops or special-loops of all residual
-    /// chains; platform, platform-planar-base, platform-near-planar, platform-6-3 ... (all names: --set help)
+    /// chains; platform, platform-planar-base, platform-near-planar, platform-6-3 ... (all names: --set help). With
+    /// --export several of them, with commas between, robots, or all
     #[arg(long, default_value = "general")]
     pub set: String,
+    /// Writes the problems with all their solutions, for other solvers, and measures nothing: docs/benchmark.md
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["real", "exact", "json"])]
+    pub export: Option<PathBuf>,
     /// Number of arms or platforms, or of loops per chain
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub count: u64,
@@ -760,6 +766,25 @@ pub struct AccuracyOptions {
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
+}
+
+/// `looproot bench score`
+#[derive(Args)]
+pub struct ScoreOptions {
+    /// Answers of a solver, in the format of docs/benchmark.md
+    pub answers: PathBuf,
+    /// The problems, if not those that the answers name
+    #[arg(long, value_name = "FILE")]
+    pub problems: Option<PathBuf>,
+    /// Writes histograms of errors and times into this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub svg: Option<PathBuf>,
+    /// Writes the histograms and a LaTeX table into this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub paper: Option<PathBuf>,
+    /// A JSON document
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `looproot bench mobility`

@@ -3,6 +3,7 @@
 use super::arguments::{AccuracyOptions, BenchOptions, DisturbOptions, Measure, SpeedOptions};
 use super::exit::{Exit, Fault};
 use super::output::{pool, print};
+use super::score;
 use super::solve::stop_on_interrupt;
 use indicatif::{ProgressBar, ProgressStyle};
 use looproot::internal::assembly::Roots;
@@ -31,19 +32,20 @@ pub fn run(options: &BenchOptions) -> Result<Exit, Fault> {
     match &options.measure {
         Measure::Accuracy(options) => measure_accuracy(options),
         Measure::Mobility(options) => measure_mobility(options),
+        Measure::Score(options) => score::run(options),
         Measure::Speed(options) => measure_speed(options),
     }
 }
 
 /// A set by its name.
 #[derive(Clone, Copy)]
-enum Family {
+pub(super) enum Family {
     Arms(Set),
     Platforms(PlatformSet),
 }
 
 /// The sets that a name stands for: one, or one for each residual chain.
-fn families(name: &str) -> Result<Vec<(&'static str, Family)>, Error> {
+pub(super) fn families(name: &str) -> Result<Vec<(&'static str, Family)>, Error> {
     let chains = |set: fn(usize) -> Set| (0..CHAINS.len()).map(|k| (CHAINS[k].0, Family::Arms(set(k)))).collect();
     match name {
         "loops" => return Ok(chains(Set::Chain)),
@@ -60,6 +62,9 @@ fn families(name: &str) -> Result<Vec<(&'static str, Family)>, Error> {
 }
 
 fn measure_accuracy(options: &AccuracyOptions) -> Result<Exit, Fault> {
+    if let Some(path) = &options.export {
+        return score::export(options, path);
+    }
     let families = families(&options.set)?;
     let is_loop = |(_, family): &(_, Family)| matches!(family, Family::Arms(Set::Chain(_) | Set::SpecialChain(_)));
     if options.exact && !families.iter().all(is_loop) {

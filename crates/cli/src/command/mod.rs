@@ -28,6 +28,7 @@ pub mod order;
 pub mod output;
 pub mod poly;
 pub mod rows;
+pub mod score;
 pub mod seed;
 pub mod show;
 pub mod solve;

@@ -1,0 +1,98 @@
+//! Answers of a solver as lines of JSON.
+
+use super::problem::{Problems, check_format, numbers, object, wrong};
+use crate::error::{Error, Result};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// What the first line of a file of answers says.
+pub const ANSWERS: &str = "looproot-answers";
+
+/// What a solver says to one problem.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Answer {
+    /// Its solutions, each in the unknowns of the problem.
+    pub solutions: Vec<Vec<f64>>,
+    /// Which of them it certifies; none where it says nothing.
+    pub certified: Vec<bool>,
+    /// How long it took, seconds.
+    pub seconds: Option<f64>,
+}
+
+/// A file of answers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answers {
+    /// The name and version of the solver.
+    pub solver: String,
+    /// The file of problems, as the answers name it.
+    pub problems: Option<String>,
+    /// The hash of the problems.
+    pub hash: String,
+    lines: Vec<(usize, Value)>,
+}
+
+impl Answers {
+    /// Reads a file of answers; [`Answers::to`] reads the solutions.
+    ///
+    /// # Errors
+    /// With the line, for what is not as docs/benchmark.md says.
+    pub fn read(text: &str) -> Result<Self> {
+        let mut lines = text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, l)| !l.trim().is_empty());
+        let Some((1, first)) = lines.next() else {
+            return Err(Error::Invalid("line 1: found nothing, expected the first line of answers".to_owned()));
+        };
+        let head = object(1, first)?;
+        check_format(&head, ANSWERS)?;
+        let text = |key: &str| head[key].as_str().map(str::to_owned);
+        let solver = text("solver").ok_or_else(|| wrong(1, "`solver`", "a text"))?;
+        let hash = text("hash").ok_or_else(|| wrong(1, "`hash`", "a text"))?;
+        let lines = lines.map(|(at, line)| Ok((at, object(at, line)?))).collect::<Result<_>>()?;
+        Ok(Self { solver, problems: text("problems"), hash, lines })
+    }
+
+    /// The answer to each problem, in the order of the problems; none where there is no line for it.
+    ///
+    /// # Errors
+    /// With the line, for an answer to no problem or a second one, and for a solution with another number of unknowns.
+    pub fn to(&self, problems: &Problems) -> Result<Vec<Option<Answer>>> {
+        if self.hash != problems.hash {
+            let (own, other) = (&self.hash, &problems.hash);
+            return Err(Error::Invalid(format!("line 1: found answers to the problems {own}, expected {other}")));
+        }
+        let place: BTreeMap<&str, usize> =
+            problems.problems.iter().enumerate().map(|(at, problem)| (problem.id.as_str(), at)).collect();
+        let mut answers = vec![None; problems.problems.len()];
+        for (line, value) in &self.lines {
+            let id = value["id"].as_str().unwrap_or_default();
+            let Some(at) = place.get(id) else { return Err(wrong(*line, &format!("the id `{id}`"), "of a problem")) };
+            if answers[*at].is_some() {
+                return Err(wrong(*line, &format!("the id `{id}`"), "there once"));
+            }
+            answers[*at] = Some(Answer::read(value, *line, problems.problems[*at].body.unknowns())?);
+        }
+        Ok(answers)
+    }
+}
+
+impl Answer {
+    fn read(value: &Value, line: usize, unknowns: usize) -> Result<Self> {
+        let list = value["solutions"].as_array().ok_or_else(|| wrong(line, "`solutions`", "a list"))?;
+        let solutions = list.iter().map(|q| numbers(line, q, "solutions")).collect::<Result<Vec<_>>>()?;
+        if solutions.iter().any(|q| q.len() != unknowns) {
+            return Err(wrong(line, "a solution", &format!("of {unknowns} numbers")));
+        }
+        let certified: Option<Vec<bool>> = match &value["certified"] {
+            Value::Null => Some(Vec::new()),
+            Value::Bool(all) => Some(vec![*all; solutions.len()]),
+            Value::Array(each) => each.iter().map(Value::as_bool).collect(),
+            _ => None,
+        };
+        let certified = certified.filter(|each| each.is_empty() || each.len() == solutions.len());
+        let certified = certified.ok_or_else(|| wrong(line, "`certified`", "true or false, for each solution"))?;
+        let seconds = match &value["seconds"] {
+            Value::Null => None,
+            other => Some(other.as_f64().ok_or_else(|| wrong(line, "`seconds`", "a number"))?),
+        };
+        Ok(Self { solutions, certified, seconds })
+    }
+}

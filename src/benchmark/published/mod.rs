@@ -1,0 +1,12 @@
+//! A benchmark that others can publish against: problems with their exact truth as a file, answers of any solver as a file, and
+//! their score. docs/benchmark.md has both formats.
+
+mod answers;
+mod export;
+mod problem;
+mod score;
+
+pub use answers::{ANSWERS, Answer, Answers};
+pub use export::{Drawn, of_arm, of_platform, of_robot};
+pub use problem::{Axis, Body, PROBLEMS, Problem, Problems, Truth, VERSION, hash, header};
+pub use score::{BACKWARD, Errors, MULTIPLE, Score, Tally, score};
