@@ -1,5 +1,6 @@
 """Proofs that no solution is missing: each is an upper bound on the number of isolated solutions that the modes meet."""
 from chains import inverse
+from eliminants import eliminant
 from quantities import Refused, Unreadable, count, fields
 
 
@@ -10,15 +11,16 @@ def check_proof(system, modes, proof):
     kind = item.get("kind") if isinstance(item, dict) else None
     if kind not in KINDS:
         raise Unreadable(f"proof: found the kind {str(kind)[:40]!r}, expected one of {', '.join(KINDS)}")
-    bound, (_, value) = KINDS[kind](system), fields(item, ("kind", "value"))
-    if bound is None or count(value) != bound:
-        raise Refused(f"proof: {kind}: the value is {value}, where the bound is {bound or 'not known'}")
+    bound, value = KINDS[kind](system, item), count(fields(item, ("kind", "value"), ("aid",))[1])
+    if bound is None or value != bound:
+        raise Refused(f"proof: {kind}: the value is {value}, where the bound is {'not known' if bound is None else bound}")
     if len(modes) != bound:
         raise Refused(f"proof: {kind}: at most {bound} solutions, and {len(modes)} modes are proved")
 
 
-def general(system):
+def general(system, item):
     """Theorem 2: what mechanisms of this kind can have at all."""
+    fields(item, ("kind", "value"))
     letters, slides = system.letters, system.letters.count("P")
     if letters == "platform":
         return 40
@@ -27,8 +29,9 @@ def general(system):
     return {0: 4, 1: 4, 2: 2, 3: 1}.get(slides) if letters.count("S") == 1 and len(letters) == 4 else None
 
 
-def geometry(system):
+def geometry(system, item):
     """Theorem 3: what the incidences of axes or points allow."""
+    fields(item, ("kind", "value"))
     if system.letters == "platform":
         return 16 if system.exact and any(map(three_meet, system.exact)) or system.exact and any(map(in_pairs, system.exact)) else None
     return min(filter(None, (of_triple(system, first) for first in range(6))), default=None)
@@ -71,4 +74,4 @@ def in_pairs(points):
     return any(e != 0 for e in (y * w - z * v, z * u - x * w, x * v - y * u))
 
 
-KINDS = {"general-bound": general, "geometry-bound": geometry}
+KINDS = {"general-bound": general, "geometry-bound": geometry, "eliminant": eliminant}

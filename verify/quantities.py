@@ -16,7 +16,7 @@ class Refused(Exception):
 DECIMAL = re.compile(r"([+-]?)(\d{1,400})(?:\.(\d{1,400}))?(?:[eE]([+-]?\d{1,3}))?\Z")
 FRACTION = re.compile(r"([+-]?)(\d{1,900})/(\d{1,900})\Z")
 TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d*)?(?:[eE][+-]?\d{1,3})?|\.\d+(?:[eE][+-]?\d{1,3})?)|([a-z]+[a-z0-9]*)|([-+*/(),]))")
-HALF_TANGENT = re.compile(r"(-?)2\*atan\((\d{1,900}(?:/\d{1,900})?)\)\Z")
+HALF_TANGENT = re.compile(r"(-?)2\*atan\((\d{1,400}(?:\.\d{1,400})?|\d{1,900}/\d{1,900})\)\Z")
 RIGHT_ANGLES = {"0": (1, 0), "pi/2": (0, 1), "pi": (-1, 0), "-pi/2": (0, -1), "-pi": (-1, 0)}
 UNITS = {"deg": lambda x: x * arb.pi() / 180, "rad": lambda x: x, "m": lambda x: x, "cm": lambda x: x / 100, "mm": lambda x: x / 1000}
 

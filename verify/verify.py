@@ -15,6 +15,7 @@ try:
     from bounds import check_proof
     from chains import Chain
     from isolation import modes_of, prove_all
+    from mobility import check_mobility
     from platforms import Platform
     from quantities import Refused, Unreadable, Whole, count, fields, items
 except ImportError as error:
@@ -76,9 +77,14 @@ def check(certificate, source):
         certificate, ("format", "version", "data", "claim", "modes", "proof"), ("info",))[:6]
     if form != "looproot-certificate" or count(version) != VERSION:
         raise Unreadable(f"found format {str(form)[:40]!r}, version {str(version)[:20]}, expected looproot-certificate, version {VERSION}")
-    verb, status, word, complex_, real = fields(claim, ("verb", "status", "proof", "complex", "real"))
+    verb = claim.get("verb") if isinstance(claim, dict) else None
+    if verb == "mobility":
+        if source is not None:
+            source(data, True)
+        return check_mobility(data, claim, modes, proof)
+    _, status, word, complex_, real = fields(claim, ("verb", "status", "proof", "complex", "real"))
     if verb != "solve" or word != "proved":
-        raise Refused("claim: only proved answers of solve are covered")
+        raise Refused("claim: only proved answers of solve and mobility are covered")
     mechanism = data.get("mechanism") if isinstance(data, dict) else None
     kind = mechanism.get("kind") if isinstance(mechanism, dict) else None
     if not isinstance(mechanism, dict):
@@ -87,6 +93,8 @@ def check(certificate, source):
     if kind not in kinds:
         raise Unreadable(f"found the kind {str(kind)[:40]!r}, expected one of {', '.join(kinds)}")
     system = kinds[kind](data)
+    if system.size not in (6, 7) or kind != "platform" and system.size != 6:
+        raise Refused(f"closure: {system.size} unknowns, where this checker proves loops of six")
     if source is not None:
         source(data)
     modes = modes_of(modes, system.size)

@@ -19,11 +19,13 @@ class Verification:
     holds: bool
     """Whether every item of it holds."""
     complex: int | None
-    """The number of solutions, complex ones included; None where an item does not hold."""
+    """The number of solutions, complex ones included; None of other proofs and where an item does not hold."""
     real: int | None
-    """How many of them are real; None where an item does not hold."""
+    """How many of them are real; None of other proofs and where an item does not hold."""
     fault: str | None
     """The first item that does not hold."""
+    mobility: int | None = None
+    """Of a proof whether a loop moves: the dimension of the motion, 0 where there is none."""
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,21 @@
 //! Proofs that no solution is missing: upper bounds on the number of isolated solutions, which the modes meet.
 
 use super::chain::ChainClosure;
+use super::eliminant::{Choice, solutions_by_eliminant};
 use super::fault::{Fault, refused, unreadable};
 use super::incidence::{of_axes, of_points};
 use super::isolation::Closed;
+use super::mode::Ball;
 use super::record::{count, fields};
 use crate::kinematics::joint::Variable;
-use serde_json::Value;
+use rug::Rational;
+use serde_json::{Value, json};
 
-/// The bound that the proof of a certificate states.
-pub(super) fn bound(closed: &Closed, proof: &[Value]) -> Result<usize, Fault> {
+/// The half-angle tangents from which hidden angles are counted, one after the other, where an angle is pi.
+const SHIFTS: [(i32, i32); 2] = [(0, 1), (1, 4)];
+
+/// The bound that the proof of a certificate states; the balls are those of its modes, on which the bound does not rest.
+pub(super) fn bound(closed: &Closed, proof: &[Value], balls: &[Ball]) -> Result<usize, Fault> {
     let [item] = proof else {
         return refused(format!(
             "proof: found {} items, expected one that bounds the number of solutions",
@@ -19,18 +25,53 @@ pub(super) fn bound(closed: &Closed, proof: &[Value]) -> Result<usize, Fault> {
     let kind = item.get("kind").and_then(Value::as_str).unwrap_or_default();
     let known = match kind {
         "general-bound" => general(closed),
-        "geometry-bound" => match closed {
-            Closed::Chain(closure) => of_axes(closure),
-            Closed::Platform(closure) => of_points(closure),
-        },
+        "geometry-bound" => geometry(closed),
+        "eliminant" => {
+            let [_, _, aid] = fields(item, ["kind", "value", "aid"], &[])?;
+            let choice = Choice::read(aid)?;
+            match closed {
+                Closed::Chain(closure) => Some(solutions_by_eliminant(closure, &choice, balls)?),
+                Closed::Platform(_) => None,
+            }
+        }
         _ => return unreadable(format!("proof: found the kind `{}`", super::fault::shortened(&kind))),
     };
-    let [_, value] = fields(item, ["kind", "value"], &[])?;
+    let optional: &[&str] = if kind == "eliminant" { &["aid"] } else { &[] };
+    let [_, value] = fields(item, ["kind", "value"], optional)?;
     let stated = count(value)?;
     match known {
         Some(known) if known == stated => Ok(known),
         Some(known) => refused(format!("proof: {kind}: the value is {stated}, where the bound is {known}")),
         None => refused(format!("proof: {kind}: no such bound holds for these data")),
+    }
+}
+
+/// A proof that there are no more solutions than those in the balls; `None` where no kind of proof bounds them so.
+#[must_use]
+pub fn proof_of(closed: &Closed, balls: &[Ball]) -> Option<Value> {
+    let value = balls.len();
+    for (kind, known) in [("general-bound", general(closed)), ("geometry-bound", geometry(closed))] {
+        if known == Some(value) {
+            return Some(json!({ "kind": kind, "value": value }));
+        }
+    }
+    let Closed::Chain(closure) = closed else { return None };
+    let mut choices = choices();
+    let meets = |choice: &Choice| solutions_by_eliminant(closure, choice, balls) == Ok(value);
+    let choice = choices.find(meets)?;
+    Some(json!({ "kind": "eliminant", "value": value, "aid": choice.json() }))
+}
+
+/// All choices of an eliminant that are tried.
+pub(super) fn choices() -> impl Iterator<Item = Choice> {
+    let shifts = SHIFTS.into_iter().map(Rational::from);
+    shifts.flat_map(|shift| (0..18).map(move |k| Choice { first: k % 6, hidden: k / 6, shift: shift.clone() }))
+}
+
+fn geometry(closed: &Closed) -> Option<usize> {
+    match closed {
+        Closed::Chain(closure) => of_axes(closure),
+        Closed::Platform(closure) => of_points(closure),
     }
 }
 

@@ -2,25 +2,45 @@
 
 use super::bound::bound;
 use super::chain::ChainClosure;
-use super::data::{data_of, entry_of};
+use super::data::{data_of, data_of_loop, entry_of};
 use super::fault::{Fault, refused, shortened, unreadable};
 use super::isolation::{Closed, proved_modes};
 use super::mode::Ball;
+use super::moving::mobility;
 use super::platform::PlatformClosure;
 use super::record::Record;
-use crate::catalogue::entry::{Design, Entry};
+use crate::catalogue::Chains;
+use crate::catalogue::entry::{Case, Design, Entry};
 use serde_json::{Deserializer, Value};
+use std::fmt;
 
 /// Largest text of one certificate, bytes.
 const LARGEST: usize = 4 << 20;
 
 /// What a certificate proves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Holds {
-    /// All solutions.
-    pub complex: usize,
-    /// The real ones among them.
-    pub real: usize,
+pub enum Holds {
+    /// A complete list of solutions.
+    Solutions {
+        /// All of them.
+        complex: usize,
+        /// The real ones among them.
+        real: usize,
+    },
+    /// A closed loop moves in so many dimensions; 0 says that it does not.
+    Mobility(usize),
+}
+
+impl fmt::Display for Holds {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Solutions { complex, real } => {
+                write!(f, "{complex} solutions, {real} of them real: complete, proved")
+            }
+            Self::Mobility(0) => write!(f, "immobile, of dimension 0: proved"),
+            Self::Mobility(dimension) => write!(f, "mobile, of dimension {dimension}: proved"),
+        }
+    }
 }
 
 /// Checks one certificate; with a file, that its data are those of one case of that file, too.
@@ -29,21 +49,18 @@ pub struct Holds {
 /// [`Fault`] names the first item that does not hold, or says what cannot be read.
 pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> {
     let record = Record::read(certificate)?;
-    if record.claim.verb != "solve" || record.claim.proof != "proved" {
-        return refused("claim: only proved answers of solve are covered");
+    if !matches!(record.claim.verb.as_str(), "solve" | "mobility") || record.claim.proof != "proved" {
+        return refused("claim: only proved answers of solve and mobility are covered");
     }
-    let entry = entry_of(&record.data)?;
+    if record.claim.verb == "mobility" {
+        return of_motion(record, file).map(Holds::Mobility);
+    }
+    let entry = entry_of(&record.data, Chains::Solved)?;
     let [case] = entry.cases.as_slice() else {
         return unreadable(format!("data: found {} cases, expected one", entry.cases.len()));
     };
     let own = Value::Object(record.data);
-    match data_of(&entry, case) {
-        Ok(canonical) if canonical == own => {}
-        Ok(_) => {
-            return refused("data: the numbers are not written in the one form that docs/certificate.md gives them");
-        }
-        Err(reason) => return refused(format!("data: {reason}")),
-    }
+    check_data(data_of(&entry, case), &own)?;
     if let Some(file) = file {
         let is_own = |case| data_of(file, case).is_ok_and(|data| data == own);
         if !file.cases.iter().any(is_own) {
@@ -56,29 +73,50 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
     }
     let balls: Vec<Ball> = record.modes.into_iter().map(|mode| mode.ball).collect();
     proved_modes(&closed, &balls)?;
-    let bound = bound(&closed, &record.proof)?;
+    let bound = bound(&closed, &record.proof, &balls)?;
     let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
     if bound != complex {
         return refused(format!("proof: at most {bound} solutions, and {complex} modes are proved"));
     }
-    if record.claim.complex != complex {
-        return refused(format!("claim: complex is {}, where {complex} are proved", record.claim.complex));
-    }
-    if record.claim.real != real {
-        return refused(format!("claim: real is {}, where {real} are proved", record.claim.real));
+    if record.claim.complex != Some(complex) || record.claim.real != Some(real) {
+        return refused(format!("claim: other numbers than {complex} solutions, {real} of them real, are proved"));
     }
     if record.claim.status != if real == 0 { "unreachable" } else { "complete" } {
         let status = shortened(&record.claim.status);
         return refused(format!("claim: the status is `{status}`, where {real} real solutions are proved"));
     }
-    Ok(Holds { complex, real })
+    Ok(Holds::Solutions { complex, real })
+}
+
+/// Checks a certificate of `mobility`.
+fn of_motion(record: Record, file: Option<&Entry>) -> Result<usize, Fault> {
+    if record.data.contains_key("input") {
+        return refused("data: a loop that is asked whether it moves has no input");
+    }
+    let entry = entry_of(&record.data, Chains::Any)?;
+    let dimension = mobility(&entry, &record.data, &record.claim, record.modes, &record.proof);
+    let own = Value::Object(record.data);
+    check_data(data_of_loop(&entry), &own)?;
+    if file.is_some_and(|file| data_of_loop(file) != Ok(own)) {
+        return refused("file: the data of the certificate are not those of the file");
+    }
+    dimension
+}
+
+/// Whether data are written in their one form.
+fn check_data(canonical: Result<Value, String>, own: &Value) -> Result<(), Fault> {
+    match canonical {
+        Ok(canonical) if canonical == *own => Ok(()),
+        Ok(_) => refused("data: the numbers are not written in the one form that docs/certificate.md gives them"),
+        Err(reason) => refused(format!("data: {reason}")),
+    }
 }
 
 /// The closure equations of a case.
 ///
 /// # Errors
 /// [`Fault`] for kinds that are not covered.
-pub fn closed(entry: &Entry, case: &crate::catalogue::entry::Case) -> Result<Closed, Fault> {
+pub fn closed(entry: &Entry, case: &Case) -> Result<Closed, Fault> {
     Ok(match &entry.design {
         Design::Arm(chain) | Design::Loop(chain) => {
             let is_exact = !entry.rounded

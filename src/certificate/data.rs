@@ -3,7 +3,7 @@
 use super::fault::{Fault, refused};
 use crate::algebra::number::{Angle, Number};
 use crate::catalogue::entry::{Case, Design, Entry, InputValue, Kind};
-use crate::catalogue::{Format, Options, load_text};
+use crate::catalogue::{Chains, Format, Options, load_text};
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use rug::{Integer, Rational};
 use serde_json::{Map, Value, json};
@@ -54,15 +54,26 @@ pub fn data_of(entry: &Entry, case: &Case) -> Result<Value, String> {
     }
 }
 
-/// The mechanism that data describe.
-pub(super) fn entry_of(data: &Map<String, Value>) -> Result<Entry, Fault> {
+/// The data of a loop that is asked whether it moves: no input decides that.
+///
+/// # Errors
+/// As [`data_of`], and for other mechanisms.
+pub fn data_of_loop(entry: &Entry) -> Result<Value, String> {
+    match &entry.design {
+        Design::Loop(chain) => Ok(json!({ "mechanism": mechanism(chain, entry.kind())? })),
+        Design::Arm(_) | Design::Platform(_) => Err("only of loops it is certified whether they move".to_owned()),
+    }
+}
+
+/// The mechanism that data describe, with as many unknowns as a reader takes.
+pub(super) fn entry_of(data: &Map<String, Value>, chains: Chains) -> Result<Entry, Fault> {
     // Whatever does not decide the verdict has no place in the data: the reader knows more keys.
     let known = ["mechanism", "pose", "input"];
     if let Some(key) = data.keys().find(|key| !known.contains(&key.as_str())) {
         return refused(format!("data: the key `{}` decides nothing", super::fault::shortened(key)));
     }
     let text = Value::Object(data.clone()).to_string();
-    let entry = load_text(&text, "data", Format::Json, &Options::default());
+    let entry = load_text(&text, "data", Format::Json, &Options { chains, ..Options::default() });
     entry.map_err(|error| Fault::Unreadable(error.to_string()))
 }
 

@@ -53,6 +53,16 @@ pub enum Closed {
     Platform(Box<PlatformClosure>),
 }
 
+impl Closed {
+    /// Whether no angles stand for a rotation in two ways.
+    pub(super) fn is_without_spherical_joints(&self) -> bool {
+        match self {
+            Self::Chain(closure) => closure.spherical.is_empty(),
+            Self::Platform(_) => true,
+        }
+    }
+}
+
 fn all<const N: usize>(closure: &impl Closure<N>, balls: &[Ball]) -> Result<(), Fault> {
     for (index, ball) in balls.iter().enumerate() {
         let at = index + 1;

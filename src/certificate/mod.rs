@@ -3,24 +3,29 @@
 //! A certificate holds the data of one case as a mechanism file, the verdict claimed of it, balls around its solutions, and the
 //! proof that there are no others. The checker derives the closure equations from the data and proves each item anew.
 
+mod all_roots;
 mod bound;
 mod chain;
 mod check;
 mod data;
+mod eliminant;
 mod enclosing;
 mod fault;
 mod incidence;
 mod isolation;
 mod mode;
+mod moving;
 mod nearby;
 mod platform;
 mod record;
 mod refine;
 
+pub use bound::proof_of;
 pub use check::{Holds, check, check_all, closed};
-pub use data::data_of;
+pub use data::{data_of, data_of_loop};
 pub use fault::Fault;
 pub use isolation::{Closed, proved_modes};
 pub use mode::Ball;
+pub use moving::proof_of_motion;
 pub use record::{FORMAT, VERSION};
 pub use refine::balls;

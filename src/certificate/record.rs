@@ -29,8 +29,11 @@ pub(super) struct Claim {
     pub verb: String,
     pub status: String,
     pub proof: String,
-    pub complex: usize,
-    pub real: usize,
+    /// All solutions, and the real ones: of `solve`.
+    pub complex: Option<usize>,
+    pub real: Option<usize>,
+    /// The dimension of the motion: of `mobility`.
+    pub mobility: Option<usize>,
 }
 
 impl Record {
@@ -45,17 +48,26 @@ impl Record {
             ));
         }
         let Value::Object(data) = data else { return unreadable("found no table as `data`") };
-        let [verb, status, word, complex, real] = fields(claim, ["verb", "status", "proof", "complex", "real"], &[])?;
-        let claim = Claim {
-            verb: text(verb)?.to_owned(),
-            status: text(status)?.to_owned(),
-            proof: text(word)?.to_owned(),
-            complex: count(complex)?,
-            real: count(real)?,
-        };
+        let claim = self::claim(claim)?;
         let modes = list(modes)?.iter().map(mode).collect::<Result<_, _>>()?;
         Ok(Self { data: data.clone(), claim, modes, proof: list(proof)?.to_vec() })
     }
+}
+
+fn claim(value: &Value) -> Result<Claim, Fault> {
+    let is_mobility = value.get("verb").and_then(Value::as_str) == Some("mobility");
+    let words = |verb: &Value, status: &Value, word: &Value| {
+        Ok::<_, Fault>((text(verb)?.to_owned(), text(status)?.to_owned(), text(word)?.to_owned()))
+    };
+    if is_mobility {
+        let [verb, status, word, mobility] = fields(value, ["verb", "status", "proof", "mobility"], &[])?;
+        let (verb, status, proof) = words(verb, status, word)?;
+        return Ok(Claim { verb, status, proof, complex: None, real: None, mobility: Some(count(mobility)?) });
+    }
+    let [verb, status, word, complex, real] = fields(value, ["verb", "status", "proof", "complex", "real"], &[])?;
+    let (verb, status, proof) = words(verb, status, word)?;
+    let (complex, real) = (Some(count(complex)?), Some(count(real)?));
+    Ok(Claim { verb, status, proof, complex, real, mobility: None })
 }
 
 fn mode(value: &Value) -> Result<Unproved, Fault> {

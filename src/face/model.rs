@@ -4,7 +4,7 @@ use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::ansatz::Ansatz;
 use crate::catalogue::entry::{Case, Design, Entry, Labels};
 use crate::catalogue::{Any, Chains, Options, load, load_ansatz, load_any};
-use crate::certificate::check_all;
+use crate::certificate::{Holds, check_all};
 use crate::conditions::decide::decide;
 use crate::conditions::number_field::decide_over_field;
 use crate::conditions::{four_bar, search};
@@ -171,7 +171,7 @@ pub fn mobility(name: &str) -> Result<Value> {
 }
 
 /// Checks certificates, one a line, and compares their data with a file where one is named: a list of objects with `holds`,
-/// `complex`, `real` and `fault`.
+/// `complex`, `real`, `mobility` and `fault`.
 ///
 /// # Errors
 /// For text that is no certificate, and for a file that cannot be read.
@@ -180,8 +180,16 @@ pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
     let mut found = Vec::new();
     let read = check_all(certificates, entry.as_ref(), |_, outcome| {
         found.push(match outcome {
-            Ok(holds) => json!({ "holds": true, "complex": holds.complex, "real": holds.real, "fault": null }),
-            Err(fault) => json!({ "holds": false, "complex": null, "real": null, "fault": fault.to_string() }),
+            Ok(Holds::Solutions { complex, real }) => {
+                json!({ "holds": true, "complex": complex, "real": real, "mobility": null, "fault": null })
+            }
+            Ok(Holds::Mobility(dimension)) => {
+                json!({ "holds": true, "complex": null, "real": null, "mobility": dimension, "fault": null })
+            }
+            Err(fault) => {
+                let fault = fault.to_string();
+                json!({ "holds": false, "complex": null, "real": null, "mobility": null, "fault": fault })
+            }
         });
     });
     read.map_err(|fault| Error::Invalid(fault.to_string()))?;

@@ -1,9 +1,10 @@
 //! The certificate of an answer: docs/certificate.md.
 
 use crate::catalogue::entry::{Case, Entry};
-use crate::certificate::{Ball, Closed, FORMAT, Fault, VERSION, balls, check, closed, data_of};
+use crate::certificate::{Ball, Closed, FORMAT, Fault, VERSION, balls, check, closed, data_of, data_of_loop, proof_of, proof_of_motion};
 use crate::mechanism::{FullMode, Solution};
-use crate::verdict::{Code, Status};
+use crate::mobility::Mobility;
+use crate::verdict::Status;
 use num_complex::Complex;
 use rug::{Integer, Rational, ops::Pow};
 use serde_json::{Value, json};
@@ -25,11 +26,9 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
             "answers to arms of other than six joints, to tasks and with joints held are not covered".to_owned()
         );
     }
-    let kind = match verdict.code {
-        Code::GeneralBoundMet => "general-bound",
-        Code::GeometryBoundMet | Code::ExactRootsMatched => "geometry-bound",
-        other => return Err(format!("proofs with the code {} are not covered", other.word())),
-    };
+    if !verdict.complex_complete {
+        return Err(format!("proofs with the code {} are not covered", verdict.code.word()));
+    }
     let data = data_of(entry, case)?;
     let closed = closed(entry, case).map_err(|fault| words(&fault))?;
     let modes: Vec<&FullMode> = solution.modes.iter().filter(|mode| !mode.near).collect();
@@ -38,6 +37,8 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
     }
     let near: Vec<(Vec<Complex<f64>>, bool)> = modes.iter().map(|mode| (unknowns(&closed, mode), mode.real)).collect();
     let balls = balls(&closed, &near).ok_or("a solution is too ill conditioned for a ball of its own")?;
+    let proof = proof_of(&closed, &balls)
+        .ok_or("no bound of docs/certificate.md is met: the code is ".to_owned() + verdict.code.word())?;
     let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
     let certificate = json!({
         "format": FORMAT,
@@ -52,9 +53,41 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
             "real": real,
         },
         "modes": balls.iter().map(mode).collect::<Vec<_>>(),
-        "proof": [{ "kind": kind, "value": complex }],
+        "proof": [proof],
     });
     // What is written is what the checker accepts.
+    check(&certificate, None).map_err(|fault| words(&fault))?;
+    Ok(certificate)
+}
+
+/// The certificate of whether a loop moves, which the checker of [`crate::certificate`] accepts.
+///
+/// # Errors
+/// Says in a clause why there is none.
+pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, String> {
+    let dimension = match answer.mobility {
+        Some(dimension @ 0..=1) if answer.proof.is_proved() => dimension,
+        Some(_) if answer.proof.is_proved() => return Err("motions of more than one dimension are not covered".to_owned()),
+        _ => return Err("the answer is not proved".to_owned()),
+    };
+    let data = data_of_loop(entry)?;
+    let configurations: Vec<Vec<f64>> = answer.configurations.iter().map(|own| own.q.clone()).collect();
+    let (proof, balls) = proof_of_motion(entry, dimension > 0, &configurations)
+        .ok_or_else(|| format!("no theorem of docs/certificate.md applies: the code is {}", answer.code.word()))?;
+    let certificate = json!({
+        "format": FORMAT,
+        "version": VERSION,
+        "info": { "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title },
+        "data": data,
+        "claim": {
+            "verb": "mobility",
+            "status": if dimension == 0 { "immobile" } else { "mobile" },
+            "proof": "proved",
+            "mobility": dimension,
+        },
+        "modes": balls.iter().map(mode).collect::<Vec<_>>(),
+        "proof": [proof],
+    });
     check(&certificate, None).map_err(|fault| words(&fault))?;
     Ok(certificate)
 }

@@ -1,7 +1,9 @@
 //! The program as a shell sees it: exit codes, streams, files left alone, and no panic whatever comes in.
 #![allow(clippy::unwrap_used)]
 
+mod certificates;
 mod descriptions;
+mod score;
 
 use serde_json::Value;
 use std::fs;

@@ -467,6 +467,9 @@ pub struct MobilityOptions {
     /// Frameworks: how many steps of the motion are followed in f64
     #[arg(long, value_name = "N", default_value = "60", value_parser = steps)]
     pub steps: usize,
+    /// Write a certificate of a proved answer about a loop to this file: `looproot verify` and verify/verify.py check it
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<PathBuf>,
     /// One JSON document
     #[arg(long)]
     pub json: bool,

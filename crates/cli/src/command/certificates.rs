@@ -3,7 +3,8 @@
 use looproot::internal::catalogue::entry::{Case, Entry};
 use looproot::internal::error::Error;
 use looproot::internal::mechanism::Solution;
-use looproot::internal::report::certificate::certificate;
+use looproot::internal::mobility::Mobility;
+use looproot::internal::report::certificate::{certificate, certificate_of_motion};
 use looproot::internal::report::model::case_noun;
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -27,6 +28,17 @@ impl Certificates {
             Err(reason) => {
                 let noun = case_noun(entry);
                 let _ = writeln!(std::io::stderr(), "note: no certificate of {noun} {number}: {reason}");
+                Ok(())
+            }
+        }
+    }
+
+    /// Writes the certificate of whether a loop moves, or says on stderr why there is none.
+    pub fn add_motion(&mut self, entry: &Entry, answer: &Mobility) -> Result<(), Error> {
+        match certificate_of_motion(entry, answer) {
+            Ok(value) => self.write(&format!("{value}\n")),
+            Err(reason) => {
+                let _ = writeln!(std::io::stderr(), "note: no certificate: {reason}");
                 Ok(())
             }
         }

@@ -1,10 +1,12 @@
 //! `looproot mobility`
 
 use super::arguments::MobilityOptions;
+use super::certificates::Certificates;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use super::seed::plant;
 use looproot::internal::catalogue::{Any, Chains, FrameworkFile, Options, load_any};
+use looproot::internal::error::Error;
 use looproot::internal::mobility::{Mobility, mobility};
 use looproot::internal::report::document::complete;
 use looproot::internal::report::framework as report;
@@ -16,10 +18,19 @@ pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
     plant(options.seed);
     let entry = match load_any(&options.mechanism, &Options { chains: Chains::Any, ..options.read.options() })? {
         Any::Entry(entry) => entry,
+        Any::Framework(_) if options.certificate.is_some() => {
+            let message = "found --certificate with a framework, expected a loop: frameworks have no certificate yet";
+            return Err(Error::Invalid(message.to_owned()).into());
+        }
         Any::Framework(file) => return of_framework(options, &file),
         other => return Err(unexpected(&options.mechanism, other.kind(), "a loop, an arm, a platform or a framework")),
     };
     let answer = mobility(&entry)?;
+    if let Some(path) = &options.certificate {
+        let mut certificates = Certificates::new(path);
+        certificates.add_motion(&entry, &answer)?;
+        certificates.close()?;
+    }
     let written = if options.json {
         let mut document = json(&entry, &answer);
         complete(&mut document, &entry);

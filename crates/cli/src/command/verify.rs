@@ -20,10 +20,7 @@ pub fn run(options: &VerifyOptions) -> Result<Exit, Fault> {
     let (mut lines, mut exit) = (String::new(), Exit::Complete);
     let read = check_all(&text, entry.as_ref(), |number, outcome| match outcome {
         Ok(holds) => {
-            lines += &format!(
-                "{path}:{number}: holds: {} solutions, {} of them real: complete, proved\n",
-                holds.complex, holds.real
-            );
+            lines += &format!("{path}:{number}: holds: {holds}\n");
         }
         Err(fault) => {
             lines += &format!("{path}:{number}: {fault}\n");

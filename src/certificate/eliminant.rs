@@ -1,0 +1,321 @@
+//! An upper bound on the number of solutions of a loop by an eliminant in one unknown: theorem 4 of docs/certificate.md, after
+//! \[RaghavanRoth1993\].
+
+use super::all_roots::all_roots;
+use super::chain::ChainClosure;
+use super::fault::{Fault, refused};
+use super::isolation::Longer;
+use super::mode::Ball;
+use super::record::{count, decimal, fields};
+use crate::algebra::determinant::modular;
+use crate::algebra::echelon::Echelon;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::Ring;
+use crate::algebra::trigonometric::{Pair, reduce};
+use crate::algebra::univariate::Univariate;
+use crate::kinematics::joint::Variable;
+use crate::kinematics::motion::{Motion, cross, dot};
+use num_complex::Complex;
+use rug::Rational;
+use serde_json::{Value, json};
+
+type Symbols = Polynomial<Rational>;
+/// A polynomial of degree 2 in the hidden unknown.
+type Square = [Rational; 3];
+/// Rows for the columns `u^i v^j`, i up to 3 and j up to 2.
+type Rows = Vec<Vec<Square>>;
+
+/// Columns of the matrix.
+const COLUMNS: usize = 12;
+/// Degree of its minors: 2 for each row.
+const DEGREE: usize = 2 * COLUMNS;
+/// The most bits of a coefficient of the eliminant.
+const LONGEST: u32 = 60_000;
+/// A value of the hidden unknown at which a minor that is not 0 everywhere is hardly 0.
+const SOMEWHERE: (i32, i32) = (17, 5);
+
+/// Which unknowns are taken: any choice that gives a bound proves as much.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Choice {
+    /// The unknown from which the loop is read, from 0.
+    pub first: usize,
+    /// Which of the first three unknowns is hidden, from 0.
+    pub hidden: usize,
+    /// The half-angle tangent of the angle from which a hidden angle is counted.
+    pub shift: Rational,
+}
+
+impl Choice {
+    /// What stands under `aid`.
+    pub(super) fn read(aid: &Value) -> Result<Self, Fault> {
+        let [first, hidden, shift] = fields(aid, ["first", "hidden", "shift"], &[])?;
+        Ok(Self { first: count(first)?, hidden: count(hidden)?, shift: decimal(shift)? })
+    }
+
+    /// The same for a certificate; the shift is a decimal of few digits.
+    pub(super) fn json(&self) -> Value {
+        json!({ "first": self.first, "hidden": self.hidden, "shift": self.shift.to_f64().to_string() })
+    }
+}
+
+/// How many solutions the eliminant of a choice allows; the balls are where its roots are looked for first.
+///
+/// # Errors
+/// [`Fault::Refused`] where it allows no bound.
+pub(super) fn solutions_by_eliminant(closure: &ChainClosure, choice: &Choice, balls: &[Ball]) -> Result<usize, Fault> {
+    let Some(links) = closure.exact.as_ref().filter(|_| closure.spherical.is_empty()) else {
+        return refused("proof: eliminant: only loops of rotations and translations with rational constants have one");
+    };
+    let unknown = (choice.first + choice.hidden) % 6;
+    let is_angle = closure.variables[unknown] == Variable::Rotation;
+    let starts: Vec<Complex<f64>> =
+        balls.iter().filter_map(|ball| start(ball.centre.get(unknown)?, is_angle, &choice.shift)).collect();
+    solutions_of_loop(links, &closure.variables, choice, &starts)
+}
+
+/// How many solutions the eliminant of a choice allows to a loop with these links behind its unknowns; its roots are looked
+/// for near the starts first.
+///
+/// # Errors
+/// [`Fault::Refused`] where it allows no bound.
+pub(super) fn solutions_of_loop(
+    links: &[Motion<Rational>; 6],
+    variables: &[Variable; 6],
+    choice: &Choice,
+    starts: &[Complex<f64>],
+) -> Result<usize, Fault> {
+    let no = |why: &str| refused(format!("proof: eliminant: {why}"));
+    if choice.first > 5 || choice.hidden > 2 {
+        return no("no such unknown");
+    }
+    let around = |k: usize| (choice.first + k) % 6;
+    let turns: [bool; 6] = std::array::from_fn(|k| variables[around(k)] == Variable::Rotation);
+    let mut links: [Motion<Rational>; 6] = std::array::from_fn(|k| links[around(k)].clone());
+    if !turns[3] {
+        return no("the fourth unknown is no rotation");
+    }
+    let is_angle = turns[choice.hidden];
+    if is_angle {
+        // The angle is counted from another place, so that it is pi at no solution.
+        let square = Rational::from(choice.shift.square_ref());
+        let below = Rational::from(&square + 1);
+        let (cos, sin) = ((Rational::from(1) - square) / &below, Rational::from(&choice.shift * 2) / below);
+        links[choice.hidden] = Motion::rotation_z(cos, sin).then_after(&links[choice.hidden]);
+    }
+    let Some(equations) = equations(&links, &turns) else {
+        return no("the other unknowns do not follow from three of them");
+    };
+    let Some(rows) = matrix(&equations, &turns, choice.hidden) else { return no("an equation is of another form") };
+    let minor = minor(&rows)?;
+    if is_angle && minor.degree() != Some(DEGREE) {
+        return no("an angle of pi is a root");
+    }
+    let circle = Univariate::new(vec![Rational::from(1), Rational::new(), Rational::from(1)]);
+    let minor = if is_angle { minor.remove_factor(&circle).1 } else { minor };
+    let Some(roots) = all_roots(&minor.square_free_part(), starts) else { return no("its roots are not told apart") };
+    let mut most = 0;
+    for root in &roots {
+        match solutions_at(&rows, root) {
+            Some(few) => most += few,
+            None => return no("too many solutions may have one value"),
+        }
+    }
+    Ok(most)
+}
+
+/// Where a root is looked for first: the hidden unknown at a mode, as half-angle tangent if it is an angle.
+fn start((re, im): &(Rational, Rational), is_angle: bool, shift: &Rational) -> Option<Complex<f64>> {
+    let value = Complex::new(re.to_f64(), im.to_f64());
+    let start = if is_angle { (0.5 * value - shift.to_f64().atan()).tan() } else { value };
+    start.is_finite().then_some(start)
+}
+
+/// The motion of an unknown, or its inverse, with symbol 2k for cosine or distance and 2k + 1 for the sine.
+fn moved(k: usize, is_turn: bool, is_back: bool) -> Motion<Symbols> {
+    let (first, second) = (Symbols::variable(2 * k), Symbols::variable(2 * k + 1));
+    match (is_turn, is_back) {
+        (true, false) => Motion::rotation_z(first, second),
+        (true, true) => Motion::rotation_z(first, second.neg()),
+        (false, false) => Motion::translation_z(first),
+        (false, true) => Motion::translation_z(first.neg()),
+    }
+}
+
+/// What the image of the z axis and its origin gives: p, l, p.p, p.l, p x l, (p.p) l - 2 (p.l) p.
+fn fourteen(motion: &Motion<Symbols>, turns: &[bool]) -> Vec<Symbols> {
+    let (p, l) = (&motion.translation, &motion.rotation.each_ref().map(|row| row[2].clone()));
+    let (square, along) = (dot(p, p), dot(p, l));
+    let mirrored = (0..3).map(|i| square.mul(&l[i]).sub(&along.mul(&p[i]).scale(&Rational::from(2))));
+    let all = p.iter().chain(l).cloned().chain([square.clone(), along.clone()]).chain(cross(p, l)).chain(mirrored);
+    let pairs: Vec<Pair> =
+        (0..turns.len()).filter(|k| turns[*k]).map(|k| Pair { cos: 2 * k, sin: 2 * k + 1 }).collect();
+    all.map(|entry| reduce(&entry, &pairs)).collect()
+}
+
+/// The combinations of the fourteen equations that are free of the last two unknowns; `None` where these do not follow from
+/// the others.
+fn equations(links: &[Motion<Rational>; 6], turns: &[bool; 6]) -> Option<Vec<Symbols>> {
+    let lift = |motion: &Motion<Rational>| motion.map(|x| Some(Symbols::constant(x.clone())));
+    let chain = |parts: &[Motion<Symbols>]| {
+        parts.iter().fold(Motion::identity(), |product, part| product.then_after(part))
+    };
+    let mut front = Vec::new();
+    for k in 0..3 {
+        front.extend([moved(k, turns[k], false), lift(&links[k])?]);
+    }
+    let back = |k: usize| lift(&links[k].inverse());
+    let behind = [back(5)?, moved(1, turns[5], true), back(4)?, moved(0, turns[4], true), back(3)?];
+    let (left, right) = (fourteen(&chain(&front), &turns[..3]), fourteen(&chain(&behind), &turns[4..]));
+    let mut terms: Vec<Vec<u32>> = Vec::new();
+    for (term, _) in right.iter().flat_map(Polynomial::terms) {
+        let term = trimmed(term);
+        if !term.is_empty() && !terms.contains(&term) {
+            terms.push(term);
+        }
+    }
+    // Cosine, sine or distance of each of the two.
+    let own = [Some(0), turns[4].then_some(1), Some(2), turns[5].then_some(3)];
+    let is_own = |symbol: usize| terms.contains(&trimmed((0..=symbol).map(|k| u32::from(k == symbol)).collect()));
+    let coefficient = |equation: &Symbols, term: &[u32]| {
+        let found = equation.terms().find(|(own, _)| trimmed(own.clone()) == term);
+        found.map_or_else(Rational::new, |(_, c)| c.clone())
+    };
+    let table = terms.iter().map(|term| right.iter().map(|equation| coefficient(equation, term)).collect()).collect();
+    let table = Echelon::of(table, right.len());
+    if table.rank() != terms.len() || !own.into_iter().flatten().all(is_own) {
+        return None;
+    }
+    let combined = |weights: Vec<Rational>| {
+        let sum = |mut total: Symbols, ((weight, one), other): ((&Rational, &Symbols), &Symbols)| {
+            total = total.add(&one.scale(weight));
+            total.sub(&Symbols::constant(weight * coefficient(other, &[])))
+        };
+        weights.iter().zip(&left).zip(&right).fold(Symbols::zero(), sum)
+    };
+    Some(table.null_space().into_iter().map(combined).collect())
+}
+
+/// Exponents without zeros at the end.
+fn trimmed(mut exponents: Vec<u32>) -> Vec<u32> {
+    while exponents.last() == Some(&0) {
+        exponents.pop();
+    }
+    exponents
+}
+
+/// A cosine, a sine or 1 times `1 + t^2`, or a power of a distance, as polynomial of degree 2.
+fn part(is_turn: bool, first: u32, second: u32) -> Option<[i32; 3]> {
+    match (is_turn, first, second) {
+        (true, 0, 0) => Some([1, 0, 1]),
+        (true, 1, 0) => Some([1, 0, -1]),
+        (true, 0, 1) => Some([0, 2, 0]),
+        (false, 0, 0) => Some([1, 0, 0]),
+        (false, 1, 0) => Some([0, 1, 0]),
+        (false, 2, 0) => Some([0, 0, 1]),
+        _ => None,
+    }
+}
+
+/// The equations times `1 + t^2` of every rotation, once and times the first other unknown u.
+fn matrix(equations: &[Symbols], turns: &[bool; 6], hidden: usize) -> Option<Rows> {
+    let others: Vec<usize> = (0..3).filter(|k| *k != hidden).collect();
+    let mut rows = Rows::new();
+    for equation in equations {
+        let mut row = vec![Square::default(); COLUMNS];
+        for (exponents, value) in equation.terms() {
+            let at = |k: usize| exponents.get(k).copied().unwrap_or(0);
+            let part = |k: usize| part(turns[k], at(2 * k), at(2 * k + 1));
+            let (own, u, v) = (part(hidden)?, part(others[0])?, part(others[1])?);
+            for i in 0..3 {
+                for j in 0..3 {
+                    for (sum, h) in row[3 * i + j].iter_mut().zip(own) {
+                        *sum += Rational::from(value * (u[i] * v[j] * h));
+                    }
+                }
+            }
+        }
+        let mut shifted = row.clone();
+        shifted.rotate_right(3);
+        rows.extend([row, shifted]);
+    }
+    Some(rows)
+}
+
+fn at<R: Ring>(rows: &Rows, t: &R) -> Option<Vec<Vec<R>>> {
+    let value = |entry: &Square| {
+        let [a, b, c] = entry.each_ref().map(R::from_rational);
+        Some(c?.mul(t).add(&b?).mul(t).add(&a?))
+    };
+    rows.iter().map(|row| row.iter().map(value).collect()).collect()
+}
+
+/// A minor of twelve rows that is not 0.
+fn minor(rows: &Rows) -> Result<Univariate<Rational>, Fault> {
+    let here = at(rows, &Rational::from(SOMEWHERE)).unwrap_or_default();
+    let here = Echelon::of(here, COLUMNS);
+    if here.rank() < COLUMNS {
+        return refused("proof: eliminant: it is 0");
+    }
+    let chosen = here.independent_rows();
+    let power = |k: usize| -> Vec<Vec<Rational>> {
+        chosen.iter().map(|row| rows[*row].iter().map(|entry| entry[k].clone()).collect()).collect()
+    };
+    let minor = modular(&[power(0), power(1), power(2)]);
+    let bits = |c: &Rational| c.numer().significant_bits().max(c.denom().significant_bits());
+    if minor.coefficients().iter().any(|c| bits(c) > LONGEST) {
+        return refused("proof: eliminant: the numbers are too long");
+    }
+    Ok(minor)
+}
+
+/// How many solutions a root allows: the corank, and none where the one vector of the kernel is no `u^i v^j`; `None` where
+/// the corank is above 2.
+fn solutions_at(rows: &Rows, root: &Longer) -> Option<usize> {
+    let mut entries = at(rows, root)?;
+    let (mut left, mut columns): (Vec<usize>, Vec<usize>) = ((0..rows.len()).collect(), (0..COLUMNS).collect());
+    let mut steps = Vec::new();
+    while !columns.is_empty() {
+        let places = left.iter().flat_map(|i| columns.iter().map(move |j| (*i, *j)));
+        let sized = places.map(|(i, j)| (entries[i][j].lower(), i, j));
+        let Some((size, i, j)) = sized.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
+        if size <= 0 {
+            break;
+        }
+        left.retain(|row| *row != i);
+        columns.retain(|column| *column != j);
+        steps.push((i, j));
+        let inverse = entries[i][j].inverse()?;
+        let pivot = entries[i].clone();
+        for row in &left {
+            let factor = entries[*row][j].mul(&inverse);
+            for column in &columns {
+                entries[*row][*column] = entries[*row][*column].sub(&factor.mul(&pivot[*column]));
+            }
+        }
+    }
+    let [free] = columns.as_slice() else { return (columns.len() <= 2).then_some(columns.len()) };
+    let mut vector: Vec<Option<Longer>> = vec![None; COLUMNS];
+    vector[*free] = Some(Longer::one());
+    for (i, j) in steps.into_iter().rev() {
+        let known = vector.iter().enumerate().filter_map(|(k, x)| Some((k, x.as_ref()?)));
+        let sum = known.fold(Longer::zero(), |sum, (k, x)| sum.add(&entries[i][k].mul(x)));
+        vector[j] = Some(sum.neg().over(&entries[i][j])?);
+    }
+    let vector: Vec<Longer> = vector.into_iter().collect::<Option<_>>()?;
+    Some(usize::from(may_be_powers(&vector)))
+}
+
+/// Whether a vector may be `u^i v^j`: products of two entries whose exponents have the same sum are equal.
+fn may_be_powers(vector: &[Longer]) -> bool {
+    let exponents = |k: usize| (k / 3, k % 3);
+    let pairs: Vec<(usize, usize)> = (0..COLUMNS).flat_map(|a| (a..COLUMNS).map(move |b| (a, b))).collect();
+    let sum = |(a, b): (usize, usize)| {
+        let ((i, j), (k, l)) = (exponents(a), exponents(b));
+        (i + k, j + l)
+    };
+    let product = |(a, b): (usize, usize)| vector[a].mul(&vector[b]);
+    pairs.iter().enumerate().all(|(at, one)| {
+        let same = pairs[..at].iter().find(|other| sum(**other) == sum(*one));
+        same.is_none_or(|other| product(*one).sub(&product(*other)).contains_zero())
+    })
+}

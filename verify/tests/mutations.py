@@ -1,0 +1,112 @@
+"""Changes every number of certificates in one of its first three digits, and counts what both checkers still accept.
+
+usage: LOOPROOT=target/release/looproot verify/tests/mutations.py CERTIFICATES...
+
+What stands under `aid` may be accepted, and radii and centres that stay valid. So may the data of a loop that does not move: with
+another length it is another loop that does not move, of which the certificate is true. Anything else makes the exit code 1.
+"""
+import collections
+import copy
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.dirname(os.environ.get("VERIFY", str(pathlib.Path(__file__).resolve().parents[1] / "verify.py"))))
+import verify
+
+IMMOBILE = "data of an immobile loop"
+FREE = {"aid", "radius", "centre", IMMOBILE}
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
+
+
+def leaves(value, path=()):
+    """All texts and whole numbers but those of `info`, with the keys that lead to them."""
+    if isinstance(value, dict):
+        for key, own in value.items():
+            if path or key != "info":
+                yield from leaves(own, (*path, key))
+    elif isinstance(value, list):
+        for at, own in enumerate(value):
+            yield from leaves(own, (*path, at))
+    elif isinstance(value, str):
+        yield path, value
+
+
+def changed(certificate):
+    """(place, certificate with one digit changed) for every number."""
+    for path, text in leaves(certificate):
+        for at, number in enumerate(NUMBER.finditer(text)):
+            digits = [k for k in range(number.start(), number.end()) if text[k].isdigit()][:3]
+            digit = digits[(at + len(path)) % len(digits)]
+            own = text[:digit] + str((int(text[digit]) + 3) % 10) + text[digit + 1:]
+            other = copy.deepcopy(certificate)
+            place = other
+            for key in path[:-1]:
+                place = place[key]
+            place[path[-1]] = type(text)(own)
+            name = next((str(key) for key in path if key in FREE), "/".join(str(k) for k in path if isinstance(k, str)))
+            is_immobile = path[0] == "data" and certificate["claim"]["status"] == "immobile"
+            yield IMMOBILE if is_immobile else name, other
+
+
+def plain(value):
+    """As JSON has it: whole numbers without quotes."""
+    if isinstance(value, dict):
+        return {key: plain(own) for key, own in value.items()}
+    if isinstance(value, list):
+        return [plain(own) for own in value]
+    return int(value) if isinstance(value, verify.Whole) else value
+
+
+def accepted_by_python(certificate):
+    try:
+        verify.check(certificate, None)
+        return True
+    except (verify.Refused, verify.Unreadable, ArithmeticError, LookupError, TypeError, ValueError):
+        return False
+
+
+def accepted_by_rust(certificates):
+    """Which of them `looproot verify` accepts; where it cannot read one it stops, and goes on with the next."""
+    found = []
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "changed")
+        while len(found) < len(certificates):
+            rest = certificates[len(found):len(found) + 400]
+            with open(path, "w") as file:
+                file.writelines(json.dumps(plain(one)) + "\n" for one in rest)
+            answer = subprocess.run([os.environ["LOOPROOT"], "verify", path], capture_output=True, text=True)
+            found += [": holds: " in line for line in answer.stdout.splitlines()]
+            found += [False] if answer.returncode == 1 else []
+    return found
+
+
+def table(paths):
+    """(place, checker) to how many changes were made and accepted."""
+    counts = collections.Counter()
+    for path in paths:
+        for _, certificate in verify.certificates(path):
+            places, others = zip(*changed(certificate))
+            answers = {"python": map(accepted_by_python, others), "rust": accepted_by_rust(others)}
+            for checker, accepted in answers.items():
+                for place, one in zip(places, accepted):
+                    counts[place, checker, "changed"] += 1
+                    counts[place, checker, "accepted"] += one
+    return counts
+
+
+def main(paths):
+    counts = table(paths)
+    print(f"{'place':44}{'changed':>9}{'python accepts':>16}{'rust accepts':>14}")
+    for place in sorted({place for place, *_ in counts}):
+        made, *accepted = counts[place, "rust", "changed"], counts[place, "python", "accepted"], counts[place, "rust", "accepted"]
+        print(f"{place:44}{made:9}{accepted[0]:16}{accepted[1]:14}")
+    return int(any(count and what == "accepted" and place not in FREE for (place, _, what), count in counts.items()))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
