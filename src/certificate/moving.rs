@@ -64,6 +64,7 @@ pub(super) fn mobility(
         }
         "regular" => {
             let [_, held] = fields(item, ["kind", "held"], &[])?;
+            fields(held, ["joint"], &["angle", "distance"])?;
             is_regular(data, held, modes)?;
             1
         }

@@ -1,9 +1,10 @@
 //! Problems from samples whose list of solutions is proved complete.
 
 use super::problem::{Axis, Body, Problem, Truth};
+use crate::algebra::number::Number;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::benchmark::platform::sample::{self as of_platforms, PlatformSet};
-use crate::benchmark::sample::{Set, sample};
+use crate::benchmark::sample::{Set, matrix, sample};
 use crate::catalogue::entry::{Case, Design, Entry, InputValue};
 use crate::catalogue::{Options, load};
 use crate::error::Result;
@@ -13,6 +14,7 @@ use crate::kinematics::joint::JointVariable;
 use crate::kinematics::motion::Motion;
 use crate::mechanism::{Mechanism, Solution};
 use crate::verdict::Status;
+use num_complex::Complex;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -60,7 +62,7 @@ pub fn of_robot(name: &str, seed: u64, index: u64) -> Result<Option<Drawn>> {
     random.set_stream(index);
     let motions = variables.iter().map(|variable| moved(*variable, random.random_range(-PI..PI))).collect::<Vec<_>>();
     let Some(pose) = chain.forward(&motions) else { return Ok(None) };
-    let placement = Placement::from_matrix(&super::super::sample::matrix(&pose))?.0;
+    let placement = Placement::from_matrix(&matrix(&pose))?.0;
     entry.cases = vec![Case::at(placement, 1)];
     answered("robots", format!("{name}-{seed}-{index}"), &entry).map(Some)
 }
@@ -85,7 +87,7 @@ fn answered(class: &str, id: String, entry: &Entry) -> Result<Drawn> {
     }
     let body = match &entry.design {
         Design::Platform(_) => platform(entry, case),
-        Design::Arm(chain) | Design::Loop(chain) => Some(of_chain(chain, case)).flatten(),
+        Design::Arm(chain) | Design::Loop(chain) => of_chain(chain, case),
     };
     Ok(body.map_or(Drawn::LeftOut("unsupported"), |(body, given)| {
         let truth = truths(&solution, given);
@@ -96,7 +98,7 @@ fn answered(class: &str, id: String, entry: &Entry) -> Result<Drawn> {
 /// The real solutions without the given joint variable.
 fn truths(solution: &Solution, given: Option<usize>) -> Vec<Truth> {
     let real = solution.modes.iter().filter(|mode| mode.real && !mode.near);
-    let unknowns = |q: &[num_complex::Complex<f64>]| {
+    let unknowns = |q: &[Complex<f64>]| {
         q.iter().enumerate().filter(|(k, _)| Some(*k) != given).map(|(_, x)| x.re).collect()
     };
     let truth = real.map(|mode| Truth {
@@ -109,8 +111,8 @@ fn truths(solution: &Solution, given: Option<usize>) -> Vec<Truth> {
 
 fn platform(entry: &Entry, case: &Case) -> Option<(Body, Option<usize>)> {
     let Design::Platform(platform) = &entry.design else { return None };
-    let floats = |points: &[[crate::algebra::number::Number; 3]; 6]| {
-        points.each_ref().map(|point| point.each_ref().map(crate::algebra::number::Number::to_f64))
+    let floats = |points: &[[Number; 3]; 6]| {
+        points.each_ref().map(|point| point.each_ref().map(Number::to_f64))
     };
     let legs = case.legs_squared.as_ref()?.each_ref().map(|square| square.to_f64().sqrt());
     Some((Body::Platform { base: floats(&platform.base), plate: floats(&platform.plate), legs }, None))
