@@ -17,6 +17,7 @@ mod laws;
 mod linkage_derive;
 mod linkage_sweep;
 mod metamorphic;
+mod mutations;
 mod pencil;
 mod platform;
 mod printed;
