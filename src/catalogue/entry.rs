@@ -73,7 +73,7 @@ impl InputValue {
     }
 
     /// The motion of the joint variable over a ring.
-    fn motion<R: Ring>(&self) -> Option<Motion<R>> {
+    pub(crate) fn motion<R: Ring>(&self) -> Option<Motion<R>> {
         match self {
             Self::Angle(angle) => angle_motion(angle),
             Self::Distance(distance) => distance_motion(distance),

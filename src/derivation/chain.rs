@@ -54,19 +54,23 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
     let is_long = exact.ball.is_none() && general_degree(exact.closed.variables) == Some(16);
     let (eliminated, count) =
         rayon::join(|| eliminate(&exact), || if is_long { true_roots::count(&exact) } else { None });
-    let eliminated = eliminated?;
-    let per_root = eliminated.per_root;
-    let mut derivation = derivation(&exact.symbols, eliminated, |found| match found {
-        Some((unknown, eliminant)) if count == Some(eliminant.roots() * per_root) => {
-            Some((unknown, true_roots::met(&exact, unknown, eliminant)))
-        }
-        Some((unknown, eliminant)) => Some((unknown, true_roots::settled(&exact, unknown, eliminant, per_root))),
-        None => true_roots::by_ring(&exact),
-    })?;
+    let mut derivation = settle(&exact, eliminated?, count)?;
     if let (Some(without), None) = (&mut derivation.without, &case.pose) {
         without.push_str(&format!("; {}", Freedom::of(chain)));
     }
     Ok(derivation)
+}
+
+/// What an elimination leaves, without the roots that belong to no solution; `count` is the number of solutions where it is known.
+pub(super) fn settle(exact: &Exact, eliminated: Eliminated, count: Option<usize>) -> Result<Derivation> {
+    let per_root = eliminated.per_root;
+    derivation(&exact.symbols, eliminated, |found| match found {
+        Some((unknown, eliminant)) if count == Some(eliminant.roots() * per_root) => {
+            Some((unknown, true_roots::met(exact, unknown, eliminant)))
+        }
+        Some((unknown, eliminant)) => Some((unknown, true_roots::settled(exact, unknown, eliminant, per_root))),
+        None => true_roots::by_ring(exact),
+    })
 }
 
 /// The loop of a case with one ball or none.

@@ -106,28 +106,42 @@ fn reading(exact: &Exact) -> Option<(Reading<'_>, Hidden)> {
     Some((Reading::moved(exact, moved, cut), hidden))
 }
 
+/// The same with a cut that keeps a certain unknown, the best of these; `None` where all of them lose equations.
+pub(super) fn eliminate_keeping(exact: &Exact, unknown: usize) -> Option<Eliminated> {
+    let modular = exact.modular.as_ref()?;
+    let all = Cut::ALL.into_iter().flat_map(|cut| [Hidden::First, Hidden::Second].map(|hidden| (cut, hidden)));
+    let keeps = |cut: &Cut, hidden: Hidden| cut.unknown_index(usize::from(hidden == Hidden::Second)) == unknown;
+    let good = all.filter(|(cut, hidden)| keeps(cut, *hidden)).filter_map(|(cut, hidden)| {
+        Some((quality(&closure_polynomial(modular, cut, hidden)?.cofactor)?, cut, hidden))
+    });
+    let (_, cut, hidden) = good.min_by_key(|(quality, _, _)| *quality)?;
+    Some(eliminated(&Reading::own(exact, cut), hidden))
+}
+
 /// The equations of the best cut and the determinant of its pencil.
 pub(super) fn eliminate(exact: &Exact) -> Eliminated {
-    let eliminated = |equations: Vec<Equation>, steps: Vec<String>| Eliminated {
-        equations,
-        steps,
-        polynomial: None,
-        removed: Vec::new(),
-        per_root: 1,
-    };
     let Some((reading, hidden)) = reading(exact) else {
         let cut = Cut::ALL.into_iter().find(|cut| cut.fits(exact.closed.variables));
         let equations = cut.map(|cut| listed(&Reading::own(exact, cut))).unwrap_or_default();
-        return eliminated(equations, vec!["Every cut of the loop loses equations.".to_owned()]);
+        return without_polynomial(equations, vec!["Every cut of the loop loses equations.".to_owned()]);
     };
-    let mut equations = listed(&reading);
-    let Some(form) = half_angle_form(&reading.view) else { return eliminated(equations, Vec::new()) };
+    eliminated(&reading, hidden)
+}
+
+fn without_polynomial(equations: Vec<Equation>, steps: Vec<String>) -> Eliminated {
+    Eliminated { equations, steps, polynomial: None, removed: Vec::new(), per_root: 1 }
+}
+
+/// The equations of a cut and the determinant of its pencil.
+fn eliminated(reading: &Reading<'_>, hidden: Hidden) -> Eliminated {
+    let mut equations = listed(reading);
+    let Some(form) = half_angle_form(&reading.view) else { return without_polynomial(equations, Vec::new()) };
     let rows = bilinear(&before_second_link(&form, &reading.view.constants[1]), &reading.view);
-    equations.extend(reduced(&reading, &rows));
+    equations.extend(reduced(reading, &rows));
     let kept = reading.unknown(usize::from(hidden == Hidden::Second));
     let determinant = determinant(reading.cut, hidden, &rows);
     let polynomial = (!determinant.is_zero()).then_some((kept, determinant, Meaning::HalfTangent { degree: 16 }));
-    Eliminated { polynomial, ..eliminated(equations, steps(&reading, hidden)) }
+    Eliminated { polynomial, ..without_polynomial(equations, steps(reading, hidden)) }
 }
 
 /// The determinant of the pencil, in the half-angle tangent of the joint itself.

@@ -25,11 +25,16 @@ pub(super) fn quality<F: Field + Domain>(polynomial: &Univariate<F>) -> Option<(
 
 /// The link from which to look, and the angle to keep: the first that leaves the fewest roots, distinct if possible.
 pub(super) fn choice(form: &LinkForm<Mod, 4, 2>) -> Option<(usize, Hidden)> {
+    choice_of(form, |_, _| true)
+}
+
+/// The best of those that serve.
+fn choice_of(form: &LinkForm<Mod, 4, 2>, serves: impl Fn(usize, Hidden) -> bool) -> Option<(usize, Hidden)> {
     let mut best = None;
     for base in 0..4 {
         let Some(bar) = FourBar::new(form, base) else { continue };
         let equations = bar.equations();
-        for hidden in [Hidden::First, Hidden::Second] {
+        for hidden in [Hidden::First, Hidden::Second].into_iter().filter(|hidden| serves(base, *hidden)) {
             let Some(quality) = quality(&closure_polynomial(&equations, hidden, &offset())) else { continue };
             if best.is_none_or(|(least, _, _)| quality < least) {
                 best = Some((quality, base, hidden));
@@ -39,10 +44,22 @@ pub(super) fn choice(form: &LinkForm<Mod, 4, 2>) -> Option<(usize, Hidden)> {
     best.map(|(_, base, hidden)| (base, hidden))
 }
 
+/// The two equations and their polynomial in a certain unknown; `None` where no link has its angle at one end and leaves a polynomial.
+pub(super) fn eliminate_keeping(exact: &Exact, unknown: usize) -> Option<Eliminated> {
+    let modular: LinkForm<Mod, 4, 2> = LinkForm::of(exact.modular.as_ref()?)?;
+    let keeps = |base: usize, hidden: Hidden| {
+        modular.rotations[(base + usize::from(hidden == Hidden::Second)) % 4] == unknown
+    };
+    eliminate_by(exact, Some(choice_of(&modular, keeps)?))
+}
+
 /// The two equations and their polynomial.
 pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
+    eliminate_by(exact, exact.modular.as_ref().and_then(|modular| choice(&LinkForm::of(modular)?)))
+}
+
+fn eliminate_by(exact: &Exact, chosen: Option<(usize, Hidden)>) -> Option<Eliminated> {
     let form: LinkForm<Rational, 4, 2> = LinkForm::of(&exact.closed)?;
-    let chosen = exact.modular.as_ref().and_then(|modular| choice(&LinkForm::of(modular)?));
     let degenerate = chosen.is_none();
     let any = || (0..4).find(|&base| FourBar::new(&form, base).is_some()).map(|base| (base, Hidden::First));
     let (base, hidden) = chosen.or_else(any)?;

@@ -18,12 +18,16 @@ pub mod transference;
 mod triangle;
 mod true_roots;
 mod two_sides;
+mod ways;
 
 pub use equation::Equation;
 pub use linkage::{Curve, GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage, trace};
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;
 pub use substitution::Substitution;
+pub(crate) use symbolic::{Place, Setting, derive_interpolated};
+pub(crate) use symbols::variable_name;
+pub use ways::{ByWay, Matrix, Way, derive_by};
 pub use symbolic::{Displayed, Quotient, Symbolic, SymbolicPolynomial, derive_symbolic, derive_with_symbols};
 
 use crate::algebra::number::Number;

@@ -106,6 +106,11 @@ pub(super) fn name(label: &str, kind: Variable) -> String {
     format!("{letter}{label}")
 }
 
+/// The name of the half-angle tangent or of the distance of a joint variable, given by its index.
+pub(crate) fn variable_name(chain: &Chain, index: usize) -> Option<String> {
+    joint_variables(chain).get(index).map(|(label, kind)| name(label, *kind))
+}
+
 /// Per joint variable the number of its joint, for a U or S joint with that of the rotation, and what it measures.
 pub(super) fn joint_variables(chain: &Chain) -> Vec<(String, Variable)> {
     chain.variables().into_iter().map(|variable| (variable.number(), variable.variable)).collect()

@@ -29,7 +29,7 @@ fn first_side(n: usize) -> usize {
 }
 
 /// The product of a side in which every variable is the first or the second unit of its pair, by the bits of `choice`.
-fn side<F: Field>(linkage: &Linkage<F>, variables: &[usize], choice: usize) -> Study<F> {
+pub(crate) fn side<F: Field>(linkage: &Linkage<F>, variables: &[usize], choice: usize) -> Study<F> {
     variables.iter().enumerate().fold(one(), |product, (bit, k)| {
         let factor = if choice >> bit & 1 == 0 {
             product

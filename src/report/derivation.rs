@@ -247,8 +247,21 @@ pub(super) fn file(polynomials: &[Polynomial<Rational>], names: &Names, format: 
 /// into them.
 #[must_use]
 pub fn paper(entry: &Entry, case: usize, derivation: &Derivation, found: &Substitution, style: Style) -> String {
+    paper_with(entry, case, derivation, found, style, None)
+}
+
+/// The same with what there is to say of one elimination of several: its name, its matrix, and what was divided out.
+pub(super) fn paper_with(
+    entry: &Entry,
+    case: usize,
+    derivation: &Derivation,
+    found: &Substitution,
+    style: Style,
+    way: Option<(&str, &str, &[String])>,
+) -> String {
     let names = &derivation.names;
-    let summary = format!("{}, case {case}: {}.", kind(entry.kind()), verdict(derivation));
+    let by = way.map_or_else(String::new, |(name, _, _)| format!(", by {name}"));
+    let summary = format!("{}, case {case}{by}: {}.", kind(entry.kind()), verdict(derivation));
     let mut paper = Paper::new(style, names, &entry.title, &summary);
     paper.heading("Unknowns");
     unknowns(&mut paper, entry.kind());
@@ -264,6 +277,14 @@ pub fn paper(entry: &Entry, case: usize, derivation: &Derivation, found: &Substi
     }
     paper.heading("Elimination");
     paper.numbered(&derivation.steps);
+    if let Some((_, matrix, divided)) = way {
+        paper.heading("Matrix");
+        paper.sentence(matrix);
+        if !divided.is_empty() {
+            paper.sentence("Divided out of the eliminant:");
+            paper.bullets(divided);
+        }
+    }
     if let Some(polynomial) = &derivation.polynomial {
         paper.heading("Closure polynomial");
         paper.sentence(&format!("{}; {}.", verdict(derivation), factors(polynomial)));

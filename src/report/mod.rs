@@ -2,6 +2,8 @@
 
 pub mod atlas;
 pub mod calculus;
+pub mod cells;
+pub mod cells_picture;
 pub mod certificate;
 pub mod conditions;
 pub mod conditions_search;
@@ -32,3 +34,4 @@ pub mod synthesis;
 pub mod table;
 pub mod text;
 pub mod transference;
+pub mod ways;

@@ -7,6 +7,7 @@
 
 mod branch;
 mod bridge;
+mod cells;
 mod exact;
 mod hidden;
 mod linkage;
@@ -16,6 +17,7 @@ mod track;
 mod verdict;
 
 pub use branch::{Branch, End, Limit, Row};
+pub use cells::{Cell, CellMap, Cells, CellsVerdict, Column, Label, MapWanted, Zero, cell_map, cells, is_angle};
 pub use linkage::{LinkageBranch, LinkageLimit, LinkageRow, LinkageSample, LinkageSweep, sweep_linkage};
 pub use sample::{Sample, case};
 pub use verdict::SweepVerdict;

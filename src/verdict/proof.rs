@@ -113,6 +113,12 @@ pub enum Code {
     BranchesNotMatched,
     /// A sweep: it was stopped before the end of its range.
     Interrupted,
+    /// Cells of a parameter: the closure polynomial proves the number of real modes in each.
+    CellsProved,
+    /// Cells of a parameter: the closure polynomial is interpolated, and no bound of its degree is used.
+    ProbablePolynomial,
+    /// Cells of a parameter: at some sample point the real roots of the closure polynomial are not the real modes found.
+    CellsNotMatched,
 }
 
 impl Code {
@@ -153,6 +159,9 @@ impl Code {
             Self::SingularNotDecided => "singular-not-decided",
             Self::BranchesNotMatched => "branches-not-matched",
             Self::Interrupted => "interrupted",
+            Self::CellsProved => "cells-proved",
+            Self::ProbablePolynomial => "probable-polynomial",
+            Self::CellsNotMatched => "cells-not-matched",
         }
     }
 }

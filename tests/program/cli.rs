@@ -123,6 +123,7 @@ fn the_document_follows_its_schema() {
         &[
             &["derive", "puma560", "--json"],
             &["derive", "rsrc", "--json"],
+            &["derive", "rsrc", "--by", "half-angle", "--json"],
             &["derive", "bricard_line_symmetric", "--json"],
             &["derive", "platform/hexapod", "--json"],
             &["derive", "crcrr_4_angle", "--symbolic", "--json"],
@@ -161,6 +162,13 @@ fn the_document_follows_its_schema() {
                 "coupler.P",
                 "--json",
             ],
+        ],
+    );
+    follows(
+        "cells.schema.json",
+        &[
+            &["derive", "cccr_1_angle", "--discriminant", "theta1", "--json"],
+            &["derive", "rssr", "--discriminant", "a1,theta1", "--columns", "3", "--json"],
         ],
     );
     follows(

@@ -6,6 +6,7 @@ use rug::{Float, Integer, Rational};
 ///
 /// # Panics
 /// When `value` or `tolerance` is not finite, or `tolerance` is negative.
+#[must_use]
 pub fn simplest_within(value: &Float, tolerance: &Float) -> Rational {
     assert!(value.is_finite() && tolerance.is_finite() && !tolerance.is_sign_negative(), "a finite interval");
     let exact = |x: Float| x.to_rational().expect("finite floats are rational");
@@ -16,7 +17,8 @@ pub fn simplest_within(value: &Float, tolerance: &Float) -> Rational {
 }
 
 /// The rational of smallest denominator in `[low, high]`.
-fn simplest_between(low: Rational, high: Rational) -> Rational {
+#[must_use]
+pub fn simplest_between(low: Rational, high: Rational) -> Rational {
     if low <= 0 && high >= 0 {
         return Rational::new();
     }

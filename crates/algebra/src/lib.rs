@@ -1,6 +1,6 @@
 //! Exact and generic arithmetic: polynomials, resultants, determinants, real roots, number fields, balls, series. It knows nothing of mechanisms.
 
-mod approximation;
+pub mod approximation;
 pub mod ball;
 pub mod circle_fraction;
 pub mod determinant;

@@ -33,7 +33,7 @@ fn dual_rotation<R: Ring>(motion: &Motion<R>) -> [[Dual<R>; 3]; 3] {
 }
 
 /// A loop over dual numbers, whose translations are put into its dual rotations.
-pub(super) fn dualised<R: Ring, const RHO: usize, const TAU: usize>(
+pub(in crate::internal::derivation) fn dualised<R: Ring, const RHO: usize, const TAU: usize>(
     form: &LinkForm<R, RHO, TAU>,
 ) -> LinkForm<Dual<R>, RHO, TAU> {
     let link = |motion: &Motion<R>| Motion { rotation: dual_rotation(motion), ..Motion::identity() };
@@ -49,7 +49,7 @@ pub(super) fn dualised<R: Ring, const RHO: usize, const TAU: usize>(
 }
 
 /// The rotation along whose axis each translation runs; `None` where one runs along none.
-pub(super) fn axes<R: Ring, const RHO: usize, const TAU: usize>(form: &LinkForm<R, RHO, TAU>) -> Option<[usize; TAU]> {
+pub(in crate::internal::derivation) fn axes<R: Ring, const RHO: usize, const TAU: usize>(form: &LinkForm<R, RHO, TAU>) -> Option<[usize; TAU]> {
     let axis = |slide: &Slide<R>| {
         let own = [R::zero(), R::zero(), R::one()];
         let next: Vector<R> = std::array::from_fn(|i| form.links[slide.link].rotation[i][2].clone());
@@ -61,7 +61,7 @@ pub(super) fn axes<R: Ring, const RHO: usize, const TAU: usize>(form: &LinkForm<
 }
 
 /// Of a loop whose two translations run along the axes of one link, the link opposite to it.
-pub(super) fn opposite_link<R: Ring>(form: &LinkForm<R, 4, 2>) -> Option<usize> {
+pub(in crate::internal::derivation) fn opposite_link<R: Ring>(form: &LinkForm<R, 4, 2>) -> Option<usize> {
     let [one, two] = axes(form)?;
     match (two + 4 - one) % 4 {
         1 => Some((one + 2) % 4),
@@ -71,7 +71,7 @@ pub(super) fn opposite_link<R: Ring>(form: &LinkForm<R, 4, 2>) -> Option<usize> 
 }
 
 /// The spherical four-bar and its dual part, bilinear in the angles at both ends of a link.
-fn pair_at<R: Ring>(links: &[Motion<R>; 4], base: usize) -> Equations<R> {
+pub(in crate::internal::derivation) fn pair_at<R: Ring>(links: &[Motion<R>; 4], base: usize) -> Equations<R> {
     let dual: [_; 4] = std::array::from_fn(|k| dual_rotation(&links[(base + 3 + k) % 4]));
     let form = four_bar(dual.each_ref());
     let part = |part: fn(&Dual<R>) -> R| form.each_ref().map(|row| row.each_ref().map(part));

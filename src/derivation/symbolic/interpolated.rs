@@ -271,7 +271,7 @@ fn polynomial(numbers: &[Rational], degrees: &[usize], unknown: usize, first: us
 /// # Errors
 /// [`Error::Unsupported`] for more symbols, for mechanisms without a closure polynomial, and where it would have more than
 /// 100,000 terms; [`Error::Invalid`] for an unknown symbol.
-pub(super) fn derive_interpolated(entry: &Entry, case: &Case, wanted: &[String]) -> Result<Symbolic> {
+pub(crate) fn derive_interpolated(entry: &Entry, case: &Case, wanted: &[String]) -> Result<Symbolic> {
     let all = Setting::all(entry, case);
     let settings = Setting::named(&all, wanted)?;
     if settings.is_empty() || settings.len() > MOST_SYMBOLS {

@@ -1,13 +1,16 @@
 //! Derivations that keep link parameters as symbols: the same closure equations and eliminations over a ring of
 //! polynomials.
 
-mod dual;
+pub(super) mod dual;
 mod interpolated;
 mod parts;
 mod routes;
 mod setting;
 mod size;
 mod table;
+
+pub(crate) use interpolated::derive_interpolated;
+pub(crate) use setting::{Place, Setting};
 
 use super::chain::{Exact, eliminate, exact};
 use super::symbols::{Symbols, joint_labels};

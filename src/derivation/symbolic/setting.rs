@@ -5,24 +5,28 @@ use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::catalogue::entry::{Case, Design, Entry, InputValue};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, Geometry, Placement};
-use crate::kinematics::closed_loop::Parameter;
+use crate::kinematics::closed_loop::{Parameter, Variable};
 use rug::Rational;
 
 /// Coordinates of the position of a pose.
 pub(super) const COORDINATES: [&str; 3] = ["x", "y", "z"];
 
 /// Where a quantity stands.
-#[derive(Clone, Copy, Debug)]
-enum Place {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// A constant of a DH joint, counted from 0.
     Link(usize, Parameter),
+    /// The input of a loop.
     Input,
+    /// A coordinate of the position of a pose.
     Coordinate(usize),
+    /// A leg of a platform, counted from 0.
     Leg(usize),
 }
 
 /// A quantity of a mechanism or of a case, by one variable: a length, a coordinate, the half-angle tangent of an angle.
 #[derive(Clone, Debug)]
-pub(super) struct Setting {
+pub(crate) struct Setting {
     /// As it is asked for: `a1`, `alpha1`, `theta4`, `x`, `leg1`.
     pub name: String,
     /// The name of its variable: `a1`, `ta1`, `t4`, `x`, `leg1`.
@@ -31,7 +35,9 @@ pub(super) struct Setting {
     pub value: Option<Rational>,
     /// The quantity in the file, for a reader.
     pub text: String,
-    place: Place,
+    pub place: Place,
+    /// An angle, of which the variable is the half-angle tangent, or a length.
+    pub kind: Variable,
 }
 
 impl Setting {
@@ -122,7 +128,8 @@ fn of_links(chain: &Chain, case: &Case) -> Vec<Setting> {
             }
         };
         let place = place.map_or(Place::Input, |(joint, parameter)| Place::Link(joint, parameter));
-        Setting { name, variable, value: number, text: shown(&value), place }
+        let kind = if matches!(value, Value::Angle(_)) { Variable::Rotation } else { Variable::Translation };
+        Setting { name, variable, value: number, text: shown(&value), place, kind }
     };
     table::all(joints, case.input.first()).into_iter().map(one).collect()
 }
@@ -131,7 +138,8 @@ fn of_pose(pose: &Placement) -> Vec<Setting> {
     let one = |k: usize| {
         let (name, value) = (COORDINATES[k].to_owned(), pose.exact.translation[k].clone());
         let text = value.to_string();
-        Setting { variable: name.clone(), name, value: Some(value), text, place: Place::Coordinate(k) }
+        let (variable, kind) = (name.clone(), Variable::Translation);
+        Setting { variable, name, value: Some(value), text, place: Place::Coordinate(k), kind }
     };
     (0..3).map(one).collect()
 }
@@ -144,7 +152,8 @@ fn of_legs(squares: &[Number; 6]) -> Vec<Setting> {
             Some(root) => (Some(root.clone()), root.to_string()),
             None => (None, format!("sqrt({square})")),
         };
-        Setting { variable: name.clone(), name, value: root, text, place: Place::Leg(k) }
+        let (variable, kind) = (name.clone(), Variable::Translation);
+        Setting { variable, name, value: root, text, place: Place::Leg(k), kind }
     };
     squares.iter().enumerate().map(one).collect()
 }

@@ -10,20 +10,28 @@
 mod by_cut;
 mod crossing;
 mod four_joints;
+mod moved;
 mod node;
 mod output;
 mod plane_curve;
 mod relation;
 
+pub(super) use moved::Moved;
+pub(super) use output::{Critical, Event, Output};
+pub(super) use plane_curve::{PlaneCurve, sign_changes};
+
 use super::bridge::Bridge;
 use super::sample::Sample;
 use crate::assembly::wrapped;
+use crate::algebra::int::Int;
+use crate::algebra::polynomial::Polynomial;
 use crate::catalogue::entry::{Case, Entry};
+use crate::derivation::Place;
 use crate::kinematics::closed_loop::{Layout, Variable};
 use crate::mechanism::{InputCurve, locked_variable};
 use crate::verdict::Code;
 use crossing::Piece;
-use output::Output;
+use plane_curve::{Integral, S, T};
 use rug::Rational;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -41,6 +49,8 @@ pub(super) struct Exact {
     input: Variable,
     /// Where angles of the input are counted from.
     offset: f64,
+    /// The half tangent of that angle.
+    pub from: Rational,
     /// Outputs with their polynomials, computed when first asked for.
     outputs: Vec<(relation::Relation, OnceLock<Option<Output>>)>,
 }
@@ -48,13 +58,18 @@ pub(super) struct Exact {
 impl Exact {
     /// The closure polynomials of the loop of an entry, moved by the input of a case.
     pub fn of(entry: &Entry, case: &Case, input: Variable) -> Result<Self, Code> {
+        Self::moving(entry, Moved { case, place: Place::Input, kind: input })
+    }
+
+    /// The closure polynomials of the loop of an entry in which something runs.
+    pub fn moving(entry: &Entry, moved: Moved<'_>) -> Result<Self, Code> {
         let chain = entry.chain().ok_or(Code::NoExactRoute)?;
-        let locked = locked_variable(chain, case).ok().flatten().ok_or(Code::NoExactRoute)?;
-        let layout = Layout::of(chain, Some(locked)).map_err(|_| Code::NoExactRoute)?;
-        let turns = input == Variable::Rotation;
+        let locked = locked_variable(chain, moved.case).map_err(|_| Code::NoExactRoute)?;
+        let layout = Layout::of(chain, locked).map_err(|_| Code::NoExactRoute)?;
+        let turns = moved.kind == Variable::Rotation;
         for (numerator, denominator) in OFFSETS {
             let half_tangent = if turns { Rational::from((numerator, denominator)) } else { Rational::new() };
-            let relations = relation::relations(chain, &layout, input, &half_tangent);
+            let relations = relation::relations(chain, &layout, moved, &half_tangent);
             let mut outputs: Vec<(relation::Relation, OnceLock<Option<Output>>)> = Vec::new();
             for relation in relations {
                 if outputs.is_empty() {
@@ -66,14 +81,38 @@ impl Exact {
                 }
             }
             if !outputs.is_empty() {
-                return Ok(Self { input, offset: 2.0 * half_tangent.to_f64().atan(), outputs });
+                return Ok(Self::counted(moved.kind, half_tangent, outputs));
             }
         }
         Err(Code::NoExactRoute)
     }
 
+    /// Of a closure polynomial in what runs and in one unknown, over the variables 0 and 1; the half tangents of angles are counted
+    /// from 0, and the unknown is in general of this degree, half turns included.
+    pub fn of_polynomial(polynomial: &Polynomial<Int>, moved: Variable, unknown: Variable, full: usize) -> Option<Self> {
+        let turns = moved == Variable::Rotation;
+        let degree = polynomial.degree(S) as usize;
+        for (numerator, denominator) in OFFSETS {
+            let from = if turns { Rational::from((numerator, denominator)) } else { Rational::new() };
+            let counted = PlaneCurve::of(polynomial).counted_from(&from).polynomial();
+            let is_finite = counted.degree(S) as usize == degree;
+            let half_turns = full.saturating_sub(counted.degree(T) as usize);
+            let equation = Integral::of_form(counted, is_finite, half_turns);
+            let relation = relation::Relation::of(0, unknown, vec![equation]);
+            if let Ok(Some(output)) = Output::of(&relation, turns) {
+                return Some(Self::counted(moved, from, vec![(relation, OnceLock::from(Some(output)))]));
+            }
+        }
+        None
+    }
+
+    /// Outputs whose half tangents of the input are counted from an angle with this half tangent.
+    fn counted(input: Variable, from: Rational, outputs: Vec<(relation::Relation, OnceLock<Option<Output>>)>) -> Self {
+        Self { input, offset: 2.0 * from.to_f64().atan(), from, outputs }
+    }
+
     /// An output, if it has a closure polynomial.
-    fn output(&self, index: usize) -> Option<&Output> {
+    pub fn output(&self, index: usize) -> Option<&Output> {
         let (relation, output) = self.outputs.get(index)?;
         let turns = self.input == Variable::Rotation;
         output.get_or_init(|| Output::of(relation, turns).ok().flatten()).as_ref()

@@ -13,10 +13,11 @@ use crate::kinematics::closed_loop::Variable;
 use crate::verdict::Code;
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 /// What happens at a critical input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Event {
+pub(in crate::internal::sweep) enum Event {
     /// A root of the discriminant, with its multiplicity: roots of the closure polynomial meet.
     Meeting(usize),
     /// An output or another translation goes to infinity, or may do so.
@@ -27,8 +28,10 @@ pub(super) enum Event {
 
 /// An input at which something may happen to a branch.
 #[derive(Clone, Debug)]
-pub(super) struct Critical {
+pub(in crate::internal::sweep) struct Critical {
     pub root: RealRoot,
+    /// The polynomial without multiple roots of which it is a root.
+    pub minimal: Arc<Univariate<Integer>>,
     pub event: Event,
     /// The root in f64.
     pub value: f64,
@@ -36,7 +39,7 @@ pub(super) struct Critical {
 
 /// The polynomials of an output as one half tangent of the input has them.
 #[derive(Clone, Debug)]
-pub(super) struct Chart {
+pub(in crate::internal::sweep) struct Chart {
     /// The closure polynomial.
     pub curve: PlaneCurve,
     /// All vanish where the translations are dependent.
@@ -55,12 +58,14 @@ pub(super) struct Chart {
 
 /// An output of a loop.
 #[derive(Clone, Debug)]
-pub(super) struct Output {
+pub(in crate::internal::sweep) struct Output {
     /// Index among the joint variables.
     pub joint: usize,
     pub kind: Variable,
     /// By the half tangent of the input, and by that of the input less half a turn.
     pub charts: [Chart; 2],
+    /// By the output, as a form where that is an angle; in the half tangent of the input.
+    pub discriminant: Univariate<Integer>,
     pub criticals: Vec<Critical>,
     /// Inputs at which every output is one of a configuration: the loop moves while its input stands still.
     pub standing: Vec<f64>,
@@ -104,7 +109,7 @@ fn without_common_content(list: &[Integral]) -> Option<(Univariate<Integer>, Vec
 impl Output {
     /// The output of a relation. `turns` says whether the input is an angle, which must not be critical at half a turn
     /// from where it is counted: `Ok(None)` where it is.
-    pub fn of(relation: &Relation, turns: bool) -> Result<Option<Self>, Code> {
+    pub(super) fn of(relation: &Relation, turns: bool) -> Result<Option<Self>, Code> {
         let equations: Vec<&Integral> = relation.equations.iter().filter(|f| !f.polynomial.is_zero()).collect();
         let (first, others) = equations.split_first().ok_or(Code::NoExactRoute)?;
         let whole = others.iter().fold(first.polynomial.clone(), |gcd, f| gcd.gcd(&f.polynomial));
@@ -167,7 +172,7 @@ impl Output {
         let chart = Chart { curve, parallel, gap, dependent, together, common, pole };
         let charts = [chart.clone(), chart.half_turned()];
         let standing = real_roots(&standing).iter_mut().map(RealRoot::to_f64).collect();
-        Ok(Some(Self { joint: relation.output, kind: relation.kind, charts, criticals, standing }))
+        Ok(Some(Self { joint: relation.output, kind: relation.kind, charts, discriminant, criticals, standing }))
     }
 
     /// The critical inputs between two inputs of a chart, `None` where one of these is critical itself.
@@ -239,9 +244,10 @@ fn criticals(
 ) -> Vec<Critical> {
     let mut criticals = Vec::new();
     let mut add = |polynomial: &Univariate<Integer>, event: &dyn Fn(usize) -> Event| {
+        let minimal = Arc::new(polynomial.square_free_part());
         criticals.extend(real_roots(polynomial).into_iter().map(|mut root| {
             let (event, value) = (event(root.multiplicity()), root.to_f64());
-            Critical { root, event, value }
+            Critical { root, minimal: Arc::clone(&minimal), event, value }
         }));
     };
     add(discriminant, &Event::Meeting);

@@ -11,13 +11,13 @@ use rug::{Integer, Rational};
 use std::cmp::Ordering;
 
 /// The variables of polynomials in input and output.
-pub(super) const S: usize = 0;
+pub(in crate::internal::sweep) const S: usize = 0;
 /// The output.
-pub(super) const T: usize = 1;
+pub(in crate::internal::sweep) const T: usize = 1;
 
 /// A polynomial by powers of the output.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct PlaneCurve {
+pub(in crate::internal::sweep) struct PlaneCurve {
     /// The coefficient of `t^k` at k.
     rows: Vec<Univariate<Integer>>,
 }
@@ -163,6 +163,56 @@ impl PlaneCurve {
         Self { rows: self.rows.iter().map(turned).collect() }
     }
 
+    /// The same in half tangents of the input counted from an angle with this half tangent h, up to a factor: `(x + h) / (1 - h x)`
+    /// in the place of s.
+    pub fn counted_from(&self, h: &Rational) -> Self {
+        let degree = self.input_degree();
+        if h.is_zero() {
+            return self.clone();
+        }
+        let [over, under] = [[h.clone(), Rational::from(1)], [Rational::from(1), -h.clone()]].map(|c| Univariate::new(c.to_vec()));
+        let counted = |row: &Univariate<Integer>| {
+            let mut power = Univariate::one();
+            let mut sum: Univariate<Rational> = Univariate::zero();
+            // From the highest power on: sum = sum over + c under^(degree - i).
+            for i in (0..=degree).rev() {
+                let c = row.coefficients().get(i).map(Rational::from).unwrap_or_default();
+                sum = sum.mul(&over).add(&power.scale(&c));
+                power = power.mul(&under);
+            }
+            sum
+        };
+        Self::over_rationals(&self.rows.iter().map(counted).collect::<Vec<_>>())
+    }
+
+    /// With integer coefficients without common factor.
+    fn over_rationals(rows: &[Univariate<Rational>]) -> Self {
+        let lengths: Vec<usize> = rows.iter().map(|row| row.coefficients().len()).collect();
+        let all: Vec<Rational> = rows.iter().flat_map(|row| row.coefficients().iter().cloned()).collect();
+        let mut common = Integer::from(1);
+        for c in &all {
+            common.lcm_mut(c.denom());
+        }
+        let mut whole: Vec<Integer> = all.iter().map(|c| Rational::from(c * &common).numer().clone()).collect();
+        let content = whole.iter().fold(Integer::new(), Integer::gcd);
+        if content > 1 {
+            for c in &mut whole {
+                c.div_exact_mut(&content);
+            }
+        }
+        let mut rest = whole.into_iter();
+        Self { rows: lengths.iter().map(|length| Univariate::new(rest.by_ref().take(*length).collect())).collect() }
+    }
+
+    /// As a polynomial in input and output.
+    pub fn polynomial(&self) -> Polynomial<Int> {
+        let terms = self.rows.iter().zip(0_u32..).flat_map(|(row, t)| {
+            let term = move |(c, s): (&Integer, u32)| (vec![s, t], Int::from(c.clone()));
+            row.coefficients().iter().zip(0..).map(term).collect::<Vec<_>>()
+        });
+        Polynomial::from_terms(terms)
+    }
+
     /// The same in `1/t`.
     pub fn inverted(&self) -> Self {
         Self { rows: self.rows.iter().rev().cloned().collect() }
@@ -202,7 +252,7 @@ impl PlaneCurve {
     }
 
     /// Whether it has no zero in a rectangle, by the sizes of its coefficients about the centre; `false` proves nothing.
-    pub fn is_nonzero_in(&self, rectangle: &Rectangle) -> bool {
+    pub(super) fn is_nonzero_in(&self, rectangle: &Rectangle) -> bool {
         let about = self.about(&rectangle.centre);
         let Some(centre) = about.first().and_then(|row| row.first()) else { return false };
         sum_of_sizes(&about, rectangle, |i, k| (i, k) != (0, 0)) < centre.clone().abs()
@@ -213,7 +263,7 @@ impl PlaneCurve {
     ///
     /// The derivative by t has no zero, and neither has the polynomial at the upper and at the lower side, where it has
     /// different signs.
-    pub fn is_graph_in(&self, rectangle: &Rectangle) -> bool {
+    pub(super) fn is_graph_in(&self, rectangle: &Rectangle) -> bool {
         let about = self.about(&rectangle.centre);
         let Some(slope) = about.get(1).and_then(|row| row.first()) else { return false };
         let rise = slope.clone().abs() * &rectangle.reach[1];
@@ -272,7 +322,7 @@ fn shifted(row: &Univariate<Integer>, s: &Rational, width: usize) -> Vec<Rationa
 
 /// A bound on the number of roots of a polynomial in an open interval, with multiplicity, that is too large by an even
 /// number: the sign changes of its coefficients where the interval is mapped to the positive numbers (Descartes).
-pub(super) fn sign_changes(polynomial: &Univariate<Integer>, [low, high]: [&Rational; 2]) -> usize {
+pub(in crate::internal::sweep) fn sign_changes(polynomial: &Univariate<Integer>, [low, high]: [&Rational; 2]) -> usize {
     let width = polynomial.coefficients().len();
     let mut about = shifted(polynomial, low, width);
     let length = Rational::from(high - low);

@@ -1,6 +1,7 @@
 //! The closure polynomial between the input and one output, without division, for each kind of loop that has one of
 //! degree 8 at most.
 
+use super::moved::{Moved, Running};
 use super::plane_curve::{Integral, integral};
 use crate::algebra::circle_fraction::CircleFraction;
 use crate::algebra::ring::Ring;
@@ -14,7 +15,7 @@ use crate::elimination::spherical_four_bar::FourBar;
 use crate::elimination::spherical_pair;
 use crate::elimination::spherical_triangle::{conditions, triangle_without};
 use crate::kinematics::chain::Chain;
-use crate::kinematics::closed_loop::{ClosedLoop, Layout, Numbers, OpenLoop, Variable};
+use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
 use crate::kinematics::link_form::LinkForm;
 use crate::kinematics::motion::Motion;
 use rug::Rational;
@@ -68,19 +69,6 @@ fn origin() -> [CircleFraction; 3] {
     [1, 1, 0].map(CircleFraction::from_integer)
 }
 
-/// The motion of the input: of an angle counted from `offset`, a half tangent, or of a distance.
-fn filling(kind: Variable, offset: &Rational) -> Motion<CircleFraction> {
-    if kind == Variable::Translation {
-        return Motion::translation_z(CircleFraction::variable());
-    }
-    let square = Rational::from(offset * offset);
-    let length = Rational::from(&square + 1);
-    let number = |x: Rational| CircleFraction::polynomial(Univariate::constant(x / &length));
-    let (cos, sin) = CircleFraction::cosine_and_sine();
-    let turn = Motion::rotation_z(number(1 - square), number(Rational::from(offset * 2)));
-    turn.then_after(&Motion::rotation_z(cos, sin))
-}
-
 /// `row . (1, cos, sin)` or `row . (1, d, d^2)` as a polynomial in the half tangent or the distance.
 pub(super) fn of_row(kind: Variable, row: &[CircleFraction; 3]) -> InOutput {
     let powers = powers(kind, &origin());
@@ -88,18 +76,23 @@ pub(super) fn of_row(kind: Variable, row: &[CircleFraction; 3]) -> InOutput {
     Univariate::new((0..3).map(coefficient).collect())
 }
 
-/// The relations of a loop between its locked variable, counted from `offset`, and as many outputs as there are ways to
+/// The relations of a loop between what runs in it, an angle counted from `offset`, and as many outputs as there are ways to
 /// eliminate the others; none for loops that have no route.
-pub(super) fn relations(chain: &Chain, layout: &Layout, input: Variable, offset: &Rational) -> Vec<Relation> {
-    let filling = filling(input, offset);
+pub(super) fn relations(chain: &Chain, layout: &Layout, moved: Moved<'_>, offset: &Rational) -> Vec<Relation> {
+    let running = moved.at(offset);
+    let Some(filling) = running.filling() else { return Vec::new() };
     if layout.second_ball.is_some() {
-        return coupled(chain, layout, &filling).into_iter().collect();
+        return coupled(chain, layout, &running, &filling).into_iter().collect();
     }
     let filled = layout.with_idle(layout.missing(), 0);
-    let Ok(open) = chain.open_loop::<CircleFraction>(&filled) else { return Vec::new() };
+    let Ok(Some(open)) = chain.open_loop_over::<CircleFraction>(&filled, &running) else { return Vec::new() };
     let closed = OpenLoop::close(&open, &filling);
     let indices = filled.joint_variables();
     if layout.missing() > 0 {
+        // With numbers for its input an overconstrained loop closes at single values only.
+        if !moved.is_input() {
+            return Vec::new();
+        }
         let is_plain = layout.ball.is_none();
         let found = if is_plain { super::four_joints::relations(&closed, indices) } else { Vec::new() };
         return if found.is_empty() { super::by_cut::relations(chain, layout, offset) } else { found };
@@ -116,8 +109,13 @@ pub(super) fn relations(chain: &Chain, layout: &Layout, input: Variable, offset:
 }
 
 /// Two spherical joints: their centres keep their distance.
-fn coupled(chain: &Chain, layout: &Layout, filling: &Motion<CircleFraction>) -> Option<Relation> {
-    let coupled = chain.open_coupled::<CircleFraction>(layout, &Numbers).ok()?.close(filling);
+fn coupled(
+    chain: &Chain,
+    layout: &Layout,
+    running: &Running<'_>,
+    filling: &Motion<CircleFraction>,
+) -> Option<Relation> {
+    let coupled = chain.open_coupled::<CircleFraction>(layout, running).ok()?.close(filling);
     let equation = of_row(coupled.variable, &spherical_pair::equation(&coupled));
     Some(Relation::plain(coupled.indices[2], coupled.variable, &equation))
 }

@@ -6,6 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use looproot::internal::catalogue::{Chains, Options};
+use looproot::internal::derivation::Way;
 use looproot::internal::report::convert::Target;
 use looproot::internal::report::paper::Style;
 use looproot_algebra::text::Format;
@@ -264,6 +265,13 @@ fn style() -> impl TypedValueParser<Value = Style> {
     })
 }
 
+fn way() -> impl TypedValueParser<Value = Way> {
+    PossibleValuesParser::new(Way::NAMED.map(|(name, _)| name)).map(|name| {
+        let found = Way::NAMED.iter().find(|(known, _)| *known == name);
+        found.map_or(Way::WoernleLee, |(_, way)| *way)
+    })
+}
+
 /// `looproot derive`
 #[derive(Args)]
 #[command(after_help = help::DERIVE)]
@@ -310,6 +318,29 @@ pub struct DeriveOptions {
     /// Linkages: the curve of a point of a body, as a polynomial in its coordinates
     #[arg(long, value_name = "BODY.POINT", conflicts_with_all = ["explain", "symbolic", "bless", "format"])]
     pub trace: Option<String>,
+    /// The closure polynomial by one elimination, with its own equations and matrix, compared over the rationals
+    #[arg(long, value_name = "WAY", value_parser = way(), conflicts_with_all = ["symbolic", "bless", "transference", "trace"])]
+    pub by: Option<Way>,
+    /// The numbers of real assembly modes between the zeros of the discriminant in one parameter (theta4, a2, x, leg1), or over the
+    /// plane of two, as a1,theta4
+    #[arg(
+        long,
+        value_name = "NAMES",
+        conflicts_with_all = ["symbolic", "bless", "transference", "trace", "by", "format", "explain"]
+    )]
+    pub discriminant: Option<String>,
+    /// With --discriminant: an SVG picture
+    #[arg(long, requires = "discriminant", conflicts_with = "json")]
+    pub svg: bool,
+    /// With two parameters: where the first one begins [default: a full turn, a length from 0 to twice that of the file]
+    #[arg(long, value_name = "VALUE", requires_all = ["discriminant", "to"], allow_hyphen_values = true)]
+    pub from: Option<String>,
+    /// With two parameters: where the first one ends
+    #[arg(long, value_name = "VALUE", requires_all = ["discriminant", "from"], allow_hyphen_values = true)]
+    pub to: Option<String>,
+    /// With two parameters: the number of columns, in each of which the cells of the second one are exact
+    #[arg(long, value_name = "N", requires = "discriminant", default_value = "72", value_parser = steps)]
+    pub columns: usize,
     /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
     pub seed: Option<u64>,

@@ -8,11 +8,11 @@ use super::seed::plant;
 use super::wanted::{in_place, wanted};
 use looproot::internal::catalogue::entry::Entry;
 use looproot::internal::catalogue::{Any, Options, load_solvable};
-use looproot::internal::derivation::{Derivation, derive, derive_with_symbols};
+use looproot::internal::derivation::{Derivation, Way, derive, derive_by, derive_with_symbols};
 use looproot::internal::error::Error;
 use looproot::internal::report::derivation::{json, paper, system, text, verdict};
 use looproot::internal::report::document::complete;
-use looproot::internal::report::symbolic;
+use looproot::internal::report::{symbolic, ways};
 use serde_json::Value;
 use std::io::Write;
 
@@ -41,6 +41,12 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     let whole = entry.clone();
     let index = wanted(&options.asked, mechanism, &mut entry)?.start;
     let case = &entry.cases[index];
+    if let Some(names) = &options.discriminant {
+        return super::discriminant::run(options, mechanism, &whole, (&entry, index), names);
+    }
+    if let Some(way) = options.by {
+        return by(options, mechanism, &whole, (&entry, index), way);
+    }
     let (written, exit) = if let Some(list) = &options.symbolic {
         let names: Vec<String> = list.split(',').map(|name| name.trim().to_owned()).filter(|n| !n.is_empty()).collect();
         let derivation =
@@ -78,8 +84,35 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     Ok(exit)
 }
 
+/// The closure polynomial by one elimination.
+fn by(
+    options: &DeriveOptions,
+    mechanism: &str,
+    whole: &Entry,
+    (entry, index): (&Entry, usize),
+    way: Way,
+) -> Result<Exit, Fault> {
+    let case = &entry.cases[index];
+    let found = derive_by(entry, case, way).map_err(|error| in_place(error, mechanism, entry))?;
+    let written = if options.json {
+        document(ways::json(entry, index + 1, &found), whole)
+    } else if let Some(format) = options.format {
+        system(&found.derivation, format)?
+    } else if let Some(style) = options.explain {
+        ways::paper(entry, index + 1, &found, &found.derivation.substituted(entry, case)?, style)
+    } else if options.quiet {
+        ways::verdict(&found) + "\n"
+    } else {
+        ways::text(&found)
+    };
+    let mut output = Output::open(&options.output, mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(exit(&found.derivation))
+}
+
 /// A document with the keys of every document.
-fn document(mut value: Value, entry: &Entry) -> String {
+pub fn document(mut value: Value, entry: &Entry) -> String {
     complete(&mut value, entry);
     format!("{value}\n")
 }

@@ -12,6 +12,7 @@ pub mod conditions_search;
 pub mod convert;
 pub mod demand;
 pub mod derive;
+pub mod discriminant;
 pub mod dynamics;
 pub mod exit;
 pub mod factor;

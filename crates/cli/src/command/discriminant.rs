@@ -1,0 +1,111 @@
+//! `looproot derive --discriminant`
+
+use super::arguments::DeriveOptions;
+use super::derive::document;
+use super::exit::{Exit, Fault};
+use super::output::Output;
+use super::solve::stop_on_interrupt;
+use super::wanted::in_place;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use looproot::internal::catalogue::entry::Entry;
+use looproot::internal::error::Error;
+use looproot::internal::report::cells::{is_map_proved, json, map_json, map_text, map_verdict, text, verdict};
+use looproot::internal::report::cells_picture::{map_svg, svg};
+use looproot::internal::sweep::{MapWanted, cell_map, cells, is_angle};
+use looproot_algebra::number::{Angle, Number, Quantity};
+use std::io::Write;
+use std::sync::atomic::Ordering;
+
+/// The cells of one parameter, or of two.
+pub fn run(
+    options: &DeriveOptions,
+    mechanism: &str,
+    whole: &Entry,
+    (entry, index): (&Entry, usize),
+    names: &str,
+) -> Result<Exit, Fault> {
+    let names: Vec<&str> = names.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
+    let case = &entry.cases[index];
+    let place = |error| in_place(error, mechanism, entry);
+    let (written, exit) = match names.as_slice() {
+        [name] => {
+            if options.from.is_some() {
+                let message = format!(
+                    "found --from with one parameter, {name}, whose cells have no ends; expected two parameters"
+                );
+                return Err(Error::Invalid(message).into());
+            }
+            let found = cells(entry, case, name).map_err(place)?;
+            let written = if options.json {
+                document(json(entry, index + 1, &found), whole)
+            } else if options.svg {
+                svg(entry, &found)
+            } else if options.quiet {
+                verdict(&found) + "\n"
+            } else {
+                text(&found)
+            };
+            (written, if found.verdict.proof.is_proved() { Exit::Complete } else { Exit::NotProved })
+        }
+        [one, two] => {
+            let turns = is_angle(entry, case, one)?;
+            let range = range(options, entry, turns)?;
+            let stop = stop_on_interrupt();
+            let running = || !stop.load(Ordering::Relaxed);
+            let progress = progress(options);
+            let wanted = MapWanted { parameters: [one, two], range, columns: options.columns };
+            let found = cell_map(entry, case, wanted, running, || progress.inc(1)).map_err(place)?;
+            progress.finish_and_clear();
+            let written = if options.json {
+                document(map_json(entry, index + 1, &found), whole)
+            } else if options.svg {
+                map_svg(entry, &found)
+            } else if options.quiet {
+                map_verdict(&found) + "\n"
+            } else {
+                map_text(&found)
+            };
+            let exit = match (found.columns.len() < options.columns, is_map_proved(&found)) {
+                (true, _) => Exit::Interrupted,
+                (_, true) => Exit::Complete,
+                _ => Exit::NotProved,
+            };
+            (written, exit)
+        }
+        several => {
+            let message = format!("found --discriminant with {} parameters, expected one or two", several.len());
+            return Err(Error::Invalid(message).into());
+        }
+    };
+    let mut output = Output::open(&options.output, mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(exit)
+}
+
+/// The range of the first parameter, radians or metres.
+fn range(options: &DeriveOptions, entry: &Entry, is_angle: bool) -> Result<Option<[f64; 2]>, Error> {
+    let (Some(from), Some(to)) = (&options.from, &options.to) else { return Ok(None) };
+    let end = |name: &str, text: &str| {
+        let value = if is_angle {
+            Angle::parse(text, &entry.reading).map(|angle| angle.radians())
+        } else {
+            Number::parse(text, Quantity::Length, &entry.reading).map(|length| length.to_f64())
+        };
+        value.map_err(|error| match error.into() {
+            Error::Invalid(message) => Error::Invalid(format!("{name}: {message}")),
+            other => other,
+        })
+    };
+    Ok(Some([end("--from", from)?, end("--to", to)?]))
+}
+
+/// A bar on the terminal, hidden by itself where stderr is none.
+fn progress(options: &DeriveOptions) -> ProgressBar {
+    let target = if options.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let progress = ProgressBar::with_draw_target(Some(options.columns as u64), target);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta}") {
+        progress.set_style(style);
+    }
+    progress
+}

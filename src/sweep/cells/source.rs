@@ -1,0 +1,60 @@
+//! Where the closure polynomial in a parameter and an unknown comes from.
+
+use crate::algebra::int::Int;
+use crate::algebra::polynomial::Polynomial;
+use crate::catalogue::entry::{Case, Entry};
+use crate::algebra::drawn;
+use crate::derivation::{Setting, derive_interpolated, variable_name};
+use crate::error::{Error, Result};
+use crate::kinematics::closed_loop::Variable;
+use crate::sweep::exact::{Exact, Moved};
+use crate::verdict::Proof;
+
+/// Probability of error of a polynomial that is interpolated and compared at 20 places.
+const ERROR: f64 = 1e-12;
+
+/// A closure polynomial and what it rests on.
+pub(super) struct Source {
+    pub exact: Exact,
+    /// The name of the unknown.
+    pub unknown: String,
+    /// Whether it is interpolated without a bound of its degree.
+    pub is_probable: bool,
+    pub proof: Proof,
+}
+
+impl Source {
+    /// Eliminated with the parameter as a variable, where the sweep has a route for that; else interpolated.
+    pub fn of(entry: &Entry, case: &Case, setting: &Setting) -> Result<Self> {
+        let moved = Moved { case, place: setting.place, kind: setting.kind };
+        if let (Some(chain), Ok(exact)) = (entry.chain(), Exact::moving(entry, moved)) {
+            let joint = exact.output(0).map_or(0, |output| output.joint);
+            let unknown = variable_name(chain, joint).unwrap_or_default();
+            return Ok(Self { exact, unknown, is_probable: false, proof: Proof::Proved });
+        }
+        Self::interpolated(entry, case, setting)
+    }
+
+    fn interpolated(entry: &Entry, case: &Case, setting: &Setting) -> Result<Self> {
+        let derivation = derive_interpolated(entry, case, std::slice::from_ref(&setting.name))?;
+        let none = || Error::Unsupported("there is no closure polynomial in the parameter and one unknown".to_owned());
+        let found = derivation.polynomial.as_ref().ok_or_else(none)?;
+        let names = derivation.names.list();
+        let parameter = names.iter().position(|name| *name == setting.variable).ok_or_else(none)?;
+        let own = [parameter, found.variable];
+        let whole = found.displayed.polynomial.primitive().0;
+        let terms = whole.terms().map(|(exponents, c)| {
+            let power = |k: usize| exponents.get(k).copied().unwrap_or(0);
+            (own.map(power).to_vec(), c.clone())
+        });
+        let polynomial: Polynomial<Int> = Polynomial::from_terms(terms);
+        let unknown = names[found.variable].clone();
+        let is_distance = unknown.starts_with('d') && entry.chain().is_some();
+        let kind = if is_distance { Variable::Translation } else { Variable::Rotation };
+        let full = polynomial.degree(1) as usize;
+        let exact = Exact::of_polynomial(&polynomial, setting.kind, kind, full).ok_or_else(none)?;
+        let seed = drawn::seed();
+        let proof = if derivation.proved { Proof::Proved } else { Proof::Probable { error: ERROR, seed } };
+        Ok(Self { exact, unknown, is_probable: !derivation.proved, proof })
+    }
+}

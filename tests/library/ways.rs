@@ -1,0 +1,86 @@
+//! Eliminations of one mechanism by several ways: the same closure polynomial over the rationals, or a refusal that says why.
+#![allow(clippy::unwrap_used)]
+
+use looproot::internal::benchmark::sample::{CHAINS, Set, rational_sample};
+use looproot::internal::catalogue::entry::Entry;
+use looproot::internal::catalogue::{Options, load};
+use looproot::internal::derivation::{ByWay, Way, derive_by};
+use looproot::internal::error::Error;
+use std::collections::BTreeSet;
+
+fn by(entry: &Entry, way: Way) -> Result<ByWay, Error> {
+    derive_by(entry, &entry.cases[0], way)
+}
+
+/// The ways that apply to a mechanism; each compares its eliminant with the closure polynomial over the rationals and fails where
+/// they differ. Returns the sizes of their matrices.
+fn agreeing(entry: &Entry) -> Vec<(&'static str, [usize; 2])> {
+    let mut found = Vec::new();
+    for (name, way) in Way::NAMED {
+        match by(entry, way) {
+            Ok(by) => {
+                let polynomial = by.derivation.polynomial.as_ref().unwrap();
+                assert!(by.before >= polynomial.degree(), "{name}");
+                let divided: usize = by.divided.iter().map(degree).sum();
+                assert_eq!(by.before, polynomial.degree() + divided, "{name}: {:?}", by.divided);
+                found.push((name, [by.matrix.rows, by.matrix.columns]));
+            }
+            Err(Error::Unsupported(message)) => assert!(message.starts_with(&format!("--by {name} ")), "{message}"),
+            Err(error) => panic!("{name}: {error}"),
+        }
+    }
+    found
+}
+
+fn degree(one: &looproot::internal::derivation::Removed) -> usize {
+    one.factor.as_ref().map_or(0, |factor| factor.total_degree().unwrap_or(0) as usize) * one.multiplicity
+}
+
+#[test]
+fn ways_have_matrices_of_their_own() {
+    let entry = |name: &str| load(name, &Options::default()).unwrap();
+    let general = agreeing(&entry("general_7r"));
+    let sizes: BTreeSet<[usize; 2]> = general.iter().map(|(_, size)| *size).collect();
+    assert_eq!(
+        general.iter().map(|(name, _)| *name).collect::<Vec<_>>(),
+        ["woernle-lee", "half-angle", "study", "raghavan-roth"]
+    );
+    assert!(sizes.contains(&[8, 8]) && sizes.contains(&[12, 12]), "{sizes:?}");
+    let transferred = agreeing(&entry("cccr_4_angle"));
+    assert!(transferred.iter().any(|(name, _)| *name == "dual"), "{transferred:?}");
+    for name in ["rsrc", "crcrr_2_angle", "crcrr_4_angle"] {
+        assert!(agreeing(&entry(name)).len() >= 2, "{name}");
+    }
+}
+
+#[test]
+fn ways_that_do_not_apply_say_why() {
+    let rssr = load("rssr", &Options::default()).unwrap();
+    let message = by(&rssr, Way::Study).unwrap_err().to_string();
+    assert!(message.contains("two spherical joints"), "{message}");
+    let general = load("general_7r", &Options::default()).unwrap();
+    let message = by(&general, Way::Dual).unwrap_err().to_string();
+    assert!(message.contains("real angle"), "{message}");
+}
+
+/// Random loops of every sequence of unknowns that `bench accuracy --set loops` has.
+fn random(count: u64) {
+    let mut applied = 0;
+    for index in 0..count {
+        let sample = rational_sample(Set::Chain((index as usize * 7) % CHAINS.len()), 19, index).unwrap();
+        applied += agreeing(&sample.entry).len();
+    }
+    println!("{applied} eliminations of {count} loops agree");
+    assert!(applied as u64 >= 2 * count, "{applied}");
+}
+
+#[test]
+fn ways_agree_on_a_few_random_loops() {
+    random(3);
+}
+
+#[test]
+#[ignore = "takes a minute or more: cargo test --test library ways:: -- --ignored"]
+fn ways_agree_on_fifty_random_loops() {
+    random(50);
+}
