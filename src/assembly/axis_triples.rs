@@ -6,6 +6,7 @@
 
 use crate::kinematics::closed_loop::{OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
+use crate::solve::decoupled::{Common, Decoupled};
 
 /// Distances, in parts of the longest link, and sines below which axes meet or are parallel.
 const NEAR: f64 = 1e-10;
@@ -23,8 +24,7 @@ impl AxisTriple {
     /// All triples that do not overlap, from the first unknown on, among the links of a loop whose gap is open.
     #[must_use]
     pub fn all(open: &OpenLoop<f64>) -> Vec<Self> {
-        let size = |m: &Motion<f64>| m.translation.iter().map(|x| x.abs()).fold(0.0, f64::max);
-        let near = NEAR * open.constants.iter().map(size).fold(0.0, f64::max);
+        let near = near(open);
         let mut found: Vec<Self> = Vec::new();
         for first in 0..4 {
             let free = found.last().is_none_or(|triple| triple.first + 3 <= first);
@@ -39,6 +39,33 @@ impl AxisTriple {
         }
         found
     }
+}
+
+/// The three rotations that a closed form takes out of a loop of six, its gap open: those through a point before parallel ones,
+/// whose positions are of the same degree.
+pub(super) fn decoupled(open: &OpenLoop<f64>) -> Option<Decoupled> {
+    if open.variables != [Variable::Rotation; 6] {
+        return None;
+    }
+    let near = near(open);
+    let through_a_point = (0..4).find_map(|first| {
+        let [before, behind] = [&open.constants[first], &open.constants[first + 1]];
+        let back = [before, behind].map(Motion::inverse);
+        let on_middle = [crossing(&back[0], near)?, crossing(behind, near)?];
+        let heights = [crossing(before, near)?, crossing(&back[1], near)?];
+        let meet = (on_middle[0] - on_middle[1]).abs() <= near;
+        meet.then_some(Decoupled { first, common: Common::Point(heights) })
+    });
+    through_a_point.or_else(|| {
+        let are_parallel = |first: &usize| open.constants[*first..*first + 2].iter().all(is_parallel);
+        (0..4).find(are_parallel).map(|first| Decoupled { first, common: Common::Direction })
+    })
+}
+
+/// How near axes are that meet.
+fn near(open: &OpenLoop<f64>) -> f64 {
+    let size = |m: &Motion<f64>| m.translation.iter().map(|x| x.abs()).fold(0.0, f64::max);
+    NEAR * open.constants.iter().map(size).fold(0.0, f64::max)
 }
 
 /// Whether a link keeps the direction of the z axis.

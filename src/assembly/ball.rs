@@ -62,6 +62,7 @@ impl Search<'_> {
             prepared: &[],
             closed: &closed,
             ball: None,
+            decoupled: None,
             arrangement: AS_IT_IS,
             gap_rounding: self.gap_rounding,
             roots: self.roots,

@@ -126,6 +126,7 @@ fn one<S: Scalar>(
         prepared: &[],
         closed: &closed,
         ball: None,
+        decoupled: None,
         arrangement: AS_IT_IS,
         gap_rounding: 0.0,
         roots,

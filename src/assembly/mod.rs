@@ -2,6 +2,7 @@
 
 mod axis_triples;
 mod ball;
+mod closed_form;
 pub mod coupler;
 mod few_rotations;
 mod limits;

@@ -144,7 +144,8 @@ pub fn are_apart(variables: &[Variable; 6], one: &Mode, two: &Mode) -> bool {
 /// An angle in (-pi, pi].
 #[must_use]
 pub fn wrapped(angle: f64) -> f64 {
-    let mut x = angle % TAU;
+    // The remainder of what is smaller is itself.
+    let mut x = if angle.abs() < TAU { angle } else { angle % TAU };
     if x > PI {
         x -= TAU;
     } else if x <= -PI {

@@ -16,6 +16,7 @@ use crate::elimination::rearranged::rearranged;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::solve::back_substitution::CutView;
 use crate::solve::curve::CLOSES_WITHIN;
+use crate::solve::decoupled::Decoupled;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{SHARED, at_root, double_angle, kernel};
@@ -51,6 +52,8 @@ pub(super) struct Search<'a> {
     pub closed: &'a ClosedLoop<f64>,
     /// Where the three rotations of a ball begin, if there is one.
     pub ball: Option<usize>,
+    /// What a closed form takes out of the loop, if there is one.
+    pub decoupled: Option<Decoupled>,
     /// How far rounding may have moved the gap.
     pub gap_rounding: f64,
     /// Which unknown each one of the cuts is, and whether the translation counts the other way there.
@@ -72,6 +75,10 @@ impl Search<'_> {
             Effort::OnePencil => &|| usize::MAX,
             Effort::Pencils(most) | Effort::All(most) => most,
         };
+        let is_asked = self.roots == Roots::All && !matches!(self.effort, Effort::OnePencil);
+        if is_asked && self.by_closed_form(most) {
+            return;
+        }
         match general_degree(self.closed.variables) {
             _ if self.ball.is_some() => self.ball.into_iter().for_each(|ball| self.centre(ball)),
             Some(2) => self.triangle(),
@@ -192,12 +199,12 @@ impl Search<'_> {
     /// Whether as many solutions are proved as the loop can have: roots that lead nowhere are extraneous then.
     ///
     /// The number is asked only where a special geometry is likely: half of the general number, or a quarter of it.
-    fn is_full(&self, proved: usize, most: &dyn Fn() -> usize) -> bool {
+    pub(super) fn is_full(&self, proved: usize, most: &dyn Fn() -> usize) -> bool {
         self.roots == Roots::All && proved >= FEWEST_OF_SPECIAL && proved >= most()
     }
 
     /// The number of proved solutions.
-    fn proved(&self) -> usize {
+    pub(super) fn proved(&self) -> usize {
         self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count()
     }
 
@@ -337,7 +344,7 @@ impl Search<'_> {
         near
     }
 
-    fn record<S: Scalar>(&mut self, polished: &Polished<S>) {
+    pub(super) fn record<S: Scalar>(&mut self, polished: &Polished<S>) {
         let variables = self.closed.variables;
         let mut unknowns = polished.unknowns.map(Scalar::to_complex);
         let mut wrapping = 0.0_f64;

@@ -1,6 +1,6 @@
 //! A geometry prepared once for many poses.
 
-use super::axis_triples::AxisTriple;
+use super::axis_triples::{AxisTriple, decoupled};
 use super::limits;
 use super::mode::{Assembly, Mode, Roots};
 use super::platform::{PlatformAssembly, PlatformWorkspace};
@@ -16,6 +16,7 @@ use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::elimination::point_reach::general_count;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
+use crate::solve::decoupled::Decoupled;
 use crate::solve::eigen::{EigenWorkspace, companion};
 use crate::solve::scalar::Extended;
 use crate::solve::singular::structural_rank;
@@ -52,6 +53,8 @@ pub struct Solver {
     prepared: Vec<PreparedCut>,
     structural_rank: usize,
     axis_triples: Vec<AxisTriple>,
+    /// What a closed form takes out of the loop, if there is one.
+    decoupled: Option<Decoupled>,
     /// Where the three rotations of a ball begin, if there is one.
     ball: Option<usize>,
 }
@@ -145,13 +148,14 @@ impl Solver {
         prepared.sort_by(|a, b| b.form.score.total_cmp(&a.form.score));
         let structural_rank = structural_rank(&closed);
         let axis_triples = AxisTriple::all(&open);
-        Self { open, scale, prepared, structural_rank, axis_triples, ball: None }
+        let decoupled = decoupled(&open);
+        Self { open, scale, prepared, structural_rank, axis_triples, decoupled, ball: None }
     }
 
     /// As [`Solver::prepare`] for a loop with a ball, whose three rotations begin at this unknown.
     #[must_use]
     pub fn with_ball(open: &OpenLoop<f64>, ball: usize) -> Self {
-        Self { ball: Some(ball), prepared: Vec::new(), ..Self::prepare(open) }
+        Self { ball: Some(ball), decoupled: None, prepared: Vec::new(), ..Self::prepare(open) }
     }
 
     /// The largest rank the six joints reach in general position: below 6 the arm is structurally deficient, and every
@@ -165,6 +169,12 @@ impl Solver {
     #[must_use]
     pub fn axis_triples(&self) -> &[AxisTriple] {
         &self.axis_triples
+    }
+
+    /// Whether a closed form finds the solutions: three neighbouring axes meet in a point or are parallel.
+    #[must_use]
+    pub fn is_decoupled(&self) -> bool {
+        self.decoupled.is_some()
     }
 
     /// Whether some cut loses equations: the geometry is special, and may have fewer than 16 solutions.
@@ -288,6 +298,7 @@ impl Solver {
             prepared: &self.prepared,
             closed: &closed,
             ball: self.ball,
+            decoupled: self.decoupled,
             arrangement: AS_IT_IS,
             gap_rounding: gap.rounding,
             roots,

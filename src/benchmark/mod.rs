@@ -9,3 +9,4 @@ pub mod published;
 pub mod sample;
 pub mod speed;
 pub mod speed_loops;
+mod speed_robots;

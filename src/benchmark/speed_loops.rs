@@ -1,6 +1,7 @@
 //! Timing of loops, input after input of a geometry prepared once, and of exact closure polynomials.
 
 use super::sample::{CHAINS, Set, matrix, motions, sample};
+use super::speed_robots::{Posed, posed};
 use crate::algebra::number::{Angle, HalfTangent, Number, Reading};
 use crate::assembly::{Assembly, Roots, Solver, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue, Kind, Labels};
@@ -315,21 +316,29 @@ pub enum Loops {
     General,
     /// Right angles, zeros and parallel axes, the first input of each loop at angles that are mostly 0, right or pi.
     Special,
+    /// The robots of the library at random poses.
+    Robots,
 }
 
 /// Times `count` loops of each residual chain at a few inputs; in general geometry also the loops of the library that are
-/// none of these, and the closure polynomials of `count` loops with exact data; `repeats` times over, all in turn within each
-/// repeat, so that a machine that changes its speed changes it for all of them.
+/// none of these, and the closure polynomials of `count` loops with exact data; or every robot of the library at `count` poses;
+/// `repeats` times over, all in turn within each repeat, so that a machine that changes its speed changes it for all of them.
 ///
 /// # Errors
 /// None in practice, see [`sample`].
 pub fn run(loops: Loops, count: u64, repeats: usize, seed: u64) -> Result<LoopTimings> {
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
     let mut rows = Vec::new();
-    for (index, (name, _)) in CHAINS.iter().enumerate() {
+    let chains = if loops == Loops::Robots { &[][..] } else { &CHAINS[..] };
+    for (index, (name, _)) in chains.iter().enumerate() {
         let set = if loops == Loops::General { Set::Chain(index) } else { Set::SpecialChain(index) };
         let jobs = (0..count).map(|number| random_job(set, seed, number)).collect::<Result<Vec<Job>>>()?;
         rows.push(Row::warmed((*name).to_owned(), jobs, &mut workspace, &mut assembly)?);
+    }
+    if loops == Loops::Robots {
+        for Posed { name, entry } in posed(count, seed)? {
+            rows.push(Row::warmed(name, vec![Job::new(&entry, None)?], &mut workspace, &mut assembly)?);
+        }
     }
     let mut exact = Vec::new();
     if loops == Loops::General {

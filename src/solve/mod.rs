@@ -4,6 +4,7 @@ pub mod back_substitution;
 pub mod biquadratic;
 pub mod crowded_roots;
 pub mod curve;
+pub mod decoupled;
 pub mod dense;
 pub mod eigen;
 pub mod explorer;

@@ -58,6 +58,29 @@ fn roots_of(kind: Variable, conic: &[[f64; 3]; 3]) -> Option<(RootList, (f64, f6
     Some((polynomial_roots(&coefficients)?, offset))
 }
 
+/// Cosine and sine of an angle.
+#[derive(Clone, Copy, Debug)]
+pub enum Angle {
+    /// Of a real one.
+    Real((f64, f64)),
+    /// Of a complex one.
+    Complex((Complex<f64>, Complex<f64>)),
+}
+
+/// The angles at which a quadratic form in (1, cos, sin) vanishes, one of each pair of conjugates. Those at infinity are left
+/// out.
+#[must_use]
+pub fn angles_of(conic: &[[f64; 3]; 3]) -> [Option<Angle>; 4] {
+    let Some((roots, offset)) = roots_of(Variable::Rotation, conic) else { return [None; 4] };
+    let angle = |x: Complex<f64>| {
+        if x.im == 0.0 {
+            return unshifted(x.re, offset).map(Angle::Real);
+        }
+        (x.im > 0.0).then(|| unshifted(x, offset)).flatten().map(Angle::Complex)
+    };
+    std::array::from_fn(|k| if k < roots.count { angle(roots.list[k]) } else { None })
+}
+
 /// Leading coefficients below this part of the largest one are none.
 const LEADING: f64 = 1e-13;
 

@@ -5,6 +5,8 @@
 use looproot::internal::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
 use looproot::internal::assembly::{Assembly, Roots, Solver, Workspace};
 use looproot::internal::benchmark::sample::{CHAINS, Set, motions, sample};
+use looproot::internal::catalogue::entry::Kind;
+use looproot::internal::catalogue::{Options, builtin, robot_names};
 use looproot::internal::kinematics::closed_loop::{Layout, OpenLoop};
 use looproot::internal::kinematics::motion::Motion;
 use looproot::internal::kinematics::platform::Platform;
@@ -93,6 +95,36 @@ fn solving_pose_after_pose_allocates_nothing() {
         }
         assert!(solutions >= 200, "{roots:?}: {solutions}");
     }
+}
+
+#[test]
+fn no_robot_of_six_joints_allocates() {
+    let mut robots = 0;
+    for name in robot_names() {
+        let entry = builtin(&name, &Options::default()).unwrap();
+        let chain = entry.chain().filter(|chain| entry.kind() == Kind::Arm && chain.variables().len() == 6);
+        let Some(chain) = chain else { continue };
+        let open: OpenLoop<f64> = chain.open_loop(&Layout::of(chain, None).unwrap()).unwrap();
+        let solver = Solver::prepare(&open);
+        let most = if solver.is_decoupled() { 8 } else { 16 };
+        let mut random = ChaCha8Rng::seed_from_u64(3);
+        let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+        assembly.modes.reserve(16);
+        for pose in 0..10 {
+            let turns: [Motion<f64>; 6] = std::array::from_fn(|_| {
+                let (sin, cos) = random.random_range(-PI..PI).sin_cos();
+                Motion::rotation_z(cos, sin)
+            });
+            let gap = solver.gap(&chain.forward::<f64>(&turns).unwrap().inverse());
+            let before = requests();
+            solver.solve_up_to(&gap, Roots::All, &|| most, &mut workspace, &mut assembly);
+            assert_eq!(requests() - before, 0, "{name}, pose {pose}");
+            // A closed form needs no pencil.
+            assert!(assembly.tries == 0 || !solver.is_decoupled(), "{name}, pose {pose}: {} pencils", assembly.tries);
+        }
+        robots += 1;
+    }
+    assert!(robots >= 40, "{robots}");
 }
 
 #[test]

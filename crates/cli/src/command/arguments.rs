@@ -847,14 +847,14 @@ pub struct DisturbOptions {
 /// `looproot bench speed`
 #[derive(Args)]
 pub struct SpeedOptions {
-    /// general (arms); loops of all residual chains, short and planar loops of the library, and exact closure polynomials;
+    /// general (arms); robots of the library; loops of all residual chains, short and planar loops of the library, and exact closure polynomials;
     /// special-loops with right angles and parallel axes; platform or another set of platforms
     #[arg(long, default_value = "general")]
     pub set: String,
-    /// Number of arms or platforms, or of loops per chain [default: 200; loops: 20]
+    /// Number of arms or platforms, of loops per chain, or of poses per robot [default: 200; loops, robots: 20]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     pub count: Option<u64>,
-    /// How often each of them is timed [default: 101; loops: 11]
+    /// How often each of them is timed [default: 101; loops: 11; robots: 3]
     #[arg(long, value_name = "N")]
     pub repeats: Option<usize>,
     /// Seed of the draw

@@ -266,10 +266,11 @@ fn measure_speed(options: &SpeedOptions) -> Result<Exit, Fault> {
     let loops = match options.set.as_str() {
         "loops" => Some(Loops::General),
         "special-loops" => Some(Loops::Special),
+        "robots" => Some(Loops::Robots),
         _ => None,
     };
     let written = if let Some(loops) = loops {
-        let (count, repeats, seed) = of(20, 11);
+        let (count, repeats, seed) = of(20, if loops == Loops::Robots { 3 } else { 11 });
         let timings = speed_loops::run(loops, count, repeats, seed)?;
         if options.json { format!("{}\n", loops_document(&timings)) } else { loops_table(&timings) }
     } else {
@@ -279,7 +280,7 @@ fn measure_speed(options: &SpeedOptions) -> Result<Exit, Fault> {
             [(_, Family::Platforms(set))] => platform::speed::run(*set, count, repeats, seed)?,
             _ => {
                 let message = format!(
-                    "found the set `{}`, expected general, loops, special-loops or a set of platforms",
+                    "found the set `{}`, expected general, robots, loops, special-loops or a set of platforms",
                     options.set
                 );
                 return Err(Error::Invalid(message).into());

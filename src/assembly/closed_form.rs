@@ -1,0 +1,120 @@
+//! Arms with a spherical wrist or three parallel axes: all solutions by closed forms, where they are certified to be as many as
+//! the geometry allows.
+
+use super::search::Search;
+use crate::solve::dense::{inverse, times};
+use crate::solve::newton::{Polished, Six, closure};
+use crate::solve::scalar::Scalar;
+
+/// Closures no larger than this are rounding: a step of Newton's method brings nothing.
+const CLOSED: f64 = 2e-15;
+
+impl Search<'_> {
+    /// Lists the candidates of the closed form, if there is one. Whether as many are proved as the loop can have: else nothing
+    /// is listed, and the pencils decide.
+    pub(super) fn by_closed_form(&mut self, most: &dyn Fn() -> usize) -> bool {
+        let Some(decoupled) = self.decoupled else { return false };
+        let candidates = decoupled.candidates(self.closed);
+        if candidates.count() < most() {
+            return false;
+        }
+        let (real, complex) = (candidates.real(), candidates.complex());
+        let all = real.iter().all(|start| self.confirm(start)) && complex.iter().all(|start| self.confirm(start));
+        if all && self.is_full(self.proved(), most) {
+            self.assembly.clean = true;
+            return true;
+        }
+        self.assembly.clear();
+        false
+    }
+
+    /// Lists a candidate that one step of Newton's method brings to a closure, with its proof. Whether it does.
+    fn confirm<S: Scalar>(&mut self, start: &Six<S>) -> bool {
+        let mut here = closure(self.closed, start);
+        let raw = here.defect;
+        let Some(matrix) = inverse(&here.jacobian) else { return false };
+        let (mut unknowns, mut moved) = (*start, 0.0);
+        if !(raw <= CLOSED) {
+            let step = times(&matrix, &here.residual);
+            let next: Six<S> = std::array::from_fn(|k| unknowns[k].sub(&step[k]));
+            let there = closure(self.closed, &next);
+            if there.defect < raw {
+                moved = step.iter().map(|x| x.size()).fold(0.0, f64::max);
+                (unknowns, here) = (next, there);
+            }
+        }
+        here.constant_is_off(5, self.gap_rounding);
+        if !(here.defect < super::limits::RAW) {
+            return false;
+        }
+        let before = self.proved();
+        self.record(&Polished { unknowns, closure: here, inverse: Some(matrix), raw, moved });
+        self.proved() > before
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::assembly::{Assembly, Roots, Solver, Workspace, distance};
+    use crate::kinematics::closed_loop::{OpenLoop, Variable};
+    use crate::kinematics::motion::Motion;
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use std::f64::consts::PI;
+
+    /// A general link, one between axes that cross in the origin behind it, and one between parallel axes.
+    fn link(kind: char, random: &mut ChaCha8Rng) -> Motion<f64> {
+        let mut length = || random.random_range(-1.0..1.0);
+        let translation = match kind {
+            'x' => [0.0; 3],
+            _ => [length(), length(), length()],
+        };
+        let angle = random.random_range(0.3..2.8);
+        let turn = match kind {
+            'p' => Motion::rotation_z(f64::cos(angle), f64::sin(angle)),
+            // Parallel, and the other way up.
+            'a' => Motion::rotation_z(f64::cos(angle), f64::sin(angle)).then_after(&Motion::rotation_x(-1.0, 0.0)),
+            _ => Motion::rotation_z(0.6, 0.8).then_after(&Motion::rotation_x(f64::cos(angle), f64::sin(angle))),
+        };
+        Motion { translation, ..turn }
+    }
+
+    #[test]
+    fn closed_forms_find_what_pencils_find() {
+        let variables = [Variable::Rotation; 6];
+        // A wrist or three parallel axes at every place, some with more axes that cross or are parallel.
+        let links = ["xxggg", "gxxgg", "ggxxg", "gggxx", "ppggg", "gppgg", "ggppg", "gggpp", "gaagg", "gpggg"];
+        let links = links.iter().chain(&["xpgxx", "gpgxx", "xgpxx", "xgxxg", "xppxg", "gppxx", "gppxg"]);
+        for (number, kinds) in links.enumerate() {
+            let mut random = ChaCha8Rng::seed_from_u64(number as u64);
+            let mut next = kinds.chars().map(|kind| link(kind, &mut random));
+            let constants: [Motion<f64>; 5] = std::array::from_fn(|_| next.next().unwrap());
+            let (before_gap, after_gap) = (Motion::identity(), Motion::identity());
+            let solver = Solver::prepare(&OpenLoop { variables, constants: constants.clone(), before_gap, after_gap });
+            assert_eq!(solver.is_decoupled(), *kinds != "gpggg", "{kinds}");
+            for pose in 0..5 {
+                let mut reached = Motion::<f64>::identity();
+                for k in 0..6 {
+                    let (sin, cos) = random.random_range(-PI..PI).sin_cos();
+                    reached = reached.then_after(&Motion::rotation_z(cos, sin));
+                    reached = constants.get(k).map_or(reached.clone(), |constant| reached.then_after(constant));
+                }
+                let gap = solver.gap(&reached.inverse());
+                let (mut workspace, mut fast, mut slow) = (Workspace::default(), Assembly::default(), Assembly::default());
+                let most = if solver.is_decoupled() { 8 } else { 16 };
+                solver.solve_up_to(&gap, Roots::All, &|| most, &mut workspace, &mut fast);
+                // Nobody knows of a bound: the pencils decide.
+                solver.solve_up_to(&gap, Roots::All, &|| usize::MAX, &mut workspace, &mut slow);
+                assert_eq!(fast.tries == 0, solver.is_decoupled(), "{kinds}, pose {pose}");
+                assert!(slow.tries > 0, "{kinds}, pose {pose}");
+                assert_eq!((fast.total(), fast.real()), (slow.total(), slow.real()), "{kinds}, pose {pose}");
+                for mode in &fast.modes {
+                    let known = |other: &crate::assembly::Mode| {
+                        distance(&variables, &mode.unknowns, &other.unknowns) < 1e-8 && mode.real == other.real
+                    };
+                    assert!(mode.certificate.is_some() && slow.modes.iter().any(known), "{kinds}, pose {pose}");
+                }
+            }
+        }
+    }
+}

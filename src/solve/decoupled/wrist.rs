@@ -1,0 +1,195 @@
+//! Three axes through a point: the other three move it to where it has to be, then the three turn about it.
+//!
+//! With p the point as C sees it and t where it has to be, `A a B b C p = t`. The square of the distance and the height of
+//! both sides are free of A: two equations `u . B g + w = 0` in `g = b C p`, u two vectors of the link a. Where these
+//! are independent across the axis, B is found from both of them and C from a quartic, else a combination is free of B.
+//! \[Pieper1968\]
+
+use crate::solve::scalar::Scalar;
+use crate::solve::separated::{Angle, angles_of};
+use super::{
+    C64, Candidates, DEPENDENT, Pair, Rotated, angle_between, axes, between, complex, phases, rotated, rotated_back,
+    turned, vector,
+};
+use crate::kinematics::motion::Motion;
+
+/// A row over (1, cos, sin).
+type Row = [f64; 3];
+
+/// A loop with a wrist at one pose.
+pub(super) struct Wrist<'a> {
+    own: Rotated<'a>,
+    /// The point as C sees it.
+    point: [f64; 3],
+    /// Where it has to be.
+    target: [f64; 3],
+    /// The vectors u of the two equations.
+    across: [[f64; 3]; 2],
+    /// What is free of B in the two equations, as rows over the angle of C.
+    free: [Row; 2],
+    /// The square of the distance of g from the axis of B, from its parts: |g|^2 and the height.
+    square: Row,
+    height: Row,
+    /// The rotation behind F, inverted.
+    last: Motion<f64>,
+}
+
+fn dot(x: &[f64; 3], y: &[f64; 3]) -> f64 {
+    x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
+}
+
+fn combined(x: &Row, factor: f64, y: &Row) -> Row {
+    std::array::from_fn(|k| x[k] + factor * y[k])
+}
+
+impl<'a> Wrist<'a> {
+    pub(super) fn of(own: Rotated<'a>, [on_first, on_last]: [f64; 2]) -> Self {
+        let [a, b, c] = [0, 1, 2].map(|k| own.constant(k));
+        let last = own.constant(5).inverse();
+        let point = c.apply(&[0.0, 0.0, on_first]);
+        let target = last.apply(&[0.0, 0.0, on_last]);
+        let across = [rotated_back(a, &a.translation).map(|x| 2.0 * x), a.rotation[2]];
+        let twice = rotated_back(b, &b.translation).map(|x| 2.0 * x);
+        let mut square = between(&twice, &point);
+        square[0] += dot(&point, &point) + dot(&b.translation, &b.translation);
+        let mut height = between(&b.rotation[2], &point);
+        height[0] += b.translation[2];
+        let mut free = [combined(&square, across[0][2], &height), height.map(|x| across[1][2] * x)];
+        free[0][0] += dot(&a.translation, &a.translation) - dot(&target, &target);
+        free[1][0] += a.translation[2] - target[2];
+        Self { own, point, target, across, free, square, height, last }
+    }
+
+    pub(super) fn candidates(&self, found: &mut Candidates) {
+        let [u, v] = self.across;
+        let sizes = [u, v].map(|w| w[0].hypot(w[1]));
+        let cross = u[0] * v[1] - u[1] * v[0];
+        if cross.abs() > DEPENDENT * sizes[0] * sizes[1] && sizes.iter().all(|size| *size > DEPENDENT) {
+            return self.by_quartic(cross, found);
+        }
+        let strong = usize::from(sizes[1] > sizes[0]);
+        let weak = 1 - strong;
+        if !(sizes[strong] > DEPENDENT) {
+            return;
+        }
+        // What is left of the weaker equation is free of B.
+        let (w, s) = (&self.across[weak], &self.across[strong]);
+        let factor = (w[0] * s[0] + w[1] * s[1]) / (sizes[strong] * sizes[strong]);
+        let equation = combined(&self.free[weak], -factor, &self.free[strong]);
+        let third = phases(&equation);
+        for pair in &third.own[..third.count] {
+            self.second::<f64>(strong, *pair, found);
+        }
+        if let Some(pair) = third.lifted {
+            self.second::<C64>(strong, pair, found);
+        }
+    }
+
+    /// Both angles of B, where C is known.
+    fn second<S: Scalar>(&self, equation: usize, third: Pair<S>, found: &mut Candidates) {
+        let g = self.seen(&third);
+        let mut row = between(&vector(self.across[equation]), &g);
+        row[0] = value(&self.free[equation], &third);
+        let second = phases(&row);
+        for pair in &second.own[..second.count] {
+            self.first([*pair, third], found);
+        }
+        if let Some(pair) = second.lifted {
+            self.first([pair, complex(&third)], found);
+        }
+    }
+
+    /// C by a quartic, then B.
+    fn by_quartic(&self, cross: f64, found: &mut Candidates) {
+        let [u, v] = self.across;
+        let planar = |x: &[f64; 3], y: &[f64; 3]| x[0] * y[0] + x[1] * y[1];
+        let (uu, uv, vv) = (planar(&u, &u), planar(&u, &v), planar(&v, &v));
+        let [p, q] = &self.free;
+        // |p v - q u|^2 = (u x v)^2 (|g|^2 - height^2)
+        let mut conic = [[0.0; 3]; 3];
+        for i in 0..3 {
+            for j in 0..3 {
+                let squares = vv * p[i] * p[j] - uv * (p[i] * q[j] + q[i] * p[j]) + uu * q[i] * q[j];
+                conic[i][j] = squares + cross * cross * self.height[i] * self.height[j];
+            }
+            conic[0][i] -= cross * cross * self.square[i];
+        }
+        for angle in angles_of(&conic).into_iter().flatten() {
+            match angle {
+                Angle::Real(pair) => self.by_both(cross, pair, found),
+                Angle::Complex(pair) => self.by_both(cross, pair, found),
+            }
+        }
+    }
+
+    /// B from both equations.
+    fn by_both<S: Scalar>(&self, cross: f64, third: Pair<S>, found: &mut Candidates) {
+        let g = self.seen(&third);
+        let [p, q] = self.free.map(|row| value(&row, &third));
+        let square = g[0].mul(&g[0]).add(&g[1].mul(&g[1])).times(cross);
+        let Some(inverse) = square.inverse() else { return };
+        // u . B g = -p and v . B g = -q in the plane: B g by the inverse of (u, v).
+        let [u, v] = self.across;
+        let x = q.times(u[1]).sub(&p.times(v[1]));
+        let y = p.times(v[0]).sub(&q.times(u[0]));
+        let cos = g[0].mul(&x).add(&g[1].mul(&y)).mul(&inverse);
+        let sin = g[0].mul(&y).sub(&g[1].mul(&x)).mul(&inverse);
+        self.first([(cos, sin), third], found);
+    }
+
+    /// g, the point as B sees it.
+    fn seen<S: Scalar>(&self, third: &Pair<S>) -> [S; 3] {
+        let b = self.own.constant(1);
+        let g = rotated(b, &turned(third, &vector(self.point)));
+        std::array::from_fn(|k| g[k].add(&S::from_f64(b.translation[k])))
+    }
+
+    /// A, where B and C are known, then the wrist.
+    fn first<S: Scalar>(&self, [second, third]: [Pair<S>; 2], found: &mut Candidates) {
+        let a = self.own.constant(0);
+        let moved = rotated(a, &turned(&second, &self.seen(&third)));
+        let [x, y] = [0, 1].map(|k| moved[k].add(&S::from_f64(a.translation[k])));
+        let to = [0, 1].map(|k| S::from_f64(self.target[k]));
+        let Some(first) = angle_between((&x, &y), (&to[0], &to[1])) else { return };
+        self.wrist(&[first, second, third], found);
+    }
+
+    /// The three angles of the wrist from their product Q: `D d E e F = (A a B b C c)^-1 f^-1`.
+    fn wrist<S: Scalar>(&self, arm: &[Pair<S>; 3], found: &mut Candidates) {
+        let frame = self.own.arm(arm).rotation;
+        let last = &self.last.rotation;
+        let turn: [[S; 3]; 3] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| (0..3).fold(S::zero(), |sum, k| sum.add(&frame[k][i].times(last[k][j]))))
+        });
+        let [d, e] = [3, 4].map(|k| self.own.constant(k));
+        let ([row, _], [_, column]) = (axes(&d.rotation), axes(&e.rotation));
+        let mut equation = between(&vector(row), &vector::<S>(column));
+        equation[0] = equation[0].sub(&turn[2][2]);
+        let middle = phases(&equation);
+        for pair in &middle.own[..middle.count] {
+            self.outer(arm, &turn, pair, found);
+        }
+        if let Some(pair) = middle.lifted {
+            let turn = turn.map(|row| row.map(Scalar::to_complex));
+            self.outer(&arm.each_ref().map(complex), &turn, &pair, found);
+        }
+    }
+
+    /// D and F, where E is known.
+    fn outer<S: Scalar>(&self, arm: &[Pair<S>; 3], turn: &[[S; 3]; 3], middle: &Pair<S>, found: &mut Candidates) {
+        let [d, e] = [3, 4].map(|k| self.own.constant(k));
+        let ([row, _], [_, column]) = (axes(&d.rotation), axes(&e.rotation));
+        let there = rotated(d, &turned(middle, &vector(column)));
+        let Some(first) = angle_between((&there[0], &there[1]), (&turn[0][2], &turn[1][2])) else { return };
+        // The third row of Q is that of d E e, turned by F.
+        let back = turned(&(middle.0, middle.1.neg()), &vector(row));
+        let [x, y] = [0, 1].map(|j| (0..3).fold(S::zero(), |sum, i| sum.add(&back[i].times(e.rotation[i][j]))));
+        let Some(last) = angle_between((&turn[2][0], &turn[2][1]), (&x, &y)) else { return };
+        self.own.push(arm, &[first, *middle, last], found);
+    }
+}
+
+/// A row at an angle.
+fn value<S: Scalar>(row: &Row, (cos, sin): &Pair<S>) -> S {
+    S::from_f64(row[0]).add(&cos.times(row[1])).add(&sin.times(row[2]))
+}
