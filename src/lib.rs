@@ -23,6 +23,7 @@ pub mod internal {
     pub mod verdict;
     pub mod mechanism;
     pub mod displacement;
+    pub mod gearing;
     pub mod lines;
     pub mod synthesis;
     pub mod linkage;
@@ -41,7 +42,7 @@ pub mod internal {
 
 use internal::{
     assembly, benchmark, catalogue, certificate, certify, claims, closure, conditions, derivation, displacement,
-    elimination, error, exact, face, factoring, kinematics, lines, linkage, mechanism, mobility, report, scene, solve,
+    elimination, error, exact, face, factoring, gearing, kinematics, lines, linkage, mechanism, mobility, report, scene, solve,
     sweep, synthesis, verdict,
 };
 

@@ -1,7 +1,8 @@
-//! Files of the calculus: questions about displacements and about lines.
+//! Files of the calculus: questions about displacements, lines and gears.
 
 use super::displacement::{Displacement, displacement};
 use super::file_kind::FileKind;
+use super::gearing::{Gearing, gearing};
 use super::heading::{Heading, heading_with};
 use super::lines::{Lines, lines};
 use super::node::Node;
@@ -33,6 +34,8 @@ pub enum Question {
     Displacement(Box<Displacement>),
     /// Lines and complexes of lines.
     Lines(Box<Lines>),
+    /// Gears and wheels.
+    Gearing(Box<Gearing>),
 }
 
 /// Claimed counts.
@@ -55,6 +58,7 @@ impl CalculusFile {
         match self.question {
             Question::Displacement(_) => FileKind::Displacement,
             Question::Lines(_) => FileKind::Lines,
+            Question::Gearing(_) => FileKind::Gearing,
         }
     }
 
@@ -64,13 +68,16 @@ impl CalculusFile {
         match &self.question {
             Question::Displacement(question) => question.word(),
             Question::Lines(question) => question.word(),
+            Question::Gearing(question) => question.word(),
         }
     }
 }
 
 /// The keys of the lists that questions are made of.
-const PARTS: [&str; 10] =
-    ["element", "rotation", "pair", "screw", "point", "line", "complex", "plane", "force", "couple"];
+const PARTS: [&str; 14] = [
+    "element", "rotation", "pair", "screw", "point", "line", "complex", "plane", "force", "couple", "shaft", "gear", "relation",
+    "wheel",
+];
 
 /// Reads a file of the calculus.
 pub(super) fn calculus(scope: &mut Scope<'_>, root: &Node, name: &str, kind: FileKind) -> Result<CalculusFile> {
@@ -78,10 +85,10 @@ pub(super) fn calculus(scope: &mut Scope<'_>, root: &Node, name: &str, kind: Fil
     let heading = heading_with(scope, root, name, parts.as_slice())?;
     let keys = [&["title", "source", "notes", "units", "mechanism", "expected"], parts.as_slice()].concat();
     let table = scope.table(root, "the file", &keys)?;
-    let question = if kind == FileKind::Lines {
-        Question::Lines(Box::new(lines(scope, &table)?))
-    } else {
-        Question::Displacement(Box::new(displacement(scope, &table)?))
+    let question = match kind {
+        FileKind::Lines => Question::Lines(Box::new(lines(scope, &table)?)),
+        FileKind::Gearing => Question::Gearing(Box::new(gearing(scope, &table)?)),
+        _ => Question::Displacement(Box::new(displacement(scope, &table)?)),
     };
     let claims = claims(scope, &table)?;
     let (rounded, warnings) = (scope.is_rounded(), scope.take_warnings());

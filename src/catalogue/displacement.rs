@@ -6,7 +6,8 @@ use super::node::Node;
 use super::planes::{MovingPoint, moving, places, planes};
 use super::scope::{Scope, Table};
 use crate::algebra::number::{HalfTangent, Quantity};
-use crate::error::Result;
+use crate::algebra::text::{Expression, Names};
+use crate::error::{Error, Result};
 use crate::kinematics::motion::{Motion, Vector};
 use looproot_calculus::displacement::points::Moved;
 use looproot_calculus::line::plane::Plane;
@@ -39,6 +40,17 @@ pub enum Displacement {
     Midpoints(Box<GivenScrew>, Vec<Vector<Rational>>),
     /// The motion of a body by the velocities and accelerations of three points.
     Velocities(Box<[MovingPoint; 3]>),
+    /// The frame of a point that moves on a surface.
+    Surface(Box<OnSurface>),
+}
+
+/// A point that moves on a surface.
+#[derive(Clone, Debug)]
+pub struct OnSurface {
+    /// The coordinates as polynomials in two parameters u and v.
+    pub coordinates: [Expression; 3],
+    /// The parameters of the point, their rates and their second rates.
+    pub path: [[Rational; 2]; 3],
 }
 
 /// Which displacements take a line to a line.
@@ -77,6 +89,7 @@ impl Displacement {
             Self::Reflections(_) => "reflections",
             Self::Midpoints(..) => "midpoints",
             Self::Velocities(_) => "velocities",
+            Self::Surface(_) => "surface",
         }
     }
 }
@@ -95,9 +108,19 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
         "reflections",
         "midpoints",
         "velocities",
+        "surface",
     ];
-    let (find, mechanism, line) = found(scope, table, &words, &["axes", "through", "share"])?;
-    for (key, of) in [("axes", "three-rotations"), ("through", "line"), ("share", "between")] {
+    let (find, mechanism, line) = found(scope, table, &words, &["axes", "through", "share", "coordinates", "at", "rate", "second_rate"])?;
+    let owners = [
+        ("axes", "three-rotations"),
+        ("through", "line"),
+        ("share", "between"),
+        ("coordinates", "surface"),
+        ("at", "surface"),
+        ("rate", "surface"),
+        ("second_rate", "surface"),
+    ];
+    for (key, of) in owners {
         if let (Some(node), false) = (mechanism.get(key), find == of) {
             return Err(scope
                 .fail(node.line, format!("found `{key}` with `find = \"{find}\"`, expected it with \"{of}\" only")));
@@ -144,6 +167,7 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
             }
             Ok(Displacement::Midpoints(Box::new(screw), points))
         }
+        "surface" => on_surface(scope, &mechanism),
         "velocities" => Ok(Displacement::Velocities(Box::new(moving(scope, table)?))),
         _ => {
             let given = parts(scope, table, "line", &super::lines::LINE, &[])?;
@@ -163,6 +187,31 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
             Ok(Displacement::Line([first, second], through))
         }
     }
+}
+
+/// Coordinates in u and v, and how u and v run.
+fn on_surface(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Displacement> {
+    let node = scope.need(mechanism, "coordinates")?;
+    let mut names = Names::given(["u", "v"])?;
+    let mut one = |node: &Node| {
+        let text = scope.text(node, "coordinates")?;
+        Expression::parse(text, &mut names).map_err(|fault| scope.fail(node.line, fault.message))
+    };
+    let [x, y, z] = scope.exactly::<3>(node, "coordinates")?;
+    let coordinates = [one(x)?, one(y)?, one(z)?];
+    let pair = |key: &str| -> Result<[Rational; 2]> {
+        let Some(node) = mechanism.get(key) else { return Ok([Rational::new(), Rational::new()]) };
+        let [u, v] = scope.exactly::<2>(node, key)?;
+        let number = |node: &Node| Ok::<_, Error>(scope.number(node, Quantity::Ratio, key)?.rational().clone());
+        Ok([number(u)?, number(v)?])
+    };
+    scope.need(mechanism, "at")?;
+    let rate = scope.need(mechanism, "rate")?;
+    let path = [pair("at")?, pair("rate")?, pair("second_rate")?];
+    if path[1].iter().all(|c| *c == 0) {
+        return Err(scope.fail(rate.line, "found a point at rest, expected one that moves"));
+    }
+    Ok(Displacement::Surface(Box::new(OnSurface { coordinates, path })))
 }
 
 fn elements(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {

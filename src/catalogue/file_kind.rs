@@ -26,6 +26,8 @@ pub enum FileKind {
     Displacement,
     /// Lines and complexes of lines.
     Lines,
+    /// Gears and wheels.
+    Gearing,
 }
 
 impl FileKind {
@@ -43,6 +45,7 @@ impl FileKind {
             Self::Conditions => "a loop with symbols",
             Self::Displacement => "a question about displacements",
             Self::Lines => "a question about lines",
+            Self::Gearing => "a question about gears",
         }
     }
 
@@ -50,7 +53,13 @@ impl FileKind {
     #[must_use]
     pub const fn verb(self) -> &'static str {
         match self {
-            Self::Arm | Self::Loop | Self::Platform | Self::Linkage | Self::Displacement | Self::Lines => "solve",
+            Self::Arm
+            | Self::Loop
+            | Self::Platform
+            | Self::Linkage
+            | Self::Displacement
+            | Self::Lines
+            | Self::Gearing => "solve",
             Self::Framework => "mobility",
             Self::Motion => "factor",
             Self::Synthesis => "synthesize",
@@ -82,6 +91,7 @@ impl FileKind {
             "motion" => Self::Motion,
             "displacement" => Self::Displacement,
             "lines" => Self::Lines,
+            "gearing" => Self::Gearing,
             "synthesis" => Self::Synthesis,
             _ => return None,
         };

@@ -17,8 +17,8 @@ const CONDITIONS: &str = "conditions/";
 /// The folders of frameworks, linkages, rational motions and syntheses, which are no single chains.
 const MOVING: [&str; 4] = ["framework/", "linkage/", "motion/", "synthesis/"];
 
-/// The folders of questions about displacements and lines.
-const CALCULUS: [&str; 2] = ["displacement/", "lines/"];
+/// The folders of questions about displacements, gears and lines.
+const CALCULUS: [&str; 3] = ["displacement/", "gearing/", "lines/"];
 
 /// Loops that were moved to another folder: how their full names began and begin.
 const MOVED: [(&str, &str); 2] = [("loop/structure_", "chain/structure_"), ("loop/ik_", "chain/ik_")];

@@ -88,6 +88,16 @@ pub struct LinkageClaim {
     pub line: usize,
 }
 
+/// Whether a linkage file says that its axes pass through one point.
+pub(super) fn is_on_sphere(root: &Node) -> bool {
+    let get = |node: &Node, key: &str| match &node.value {
+        Value::Table(fields) => fields.iter().find(|field| field.key == key).map(|field| field.node.clone()),
+        _ => None,
+    };
+    let space = get(root, "mechanism").and_then(|mechanism| get(&mechanism, "space"));
+    space.is_some_and(|space| matches!(&space.value, Value::Text(word) if word == "sphere"))
+}
+
 /// Reads a linkage file.
 pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<LinkageFile> {
     let heading = heading_with(scope, root, name, &["input", "solution", "trace"])?;
@@ -483,7 +493,7 @@ impl Reader<'_, '_> {
 }
 
 /// The square root of a positive rational number, and whether it is exact; else it is right to 30 digits.
-fn root(square: &Rational) -> (Rational, bool) {
+pub(super) fn root(square: &Rational) -> (Rational, bool) {
     let (numerator, denominator) = (square.numer(), square.denom());
     if numerator.is_perfect_square() && denominator.is_perfect_square() {
         let root = |n: &Integer| Integer::from(n.sqrt_ref());
@@ -494,7 +504,8 @@ fn root(square: &Rational) -> (Rational, bool) {
     (Rational::from((whole.sqrt(), Integer::from(Integer::u_pow_u(10, 30)))), false)
 }
 
-fn rotation(angle: &Angle) -> (Gaussian, bool) {
+/// An angle as a rotation, and whether it is exact.
+pub(super) fn rotation(angle: &Angle) -> (Gaussian, bool) {
     let (re, im) = exact_cos_sin(angle);
     (Gaussian { re, im }, angle.is_exact())
 }

@@ -4,7 +4,8 @@ use super::node::{Node, Value};
 use super::scope::{Scope, Table};
 use crate::algebra::number::Quantity;
 use crate::error::Result;
-use crate::kinematics::linkage::Linkage;
+use crate::kinematics::linkage::{Gaussian, Linkage};
+use rug::Rational;
 
 /// The mass of a body.
 ///
@@ -18,6 +19,8 @@ pub struct Mass {
     pub centre: [f64; 2],
     /// The moment of inertia about the centre.
     pub inertia: f64,
+    /// Mass and centre as they stand in the file; none where one of them is not rational.
+    pub exact: Option<(Rational, Gaussian)>,
 }
 
 /// What moves a linkage.
@@ -81,6 +84,10 @@ fn mass(scope: &Scope<'_>, node: &Node) -> Result<Mass> {
         Err(scope.fail(node.line, format!("found the negative `{key}` {found}, expected 0 or more")))
     };
     let [x, y] = scope.exactly::<2>(scope.need(&table, "centre")?, "centre")?;
-    let centre = [scope.length(x, "centre")?.to_f64(), scope.length(y, "centre")?.to_f64()];
-    Ok(Mass { mass: number("mass")?, centre, inertia: number("inertia")? })
+    let (x, y) = (scope.length(x, "centre")?, scope.length(y, "centre")?);
+    let weight = scope.number(scope.need(&table, "mass")?, Quantity::Ratio, "mass")?;
+    let is_exact = x.is_exact() && y.is_exact() && weight.is_exact();
+    let exact = is_exact
+        .then(|| (weight.rational().clone(), Gaussian { re: x.rational().clone(), im: y.rational().clone() }));
+    Ok(Mass { mass: number("mass")?, centre: [x.to_f64(), y.to_f64()], inertia: number("inertia")?, exact })
 }

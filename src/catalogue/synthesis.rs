@@ -80,8 +80,17 @@ pub enum Task {
     /// The body shall take these positions, each a motion from the body to the ground. In the plane they are rotations about
     /// z and translations along x and y, on the sphere rotations.
     Motion(DyadKind, Vec<Motion<Rational>>),
-    /// Crank and rocker of a planar four-bar shall take these pairs of angles together, each as cosine and sine.
-    Function(Vec<[(Rational, Rational); 2]>),
+    /// Crank and rocker of a planar four-bar shall take these pairs of angles together.
+    Function(Vec<AnglePair>),
+}
+
+/// Angles of crank and rocker that belong together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnglePair {
+    /// The angle of the crank and that of the rocker, each as cosine and sine.
+    pub angles: [(Rational, Rational); 2],
+    /// The rate of the rocker for unit rate of the crank there, where it is given.
+    pub ratio: Option<Rational>,
 }
 
 /// A dyad or a linkage that the file claims to be a solution.
@@ -229,9 +238,11 @@ fn function(
         return Err(scope.fail(node.line, message));
     }
     let pair = |item: &Node| {
-        let table = scope.table(item, "a [[pair]]", &["input", "output"])?;
+        let table = scope.table(item, "a [[pair]]", &["input", "output", "ratio"])?;
         let angle = |key: &str| Ok::<_, Error>(exact_cos_sin(&angle_of(scope, scope.need(&table, key)?, key)?));
-        Ok([angle("input")?, angle("output")?])
+        let ratio = table.get("ratio").map(|node| scope.number(node, Quantity::Ratio, "ratio")).transpose()?;
+        let ratio = ratio.map(|ratio| ratio.rational().clone());
+        Ok(AnglePair { angles: [angle("input")?, angle("output")?], ratio })
     };
     Ok(Task::Function(items(scope, table, "pair")?.iter().map(pair).collect::<Result<_>>()?))
 }

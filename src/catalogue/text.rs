@@ -5,11 +5,12 @@ use super::calculus::{CalculusFile, calculus};
 use super::entry::Entry;
 use super::file_kind::FileKind;
 use super::framework::{FrameworkFile, framework};
-use super::linkage::{LinkageFile, linkage};
+use super::linkage::{LinkageFile, is_on_sphere, linkage};
 use super::motion::{MotionFile, motion};
 use super::node::Node;
 use super::options::Options;
 use super::scope::Scope;
+use super::sphere::{SphereFile, sphere};
 use super::synthesis::{SynthesisFile, synthesis};
 use super::{dh_table, job, node, urdf};
 use crate::algebra::number::{MOST_DIGITS, Reading};
@@ -52,6 +53,7 @@ pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> R
         FileKind::Conditions,
         FileKind::Displacement,
         FileKind::Lines,
+        FileKind::Gearing,
     ];
     refuse(&scope, &root, &others, "an arm, a loop or a platform with numbers")?;
     job::entry(&mut scope, &root, &name)
@@ -66,6 +68,8 @@ pub enum Any {
     Framework(Box<FrameworkFile>),
     /// Bodies and the joints between them.
     Linkage(Box<LinkageFile>),
+    /// Bodies whose joints have axes through one point.
+    Sphere(Box<SphereFile>),
     /// A rational motion.
     Motion(Box<MotionFile>),
     /// Positions or pairs of angles for which a linkage is wanted.
@@ -83,7 +87,7 @@ impl Any {
         match self {
             Self::Entry(entry) => entry.kind().into(),
             Self::Framework(_) => FileKind::Framework,
-            Self::Linkage(_) => FileKind::Linkage,
+            Self::Linkage(_) | Self::Sphere(_) => FileKind::Linkage,
             Self::Motion(_) => FileKind::Motion,
             Self::Synthesis(_) => FileKind::Synthesis,
             Self::Conditions(_) => FileKind::Conditions,
@@ -107,11 +111,14 @@ pub fn any_from_text(text: &str, path: &str, format: Format, options: &Options) 
     };
     Ok(match FileKind::of(&root).map(|(kind, _)| kind) {
         Some(FileKind::Framework) => Any::Framework(Box::new(framework(&mut scope, &root, &name)?)),
+        Some(FileKind::Linkage) if is_on_sphere(&root) => {
+            Any::Sphere(Box::new(sphere(&mut scope, &root, &name)?))
+        }
         Some(FileKind::Linkage) => Any::Linkage(Box::new(linkage(&mut scope, &root, &name)?)),
         Some(FileKind::Motion) => Any::Motion(Box::new(motion(&mut scope, &root, &name)?)),
         Some(FileKind::Synthesis) => Any::Synthesis(Box::new(synthesis(&mut scope, &root, &name)?)),
         Some(FileKind::Conditions) => Any::Conditions(Box::new(ansatz(&mut scope, &root, &name)?)),
-        Some(kind @ (FileKind::Displacement | FileKind::Lines)) => {
+        Some(kind @ (FileKind::Displacement | FileKind::Lines | FileKind::Gearing)) => {
             Any::Calculus(Box::new(calculus(&mut scope, &root, &name, kind)?))
         }
         _ => Any::Entry(Box::new(job::entry(&mut scope, &root, &name)?)),
@@ -129,7 +136,7 @@ pub(super) fn solvable_from_text(text: &str, path: &str, format: Format, options
         Format::Csv | Format::Urdf => None,
     };
     match root.and_then(|root| FileKind::of(&root)) {
-        Some((FileKind::Displacement | FileKind::Lines | FileKind::Linkage, _)) => {
+        Some((FileKind::Displacement | FileKind::Lines | FileKind::Gearing | FileKind::Linkage, _)) => {
             any_from_text(text, path, format, options)
         }
         _ => load_text(text, path, format, options).map(|entry| Any::Entry(Box::new(entry))),
@@ -166,6 +173,7 @@ pub fn ansatz_from_text(text: &str, path: &str, format: Format, options: &Option
         FileKind::Synthesis,
         FileKind::Displacement,
         FileKind::Lines,
+        FileKind::Gearing,
     ];
     refuse(&scope, &root, &others, "a loop, with symbols or numbers")?;
     ansatz(&mut scope, &root, &name)

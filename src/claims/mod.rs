@@ -6,6 +6,7 @@ mod linkage;
 mod mobility;
 mod moving;
 mod poses;
+mod sphere;
 mod synthesis;
 
 use crate::assembly::{Assembly, Roots, Workspace};
@@ -109,6 +110,7 @@ pub fn judge_any(any: &Any) -> Result<Judgement> {
         Any::Entry(entry) => judge(entry),
         Any::Framework(file) => moving::framework(file),
         Any::Linkage(file) => linkage::linkage(file),
+        Any::Sphere(file) => sphere::sphere(file),
         Any::Motion(file) => moving::motion(file),
         Any::Calculus(file) => calculus::calculus(file),
         Any::Synthesis(file) => Ok(synthesis::judge(file)),

@@ -11,7 +11,9 @@ mod linkage;
 mod platform;
 mod polynomial;
 mod pose;
+mod sphere;
 mod substitution;
+mod surface;
 mod symbolic;
 mod symbols;
 pub mod transference;
@@ -21,13 +23,15 @@ mod two_sides;
 mod ways;
 
 pub use equation::Equation;
-pub use linkage::{Curve, GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage, trace};
+pub use linkage::{Curve, GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage, trace, trace_mass};
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;
+pub use sphere::{SpecialPoint, SphereCurve, Transfer, sphere_sides, sphere_trace, transfer};
 pub use substitution::Substitution;
 pub(crate) use symbolic::{Place, Setting, derive_interpolated};
 pub(crate) use symbols::variable_name;
 pub use ways::{ByWay, Matrix, Way, derive_by};
+pub use surface::{Surface, surface};
 pub use symbolic::{Displayed, Quotient, Symbolic, SymbolicPolynomial, derive_symbolic, derive_with_symbols};
 
 use crate::algebra::number::Number;

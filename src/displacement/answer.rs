@@ -172,6 +172,24 @@ impl Named {
         self.rounding.vector(&vector.each_ref().map(Enclosure::of))
     }
 
+    /// A number that is enclosed.
+    pub fn enclosed(&mut self, name: &str, found: &Enclosure) {
+        let rounded = self.rounding.number(found);
+        self.put(name, number(rounded));
+    }
+
+    /// Numbers that are enclosed.
+    pub fn enclosures<const N: usize>(&mut self, name: &str, found: &[Enclosure; N]) {
+        let rounded = self.rounding.vector(found);
+        self.put(name, list(&rounded));
+    }
+
+    /// The numbers of another answer under one name.
+    pub fn under(&mut self, name: &str, own: Self) {
+        self.rounding.radius = self.rounding.radius.max(own.rounding.radius);
+        self.put(name, own.into_value());
+    }
+
     /// Any other value.
     pub fn put(&mut self, name: &str, value: Value) {
         self.values.insert(name.to_owned(), value);

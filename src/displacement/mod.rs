@@ -10,6 +10,7 @@ mod line;
 mod points;
 mod positions;
 mod resultant;
+mod surface;
 mod three_rotations;
 mod velocities;
 
@@ -35,6 +36,7 @@ pub fn answers(question: &Displacement) -> Result<Vec<Answer>> {
         Displacement::Between(both, share) => vec![positions::slerp(both, share)],
         Displacement::Reflections(planes) => vec![positions::reflections(planes)],
         Displacement::Midpoints(screw, points) => vec![positions::midpoints(screw, points)],
+        Displacement::Surface(motion) => vec![surface::answer(motion)],
         Displacement::Velocities(points) => vec![velocities::answer(points)],
     })
 }

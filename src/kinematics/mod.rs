@@ -20,6 +20,7 @@ pub mod placement;
 pub mod platform;
 pub mod screw_system;
 pub mod screws;
+pub mod sphere;
 pub mod task;
 pub mod tolerance;
 pub mod velocity;

@@ -15,6 +15,7 @@ use crate::catalogue::calculus::Question;
 use crate::catalogue::lines::Lines;
 use crate::displacement::{self, Answer};
 use crate::error::Result;
+use crate::gearing;
 
 /// The answers to a file of the calculus, one for each of its problems.
 ///
@@ -32,6 +33,7 @@ pub fn answers(file: &CalculusFile) -> Result<Vec<Answer>> {
     let mut answers = match &file.question {
         Question::Displacement(question) => displacement::answers(question)?,
         Question::Lines(question) => vec![answer(question)],
+        Question::Gearing(question) => vec![gearing::answer(question)],
     };
     for answer in &mut answers {
         answer.warnings.extend(file.warnings.iter().cloned());

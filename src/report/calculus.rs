@@ -48,6 +48,7 @@ fn word(file: &CalculusFile) -> &'static str {
     match file.question {
         Question::Displacement(_) => "displacement",
         Question::Lines(_) => "lines",
+        Question::Gearing(_) => "gearing",
     }
 }
 

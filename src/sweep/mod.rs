@@ -13,6 +13,7 @@ mod hidden;
 mod linkage;
 mod nodes;
 mod sample;
+mod sphere;
 mod track;
 mod verdict;
 
@@ -20,6 +21,7 @@ pub use branch::{Branch, End, Limit, Row};
 pub use cells::{Cell, CellMap, Cells, CellsVerdict, Column, Label, MapWanted, Zero, cell_map, cells, is_angle};
 pub use linkage::{LinkageBranch, LinkageLimit, LinkageRow, LinkageSample, LinkageSweep, sweep_linkage};
 pub use sample::{Sample, case};
+pub use sphere::{SphereNode, SphereSweep, place as sphere_place, sweep_sphere};
 pub use verdict::SweepVerdict;
 
 use crate::assembly::{Assembly, Workspace};

@@ -1,6 +1,7 @@
 //! What the positions demand of a dyad, as polynomials over any ring.
 
 use super::cells::{Place, Shape};
+use crate::algebra::dual::Dual;
 use crate::algebra::ring::Ring;
 use crate::catalogue::{DyadKind, Space};
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
@@ -12,6 +13,8 @@ pub(super) struct Wanted {
     pub kind: DyadKind,
     pub space: Space,
     pub positions: Vec<Motion<Rational>>,
+    /// Of some positions how the body leaves them: with dual parts that are rates. RR dyads in the plane only.
+    pub rates: Vec<Motion<Dual<Rational>>>,
     /// How many solutions that are no dyads the equations always have.
     pub trivial: usize,
 }
@@ -93,7 +96,7 @@ impl Wanted {
         let shape = self.shape();
         let unknowns = shape.directions.iter().map(|size| size - 1).sum::<usize>() + shape.numbers;
         let each = if self.kind == DyadKind::CC { 2 } else { 1 };
-        let conditions = each * (self.positions.len() - 1) + if self.kind == DyadKind::CC { 2 } else { 0 };
+        let conditions = each * (self.positions.len() - 1) + self.rates.len() + if self.kind == DyadKind::CC { 2 } else { 0 };
         i64::try_from(unknowns).unwrap_or(i64::MAX) - i64::try_from(conditions).unwrap_or(i64::MAX)
     }
 
@@ -126,7 +129,9 @@ impl Wanted {
             }
             (DyadKind::RR | DyadKind::SS, _) => {
                 let (fixed, moving) = (vector(&place.numbers[..width]), vector(&place.numbers[width..]));
-                constant(motions.iter().map(|motion| square_of_link(motion, &fixed, &moving)))
+                let mut all = constant(motions.iter().map(|motion| square_of_link(motion, &fixed, &moving)));
+                all.extend(self.rates.iter().map(|motion| rate_of_link(motion, &fixed, &moving)));
+                all
             }
             (DyadKind::PR | DyadKind::PPS, _) => {
                 let (normal, moving) = (vector(&place.directions[0]), vector(&place.numbers));
@@ -179,6 +184,18 @@ fn square_of_link<R: Ring>(motion: &Motion<R>, fixed: &Vector<R>, moving: &Vecto
     let t = &motion.translation;
     let linear = dot(t, &turned).sub(&dot(fixed, t)).sub(&dot(fixed, &turned));
     dot(t, t).add(&linear).add(&linear)
+}
+
+/// The rate of the same, half the square of a distance, as the body leaves a position.
+fn rate_of_link<R: Ring>(motion: &Motion<Dual<Rational>>, fixed: &Vector<R>, moving: &Vector<R>) -> R {
+    let image = |q: &Rational| R::from_rational(q).unwrap_or_else(R::zero);
+    let both = |q: &Dual<Rational>| Dual { value: image(&q.value), epsilon: image(&q.epsilon) };
+    let motion = Motion {
+        rotation: motion.rotation.each_ref().map(|row| row.each_ref().map(both)),
+        translation: motion.translation.each_ref().map(both),
+    };
+    let still = |v: &Vector<R>| v.each_ref().map(|c| Dual::constant(c.clone()));
+    square_of_link(&motion, &still(fixed), &still(moving)).epsilon
 }
 
 /// What vanishes if all values are equal.

@@ -9,17 +9,20 @@ use super::dyad::four_bar;
 use super::equations::Wanted;
 use super::solved::{Found, solve};
 use super::{EFFORT, remarks};
-use crate::catalogue::{DyadKind, Space, SynthesisFile};
+use crate::algebra::dual::Dual;
+use crate::algebra::ring::Ring;
+use crate::catalogue::{AnglePair, DyadKind, Space, SynthesisFile};
 use crate::kinematics::motion::Motion;
 use rug::Rational;
 
 /// The four-bars of these pairs of angles, each as cosine and sine.
-pub(super) fn synthesize(file: &SynthesisFile, pairs: &[[(Rational, Rational); 2]]) -> Answer {
+pub(super) fn synthesize(file: &SynthesisFile, pairs: &[AnglePair]) -> Answer {
     let wanted = Wanted {
         kind: DyadKind::RR,
         space: Space::Plane,
         trivial: 1,
-        positions: pairs.iter().map(|[input, output]| seen_from_crank(input, output)).collect(),
+        positions: pairs.iter().map(|AnglePair { angles: [input, output], .. }| seen_from_crank(input, output)).collect(),
+        rates: pairs.iter().filter_map(leaving).collect(),
     };
     let equations = |place: &super::cells::Place<_>| wanted.equations(place);
     let Some(solutions) = solve(&wanted.shape(), &equations, EFFORT) else { return undecided() };
@@ -34,11 +37,18 @@ pub(super) fn synthesize(file: &SynthesisFile, pairs: &[[(Rational, Rational); 2
 }
 
 /// The position of the rocker in the coordinates of the crank.
-fn seen_from_crank((cos, sin): &(Rational, Rational), output: &(Rational, Rational)) -> Motion<Rational> {
-    let minus = |x: &Rational| Rational::from(-x);
-    let back = Motion::rotation_z(cos.clone(), minus(sin));
+fn seen_from_crank<R: Ring>((cos, sin): &(R, R), output: &(R, R)) -> Motion<R> {
+    let back = Motion::rotation_z(cos.clone(), sin.neg());
     let turn = Motion::rotation_z(output.0.clone(), output.1.clone());
     let mut motion = back.then_after(&turn);
-    motion.translation = [cos.clone(), minus(sin), Rational::new()];
+    motion.translation = [cos.clone(), sin.neg(), R::zero()];
     motion
+}
+
+/// The same at unit rate of the crank, where the ratio of the rates is given.
+fn leaving(pair: &AnglePair) -> Option<Motion<Dual<Rational>>> {
+    let ratio = pair.ratio.as_ref()?;
+    let [input, output] = &pair.angles;
+    let turning = |(cos, sin): &(Rational, Rational), rate: &Rational| Dual::angle(cos.clone(), sin.clone(), rate);
+    Some(seen_from_crank(&turning(input, &Rational::from(1)), &turning(output, ratio)))
 }

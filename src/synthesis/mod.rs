@@ -49,7 +49,7 @@ pub fn synthesize(file: &SynthesisFile) -> Answer {
         Task::Motion(kind, positions) => (*kind, positions.clone()),
         Task::Function(pairs) => return function::synthesize(file, pairs),
     };
-    let wanted = Wanted { kind, space: file.space, positions, trivial: 0 };
+    let wanted = Wanted { kind, space: file.space, positions, rates: Vec::new(), trivial: 0 };
     let mut answer = match kind {
         DyadKind::CC => lines::synthesize(file, &wanted),
         DyadKind::SS | DyadKind::PPS => match bilinear::solutions(&wanted) {

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, each importing earlier ones only; `algebra` is a crate of its own below them.
-const LAYERS: [&str; 28] = [
+const LAYERS: [&str; 29] = [
     "error",
     "algebra",
     "kinematics",
@@ -21,6 +21,7 @@ const LAYERS: [&str; 28] = [
     "verdict",
     "mechanism",
     "displacement",
+    "gearing",
     "lines",
     "synthesis",
     "linkage",

@@ -2,8 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text, builtin_any};
-use looproot::internal::derivation::{Curve, LinkageDerivation, derive_linkage, trace};
+use looproot::internal::derivation::{Curve, LinkageDerivation, derive_linkage, trace, trace_mass};
 use looproot::internal::error::Error;
+use looproot::internal::linkage::answer::solve;
 use looproot_algebra::int::Int;
 use looproot_algebra::polynomial::Polynomial;
 use looproot_algebra::ring::Ring;
@@ -285,4 +286,41 @@ four = { D = 0, E = 3 }";
     assert!(error.contains("2 freedoms"), "{error}");
     let given = read(SHARED, five, "[[input]]\ngiven = { A = { tan_half = 1 }, E = { tan_half = \"1/2\" } }");
     assert_eq!(curve(&given, "two.P").unwrap().degree(), 6);
+}
+
+#[test]
+fn the_curve_of_a_centre_of_mass_holds_its_places() {
+    let Any::Linkage(file) = builtin_any("linkage/weighted_four_bar", &Options::default()).unwrap() else {
+        panic!("a linkage")
+    };
+    let exact = file.masses.bodies.iter().enumerate();
+    let masses: Vec<_> = exact
+        .filter_map(|(body, mass)| {
+            let (weight, centre) = mass.as_ref()?.exact.clone()?;
+            Some((body, centre, weight))
+        })
+        .collect();
+    assert_eq!(masses.len(), 3);
+    let found = trace_mass(&file.linkage, &file.cases[0].given, &masses).unwrap();
+    assert_eq!(found.degree(), 6);
+    let polynomial = found.polynomial.map(|c| Some(c.to_f64())).unwrap();
+    let size = polynomial.coefficients().iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+    for input in ["A=10 deg", "A=75 deg", "A=-100 deg"] {
+        let case = file.case_with(input).unwrap();
+        let answer = solve(&file.linkage, &case.given, false).unwrap();
+        for mode in answer.modes.iter().filter(|mode| mode.real) {
+            let mut centre = [0.0; 2];
+            let mut total = 0.0;
+            for (body, place, weight) in &masses {
+                let (angle, origin) = &mode.bodies[*body];
+                let (sin, cos) = angle.re.sin_cos();
+                let (x, y, weight) = (place.re.to_f64(), place.im.to_f64(), weight.to_f64());
+                centre[0] += weight * (origin[0].re + cos * x - sin * y);
+                centre[1] += weight * (origin[1].re + sin * x + cos * y);
+                total += weight;
+            }
+            let value = polynomial.evaluate(&centre.map(|c| c / total));
+            assert!(value.abs() < 1e-9 * size, "{input}: {value}");
+        }
+    }
 }

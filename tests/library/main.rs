@@ -23,6 +23,7 @@ mod pencil;
 mod platform;
 mod printed;
 mod real_field;
+mod sphere;
 mod strategies;
 mod sweep_proof;
 mod synthesis;

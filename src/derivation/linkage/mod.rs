@@ -4,7 +4,7 @@ mod closure;
 mod trace;
 
 pub use closure::{GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage};
-pub use trace::{Curve, trace};
+pub use trace::{Curve, trace, trace_mass};
 
 use crate::algebra::int::Int;
 use crate::algebra::modular::Terms;

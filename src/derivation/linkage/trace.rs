@@ -12,12 +12,12 @@ use crate::algebra::ring::{Domain, Ring};
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Given, Linkage};
 use crate::linkage::assembly::glued;
-use crate::linkage::equations::Closure;
-use crate::linkage::groups::{Merged, groups};
-use crate::linkage::parts::least_mover;
+use crate::linkage::equations::{Closure, Equations};
+use crate::linkage::groups::{Group, Merged, groups};
+use crate::linkage::parts::{group_of, least_mover};
 use crate::linkage::pencil::{Parameter, Pencil};
 use crate::linkage::real_form::RealForm;
-use crate::linkage::state::number;
+use crate::linkage::state::{Number, State, number, real};
 use rug::Rational;
 
 /// Rows of a matrix beyond which its determinant in two variables is not taken.
@@ -54,6 +54,37 @@ impl Curve {
 /// # Errors
 /// For a point that does not move on a curve, and where the curve is beyond what is implemented.
 pub fn trace(linkage: &Linkage, given: &[Given], body: usize, point: &Gaussian) -> Result<Curve> {
+    let held = held(linkage, given)?;
+    let (mut merged, joints) = glued(linkage, held)?;
+    let name = &linkage.bodies[body].name;
+    let group = least_mover(linkage, &joints, &mut merged, linkage.ground, body);
+    let group = group.ok_or_else(|| unsupported(name, "is made by no part of one freedom among at most 16 bodies"))?;
+    curve(linkage, held, &mut merged, &group, name, &[(body, point.clone(), Rational::from(1))])
+}
+
+/// The curve of the centre of mass of bodies, each with its own centre and its mass, as [`trace`].
+///
+/// # Errors
+/// As [`trace`], and where the masses add up to nothing.
+pub fn trace_mass(linkage: &Linkage, given: &[Given], masses: &[(usize, Gaussian, Rational)]) -> Result<Curve> {
+    let total: Rational = masses.iter().map(|(_, _, mass)| mass).sum();
+    if total == 0 {
+        return Err(Error::Invalid("found no mass, expected [mechanism.mass] with the mass of a body".to_owned()));
+    }
+    let shares: Vec<(usize, Gaussian, Rational)> =
+        masses.iter().map(|(body, centre, mass)| (*body, centre.clone(), Rational::from(mass / &total))).collect();
+    let held = held(linkage, given)?;
+    let (mut merged, joints) = glued(linkage, held)?;
+    let group = group_of(linkage, joints.iter().map(|(joint, _)| *joint).collect(), &mut merged);
+    curve(linkage, held, &mut merged, &group, "the centre of mass", &shares)
+}
+
+fn unsupported(name: &str, what: &str) -> Error {
+    Error::Unsupported(format!("the curve of {name} {what}"))
+}
+
+/// What is held of the given values while the first one moves.
+fn held<'g>(linkage: &Linkage, given: &'g [Given]) -> Result<&'g [Given]> {
     let links: Vec<(usize, [usize; 2])> = linkage.joints.iter().enumerate().map(|(k, joint)| (k, joint.of)).collect();
     if let Some(gear) = linkage.joints.iter().find(|joint| joint.is_gear()) {
         return Err(Error::Unsupported(format!(
@@ -61,28 +92,59 @@ pub fn trace(linkage: &Linkage, given: &[Given], body: usize, point: &Gaussian) 
             gear.name
         )));
     }
-    let freedoms = groups(linkage.bodies.len(), &links, Merged::new(linkage.bodies.len())).freedoms;
-    let held = match freedoms {
-        0 => return Err(Error::Invalid("found a rigid linkage, expected one whose points move".to_owned())),
-        1 => &[][..],
-        more if given.len() == more => &given[1..],
+    match groups(linkage.bodies.len(), &links, Merged::new(linkage.bodies.len())).freedoms {
+        0 => Err(Error::Invalid("found a rigid linkage, expected one whose points move".to_owned())),
+        1 => Ok(&[]),
+        more if given.len() == more => Ok(&given[1..]),
         more => {
             let message = format!(
                 "found {} values given of a linkage of {more} freedoms, expected {more}: the first moves, the others are held",
                 given.len()
             );
-            return Err(Error::Invalid(message));
+            Err(Error::Invalid(message))
         }
-    };
-    let (mut merged, joints) = glued(linkage, held)?;
-    let name = &linkage.bodies[body].name;
-    let unsupported = |what: &str| Error::Unsupported(format!("the curve of {name} {what}"));
-    let group = least_mover(linkage, &joints, &mut merged, linkage.ground, body)
-        .ok_or_else(|| unsupported("is made by no part of one freedom among at most 16 bodies"))?;
+    }
+}
+
+/// The cycles of a group and one more: a mean of points of bodies, each with its share.
+fn mean(closure: &Closure, state: &State, base: usize, parts: &[(usize, Gaussian, Rational)]) -> Option<Equations<Number>> {
+    let mut sum: Option<Equations<Number>> = None;
+    for (body, point, share) in parts {
+        let mut own = closure.traced(state, base, *body, &number(point))?;
+        let share = real(share);
+        let scaled = |n: &mut Number| *n = n.mul(&share);
+        own.cycles.last_mut()?.iter_mut().for_each(scaled);
+        own.slides.iter_mut().filter_map(|slide| slide.coefficients.last_mut()).for_each(scaled);
+        sum = Some(match sum {
+            None => own,
+            Some(mut sum) => {
+                for (to, from) in sum.cycles.last_mut()?.iter_mut().zip(own.cycles.last()?) {
+                    *to = to.add(from);
+                }
+                for (to, from) in sum.slides.iter_mut().zip(&own.slides) {
+                    let (to, from) = (to.coefficients.last_mut()?, from.coefficients.last()?);
+                    *to = to.add(from);
+                }
+                sum
+            }
+        });
+    }
+    sum
+}
+
+/// The curve of a mean of points that a group of one freedom moves.
+fn curve(
+    linkage: &Linkage,
+    held: &[Given],
+    merged: &mut Merged,
+    group: &Group,
+    name: &str,
+    parts: &[(usize, Gaussian, Rational)],
+) -> Result<Curve> {
+    let unsupported = |what: &str| unsupported(name, what);
     let state = glued_state(linkage, held).ok_or_else(|| unsupported("depends on a value that is not there"))?;
-    let closure = Closure::new(linkage, &group, &state).ok_or_else(|| unsupported("is one of gears"))?;
-    let traced = closure.traced(&state, linkage.ground, body, &number(point));
-    let exact = traced.and_then(|equations| equations.exact());
+    let closure = Closure::new(linkage, group, &state).ok_or_else(|| unsupported("is one of gears"))?;
+    let exact = mean(&closure, &state, linkage.ground, parts).and_then(|equations| equations.exact());
     let rest = closure.class_of(&state, linkage.ground).map(|(class, _)| class);
     let (Some(exact), Some(rest)) = (exact, rest) else {
         return Err(unsupported("has data that are not rational"));

@@ -14,6 +14,7 @@ fn kind(file: &CalculusFile) -> &'static str {
     match file.question {
         Question::Displacement(_) => "displacement",
         Question::Lines(_) => "lines",
+        Question::Gearing(_) => "gearing",
     }
 }
 

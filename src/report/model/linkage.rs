@@ -4,6 +4,7 @@ use super::{labels, origin};
 use crate::catalogue::LinkageFile;
 use crate::kinematics::linkage::{Gaussian, Pair};
 use crate::linkage::assembly::groups_of;
+use crate::linkage::grashof::{Grashof, planar};
 use crate::report::json::number;
 use crate::report::number::{counted, short as rounded};
 use crate::report::table::Columns;
@@ -66,10 +67,23 @@ pub(super) fn text(file: &LinkageFile) -> String {
         };
         let _ = writeln!(text, "case {}: {line}", index + 1);
     }
+    grashof_text(&mut text, planar(linkage));
     let expected = file.cases.first().map(|case| &case.expected);
     let claim = |of: Option<usize>| of.map(|count| count.to_string());
     let claims = [("complex", expected.and_then(|e| e.complex)), ("real", expected.and_then(|e| e.real))];
     text + &super::claims(claims.map(|(what, count)| (what, claim(count))))
+}
+
+/// The line of the class of a four-bar.
+pub(super) fn grashof_text(text: &mut String, found: Option<Grashof>) {
+    if let Some(found) = found {
+        let _ = writeln!(text, "four-bar: {}, {}", found.class, found.condition());
+    }
+}
+
+/// The class of a four-bar; null of other linkages.
+pub(super) fn grashof_json(found: Option<Grashof>) -> Value {
+    found.map_or(Value::Null, |found| json!({ "sum": found.condition(), "class": found.class }))
 }
 
 fn pair(z: &Gaussian) -> Value {
@@ -95,6 +109,7 @@ pub fn json(file: &LinkageFile) -> Value {
     object.insert("ground".into(), json!(linkage.bodies[linkage.ground].name));
     object.insert("joints".into(), joints.collect());
     object.insert("bodies".into(), Value::Object(bodies));
+    object.insert("grashof".into(), grashof_json(planar(linkage)));
     object.insert("exact".into(), json!(file.exact));
     Value::Object(object)
 }

@@ -7,11 +7,13 @@ mod framework;
 mod linkage;
 mod motion;
 mod platform;
+mod sphere;
 mod synthesis;
 
 pub use ansatz::json as ansatz_json;
 pub use framework::json as framework_json;
 pub use linkage::json as linkage_json;
+pub use sphere::json as sphere_json;
 pub use synthesis::json as synthesis_json;
 
 use super::json::{kind, number};
@@ -30,6 +32,7 @@ pub fn any_text(any: &Any) -> String {
         Any::Entry(entry) => text(entry),
         Any::Framework(file) => framework::text(file),
         Any::Linkage(file) => linkage::text(file),
+        Any::Sphere(file) => sphere::text(file),
         Any::Motion(file) => motion::text(file),
         Any::Synthesis(file) => synthesis::text(file),
         Any::Conditions(file) => ansatz::text(file),
@@ -44,6 +47,7 @@ pub fn any_json(any: &Any) -> Value {
         Any::Entry(entry) => json(entry),
         Any::Framework(file) => framework::json(file),
         Any::Linkage(file) => linkage::json(file),
+        Any::Sphere(file) => sphere::json(file),
         Any::Motion(file) => motion::json(file),
         Any::Synthesis(file) => synthesis::json(file),
         Any::Conditions(file) => ansatz::json(file),
@@ -58,6 +62,7 @@ pub fn listed(any: &Any) -> ([String; 3], Value) {
         Any::Entry(entry) => (format!("{} {}", joints(entry), kind(entry.kind())), identity(entry)),
         Any::Framework(file) => (framework::short(file), framework::identity(file)),
         Any::Linkage(file) => (linkage::short(file), linkage::identity(file)),
+        Any::Sphere(file) => (sphere::short(file), sphere::identity(file)),
         Any::Motion(file) => (motion::short(file), motion::identity(file)),
         Any::Synthesis(file) => (synthesis::short(file), synthesis::identity(file)),
         Any::Conditions(file) => (ansatz::short(file), ansatz::identity(file)),

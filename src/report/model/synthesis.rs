@@ -1,7 +1,7 @@
 //! Synthesis files in normalised form.
 
 use super::{labels, origin};
-use crate::catalogue::{SynthesisFile, Task};
+use crate::catalogue::{AnglePair, SynthesisFile, Task};
 use crate::report::number::counted;
 use crate::report::table::Columns;
 use serde_json::{Map, Value, json};
@@ -26,7 +26,7 @@ pub(super) fn text(file: &SynthesisFile) -> String {
     origin(&mut text, file.heading.source.as_ref(), file.heading.notes.as_deref());
     let mut table = match &file.task {
         Task::Motion(..) => Columns::new(&["position", "rotation, by rows", "translation"], &["position"]),
-        Task::Function(_) => Columns::new(&["pair", "cos, sin of the input", "cos, sin of the output"], &["pair"]),
+        Task::Function(_) => Columns::new(&["pair", "cos, sin of the input", "cos, sin of the output", "ratio of the rates"], &["pair"]),
     };
     match &file.task {
         Task::Motion(_, positions) => {
@@ -41,8 +41,9 @@ pub(super) fn text(file: &SynthesisFile) -> String {
         }
         Task::Function(pairs) => {
             for (k, pair) in pairs.iter().enumerate() {
-                let [input, output] = pair.each_ref().map(|(cos, sin)| format!("{cos}, {sin}"));
-                table.row([(k + 1).to_string(), input, output]);
+                let [input, output] = pair.angles.each_ref().map(|(cos, sin)| format!("{cos}, {sin}"));
+                let ratio = pair.ratio.as_ref().map_or(String::new(), ToString::to_string);
+                table.row([(k + 1).to_string(), input, output, ratio]);
             }
         }
     }
@@ -76,7 +77,11 @@ pub fn json(file: &SynthesisFile) -> Value {
         Task::Function(pairs) => {
             object.insert("task".into(), json!("function"));
             let angle = |(cos, sin): &(rug::Rational, rug::Rational)| json!([cos.to_string(), sin.to_string()]);
-            let pair = |[input, output]: &[_; 2]| json!({ "input": angle(input), "output": angle(output) });
+            let pair = |pair: &AnglePair| {
+                let [input, output] = &pair.angles;
+                let ratio = pair.ratio.as_ref().map(ToString::to_string);
+                json!({ "input": angle(input), "output": angle(output), "ratio": ratio })
+            };
             object.insert("pairs".into(), pairs.iter().map(pair).collect());
         }
     }

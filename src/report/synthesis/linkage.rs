@@ -1,6 +1,6 @@
 //! Dyads of a synthesis put together: a linkage file.
 
-use crate::catalogue::{DyadKind, Space, SynthesisFile, Task};
+use crate::catalogue::{AnglePair, DyadKind, Space, SynthesisFile, Task};
 use crate::error::{Error, Result};
 use crate::kinematics::motion::Motion;
 use crate::synthesis::{Answer, Dyad};
@@ -176,7 +176,7 @@ impl Making {
     }
 
     /// Crank and rocker have their zero angles along their x axes, as the pairs of the file have.
-    fn four_bar(&mut self, dyad: &Dyad, pairs: &[[(Rational, Rational); 2]]) {
+    fn four_bar(&mut self, dyad: &Dyad, pairs: &[AnglePair]) {
         for (joint, of) in [("A", ["frame", "crank"]), ("B", ["crank", "coupler"]), ("C", ["coupler", "rocker"])] {
             self.joint(joint, "R", of, "");
         }
@@ -188,7 +188,7 @@ impl Making {
             format!("crank = {{ A = [0, 0], B = {} }}", list(&dyad.real("crank_point"))),
             format!("rocker = {{ D = [0, 0], C = {} }}", list(&dyad.real("rocker_point"))),
         ];
-        let angles = pairs.iter().map(|[(cos, sin), _]| sin.to_f64().atan2(cos.to_f64())).collect();
+        let angles = pairs.iter().map(|AnglePair { angles: [(cos, sin), _], .. }| sin.to_f64().atan2(cos.to_f64())).collect();
         self.input = Some(("A".to_owned(), "angle", angles));
     }
 

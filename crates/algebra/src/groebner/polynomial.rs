@@ -19,6 +19,25 @@ impl Equation {
         Self { terms: BTreeMap::from([(Monomial::variable(k), Rational::from(1))]) }
     }
 
+    /// The value where the unknowns have these values.
+    ///
+    /// # Panics
+    /// Where an unknown has none.
+    #[must_use]
+    pub fn evaluate<R: Ring>(&self, values: &[R]) -> R {
+        let mut sum = R::zero();
+        for (monomial, c) in &self.terms {
+            let mut term = R::from_rational(c).expect("a ring that holds the rational numbers");
+            for (k, value) in values.iter().enumerate() {
+                for _ in 0..monomial.exponent(k) {
+                    term = term.mul(value);
+                }
+            }
+            sum = sum.add(&term);
+        }
+        sum
+    }
+
     /// One monomial.
     pub(super) fn monomial(monomial: Monomial) -> Self {
         Self { terms: BTreeMap::from([(monomial, Rational::from(1))]) }

@@ -6,13 +6,15 @@ use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use super::seed::plant;
 use super::wanted::{in_place, wanted};
-use looproot::internal::catalogue::entry::Entry;
-use looproot::internal::catalogue::{Any, Options, load_solvable};
-use looproot::internal::derivation::{Derivation, Way, derive, derive_by, derive_with_symbols};
+use looproot::internal::catalogue::entry::{Design, Entry};
+use looproot::internal::catalogue::{Any, Chains, Options, load_solvable};
+use looproot::internal::derivation::{Derivation, Way, derive, derive_by, derive_with_symbols, surface};
 use looproot::internal::error::Error;
 use looproot::internal::report::derivation::{json, paper, system, text, verdict};
 use looproot::internal::report::document::complete;
-use looproot::internal::report::{symbolic, ways};
+use looproot::internal::report::{surface as surfaces, symbolic, ways};
+use looproot_algebra::number::{Number, Quantity};
+use rug::Rational;
 use serde_json::Value;
 use std::io::Write;
 
@@ -29,14 +31,17 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         return super::transference::run(options, mechanism);
     }
     plant(options.seed);
-    let read = Options { chains: options.asked.chains(), ..options.read.options() };
+    // The points of an arm move without a pose.
+    let chains = if options.trace.is_some() { Chains::Swept } else { options.asked.chains() };
+    let read = Options { chains, ..options.read.options() };
     let mut entry = match load_solvable(mechanism, &read)? {
         Any::Entry(entry) => *entry,
         Any::Linkage(file) => return super::linkage_derive::run(options, mechanism, &file),
+        Any::Sphere(file) => return super::sphere::derive(options, mechanism, &file),
         other => return Err(unexpected(mechanism, other.kind(), "an arm, a loop, a platform or a linkage")),
     };
-    if options.trace.is_some() {
-        return Err(unexpected(mechanism, entry.kind().into(), "a linkage, whose points have curves"));
+    if let Some(asked) = &options.trace {
+        return traced(options, mechanism, &entry, asked);
     }
     let whole = entry.clone();
     let index = wanted(&options.asked, mechanism, &mut entry)?.start;
@@ -109,6 +114,36 @@ fn by(
     output.writer.write_all(written.as_bytes())?;
     output.writer.flush()?;
     Ok(exit(&found.derivation))
+}
+
+/// Derives the surface of a point of the tool of an arm of two variables.
+fn traced(options: &DeriveOptions, mechanism: &str, entry: &Entry, asked: &str) -> Result<Exit, Fault> {
+    let Design::Arm(chain) = &entry.design else {
+        let expected = "a linkage, or an arm of two joint variables, whose points have curves or surfaces";
+        return Err(unexpected(mechanism, entry.kind().into(), expected));
+    };
+    let point = if asked.trim() == "tool" {
+        std::array::from_fn(|_| Rational::new())
+    } else {
+        let numbers = asked.split(',').map(|part| Number::parse(part.trim(), Quantity::Length, &entry.reading));
+        let numbers = numbers.map(|number| number.map(|number| number.rational().clone()).ok()).collect::<Option<Vec<_>>>();
+        let point = numbers.and_then(|numbers| <[Rational; 3]>::try_from(numbers).ok());
+        point.ok_or_else(|| {
+            Error::Invalid(format!("found --trace \"{asked}\" for an arm, expected `tool` or the point \"x, y, z\" in its frame"))
+        })?
+    };
+    let found = surface(chain, &point).map_err(|error| in_place(error, mechanism, entry))?;
+    let written = if options.json {
+        document(surfaces::json(entry, asked, &found), entry)
+    } else if options.quiet {
+        surfaces::verdict(asked, &found) + "\n"
+    } else {
+        surfaces::text(entry, asked, &found)
+    };
+    let mut output = Output::open(&options.output, mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(if entry.rounded { Exit::NotProved } else { Exit::Complete })
 }
 
 /// A document with the keys of every document.

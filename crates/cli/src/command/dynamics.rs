@@ -2,7 +2,7 @@
 
 use super::arguments::DynamicsOptions;
 use super::exit::{Exit, Fault, unexpected};
-use super::linkage::{code, wanted};
+use super::linkage::{code, posed, wanted};
 use super::output::Output;
 use looproot::internal::catalogue::{Any, load_any};
 use looproot::internal::error::Error;
@@ -28,6 +28,7 @@ pub fn run(options: &DynamicsOptions) -> Result<Exit, Fault> {
     let mut output = Output::open(&options.output, &options.mechanism)?;
     let mut exit = Exit::Complete;
     let mut results = Vec::new();
+    let file = posed(options.input.as_deref(), &file)?;
     for index in wanted(options.input.as_deref(), &file)? {
         let case = &file.cases[index];
         if case.given.is_empty() {

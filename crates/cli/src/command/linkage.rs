@@ -9,6 +9,7 @@ use looproot::internal::error::Error;
 use looproot::internal::linkage::answer::solve;
 use looproot::internal::report::linkage as report;
 use looproot::internal::verdict::{Proof, Status, Verdict};
+use std::borrow::Cow;
 use std::io::Write;
 use std::sync::atomic::Ordering;
 
@@ -16,6 +17,7 @@ use std::sync::atomic::Ordering;
 pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result<Exit, Fault> {
     refuse(options)?;
     let stop = stop_on_interrupt();
+    let file = &*posed(options.asked.input.as_deref(), file)?;
     let wanted = wanted(options.asked.input.as_deref(), file)?;
     let mut output = output;
     let mut exit = Exit::Complete;
@@ -63,7 +65,7 @@ pub fn code(verdict: &Verdict) -> Exit {
 }
 
 /// The options that linkages do not have.
-fn refuse(options: &SolveOptions) -> Result<(), Error> {
+pub fn refuse(options: &SolveOptions) -> Result<(), Error> {
     let found = [
         (options.poses.is_some(), "--poses"),
         (options.derivatives, "--derivatives"),
@@ -78,14 +80,27 @@ fn refuse(options: &SolveOptions) -> Result<(), Error> {
     }
 }
 
-/// The cases asked for: all, or the one of `--input K`.
+/// The file, with the one case of `--input JOINT=VALUE` where that is asked for.
+pub fn posed<'f>(input: Option<&str>, file: &'f LinkageFile) -> Result<Cow<'f, LinkageFile>, Error> {
+    match input {
+        Some(text) if text.contains('=') => {
+            Ok(Cow::Owned(LinkageFile { cases: vec![file.case_with(text)?], ..file.clone() }))
+        }
+        _ => Ok(Cow::Borrowed(file)),
+    }
+}
+
+/// The cases asked for: all, or the one of `--input`.
 pub fn wanted(input: Option<&str>, file: &LinkageFile) -> Result<std::ops::Range<usize>, Error> {
     let Some(asked) = input else { return Ok(0..file.cases.len()) };
+    if asked.contains('=') {
+        return Ok(0..1);
+    }
     match asked.trim().parse::<usize>() {
         Ok(number) if (1..=file.cases.len()).contains(&number) => Ok(number - 1..number),
         _ => {
             let message = format!(
-                "found --input {asked}, expected the number of an input of the file, 1 to {}",
+                "found --input {asked}, expected JOINT=VALUE or the number of an input of the file, 1 to {}",
                 file.cases.len()
             );
             Err(Error::Invalid(message))

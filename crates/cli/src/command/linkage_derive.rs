@@ -2,26 +2,32 @@
 
 use super::arguments::DeriveOptions;
 use super::exit::{Exit, Fault};
-use super::linkage::wanted;
+use super::linkage::{posed, wanted};
 use super::output::Output;
 use looproot::internal::catalogue::LinkageFile;
-use looproot::internal::derivation::{derive_linkage, trace};
+use looproot::internal::derivation::{derive_linkage, trace, trace_mass};
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::linkage::{Gaussian, Given};
 use looproot::internal::report::linkage_derivation as report;
+use rug::Rational;
 use std::io::Write;
 
 /// Derives the closure polynomials of the case asked for, else of the first one, or the curve of a point.
 pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Result<Exit, Fault> {
     refuse(options)?;
+    let file = &*posed(options.asked.input.as_deref(), file)?;
     let index = wanted(options.asked.input.as_deref(), file)?.start;
     let case = &file.cases[index];
     let line = case.given.first().map_or(case.line, Given::line);
     let in_place = |error: Error| error.at(mechanism, line);
     let (written, exit) = if let Some(asked) = &options.trace {
-        let (body, point, place) = point_of(file, asked)?;
-        let curve = trace(&file.linkage, &case.given, body, &place).map_err(in_place)?;
-        let name = &file.linkage.bodies[body].name;
+        let (name, point, curve) = if asked == "mass" {
+            ("mass", "centre", trace_mass(&file.linkage, &case.given, &masses(file)?).map_err(in_place)?)
+        } else {
+            let (body, point, place) = point_of(file, asked)?;
+            let curve = trace(&file.linkage, &case.given, body, &place).map_err(in_place)?;
+            (file.linkage.bodies[body].name.as_str(), point, curve)
+        };
         let written = if options.json {
             format!("{}\n", report::curve_json(file, index + 1, name, point, &curve))
         } else if options.quiet {
@@ -56,6 +62,20 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
     Ok(exit)
 }
 
+/// The bodies with a mass, their centres and masses.
+fn masses(file: &LinkageFile) -> Result<Vec<(usize, Gaussian, Rational)>, Error> {
+    let mut list = Vec::new();
+    for (body, mass) in file.masses.bodies.iter().enumerate() {
+        let Some(mass) = mass else { continue };
+        let (weight, centre) = mass.exact.clone().ok_or_else(|| {
+            let name = &file.linkage.bodies[body].name;
+            Error::Unsupported(format!("the curve of a centre of mass with numbers of {name} that are not rational"))
+        })?;
+        list.push((body, centre, weight));
+    }
+    Ok(list)
+}
+
 /// A point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and where it is.
 pub fn point_of<'a>(file: &LinkageFile, asked: &'a str) -> Result<(usize, &'a str, Gaussian), Error> {
     let found = |what: String| Error::Invalid(format!("found --trace {asked}, {what}"));
@@ -74,7 +94,7 @@ pub fn point_of<'a>(file: &LinkageFile, asked: &'a str) -> Result<(usize, &'a st
 }
 
 /// The options that linkages do not have.
-fn refuse(options: &DeriveOptions) -> Result<(), Error> {
+pub fn refuse(options: &DeriveOptions) -> Result<(), Error> {
     let found = [
         (options.format.is_some(), "--format"),
         (options.explain.is_some(), "--explain"),

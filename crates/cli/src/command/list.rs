@@ -37,6 +37,15 @@ fn table(entries: &[(String, Any)]) -> String {
                 };
                 [file.cases.len().to_string(), first(|e| e.complex), first(|e| e.real)]
             }
+            Any::Sphere(file) => {
+                let first = |claim: fn(&looproot::internal::catalogue::SphereClaims) -> Option<usize>| {
+                    file.cases
+                        .iter()
+                        .find_map(|case| claim(&case.expected))
+                        .map_or(String::new(), |count| count.to_string())
+                };
+                [file.cases.len().to_string(), first(|e| e.complex), first(|e| e.real)]
+            }
             _ => Default::default(),
         };
         table.row([name.clone(), mechanism, cases, complex, real, source, title]);

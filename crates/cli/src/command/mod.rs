@@ -34,6 +34,7 @@ pub mod seed;
 pub mod show;
 pub mod solve;
 mod stream;
+pub mod sphere;
 pub mod sweep;
 pub mod synthesize;
 pub mod transference;

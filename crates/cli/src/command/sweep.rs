@@ -37,6 +37,7 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let entry = match load_solvable(&options.mechanism, &Options { chains, ..options.read.options() })? {
         Any::Entry(entry) => *entry,
         Any::Linkage(file) => return super::linkage_sweep::run(options, &file, open),
+        Any::Sphere(file) => return super::sphere::sweep(options, &file, open),
         other => {
             return Err(unexpected(
                 &options.mechanism,

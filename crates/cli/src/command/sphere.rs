@@ -1,0 +1,179 @@
+//! `looproot solve`, `looproot derive` and `looproot sweep` for linkages on the sphere.
+
+use super::arguments::{DeriveOptions, SolveOptions, SweepOptions};
+use super::exit::{Exit, Fault};
+use super::linkage::{code, refuse};
+use super::output::Output;
+use looproot::internal::catalogue::SphereFile;
+use looproot::internal::derivation::{sphere_trace, transfer};
+use looproot::internal::error::Error;
+use looproot::internal::kinematics::sphere::Direction;
+use looproot::internal::linkage::sphere::solve;
+use looproot::internal::report::sphere as report;
+use looproot::internal::report::sphere_sweep as sweeps;
+use looproot::internal::sweep::sweep_sphere;
+use looproot_algebra::number::Angle;
+use std::borrow::Cow;
+use std::io::Write;
+
+/// The file, with the one case of `--input JOINT=VALUE` where that is asked for.
+fn posed<'f>(input: Option<&str>, file: &'f SphereFile) -> Result<Cow<'f, SphereFile>, Error> {
+    match input {
+        Some(text) if text.contains('=') => {
+            Ok(Cow::Owned(SphereFile { cases: vec![file.case_with(text)?], ..file.clone() }))
+        }
+        _ => Ok(Cow::Borrowed(file)),
+    }
+}
+
+/// The cases asked for: all, or the one of `--input`.
+fn wanted(input: Option<&str>, file: &SphereFile) -> Result<std::ops::Range<usize>, Error> {
+    let Some(asked) = input else { return Ok(0..file.cases.len()) };
+    if asked.contains('=') {
+        return Ok(0..1);
+    }
+    match asked.trim().parse::<usize>() {
+        Ok(number) if (1..=file.cases.len()).contains(&number) => Ok(number - 1..number),
+        _ => {
+            let count = file.cases.len();
+            let message = format!("found --input {asked}, expected JOINT=VALUE or the number of an input of the file, 1 to {count}");
+            Err(Error::Invalid(message))
+        }
+    }
+}
+
+/// Finds every assembly of every case, or of the one asked for.
+pub fn run(options: &SolveOptions, file: &SphereFile, output: Output) -> Result<Exit, Fault> {
+    refuse(options)?;
+    let mut output = output;
+    let mut exit = Exit::Complete;
+    let mut results = Vec::new();
+    let file = &*posed(options.asked.input.as_deref(), file)?;
+    for index in wanted(options.asked.input.as_deref(), file)? {
+        let case = &file.cases[index];
+        let line = case.given.first().map_or(case.line, |given| given.line);
+        let answer = solve(&file.linkage, &case.given, file.exact && case.exact)
+            .map_err(|error| error.at(&options.mechanism, line))?;
+        exit = exit.max(code(&answer.verdict));
+        if options.json || options.jsonl {
+            let result = report::result(file, case, index + 1, &answer, options.complex);
+            if options.jsonl {
+                writeln!(output.writer, "{result}")?;
+            } else {
+                results.push(result);
+            }
+        } else if options.quiet {
+            writeln!(output.writer, "{}", report::verdict(&answer))?;
+        } else {
+            let gap = if index > 0 && options.asked.input.is_none() { "\n" } else { "" };
+            write!(output.writer, "{gap}{}", report::text(file, case, index + 1, &answer, options.complex))?;
+        }
+    }
+    if options.json {
+        writeln!(output.writer, "{:#}", report::json(file, &results))?;
+    }
+    output.writer.flush()?;
+    Ok(exit)
+}
+
+/// Derives the transfer function of the joint that is given, or the curve of a point.
+pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Result<Exit, Fault> {
+    super::linkage_derive::refuse(options)?;
+    let file = &*posed(options.asked.input.as_deref(), file)?;
+    let index = wanted(options.asked.input.as_deref(), file)?.start;
+    let in_place = |error: Error| error.at(mechanism, file.cases[index].line);
+    let written = if let Some(asked) = &options.trace {
+        let (body, point, place) = point_of(file, asked)?;
+        let curve = sphere_trace(&file.linkage, body, &place).map_err(in_place)?;
+        if options.json {
+            format!("{}\n", report::curve_json(file, index + 1, &file.linkage.bodies[body].name, point, &curve))
+        } else if options.quiet {
+            report::curve_verdict(asked, &curve) + "\n"
+        } else {
+            report::curve_text(file, asked, &curve)
+        }
+    } else {
+        let given = file.cases[index].given.iter().find_map(|given| given.joint);
+        let ground = file.linkage.joints.iter().position(|joint| joint.of.contains(&file.linkage.ground));
+        let input = given.or(ground).ok_or_else(|| Error::Invalid("found no joint at the ground, expected one".to_owned()))?;
+        let found = transfer(&file.linkage, input).map_err(in_place)?;
+        if options.json {
+            format!("{}\n", report::transfer_json(file, index + 1, &found))
+        } else if options.quiet {
+            report::transfer_verdict(file, &found) + "\n"
+        } else {
+            report::transfer_text(file, &found)
+        }
+    };
+    let mut output = Output::open(&options.output, mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(if file.exact { Exit::Complete } else { Exit::NotProved })
+}
+
+/// A point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and its direction.
+pub fn point_of<'a>(file: &SphereFile, asked: &'a str) -> Result<(usize, &'a str, Direction), Error> {
+    let bodies = &file.linkage.bodies;
+    let found = asked.split_once('.').and_then(|(body, point)| {
+        let number = bodies.iter().position(|own| own.name == body)?;
+        Some((number, point, bodies[number].point(point)?.clone()))
+    });
+    found.ok_or_else(|| {
+        let points = bodies.iter().flat_map(|body| body.points.iter().map(move |(point, _)| format!("{}.{point}", body.name)));
+        let known: Vec<String> = points.take(12).collect();
+        Error::Invalid(format!("found --trace {asked}, expected a point of a body: {}", known.join(", ")))
+    })
+}
+
+/// Sweeps a joint through its range and prints the branches.
+pub fn sweep(
+    options: &SweepOptions,
+    file: &SphereFile,
+    open: impl FnOnce() -> Result<Output, Fault>,
+) -> Result<Exit, Fault> {
+    let refused = |what: &str| Error::Invalid(format!("found {what} for a linkage on the sphere, which has none"));
+    for (is_there, option) in [(options.scene, "--scene"), (options.svg, "--svg")] {
+        if is_there {
+            return Err(refused(option).into());
+        }
+    }
+    let traced = match &options.trace {
+        Some(asked) => {
+            let (body, _, place) = point_of(file, asked)?;
+            Some((body, asked.clone(), place))
+        }
+        None => None,
+    };
+    let case = &file.cases[0];
+    let joints = &file.linkage.joints;
+    let joint = match &options.joint {
+        Some(name) => joints.iter().position(|joint| joint.name == *name).ok_or_else(|| {
+            let known: Vec<&str> = joints.iter().take(12).map(|joint| joint.name.as_str()).collect();
+            Error::Invalid(format!("found --joint {name}, expected one of {}", known.join(", ")))
+        })?,
+        None => case.given.iter().find_map(|given| given.joint).ok_or_else(|| {
+            Error::Invalid("found no joint given in the file, expected --joint".to_owned())
+        })?,
+    };
+    let end = |name: &str, text: &str| {
+        let angle = Angle::parse(text, &file.reading).map_err(Error::from);
+        angle.map(|angle| angle.radians()).map_err(|error| Error::Invalid(format!("{name}: {error}")))
+    };
+    let range = (end("--from", &options.from)?, end("--to", &options.to)?, options.steps);
+    let found = sweep_sphere(&file.linkage, &case.given, joint, range);
+    let found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
+    let mut output = open()?;
+    let (out, traced) = (&mut output.writer, traced.as_ref());
+    if options.json {
+        writeln!(out, "{}", sweeps::json(file, traced, &found))?;
+    } else if options.csv {
+        write!(out, "{}", sweeps::csv(file, traced, &found))?;
+    } else if options.quiet {
+        writeln!(out, "{}", sweeps::verdict(&found))?;
+    } else {
+        write!(out, "{}", sweeps::text(file, traced, &found))?;
+    }
+    out.flush()?;
+    // Between the inputs nothing is proved.
+    Ok(Exit::NotProved)
+}

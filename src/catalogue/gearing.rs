@@ -1,0 +1,267 @@
+//! Kind `gearing`: gear trains, wheels, and pairs of involute gears.
+
+use super::calculus::{found, parts};
+use super::node::{Node, Value};
+use super::scope::{Scope, Table};
+use crate::algebra::number::{Angle, Quantity};
+use crate::error::{Error, Result};
+use rug::Rational;
+
+/// More teeth than any gear has.
+const MOST_TEETH: usize = 100_000;
+
+/// A question about gears and wheels.
+#[derive(Clone, Debug)]
+pub enum Gearing {
+    /// Shafts whose rates are related linearly.
+    Train(Train),
+    /// Wheels with rollers on a vehicle in the plane.
+    Wheels {
+        /// The wheels.
+        wheels: Vec<Wheel>,
+        /// Velocity of the origin of the vehicle along its axes, and its angular velocity, where they are given.
+        twist: Option<[Rational; 3]>,
+    },
+    /// A pair of involute gears.
+    Pair(Box<Pair>),
+    /// The involute of a circle at a roll angle.
+    Involute(Rational, Box<Angle>),
+}
+
+/// Shafts and relations between their rates.
+#[derive(Clone, Debug, Default)]
+pub struct Train {
+    /// The names of the shafts.
+    pub shafts: Vec<String>,
+    /// Sums of rates times these factors that are 0: by shaft.
+    pub relations: Vec<Vec<Rational>>,
+    /// The rates that are given.
+    pub given: Vec<(usize, Rational)>,
+}
+
+/// A wheel with free rollers at its rim.
+#[derive(Clone, Debug)]
+pub struct Wheel {
+    /// Where it touches the floor, in coordinates of the vehicle.
+    pub at: [Rational; 2],
+    /// The direction in which it rolls when it turns and its rollers do not.
+    pub drive: [Rational; 2],
+    /// The direction of the axis of the roller at the floor.
+    pub roller: [Rational; 2],
+    /// Its radius.
+    pub radius: Rational,
+}
+
+/// A pair of involute gears with parallel axes.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// The normal module.
+    pub module: Rational,
+    /// The normal pressure angle.
+    pub pressure_angle: Angle,
+    /// The helix angle; 0 of spur gears.
+    pub helix: Angle,
+    /// The numbers of teeth.
+    pub teeth: [u32; 2],
+    /// The profile shifts, in modules.
+    pub shift: [Rational; 2],
+    /// The face width.
+    pub width: Option<Rational>,
+    /// Whether the second gear has its teeth inside.
+    pub internal: bool,
+}
+
+impl Gearing {
+    /// The word behind `find`.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Train(_) => "train",
+            Self::Wheels { .. } => "wheels",
+            Self::Pair(_) => "pair",
+            Self::Involute(..) => "involute",
+        }
+    }
+}
+
+const PAIR: [&str; 7] = ["module", "pressure_angle", "helix", "teeth", "shift", "width", "mesh"];
+
+/// Reads the question of a file of kind `gearing`.
+pub(super) fn gearing(scope: &Scope<'_>, table: &Table<'_>) -> Result<Gearing> {
+    let words = ["train", "wheels", "pair", "involute"];
+    let keys = [&PAIR[..], &["twist", "radius", "roll"]].concat();
+    let (find, mechanism, _) = found(scope, table, &words, &keys)?;
+    let own: &[&str] = match find {
+        "train" => &[],
+        "wheels" => &["twist"],
+        "pair" => &PAIR,
+        _ => &["radius", "roll"],
+    };
+    if let Some(node) = keys.iter().filter(|key| !own.contains(key)).find_map(|key| mechanism.get(key)) {
+        return Err(scope.fail(node.line, format!("found a key that `find = \"{find}\"` does not have")));
+    }
+    match find {
+        "train" => train(scope, table),
+        "wheels" => wheels(scope, table, &mechanism),
+        "pair" => pair(scope, &mechanism),
+        _ => {
+            // Angles are used as enclosures of themselves: nothing is rounded by reading them.
+            let free = Scope::new(scope.path, scope.reading.clone());
+            let radius = positive(scope, scope.need(&mechanism, "radius")?, "radius")?;
+            let roll = free.angle(scope.need(&mechanism, "roll")?, "roll")?;
+            Ok(Gearing::Involute(radius, Box::new(roll)))
+        }
+    }
+}
+
+fn positive(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Rational> {
+    let length = scope.length(node, what)?.rational().clone();
+    if length <= 0 {
+        return Err(scope.fail(node.line, format!("found {} as `{what}`, expected a positive length", length.to_f64())));
+    }
+    Ok(length)
+}
+
+fn ratio(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Rational> {
+    Ok(scope.number(node, Quantity::Ratio, what)?.rational().clone())
+}
+
+fn train(scope: &Scope<'_>, table: &Table<'_>) -> Result<Gearing> {
+    let mut train = Train::default();
+    for (own, node) in parts(scope, table, "shaft", &["name", "rate"], &["gear", "relation"])? {
+        let name = scope.text(scope.need(&own, "name")?, "name")?.to_owned();
+        if train.shafts.contains(&name) {
+            return Err(scope.fail(node.line, format!("found the shaft {name} twice, expected different names")));
+        }
+        if let Some(rate) = own.get("rate") {
+            train.given.push((train.shafts.len(), ratio(scope, rate, "rate")?));
+        }
+        train.shafts.push(name);
+    }
+    let count = train.shafts.len();
+    let index = |name: &str, line: usize| {
+        train.shafts.iter().position(|own| own == name).ok_or_else(|| {
+            let name: String = name.chars().take(40).collect();
+            scope.fail(line, format!("found the unknown shaft `{name}`, expected one of {}", train.shafts.join(", ")))
+        })
+    };
+    let mut relations = Vec::new();
+    if table.get("gear").is_some() {
+        for (own, node) in parts(scope, table, "gear", &["of", "carrier", "ratio"], &["shaft", "relation"])? {
+            let [a, b] = scope.exactly::<2>(scope.need(&own, "of")?, "of")?;
+            let [a, b] = [index(scope.text(a, "of")?, a.line)?, index(scope.text(b, "of")?, b.line)?];
+            let node_of_ratio = scope.need(&own, "ratio")?;
+            let factor = ratio(scope, node_of_ratio, "ratio")?;
+            if a == b || factor == 0 {
+                return Err(scope.fail(node.line, "found a gear of one shaft or of ratio 0, expected two shafts and another ratio"));
+            }
+            // (b - carrier) = ratio (a - carrier)
+            let mut relation = vec![Rational::new(); count];
+            relation[b] += 1;
+            relation[a] -= &factor;
+            if let Some(carrier) = own.get("carrier") {
+                relation[index(scope.text(carrier, "carrier")?, carrier.line)?] += factor - 1;
+            }
+            relations.push(relation);
+        }
+    }
+    if table.get("relation").is_some() {
+        for (own, node) in parts(scope, table, "relation", &["terms"], &["shaft", "gear"])? {
+            let terms = scope.need(&own, "terms")?;
+            let Value::Table(fields) = &terms.value else {
+                return Err(scope.fail(node.line, "found `terms` that is no table, expected factors by shaft"));
+            };
+            let mut relation = vec![Rational::new(); count];
+            for field in fields {
+                relation[index(&field.key, field.line)?] += ratio(scope, &field.node, &field.key)?;
+            }
+            relations.push(relation);
+        }
+    }
+    train.relations = relations;
+    Ok(Gearing::Train(train))
+}
+
+fn wheels(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>) -> Result<Gearing> {
+    let pair = |own: &Table<'_>, key: &str, quantity: Quantity| -> Result<[Rational; 2]> {
+        let [x, y] = scope.exactly::<2>(scope.need(own, key)?, key)?;
+        let number = |node: &Node| Ok::<_, Error>(scope.number(node, quantity, key)?.rational().clone());
+        Ok([number(x)?, number(y)?])
+    };
+    let mut list = Vec::new();
+    for (own, node) in parts(scope, table, "wheel", &["at", "drive", "roller", "radius"], &[])? {
+        let wheel = Wheel {
+            at: pair(&own, "at", Quantity::Length)?,
+            drive: pair(&own, "drive", Quantity::Ratio)?,
+            roller: pair(&own, "roller", Quantity::Ratio)?,
+            radius: positive(scope, scope.need(&own, "radius")?, "radius")?,
+        };
+        let along = Rational::from(&wheel.drive[0] * &wheel.roller[0]) + Rational::from(&wheel.drive[1] * &wheel.roller[1]);
+        if along == 0 {
+            let message = "found a roller across the drive of its wheel, expected one that is not: such a wheel drives nothing";
+            return Err(scope.fail(node.line, message));
+        }
+        list.push(wheel);
+    }
+    let twist = match mechanism.get("twist") {
+        None => None,
+        Some(node) => {
+            let [x, y, turn] = scope.exactly::<3>(node, "twist")?;
+            let length = |node: &Node| Ok::<_, Error>(scope.length(node, "twist")?.rational().clone());
+            Some([length(x)?, length(y)?, ratio(scope, turn, "twist")?])
+        }
+    };
+    Ok(Gearing::Wheels { wheels: list, twist })
+}
+
+fn pair(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Gearing> {
+    // Angles are used as enclosures of themselves: nothing is rounded by reading them.
+    let free = Scope::new(scope.path, scope.reading.clone());
+    let angle = |key: &str, otherwise: Option<Angle>| -> Result<Angle> {
+        match (mechanism.get(key), otherwise) {
+            (Some(node), _) => {
+                let angle = free.angle(node, key)?;
+                let degrees = angle.radians().to_degrees();
+                let least = if key == "helix" { 0.0 } else { f64::MIN_POSITIVE };
+                if !(least..60.0).contains(&degrees.abs()) || degrees < 0.0 {
+                    return Err(scope.fail(node.line, format!("found {degrees} deg as `{key}`, expected less than 60 deg")));
+                }
+                Ok(angle)
+            }
+            (None, Some(angle)) => Ok(angle),
+            (None, None) => Err(scope.fail(mechanism.line(), format!("found no `{key}`, expected one"))),
+        }
+    };
+    let node = scope.need(mechanism, "teeth")?;
+    let [a, b] = scope.exactly::<2>(node, "teeth")?;
+    let teeth = |node: &Node| match scope.count(node, "teeth")? {
+        count @ 3..=MOST_TEETH => Ok(u32::try_from(count).unwrap_or(u32::MAX)),
+        other => Err(scope.fail(node.line, format!("found {other} teeth, expected 3 to {MOST_TEETH}"))),
+    };
+    let teeth = [teeth(a)?, teeth(b)?];
+    let internal = match mechanism.get("mesh") {
+        None => false,
+        Some(node) => scope.word(node, "mesh", &["external", "internal"])? == "internal",
+    };
+    if internal && teeth[1] <= teeth[0] {
+        let message = format!("found {} teeth inside around {}, expected more inside than around", teeth[1], teeth[0]);
+        return Err(scope.fail(node.line, message));
+    }
+    let shift = match mechanism.get("shift") {
+        None => [Rational::new(), Rational::new()],
+        Some(node) => {
+            let [a, b] = scope.exactly::<2>(node, "shift")?;
+            [ratio(scope, a, "shift")?, ratio(scope, b, "shift")?]
+        }
+    };
+    let width = mechanism.get("width").map(|node| positive(scope, node, "width")).transpose()?;
+    Ok(Gearing::Pair(Box::new(Pair {
+        module: positive(scope, scope.need(mechanism, "module")?, "module")?,
+        pressure_angle: angle("pressure_angle", None)?,
+        helix: angle("helix", Some(Angle::zero()))?,
+        teeth,
+        shift,
+        width,
+        internal,
+    })))
+}

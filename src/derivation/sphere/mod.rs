@@ -1,0 +1,70 @@
+//! Four-bars on the sphere: transfer functions and coupler curves as polynomials.
+
+mod curve;
+mod transfer;
+
+pub use curve::{SpecialPoint, SphereCurve, sides as sphere_sides, sphere_trace};
+pub use transfer::{Transfer, transfer};
+
+use crate::error::{Error, Result};
+use crate::kinematics::sphere::{Direction, SphereLinkage};
+
+/// A four-bar of a linkage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FourBar {
+    /// Its joints: ground and crank, crank and coupler, coupler and rocker, rocker and ground.
+    pub joints: [usize; 4],
+    /// Ground, crank, coupler and rocker.
+    pub bodies: [usize; 4],
+}
+
+/// The joints of a body, each with the body at its other end.
+fn around(linkage: &SphereLinkage, body: usize) -> Vec<(usize, usize)> {
+    let ends = linkage.joints.iter().enumerate().filter_map(|(k, joint)| match joint.of {
+        [a, b] if a == body => Some((k, b)),
+        [a, b] if b == body => Some((k, a)),
+        _ => None,
+    });
+    ends.collect()
+}
+
+/// The axis of a joint in one of its bodies.
+fn axis(linkage: &SphereLinkage, joint: usize, body: usize) -> &Direction {
+    let joint = &linkage.joints[joint];
+    &joint.at[usize::from(joint.of[0] != body)]
+}
+
+impl FourBar {
+    /// The four-bar whose coupler a body is.
+    ///
+    /// # Errors
+    /// Where it is the coupler of none.
+    pub fn around(linkage: &SphereLinkage, coupler: usize) -> Result<Self> {
+        let to_ground = |body: usize| {
+            around(linkage, body).into_iter().find(|(_, other)| *other == linkage.ground).map(|(joint, _)| joint)
+        };
+        let sides: Vec<(usize, usize, usize)> = around(linkage, coupler)
+            .into_iter()
+            .filter(|(_, other)| *other != linkage.ground)
+            .filter_map(|(joint, other)| Some((joint, other, to_ground(other)?)))
+            .collect();
+        let pair = sides.iter().flat_map(|a| sides.iter().map(move |b| (a, b))).find(|(a, b)| a.0 < b.0 && a.1 != b.1);
+        let name = &linkage.bodies[coupler].name;
+        let (a, b) = pair.ok_or_else(|| {
+            Error::Unsupported(format!("the curve of a point of {name}, which is no coupler of a four-bar on the sphere"))
+        })?;
+        Ok(Self { joints: [a.2, a.0, b.0, b.2], bodies: [linkage.ground, a.1, coupler, b.1] })
+    }
+
+    /// The four-bar whose crank is joined to the ground by a joint; none of the bodies `before` belongs to it but the crank.
+    fn of_crank(linkage: &SphereLinkage, joint: usize, crank: usize, before: &[usize]) -> Option<Self> {
+        let is_new = |body: &usize| *body != linkage.ground && *body != crank && !before.contains(body);
+        around(linkage, crank).into_iter().filter(|(_, coupler)| is_new(coupler)).find_map(|(second, coupler)| {
+            around(linkage, coupler).into_iter().filter(|(_, rocker)| is_new(rocker)).find_map(|(third, rocker)| {
+                let ends = around(linkage, rocker);
+                let (fourth, _) = ends.into_iter().find(|(_, other)| *other == linkage.ground)?;
+                Some(Self { joints: [joint, second, third, fourth], bodies: [linkage.ground, crank, coupler, rocker] })
+            })
+        })
+    }
+}

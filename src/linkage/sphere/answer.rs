@@ -1,0 +1,259 @@
+//! The answer to one case of a linkage on the sphere.
+
+use super::equations::{Cluster, System};
+use crate::algebra::disc::Disc;
+use crate::algebra::groebner::{Basis, Equation, FiniteRing, Solutions};
+use crate::algebra::number::nearest_f64;
+use crate::algebra::ring::Ring;
+use crate::algebra::univariate::Univariate;
+use crate::error::{Error, Result};
+use crate::kinematics::motion::{Vector, cross, dot};
+use crate::kinematics::sphere::{SphereGiven, SphereLinkage};
+use crate::linkage::isotropic::middle;
+use crate::mechanism::exact_loop::roots::{Root, roots};
+use crate::verdict::{Code, Proof, Status, Verdict};
+use looproot_calculus::rotation::matrix::{Matrix, apply, from_matrix, product, transpose};
+use looproot_calculus::rotation::vectors::unit;
+use num_complex::Complex;
+use rug::Rational;
+use std::time::Instant;
+
+/// Products of words that a Gröbner basis may take: some seconds.
+const EFFORT: u64 = 2_000_000_000;
+/// Bits in which axes are computed from a root, and more where they do not tell enough.
+const BITS: [u32; 4] = [320, 1280, 5120, 20_480];
+/// Relative accuracy with which more bits are not asked for.
+const WANTED: f64 = 1e-17;
+
+/// A number of an assembly, real of a real one.
+pub type Coordinate = Complex<f64>;
+
+/// An assembly.
+#[derive(Clone, Debug)]
+pub struct SphereMode {
+    /// Whether it is real.
+    pub real: bool,
+    /// How often it counts.
+    pub multiplicity: usize,
+    /// The angles of the joints, radians.
+    pub joints: Vec<Coordinate>,
+    /// The rotations of the bodies against the ground.
+    pub bodies: Vec<Matrix<Coordinate>>,
+    /// The largest distance by which an axis is open, for axes of length 1.
+    pub residual: f64,
+    /// No entry of a rotation is farther from that of the assembly than this.
+    pub radius: f64,
+}
+
+impl SphereMode {
+    /// The quaternion of a body, of norm 1: w, x, y, z. `None` of a complex rotation whose quaternion has norm 0.
+    #[must_use]
+    pub fn quaternion(&self, body: usize) -> Option<[Coordinate; 4]> {
+        let q = if self.real {
+            let q = unit(&from_matrix(&self.bodies[body].map(|row| row.map(|c| c.re))))?;
+            [q.scalar, q.vector[0], q.vector[1], q.vector[2]].map(|part| Complex::new(part + 0.0, 0.0))
+        } else {
+            let q = unit(&from_matrix(&self.bodies[body]))?;
+            [q.scalar, q.vector[0], q.vector[1], q.vector[2]]
+        };
+        Some(q)
+    }
+}
+
+/// The answer to a case.
+#[derive(Clone, Debug)]
+pub struct SphereAnswer {
+    /// What is claimed of the list.
+    pub verdict: Verdict,
+    /// The isolated assemblies, real ones first.
+    pub modes: Vec<SphereMode>,
+    /// Microseconds that it took.
+    pub solve_us: f64,
+}
+
+/// Finds all assemblies with these inputs; `exact` says whether no number of file and inputs was rounded.
+///
+/// # Errors
+/// Where inputs are too few or hold what others hold, and for linkages that are beyond what is implemented.
+pub fn solve(linkage: &SphereLinkage, given: &[SphereGiven], exact: bool) -> Result<SphereAnswer> {
+    let start = Instant::now();
+    let system = System::of(linkage, given)?;
+    let too_much = || Error::Unsupported("the Gröbner basis of this linkage takes more work than is allowed".to_owned());
+    let basis = Basis::of(system.unknowns, &system.equations, EFFORT).ok_or_else(too_much)?;
+    let (mut modes, dimension) = match basis.dimension() {
+        None => (Vec::new(), 0),
+        Some(0) => (modes(linkage, &system, &basis).ok_or_else(too_much)?, 0),
+        Some(dimension) => (Vec::new(), dimension),
+    };
+    let key = |mode: &SphereMode| mode.joints.iter().map(|z| z.re).collect::<Vec<f64>>();
+    modes.sort_by(|a, b| {
+        let order = key(a).into_iter().zip(key(b)).map(|(x, y)| x.total_cmp(&y)).find(|order| order.is_ne());
+        b.real.cmp(&a.real).then(order.unwrap_or(std::cmp::Ordering::Equal))
+    });
+    let verdict = verdict(&modes, dimension, exact);
+    Ok(SphereAnswer { verdict, modes, solve_us: start.elapsed().as_secs_f64() * 1e6 })
+}
+
+fn verdict(modes: &[SphereMode], dimension: usize, exact: bool) -> Verdict {
+    let complex = modes.iter().map(|mode| mode.multiplicity).sum();
+    let real = modes.iter().filter(|mode| mode.real).map(|mode| mode.multiplicity).sum();
+    let (status, code, reason) = match (dimension, complex, real) {
+        (1.., ..) => (
+            Status::SelfMotion,
+            Code::SelfMotion,
+            format!("a Gröbner basis over the rationals: the assemblies form a set of dimension {dimension}, complex ones counted"),
+        ),
+        (0, 0, _) => (
+            Status::Unreachable,
+            Code::NoSolution,
+            "a Gröbner basis over the rationals: the equations of the axes contradict one another".to_owned(),
+        ),
+        (0, _, 0) => (
+            Status::Unreachable,
+            Code::NoSolution,
+            format!("a Gröbner basis over the rationals: {complex} assemblies with multiplicity, none of them real"),
+        ),
+        _ => (
+            Status::Complete,
+            Code::GeneralBoundMet,
+            format!("a Gröbner basis over the rationals: the axes have {complex} assemblies with multiplicity"),
+        ),
+    };
+    Verdict {
+        status,
+        // Of a family only the dimension is known, and not whether it has a real point.
+        proof: if dimension > 0 { Proof::None } else { Proof::Proved.of_rounded(!exact) },
+        code,
+        complex_complete: dimension == 0,
+        complex,
+        real,
+        at_infinity: 0,
+        self_motion: dimension,
+        certified: modes.len(),
+        reason: if exact { reason } else { reason + "; some angles or numbers of the file were rounded" },
+    }
+}
+
+/// All assemblies of a finite set.
+fn modes(linkage: &SphereLinkage, system: &System, basis: &Basis) -> Option<Vec<SphereMode>> {
+    if system.unknowns == 0 {
+        return mode(linkage, system, 1, true, &|equation| constant(equation)).map(|mode| vec![mode]);
+    }
+    let solutions = Solutions::of(FiniteRing::of(basis)?, system.unknowns)?;
+    let quotients: Vec<[Univariate<Rational>; 2]> =
+        (0..system.unknowns).map(|k| solutions.quotient(&Equation::variable(k))).collect::<Option<_>>()?;
+    let mut list = Vec::new();
+    for part in &solutions.parts {
+        for root in roots(&part.polynomial)? {
+            list.push(assembled(linkage, system, &quotients, &root, part.multiplicity)?);
+        }
+    }
+    Some(list)
+}
+
+/// The assembly of a root, with as many bits as it takes.
+fn assembled(
+    linkage: &SphereLinkage,
+    system: &System,
+    quotients: &[[Univariate<Rational>; 2]],
+    root: &Root,
+    multiplicity: usize,
+) -> Option<SphereMode> {
+    let mut best = None;
+    for bits in BITS {
+        let Some(ball) = root.ball(bits) else { break };
+        let value = |[numerator, denominator]: &[Univariate<Rational>; 2]| {
+            let inverse = ball.evaluate(denominator.coefficients()).inverse()?;
+            Some(ball.evaluate(numerator.coefficients()).mul(&inverse))
+        };
+        let Some(values) = quotients.iter().map(value).collect::<Option<Vec<Disc>>>() else { continue };
+        let image = |equation: &Equation| equation.evaluate(&values);
+        let found = mode(linkage, system, multiplicity, root.is_real(), &image);
+        let is_enough = found.as_ref().is_some_and(|mode| mode.radius <= WANTED.max(4.0 * f64::EPSILON));
+        best = found.or(best);
+        if is_enough {
+            break;
+        }
+    }
+    best
+}
+
+fn constant(equation: &Equation) -> Disc {
+    equation.evaluate(&[])
+}
+
+/// The rotation of a cluster from two of its axes.
+fn rotation(cluster: &Cluster, axes: [&Vector<Disc>; 2]) -> Matrix<Disc> {
+    let [p, q] = cluster.base.map(|place| &cluster.joints[place].1);
+    let [v, w] = axes;
+    let normal = cross(v, w);
+    // Rows that give the coefficients of a vector of the cluster in p, q and p x q.
+    let unit = |k: usize| -> Vector<Rational> { std::array::from_fn(|i| Rational::from(u8::from(i == k))) };
+    let columns: [[Rational; 3]; 3] = std::array::from_fn(|k| super::equations::combination(&unit(k), p, q));
+    std::array::from_fn(|i| {
+        std::array::from_fn(|k| {
+            let parts = [&v[i], &w[i], &normal[i]];
+            let terms = parts.iter().zip(&columns[k]).filter(|(_, c)| **c != 0);
+            terms.fold(Disc::zero(), |sum, (part, c)| {
+                sum.add(&part.mul(&Disc::from_rational(c).unwrap_or_else(Disc::zero)))
+            })
+        })
+    })
+}
+
+fn mode(
+    linkage: &SphereLinkage,
+    system: &System,
+    multiplicity: usize,
+    real: bool,
+    image: &dyn Fn(&Equation) -> Disc,
+) -> Option<SphereMode> {
+    let axes: Vec<Vector<Disc>> = system.axes.iter().map(|axis| axis.each_ref().map(image)).collect();
+    let zero = || Complex::new(0.0, 0.0);
+    let mut bodies: Vec<Matrix<Coordinate>> = vec![std::array::from_fn(|_| std::array::from_fn(|_| zero())); linkage.bodies.len()];
+    let mut radius = f64::EPSILON;
+    for (k, cluster) in system.clusters.iter().enumerate() {
+        let turn: Matrix<Disc> = if k == 0 {
+            std::array::from_fn(|i| std::array::from_fn(|j| if i == j { Disc::one() } else { Disc::zero() }))
+        } else {
+            let [first, second] = cluster.base.map(|place| &axes[cluster.joints[place].0]);
+            rotation(cluster, [first, second])
+        };
+        for (body, own) in &cluster.bodies {
+            let own = own.each_ref().map(|row| row.each_ref().map(|c| Disc::from_rational(c).unwrap_or_else(Disc::zero)));
+            let place = product(&turn, &own);
+            for (i, row) in place.iter().enumerate() {
+                for (j, entry) in row.iter().enumerate() {
+                    radius = radius.max(entry.radius().to_f64());
+                    let z = middle(entry);
+                    bodies[*body][i][j] = if real { Complex::new(z.re + 0.0, 0.0) } else { z };
+                }
+            }
+        }
+    }
+    if !radius.is_finite() {
+        return None;
+    }
+    let float = |v: &Vector<Rational>| v.each_ref().map(|c| Complex::new(nearest_f64(c), 0.0));
+    let mut residual = 0.0_f64;
+    let joints = linkage.joints.iter().map(|joint| {
+        let [a, b] = joint.of.map(|body| &bodies[body]);
+        let [u, w] = joint.at.each_ref().map(float);
+        let length = dot(&u, &u).re.sqrt();
+        let apart = apply(a, &u).into_iter().zip(apply(b, &w)).map(|(x, y)| (x - y).norm_sqr()).sum::<f64>();
+        residual = residual.max(apart.sqrt() / length);
+        let [e, f] = [0, 1].map(|side| float(&joint.reference(side)));
+        let f = apply(&product(&transpose(a), b), &f);
+        let size = (dot(&e, &e) * dot(&f, &f)).re.sqrt();
+        let (cos, sin) = (dot(&e, &f) / size, dot(&u, &cross(&e, &f)) / (size * length));
+        if real {
+            let angle = sin.re.atan2(cos.re);
+            return Complex::new(if angle <= -std::f64::consts::PI { -angle } else { angle + 0.0 }, 0.0);
+        }
+        // -i log(cos + i sin)
+        let log = (cos + Complex::new(0.0, 1.0) * sin).ln();
+        Complex::new(log.im, -log.re)
+    });
+    let joints = joints.collect();
+    Some(SphereMode { real, multiplicity, joints, bodies, residual, radius })
+}

@@ -1,0 +1,226 @@
+//! Linkages on the sphere: planted assemblies, curves and transfer functions.
+#![allow(clippy::unwrap_used)]
+
+use looproot::internal::catalogue::{Any, Format, Options, SphereFile, any_from_text, builtin_any};
+use looproot::internal::derivation::{sphere_trace, surface, transfer};
+use looproot::internal::linkage::grashof::spherical;
+use looproot::internal::linkage::sphere::solve;
+use looproot::internal::verdict::{Proof, Status};
+use looproot_algebra::int::Int;
+use looproot_algebra::number::nearest_f64;
+use looproot_algebra::polynomial::Polynomial;
+use looproot_calculus::quaternion::Quaternion;
+use looproot_calculus::rotation::matrix::{Matrix, apply, matrix, transpose};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rug::Rational;
+
+type Direction = [Rational; 3];
+
+fn read(text: &str) -> Box<SphereFile> {
+    match any_from_text(text, "test.toml", Format::Toml, &Options::default()).unwrap() {
+        Any::Sphere(file) => file,
+        _ => panic!("a linkage on the sphere"),
+    }
+}
+
+fn builtin(name: &str) -> Box<SphereFile> {
+    match builtin_any(name, &Options::default()).unwrap() {
+        Any::Sphere(file) => file,
+        _ => panic!("a linkage on the sphere"),
+    }
+}
+
+/// A quaternion of norm 1: the square of one of integers over its norm.
+fn unit_quaternion(random: &mut ChaCha8Rng) -> Quaternion<Rational> {
+    let p = Quaternion {
+        scalar: Rational::from(random.random_range(1..5)),
+        vector: std::array::from_fn(|_| Rational::from(random.random_range(-4..5))),
+    };
+    let (square, norm) = (p.mul(&p), p.norm());
+    Quaternion { scalar: square.scalar / &norm, vector: square.vector.map(|c| c / &norm) }
+}
+
+fn written(v: &Direction) -> String {
+    format!("[\"{}\", \"{}\", \"{}\"]", v[0], v[1], v[2])
+}
+
+fn direction(random: &mut ChaCha8Rng) -> Direction {
+    let turn = matrix(&unit_quaternion(random)).unwrap();
+    std::array::from_fn(|k| turn[k][0].clone())
+}
+
+/// A four-bar with a known assembly: its file, and the place of the coupler's point there.
+fn planted(random: &mut ChaCha8Rng) -> (String, Direction) {
+    let [a, b, c, d]: [Direction; 4] = std::array::from_fn(|_| direction(random));
+    let p = direction(random);
+    let quaternions: [Quaternion<Rational>; 3] = std::array::from_fn(|_| unit_quaternion(random));
+    let turns: [Matrix<Rational>; 3] = quaternions.each_ref().map(|q| matrix(q).unwrap());
+    let own = |k: usize, v: &Direction| written(&apply(&transpose(&turns[k]), v));
+    let text = format!(
+        "[mechanism]\nkind = \"linkage\"\nspace = \"sphere\"\nground = \"frame\"\njoints = \"shared points\"\n[mechanism.bodies]\n\
+         frame = {{ A = {}, D = {} }}\ncrank = {{ A = {}, B = {} }}\ncoupler = {{ B = {}, C = {}, P = {} }}\n\
+         rocker = {{ C = {}, D = {} }}\n",
+        written(&a), written(&d), own(0, &a), own(0, &b), own(1, &b), own(1, &c), own(1, &p), own(2, &c), own(2, &d)
+    );
+    let q = &quaternions[0];
+    let [x, y, z] = &q.vector;
+    let input = format!(
+        "[[input]]\nbody = \"crank\"\nquaternion = [\"{}\", \"{x}\", \"{y}\", \"{z}\"]\n[[trace]]\npoint = \"coupler.P\"\ndegree = 8\n",
+        q.scalar
+    );
+    (text + &input, p)
+}
+
+fn value(polynomial: &Polynomial<Int>, at: &Direction) -> Rational {
+    let exact = polynomial.map(|c| Some(Rational::from(c.to_integer()))).unwrap();
+    exact.evaluate(at)
+}
+
+#[test]
+fn planted_four_bars_are_found_and_their_points_lie_on_the_curves() {
+    let mut random = ChaCha8Rng::seed_from_u64(23);
+    let mut found = 0;
+    for _ in 0..12 {
+        let (text, point) = planted(&mut random);
+        let Ok(Any::Sphere(file)) = any_from_text(&text, "test.toml", Format::Toml, &Options::default()) else { continue };
+        let Ok(answer) = solve(&file.linkage, &file.cases[0].given, true) else { continue };
+        // Coincident axes make a curve of assemblies or a folded one.
+        if answer.verdict.status != Status::Complete {
+            continue;
+        }
+        assert_eq!(answer.verdict.proof, Proof::Proved);
+        assert_eq!((answer.verdict.complex, answer.verdict.real), (2, 2), "{text}");
+        let coupler = file.linkage.bodies.iter().position(|body| body.name == "coupler").unwrap();
+        let own = file.linkage.bodies[coupler].point("P").unwrap().clone();
+        let is_planted = |mode: &looproot::internal::linkage::sphere::SphereMode| {
+            (0..3).all(|i| {
+                let image: f64 = (0..3).map(|k| mode.bodies[coupler][i][k].re * nearest_f64(&own[k])).sum();
+                (image - nearest_f64(&point[i])).abs() < 1e-12
+            })
+        };
+        assert!(answer.modes.iter().any(is_planted));
+        assert!(answer.modes.iter().all(|mode| mode.residual < 1e-12));
+        let Ok(curve) = sphere_trace(&file.linkage, coupler, &own) else { continue };
+        assert_eq!(value(&curve.polynomial, &point), 0);
+        found += 1;
+    }
+    assert!(found >= 6, "{found}");
+}
+
+#[test]
+fn a_double_point_is_reached_twice_and_lies_on_its_quadric() {
+    let file = builtin("linkage/spherical_coupler_curve");
+    let coupler = file.linkage.bodies.iter().position(|body| body.name == "coupler").unwrap();
+    let point = file.linkage.bodies[coupler].point("P").unwrap().clone();
+    let curve = sphere_trace(&file.linkage, coupler, &point).unwrap();
+    assert_eq!(curve.degree(), 8);
+    let points = curve.double_points.as_ref().unwrap();
+    assert_eq!(points.iter().map(|point| point.multiplicity).sum::<usize>(), 4);
+    let float = |polynomial: &Polynomial<Int>| polynomial.map(|c| Some(c.to_f64())).unwrap();
+    let (surface, locus) = (float(&curve.polynomial), float(&curve.locus));
+    for point in points.iter().filter(|point| point.real) {
+        let at = point.at.map(|z| z.re);
+        assert!(locus.evaluate(&at).abs() < 1e-9);
+        // The gradient on the sphere vanishes: it is along the point.
+        let gradient: Vec<f64> = (0..3).map(|k| surface.derivative(k).evaluate(&at)).collect();
+        let along: f64 = gradient.iter().zip(&at).map(|(g, x)| g * x).sum();
+        let size = surface.coefficients().iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+        assert!(gradient.iter().zip(&at).all(|(g, x)| (g - along * x).abs() < 1e-8 * size));
+    }
+}
+
+#[test]
+fn the_cusp_that_was_made_is_found() {
+    let file = builtin("linkage/spherical_cusp");
+    let coupler = file.linkage.bodies.iter().position(|body| body.name == "coupler").unwrap();
+    let point = file.linkage.bodies[coupler].point("P").unwrap().clone();
+    let cusps = sphere_trace(&file.linkage, coupler, &point).unwrap().cusps.unwrap();
+    assert_eq!(cusps.len(), 1);
+    assert!(cusps[0].at.iter().zip(&point).all(|(z, x)| (z.re - nearest_f64(x)).abs() < 1e-12));
+}
+
+#[test]
+fn a_hooke_joint_divides_the_tangent_by_its_cosine() {
+    let text = r#"
+[mechanism]
+kind = "linkage"
+space = "sphere"
+ground = "house"
+joints = [
+    { name = "S0", type = "R", of = ["house", "in"], zero = [[0, 1, 0], [1, 0, 0]] },
+    { name = "F1", type = "R", of = ["in", "cross"] }, { name = "G1", type = "R", of = ["cross", "out"] },
+    { name = "S1", type = "R", of = ["house", "out"], zero = [["-4/5", "3/5", 0], [1, 0, 0]] },
+]
+[mechanism.bodies]
+house = { S0 = [1, 0, 0], S1 = ["3/5", "4/5", 0] }
+in = { S0 = [0, 0, 1], F1 = [1, 0, 0] }
+cross = { F1 = [1, 0, 0], G1 = [0, 1, 0] }
+out = { S1 = [0, 0, 1], G1 = [0, 1, 0] }
+[[input]]
+joint = "S0"
+tan_half = "1/3"
+"#;
+    let file = read(text);
+    let found = transfer(&file.linkage, 0).unwrap();
+    // tan in = 2 t/(1 - t^2) = (3/5) 2 s/(1 - s^2)
+    for (t, s) in [((1, 2), (2, 1)), ((1, 3), (1, 2)), ((0, 1), (0, 1))] {
+        let tangent = |(n, d): (i32, i32)| {
+            let x = Rational::from((n, d));
+            Rational::from(&x * 2) / (Rational::from(1) - Rational::from(x.square_ref()))
+        };
+        let on = tangent(t) == tangent(s) * Rational::from((3, 5));
+        let at = [Rational::from(t), Rational::from(s), Rational::new()];
+        assert_eq!(value(&found.polynomial, &at) == 0, on, "{t:?} {s:?}");
+    }
+    let answer = solve(&file.linkage, &file.cases[0].given, true).unwrap();
+    let angles: Vec<f64> = answer.modes.iter().map(|mode| mode.joints[3].re).collect();
+    assert!(angles.iter().all(|angle| (angle.tan() - 1.25).abs() < 1e-12), "{angles:?}");
+    assert!(found.constant_ratio.is_empty());
+    let double = builtin("linkage/double_hooke");
+    let words: Vec<&str> = transfer(&double.linkage, 0).unwrap().constant_ratio.iter().map(|(_, what)| *what).collect();
+    assert!(words.contains(&"out = in"));
+}
+
+#[test]
+fn what_does_not_hold_a_body_is_refused() {
+    let head = "[mechanism]\nkind = \"linkage\"\nspace = \"sphere\"\nground = \"f\"\njoints = \"shared points\"\n[mechanism.bodies]\n";
+    let four = "f = { A = [1, 0, 0], D = [0, 1, 0] }\nc = { A = [1, 0, 0], B = [0, 0, 1] }\n";
+    let free = read(&format!("{head}{four}k = {{ B = [1, 0, 0], C = [0, 1, 0] }}\nr = {{ C = [1, 0, 0], D = [0, 1, 0] }}\n"));
+    assert!(solve(&free.linkage, &[], true).unwrap_err().to_string().contains("leaves 1"));
+    let bad = format!("{head}f = {{ A = [1, 0, 0] }}\nc = {{ A = [2, 0, 0] }}\n");
+    let message = any_from_text(&bad, "test.toml", Format::Toml, &Options::default()).unwrap_err().to_string();
+    assert!(message.contains("lengths"), "{message}");
+}
+
+#[test]
+fn classes_of_spherical_four_bars_follow_their_sides() {
+    assert_eq!(spherical(&builtin("linkage/spherical_four_bar").linkage).unwrap().class, "double-rocker");
+    // A small crank between sides of a right angle turns round, and the rocker does not.
+    let head = "[mechanism]\nkind = \"linkage\"\nspace = \"sphere\"\nground = \"f\"\njoints = \"shared points\"\n[mechanism.bodies]\n";
+    let right = "{ A = [1, 0, 0], D = [0, 1, 0] }";
+    let text = format!(
+        "{head}f = {right}\nc = {{ A = [1, 0, 0], B = [\"24/25\", \"7/25\", 0] }}\nk = {{ B = [1, 0, 0], C = [0, 1, 0] }}\n\
+         r = {{ C = [1, 0, 0], D = [0, 1, 0] }}\n"
+    );
+    assert_eq!(spherical(&read(&text).linkage).unwrap().class, "crank-rocker");
+}
+
+#[test]
+fn surfaces_of_open_chains_hold_the_points_of_the_chains() {
+    use looproot::internal::catalogue::builtin;
+    use looproot::internal::catalogue::entry::Design;
+    use looproot::internal::kinematics::forward::Forward;
+    for (name, degree) in [("arm/chain_rr", 4), ("arm/chain_rp", 2), ("arm/chain_pr", 2), ("arm/chain_pp", 1)] {
+        let entry = builtin(name, &Options::default()).unwrap();
+        let Design::Arm(chain) = &entry.design else { panic!("an arm") };
+        let found = surface(chain, &std::array::from_fn(|_| Rational::new())).unwrap();
+        assert_eq!(found.degree(), degree, "{name}");
+        let polynomial = found.polynomial.map(|c| Some(c.to_f64())).unwrap();
+        let forward = Forward::of(chain).unwrap();
+        for q in [[0.3, -1.2], [2.0, 0.7], [-0.4, 1.9]] {
+            let at = forward.pose(&q).translation;
+            assert!(polynomial.evaluate(&at).abs() < 1e-9, "{name} at {q:?}");
+        }
+    }
+}
