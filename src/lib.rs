@@ -42,8 +42,8 @@ pub mod internal {
 
 use internal::{
     assembly, benchmark, catalogue, certificate, certify, claims, closure, conditions, derivation, displacement,
-    elimination, error, exact, face, factoring, gearing, kinematics, lines, linkage, mechanism, mobility, report, scene, solve,
-    sweep, synthesis, verdict,
+    elimination, error, exact, face, factoring, gearing, kinematics, lines, linkage, mechanism, mobility, report,
+    scene, solve, sweep, synthesis, verdict,
 };
 
 pub use error::{Error, Result};

@@ -61,7 +61,15 @@ fn planted(random: &mut ChaCha8Rng) -> (String, Direction) {
         "[mechanism]\nkind = \"linkage\"\nspace = \"sphere\"\nground = \"frame\"\njoints = \"shared points\"\n[mechanism.bodies]\n\
          frame = {{ A = {}, D = {} }}\ncrank = {{ A = {}, B = {} }}\ncoupler = {{ B = {}, C = {}, P = {} }}\n\
          rocker = {{ C = {}, D = {} }}\n",
-        written(&a), written(&d), own(0, &a), own(0, &b), own(1, &b), own(1, &c), own(1, &p), own(2, &c), own(2, &d)
+        written(&a),
+        written(&d),
+        own(0, &a),
+        own(0, &b),
+        own(1, &b),
+        own(1, &c),
+        own(1, &p),
+        own(2, &c),
+        own(2, &d)
     );
     let q = &quaternions[0];
     let [x, y, z] = &q.vector;
@@ -83,7 +91,9 @@ fn planted_four_bars_are_found_and_their_points_lie_on_the_curves() {
     let mut found = 0;
     for _ in 0..12 {
         let (text, point) = planted(&mut random);
-        let Ok(Any::Sphere(file)) = any_from_text(&text, "test.toml", Format::Toml, &Options::default()) else { continue };
+        let Ok(Any::Sphere(file)) = any_from_text(&text, "test.toml", Format::Toml, &Options::default()) else {
+            continue;
+        };
         let Ok(answer) = solve(&file.linkage, &file.cases[0].given, true) else { continue };
         // Coincident axes make a curve of assemblies or a folded one.
         if answer.verdict.status != Status::Complete {
@@ -186,7 +196,8 @@ tan_half = "1/3"
 fn what_does_not_hold_a_body_is_refused() {
     let head = "[mechanism]\nkind = \"linkage\"\nspace = \"sphere\"\nground = \"f\"\njoints = \"shared points\"\n[mechanism.bodies]\n";
     let four = "f = { A = [1, 0, 0], D = [0, 1, 0] }\nc = { A = [1, 0, 0], B = [0, 0, 1] }\n";
-    let free = read(&format!("{head}{four}k = {{ B = [1, 0, 0], C = [0, 1, 0] }}\nr = {{ C = [1, 0, 0], D = [0, 1, 0] }}\n"));
+    let free =
+        read(&format!("{head}{four}k = {{ B = [1, 0, 0], C = [0, 1, 0] }}\nr = {{ C = [1, 0, 0], D = [0, 1, 0] }}\n"));
     assert!(solve(&free.linkage, &[], true).unwrap_err().to_string().contains("leaves 1"));
     let bad = format!("{head}f = {{ A = [1, 0, 0] }}\nc = {{ A = [2, 0, 0] }}\n");
     let message = any_from_text(&bad, "test.toml", Format::Toml, &Options::default()).unwrap_err().to_string();

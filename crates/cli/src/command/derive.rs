@@ -126,10 +126,13 @@ fn traced(options: &DeriveOptions, mechanism: &str, entry: &Entry, asked: &str) 
         std::array::from_fn(|_| Rational::new())
     } else {
         let numbers = asked.split(',').map(|part| Number::parse(part.trim(), Quantity::Length, &entry.reading));
-        let numbers = numbers.map(|number| number.map(|number| number.rational().clone()).ok()).collect::<Option<Vec<_>>>();
+        let numbers =
+            numbers.map(|number| number.map(|number| number.rational().clone()).ok()).collect::<Option<Vec<_>>>();
         let point = numbers.and_then(|numbers| <[Rational; 3]>::try_from(numbers).ok());
         point.ok_or_else(|| {
-            Error::Invalid(format!("found --trace \"{asked}\" for an arm, expected `tool` or the point \"x, y, z\" in its frame"))
+            Error::Invalid(format!(
+                "found --trace \"{asked}\" for an arm, expected `tool` or the point \"x, y, z\" in its frame"
+            ))
         })?
     };
     let found = surface(chain, &point).map_err(|error| in_place(error, mechanism, entry))?;

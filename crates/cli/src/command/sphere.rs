@@ -36,7 +36,9 @@ fn wanted(input: Option<&str>, file: &SphereFile) -> Result<std::ops::Range<usiz
         Ok(number) if (1..=file.cases.len()).contains(&number) => Ok(number - 1..number),
         _ => {
             let count = file.cases.len();
-            let message = format!("found --input {asked}, expected JOINT=VALUE or the number of an input of the file, 1 to {count}");
+            let message = format!(
+                "found --input {asked}, expected JOINT=VALUE or the number of an input of the file, 1 to {count}"
+            );
             Err(Error::Invalid(message))
         }
     }
@@ -95,7 +97,8 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
     } else {
         let given = file.cases[index].given.iter().find_map(|given| given.joint);
         let ground = file.linkage.joints.iter().position(|joint| joint.of.contains(&file.linkage.ground));
-        let input = given.or(ground).ok_or_else(|| Error::Invalid("found no joint at the ground, expected one".to_owned()))?;
+        let input =
+            given.or(ground).ok_or_else(|| Error::Invalid("found no joint at the ground, expected one".to_owned()))?;
         let found = transfer(&file.linkage, input).map_err(in_place)?;
         if options.json {
             format!("{}\n", report::transfer_json(file, index + 1, &found))
@@ -119,7 +122,8 @@ pub fn point_of<'a>(file: &SphereFile, asked: &'a str) -> Result<(usize, &'a str
         Some((number, point, bodies[number].point(point)?.clone()))
     });
     found.ok_or_else(|| {
-        let points = bodies.iter().flat_map(|body| body.points.iter().map(move |(point, _)| format!("{}.{point}", body.name)));
+        let points =
+            bodies.iter().flat_map(|body| body.points.iter().map(move |(point, _)| format!("{}.{point}", body.name)));
         let known: Vec<String> = points.take(12).collect();
         Error::Invalid(format!("found --trace {asked}, expected a point of a body: {}", known.join(", ")))
     })
@@ -151,9 +155,11 @@ pub fn sweep(
             let known: Vec<&str> = joints.iter().take(12).map(|joint| joint.name.as_str()).collect();
             Error::Invalid(format!("found --joint {name}, expected one of {}", known.join(", ")))
         })?,
-        None => case.given.iter().find_map(|given| given.joint).ok_or_else(|| {
-            Error::Invalid("found no joint given in the file, expected --joint".to_owned())
-        })?,
+        None => case
+            .given
+            .iter()
+            .find_map(|given| given.joint)
+            .ok_or_else(|| Error::Invalid("found no joint given in the file, expected --joint".to_owned()))?,
     };
     let end = |name: &str, text: &str| {
         let angle = Angle::parse(text, &file.reading).map_err(Error::from);
