@@ -17,6 +17,13 @@ def times(a, b):
     return [[sum((a[i][k] * b[k][j] for k in range(4)), 0) for j in range(4)] for i in range(4)]
 
 
+def chain(parts):
+    product = parts[0]
+    for part in parts[1:]:
+        product = times(product, part)
+    return product
+
+
 def inverse(m):
     turned = [[m[j][i] for j in range(3)] for i in range(3)]
     return [row + [-sum((row[k] * m[k][3] for k in range(3)), 0)] for row in turned] + [[0, 0, 0, 1]]

@@ -1,7 +1,7 @@
 """Theorem 4 of docs/certificate.md: an upper bound on the number of solutions of a loop by an eliminant in one unknown."""
 from flint import acb, fmpq, fmpq_mat, fmpq_mpoly_ctx, fmpq_poly
 
-from chains import IDENTITY, inverse, times
+from chains import IDENTITY, chain, inverse, times
 from quantities import Refused, count, decimal, fields
 
 SYMBOLS = fmpq_mpoly_ctx.get(["c0", "s0", "c1", "s1", "c2", "s2"], "lex")
@@ -9,7 +9,7 @@ ONE = (0,) * 6
 HALVES = {(0, 0): (1, 0, 1), (1, 0): (1, 0, -1), (0, 1): (0, 2, 0)}  # 1, cos, sin times 1 + t^2
 POWERS = {(0, 0): (1, 0, 0), (1, 0): (0, 1, 0), (2, 0): (0, 0, 1)}  # of a distance
 COLUMNS = [(i, j) for i in range(4) for j in range(3)]
-LONGEST = 60000  # bits of a coefficient of the eliminant
+LONGEST = 512  # bits of a number of a link
 
 
 def eliminant(system, item):
@@ -20,12 +20,12 @@ def eliminant(system, item):
 
 
 def bound(links, turns, aid):
-    first, hidden, shift = fields(aid, ("first", "hidden", "shift"))
-    first, hidden, shift = count(first), count(hidden), decimal(shift)
+    first, hidden, shift = (read(x) for read, x in zip((count, count, decimal), fields(aid, ("first", "hidden", "shift"))))
     if not (first < 6 and hidden < 3):
         raise Refused("proof: eliminant: no such unknown")
-    around = [(first + k) % 6 for k in range(6)]
-    links, turns = [links[k] for k in around], [turns[k] for k in around]
+    if any(max(fmpq(x).height_bits(), shift.height_bits()) > LONGEST for link in links for row in link for x in row):
+        raise Refused("proof: eliminant: the numbers are too long")
+    links, turns = [*links[first:], *links[:first]], [*turns[first:], *turns[:first]]
     if not turns[3]:
         raise Refused("proof: eliminant: the fourth unknown is no rotation")
     if turns[hidden]:  # its angle is counted from another place, so that it is pi at no solution
@@ -56,26 +56,25 @@ def normal(x, turns):
         while is_turn and (high := {e: v for e, v in x.to_dict().items() if e[2 * k] > 1}):
             part = SYMBOLS.from_dict(high)
             x += divmod(part, c * c)[0] * (1 - s * s - c * c)
-    return {e: v for e, v in x.to_dict().items()}
+    return x.to_dict()
 
 
 def equations(links, turns):
     """The combinations of the fourteen equations that are free of the last two unknowns."""
-    front = chain([moved(0, turns[0]), links[0], moved(1, turns[1]), links[1], moved(2, turns[2]), links[2]])
-    behind = [moved(0, turns[4]), links[4], moved(1, turns[5]), links[5]]
+    front = chain([part for k in range(3) for part in (moved(k, turns[k]), links[k])])
     back = chain([inverse(links[5]), moved(1, turns[5], -1), inverse(links[4]), moved(0, turns[4], -1), inverse(links[3])])
     left, right = fourteen(front, turns[:3]), fourteen(back, turns[4:])
     terms = sorted({e for row in right for e in row} - {ONE})
     own = [(1, 0, 0, 0, 0, 0), (0, 0, 1, 0, 0, 0)] + [(0, 1, 0, 0, 0, 0)] * turns[4] + [(0, 0, 0, 1, 0, 0)] * turns[5]
     table = fmpq_mat([[row.get(e, fmpq(0)) for e in terms] + [fmpq(int(i == j)) for j in range(14)] for i, row in enumerate(right)])
-    reduced, rank = table.rref()
-    lead = [next((k for k in range(rank + 14) if k < table.ncols() and reduced[i, k] != 0), None) for i in range(14)]
+    reduced = table.rref()[0]
+    lead = [next((k for k in range(table.ncols()) if reduced[i, k] != 0), None) for i in range(14)]
     if not set(own) <= set(terms) or lead[:len(terms)] != list(range(len(terms))):
         raise Refused("proof: eliminant: the other unknowns do not follow from three of them")
     found = []
     for i in range(len(terms), 14):
-        weights, total = [reduced[i, len(terms) + k] for k in range(14)], {}
-        for weight, one, other in zip(weights, left, right):
+        total = {}
+        for weight, one, other in zip([reduced[i, len(terms) + k] for k in range(14)], left, right):
             for e, v in one.items():
                 total[e] = total.get(e, 0) + weight * v
             total[ONE] = total.get(ONE, 0) - weight * other.get(ONE, 0)
@@ -83,18 +82,10 @@ def equations(links, turns):
     return found
 
 
-def chain(parts):
-    product = parts[0]
-    for part in parts[1:]:
-        product = times(product, part)
-    return product
-
-
 def matrix(found, turns, hidden):
     """The equations times 1 + t^2 of every rotation, once and times the first other unknown u: rows of polynomials in the
     hidden one for the columns u^i v^j."""
-    others = [k for k in range(3) if k != hidden]
-    rows = []
+    others, rows = [k for k in range(3) if k != hidden], []
     for total in found:
         row = {column: [fmpq(0)] * 3 for column in COLUMNS}
         for e, value in total.items():
@@ -117,8 +108,7 @@ def at(rows, t):
 
 def roots(rows, is_turn):
     """The roots of a minor that is not 0, other than i and -i where the unknown is an angle."""
-    somewhere = fmpq_mat(at(rows, fmpq(17, 5))).transpose() if len(rows) >= 12 else None
-    reduced, rank = somewhere.rref() if somewhere is not None else (None, 0)
+    reduced, rank = fmpq_mat(at(rows, fmpq(17, 5))).transpose().rref() if rows else (None, 0)
     if rank < 12:
         raise Refused("proof: eliminant: it is 0")
     chosen = [rows[next(k for k in range(len(rows)) if reduced[i, k] != 0)] for i in range(12)]
@@ -126,8 +116,6 @@ def roots(rows, is_turn):
     values = fmpq_mat(25, 1, [fmpq_mat(at(chosen, t)).det() for t in points])
     solved = fmpq_mat([[t**k for k in range(25)] for t in points]).solve(values)
     minor, circle = fmpq_poly([solved[k, 0] for k in range(25)]).numer(), fmpq_poly([1, 0, 1]).numer()
-    if minor.height_bits() > LONGEST:
-        raise Refused("proof: eliminant: the numbers are too long")
     if is_turn and minor.degree() < 24:
         raise Refused("proof: eliminant: an angle of pi is a root")
     while is_turn and minor.degree() > 1 and divmod(minor, circle)[1] == 0:

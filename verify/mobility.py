@@ -1,8 +1,8 @@
 """Theorems 5 to 7 of docs/certificate.md: whether a closed loop moves, and in how many dimensions."""
 from flint import ctx, fmpq, fmpq_mat, fmpq_series
 
-from chains import Chain, IDENTITY, inverse, times
-from eliminants import bound, chain
+from chains import Chain, IDENTITY, chain, inverse, times
+from eliminants import LONGEST, bound
 from isolation import modes_of, prove_all
 from quantities import Refused, Unreadable, count, decimal, fields, items, rational
 
@@ -78,6 +78,8 @@ def curve(data, item, modes):
             raise Unreadable("proof: curve: found a number that is not rational")
         here = [[-1, 0, 0, 0], [0, -1, 0, 0], *IDENTITY[2:]] if is_half_turn else moved(turns[k], value)
         links[k] = times(here, links[k])
+    if any(fmpq(x).height_bits() > LONGEST for link in links for row in link for x in row):
+        raise Refused("proof: curve: the numbers are too long")
     if [[fmpq(x) for x in row] for row in chain(links)] != [[fmpq(x) for x in row] for row in IDENTITY]:
         raise Refused("proof: curve: the loop is not closed there")
     size, small = len(links), fmpq_series([0, 1])

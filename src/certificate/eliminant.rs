@@ -29,8 +29,8 @@ type Rows = Vec<Vec<Square>>;
 const COLUMNS: usize = 12;
 /// Degree of its minors: 2 for each row.
 const DEGREE: usize = 2 * COLUMNS;
-/// The most bits of a coefficient of the eliminant.
-const LONGEST: u32 = 60_000;
+/// The most bits of a number of a link: those of a pose by four integers of 60 bits have some 250.
+const LONGEST: u32 = 512;
 /// A value of the hidden unknown at which a minor that is not 0 everywhere is hardly 0.
 const SOMEWHERE: (i32, i32) = (17, 5);
 
@@ -88,6 +88,9 @@ pub(super) fn solutions_of_loop(
     if choice.first > 5 || choice.hidden > 2 {
         return no("no such unknown");
     }
+    if links.iter().any(is_long) || bits(&choice.shift) > LONGEST {
+        return no("the numbers are too long");
+    }
     let around = |k: usize| (choice.first + k) % 6;
     let turns: [bool; 6] = std::array::from_fn(|k| variables[around(k)] == Variable::Rotation);
     let mut links: [Motion<Rational>; 6] = std::array::from_fn(|k| links[around(k)].clone());
@@ -121,6 +124,15 @@ pub(super) fn solutions_of_loop(
         }
     }
     Ok(most)
+}
+
+fn bits(x: &Rational) -> u32 {
+    x.numer().significant_bits().max(x.denom().significant_bits())
+}
+
+/// Whether numbers of a link are too long for what is computed with them.
+pub(super) fn is_long(link: &Motion<Rational>) -> bool {
+    link.rotation.iter().flatten().chain(&link.translation).any(|x| bits(x) > LONGEST)
 }
 
 /// Where a root is looked for first: the hidden unknown at a mode, as half-angle tangent if it is an angle.
@@ -260,12 +272,7 @@ fn minor(rows: &Rows) -> Result<Univariate<Rational>, Fault> {
     let power = |k: usize| -> Vec<Vec<Rational>> {
         chosen.iter().map(|row| rows[*row].iter().map(|entry| entry[k].clone()).collect()).collect()
     };
-    let minor = modular(&[power(0), power(1), power(2)]);
-    let bits = |c: &Rational| c.numer().significant_bits().max(c.denom().significant_bits());
-    if minor.coefficients().iter().any(|c| bits(c) > LONGEST) {
-        return refused("proof: eliminant: the numbers are too long");
-    }
-    Ok(minor)
+    Ok(modular(&[power(0), power(1), power(2)]))
 }
 
 /// How many solutions a root allows: the corank, and none where the one vector of the kernel is no `u^i v^j`; `None` where

@@ -3,7 +3,7 @@
 use super::bound::choices;
 use super::check::closed;
 use super::data::{data_of_loop, entry_of};
-use super::eliminant::{Choice, solutions_of_loop};
+use super::eliminant::{Choice, is_long, solutions_of_loop};
 use super::fault::{Fault, refused, shortened, unreadable};
 use super::isolation::proved_modes;
 use super::mode::{Ball, Unproved};
@@ -165,6 +165,9 @@ fn follows_a_curve((variables, links): &Loop, point: &[Place]) -> Result<(), Fau
     }
     let links: Vec<Motion<Rational>> =
         (0..size).map(|k| standing(variables[k], &point[k]).then_after(&links[k])).collect();
+    if links.iter().any(is_long) {
+        return refused("proof: curve: the numbers are too long");
+    }
     let product = links.iter().fold(Motion::identity(), |product, link| product.then_after(link));
     if product != Motion::identity() {
         return refused("proof: curve: the loop is not closed there");

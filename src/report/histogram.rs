@@ -11,11 +11,13 @@ const HEAD: f64 = 40.0;
 const BARS: i32 = 2;
 /// What is below 1e-18 counts as 0 and stands in the first bar: the last digit of f64 is 1e-16 of a number.
 const FIRST: i32 = -18 * BARS;
+/// The last decade of f64 ends the last bar.
+const LAST: i32 = 308 * BARS;
 
 /// The histogram of positive numbers. Zeros, and what is smaller than 1e-18, stand in the first bar.
 #[must_use]
 pub fn svg(title: &str, axis: &str, values: &[f64]) -> String {
-    let bar = |x: f64| (FIRST..).find(|bar| x < 10.0_f64.powf(f64::from(bar + 1) / f64::from(BARS)));
+    let bar = |x: f64| (FIRST..=LAST).find(|bar| x < 10.0_f64.powf(f64::from(bar + 1) / f64::from(BARS)));
     let bars: Vec<i32> = values.iter().filter(|x| x.is_finite()).filter_map(|x| bar(*x)).collect();
     let (first, last) = (bars.iter().min().copied().unwrap_or(0), bars.iter().max().copied().unwrap_or(0));
     // Whole decades.

@@ -60,6 +60,8 @@ pub struct Score {
     pub lost_in: Vec<String>,
 }
 
+/// The decade of the largest numbers of f64.
+const LARGEST_DECADE: i32 = 308;
 /// The decade of condition numbers that are not finite.
 pub const MULTIPLE: i32 = i32::MAX;
 
@@ -91,7 +93,7 @@ fn decade(truth: &Truth) -> i32 {
     if truth.multiplicity > 1 || !truth.condition.is_finite() {
         return MULTIPLE;
     }
-    (0..).find(|power| !(truth.condition >= 10.0_f64.powi(power + 1))).unwrap_or(MULTIPLE)
+    (0..LARGEST_DECADE).find(|power| !(truth.condition >= 10.0_f64.powi(power + 1))).unwrap_or(LARGEST_DECADE)
 }
 
 /// The answers at one true solution.
