@@ -58,6 +58,12 @@ impl Loop {
         Self::new(Model::load(name, None, None)?)
     }
 
+    /// The number of joint variables, the given one among them.
+    #[must_use]
+    pub fn freedoms(&self) -> usize {
+        self.model.entry.chain().map_or(0, |chain| chain.variables().len())
+    }
+
     /// The joint that is given, from 1, and what of it: the one of the file, else the first one.
     #[must_use]
     pub fn input(&self) -> (usize, Variable) {
