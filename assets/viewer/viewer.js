@@ -8,13 +8,14 @@ import {
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 
-const data = JSON.parse(document.getElementById('data').textContent);
+const embedded = (id) => JSON.parse(document.getElementById(id)?.textContent || 'null');
 const $ = (selector) => document.querySelector(selector);
 const all = (selector) => [...document.querySelectorAll(selector)];
 
 // Poses travel as base64 of little-endian 16-bit integers, seven for every body: a quaternion in units of 1/32767, and a
 // position in units of reach/32767.
-const COUNT = data.scene ? data.scene.bodies.length : 0;
+let data = null;
+let COUNT = 0;
 function frames(text, reach) {
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   const view = new DataView(bytes.buffer);
@@ -25,8 +26,16 @@ function frames(text, reach) {
 }
 
 // A track is what can be stood at: a mode has one frame, a family, a branch or a motion has many.
-const tracks = data.tracks.map((track) => ({ ...track, frames: track.poses && COUNT ? frames(track.poses, track.reach) : [] }));
+let tracks = [];
 const state = { track: -1, frame: 0, overlay: true, grid: false, playing: false };
+
+/** Takes what is to be seen. */
+function take(found) {
+  data = found;
+  COUNT = data.scene ? data.scene.bodies.length : 0;
+  tracks = data.tracks.map((track) => ({ ...track, frames: track.poses && COUNT ? frames(track.poses, track.reach) : [] }));
+}
+take(embedded('data'));
 
 // ---- rigid poses -------------------------------------------------------------------------------------------------------
 
@@ -267,7 +276,7 @@ function pose(figure, frame) {
 
 function open3d() {
   const canvas = $('#canvas');
-  if (!canvas || !COUNT || !tracks.some((track) => track.frames.length)) return;
+  if (!canvas || !COUNT || !(live || tracks.some((track) => track.frames.length))) return;
   // three.js complains on the console where there is no WebGL: ask first.
   const context = canvas.getContext('webgl2', { antialias: true, alpha: true, preserveDrawingBuffer: true });
   if (!context) return;
@@ -551,13 +560,7 @@ function pick(event) {
 
 // ---- choosing ----------------------------------------------------------------------------------------------------------
 
-const rows = all('table tbody tr');
-const buttons = all('button[data-track]');
-const marks = new Map();
-for (const mark of all('[data-mark]')) {
-  const { mark: track } = mark.dataset;
-  if (marks.has(track)) marks.get(track).push(mark); else marks.set(track, [mark]);
-}
+let [rows, buttons, marks] = [[], [], new Map()];
 
 function choose(index, frame) {
   if (index < 0 || index >= tracks.length) return;
@@ -586,7 +589,8 @@ function choose(index, frame) {
   for (const panel of all('[data-case]')) panel.hidden = panel.dataset.case !== String(track.case);
   slide(track);
   if (!track.frames.length) state.playing = false;
-  if (stage && (before !== track.case || fitted().map((one) => one.name).join() !== stage.fitted)) fit();
+  // While a live page is moved, the camera stands still.
+  if (stage && !state.moving && (before !== track.case || fitted().map((one) => one.name).join() !== stage.fitted)) fit();
   drawFlat(track.frames[state.frame]);
   refresh();
 }
@@ -651,11 +655,23 @@ function step(by) {
   choose(order[Math.min(Math.max(at + by, 0), order.length - 1)]);
 }
 
-for (const row of rows) {
-  if (row.dataset.track !== undefined) row.addEventListener('click', () => choose(Number(row.dataset.track)));
+/** Finds the rows, marks and buttons of the tracks, and listens to them. */
+function wire() {
+  rows = all('table tbody tr');
+  buttons = all('button[data-track]');
+  marks = new Map();
+  for (const mark of all('[data-mark]')) {
+    const { mark: track } = mark.dataset;
+    if (marks.has(track)) marks.get(track).push(mark); else marks.set(track, [mark]);
+    mark.addEventListener('click', () => choose(Number(track)));
+  }
+  for (const row of rows) {
+    if (row.dataset.track !== undefined) row.addEventListener('click', () => choose(Number(row.dataset.track)));
+  }
+  for (const button of buttons) button.addEventListener('click', () => choose(Number(button.dataset.track)));
+  for (const head of all('th[data-sort]')) head.addEventListener('click', () => sort(head));
 }
-for (const mark of all('[data-mark]')) mark.addEventListener('click', () => choose(Number(mark.dataset.mark)));
-for (const button of buttons) button.addEventListener('click', () => choose(Number(button.dataset.track)));
+
 for (const button of all('button[data-key]')) button.addEventListener('click', () => toggle(button.dataset.key));
 const range = $('#range');
 if (range) range.addEventListener('input', () => { state.playing = false; play(); go(Number(range.value)); });
@@ -676,25 +692,147 @@ document.addEventListener('keydown', (event) => {
   act();
 });
 
-// Sorting by a column; a second click turns the order.
-for (const head of all('th[data-sort]')) {
-  head.addEventListener('click', () => {
-    const column = [...head.parentElement.children].indexOf(head);
-    const down = head.getAttribute('aria-sort') === 'ascending';
-    for (const other of all('th[data-sort]')) other.removeAttribute('aria-sort');
-    head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
-    const key = (row) => Number(row.children[column]?.dataset.value ?? row.children[column]?.textContent.replace('\u2212', '-'));
-    const body = rows[0]?.parentElement;
-    rows.sort((a, b) => (down ? key(b) - key(a) : key(a) - key(b)) || 0);
-    rows.forEach((row) => body.append(row));
+/** Sorts by a column; a second click turns the order. */
+function sort(head) {
+  const column = [...head.parentElement.children].indexOf(head);
+  const down = head.getAttribute('aria-sort') === 'ascending';
+  for (const other of all('th[data-sort]')) other.removeAttribute('aria-sort');
+  head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
+  const key = (row) => Number(row.children[column]?.dataset.value ?? row.children[column]?.textContent.replace('\u2212', '-'));
+  const body = rows[0]?.parentElement;
+  rows.sort((a, b) => (down ? key(b) - key(a) : key(a) - key(b)) || 0);
+  rows.forEach((row) => body.append(row));
+}
+
+// ---- live: what is asked is moved, and all solutions follow -----------------------------------------------------------------
+
+const live = embedded('live');
+
+/** How far apart two configurations are: the farthest any body is moved, rotations as their effect on the size of the scene. */
+function apart(a, b) {
+  if (!a || !b) return Infinity;
+  const turns = (k) => k % 7 < 4;
+  return a.reduce((most, x, k) => Math.max(most, Math.abs(x - b[k]) * (turns(k) ? data.scene.size : 1)), 0);
+}
+
+/** Shows another answer; the solution nearest to the chosen one is chosen. */
+function show(parts) {
+  const before = tracks[state.track]?.frames[state.frame];
+  const same = JSON.stringify(parts.data.scene) === JSON.stringify(data.scene);
+  const scrolled = $('.scroll')?.scrollTop || 0;
+  document.body.className = `${parts.tone}${stage ? ' has-3d' : ''}`;
+  $('header').outerHTML = parts.header;
+  $('footer').outerHTML = parts.footer;
+  $('.side').innerHTML = parts.side;
+  take(parts.data);
+  wire();
+  if ($('.scroll')) $('.scroll').scrollTop = scrolled;
+  if (stage && !same && COUNT) build(stage.radius);
+  Object.assign(state, { track: -1, frame: 0, moving: true });
+  const nearest = tracks.reduce((best, track, k) => (
+    track.frames.length && apart(track.frames[0], before) < apart(tracks[best]?.frames[0], before) ? k : best), -1);
+  const any = nearest < 0 ? tracks.findIndex((track) => track.frames.length) : nearest;
+  if (any >= 0) choose(any); else refresh();
+  state.moving = false;
+}
+
+/** Starts what solves: a worker with the program of this page, or the window around it. */
+function solver(answered) {
+  const text = (id) => document.getElementById(id)?.textContent;
+  if (!text('module')) {
+    window.addEventListener('message', ({ data: answer }) => { if (answer && 'code' in answer) answered(answer); });
+    return { ready: Promise.resolve(), ask: (question) => window.parent.postMessage(question, '*') };
+  }
+  const bytes = Uint8Array.from(atob(text('module')), (c) => c.charCodeAt(0));
+  const worker = new Worker(URL.createObjectURL(new Blob([text('worker')], { type: 'text/javascript' })));
+  const ready = new Promise((resolve, reject) => {
+    worker.onmessage = ({ data: answer }) => {
+      if ('ready' in answer) { if (answer.ready) resolve(); else reject(answer.error); } else answered(answer);
+    };
+  });
+  worker.postMessage({ module: bytes, gzipped: true }, [bytes.buffer]);
+  return { ready, ask: (question) => worker.postMessage(question) };
+}
+
+function startLive() {
+  const place = $('#controls');
+  const values = live.controls.map((control) => control.value);
+  const outputs = [];
+  const time = document.createElement('output');
+  time.id = 'time';
+  const started = performance.now();
+  let [busy, next, count] = [true, false, 0];
+
+  const number = (control, value) => `${value.toFixed(control.digits).replace('-', '\u2212')} ${control.unit === 'deg' ? '\u00b0' : control.unit}`;
+  const ask = () => {
+    busy = true;
+    next = false;
+    const argument = live.argument.replace(/\{(\d)\}/g, (_, k) => values[k].toFixed(live.controls[k].digits));
+    own.ask({ id: ++count, args: [...live.arguments, argument], files: live.files });
+  };
+  const own = solver((answer) => {
+    busy = false;
+    document.documentElement.dataset.answer = answer.id;
+    document.documentElement.dataset.code = answer.code;
+    try {
+      show(JSON.parse(answer.stdout));
+      time.textContent = `${answer.ms.toFixed(0)} ms`;
+      time.classList.remove('wrong');
+    } catch {
+      // What the program has to say about it, in its own words.
+      time.textContent = answer.stderr.trim();
+      time.classList.add('wrong');
+    }
+    if (next) ask();
+  });
+  const moved = () => { if (busy) next = true; else ask(); };
+  live.set = (k, value) => {
+    values[k] = value;
+    outputs[k].value.textContent = number(live.controls[k], value);
+    outputs[k].range.value = value;
+    moved();
+  };
+
+  live.controls.forEach((control, k) => {
+    const label = document.createElement('label');
+    const name = document.createElement('span');
+    name.textContent = control.name;
+    const range = document.createElement('input');
+    Object.assign(range, { type: 'range', min: control.low, max: control.high, step: 'any', value: control.value });
+    range.addEventListener('input', () => live.set(k, Math.round(Number(range.value) / control.step) * control.step));
+    range.addEventListener('keydown', (event) => {
+      const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+      if (!by) return;
+      event.preventDefault();
+      event.stopPropagation();
+      live.set(k, Math.min(control.high, Math.max(control.low, values[k] + by * control.step)));
+    });
+    const value = document.createElement('output');
+    value.textContent = number(control, control.value);
+    outputs.push({ range, value });
+    label.append(name, range, value);
+    place.append(label);
+  });
+  place.append(time);
+  time.textContent = 'the solver starts';
+  own.ready.then(() => {
+    busy = false;
+    time.textContent = `ready after ${(performance.now() - started).toFixed(0)} ms`;
+    document.documentElement.dataset.live = 'true';
+    if (next) ask();
+  }, (error) => {
+    time.textContent = `the solver does not start: ${error}`;
+    time.classList.add('wrong');
   });
 }
 
 const begin = data.case || 0;
 state.overlay = tracks.filter((track) => track.case === begin && track.frames.length).length <= 16;
 for (const button of all('button[data-key="overlay"]')) button.setAttribute('aria-pressed', String(state.overlay));
+wire();
 open3d();
 const own = tracks.findIndex((track) => track.frames.length && track.case === begin);
 const first = own < 0 ? tracks.findIndex((track) => track.frames.length) : own;
 choose(Math.max(first, 0));
 document.documentElement.dataset.ready = 'true';
+if (live) startLive();

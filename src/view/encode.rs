@@ -16,6 +16,11 @@ pub(super) fn poses(numbers: impl Iterator<Item = f64>, reach: f64) -> String {
         (FULL * (x / unit).clamp(-1.0, 1.0)).round() as i16
     };
     let bytes: Vec<u8> = numbers.enumerate().flat_map(|number| short(number).to_le_bytes()).collect();
+    base64(&bytes)
+}
+
+/// Bytes as base64.
+pub(super) fn base64(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for chunk in bytes.chunks(3) {
         let byte = |k: usize| usize::from(chunk.get(k).copied().unwrap_or(0));

@@ -4,6 +4,7 @@
 
 mod dials;
 mod encode;
+mod live;
 pub mod map;
 mod mechanism;
 mod page;
@@ -15,7 +16,8 @@ mod table;
 mod tracks;
 mod words;
 
-pub use page::page;
+pub use live::Live;
+pub use page::{live_page, page, parts};
 pub use saved::{drawable, parse};
 pub use scores::is_scores;
 pub use stick::figures;

@@ -1,7 +1,9 @@
-//! One HTML file: verdict, figure, plots, table, reasons. It fetches nothing, which its own policy enforces.
+//! One HTML file: verdict, figure, plots, table, reasons. It fetches nothing, which its own policy enforces. A live page also
+//! has controls and the program itself.
 
 use super::dials::dials;
 use super::encode::script;
+use super::live::{Live, controls, solver};
 use super::panels::panels;
 use super::scores;
 use super::stick;
@@ -19,6 +21,9 @@ pub(super) const STYLE: &str = include_str!("../../assets/viewer/viewer.css");
 /// Nothing is fetched from anywhere; the icon is empty data.
 pub(super) const POLICY: &str =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
+/// The same, and WebAssembly in a worker that stands in the page.
+const LIVE_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; \
+                           style-src 'unsafe-inline'; img-src data:";
 /// Bytes for the poses of a page: with the script and the table it stays below 1 MB.
 const POSES: usize = 240_000;
 /// The view box of the flat figure.
@@ -30,21 +35,56 @@ pub fn page(document: &Value, figure: Option<&str>) -> String {
     if scores::is_scores(document) {
         return scores::page(document);
     }
+    whole(document, figure, None)
+}
+
+/// The page of a document with controls for what was asked, which solves anew whenever one is moved.
+///
+/// # Errors
+/// [`Error::Invalid`](crate::error::Error::Invalid) for a document of another question than one pose, input or set of legs.
+pub fn live_page(document: &Value, live: &Live) -> Result<String, crate::error::Error> {
+    let controls = controls(document)?;
+    Ok(whole(document, None, Some((&controls, live))))
+}
+
+/// What of a page changes with the answer, for a page that is open: HTML and the data of the script.
+#[must_use]
+pub fn parts(document: &Value) -> Value {
+    let tracks = tracks(document);
+    let headlines = headlines(document);
+    let (mut top, mut middle, mut bottom) = (String::new(), String::new(), String::new());
+    header(&mut top, document, &headlines);
+    side(&mut middle, document, &tracks);
+    footer(&mut bottom, document, &headlines);
+    json!({
+        "tone": tone(document, &headlines),
+        "header": top,
+        "side": middle,
+        "footer": bottom,
+        "data": data(document, &tracks),
+    })
+}
+
+fn whole(document: &Value, figure: Option<&str>, live: Option<(&Value, &Live)>) -> String {
     let tracks = tracks(document);
     let title = document["title"].as_str().unwrap_or("looproot");
     let headlines = headlines(document);
-    let first = headlines.get(first_case(document));
-    let tone = first.map_or("doubt", |headline| headline.tone.class());
+    let tone = tone(document, &headlines);
+    let policy = if live.is_some() { LIVE_POLICY } else { POLICY };
     let mut text = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n\
          <title>{0}</title>\n<style>\n{STYLE}</style>\n</head>\n<body class=\"{tone}\">\n",
         escaped(title)
     );
     header(&mut text, document, &headlines);
+    if live.is_some() {
+        // The script fills it: as many sliders as numbers were asked for.
+        text.push_str("<section id=\"controls\" aria-label=\"What is asked\"></section>\n");
+    }
     text.push_str("<main>\n");
-    stage(&mut text, document, &tracks);
+    stage(&mut text, document, &tracks, live.is_some());
     text.push_str("<section class=\"side\">\n");
     side(&mut text, document, &tracks);
     text.push_str("</section>\n</main>\n");
@@ -52,17 +92,29 @@ pub fn page(document: &Value, figure: Option<&str>) -> String {
         let _ = writeln!(text, "<section class=\"extra\">{figure}</section>");
     }
     footer(&mut text, document, &headlines);
-    let scene = if document["scene"].is_object() { document["scene"].clone() } else { Value::Null };
-    let stride = stride(&tracks, POSES);
-    let tracks: Vec<Value> = tracks.iter().map(|track| track.json(document, stride)).collect();
-    let data = json!({ "scene": scene, "tracks": tracks, "case": first_case(document) });
+    if let Some((controls, live)) = live {
+        solver(&mut text, controls, live);
+    }
     let _ = write!(
         text,
         "<script type=\"application/json\" id=\"data\">{}</script>\n<script>{}</script>\n</body>\n</html>\n",
-        script(&data),
+        script(&data(document, &tracks)),
         SCRIPT.replace("</script", "<\\/script")
     );
     text
+}
+
+/// What the script reads: the bodies and where they are.
+fn data(document: &Value, tracks: &[Track<'_>]) -> Value {
+    let scene = if document["scene"].is_object() { document["scene"].clone() } else { Value::Null };
+    let stride = stride(tracks, POSES);
+    let tracks: Vec<Value> = tracks.iter().map(|track| track.json(document, stride)).collect();
+    json!({ "scene": scene, "tracks": tracks, "case": first_case(document) })
+}
+
+/// The colour of the verdict that is shown first.
+fn tone(document: &Value, headlines: &[Headline]) -> &'static str {
+    headlines.get(first_case(document)).map_or("doubt", |headline| headline.tone.class())
 }
 
 /// A verdict for every result.
@@ -116,17 +168,16 @@ fn header(text: &mut String, document: &Value, headlines: &[Headline]) {
     text.push_str("</header>\n");
 }
 
-/// The figure, its buttons and its slider.
-fn stage(text: &mut String, document: &Value, tracks: &[Track<'_>]) {
-    let is_drawn =
-        document["scene"].is_object() && tracks.iter().any(|track| track.frames.iter().any(|f| f["poses"].is_array()));
-    if !is_drawn {
+/// The figure, its buttons and its slider. A live page has all of them, since the next answer may need them.
+fn stage(text: &mut String, document: &Value, tracks: &[Track<'_>], live: bool) {
+    let is_posed = tracks.iter().any(|track| track.frames.iter().any(|f| f["poses"].is_array()));
+    if !document["scene"].is_object() || !(live || is_posed) {
         return;
     }
     let button = |key: &str, name: &str, hint: &str| {
         format!("<button type=\"button\" data-key=\"{key}\" title=\"{hint}\">{name}</button>")
     };
-    let many = tracks.len() > 1;
+    let many = live || tracks.len() > 1;
     let mut buttons = String::new();
     if many {
         buttons += &button("overlay", "All", "Show the others as ghosts (o)");
@@ -143,7 +194,7 @@ fn stage(text: &mut String, document: &Value, tracks: &[Track<'_>]) {
         FLAT[1],
         stick::first(document, tracks, FLAT)
     );
-    if tracks.iter().any(|track| track.frames.len() > 1) {
+    if live || tracks.iter().any(|track| track.frames.len() > 1) {
         let hidden = if tracks.first().is_some_and(|track| track.frames.len() > 1) { "" } else { " hidden" };
         let _ = writeln!(
             text,

@@ -56,6 +56,32 @@ fn a_page_stands_by_itself_and_lists_every_mode() {
 }
 
 #[test]
+fn parts_are_what_changes_of_a_page() {
+    let (_, page) = run(&["view", "general_16real", "--seed", "1"]);
+    let (code, parts) = run(&["view", "general_16real", "--parts", "--seed", "1"]);
+    let parts = json(&parts);
+    assert_eq!(code, 0);
+    for key in ["header", "side", "footer"] {
+        let part = parts[key].as_str().unwrap();
+        assert!(part.len() > 100 && page.contains(part), "{key}");
+    }
+    assert_eq!(parts["data"]["tracks"].as_array().unwrap().len(), 16);
+    assert_eq!(parts["tone"], "sure");
+}
+
+#[test]
+fn a_live_page_has_the_program_in_it_or_says_what_makes_it() {
+    let output = Command::new(env!("CARGO_BIN_EXE_looproot")).args(["view", "ur5", "--live"]).output().unwrap();
+    let (page, fault) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    if output.status.success() {
+        assert!(page.contains("id=\"module\"") && page.contains("--at={0} m") && page.contains("'wasm-unsafe-eval'"));
+    } else {
+        assert_eq!(output.status.code(), Some(1));
+        assert!(fault.contains("web/build makes it"), "{fault}");
+    }
+}
+
+#[test]
 fn complex_modes_are_listed_where_they_are_asked_for() {
     let (_, page) = run(&["view", "general_02real", "--complex", "--pose", "1"]);
     assert_eq!(rows(&page), 16);

@@ -1,7 +1,7 @@
 //! Integers that stay in a machine word while they fit: the coefficients of symbolic work, which rarely leave 64 bits.
 
 use super::ring::{Domain, Ring};
-use rug::{Complete, Integer, Rational, integer::IntegerExt64};
+use rug::{Complete, Integer, Rational};
 use std::{cmp::Ordering, fmt};
 
 /// An integer of any size, without allocation while it fits an i64.
@@ -51,8 +51,7 @@ impl Int {
             (Repr::Small(a), Repr::Small(b)) => Self::from(gcd_of_words(a.unsigned_abs(), b.unsigned_abs())),
             (Repr::Small(0), Repr::Large(n)) | (Repr::Large(n), Repr::Small(0)) => Self::from(n.abs_ref().complete()),
             (Repr::Small(a), Repr::Large(n)) | (Repr::Large(n), Repr::Small(a)) => {
-                let rest = n.mod_u64(a.unsigned_abs());
-                Self::from(gcd_of_words(a.unsigned_abs(), rest))
+                Self::from(gcd_of_words(a.unsigned_abs(), rest(n, a.unsigned_abs())))
             }
             (Repr::Large(a), Repr::Large(b)) => Self::from(a.gcd_ref(b).complete()),
         }
@@ -73,6 +72,22 @@ impl Int {
     pub fn abs(&self) -> Self {
         if self.sign() == Ordering::Less { self.neg() } else { self.clone() }
     }
+}
+
+/// What is left of a large number after division by a word that is not zero, up to multiples of the word and the sign.
+#[cfg(all(target_pointer_width = "64", not(windows)))]
+fn rest(n: &Integer, word: u64) -> u64 {
+    rug::integer::IntegerExt64::mod_u64(n, word)
+}
+
+/// The same where GMP divides by 32 bits, as in WebAssembly.
+#[cfg(not(all(target_pointer_width = "64", not(windows))))]
+use wide_rest as rest;
+
+/// The same by integers of any size.
+#[cfg(any(test, not(all(target_pointer_width = "64", not(windows)))))]
+fn wide_rest(n: &Integer, word: u64) -> u64 {
+    Integer::from(n % word).abs().to_u64_wrapping()
 }
 
 /// Stein's binary algorithm.
@@ -261,6 +276,20 @@ impl Domain for Int {
                 let (quotient, rest) = a.div_rem_ref(b).complete();
                 rest.is_zero().then(|| Self::from(quotient))
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ways_to_divide_by_a_word_agree() {
+        let n: Integer = (Integer::from(3) << 200) - 12_345;
+        for word in [1, 77, (1 << 32) - 5, 1 << 32, (1 << 61) - 1, u64::MAX] {
+            assert_eq!(rest(&n, word), wide_rest(&n, word));
+            assert_eq!(gcd_of_words(word, rest(&-n.clone(), word)), gcd_of_words(word, wide_rest(&n, word)));
         }
     }
 }

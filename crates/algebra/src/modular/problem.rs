@@ -7,6 +7,7 @@ use super::lattice::Lattice;
 use super::primes::{count_beyond, primes_beyond};
 use super::substitution::{Plan, Values};
 use crate::modp::Modulus;
+use gmp_mpfr_sys::gmp::limb_t;
 use pulp::{Arch, Simd, WithSimd};
 use rug::Integer;
 
@@ -210,16 +211,18 @@ impl Images<'_> {
 
 /// The residues of an integer.
 #[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "the halves of a limb")]
+#[expect(clippy::cast_possible_truncation, reason = "the parts of a limb")]
 fn residue<L: Lanes>(lanes: L, base: L::Element, integer: &Integer) -> L::Element {
     let mut value = lanes.zero();
     let limbs = integer.as_limbs();
     for (k, &limb) in limbs.iter().enumerate().rev() {
-        let (high, low) = ((limb >> 32) as u32, limb as u32);
-        if high != 0 || k + 1 < limbs.len() {
-            value = lanes.mul_add(value, base, lanes.digit(high));
+        // A limb has 64 bits or, in WebAssembly, 32.
+        for place in (0..limb_t::BITS).step_by(32).rev() {
+            let digit = (limb >> place) as u32;
+            if digit != 0 || place == 0 || k + 1 < limbs.len() {
+                value = lanes.mul_add(value, base, lanes.digit(digit));
+            }
         }
-        value = lanes.mul_add(value, base, lanes.digit(low));
     }
     if integer.is_negative() { lanes.sub(lanes.zero(), value) } else { value }
 }

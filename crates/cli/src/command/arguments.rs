@@ -405,7 +405,7 @@ pub struct SweepOptions {
 }
 
 /// `looproot view`
-#[derive(Args)]
+#[derive(Args, Clone)]
 #[command(
     mut_arg("mechanism", |arg| arg.value_name("FILE|RESULT").help(VIEWED)),
     mut_arg("json", |arg| arg.hide(true)),
@@ -439,6 +439,12 @@ pub struct ViewOptions {
     /// Arms: the number of real solutions over a plane through the pose, with the orientation kept: xy, xz or yz
     #[arg(long, value_name = "PLANE", conflicts_with = "sweep")]
     pub map: Option<String>,
+    /// A page that solves anew when what was asked is moved: the program itself is in it (web/build makes it once)
+    #[arg(long, conflicts_with_all = ["sweep", "svg", "map", "poses", "follow"])]
+    pub live: bool,
+    /// What of a page changes with the answer, as JSON: live pages ask for it
+    #[arg(long, hide = true, conflicts_with_all = ["live", "sweep", "svg", "map", "open"])]
+    pub parts: bool,
     /// Show the page in the browser; without -o it is written to the folder for temporary files
     #[arg(long)]
     pub open: bool,

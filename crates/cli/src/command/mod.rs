@@ -40,5 +40,6 @@ pub mod synthesize;
 pub mod transference;
 pub mod verify;
 pub mod view;
+pub mod view_live;
 pub mod view_map;
 pub mod wanted;

@@ -82,6 +82,13 @@ pub fn print(text: &str) -> Result<(), Fault> {
 
 /// The threads to work with: `None` is all cores.
 pub fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Fault> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
+    let builder = rayon::ThreadPoolBuilder::new();
+    // Where no threads are to be had, as in a browser, the one there is does all the work.
+    let builder = if cfg!(target_family = "wasm") {
+        builder.num_threads(1).use_current_thread()
+    } else {
+        builder.num_threads(threads.unwrap_or(0))
+    };
+    let pool = builder.build();
     pool.map_err(|error| Error::Invalid(format!("cannot start the threads: {error}")).into())
 }

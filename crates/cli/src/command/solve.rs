@@ -222,13 +222,16 @@ fn report_one(report: &mut Report<'_>, job: &Job, number: usize, outcome: Outcom
 /// Raised by the first Ctrl-C, which lets what is done be printed; the second one ends the program at once.
 pub fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&stop);
-    // Without a handler Ctrl-C still ends the program, only less politely.
-    let _ = ctrlc::set_handler(move || {
-        if raised.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    });
+    #[cfg(not(target_family = "wasm"))]
+    {
+        let raised = Arc::clone(&stop);
+        // Without a handler Ctrl-C still ends the program, only less politely.
+        let _ = ctrlc::set_handler(move || {
+            if raised.swap(true, Ordering::Relaxed) {
+                std::process::exit(130);
+            }
+        });
+    }
     stop
 }
 

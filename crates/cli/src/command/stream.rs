@@ -38,6 +38,10 @@ pub fn ordered<J: Send, R: Send, M, E: Send>(
     work: impl Fn(&mut M, &J) -> R + Sync,
     mut take: impl FnMut(Vec<(J, R)>) -> Result<bool, E>,
 ) -> Result<(), E> {
+    // Here one thread hands results to another one; where there is only one, as in a browser, it would wait for itself.
+    if cfg!(target_family = "wasm") {
+        return alone(jobs, memory, work, take);
+    }
     let threads = pool.current_num_threads();
     let shared = Mutex::new(Shared { jobs, taken: 0, begun: 0, reported: 0, is_closed: false });
     let moved = Condvar::new();
@@ -74,6 +78,23 @@ pub fn ordered<J: Send, R: Send, M, E: Send>(
         moved.notify_all();
         answer
     })
+}
+
+/// The same on this thread alone, job by job.
+fn alone<J, R, M, E>(
+    jobs: impl Iterator<Item = J>,
+    memory: impl Fn() -> M,
+    work: impl Fn(&mut M, &J) -> R,
+    mut take: impl FnMut(Vec<(J, R)>) -> Result<bool, E>,
+) -> Result<(), E> {
+    let mut memory = memory();
+    for job in jobs {
+        let result = work(&mut memory, &job);
+        if !take(vec![(job, result)])? {
+            return Ok(());
+        }
+    }
+    Ok(())
 }
 
 /// One thread: takes batches until there are no more.
@@ -134,6 +155,18 @@ mod tests {
             ordered(&pool, 0..10_000, || 0, work, take).unwrap();
             assert!(taken.into_iter().eq((0..10_000).map(|k| (k, k * k))));
         }
+    }
+
+    #[test]
+    fn one_thread_alone_does_the_same() {
+        let mut found = Vec::new();
+        let take = |batch: Vec<(i32, i32)>| -> Result<bool, ()> {
+            found.extend(batch);
+            Ok(found.len() < 5)
+        };
+        alone(0..10, || 0, |sum: &mut i32, job: &i32| (*sum += job, *sum).1, take).unwrap();
+        assert_eq!(found, [(0, 0), (1, 1), (2, 3), (3, 6), (4, 10)]);
+        assert_eq!(alone(0..10, || (), |(), job: &i32| *job, |_| Err("full")), Err("full"));
     }
 
     #[test]

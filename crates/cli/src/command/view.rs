@@ -4,11 +4,11 @@ use super::arguments::{SweepOptions, ViewOptions};
 use super::exit::{Exit, Fault};
 use super::output::{Memory, Output};
 use super::view_map::map;
-use super::{solve, sweep};
+use super::{solve, sweep, view_live};
 use looproot::internal::catalogue::{Any, Chains, Options, load_any};
 use looproot::internal::error::Error;
 use looproot::internal::report::framework;
-use looproot::internal::view::{drawable, figures, is_scores, page, parse};
+use looproot::internal::view::{drawable, figures, is_scores, live_page, page, parse, parts};
 use serde_json::Value;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -19,6 +19,8 @@ const MOST_BYTES: u64 = 256 << 20;
 
 /// Solves, sweeps or reads what is asked for, and draws it.
 pub fn run(options: &ViewOptions) -> Result<Exit, Fault> {
+    let begun = if options.live { view_live::begun(options) } else { None };
+    let options = begun.as_ref().unwrap_or(options);
     let (exit, mut document) = document(options)?;
     drawable(&mut document)?;
     let map = options.map.as_ref().map(|plane| map(options, plane)).transpose()?;
@@ -26,6 +28,8 @@ pub fn run(options: &ViewOptions) -> Result<Exit, Fault> {
         return Err(Error::Invalid("found --svg of scores, expected a mechanism: scores are a page".to_owned()).into());
     }
     let text = match (options.svg, map) {
+        _ if options.live => live_page(&document, &view_live::live(options, &document)?)?,
+        _ if options.parts => parts(&document).to_string(),
         (true, Some(map)) => map,
         (true, None) => figures(&document),
         (false, map) => page(&document, map.as_deref()),
