@@ -310,7 +310,7 @@ pub fn transfer_json(file: &SphereFile, case: usize, found: &Transfer) -> Value 
     let mut document = document(file, case, &transfer_verdict(file, found), TRANSFER);
     let names = |bodies: &[usize; 4]| bodies.map(|body| file.linkage.bodies[body].name.clone());
     let factors = found.constant_ratio.iter().map(|(factor, what)| json!({ "factor": written(factor, &TANGENTS), "means": what }));
-    document["input_output"] = json!({
+    document["transfer"] = json!({
         "input": file.linkage.joints[found.input].name,
         "output": file.linkage.joints[found.output].name,
         "variables": TANGENTS,

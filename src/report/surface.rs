@@ -46,10 +46,10 @@ pub fn json(entry: &Entry, of: &str, surface: &Surface) -> Value {
         "steps": surface.steps,
         "warnings": [],
         "trace": {
+            "body": "tool",
             "point": of,
             "chain": letters(surface),
             "degree": surface.degree(),
-            "terms": surface.polynomial.len(),
             "polynomial": written(surface),
         },
     })

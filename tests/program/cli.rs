@@ -129,6 +129,9 @@ fn the_document_follows_its_schema() {
             &["derive", "crcrr_4_angle", "--symbolic", "--json"],
             &["derive", "linkage/stephenson_3_triad", "--json"],
             &["derive", "linkage/coupler_curve", "--trace", "coupler.P", "--json"],
+            &["derive", "linkage/spherical_cusp", "--trace", "coupler.P", "--json"],
+            &["derive", "linkage/double_hooke", "--json"],
+            &["derive", "arm/chain_rr", "--trace", "tool", "--json"],
         ],
     );
     follows(
