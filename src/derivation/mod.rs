@@ -7,6 +7,7 @@ mod chain;
 mod cuts;
 mod equation;
 mod four_bar;
+pub(crate) mod input_output;
 mod linkage;
 mod platform;
 mod polynomial;
@@ -34,15 +35,18 @@ pub use ways::{ByWay, Matrix, Way, derive_by};
 pub use surface::{Surface, surface};
 pub use symbolic::{Displayed, Quotient, Symbolic, SymbolicPolynomial, derive_symbolic, derive_with_symbols};
 
+use crate::algebra::int::Int;
 use crate::algebra::number::Number;
 use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::Ring;
 use crate::algebra::text::Names;
+use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::platform::Platform;
-use rug::Rational;
+use rug::{Integer, Rational};
 
 /// The derivation of one case of a mechanism file.
 #[derive(Clone, Debug)]
@@ -89,6 +93,12 @@ impl Derivation {
         system.extend(polynomial.filter(|polynomial| !system.contains(polynomial)));
         system
     }
+}
+
+/// A polynomial in one variable with integer coefficients.
+fn over_integers(polynomial: &Polynomial<Int>, variable: usize) -> Univariate<Integer> {
+    let converted = polynomial.to_univariate(variable).and_then(|p| p.map(|c| Some(c.to_integer())));
+    converted.unwrap_or_else(Univariate::zero)
 }
 
 /// The closure equations of a platform alone, with the names of their variables.

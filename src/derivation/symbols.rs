@@ -41,6 +41,11 @@ impl Symbols {
         Self { kinds: vec![Variable::Rotation; labels.len()], labels }
     }
 
+    /// Any list of variables.
+    pub fn variables(labels: Vec<String>, kinds: impl Iterator<Item = Variable>) -> Self {
+        Self { kinds: kinds.collect(), labels }
+    }
+
     /// The number of unknowns; each has three variables.
     pub fn len(&self) -> usize {
         self.kinds.len()

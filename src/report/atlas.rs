@@ -5,8 +5,9 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::{Design, Entry};
 use crate::claims::{Finding, Sort};
-use crate::derivation::{derive, platform_equations};
+use crate::derivation::platform_equations;
 use crate::error::{Error, Result};
+use crate::sweep::derive_any;
 use rug::Rational;
 use std::fmt::Write;
 
@@ -21,7 +22,7 @@ const LONGEST_LINE: usize = 60;
 /// The closure polynomial is left out where it does not fit, for platforms, and where numbers of the file are rounded.
 ///
 /// # Errors
-/// As [`derive()`].
+/// As [`derive_any()`].
 pub fn atlas(entry: &Entry) -> Result<Option<String>> {
     let case = entry.cases.first().ok_or_else(|| Error::Invalid("a file without a case".to_owned()))?;
     let line = |polynomial: &Polynomial<Rational>, names: &Names| Format::Text.polynomial(polynomial, names);
@@ -34,7 +35,7 @@ pub fn atlas(entry: &Entry) -> Result<Option<String>> {
         let (names, equations) = platform_equations(geometry, case)?;
         (equations, names, None)
     } else {
-        let derivation = derive(entry, case)?;
+        let derivation = derive_any(entry, case)?;
         (derivation.equations, derivation.names, derivation.polynomial)
     };
     for equation in &equations {
@@ -55,6 +56,41 @@ pub fn atlas(entry: &Entry) -> Result<Option<String>> {
         }
     }
     Ok(Some(text))
+}
+
+/// The head of the table of all entries, in Markdown.
+pub const HEAD: &str = "| entry | mechanism | degree | unknown | real roots | longest coefficient [digits] | equations |\n\
+                        |---|---|---|---|---|---|---|\n";
+
+/// A row of that table: what is derived from an entry's first case, or why nothing is. `has_page` says whether a `.eqs` file stands
+/// beside it.
+#[must_use]
+pub fn row(entry: &Entry, name: &str, has_page: bool) -> String {
+    let title = entry.title.replace('|', "/");
+    let page = if has_page { format!("[{name}.eqs]({name}.eqs)") } else { "`derive`".to_owned() };
+    let found = entry.cases.first().map(|case| derive_any(entry, case));
+    let polynomial = match &found {
+        Some(Ok(derivation)) => derivation.polynomial.as_ref().map(|polynomial| (derivation, polynomial)),
+        _ => None,
+    };
+    let columns = match (polynomial, &found) {
+        (Some((derivation, polynomial)), _) => {
+            let digits = polynomial.coefficients.coefficients().iter().map(|c| c.to_string().trim_start_matches('-').len());
+            let degree = polynomial.degree() + polynomial.at_pi;
+            let unknown = &derivation.names.list()[polynomial.variable];
+            let real = polynomial.roots.len() + usize::from(polynomial.at_pi > 0);
+            format!("{degree} | {unknown} | {real} | {} | {page}", digits.max().unwrap_or(0))
+        }
+        (None, Some(Ok(derivation))) => {
+            format!("– | | | | {}", derivation.without.as_deref().unwrap_or("no closure polynomial"))
+        }
+        (None, Some(Err(error))) => {
+            let text = error.unsupported().map_or_else(|| error.to_string(), ToOwned::to_owned);
+            format!("– | | | | {}", text.split(['\n', ';']).next().unwrap_or_default().replace('|', "/"))
+        }
+        (None, None) => "– | | | | no case".to_owned(),
+    };
+    format!("| {name} | {title} | {columns} |\n")
 }
 
 /// Judges the text of a `.eqs` file by what is derived from its entry.

@@ -1,12 +1,13 @@
 //! Derivations: the verdict first, then equations, steps and polynomial; as text, JSON and Markdown.
 
+use super::export::{Line, export};
 use super::json::{kind, number};
 use super::number::digits;
 use super::paper::{Paper, Style};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::{Entry, Kind};
-use crate::derivation::{ClosurePolynomial, Derivation, Removed, Root, RootPose, Substitution};
+use crate::derivation::{ClosurePolynomial, Derivation, Equation, Removed, Root, RootPose, Substitution};
 use crate::error::Result;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -221,26 +222,28 @@ pub fn json(entry: &Entry, case: usize, derivation: &Derivation) -> Value {
     document
 }
 
-/// The system in the language of another program, over the variables that occur.
+/// The system in the language of another program, over the variables that occur, with comments on what everything is where the language
+/// has comments; `case` is the number of the case in the file.
 ///
 /// # Errors
 /// Where the language has no way to say it.
-pub fn system(derivation: &Derivation, format: Format) -> Result<String> {
-    file(&derivation.system(), &derivation.names, format)
-}
-
-/// Polynomials in the language of another program, over the variables that occur.
-pub(super) fn file(polynomials: &[Polynomial<Rational>], names: &Names, format: Format) -> Result<String> {
-    let used: Vec<usize> =
-        (0..names.list().len()).filter(|&variable| polynomials.iter().any(|p| p.degree(variable) > 0)).collect();
-    let names = Names::given(used.iter().map(|&variable| &names.list()[variable]))?;
-    let compact = |polynomial: &Polynomial<Rational>| {
-        Polynomial::from_terms(polynomial.terms().map(|(exponents, c)| {
-            let exponent = |variable: &usize| exponents.get(*variable).copied().unwrap_or(0);
-            (used.iter().map(exponent).collect(), c.clone())
-        }))
+pub fn system(entry: &Entry, case: usize, derivation: &Derivation, format: Format) -> Result<String> {
+    let polynomial = derivation.polynomial.as_ref();
+    let last = |name: &str, degree: usize| {
+        format!("the closure polynomial, of degree {degree} in {name}: its roots are the solutions' values of {name}")
     };
-    Ok(format.system(&polynomials.iter().map(compact).collect::<Vec<_>>(), &names)?)
+    let closing = polynomial.map(|p| (p.to_polynomial(), last(variable(derivation, p), p.degree())));
+    let mut lines: Vec<Line> = Vec::new();
+    for one in derivation.system() {
+        let named = |equation: &&Equation| equation.algebraic.as_ref() == Some(&one);
+        let meaning = match (&closing, derivation.equations.iter().find(named)) {
+            (Some((polynomial, last)), _) if *polynomial == one => last.clone(),
+            (_, Some(equation)) => format!("closure equation, {}", equation.name),
+            _ => "the variable of the closure polynomial".to_owned(),
+        };
+        lines.push(Line::new(meaning, one));
+    }
+    export(entry, case, &lines, &derivation.names, format)
 }
 
 /// The derivation as a paper, every displayed equation one of those that were used, and what came of putting solutions

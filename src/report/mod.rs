@@ -12,6 +12,7 @@ pub mod derivation;
 pub mod derivatives;
 pub mod document;
 pub mod dynamics;
+mod export;
 pub mod framework;
 pub mod histogram;
 pub mod instant;

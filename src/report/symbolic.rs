@@ -1,10 +1,12 @@
 //! Derivations with symbols, as text and JSON.
 
-use super::derivation::{file, unknowns};
+use super::derivation::unknowns;
+use super::export::{Line, export, relations};
 use super::json::kind;
 use super::number::counted;
 use super::paper::{Paper, Style};
 use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::Ring;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::Entry;
 use crate::derivation::{Quotient, Substitution, Symbolic};
@@ -143,16 +145,34 @@ pub fn json(entry: &Entry, case: usize, symbolic: &Symbolic) -> Value {
     document
 }
 
-/// The closure polynomial, or the equations where there is none, in the language of another program.
+/// The closure polynomial, the closure equations, the translations, and the relations between cosines, sines and half-angle tangents, in the
+/// language of another program.
 ///
 /// # Errors
 /// Where the language has no way to say it.
-pub fn system(symbolic: &Symbolic, format: Format) -> Result<String> {
-    let polynomials: Vec<Polynomial<Rational>> = match &symbolic.polynomial {
-        Some(polynomial) => vec![polynomial.displayed.polynomial.clone()],
-        None => symbolic.equations.iter().map(|equation| equation.polynomial.clone()).collect(),
-    };
-    file(&polynomials, &symbolic.names, format)
+pub fn system(entry: &Entry, case: usize, symbolic: &Symbolic, format: Format) -> Result<String> {
+    let names = &symbolic.names;
+    let mut lines: Vec<Line> = Vec::new();
+    if let Some(polynomial) = &symbolic.polynomial {
+        let (name, expanded) = (&names.list()[polynomial.variable], &polynomial.displayed.polynomial);
+        let degree = expanded.degree(polynomial.variable);
+        let symbols = symbolic.symbols.join(", ");
+        let meaning = format!("the closure polynomial, of degree {degree} in {name}, with the symbols {symbols}");
+        lines.push(Line::new(meaning, expanded.clone()));
+    }
+    for equation in &symbolic.equations {
+        if lines.iter().all(|line| line.polynomial != equation.polynomial) {
+            lines.push(Line::new(format!("closure equation, {}", equation.name), equation.polynomial.clone()));
+        }
+    }
+    for one in &symbolic.translations {
+        let name = &names.list()[one.variable];
+        let polynomial = Polynomial::variable(one.variable).mul(&one.denominator).sub(&one.numerator);
+        lines.push(Line::new(format!("the translation {name}, a quotient"), polynomial));
+    }
+    let relations = relations(&lines, names);
+    lines.extend(relations);
+    export(entry, case, &lines, names, format)
 }
 
 /// The derivation as a paper, every displayed equation one of those that were used, and what came of putting solutions

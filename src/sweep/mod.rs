@@ -8,6 +8,7 @@
 mod branch;
 mod bridge;
 mod cells;
+mod derivation;
 mod exact;
 mod hidden;
 mod linkage;
@@ -19,6 +20,7 @@ mod verdict;
 
 pub use branch::{Branch, End, Limit, Row};
 pub use cells::{Cell, CellMap, Cells, CellsVerdict, Column, Label, MapWanted, Zero, cell_map, cells, is_angle};
+pub use derivation::derive_any;
 pub use linkage::{LinkageBranch, LinkageLimit, LinkageRow, LinkageSample, LinkageSweep, sweep_linkage};
 pub use sample::{Sample, case};
 pub use sphere::{SphereNode, SphereSweep, place as sphere_place, sweep_sphere};

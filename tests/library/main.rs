@@ -19,6 +19,7 @@ mod linkage_derive;
 mod linkage_sweep;
 mod metamorphic;
 mod mutations;
+mod overconstrained;
 mod pencil;
 mod platform;
 mod printed;

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod atlas;
+mod exports;
 mod symbolic;
 
 use looproot::internal::assembly::{Assembly, Roots, Workspace};

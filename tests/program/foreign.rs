@@ -7,6 +7,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod closure;
+mod derivations;
 
 use looproot_algebra::{
     polynomial::Polynomial,

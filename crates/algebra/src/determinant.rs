@@ -72,6 +72,17 @@ fn copy_square<F: Clone, Row: AsRef<[F]>>(a: &[Row]) -> Vec<Vec<F>> {
 
 /// `det(A0 + A1 x + ... + Ad x^d)` from its values at as many points as its degree may need, over an exact field.
 ///
+/// # Example
+/// ```
+/// use looproot_algebra::{determinant::by_interpolation, univariate::Univariate};
+/// use rug::Rational;
+///
+/// // The characteristic polynomial of [[2, 1], [1, 2]], as det(-A + 1 x).
+/// let matrix = |rows: [[i32; 2]; 2]| rows.map(|row| row.map(Rational::from));
+/// let found = by_interpolation(&[matrix([[-2, -1], [-1, -2]]), matrix([[1, 0], [0, 1]])]);
+/// assert_eq!(found, Univariate::new([3, -4, 1].map(Rational::from).to_vec()));
+/// ```
+///
 /// # Shape
 /// `coefficients` holds A0 to Ad, square and of one size.
 ///

@@ -7,6 +7,18 @@ use rug::Rational;
 /// A dual number over any ring: a value and its derivative, or an angle's function and its spatial part.
 ///
 /// Numbers with value 0 have no inverse, so the dual numbers are a [`Ring`] and no field.
+///
+/// # Example
+/// ```
+/// use looproot_algebra::{dual::Dual, ring::Ring};
+/// use rug::Rational;
+///
+/// // x^3 - 2x at 3: the value and the derivative.
+/// let x = Dual::variable(Rational::from(3));
+/// let cube = x.mul(&x).mul(&x);
+/// let found = cube.sub(&x.add(&x));
+/// assert_eq!((found.value, found.epsilon), (Rational::from(21), Rational::from(25)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<R> {
     /// The part without `eps`.

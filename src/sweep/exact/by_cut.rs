@@ -25,6 +25,15 @@ const MIXTURES: i32 = 3;
 /// The relations of a loop of rotations, and no more translations than input and output, between its locked variable,
 /// counted from `offset`, and other ones.
 pub(super) fn relations(chain: &Chain, layout: &Layout, offset: &Rational) -> Vec<Relation> {
+    of_outputs(chain, layout, offset, OUTPUTS)
+}
+
+/// The same with as many outputs as have one.
+pub(super) fn of_every_output(chain: &Chain, layout: &Layout, offset: &Rational) -> Vec<Relation> {
+    of_outputs(chain, layout, offset, usize::MAX)
+}
+
+fn of_outputs(chain: &Chain, layout: &Layout, offset: &Rational, most: usize) -> Vec<Relation> {
     let (Some(locked), Ok(linkage)) = (layout.locked, Linkage::of(chain)) else { return Vec::new() };
     let unknowns = linkage.variables.len().saturating_sub(1);
     let is_plain = layout.ball.is_none() && linkage.axes.iter().all(|axis| *axis == Axis::Z);
@@ -39,7 +48,7 @@ pub(super) fn relations(chain: &Chain, layout: &Layout, offset: &Rational) -> Ve
     let relation = |output: usize| {
         Cut::<Rational>::hiding(unknowns, output).find_map(|cut| held.matrix(cut).relation(held.index(output)))
     };
-    (0..unknowns).filter(is_alone).filter_map(relation).take(OUTPUTS).collect()
+    (0..unknowns).filter(is_alone).filter_map(relation).take(most).collect()
 }
 
 /// A loop with its input held: linear in the tangent of half of it.

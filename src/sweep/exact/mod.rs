@@ -87,6 +87,32 @@ impl Exact {
         Err(Code::NoExactRoute)
     }
 
+    /// The closure polynomials of an overconstrained loop in its input, variable 0, and each output that has one, variable 1; half
+    /// tangents are counted from 0.
+    pub fn input_output(entry: &Entry, case: &Case, input: Variable) -> Vec<(usize, Polynomial<Int>)> {
+        let moved = Moved { case, place: Place::Input, kind: input };
+        let layout = entry.chain().and_then(|chain| {
+            let locked = locked_variable(chain, case).ok()??;
+            Some((chain, Layout::of(chain, Some(locked)).ok()?))
+        });
+        let Some((chain, layout)) = layout.filter(|(_, layout)| layout.missing() > 0) else { return Vec::new() };
+        for (numerator, denominator) in OFFSETS {
+            let turns = input == Variable::Rotation;
+            let from = if turns { Rational::from((numerator, denominator)) } else { Rational::new() };
+            let relations = relation::of_every_output(chain, &layout, moved, &from);
+            let back = -from;
+            let polynomial = |relation: &relation::Relation| {
+                let divisor = Output::divisor(relation, turns)?;
+                Some((relation.output, PlaneCurve::of(&divisor).counted_from(&back).polynomial()))
+            };
+            let found: Vec<_> = relations.iter().filter_map(polynomial).collect();
+            if !found.is_empty() {
+                return found;
+            }
+        }
+        Vec::new()
+    }
+
     /// Of a closure polynomial in what runs and in one unknown, over the variables 0 and 1; the half tangents of angles are counted
     /// from 0, and the unknown is in general of this degree, half turns included.
     pub fn of_polynomial(polynomial: &Polynomial<Int>, moved: Variable, unknown: Variable, full: usize) -> Option<Self> {

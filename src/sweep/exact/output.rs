@@ -107,6 +107,18 @@ fn without_common_content(list: &[Integral]) -> Option<(Univariate<Integer>, Vec
 }
 
 impl Output {
+    /// What all equations of a relation have for a common divisor: without multiple factors and without factors in the input alone.
+    pub(super) fn divisor(relation: &Relation, turns: bool) -> Option<Polynomial<Int>> {
+        let equations: Vec<&Integral> = relation.equations.iter().filter(|f| !f.polynomial.is_zero()).collect();
+        let (first, others) = equations.split_first()?;
+        if turns && !equations.iter().any(|f| f.is_finite()) {
+            return None;
+        }
+        let whole = others.iter().fold(first.polynomial.clone(), |gcd, f| gcd.gcd(&f.polynomial));
+        let divisor = whole.checked_div_exact(&whole.content_in(T))?.square_free_part();
+        (divisor.degree(T) > 0).then_some(divisor)
+    }
+
     /// The output of a relation. `turns` says whether the input is an angle, which must not be critical at half a turn
     /// from where it is counted: `Ok(None)` where it is.
     pub(super) fn of(relation: &Relation, turns: bool) -> Result<Option<Self>, Code> {

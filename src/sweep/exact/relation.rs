@@ -108,6 +108,17 @@ pub(super) fn relations(chain: &Chain, layout: &Layout, moved: Moved<'_>, offset
     }
 }
 
+/// The relations of an overconstrained loop with every output, the joints beside the input first.
+pub(super) fn of_every_output(chain: &Chain, layout: &Layout, moved: Moved<'_>, offset: &Rational) -> Vec<Relation> {
+    let mut found = relations(chain, layout, moved, offset);
+    for other in super::by_cut::of_every_output(chain, layout, offset) {
+        if found.iter().all(|known| known.output != other.output) {
+            found.push(other);
+        }
+    }
+    found
+}
+
 /// Two spherical joints: their centres keep their distance.
 fn coupled(
     chain: &Chain,

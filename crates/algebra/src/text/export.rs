@@ -64,15 +64,23 @@ fn remark(format: Format, changes: &[(String, String)]) -> String {
     if changes.is_empty() {
         return String::new();
     }
+    let changes: Vec<String> = changes.iter().map(|(old, new)| format!("{new} was {old}")).collect();
+    comment(format, &format!("renamed: {}", changes.join(", "))).map_or_else(String::new, |line| line + "\n")
+}
+
+/// A line of comment; `None` for languages without comments.
+pub(super) fn comment(format: Format, text: &str) -> Option<String> {
     let (open, close) = match format {
-        Format::Sympy | Format::Maple | Format::Julia => ("# ", ""),
+        Format::Text | Format::Sympy | Format::Maple | Format::Julia => ("# ", ""),
+        Format::Latex => ("% ", ""),
         Format::Singular => ("// ", ""),
         Format::Macaulay2 => ("-- ", ""),
         Format::Mathematica => ("(* ", " *)"),
-        _ => return String::new(),
+        Format::Json | Format::Msolve | Format::Phcpack => return None,
     };
-    let changes: Vec<String> = changes.iter().map(|(old, new)| format!("{new} was {old}")).collect();
-    format!("{open}renamed: {}{close}\n", changes.join(", "))
+    // Nothing in the text may end the comment.
+    let text = text.replace(['\n', '\r'], " ").replace("*)", "* )");
+    Some(format!("{open}{text}{close}"))
 }
 
 /// The polynomials in the lines of an `align*`.

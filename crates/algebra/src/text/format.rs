@@ -66,6 +66,12 @@ impl Format {
         }
     }
 
+    /// A line of comment; `None` for languages without comments.
+    #[must_use]
+    pub fn comment(self, text: &str) -> Option<String> {
+        export::comment(self, text)
+    }
+
     /// Some polynomials as a file that the program reads; for LaTeX one that a document includes. Changed names are
     /// listed in a comment where the language has comments.
     ///

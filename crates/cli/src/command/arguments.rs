@@ -296,6 +296,9 @@ pub struct DeriveOptions {
     /// Write the equations, where they fit two pages, to name.eqs beside every name.toml
     #[arg(long, conflicts_with_all = ["json", "format", "explain", "symbolic", "output"])]
     pub bless: bool,
+    /// A table, in Markdown, of what is derived from all files under these paths: degree, real roots, length
+    #[arg(long, conflicts_with_all = ["json", "format", "explain", "symbolic", "output", "bless"])]
+    pub atlas: bool,
     /// The equations in half-angle form (of a platform: in Study's parameters) and the closure polynomial as a file for
     /// another program
     #[arg(long, value_name = "NAME", value_parser = format(), conflicts_with = "json")]

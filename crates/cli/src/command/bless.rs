@@ -3,9 +3,9 @@
 use super::check::files;
 use super::exit::{Exit, Fault, complain};
 use super::output::print;
-use looproot::internal::catalogue::{Options, load};
+use looproot::internal::catalogue::{Any, Options, load, load_solvable};
 use looproot::internal::error::{Error, Result};
-use looproot::internal::report::atlas::atlas;
+use looproot::internal::report::atlas::{HEAD, atlas, row};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -23,6 +23,20 @@ pub fn run(paths: &[String], quiet: bool) -> std::result::Result<Exit, Fault> {
         }
     }
     Ok(exit)
+}
+
+/// Prints a table of what is derived from all files under these paths, in Markdown: names are relative to the first path.
+pub fn table(paths: &[String]) -> std::result::Result<Exit, Fault> {
+    print(HEAD)?;
+    let root = paths.first().map_or_else(PathBuf::new, PathBuf::from);
+    for file in files(paths)? {
+        // Linkages, frameworks and other files have no single closure polynomial.
+        let Ok(Any::Entry(entry)) = load_solvable(&file, &Options::default()) else { continue };
+        let path = Path::new(&file).with_extension("");
+        let name = path.strip_prefix(&root).unwrap_or(&path).display().to_string();
+        print(&row(&entry, &name, path.with_extension("eqs").exists()))?;
+    }
+    Ok(Exit::Complete)
 }
 
 /// Writes the equations of one file, and says what was done.

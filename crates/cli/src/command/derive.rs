@@ -8,11 +8,12 @@ use super::seed::plant;
 use super::wanted::{in_place, wanted};
 use looproot::internal::catalogue::entry::{Design, Entry};
 use looproot::internal::catalogue::{Any, Chains, Options, load_solvable};
-use looproot::internal::derivation::{Derivation, Way, derive, derive_by, derive_with_symbols, surface};
+use looproot::internal::derivation::{Derivation, Way, derive_by, derive_with_symbols, surface};
 use looproot::internal::error::Error;
 use looproot::internal::report::derivation::{json, paper, system, text, verdict};
 use looproot::internal::report::document::complete;
 use looproot::internal::report::{surface as surfaces, symbolic, ways};
+use looproot::internal::sweep::derive_any;
 use looproot_algebra::number::{Number, Quantity};
 use rug::Rational;
 use serde_json::Value;
@@ -22,6 +23,9 @@ use std::io::Write;
 pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     if options.bless {
         return bless::run(&options.mechanisms, options.quiet);
+    }
+    if options.atlas {
+        return bless::table(&options.mechanisms);
     }
     let [mechanism] = options.mechanisms.as_slice() else {
         let message = format!("found {} mechanisms, expected one, or --bless", options.mechanisms.len());
@@ -59,7 +63,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         let written = if options.json {
             document(symbolic::json(&entry, index + 1, &derivation), &whole)
         } else if let Some(format) = options.format {
-            symbolic::system(&derivation, format)?
+            symbolic::system(&entry, index + 1, &derivation, format)?
         } else if let Some(style) = options.explain {
             symbolic::paper(&entry, index + 1, &derivation, &derivation.substituted(&entry, case)?, style)
         } else if options.quiet {
@@ -69,11 +73,11 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         };
         (written, if derivation.proved { Exit::Complete } else { Exit::NotProved })
     } else {
-        let derivation = derive(&entry, case).map_err(|error| in_place(error, mechanism, &entry))?;
+        let derivation = derive_any(&entry, case).map_err(|error| in_place(error, mechanism, &entry))?;
         let written = if options.json {
             document(json(&entry, index + 1, &derivation), &whole)
         } else if let Some(format) = options.format {
-            system(&derivation, format)?
+            system(&entry, index + 1, &derivation, format)?
         } else if let Some(style) = options.explain {
             paper(&entry, index + 1, &derivation, &derivation.substituted(&entry, case)?, style)
         } else if options.quiet {
@@ -81,7 +85,13 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         } else {
             text(&derivation)
         };
-        (written, exit(&derivation))
+        let is_overconstrained = matches!(&entry.design, Design::Loop(chain) if chain.freedoms() < 7);
+        let exit = match exit(&derivation) {
+            // Isolated configurations need not be roots.
+            Exit::Unreachable if is_overconstrained => Exit::NotProved,
+            exit => exit,
+        };
+        (written, exit)
     };
     let mut output = Output::open(&options.output, mechanism)?;
     output.writer.write_all(written.as_bytes())?;
@@ -102,7 +112,7 @@ fn by(
     let written = if options.json {
         document(ways::json(entry, index + 1, &found), whole)
     } else if let Some(format) = options.format {
-        system(&found.derivation, format)?
+        system(entry, index + 1, &found.derivation, format)?
     } else if let Some(style) = options.explain {
         ways::paper(entry, index + 1, &found, &found.derivation.substituted(entry, case)?, style)
     } else if options.quiet {

@@ -1,0 +1,56 @@
+//! Closure polynomials of overconstrained loops in input and output: every mode is a root, and every real root a mode.
+#![allow(clippy::unwrap_used)]
+
+use looproot::internal::assembly::{Assembly, Roots, Workspace};
+use looproot::internal::catalogue::entry::Entry;
+use looproot::internal::catalogue::{Options, load};
+use looproot::internal::mechanism::Mechanism;
+use looproot::internal::sweep::derive_any;
+
+fn entry(name: &str) -> Entry {
+    load(&format!("overconstrained/{name}"), &Options::default()).unwrap()
+}
+
+/// The degree of the closure polynomial, and how many joints have one with the input.
+fn derived(name: &str) -> [usize; 2] {
+    let entry = entry(name);
+    let mechanism = Mechanism::prepare(&entry).unwrap();
+    let mut found = [0, 0];
+    for case in &entry.cases {
+        let derivation = derive_any(&entry, case).unwrap();
+        let polynomial = derivation.polynomial.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", derivation.without));
+        // Every solution is put into every equation.
+        let check = derivation.substituted(&entry, case).unwrap();
+        assert!(check.without.is_some() || check.values > 0, "{name}");
+        let solution = mechanism.solve(case, Roots::All, &mut Workspace::default(), &mut Assembly::default()).unwrap();
+        let real = solution.modes.iter().filter(|mode| mode.real).count();
+        assert_eq!(polynomial.roots.len() + polynomial.at_pi, real, "{name}: {polynomial:?}");
+        found = [polynomial.degree() + polynomial.at_pi, derivation.equations.len()];
+    }
+    found
+}
+
+#[test]
+fn families_of_four_and_five_joints_have_closure_polynomials() {
+    assert_eq!(derived("bennett_a"), [1, 3]);
+    assert_eq!(derived("bennett_c")[0], 1);
+    assert_eq!(derived("goldberg_a"), [1, 4]);
+    assert_eq!(derived("goldberg_subtractive")[0], 1);
+    assert!(derived("myard_a")[0] >= 1);
+}
+
+#[test]
+#[ignore = "takes a minute: cargo test --test library overconstrained:: -- --ignored"]
+fn families_of_six_joints_have_closure_polynomials() {
+    for name in [
+        "bricard_line_symmetric_a",
+        "bricard_plane_symmetric_a",
+        "bricard_trihedral_a",
+        "waldron_hybrid",
+        "double_goldberg",
+        "dietmaier_a",
+        "wohlhart_hybrid_a",
+    ] {
+        println!("{name}: {:?}", derived(name));
+    }
+}

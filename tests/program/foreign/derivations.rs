@@ -1,0 +1,69 @@
+//! Derivations as other programs read them: the degree of the closure polynomial, and its real roots.
+
+use super::{file, program, talk};
+use std::fs;
+use std::process::Command;
+
+/// Entries, the degree of the closure polynomial, and the number of its real roots.
+const ENTRIES: [(&str, usize, usize); 3] = [("cccr_4_angle", 2, 2), ("crcrr_2_angle", 8, 4), ("general_7r", 16, 10)];
+
+fn export(entry: &str, format: &str) -> String {
+    let mut looproot = Command::new(env!("CARGO_BIN_EXE_looproot"));
+    let output = looproot.args(["derive", entry, "--format", format]).current_dir(crate::ROOT).output().unwrap();
+    assert!(output.status.success());
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+#[ignore = "needs Python with SymPy"]
+fn sympy_reads_closure_polynomials() {
+    // SymPy takes minutes to count the roots of the third one.
+    for (entry, degree, real) in ENTRIES.into_iter().take(2) {
+        let script = export(entry, "sympy")
+            + "last = equations[-1].as_expr()\np = Poly(last, *last.free_symbols)\nprint(p.degree(), p.count_roots())\n";
+        let answer = talk(program("python3", "LOOPROOT_PYTHON"), &script);
+        assert_eq!(answer.trim(), format!("{degree} {real}"), "{entry}");
+    }
+}
+
+#[test]
+#[ignore = "needs Singular"]
+fn singular_reads_closure_polynomials() {
+    for (entry, degree, _) in ENTRIES {
+        let script = export(entry, "singular") + "print(deg(equations[ncols(equations)]));\nquit;\n";
+        let mut singular = program("Singular", "LOOPROOT_SINGULAR");
+        singular.arg("-q");
+        let answer = talk(singular, &script);
+        let last = answer.lines().rfind(|line| !line.starts_with("//")).unwrap();
+        assert_eq!(last.trim(), degree.to_string(), "{entry}: {answer}");
+    }
+}
+
+#[test]
+#[ignore = "needs Macaulay2"]
+fn macaulay2_reads_closure_polynomials() {
+    for (entry, degree, _) in ENTRIES {
+        let script = export(entry, "macaulay2") + "print toString first degree last first entries gens equations\n";
+        let path = file(&format!("{entry}.m2"), &script);
+        let mut m2 = program("M2", "LOOPROOT_M2");
+        let answer = String::from_utf8(m2.arg("--script").arg(path).output().unwrap().stdout).unwrap();
+        assert_eq!(answer.trim(), degree.to_string(), "{entry}");
+    }
+}
+
+#[test]
+#[ignore = "needs msolve"]
+fn msolve_reads_closure_polynomials() {
+    for (entry, _, real) in ENTRIES {
+        let text = export(entry, "msolve");
+        // The closure polynomial alone: its variable is one of the first line's.
+        let last = text.lines().last().unwrap();
+        let variable = last.split(|c: char| !c.is_ascii_alphanumeric()).find(|word| word.starts_with('t')).unwrap();
+        let input = file(&format!("{entry}.ms"), &format!("{variable}\n0\n{last}\n"));
+        let output = file(&format!("{entry}.ms.out"), "");
+        let mut msolve = program("msolve", "LOOPROOT_MSOLVE");
+        assert!(msolve.arg("-f").arg(input).arg("-o").arg(&output).status().unwrap().success());
+        let answer = fs::read_to_string(output).unwrap();
+        assert_eq!(answer.matches(" / 2^").count() / 2, real, "{entry}: {answer}");
+    }
+}
