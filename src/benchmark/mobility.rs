@@ -103,7 +103,7 @@ fn with_error(chain: &Chain, joint: usize, motion: &Motion<Rational>) -> Chain {
     match &mut chain.geometry {
         // A loop has no beginning: the joint becomes the last one, and the motion stands behind the chain.
         Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
-            let is_bare = chain.base.exact == Motion::identity() && chain.tool.exact == Motion::identity();
+            let is_bare = *chain.base.exact == Motion::identity() && *chain.tool.exact == Motion::identity();
             if is_bare {
                 joints.rotate_left(joint + 1);
             }

@@ -271,11 +271,11 @@ fn calibration(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
     let motion = |pair: &Table<'_>, key: &str| {
         let node: &Node = scope.need(pair, key)?;
         if matches!(node.value, super::node::Value::List(_)) {
-            return scope.matrix(node, key).map(|placement| placement.exact);
+            return scope.matrix(node, key).map(|placement| placement.exact.motion());
         }
         let own = scope.table(node, key, &["position", "quaternion"])?;
         let placed = scope.quaternion_position(scope.need(&own, "quaternion")?, scope.need(&own, "position")?)?;
-        Ok(placed.exact)
+        Ok(placed.exact.motion())
     };
     let pairs = given.iter().map(|(pair, _)| Ok((motion(pair, "A")?, motion(pair, "B")?)));
     Ok(Displacement::Calibration(pairs.collect::<Result<_>>()?))

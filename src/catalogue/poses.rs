@@ -7,7 +7,9 @@ use super::scope::Scope;
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Placement;
+use crate::kinematics::decimal::Decimal;
 use crate::kinematics::tolerance::Tolerance;
+use rug::Rational;
 
 /// What a header may be.
 const EXPECTED: &str = "expected the header `x,y,z,qw,qx,qy,qz`, `x,y,z,roll,pitch,yaw` or `m00,m01,...,m23`, with units as in `x_mm` or \
@@ -30,6 +32,13 @@ enum Form {
     Objects,
 }
 
+impl Form {
+    /// Whether the value in this place is a length.
+    fn is_length(self, place: usize) -> bool {
+        if self == Self::Matrix { place % 4 == 3 } else { place < 3 }
+    }
+}
+
 /// The reader of the rows of a table.
 pub struct PoseRows<'a> {
     path: &'a str,
@@ -38,6 +47,8 @@ pub struct PoseRows<'a> {
     form: Form,
     /// The place of every column among the names of the form, and the unit of its numbers.
     columns: Vec<(usize, String)>,
+    /// The power of ten that a length in each column is in, in metres, where all are in such a one.
+    powers: Option<Vec<i32>>,
 }
 
 impl<'a> PoseRows<'a> {
@@ -50,7 +61,7 @@ impl<'a> PoseRows<'a> {
         let reading = reading.clone();
         let first = first.trim_start_matches('\u{feff}').trim();
         if first.starts_with('{') {
-            return Ok((Self { path, design, reading, form: Form::Objects, columns: Vec::new() }, true));
+            return Ok((Self { path, design, reading, form: Form::Objects, columns: Vec::new(), powers: None }, true));
         }
         let names: Vec<&str> = first.split(',').map(|name| name.trim().trim_matches('"')).collect();
         for (form, own) in
@@ -59,7 +70,8 @@ impl<'a> PoseRows<'a> {
             let columns: Option<Vec<(usize, String)>> = names.iter().map(|name| column(name, own)).collect();
             let Some(columns) = columns.filter(|columns| columns.len() == own.len()) else { continue };
             if (0..own.len()).all(|k| columns.iter().any(|(place, _)| *place == k)) {
-                return Ok((Self { path, design, reading, form, columns }, false));
+                let powers = columns.iter().map(|(place, unit)| power(form, *place, unit, &reading)).collect();
+                return Ok((Self { path, design, reading, form, columns, powers }, false));
             }
         }
         let found: String = first.chars().take(60).collect();
@@ -80,6 +92,10 @@ impl<'a> PoseRows<'a> {
             let message = format!("found {found} values, expected {expected}");
             return Err(Error::Invalid(message).at(self.path, line));
         }
+        if let Some((placement, typed)) = self.of_decimals(&cells) {
+            let case = of_design(self.design, placement, line);
+            return Ok(Case { typed: Some(typed), ..case });
+        }
         let mut values = vec![String::new(); cells.len()];
         for ((place, unit), cell) in self.columns.iter().zip(&cells) {
             values[*place] = if unit.is_empty() { (*cell).to_owned() } else { format!("{cell} {unit}") };
@@ -89,6 +105,31 @@ impl<'a> PoseRows<'a> {
         case.warnings.extend(warning);
         case.typed = Some(self.typed(&values));
         Ok(case)
+    }
+
+    /// The pose of a row of plain decimals, which no exact number is needed for, and what it is typed to.
+    fn of_decimals(&self, cells: &[&str]) -> Option<(Placement, Tolerance)> {
+        let mut values = [Decimal::default(); 12];
+        for (((place, _), power), cell) in self.columns.iter().zip(self.powers.as_ref()?).zip(cells) {
+            values[*place] = Decimal::read(cell)?.shifted(*power);
+        }
+        let placement = match self.form {
+            Form::Quaternion => {
+                let [x, y, z, quaternion @ ..] = values.first_chunk::<7>()?;
+                Placement::of_rounded_quaternion(quaternion, &[*x, *y, *z])?
+            }
+            Form::Matrix => {
+                let row = |i: usize| [values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]];
+                Placement::of_rounded_matrix(&[row(0), row(1), row(2)])?
+            }
+            Form::Angles | Form::Objects => return None,
+        };
+        let least = |lengths: bool| {
+            let own = (0..cells.len()).filter(|k| self.form.is_length(*k) == lengths);
+            own.map(|k| values[k].last_digit()).fold(COARSEST, f64::min)
+        };
+        let factor = if self.form == Form::Quaternion { OF_QUATERNION } else { 1.0 };
+        Some((placement, Tolerance { length: least(true), angle: least(false) * factor }))
     }
 
     fn object(&self, text: &str, line: usize) -> Result<Case> {
@@ -129,7 +170,7 @@ impl<'a> PoseRows<'a> {
 
     /// One unit of the last digit typed.
     fn typed(&self, values: &[String]) -> Tolerance {
-        let is_length = |k: &usize| if self.form == Form::Matrix { k % 4 == 3 } else { *k < 3 };
+        let is_length = |k: &usize| self.form.is_length(*k);
         let texts =
             |lengths: bool| (0..values.len()).filter(move |k| is_length(k) == lengths).map(|k| values[k].as_str());
         let of_angles = if self.form == Form::Angles { Of::Angles } else { Of::Rotation };
@@ -207,6 +248,21 @@ fn column(name: &str, names: &[&str]) -> Option<(usize, String)> {
     known.then(|| (place, unit.to_owned()))
 }
 
+/// The power of ten that the number in a place is in; 0 for what is no length.
+fn power(form: Form, place: usize, unit: &str, reading: &Reading) -> Option<i32> {
+    if !form.is_length(place) {
+        return Some(0);
+    }
+    match unit {
+        "m" => Some(0),
+        "cm" => Some(-2),
+        "mm" => Some(-3),
+        _ => [(1, 0), (100, -2), (1000, -3)]
+            .into_iter()
+            .find_map(|(parts, power)| (reading.length == Rational::from((1, parts))).then_some(power)),
+    }
+}
+
 /// A pose as the command line gives it: `x, y, z; w, x, y, z` or `x, y, z; roll, pitch, yaw`.
 ///
 /// # Errors
@@ -222,7 +278,7 @@ pub fn typed_pose(text: &str, design: &Design, reading: &Reading) -> Result<Case
         (3, 3) => Form::Angles,
         (lengths, others) => return Err(fail(&format!("{lengths} and {others} values in --at"))),
     };
-    let rows = PoseRows { path: "--at", design, reading: reading.clone(), form, columns: Vec::new() };
+    let rows = PoseRows { path: "--at", design, reading: reading.clone(), form, columns: Vec::new(), powers: None };
     let (placement, warning) = rows.placement(&values)?;
     let mut case = of_design(design, placement, 1);
     case.warnings.extend(warning);

@@ -217,7 +217,7 @@ impl<'a> Scope<'a> {
             }
         }
         numbers[3][3] = Number::exact(Rational::from(1));
-        Ok(self.placement(Placement::from_matrix(&numbers), node, what)?.exact.rotation)
+        Ok(self.placement(Placement::from_matrix(&numbers), node, what)?.exact.motion().rotation)
     }
 
     /// A rotation: a quaternion.
@@ -228,7 +228,7 @@ impl<'a> Scope<'a> {
         }
         let zero = std::array::from_fn(|_| Number::zero());
         let placed = Placement::from_quaternion_position(&components, &zero);
-        Ok(self.placement(placed, node, "quaternion")?.exact.rotation)
+        Ok(self.placement(placed, node, "quaternion")?.exact.motion().rotation)
     }
 
     /// The rotation nearest to a matrix or a quaternion is the datum: nothing of the file is rounded by taking it.

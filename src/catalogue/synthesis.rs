@@ -296,7 +296,7 @@ fn in_space(scope: &Scope<'_>, item: &Node) -> Result<Motion<Rational>> {
                 scope.fail(other.line, "found `matrix` beside `quaternion` or `position`, expected one of them")
             );
         }
-        return Ok(scope.matrix(node, "matrix")?.exact);
+        return Ok(scope.matrix(node, "matrix")?.exact.motion());
     }
     let mut motion = quaternion(scope, scope.need(&table, "quaternion")?)?;
     let position = scope.vector(scope.need(&table, "position")?, Quantity::Length, "position")?;

@@ -163,7 +163,7 @@ fn primitive(direction: &[Rational; 3]) -> [Integer; 3] {
 
 /// The rows of a motion.
 fn matrix(placed: &Placement, what: &str) -> Result<Value, String> {
-    let rows: [[String; 4]; 3] = match (&placed.given, &placed.rows) {
+    let rows: [[String; 4]; 3] = match (&placed.given, placed.rows()) {
         // A checker finds the nearest rotation by itself.
         (_, Some(rows)) => {
             let row = |i: usize| -> Result<[String; 4], String> {

@@ -1,11 +1,9 @@
 //! Poses as 4 x 4 matrices of floats, and the exact motions that they stand for.
 
-use crate::algebra::number::Number;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Placement;
 use crate::kinematics::motion::Motion;
 use crate::scene::pose_of;
-use rug::{Integer, Rational};
 
 /// A homogeneous matrix, row by row.
 pub type Matrix = [[f64; 4]; 4];
@@ -56,8 +54,8 @@ pub(super) fn placement(matrix: &Matrix) -> Result<(Placement, Option<String>)> 
     }
     let position: [f64; 3] = std::array::from_fn(|i| matrix[i][3]);
     let [w, x, y, z, ..] = pose_of(&Motion { rotation, translation: position });
-    let quaternion = [w, x, y, z].map(|q| Number::exact(rounded(q)));
-    let (placement, _) = Placement::from_quaternion_position(&quaternion, &position.map(Number::from_f64))?;
+    let unknown = || Error::Invalid("found a rotation without a quaternion".to_owned());
+    let placement = Placement::of_whole_quaternion([w, x, y, z].map(rounded), position).ok_or_else(unknown)?;
     let noted =
         (off > NOTED).then(|| format!("the rotation matrix is off by {off:.1e}; the nearest rotation is taken"));
     Ok((placement, noted))
@@ -84,9 +82,9 @@ fn nearest(given: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
 }
 
 /// A number at most 1 as an integer over 2^60.
-fn rounded(q: f64) -> Rational {
-    let scaled = Integer::from_f64((q * f64::from(BITS).exp2()).round()).unwrap_or_default();
-    Rational::from((scaled, Integer::from(1) << 60))
+#[expect(clippy::cast_possible_truncation, reason = "a whole number of at most 2^60")]
+fn rounded(q: f64) -> i64 {
+    (q * f64::from(BITS).exp2()).round() as i64
 }
 
 #[cfg(test)]

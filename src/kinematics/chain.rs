@@ -1,12 +1,13 @@
 //! Open chains and closed loops as a mechanism file gives them.
 
 use super::data_field::ClosedForm;
+use super::exact_motion::ExactMotion;
 pub use super::joint::JointKind;
 use super::joint::JointVariable;
 use super::motion::Motion;
+use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number};
-use rug::Rational;
 
 /// A joint with the link that follows (DH) or precedes (modified DH) it.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,15 +52,17 @@ pub struct Given {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// The exact motion: the one given where that is exactly rigid, else the nearest one found with rational entries.
-    pub exact: Motion<Rational>,
+    pub exact: ExactMotion,
     /// What was given, where the exact motion only stands for it.
     pub given: Option<Box<Given>>,
     /// What was given in closed form, where that is known and not rational.
     pub closed: Option<ClosedForm>,
+    /// The motion in twice the digits of f64, where it was made without exact numbers.
+    pub precise: Option<Box<Motion<DoubleDouble>>>,
     /// The correctly rounded image of the motion, its rotation orthogonal to rounding.
     pub float: Motion<f64>,
     /// The rows of the matrix that was given, where the exact motion only stands for it.
-    pub rows: Option<Box<[[Number; 4]; 3]>>,
+    pub(crate) rows: Option<Box<[[Number; 4]; 3]>>,
     /// How far the given rotation was from a rotation: the largest entry of |R - nearest rotation|.
     pub defect: f64,
 }

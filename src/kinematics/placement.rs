@@ -34,10 +34,11 @@ impl Placement {
     #[must_use]
     pub fn identity() -> Self {
         Self {
-            exact: Motion::identity(),
+            exact: Motion::identity().into(),
             given: None,
             closed: None,
             rows: None,
+            precise: None,
             float: Motion::identity(),
             defect: 0.0,
         }
@@ -49,7 +50,7 @@ impl Placement {
         let row = |v: &[Rational; 3]| std::array::from_fn(|k| nearest_f64(&v[k]));
         let float =
             Motion { rotation: std::array::from_fn(|k| row(&exact.rotation[k])), translation: row(&exact.translation) };
-        Self { exact, given: None, closed: None, rows: None, float, defect: 0.0 }
+        Self { exact: exact.into(), given: None, closed: None, rows: None, precise: None, float, defect: 0.0 }
     }
 
     /// The placement by a rational motion that stands for this one.
@@ -115,7 +116,7 @@ impl Placement {
             return self.clone();
         }
         let closed = DataField::of(chain, Some(self), None).and_then(|field| Some((field.pose(chain, self)?, field)));
-        let (exact, enclosed) = (self.exact.clone(), self.given.as_ref().map(|given| given.nearest()));
+        let (exact, enclosed) = (self.exact.motion(), self.given.as_ref().map(|given| given.nearest()));
         match (closed, enclosed) {
             (closed, Some(enclosed)) => {
                 Self::in_field_or_near(exact, enclosed, closed.map(|(motion, field)| (field.0, motion)))
@@ -166,6 +167,12 @@ impl Placement {
         let (algebraic, field) = field.map_or((None, None), |(motion, field)| (Some(closed(&motion)), Some(field)));
         KnownMotion { exact: exact(&self.exact), enclosed: known(&given.nearest()), algebraic }
             .placement(field.as_ref())
+    }
+
+    /// The rows of the matrix that was given, where the exact motion only stands for it.
+    #[must_use]
+    pub fn rows(&self) -> Option<Box<[[Number; 4]; 3]>> {
+        self.rows.clone().or_else(|| self.exact.rows())
     }
 
     /// The motion over any ring; `None` for an unlucky prime.
@@ -402,7 +409,7 @@ pub(crate) fn rotation_of(quaternion: [&Rational; 4]) -> Matrix3<Rational> {
 }
 
 /// The rotation of a quaternion of any length over a field; `None` for zero.
-fn rotation_over<R: Field>(quaternion: [&R; 4]) -> Option<Matrix3<R>> {
+pub(super) fn rotation_over<R: Field>(quaternion: [&R; 4]) -> Option<Matrix3<R>> {
     let norm = quaternion.iter().fold(R::zero(), |sum, q| sum.add(&q.mul(q)));
     Some(scaled_rotation(quaternion, &norm.inverse()?))
 }

@@ -180,7 +180,8 @@ impl SingleLoop {
             Way::Balls(balls) => return self.solve_coupled(balls, *prepare_us, case, roots, workspace, assembly),
         };
         let solver = &prepared.solver;
-        let mut gap = solver.gap(&filling(case)?);
+        let float = case.pose.as_ref().and_then(Placement::inverse_in_f64);
+        let mut gap = solver.gap(&float.map_or_else(|| filling(case), Ok)?);
         if gap.is_rough() {
             let closed = prepared.enclosed(&self.chain, case)?.and_then(|closed| closed.rounded(f64::MANTISSA_DIGITS));
             gap = closed.map_or(gap, |ClosedLoop { constants: [.., last], .. }| solver.exact_gap(&last));

@@ -95,7 +95,7 @@ impl Setting {
             }
             Place::Coordinate(k) => {
                 if let Some(pose) = &mut case.pose {
-                    let mut motion = pose.exact.clone();
+                    let mut motion = pose.exact.motion();
                     motion.translation[k] = value.clone();
                     *pose = Placement::from_motion_exact(motion);
                 }

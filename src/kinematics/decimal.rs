@@ -1,0 +1,134 @@
+//! Decimals as they are typed: whole numbers of up to 18 digits over a power of ten.
+
+use crate::algebra::double_double::DoubleDouble;
+use crate::algebra::number::Number;
+use crate::algebra::ring::{Field, Ring};
+use rug::Rational;
+use rug::ops::Pow;
+
+/// Most digits: all of them fit in a machine word.
+const MOST_DIGITS: usize = 18;
+/// Powers of ten up to this one are doubles.
+const EXACT_POWER: i32 = 22;
+
+/// The number `digits * 10^exponent`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Decimal {
+    digits: i64,
+    exponent: i32,
+}
+
+impl Decimal {
+    /// Reads digits with or without sign, point and exponent; `None` for all other text, and for numbers with more digits or
+    /// exponents than lengths and rotations have.
+    #[must_use]
+    pub fn read(text: &str) -> Option<Self> {
+        let bytes = text.as_bytes();
+        let (is_negative, mut at) = (bytes.first() == Some(&b'-'), usize::from(bytes.first() == Some(&b'-')));
+        let (mut digits, mut exponent, mut count, mut has_point) = (0_i64, 0, 0, false);
+        let begin = at;
+        while let Some(byte) = bytes.get(at) {
+            match byte {
+                b'0'..=b'9' => {
+                    digits = digits.checked_mul(10)?.checked_add(i64::from(byte - b'0'))?;
+                    count += usize::from(digits > 0);
+                    exponent -= i32::from(has_point);
+                }
+                b'.' if !has_point && at > begin => has_point = true,
+                b'e' | b'E' => break,
+                _ => return None,
+            }
+            at += 1;
+        }
+        // A number begins and ends with a digit.
+        let ends = at > begin && bytes[at - 1] != b'.';
+        if !ends || count > MOST_DIGITS {
+            return None;
+        }
+        if at < bytes.len() {
+            let own = text.get(at + 1..)?;
+            let plain = own.strip_prefix('-').unwrap_or(own);
+            if plain.is_empty() || plain.len() > 2 || !plain.bytes().all(|byte| byte.is_ascii_digit()) {
+                return None;
+            }
+            exponent += own.parse::<i32>().ok()?;
+        }
+        let is_near = (-2 * EXACT_POWER..=2 * EXACT_POWER).contains(&exponent);
+        is_near.then_some(Self { digits: if is_negative { -digits } else { digits }, exponent })
+    }
+
+    /// The number times a power of ten.
+    #[must_use]
+    pub fn shifted(self, by: i32) -> Self {
+        Self { exponent: self.exponent + by, ..self }
+    }
+
+    /// One unit of its last digit.
+    #[must_use]
+    pub fn last_digit(self) -> f64 {
+        10_f64.powi(self.exponent)
+    }
+
+    /// The number itself.
+    #[must_use]
+    pub fn rational(self) -> Rational {
+        let power = Rational::from(10).pow(self.exponent);
+        Rational::from(self.digits) * power
+    }
+
+    /// The number as a file gives it.
+    #[must_use]
+    pub fn number(self) -> Number {
+        Number::exact(self.rational())
+    }
+
+    /// The number in twice the digits of a double.
+    #[must_use]
+    pub fn double_double(self) -> DoubleDouble {
+        let whole = whole(self.digits);
+        let mut left = self.exponent.abs();
+        let mut power = DoubleDouble::one();
+        while left > 0 {
+            let step = left.min(EXACT_POWER);
+            power = power.mul(&DoubleDouble::from(10_f64.powi(step)));
+            left -= step;
+        }
+        if self.exponent < 0 { power.inverse().map_or(whole, |part| whole.mul(&part)) } else { whole.mul(&power) }
+    }
+}
+
+/// A whole number, exactly.
+#[must_use]
+#[expect(clippy::cast_possible_truncation, reason = "a double that was rounded from a machine word")]
+pub fn whole(n: i64) -> DoubleDouble {
+    let high = n as f64;
+    let low = (i128::from(n) - high as i128) as f64;
+    DoubleDouble::from(high).add(&DoubleDouble::from(low))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_read_exactly() {
+        for text in
+            ["0", "-0.0", "1", "-1.5", "0.70710678118654757", "123456789012345678", "1e-16", "-1.2246467991473532e-16"]
+        {
+            let own = Decimal::read(text).unwrap_or_else(|| panic!("{text}"));
+            let expected: f64 = text.parse().unwrap();
+            assert_eq!(own.number().to_f64(), expected, "{text}");
+            assert_eq!(own.double_double().to_f64(), expected, "{text}");
+            let exact = DoubleDouble::from_rational(&own.rational()).unwrap();
+            let off = own.double_double().sub(&exact).to_f64().abs();
+            assert!(off <= 1e-30 * expected.abs(), "{text}: {off:e}");
+        }
+    }
+
+    #[test]
+    fn other_text_is_left_to_others() {
+        for text in ["", "-", ".5", "5.", "1e", "1e+5", "1e100", "nan", "pi", "1/2", "1 mm", "1234567890123456789", "1.2.3"] {
+            assert_eq!(Decimal::read(text), None, "{text}");
+        }
+    }
+}
