@@ -37,7 +37,7 @@ fn builtin_case(name: &str) -> (OpenLoop<f64>, Motion<f64>) {
     first_case(&builtin(name, &Options::default()).unwrap())
 }
 
-/// All arms and loops of six unknowns: with two balls there are more, overconstrained loops have fewer.
+/// All arms and loops of six unknowns: with two spherical joints there are more, overconstrained loops have fewer.
 fn names() -> Vec<String> {
     let has_six = |name: &String| {
         let entry = builtin(name, &Options::default()).unwrap();

@@ -1,6 +1,6 @@
-//! Loops with two balls: the link between them spins freely, and is taken at one position of that spin.
+//! Loops with two spherical joints: the link between them spins freely, and is taken at one position of that spin.
 
-use super::ball::{ball_angles, ball_rotation, lifted, quarter, transposed};
+use super::spherical::{spherical_angles, spherical_rotation, lifted, quarter, transposed};
 use super::limits;
 use super::mode::{Assembly, Roots};
 use super::search::{AS_IT_IS, Effort, Search};
@@ -18,7 +18,7 @@ type Rotation<S> = [[S; 3]; 3];
 type Angles = [Complex<f64>; 3];
 
 /// Finds both positions. Fills `assembly` with modes whose last unknown is that of the loop, and returns the angles of
-/// both balls for each of them, about z, x and z.
+/// both spherical joints for each of them, about z, x and z.
 pub fn solve(
     coupled: &Coupled<f64>,
     roots: Roots,
@@ -34,22 +34,22 @@ pub fn solve(
         Variable::Rotation => first * first + second * second - constant * constant,
         Variable::Translation => 0.25 * first * first - constant,
     };
-    let mut balls = Vec::new();
+    let mut spherical_joints = Vec::new();
     if discriminant >= 0.0 {
         for m in zeros::<f64>(coupled.variable, &row).into_iter().flatten() {
-            one(&coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut balls);
+            one(&coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut spherical_joints);
         }
     } else if roots == Roots::All
         && let Some(m) = zeros::<Complex<f64>>(coupled.variable, &row.map(Complex::from))[0]
     {
-        one(&coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut balls);
+        one(&coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut spherical_joints);
     }
     if coupled.variable == Variable::Translation {
         for mode in &mut assembly.modes {
             mode.unknowns[5] *= scale;
         }
     }
-    balls
+    spherical_joints
 }
 
 /// The mean length of the links as a power of two, 1 without lengths, and the loop with lengths over it: what counts as
@@ -70,7 +70,7 @@ fn one<S: Scalar>(
     roots: Roots,
     workspace: &mut Workspace,
     assembly: &mut Assembly,
-    balls: &mut Vec<[Angles; 2]>,
+    spherical_joints: &mut Vec<[Angles; 2]>,
 ) {
     // X L Y = (K V H)^-1
     let mut rest = lifted::<S>(&coupled.before);
@@ -80,17 +80,17 @@ fn one<S: Scalar>(
     let Some(frame) = frame_along(&link) else { return };
     let frame_s = frame.map(|row| row.map(S::from_f64));
     let Some(toward) = rotation_between(&link.map(S::from_f64), &across.translation, &frame_s) else { return };
-    // Both balls at any spin: the first turns the link where it has to be, the second is what is left.
+    // Both spherical joints at any spin: the first turns the link where it has to be, the second is what is left.
     let left = product(&transposed(&product(&toward, &frame_s)), &across.rotation);
-    // The second one as a turn about the link, which is the idle spin, and two more: the better of two ways.
+    // The second one as a turn about the link, which is the idle degree of freedom, and two more: the better of two ways.
     let quarters = [Motion::identity().rotation, quarter()];
-    let tries = quarters.map(|q| ball_angles(&product(&left, &transposed(&q.map(|row| row.map(S::from_f64))))));
+    let tries = quarters.map(|q| spherical_angles(&product(&left, &transposed(&q.map(|row| row.map(S::from_f64))))));
     let chosen = usize::from(tries[1].1 > tries[0].1);
     let ([spin, second, third], behind) = (tries[chosen].0, quarters[chosen]);
     let (cos, sin) = spin.cos_sin_of();
     let spun = product(&product(&frame_s, &Motion::rotation_z(cos, sin).rotation), &transposed(&frame_s));
-    let first_ball = product(&toward, &spun);
-    let tries = quarters.map(|q| ball_angles(&product(&first_ball, &transposed(&q.map(|row| row.map(S::from_f64))))));
+    let first_spherical = product(&toward, &spun);
+    let tries = quarters.map(|q| spherical_angles(&product(&first_spherical, &transposed(&q.map(|row| row.map(S::from_f64))))));
     let chosen = usize::from(tries[1].1 > tries[0].1);
     let (angles, before) = (tries[chosen].0, quarters[chosen]);
     let constant = |rotation: Rotation<f64>| Motion { rotation, translation: [0.0; 3] };
@@ -125,7 +125,7 @@ fn one<S: Scalar>(
     Search {
         prepared: &[],
         closed: &closed,
-        ball: None,
+        spherical: None,
         decoupled: None,
         arrangement: AS_IT_IS,
         gap_rounding: 0.0,
@@ -137,11 +137,11 @@ fn one<S: Scalar>(
     .admit(&start);
     for mode in found.modes {
         let [a, b, c, beta, gamma, _] = mode.unknowns;
-        let one = product(&ball_rotation([a, b, c]), &lift(before));
+        let one = product(&spherical_rotation([a, b, c]), &lift(before));
         // F^-1 R_L Y = Rx(beta) Rz(gamma) Q
-        let turned = product(&ball_rotation([Complex::from(0.0), beta, gamma]), &lift(behind));
-        let balls_here = held(&one, &turned, &lift(frame), &lift(coupled.link.rotation));
-        balls.push(balls_here.map(|r| plain_angles(&r, mode.real)));
+        let turned = product(&spherical_rotation([Complex::from(0.0), beta, gamma]), &lift(behind));
+        let joints_here = held(&one, &turned, &lift(frame), &lift(coupled.link.rotation));
+        spherical_joints.push(joints_here.map(|r| plain_angles(&r, mode.real)));
         assembly.modes.push(mode);
     }
 }
@@ -150,20 +150,20 @@ fn lift(rotation: Rotation<f64>) -> Rotation<Complex<f64>> {
     rotation.map(|row| row.map(Complex::from))
 }
 
-/// The rotations X and Y of both balls at the one position of the idle spin that is shown, from X and `F^-1 R_L Y` at any:
-/// the second ball is a universal joint with one axis along the x axis of the frame F of the link, whose z axis is the line
-/// of the centres, and one along the z axis of the frame behind that ball; along its x axis where that line is parallel to z.
+/// The rotations X and Y of both spherical joints at the one position of the idle degree of freedom that is shown, from X and `F^-1 R_L Y` at any:
+/// the second spherical joint is a universal joint with one axis along the x axis of the frame F of the link, whose z axis is the line
+/// of the centres, and one along the z axis of the frame behind that spherical joint; along its x axis where that line is parallel to z.
 fn held(
     one: &Rotation<Complex<f64>>,
     turned: &Rotation<Complex<f64>>,
     frame: &Rotation<Complex<f64>>,
     link: &Rotation<Complex<f64>>,
 ) -> [Rotation<Complex<f64>>; 2] {
-    let (angles, lock) = ball_angles(turned);
+    let (angles, lock) = spherical_angles(turned);
     let spin = if lock > limits::ONE_AXIS {
         angles[0]
     } else {
-        ball_angles(&product(turned, &transposed(&lift(quarter())))).0[0]
+        spherical_angles(&product(turned, &transposed(&lift(quarter())))).0[0]
     };
     let (cos, sin) = spin.cos_sin_of();
     let turn = Motion::rotation_z(cos, sin).rotation;
@@ -174,9 +174,9 @@ fn held(
 
 fn plain_angles(rotation: &Rotation<Complex<f64>>, real: bool) -> Angles {
     if real {
-        ball_angles(&rotation.map(|row| row.map(|z| z.re))).0.map(Complex::from)
+        spherical_angles(&rotation.map(|row| row.map(|z| z.re))).0.map(Complex::from)
     } else {
-        ball_angles(rotation).0
+        spherical_angles(rotation).0
     }
 }
 

@@ -68,7 +68,7 @@ impl Search<'_> {
     }
 
     /// The four solutions where the translations run along two opposite axes. Whether they do, and every root of the
-    /// quartic was accounted for.
+    /// quartic was resolved.
     fn opposite_axes(&mut self, form: &LinkForm<f64, 4, 2>) -> bool {
         let Some(axes) = OppositeAxes::of(form, limits::ALONG) else { return false };
         let equations = axes.equations(form);

@@ -45,9 +45,9 @@ pub const NEAR_DOUBLE: f64 = 1e-6;
 pub const SHARED: f64 = 1e-7;
 /// Squared sines of twists, and amplitudes of one angle's equation, below which axes are parallel.
 pub const PARALLEL: f64 = 1e-12;
-/// Determinants of the equations of a ball's centre below this, in scaled lengths, are zero.
+/// Determinants of the equations of a spherical joint's centre below this, in scaled lengths, are zero.
 pub const REACH_DEPENDENT: f64 = 1e-9;
-/// Sines of the second angle of a ball below this are too near 0 for the other two to be told apart.
+/// Sines of the second angle of a spherical joint below this are too near 0 for the other two to be told apart.
 pub const LOCKED: f64 = 0.05;
 /// Translations nearer than this to dependent ones need not close a loop.
 pub const DEPENDENT: f64 = 1e-6;
@@ -55,5 +55,5 @@ pub const DEPENDENT: f64 = 1e-6;
 pub const SHARED_ANGLE: f64 = 1e-6;
 /// Sines below which a translation runs along an axis.
 pub const ALONG: f64 = 1e-12;
-/// Sines below this leave two axes of a ball one.
+/// Sines below this leave two axes of a spherical joint one.
 pub const ONE_AXIS: f64 = 1e-9;

@@ -1,7 +1,7 @@
 //! Roots to assembly modes: prepare a geometry once, then find every way to close it, pose after pose.
 
 mod axis_triples;
-mod ball;
+mod spherical;
 mod closed_form;
 pub mod coupler;
 mod few_rotations;
@@ -10,13 +10,13 @@ mod mode;
 pub mod platform;
 mod prepared;
 mod proof;
-mod rescue;
+mod high_precision;
 mod search;
 mod shifted;
 mod solver;
 
 pub use axis_triples::AxisTriple;
-pub use ball::{Proof, proof};
+pub use spherical::{Proof, proof};
 pub use mode::{Assembly, Hits, Mode, Roots, are_apart, distance, wrapped};
-pub use rescue::by_ring;
+pub use high_precision::by_ring;
 pub use solver::{Gap, Solver, Workspace};

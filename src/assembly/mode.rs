@@ -69,17 +69,17 @@ pub struct Assembly {
     pub self_motion: usize,
     /// The self-motions, lengths in the unit of the mechanism.
     pub families: Vec<SelfMotion>,
-    /// Whether some cut gave a pencil whose every root was accounted for.
+    /// Whether some cut gave a pencil whose every root was resolved.
     pub clean: bool,
-    /// Whether some cut gave a pencil whose every root near the real axis was accounted for, and one root at least led
+    /// Whether some cut gave a pencil whose every root near the real axis was resolved, and one root at least led
     /// to a solution.
     pub real_clean: bool,
     /// How many pencils were solved.
     pub tries: usize,
     /// How many modes were found or proved in longer numbers only.
-    pub rescued: usize,
+    pub by_high_precision: usize,
     /// The bits of these numbers.
-    pub rescued_in: u32,
+    pub high_precision_bits: u32,
 }
 
 impl Assembly {
@@ -88,7 +88,7 @@ impl Assembly {
         self.modes.clear();
         self.families.clear();
         self.real_clean = false;
-        (self.self_motion, self.clean, self.tries, self.rescued) = (0, false, 0, 0);
+        (self.self_motion, self.clean, self.tries, self.by_high_precision) = (0, false, 0, 0);
     }
 
     /// Number of isolated solutions, with multiplicity.
@@ -124,7 +124,7 @@ impl Assembly {
         }
         let more = proved(&all).saturating_sub(before);
         if more > 0 {
-            (self.rescued, self.rescued_in) = (self.rescued + more, bits);
+            (self.by_high_precision, self.high_precision_bits) = (self.by_high_precision + more, bits);
         }
         self.modes = all;
     }

@@ -1,6 +1,6 @@
 //! One pose being solved: cut after cut, root after root, until nothing is missing.
 
-use super::ball::canonical;
+use super::spherical::canonical;
 use super::limits;
 use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
@@ -50,8 +50,8 @@ pub(super) struct Search<'a> {
     pub prepared: &'a [PreparedCut],
     /// The loop, scaled.
     pub closed: &'a ClosedLoop<f64>,
-    /// Where the three rotations of a ball begin, if there is one.
-    pub ball: Option<usize>,
+    /// Where the three rotations of a spherical joint begin, if there is one.
+    pub spherical: Option<usize>,
     /// What a closed form takes out of the loop, if there is one.
     pub decoupled: Option<Decoupled>,
     /// How far rounding may have moved the gap.
@@ -80,7 +80,7 @@ impl Search<'_> {
             return;
         }
         match general_degree(self.closed.variables) {
-            _ if self.ball.is_some() => self.ball.into_iter().for_each(|ball| self.centre(ball)),
+            _ if self.spherical.is_some() => self.spherical.into_iter().for_each(|spherical| self.centre(spherical)),
             Some(2) => self.triangle(),
             Some(8) => self.four_bars(most),
             _ => self.all_cuts(most),
@@ -208,7 +208,7 @@ impl Search<'_> {
         self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count()
     }
 
-    /// Solves one pencil and admits what its roots lead to. Whether the pencil was regular and every root accounted for:
+    /// Solves one pencil and admits what its roots lead to. Whether the pencil was regular and every root resolved:
     /// it led to solutions or to infinity.
     fn one_pencil(
         &mut self,
@@ -219,7 +219,7 @@ impl Search<'_> {
         most: &dyn Fn() -> usize,
     ) -> bool {
         let Some((constant, linear)) = shifted.monic() else { return false };
-        // The fast routine first; where it leaves a root unaccounted for, the reference decides.
+        // The fast routine first; where it leaves a root unresolved, the reference decides.
         [Method::Francis, Method::Faer].into_iter().any(|method| {
             self.assembly.tries += 1;
             let roots = self.eigen.companion(method, &constant, &linear);
@@ -229,7 +229,7 @@ impl Search<'_> {
         })
     }
 
-    /// Admits what the roots of a polynomial lead to. Whether all of them are accounted for.
+    /// Admits what the roots of a polynomial lead to. Whether all of them are resolved.
     pub fn all_roots(&mut self, family: &mut impl Family, roots: &[Complex<f64>]) -> bool {
         let mut clean = true;
         let (mut real_clean, mut closes) = (true, false);
@@ -405,8 +405,8 @@ impl Search<'_> {
     }
 
     pub fn merge(&mut self, mut mode: Mode) {
-        if let Some(ball) = self.ball {
-            canonical(&mut mode.unknowns, ball);
+        if let Some(spherical) = self.spherical {
+            canonical(&mut mode.unknowns, spherical);
         }
         let variables = self.closed.variables;
         for other in &mut self.assembly.modes {

@@ -5,7 +5,7 @@ use super::limits;
 use super::mode::{Assembly, Mode, Roots};
 use super::platform::{PlatformAssembly, PlatformWorkspace};
 use super::prepared::PreparedCut;
-use super::rescue::rescue;
+use super::high_precision::solve_in_high_precision;
 use super::search::{AS_IT_IS, Effort, Search};
 use super::shifted::Shifted;
 use crate::closure::half_angle::half_angle_form;
@@ -55,8 +55,8 @@ pub struct Solver {
     axis_triples: Vec<AxisTriple>,
     /// What a closed form takes out of the loop, if there is one.
     decoupled: Option<Decoupled>,
-    /// Where the three rotations of a ball begin, if there is one.
-    ball: Option<usize>,
+    /// Where the three rotations of a spherical joint begin, if there is one.
+    spherical: Option<usize>,
 }
 
 /// What a pose or input leaves open: the constant behind the last unknown, in the scale of its solver.
@@ -149,13 +149,13 @@ impl Solver {
         let structural_rank = structural_rank(&closed);
         let axis_triples = AxisTriple::all(&open);
         let decoupled = decoupled(&open);
-        Self { open, scale, prepared, structural_rank, axis_triples, decoupled, ball: None }
+        Self { open, scale, prepared, structural_rank, axis_triples, decoupled, spherical: None }
     }
 
-    /// As [`Solver::prepare`] for a loop with a ball, whose three rotations begin at this unknown.
+    /// As [`Solver::prepare`] for a loop with a spherical joint, whose three rotations begin at this unknown.
     #[must_use]
-    pub fn with_ball(open: &OpenLoop<f64>, ball: usize) -> Self {
-        Self { ball: Some(ball), decoupled: None, prepared: Vec::new(), ..Self::prepare(open) }
+    pub fn with_spherical_joint(open: &OpenLoop<f64>, spherical: usize) -> Self {
+        Self { spherical: Some(spherical), decoupled: None, prepared: Vec::new(), ..Self::prepare(open) }
     }
 
     /// The largest rank the six joints reach in general position: below 6 the arm is structurally deficient, and every
@@ -193,8 +193,8 @@ impl Solver {
     /// The degree of the closure polynomial of general loops with these unknowns, 0 where [`Self::is_out_of_reach`].
     #[must_use]
     pub fn general_degree(&self) -> usize {
-        match self.ball {
-            Some(ball) => general_count([3, 4, 5].map(|k| self.open.variables[(ball + k) % 6])),
+        match self.spherical {
+            Some(spherical) => general_count([3, 4, 5].map(|k| self.open.variables[(spherical + k) % 6])),
             None => general_degree(self.open.variables).unwrap_or(0),
         }
     }
@@ -297,7 +297,7 @@ impl Solver {
         Search {
             prepared: &self.prepared,
             closed: &closed,
-            ball: self.ball,
+            spherical: self.spherical,
             decoupled: self.decoupled,
             arrangement: AS_IT_IS,
             gap_rounding: gap.rounding,
@@ -312,7 +312,7 @@ impl Solver {
 
     /// Looks again for what is missing of a list, in numbers of more digits: `exact` is the same loop, its gap filled, from
     /// exact data, `plan` that of its ring, if it is known, and `expected` the number of its solutions.
-    pub fn rescue<R: Extended>(
+    pub fn solve_in_high_precision<R: Extended>(
         &self,
         exact: &ClosedLoop<R>,
         plan: Option<&Plan>,
@@ -326,7 +326,7 @@ impl Solver {
             .map(|motion| Motion { translation: motion.translation.map(|x| x.mul(&unit)), ..motion.clone() });
         let scaled = ClosedLoop { variables: exact.variables, constants };
         self.scale_lengths(assembly, 1.0 / self.scale, 1.0 / self.scale.max(1.0));
-        let modes = rescue(&scaled, self.ball, plan, expected);
+        let modes = solve_in_high_precision(&scaled, self.spherical, plan, expected);
         assembly.complete_with(modes, &self.open.variables, expected, R::BITS);
         self.finish(assembly);
     }

@@ -66,7 +66,7 @@ fn thousandths(x: f64) -> Rational {
 }
 
 /// What is left of the single-loop mechanisms with one input when that is given: six joint variables of revolute,
-/// prismatic and cylindrical joints, up to rotation and reversal, or a ball and three; and the number of solutions in
+/// prismatic and cylindrical joints, up to rotation and reversal, or a spherical joint and three; and the number of solutions in
 /// general.
 pub const CHAINS: [(&str, usize); 32] = [
     ("CCC", 2),
@@ -185,10 +185,10 @@ fn draw(set: Set, data: Data, seed: u64, index: u64) -> Result<Sample> {
         let open: OpenLoop<f64> = chain.open_loop(&layout)?;
         let variables = open.variables;
         let mut planted: [f64; 6] = std::array::from_fn(|k| value(set, variables[k], &mut random));
-        if let Some(ball) = layout.ball {
+        if let Some(spherical) = layout.spherical {
             // Not near the ends of the second angle's range, where the other two are not unique.
             for k in 0..3 {
-                planted[ball + k] = if k == 1 { random.random_range(0.1..3.0) } else { random.random_range(-PI..PI) };
+                planted[spherical + k] = if k == 1 { random.random_range(0.1..3.0) } else { random.random_range(-PI..PI) };
             }
         }
         if set == Set::NearSingular {

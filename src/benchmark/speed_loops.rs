@@ -206,21 +206,21 @@ fn random_job(set: Set, seed: u64, number: u64) -> Result<Job> {
         entry.cases.push(Case::at(Placement::from_matrix(&matrix(&pose))?.0, 0));
     }
     let fillings = entry.cases.iter().filter_map(|case| Some(case.pose.as_ref()?.float.inverse())).collect();
-    let solver = match layout.ball_unknown() {
-        Some(ball) => Solver::with_ball(&open, ball),
+    let solver = match layout.spherical_unknown() {
+        Some(spherical) => Solver::with_spherical_joint(&open, spherical),
         None => Solver::prepare(&open),
     };
     Job::new(&entry, Some((solver, fillings)))
 }
 
-/// The loops of the library, inputs given, that are no arm in disguise: with two balls or fewer than six unknowns.
+/// The loops of the library, inputs given, that are no arm in disguise: with two spherical joints or fewer than six unknowns.
 fn library_jobs() -> Result<Vec<(String, Job)>> {
     let mut jobs = Vec::new();
     for name in builtin_names() {
         let entry = builtin(&name, &Options::default())?;
         let Some(chain) = entry.chain().filter(|_| entry.kind() == Kind::Loop) else { continue };
         let (layout, given) = (Layout::of(chain, None)?, entry.cases.first().map_or(0, |case| case.input.len()));
-        if given == 1 && (layout.variables.len() != 7 || layout.second_ball.is_some()) {
+        if given == 1 && (layout.variables.len() != 7 || layout.second_spherical.is_some()) {
             jobs.push((name, Job::new(&entry, None)?));
         }
     }

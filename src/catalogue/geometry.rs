@@ -102,12 +102,12 @@ pub(super) fn check_kinds(
     expected: (usize, &str),
 ) -> Result<()> {
     let count: usize = kinds.iter().map(|kind| kind.freedoms()).sum();
-    let balls = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
-    // The spin of a link between two balls is a freedom that moves nothing else.
+    let spherical_joints = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
+    // The spin of a link between two spherical joints is a freedom that moves nothing else.
     let is_short_loop = expected.0 == 7 && (2..7).contains(&count);
     let is_arm = expected.0 == 6 && (1..=MOST_OF_ARM).contains(&count);
     let is_any = is_arm || scope.chains == Chains::Any && (count > expected.0 || expected.0 == 6 && count > 0);
-    if is_any || count == expected.0 || is_short_loop || (expected.0 == 7 && count == 8 && balls == 2) {
+    if is_any || count == expected.0 || is_short_loop || (expected.0 == 7 && count == 8 && spherical_joints == 2) {
         return Ok(());
     }
     let joints = kinds.len();
@@ -115,8 +115,8 @@ pub(super) fn check_kinds(
     let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
     let what = match (expected.0, count > expected.0) {
         (7, true) => {
-            // Two balls have a spin that moves nothing else: eight variables are right then.
-            let off = off - usize::from(balls == 2);
+            // Two spherical joints have a spin that moves nothing else: eight variables are right then.
+            let off = off - usize::from(spherical_joints == 2);
             let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
             let constants = if off == 1 { "one variable" } else { "as many variables" };
             format!("{}: {freedoms} too many for one input; make {constants} constant", freedom())

@@ -38,8 +38,8 @@ pub(super) struct Exact {
     pub closed: ClosedLoop<Rational>,
     pub modular: Option<ClosedLoop<Mod>>,
     pub symbols: Symbols,
-    /// The first of the three unknowns of a ball, if there is one.
-    pub ball: Option<usize>,
+    /// The first of the three unknowns of a spherical joint, if there is one.
+    pub spherical: Option<usize>,
 }
 
 /// The derivation of one case of an arm or a loop.
@@ -51,7 +51,7 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
     }
     let exact = exact(chain, case)?;
     // Of six unknown rotations, or all but one, the ring takes as long as the elimination.
-    let is_long = exact.ball.is_none() && general_degree(exact.closed.variables) == Some(16);
+    let is_long = exact.spherical.is_none() && general_degree(exact.closed.variables) == Some(16);
     let (eliminated, count) =
         rayon::join(|| eliminate(&exact), || if is_long { true_roots::count(&exact) } else { None });
     let mut derivation = settle(&exact, eliminated?, count)?;
@@ -73,20 +73,20 @@ pub(super) fn settle(exact: &Exact, eliminated: Eliminated, count: Option<usize>
     })
 }
 
-/// The loop of a case with one ball or none.
+/// The loop of a case with one spherical joint or none.
 pub(super) fn exact(chain: &Chain, case: &Case) -> Result<Exact> {
     let Some((layout, closed)) = closed_loop::<Rational>(chain, case)? else {
         return Err(Error::Invalid("a case without pose and input".to_owned()));
     };
     let modular = closed_loop::<Mod>(chain, case)?.map(|(_, closed)| closed);
     let symbols = Symbols::of(chain, &layout, closed.variables);
-    Ok(Exact { closed, modular, symbols, ball: layout.ball_unknown() })
+    Ok(Exact { closed, modular, symbols, spherical: layout.spherical_unknown() })
 }
 
 /// The elimination that the unknowns ask for.
 pub(super) fn eliminate(exact: &Exact) -> Result<Eliminated> {
-    let eliminated = match (exact.ball, general_degree(exact.closed.variables)) {
-        (Some(ball), _) => Some(two_sides::ball(exact, ball)),
+    let eliminated = match (exact.spherical, general_degree(exact.closed.variables)) {
+        (Some(spherical), _) => Some(two_sides::spherical(exact, spherical)),
         (None, Some(2)) => triangle::eliminate(exact),
         (None, Some(8)) => two_sides::opposite_axes(exact).or_else(|| four_bar::eliminate(exact)),
         (None, Some(_)) => Some(cuts::eliminate(exact)),

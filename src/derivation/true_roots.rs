@@ -44,7 +44,7 @@ impl Settled {
     }
 }
 
-/// How many solutions a loop without a ball has, by the ring of its closure equations; `None` where they form families.
+/// How many solutions a loop without a spherical joint has, by the ring of its closure equations; `None` where they form families.
 pub(super) fn count(exact: &Exact) -> Option<usize> {
     Some(Plan::of(exact.modular.as_ref()?)?.count())
 }
@@ -52,13 +52,13 @@ pub(super) fn count(exact: &Exact) -> Option<usize> {
 /// Divides out of the eliminant of an unknown, at each root of which there are `per_root` solutions in general, what belongs to
 /// no solution.
 pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_root: usize) -> Settled {
-    let reach = exact.ball.zip(exact.modular.as_ref()).map(|(ball, modular)| point_reach::count(modular, ball));
+    let reach = exact.spherical.zip(exact.modular.as_ref()).map(|(spherical, modular)| point_reach::count(modular, spherical));
     let Some(ring) = SolutionRing::of(exact, unknown) else {
-        // The three angles of a ball may be a family where its centre is not.
+        // The three angles of a spherical joint may be a family where its centre is not.
         let finite = exact.modular.is_none() || reach.flatten().is_some();
         return Settled { finite, ..Settled::as_it_is(eliminant) };
     };
-    // Some complex rotations of a ball have no three angles: where its centre is counted, less than that says nothing.
+    // Some complex rotations of a spherical joint have no three angles: where its centre is counted, less than that says nothing.
     if reach.flatten().is_some() && ring.count() > 0 {
         return Settled::as_it_is(eliminant);
     }
@@ -78,7 +78,7 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
     );
     let removed = &kept.removed[eliminant.removed.len()..];
     let proved =
-        exact.ball.is_none() && (is_proved(exact, unknown, removed) || ring.holds_over_rationals(exact, unknown));
+        exact.spherical.is_none() && (is_proved(exact, unknown, removed) || ring.holds_over_rationals(exact, unknown));
     Settled { proved, step: Some(step), ..Settled::as_it_is(kept) }
 }
 
@@ -89,7 +89,7 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
 /// algebraic numbers, by Hensel's lemma. Then there are as many solutions as the roots can have together. Of multiple
 /// solutions modulo the prime nothing follows: the count is probable.
 pub(super) fn met(exact: &Exact, unknown: usize, eliminant: Eliminant) -> Settled {
-    let proved = exact.ball.is_some() || are_simple(exact, unknown);
+    let proved = exact.spherical.is_some() || are_simple(exact, unknown);
     Settled { proved, ..Settled::as_it_is(eliminant) }
 }
 
@@ -153,7 +153,7 @@ pub(super) fn by_ring(exact: &Exact) -> Option<(usize, Settled)> {
 struct SolutionRing {
     view: ClosedLoop<Mod>,
     plan: Plan,
-    /// How often it counts each solution: the three angles of a ball are either of two for the same rotation.
+    /// How often it counts each solution: the three angles of a spherical joint are either of two for the same rotation.
     repeats: usize,
 }
 
@@ -162,7 +162,7 @@ impl SolutionRing {
     fn of(exact: &Exact, unknown: usize) -> Option<Self> {
         let view = Self::view(exact.modular.as_ref()?, unknown);
         let plan = Plan::of(&view)?;
-        Some(Self { view, plan, repeats: if exact.ball.is_some() { 2 } else { 1 } })
+        Some(Self { view, plan, repeats: if exact.spherical.is_some() { 2 } else { 1 } })
     }
 
     /// The number of solutions.

@@ -1,4 +1,4 @@
-//! Balls, and translations along two opposite axes: two equations whose sides have one unknown each.
+//! Spherical joints, and translations along two opposite axes: two equations whose sides have one unknown each.
 
 use super::Equation;
 use super::chain::{Eliminated, Exact};
@@ -15,21 +15,21 @@ use crate::kinematics::closed_loop::{Coupled, Variable};
 use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
 
-/// A ball: the point at its centre is reached from both sides.
-pub(super) fn ball(exact: &Exact, ball: usize) -> Eliminated {
-    let reach = Reach::of(&exact.closed, ball);
-    let [first, second, third] = [3, 4, 5].map(|k| (ball + k) % 6);
+/// A spherical joint: the point at its centre is reached from both sides.
+pub(super) fn spherical(exact: &Exact, spherical: usize) -> Eliminated {
+    let reach = Reach::of(&exact.closed, spherical);
+    let [first, second, third] = [3, 4, 5].map(|k| (spherical + k) % 6);
     let label = |k: usize| exact.symbols.label(k);
-    let centre = label(ball).split('_').next().unwrap_or_default().to_owned();
+    let centre = label(spherical).split('_').next().unwrap_or_default().to_owned();
     let (names, how) = match reach.variables[1] {
         Variable::Rotation => {
             (["n.r", "r.r"], "have the same height along the axis and the same distance from a point of it")
         }
         Variable::Translation => (["x.r", "y.r"], "lie over the same point of a plane across the axis"),
     };
-    let names = names.map(|name| format!("centre of ball {centre}, axis {}, {name}", label(second)));
+    let names = names.map(|name| format!("centre of spherical joint {centre}, axis {}, {name}", label(second)));
     let mut steps = vec![format!(
-        "The centre of ball {centre}, carried by joint {} on one side and by joint {} on the other, is brought together by \
+        "The centre of spherical joint {centre}, carried by joint {} on one side and by joint {} on the other, is brought together by \
          joint {}: seen from there both places {how}.",
         label(third),
         label(first),
@@ -37,30 +37,30 @@ pub(super) fn ball(exact: &Exact, ball: usize) -> Eliminated {
     )];
     let mut eliminated = solve(exact, &reach.equations, [third, first], names);
     steps.append(&mut eliminated.steps);
-    steps.push(format!("Joint {} and the rotation of the ball follow rationally.", label(second)));
+    steps.push(format!("Joint {} and the rotation of the spherical joint follow rationally.", label(second)));
     Eliminated { steps, ..eliminated }
 }
 
-/// Two balls: their centres keep their distance.
+/// Two spherical joints: their centres keep their distance.
 pub(super) fn coupled(symbols: &Symbols, labels: &[String], coupled: &Coupled<Rational>) -> Eliminated {
-    let ball = |k: usize| labels[coupled.indices[k]].split('_').next().unwrap_or_default().to_owned();
+    let spherical = |k: usize| labels[coupled.indices[k]].split('_').next().unwrap_or_default().to_owned();
     let equation = spherical_pair::equation(coupled);
     let polynomial = combination(equation.iter().zip(&symbols.monomials(0, false)));
-    let name = format!("centres of balls {} and {} r.r", ball(0), ball(1));
+    let name = format!("centres of spherical joints {} and {} r.r", spherical(0), spherical(1));
     let meaning = match coupled.variable {
         Variable::Rotation => Meaning::HalfTangent { degree: 2 },
         Variable::Translation => Meaning::Plain,
     };
     let steps = vec![
         format!(
-            "The link between balls {} and {} keeps the distance of their centres; joint {} carries one of them: one equation \
+            "The link between spherical joints {} and {} keeps the distance of their centres; joint {} carries one of them: one equation \
              in its unknown, of degree 2 in {}.",
-            ball(0),
-            ball(1),
+            spherical(0),
+            spherical(1),
             symbols.label(0),
             symbols.name(0)
         ),
-        "The rotations of both balls follow, but for the spin of the link about the line of their centres, which is free."
+        "The rotations of both spherical joints follow, but for the spin of the link about the line of their centres, which is free."
             .to_owned(),
     ];
     Eliminated {

@@ -1,4 +1,4 @@
-//! The quotient algebra of a platform in long numbers, for poses that f64 does not reach.
+//! The quotient algebra of a platform in multiprecision, for poses that f64 does not reach.
 
 use super::border::{BorderBasis, DIMENSION, LongReals, MOST_DIRECTIONS, Setting, exact_directions};
 use super::platform_degree::{turned, turns};

@@ -1,4 +1,4 @@
-//! A ball and three more joint variables: the point at its centre, reached from both sides, degree 4 at most.
+//! A spherical joint and three more joint variables: the point at its centre, reached from both sides, degree 4 at most.
 //!
 //! `V1 G1 V2 G2 V3 p = p0` for the centre seen from its two links. Where V2 turns, both sides have the same height and
 //! distance from a point of its axis; where it slides, they lie over the same point: two equations, the same for every
@@ -15,10 +15,10 @@ use crate::kinematics::motion::{Motion, Vector, dot};
 /// A point that moves with one variable: coefficients over m.
 pub type Moving<R> = [Vector<R>; 3];
 
-/// The centre of a ball, reached from both sides.
+/// The centre of a spherical joint, reached from both sides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach<R> {
-    /// What the three variables behind the ball do.
+    /// What the three variables behind the spherical joint do.
     pub variables: [Variable; 3],
     /// The centre before V2 acts, over the monomials of V3, and behind it, over those of V1.
     pub sides: [Moving<R>; 2],
@@ -67,11 +67,11 @@ fn side<R: Ring>(variable: Variable, p: &Vector<R>, reversed: bool, link: &Motio
 }
 
 impl<F: Ring> Reach<F> {
-    /// The centre of the ball whose three rotations are the unknowns `ball`, `ball + 1`, `ball + 2` of a loop.
+    /// The centre of the spherical joint whose three rotations are the unknowns `spherical`, `spherical + 1`, `spherical + 2` of a loop.
     #[must_use]
-    pub fn of(closed: &ClosedLoop<F>, ball: usize) -> Self {
-        let constant = |k: usize| &closed.constants[(ball + k) % 6];
-        let variables = [3, 4, 5].map(|k| closed.variables[(ball + k) % 6]);
+    pub fn of(closed: &ClosedLoop<F>, spherical: usize) -> Self {
+        let constant = |k: usize| &closed.constants[(spherical + k) % 6];
+        let variables = [3, 4, 5].map(|k| closed.variables[(spherical + k) % 6]);
         let (before, behind) = (constant(2).inverse(), constant(5));
         let (near, near_square) = side(variables[2], &behind.translation, false, constant(4));
         let (far, far_square) = side(variables[0], &before.translation, true, &constant(3).inverse());
@@ -107,10 +107,10 @@ impl<F: Field> Reach<F> {
     }
 }
 
-/// How many positions of its centre a ball allows, exactly; `None` where some are not isolated.
+/// How many positions of its centre a spherical joint allows, exactly; `None` where some are not isolated.
 #[must_use]
-pub fn count<F: Field + Domain>(closed: &ClosedLoop<F>, ball: usize) -> Option<usize> {
-    let reach = Reach::of(closed, ball);
+pub fn count<F: Field + Domain>(closed: &ClosedLoop<F>, spherical: usize) -> Option<usize> {
+    let reach = Reach::of(closed, spherical);
     let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
     match reach.equations.plan(0.0) {
         Plan::Together { hidden, other } => {
@@ -152,7 +152,7 @@ pub fn count<F: Field + Domain>(closed: &ClosedLoop<F>, ball: usize) -> Option<u
     }
 }
 
-/// How many positions a ball and three variables allow in general.
+/// How many positions a spherical joint and three variables allow in general.
 #[must_use]
 pub fn general_count(variables: [Variable; 3]) -> usize {
     match variables.iter().filter(|v| **v == Variable::Translation).count() {

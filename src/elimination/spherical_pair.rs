@@ -1,6 +1,6 @@
-//! Two balls and one variable: the distance of their centres, degree 2.
+//! Two spherical joints and one variable: the distance of their centres, degree 2.
 //!
-//! `|V p - p0|^2 = |l|^2` for the centre p of the first ball seen from behind V, p0 of the second one from before it,
+//! `|V p - p0|^2 = |l|^2` for the centre p of the first spherical joint seen from behind V, p0 of the second one from before it,
 //! and the link l between them: linear in (1, cos, sin), or of degree 2 in the distance. The spin of the link about l
 //! is idle: it changes no distance and is no unknown.
 

@@ -129,10 +129,10 @@ impl Linkage<Rational> {
     /// The same loop with a rotation in front of every spherical joint and its inverse behind: other angles stand for the
     /// same motions, so that the positions at which two of the three axes coincide are others. Every rotation has such angles, so
     /// that a curve of configurations of the one loop is one of the other.
-    pub(crate) fn with_turned_balls(&self, balls: &[usize]) -> Self {
+    pub(crate) fn with_turned_spherical_joints(&self, spherical_joints: &[usize]) -> Self {
         let n = self.variables.len();
         let mut linkage = self.clone();
-        for (number, k) in (0..).zip(balls.iter().copied()) {
+        for (number, k) in (0..).zip(spherical_joints.iter().copied()) {
             // Any rotation without a special axis or angle.
             let turn = [7, 2 + number, -3, 5].map(Rational::from);
             let zero = || [0; 4].map(Rational::from);
@@ -277,8 +277,8 @@ impl<F: Field> Position<F> {
     /// The same position with other coordinates of the spherical joints, whose three variables begin at these places: rotations
     /// about x, y and z. They are coordinates of all rotations near every position, also where two of the three axes of the
     /// joint variables coincide.
-    pub(crate) fn with_regular_balls(mut self, balls: &[usize]) -> Self {
-        for k in balls.iter().copied() {
+    pub(crate) fn with_regular_spherical_joints(mut self, spherical_joints: &[usize]) -> Self {
+        for k in spherical_joints.iter().copied() {
             for axis in 0..3 {
                 let unit = std::array::from_fn(|i| if i == axis { F::one() } else { F::zero() });
                 self.axes[k + axis] = Axis::Along(unit);

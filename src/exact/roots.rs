@@ -68,7 +68,7 @@ fn isolated_from<const BITS: u32>(
     isolated(coefficients, &midpoints)
 }
 
-/// Approximations of all roots by Aberth's iteration in long numbers; `None` where some did not settle.
+/// Approximations of all roots by Aberth's iteration in multiprecision; `None` where some did not settle.
 fn starts<R: Extended, const BITS: u32>(coefficients: &[Ball<BITS>]) -> Option<Vec<Ball<BITS>>> {
     let scale = Scale::of(coefficients)?;
     let image: Option<Vec<R>> =

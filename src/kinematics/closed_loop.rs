@@ -47,30 +47,30 @@ pub struct Layout {
     /// Index of the locked variable, for loops.
     pub locked: Option<usize>,
     /// Index of the first of the three variables of a spherical joint, if there is one.
-    pub ball: Option<usize>,
+    pub spherical: Option<usize>,
     /// Index of the first variable of a second spherical joint: the link between the two spins freely, an eighth variable.
-    pub second_ball: Option<usize>,
+    pub second_spherical: Option<usize>,
     /// What makes up for too few unknowns, in the order of the joint variables behind which they stand.
     pub idle: Vec<Idle>,
 }
 
-/// A loop of two balls and one unknown V, `X L Y K V H = I` with rotations X and Y: the link L between the balls spins
+/// A loop of two spherical joints and one unknown V, `X L Y K V H = I` with rotations X and Y: the link L between the spherical joints spins
 /// freely about the line of their centres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupled<R> {
     /// What V does.
     pub variable: Variable,
-    /// L, the link between the balls.
+    /// L, the link between the spherical joints.
     pub link: Motion<R>,
-    /// K, from the second ball to V.
+    /// K, from the second spherical joint to V.
     pub before: Motion<R>,
-    /// H, from V to the first ball.
+    /// H, from V to the first spherical joint.
     pub behind: Motion<R>,
-    /// Indices of the first variables of the two balls, and of V, in joint order.
+    /// Indices of the first variables of the two spherical joints, and of V, in joint order.
     pub indices: [usize; 3],
 }
 
-/// A loop of two balls and one unknown before its locked variable is given.
+/// A loop of two spherical joints and one unknown before its locked variable is given.
 #[derive(Clone, Debug)]
 pub struct OpenCoupled<R> {
     pub(super) variable: Variable,
@@ -181,12 +181,12 @@ impl Layout {
     /// # Errors
     /// For H joints, and for a third S joint: a message that names the joint.
     pub fn of(chain: &Chain, locked: Option<usize>) -> Result<Self, Error> {
-        let (mut variables, mut ball, mut second_ball) = (Vec::new(), None, None);
+        let (mut variables, mut spherical, mut second_spherical) = (Vec::new(), None, None);
         for (joint, kind) in (1..).zip(chain.joint_kinds()) {
             match kind {
                 JointKind::Revolute | JointKind::Prismatic | JointKind::Cylindrical | JointKind::Universal => {}
-                JointKind::Spherical if ball.is_none() => ball = Some(variables.len()),
-                JointKind::Spherical if second_ball.is_none() => second_ball = Some(variables.len()),
+                JointKind::Spherical if spherical.is_none() => spherical = Some(variables.len()),
+                JointKind::Spherical if second_spherical.is_none() => second_spherical = Some(variables.len()),
                 JointKind::Spherical => {
                     return Err(Error::UnsupportedMobility(format!(
                         "joint {joint}: a third S joint ({}); solved are loops with one, or with two and one more unknown",
@@ -202,7 +202,7 @@ impl Layout {
             }
             variables.extend(kind.variables());
         }
-        Ok(Self { variables, locked, ball, second_ball, idle: Vec::new() })
+        Ok(Self { variables, locked, spherical, second_spherical, idle: Vec::new() })
     }
 
     /// The number of unknowns that are missing to six; 0 where there are six or more.
@@ -222,7 +222,7 @@ impl Layout {
         let mut idle: Vec<Idle> = (0..missing)
             .zip(0..)
             .map(|(number, k)| Idle {
-                behind: self.outside_ball((first + k.min(rotations)) % total),
+                behind: self.outside_spherical((first + k.min(rotations)) % total),
                 variable: kind(k),
                 choice: choice * missing + number,
             })
@@ -231,9 +231,9 @@ impl Layout {
         Self { idle, ..self.clone() }
     }
 
-    /// The last variable of the ball in place of one inside: a ball stays one joint.
-    fn outside_ball(&self, at: usize) -> usize {
-        self.ball.filter(|ball| (*ball..ball + 2).contains(&at)).map_or(at, |ball| ball + 2)
+    /// The last variable of the spherical joint in place of one inside: a spherical joint stays one joint.
+    fn outside_spherical(&self, at: usize) -> usize {
+        self.spherical.filter(|spherical| (*spherical..spherical + 2).contains(&at)).map_or(at, |spherical| spherical + 2)
     }
 
     /// What each of the six unknowns does and which joint variable it is, in loop order; none for idle unknowns.
@@ -258,11 +258,11 @@ impl Layout {
         self.order().map(|(kind, _)| kind)
     }
 
-    /// Which unknown of the loop is the first of the three rotations of a ball, if there is one.
+    /// Which unknown of the loop is the first of the three rotations of a spherical joint, if there is one.
     #[must_use]
-    pub fn ball_unknown(&self) -> Option<usize> {
+    pub fn spherical_unknown(&self) -> Option<usize> {
         let total = self.variables.len();
-        self.ball.map(|ball| self.locked.map_or(ball, |locked| (ball + total - locked - 1) % total))
+        self.spherical.map(|spherical| self.locked.map_or(spherical, |locked| (spherical + total - locked - 1) % total))
     }
 
     /// Index of the variable that locking `joint` (from 1) by an angle or a distance locks.
@@ -450,7 +450,7 @@ impl Chain {
         Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
     }
 
-    /// The loop of a chain with two balls, its locked variable filled by this motion.
+    /// The loop of a chain with two spherical joints, its locked variable filled by this motion.
     ///
     /// # Errors
     /// Unless there is exactly one more unknown; and for an unlucky prime.
@@ -458,7 +458,7 @@ impl Chain {
         Ok(self.open_coupled(layout, &Numbers)?.close(filling))
     }
 
-    /// The loop of a chain with two balls before its locked variable is given, with these constants of the joints.
+    /// The loop of a chain with two spherical joints before its locked variable is given, with these constants of the joints.
     ///
     /// # Errors
     /// As [`Chain::coupled_loop`].
@@ -469,20 +469,20 @@ impl Chain {
     ) -> Result<OpenCoupled<R>, Error> {
         let unlucky = || Error::Unsupported("the geometry has no image in this ring (unlucky prime)".into());
         let steps = self.steps(parameters).ok_or_else(unlucky)?;
-        let balls = [layout.ball, layout.second_ball];
-        // Index of the first variable and the constant behind each ball and unknown; what stands before the first of
+        let spherical_joints = [layout.spherical, layout.second_spherical];
+        // Index of the first variable and the constant behind each spherical joint and unknown; what stands before the first of
         // them comes last.
         let mut items: Vec<(usize, Stretch<R>)> = Vec::new();
         let mut start = Stretch::empty();
         let mut index = 0;
         for step in steps {
-            // Inside a ball only its own quarter turns stand, which cancel but for the unknowns.
+            // Inside a spherical joint only its own quarter turns stand, which cancel but for the unknowns.
             let last = items.last_mut().map_or(&mut start, |(_, stretch)| stretch);
             match step {
                 Step::Constant(motion) => last.extend(&motion),
                 Step::Unknown(_) => {
                     index += 1;
-                    let inside = balls.into_iter().flatten().any(|ball| index - 1 > ball && index - 1 < ball + 3);
+                    let inside = spherical_joints.into_iter().flatten().any(|spherical| index - 1 > spherical && index - 1 < spherical + 3);
                     if layout.locked == Some(index - 1) {
                         last.open();
                     } else if !inside {
@@ -497,8 +497,8 @@ impl Chain {
                 last.after = Some(after);
             }
         }
-        let is_ball = |at: usize| balls.contains(&Some(at));
-        let found = items.iter().position(|(at, _)| !is_ball(*at)).filter(|_| items.len() == 3);
+        let is_spherical = |at: usize| spherical_joints.contains(&Some(at));
+        let found = items.iter().position(|(at, _)| !is_spherical(*at)).filter(|_| items.len() == 3);
         let Some(position) = found else {
             let found = match items.len() {
                 2 => {
@@ -516,7 +516,7 @@ impl Chain {
         };
         items.rotate_left((position + 1) % 3);
         let [(x, link), (y, before), (v, behind)]: [(usize, Stretch<R>); 3] =
-            items.try_into().map_err(|_| Error::Unsupported("two balls and one unknown".into()))?;
+            items.try_into().map_err(|_| Error::Unsupported("two spherical joints and one unknown".into()))?;
         Ok(OpenCoupled { variable: layout.variables[v], stretches: [link, before, behind], indices: [x, y, v] })
     }
 

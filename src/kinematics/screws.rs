@@ -70,7 +70,7 @@ pub enum Behind {
     /// A joint along a coordinate axis.
     Joint(VirtualJoint),
     /// A spherical joint at the origin.
-    Ball,
+    Spherical,
     /// A constant motion.
     Constant(Box<Placement>),
 }
@@ -95,7 +95,7 @@ impl Chain {
         for own in behind {
             match own {
                 Behind::Joint(own) => joints.push(screw(kind(&own.variable), &tool, own.axis)),
-                Behind::Ball => joints.push(screw(JointKind::Spherical, &tool, 2)),
+                Behind::Spherical => joints.push(screw(JointKind::Spherical, &tool, 2)),
                 Behind::Constant(constant) => {
                     let algebraic = field.and_then(|field| DataField(field.clone()).placement(constant));
                     let constant = KnownMotion { exact: constant.image()?, enclosed: constant.image()?, algebraic };
@@ -112,7 +112,7 @@ impl Chain {
         let given: Option<Vec<JointMotion>> = held.iter().map(|(_, value)| value.in_closed_form()).collect();
         let constants = behind.iter().filter_map(|own| match own {
             Behind::Constant(constant) => Some(constant.as_ref()),
-            Behind::Joint(_) | Behind::Ball => None,
+            Behind::Joint(_) | Behind::Spherical => None,
         });
         DataField::holding(self, constants, &given?)
     }

@@ -57,7 +57,7 @@ impl Task {
             Self::Pose => Vec::new(),
             Self::PositionAxis => vec![turn(2)],
             Self::PositionTilt => vec![turn(2), turned_back(), turn(2)],
-            Self::Position => vec![Behind::Ball],
+            Self::Position => vec![Behind::Spherical],
             Self::Orientation => vec![slide(0), slide(1), slide(2)],
         }
     }

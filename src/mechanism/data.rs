@@ -159,10 +159,10 @@ impl Modular {
     }
 
     /// How many positions the centre of a spherical joint has.
-    pub(super) fn reach(&self, ball: usize) -> Option<usize> {
+    pub(super) fn reach(&self, spherical: usize) -> Option<usize> {
         match self {
-            Self::Drawn(own) => point_reach::count(own, ball),
-            Self::Field(own) => point_reach::count(own, ball),
+            Self::Drawn(own) => point_reach::count(own, spherical),
+            Self::Field(own) => point_reach::count(own, spherical),
         }
     }
 

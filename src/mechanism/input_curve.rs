@@ -1,7 +1,7 @@
 //! A loop followed through its input: velocities, accelerations and the points of its curve.
 
 use super::FullMode;
-use super::ball_angles::{Jet, TurnedBall, coupled_angles};
+use super::spherical_angles::{Jet, TurnedJoint, coupled_angles};
 use super::short_loop::filled_up;
 use super::single_loop::{filling, idle_spin, locked_variable};
 use crate::algebra::number::{Angle, HalfTangent, Number};
@@ -23,7 +23,7 @@ const SINGULAR: f64 = 1e13;
 /// How the joints of a loop move with its input at one mode, in joint order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivatives {
-    /// `dq/dx`: the rates of all joint variables at input rate 1; not a number where the angles of a ball have none.
+    /// `dq/dx`: the rates of all joint variables at input rate 1; not a number where the angles of a spherical joint have none.
     pub velocity: Vec<f64>,
     /// `d2q/dx2`: their accelerations at input rate 1 and input acceleration 0. In general `q'' = d2q/dx2 w^2 + dq/dx a`.
     pub acceleration: Vec<f64>,
@@ -38,22 +38,22 @@ pub struct InputCurve {
 /// In what the curve lies.
 enum Way {
     /// Six unknowns and the input.
-    Loop { curve: Box<Curve>, ball: Option<TurnedBall> },
-    /// The unknown between two balls and the input.
+    Loop { curve: Box<Curve>, spherical: Option<TurnedJoint> },
+    /// The unknown between two spherical joints and the input.
     Pair(Box<Pair>),
 }
 
-/// Two balls: their distance couples one unknown to the input.
+/// Two spherical joints: their distance couples one unknown to the input.
 struct Pair {
     curve: PlaneCurve,
     open: OpenCoupled<Jet>,
-    /// Indices of the first variables of the two balls, and of the unknown, in joint order.
+    /// Indices of the first variables of the two spherical joints, and of the unknown, in joint order.
     indices: [usize; 3],
     note: String,
 }
 
 impl InputCurve {
-    /// What to know of the angles of balls: at which position of their idle spin they are.
+    /// What to know of the angles of spherical joints: at which position of their idle degree of freedom they are.
     #[must_use]
     pub fn note(&self) -> Option<&str> {
         match &self.way {
@@ -77,15 +77,15 @@ impl InputCurve {
             .ok_or_else(|| Error::Invalid("found no input, expected an input of a loop".to_owned()))?;
         let layout = filled_up(chain, Layout::of(chain, Some(locked))?)?;
         let input = layout.variables[locked];
-        if layout.second_ball.is_some() {
+        if layout.second_spherical.is_some() {
             let pair = Pair::of(chain, &layout, input)?;
             return Ok(Self { layout, way: Way::Pair(Box::new(pair)) });
         }
         let idle = layout.joint_variables().map(|joint| joint.is_none());
         let mut open = chain.open_loop(&layout)?;
-        let ball = layout.ball.map(|joint| turned(chain, &layout, joint, &mut open));
+        let spherical = layout.spherical.map(|joint| turned(chain, &layout, joint, &mut open));
         let curve = Box::new(Curve::new(&open, idle, input));
-        Ok(Self { layout, way: Way::Loop { curve, ball } })
+        Ok(Self { layout, way: Way::Loop { curve, spherical } })
     }
 
     /// What each joint variable does, in joint order.
@@ -118,11 +118,11 @@ impl InputCurve {
         }
     }
 
-    /// Which variable of a point is the first of the three of a ball, if there is one.
+    /// Which variable of a point is the first of the three of a spherical joint, if there is one.
     #[must_use]
-    pub fn ball(&self) -> Option<usize> {
+    pub fn spherical(&self) -> Option<usize> {
         match &self.way {
-            Way::Loop { ball, .. } => ball.as_ref().map(|ball| ball.unknown),
+            Way::Loop { spherical, .. } => spherical.as_ref().map(|spherical| spherical.unknown),
             Way::Pair(_) => None,
         }
     }
@@ -133,20 +133,20 @@ impl InputCurve {
     /// When `q` is not as long as there are joint variables.
     #[must_use]
     pub fn point(&self, q: &[f64]) -> Point {
-        let mut point = self.without_balls(q);
-        if let Way::Loop { ball: Some(ball), .. } = &self.way {
-            let inside = ball.inside([0, 1, 2].map(|k| q[ball.joint + k]));
-            point[ball.unknown..ball.unknown + 3].copy_from_slice(&inside);
+        let mut point = self.without_spherical_joints(q);
+        if let Way::Loop { spherical: Some(spherical), .. } = &self.way {
+            let inside = spherical.inside([0, 1, 2].map(|k| q[spherical.joint + k]));
+            point[spherical.unknown..spherical.unknown + 3].copy_from_slice(&inside);
         }
         point
     }
 
-    /// As [`InputCurve::point`], with the angles of balls at 0: a linear function of the others, which tell modes apart.
+    /// As [`InputCurve::point`], with the angles of spherical joints at 0: a linear function of the others, which tell modes apart.
     ///
     /// # Panics
     /// When `q` is not as long as there are joint variables.
     #[must_use]
-    pub fn without_balls(&self, q: &[f64]) -> Point {
+    pub fn without_spherical_joints(&self, q: &[f64]) -> Point {
         let given = q[self.input()] / self.unit(INPUT);
         match &self.way {
             Way::Pair(pair) => {
@@ -154,13 +154,13 @@ impl InputCurve {
                 (point[UNKNOWN], point[INPUT]) = (q[pair.indices[2]] / self.unit(UNKNOWN), given);
                 point
             }
-            Way::Loop { ball, .. } => {
+            Way::Loop { spherical, .. } => {
                 let unknowns = self.layout.unknowns(q).expect("one value for every joint variable");
-                let is_ball =
-                    |k: usize| ball.as_ref().is_some_and(|ball| (ball.unknown..ball.unknown + 3).contains(&k));
+                let is_spherical =
+                    |k: usize| spherical.as_ref().is_some_and(|spherical| (spherical.unknown..spherical.unknown + 3).contains(&k));
                 std::array::from_fn(|k| match k {
                     INPUT => given,
-                    _ if is_ball(k) => 0.0,
+                    _ if is_spherical(k) => 0.0,
                     _ => unknowns[k] / self.unit(k),
                 })
             }
@@ -177,19 +177,19 @@ impl InputCurve {
     /// The joint variables in joint order, with those of a point, in the units of the mechanism, as series.
     fn moving(&self, values: &[Jet; 7]) -> Vec<Jet> {
         match &self.way {
-            Way::Loop { ball, .. } => {
+            Way::Loop { spherical, .. } => {
                 let mut q = self.layout.assemble(&std::array::from_fn(|k| values[k]), values[INPUT]);
-                if let Some(ball) = ball {
-                    let own = ball.outside(&[0, 1, 2].map(|k| values[ball.unknown + k]));
-                    q[ball.joint..ball.joint + 3].copy_from_slice(&own);
+                if let Some(spherical) = spherical {
+                    let own = spherical.outside(&[0, 1, 2].map(|k| values[spherical.unknown + k]));
+                    q[spherical.joint..spherical.joint + 3].copy_from_slice(&own);
                 }
                 q
             }
             Way::Pair(pair) => {
                 let mut q = vec![values[INPUT]; self.layout.variables.len()];
                 let [unknown, given] = [&values[UNKNOWN], &values[INPUT]];
-                let balls = coupled_angles(&pair.open, self.layout.variables[self.input()], unknown, given);
-                for (at, angles) in pair.indices.into_iter().zip(balls) {
+                let spherical_joints = coupled_angles(&pair.open, self.layout.variables[self.input()], unknown, given);
+                for (at, angles) in pair.indices.into_iter().zip(spherical_joints) {
                     q[at..at + 3].copy_from_slice(&angles);
                 }
                 q[pair.indices[2]] = *unknown;
@@ -272,15 +272,15 @@ impl Followed for InputCurve {
     }
 }
 
-/// Turns the ball of a loop, whose first joint variable is `joint`, by rotations in general position.
-fn turned(chain: &Chain, layout: &Layout, joint: usize, open: &mut OpenLoop<f64>) -> TurnedBall {
+/// Turns the spherical joint of a loop, whose first joint variable is `joint`, by rotations in general position.
+fn turned(chain: &Chain, layout: &Layout, joint: usize, open: &mut OpenLoop<f64>) -> TurnedJoint {
     let unknown = layout.joint_variables().iter().position(|own| *own == Some(joint)).unwrap_or(0);
     let [before, behind] = [7, 11].map(|choice| {
         let frame = Idle { behind: 0, variable: Variable::Rotation, choice }.frame(&chain.unit());
         frame.rotation.map(|row| row.map(|x| x.to_f64()))
     });
     let motion = |rotation| Motion { rotation, translation: [0.0; 3] };
-    // V behind V1 V2 V3 of the ball, and what stands before them: `X' = A^-1 X B^-1`.
+    // V behind V1 V2 V3 of the spherical joint, and what stands before them: `X' = A^-1 X B^-1`.
     let first = match unknown.checked_sub(1) {
         None => &mut open.after_gap,
         Some(k) => &mut open.constants[k],
@@ -288,11 +288,11 @@ fn turned(chain: &Chain, layout: &Layout, joint: usize, open: &mut OpenLoop<f64>
     *first = first.then_after(&motion(before));
     let last = if unknown + 2 == 5 { &mut open.before_gap } else { &mut open.constants[unknown + 2] };
     *last = motion(behind).then_after(last);
-    TurnedBall { unknown, joint, before, behind }
+    TurnedJoint { unknown, joint, before, behind }
 }
 
 impl Pair {
-    /// Two balls of a chain, coupled to the locked variable of a layout.
+    /// Two spherical joints of a chain, coupled to the locked variable of a layout.
     fn of(chain: &Chain, layout: &Layout, input: Variable) -> Result<Self> {
         let open: OpenCoupled<f64> = chain.open_coupled(layout, &Numbers)?;
         let unit = chain.unit();

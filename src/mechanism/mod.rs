@@ -1,6 +1,6 @@
 //! A mechanism ready to solve: what a file says, prepared once, answered case by case.
 
-mod ball_angles;
+mod spherical_angles;
 mod by_input;
 mod data;
 pub(crate) mod exact_loop;
@@ -10,7 +10,7 @@ mod input_curve;
 mod near;
 mod platform;
 mod redundancy;
-mod short_ball;
+mod short_spherical;
 mod short_loop;
 mod single_loop;
 mod task_arm;

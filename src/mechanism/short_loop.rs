@@ -4,7 +4,7 @@ mod few_turns;
 
 use super::by_input::{ByInput, Prepared};
 use super::exact_loop::{self, Question};
-use super::short_ball::{Positions, positions};
+use super::short_spherical::{Positions, positions};
 use super::single_loop::{filling, full_mode, is_exact, locked_value, within_limits};
 use super::{FullMode, Solution};
 use crate::algebra::drawn::Drawn;
@@ -128,14 +128,14 @@ pub(super) fn filled_up(chain: &Chain, layout: Layout) -> Result<Layout> {
     if layout.missing() == 0 {
         return Ok(layout);
     }
-    if layout.ball.is_some() {
+    if layout.spherical.is_some() {
         return with_idle_rotations(chain, &layout);
     }
     let last = rungs(chain, &layout)?.into_iter().next_back();
     Ok(last.map_or(layout, |rung| rung.layout))
 }
 
-/// The layout of a loop with a ball with idle rotations that are independent of its joints.
+/// The layout of a loop with a spherical joint with idle rotations that are independent of its joints.
 fn with_idle_rotations(chain: &Chain, layout: &Layout) -> Result<Layout> {
     for choice in 0..CHOICES {
         let filled = layout.with_idle(layout.missing(), choice);
@@ -157,8 +157,8 @@ fn dependent(chain: &Chain) -> Error {
 /// The choices of idle unknowns by which a loop can be solved: as many translations as leave the six unknowns
 /// independent in general position, which is simplest, then rotations only.
 fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
-    // A ball has its own route.
-    if layout.ball.is_some() && layout.second_ball.is_none() {
+    // A spherical joint has its own route.
+    if layout.spherical.is_some() && layout.second_spherical.is_none() {
         return Ok(Vec::new());
     }
     let unit = chain.unit().to_f64();
@@ -269,7 +269,7 @@ impl ShortLoop {
         let mut complex: Option<(usize, usize)> = None;
         for locked in 0..variables.len() {
             let layout = Layout::of(&self.chain, Some(locked))?;
-            if layout.ball.is_some_and(|ball| (ball..ball + 3).contains(&locked)) {
+            if layout.spherical.is_some_and(|spherical| (spherical..spherical + 3).contains(&locked)) {
                 continue;
             }
             // A joint without which the others are dependent cannot be held to find the motion.
@@ -328,8 +328,8 @@ impl ShortLoop {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Answer> {
-        if ladder.layout.ball.is_some() {
-            return self.with_ball(&ladder.layout, case);
+        if ladder.layout.spherical.is_some() {
+            return self.with_spherical_joint(&ladder.layout, case);
         }
         if let Some(answer) = self.with_few_turns(&ladder.layout, case)? {
             return Ok(answer);
@@ -402,8 +402,8 @@ impl ShortLoop {
         Ok((verdict, modes.collect()))
     }
 
-    /// The isolated solutions of one case of a loop with a ball, all of them exactly.
-    fn with_ball(&self, layout: &Layout, case: &Case) -> Result<Answer> {
+    /// The isolated solutions of one case of a loop with a spherical joint, all of them exactly.
+    fn with_spherical_joint(&self, layout: &Layout, case: &Case) -> Result<Answer> {
         let (found, clear) = match positions(&self.chain, layout, case)? {
             Positions::Isolated { found, clear } => (found, clear),
             Positions::Moving => {
@@ -429,8 +429,8 @@ impl ShortLoop {
             });
             let (unknowns, residual) = closer(&closed, &own, joints.map(|joint| joint.is_none()), real);
             // With idle rotations the closure equations are those of six unknowns, which a simple solution closes alone.
-            let ball = joints.iter().position(|joint| joint.is_some() && *joint == layout.ball);
-            let proof = ball.filter(|_| multiplicity == 1).and_then(|ball| proof(&closed, &unknowns, ball, real));
+            let spherical = joints.iter().position(|joint| joint.is_some() && *joint == layout.spherical);
+            let proof = spherical.filter(|_| multiplicity == 1).and_then(|spherical| proof(&closed, &unknowns, spherical, real));
             let q = filled.assemble(&std::array::from_fn(|k| unknowns[k] * units[k]), locked);
             let within = (real && !self.limits.is_empty()).then(|| within_limits(&q, &layout.variables, &self.limits));
             modes.push(FullMode {
@@ -517,14 +517,14 @@ impl ShortLoop {
     }
 
     /// At most so many solutions there are by the closure equations, all of them at once; `None` where they form families, where
-    /// it is not seen that they do not, and for loops with a ball.
+    /// it is not seen that they do not, and for loops with a spherical joint.
     fn count_by_ring(&self, layout: &Layout, case: &Case) -> Option<usize> {
         self.plan(layout, case).map(|plan| plan.count())
     }
 
     /// How the ring of the closure equations is found.
     fn plan(&self, layout: &Layout, case: &Case) -> Option<Plan> {
-        if layout.ball.is_some() {
+        if layout.spherical.is_some() {
             return None;
         }
         let filled = layout.with_idle(layout.missing(), 0);

@@ -37,7 +37,7 @@ use std::time::Instant;
 /// The way in which a loop is solved, prepared.
 enum Way {
     Six(Box<SixUnknowns>),
-    Balls(Box<Balls>),
+    SphericalPair(Box<SphericalPair>),
 }
 
 /// The solver of one choice of the locked joint (of an arm: the only one).
@@ -53,8 +53,8 @@ pub(super) struct SixUnknowns {
     data: OnceLock<Data>,
 }
 
-/// Loops with two balls.
-struct Balls {
+/// Loops with two spherical joints.
+struct SphericalPair {
     layout: Layout,
     open: OpenCoupled<f64>,
     /// The same in intervals.
@@ -67,7 +67,7 @@ const FIRM: f64 = 1e10;
 /// What counts rest on.
 const MODULO: &str = "modulo a prime drawn at run time";
 
-/// A solution in balls.
+/// A solution in spherical joints.
 type ExactSolution = exact::Solution<BALL_BITS>;
 
 fn bound_from(degree: Degree, place: &str) -> Bound {
@@ -131,7 +131,7 @@ impl SixUnknowns {
             let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref()));
             let bound = counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"));
             let has_triple =
-                || self.layout.ball_unknown().is_none() && self.data(chain).has_triple(chain, &self.layout);
+                || self.layout.spherical_unknown().is_none() && self.data(chain).has_triple(chain, &self.layout);
             let is_met = || bound.count == MOST_WITH_TRIPLE && has_triple();
             if bound.code == Code::CountMet && is_met() { of_triple() } else { bound }
         })
@@ -139,8 +139,8 @@ impl SixUnknowns {
 
     /// The number of solutions, exactly.
     fn degree(&self, closed: &Modular, other: Option<&Modular>) -> Option<Degree> {
-        let Some(ball) = self.layout.ball_unknown() else { return closed.degree(other) };
-        let solutions = closed.reach(ball)?;
+        let Some(spherical) = self.layout.spherical_unknown() else { return closed.degree(other) };
+        let solutions = closed.reach(spherical)?;
         Some(Degree { solutions, left_out: self.general().saturating_sub(solutions) })
     }
 
@@ -177,7 +177,7 @@ impl SingleLoop {
         let Prepared { of, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
         let prepared = match of {
             Way::Six(prepared) => prepared,
-            Way::Balls(balls) => return self.solve_coupled(balls, *prepare_us, case, roots, workspace, assembly),
+            Way::SphericalPair(spherical_joints) => return self.solve_coupled(spherical_joints, *prepare_us, case, roots, workspace, assembly),
         };
         let solver = &prepared.solver;
         let float = case.pose.as_ref().and_then(Placement::inverse_in_f64);
@@ -202,7 +202,7 @@ impl SingleLoop {
         let start = Instant::now();
         let fast = if solver.structural_rank() == 6 { Some(question.answer(workspace, assembly)) } else { None };
         let is_settled = |(verdict, _): &(Verdict, f64)| is_settled(verdict);
-        if prepared.layout.ball.is_some()
+        if prepared.layout.spherical.is_some()
             && !fast.as_ref().is_some_and(is_settled)
             && let Some((verdict, modes)) = self.exactly(&prepared.layout, case, fast.is_some())?
         {
@@ -211,7 +211,7 @@ impl SingleLoop {
         let (mut verdict, solve_us) = fast.unwrap_or_else(|| question.answer(workspace, assembly));
         if roots == Roots::All
             && (verdict.status, verdict.proof) == (Status::SelfMotion, Proof::None)
-            && prepared.layout.ball.is_none()
+            && prepared.layout.spherical.is_none()
             && matches!(question.data(), Data::Rational)
             && let Some((exact, modes)) = self.exactly(&prepared.layout, case, true)?
         {
@@ -275,10 +275,10 @@ impl SingleLoop {
         Ok(question.answer()?.filter(|(verdict, _)| !is_rounded || verdict.real > 0 || verdict.self_motion > 0))
     }
 
-    /// Solves a loop with two balls.
+    /// Solves a loop with two spherical joints.
     fn solve_coupled(
         &self,
-        prepared: &Balls,
+        prepared: &SphericalPair,
         prepare_us: f64,
         case: &Case,
         roots: Roots,
@@ -292,22 +292,22 @@ impl SingleLoop {
         // Where the equation may be free of its unknown rounding would lead to roots.
         let bounds = spherical_pair::equation(&prepared.bounds.close(&filling(case)?));
         let is_equation = bounds[1..].iter().any(|c| c.mignitude() > 0.0);
-        let balls = is_equation.then(|| coupler::solve(&coupled, roots, workspace, assembly));
-        let fast = balls.map(|balls| {
+        let spherical_joints = is_equation.then(|| coupler::solve(&coupled, roots, workspace, assembly));
+        let fast = spherical_joints.map(|spherical_joints| {
             let general = || Bound::general(2);
-            (verdict(assembly, roots, 6, 2, general, || None, None), balls)
+            (verdict(assembly, roots, 6, 2, general, || None, None), spherical_joints)
         });
         let settled = fast.filter(|(verdict, _)| is_settled(verdict));
-        let Some((mut verdict, balls)) = settled else {
+        let Some((mut verdict, spherical_joints)) = settled else {
             let (mut verdict, modes) = self.coupled_exactly(layout, case)?;
             verdict.reason = format!("{}; {idle}", verdict.reason);
             return Ok(exact_solution(case, verdict, modes, prepare_us, start));
         };
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
         verdict.reason = format!("{}; {idle}", verdict.reason);
-        let modes = assembly.modes.iter().zip(balls).map(|(mode, balls)| {
+        let modes = assembly.modes.iter().zip(spherical_joints).map(|(mode, spherical_joints)| {
             let mut q = vec![Complex::from(locked_value(case)); layout.variables.len()];
-            for (&at, angles) in coupled.indices.iter().zip(balls) {
+            for (&at, angles) in coupled.indices.iter().zip(spherical_joints) {
                 q[at..at + 3].copy_from_slice(&angles);
             }
             q[coupled.indices[2]] = mode.unknowns[5];
@@ -373,8 +373,8 @@ impl Question<'_> {
     }
 
     fn plan(&self) -> Option<&Plan> {
-        let has_ball = self.prepared.layout.ball_unknown().is_some();
-        self.ring.get_or_init(|| self.modular().filter(|_| !has_ball)?.plan()).as_ref()
+        let has_spherical_joint = self.prepared.layout.spherical_unknown().is_some();
+        self.ring.get_or_init(|| self.modular().filter(|_| !has_spherical_joint)?.plan()).as_ref()
     }
 
     /// A bound at this pose: the ring is asked where the cuts know of nothing, or of more than `found`.
@@ -426,21 +426,21 @@ impl Question<'_> {
     /// The verdict after a look in longer numbers for what is missing; `None` where nothing is.
     fn completed(&self, verdict: &Verdict, assembly: &mut Assembly) -> Option<Verdict> {
         let expected = self.expected(verdict)?;
-        self.rescue::<LongFloat>(expected, assembly);
+        self.solve_in_high_precision::<LongFloat>(expected, assembly);
         let verdict = self.judge(assembly);
         if verdict.status != Status::Incomplete {
             return Some(verdict);
         }
         // Solutions that only the rounding of the data keeps from infinity.
-        self.rescue::<LongerFloat>(expected, assembly);
+        self.solve_in_high_precision::<LongerFloat>(expected, assembly);
         Some(self.judge(assembly))
     }
 
     /// Looks again for what is missing of a list, in longer numbers.
-    fn rescue<R: Extended>(&self, expected: usize, assembly: &mut Assembly) {
+    fn solve_in_high_precision<R: Extended>(&self, expected: usize, assembly: &mut Assembly) {
         let enclosed = self.prepared.enclosed(&self.of.chain, self.case).ok().flatten();
         if let Some(closed) = enclosed.and_then(|closed| closed.rounded::<R>(R::BITS)) {
-            self.prepared.solver.rescue(&closed, self.plan(), expected, assembly);
+            self.prepared.solver.solve_in_high_precision(&closed, self.plan(), expected, assembly);
         }
     }
 
@@ -528,7 +528,7 @@ impl Question<'_> {
     /// Whether the solutions are roots of eliminants that decide what f64 leaves open.
     fn has_eliminants(&self) -> bool {
         let rotations = self.prepared.layout.loop_kinds().iter().all(|kind| *kind == Variable::Rotation);
-        !self.only_lists && self.roots == Roots::All && rotations && self.prepared.layout.ball_unknown().is_none()
+        !self.only_lists && self.roots == Roots::All && rotations && self.prepared.layout.spherical_unknown().is_none()
     }
 
     /// The verdict by the roots of the exact eliminants, where the one at hand is not proved, and whether that is the last
@@ -541,7 +541,7 @@ impl Question<'_> {
         }
         let is_asked = !self.only_lists
             && self.roots == Roots::All
-            && self.prepared.layout.ball_unknown().is_none()
+            && self.prepared.layout.spherical_unknown().is_none()
             && self.rank() == 6;
         if !is_asked {
             return (verdict, false);
@@ -728,16 +728,16 @@ fn in_order(modes: &mut [Mode]) {
 
 /// The way to solve a loop, prepared.
 fn way(chain: &Chain, layout: Layout) -> Result<Way> {
-    if layout.second_ball.is_some() {
+    if layout.second_spherical.is_some() {
         let enclosed: OpenCoupled<Enclosure> = chain.open_coupled(&layout, &Numbers)?;
         let open = enclosed.rounded(f64::MANTISSA_DIGITS);
         let open = open.ok_or_else(|| Error::Unsupported("numbers that are not known to 16 digits".into()))?;
         let bounds = chain.open_coupled(&layout, &Numbers)?;
-        return Ok(Way::Balls(Box::new(Balls { layout, open, bounds })));
+        return Ok(Way::SphericalPair(Box::new(SphericalPair { layout, open, bounds })));
     }
     let open: OpenLoop<f64> = chain.open_loop(&layout)?;
-    let solver = match layout.ball_unknown() {
-        Some(ball) => Solver::with_ball(&open, ball),
+    let solver = match layout.spherical_unknown() {
+        Some(spherical) => Solver::with_spherical_joint(&open, spherical),
         None => Solver::prepare(&open),
     };
     if solver.is_out_of_reach() {
@@ -768,17 +768,17 @@ fn dependent(chain: &Chain, layout: &Layout, triples: &[AxisTriple]) -> String {
     format!("; {} and {}: their six screws are dependent in every position", name(one), name(two))
 }
 
-/// At which position of the idle spin a loop of two balls is shown, of which the second one begins at this variable.
+/// At which position of the idle degree of freedom a loop of two spherical joints is shown, of which the second one begins at this variable.
 pub(super) fn idle_spin(chain: &Chain, layout: &Layout, second: usize) -> String {
     let variables = chain.variables();
     let joint = |first: usize| variables.get(first).map_or(1, |own| own.joint);
-    let balls = [layout.ball, layout.second_ball].map(|ball| joint(ball.unwrap_or(0)));
+    let spherical_joints = [layout.spherical, layout.second_spherical].map(|spherical| joint(spherical.unwrap_or(0)));
     format!(
         "the link between the S joints {} and {} spins freely about the line of their centres: it is shown where joint {} is a \
          universal joint, one axis of it fixed in that link across the line, the other one along the z axis of the frame \
          behind the joint",
-        balls[0],
-        balls[1],
+        spherical_joints[0],
+        spherical_joints[1],
         joint(second)
     )
 }
@@ -822,13 +822,13 @@ fn closed_over<R: Ring>(chain: &Chain, layout: &Layout, case: &Case) -> Result<O
     Ok(open.and_then(|open| Some(open.close(&filling(case).ok()?))))
 }
 
-/// The loop of two balls of one case over a ring; `None` for chains without two balls.
+/// The loop of two spherical joints of one case over a ring; `None` for chains without two spherical joints.
 ///
 /// # Errors
 /// As [`closed_loop`], and for an unlucky prime.
 pub fn coupled_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<Coupled<R>>> {
     let layout = Layout::of(chain, locked_variable(chain, case)?)?;
-    if layout.second_ball.is_none() {
+    if layout.second_spherical.is_none() {
         return Ok(None);
     }
     chain.coupled_loop(&layout, &filling(case)?).map(Some)

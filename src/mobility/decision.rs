@@ -122,7 +122,7 @@ impl Subject<'_> {
             return Ok(answer);
         }
         // Angles of a spherical joint move without a motion where two of their axes coincide.
-        if !self.balls().is_empty() {
+        if !self.spherical_joints().is_empty() {
             return Ok(answer);
         }
         let Some(Nearby { held, values, turn, shift }) = nearby(&self.linkage) else { return Ok(answer) };
@@ -170,7 +170,7 @@ impl Subject<'_> {
         if is_exact(self.chain) {
             return Ok(None);
         }
-        let Some(ground) = Grounded::of(self.chain, self.balls()) else { return Ok(None) };
+        let Some(ground) = Grounded::of(self.chain, self.spherical_joints()) else { return Ok(None) };
         let degree = ground.field.degree();
         let field = format!("in the number field of degree {degree} of the file");
         if self.variables.len() <= 6 && ground.residue().is_some_and(|image| all_stand_still_modulo(&image)) {
@@ -242,11 +242,11 @@ impl Subject<'_> {
     fn exactly(&self) -> Result<Mobility> {
         let is_short = self.variables.len() < 6;
         // Angles at which two axes of a spherical joint coincide would hide that it stands still.
-        let turned = self.linkage.with_turned_balls(&self.balls());
+        let turned = self.linkage.with_turned_spherical_joints(&self.spherical_joints());
         if all_stand_still(&turned) {
             return if is_short { Ok(self.immobile(Some(STILL))) } else { self.structure(Some(STILL)) };
         }
-        match search(&self.linkage, &self.balls()) {
+        match search(&self.linkage, &self.spherical_joints()) {
             Outcome::Mobile(found) => Ok(self.mobile(found)),
             Outcome::Complex(found) => {
                 let reason = format!(
@@ -331,7 +331,7 @@ impl Subject<'_> {
             return Mobility { is_listed: false, ..self.answer(mobility, rests_on(why.is_some()), reason) };
         };
         let complex: usize = found.iter().map(Conjugates::count).sum();
-        let Search { configurations, .. } = decide(&self.linkage, &self.balls(), &[], &found);
+        let Search { configurations, .. } = decide(&self.linkage, &self.spherical_joints(), &[], &found);
         let real = configurations.len();
         let shaky = configurations.iter().filter_map(order).max().filter(|order| *order > 1);
         let reason = match (complex, real) {
@@ -445,7 +445,7 @@ impl Subject<'_> {
             let Some(found) = at(&self.linkage, &held) else { continue };
             let close = |c: &Configuration| c.q.iter().zip(&mode.q).all(|(a, b)| ((a - b.re) / 2.0).sin().abs() < 1e-4);
             if let Some(found) =
-                decide(&self.linkage, &self.balls(), &held, &found).configurations.into_iter().find(close)
+                decide(&self.linkage, &self.spherical_joints(), &held, &found).configurations.into_iter().find(close)
             {
                 return Some(found);
             }
@@ -477,7 +477,7 @@ impl Subject<'_> {
         };
         let values: Vec<JointValue<f64>> = q.iter().enumerate().map(value).collect();
         let linkage: Option<Linkage<f64>> = self.linkage.map();
-        let germ = linkage.map(|linkage| Germ::of(&linkage.at(&values).with_regular_balls(&self.balls())));
+        let germ = linkage.map(|linkage| Germ::of(&linkage.at(&values).with_regular_spherical_joints(&self.spherical_joints())));
         let system = germ.as_ref().map(Germ::system);
         let freedom = system.as_ref().map(ScrewSystem::loop_freedom);
         let rank = freedom.as_ref().map_or(0, |freedom| freedom.order);

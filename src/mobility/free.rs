@@ -37,8 +37,8 @@ const STEP: f64 = 0.6;
 const CLOSED: f64 = 1e-11;
 /// Screws are independent if what one adds to the others is more than this part of the largest.
 const INDEPENDENT: f64 = 1e-4;
-/// How much rather a joint variable of another joint than of a ball is held.
-const BALL: f64 = 8.0;
+/// How much rather a joint variable of another joint than of a spherical joint is held.
+const SPHERICAL: f64 = 8.0;
 /// Decimal digits of values at which joints are held.
 const DIGITS: u32 = 3;
 /// Irrational lengths are within this part of their rationals, by far.
@@ -49,7 +49,7 @@ const BITS: u32 = 256;
 impl Subject<'_> {
     /// Whether and how a loop of seven variables or more moves.
     pub(super) fn free(&self) -> Mobility {
-        if let Outcome::Mobile(found) = search_group(&self.linkage, &self.balls()) {
+        if let Outcome::Mobile(found) = search_group(&self.linkage, &self.spherical_joints()) {
             return self.rounded(self.mobile(found));
         }
         if let Some(reason) = self.too_wide() {
@@ -110,23 +110,23 @@ impl Subject<'_> {
         }
     }
 
-    /// The spins of what stands between two balls.
+    /// The spins of what stands between two spherical joints.
     fn idle(&self) -> String {
         let kinds = self.chain.joint_kinds();
-        let balls: Vec<usize> =
+        let spherical_joints: Vec<usize> =
             (1..).zip(&kinds).filter(|(_, kind)| **kind == JointKind::Spherical).map(|(joint, _)| joint).collect();
-        match balls.as_slice() {
+        match spherical_joints.as_slice() {
             [] | [_] => String::new(),
             [one, two] => format!(
                 "; one of these freedoms is idle: the spin of what stands between the S joints {one} and {two} about the line of \
                  their centres"
             ),
             _ => {
-                let pairs = (0..balls.len()).map(|k| format!("{} and {}", balls[k], balls[(k + 1) % balls.len()]));
+                let pairs = (0..spherical_joints.len()).map(|k| format!("{} and {}", spherical_joints[k], spherical_joints[(k + 1) % spherical_joints.len()]));
                 format!(
                     "; {} of these freedoms are idle: the spins of what stands between the S joints {} about the lines of their \
                      centres",
-                    balls.len(),
+                    spherical_joints.len(),
                     pairs.collect::<Vec<_>>().join(", ")
                 )
             }
@@ -185,22 +185,22 @@ impl Subject<'_> {
         None
     }
 
-    /// Which joint variables are those of balls, and where the balls begin.
-    pub(super) fn balls(&self) -> Vec<usize> {
+    /// Which joint variables are those of spherical joints, and where the spherical joints begin.
+    pub(super) fn spherical_joints(&self) -> Vec<usize> {
         let kinds = self.chain.joint_kinds();
-        let is_ball = |k: usize| kinds[self.variables[k].joint - 1] == JointKind::Spherical;
+        let is_spherical = |k: usize| kinds[self.variables[k].joint - 1] == JointKind::Spherical;
         let is_first = |k: usize| k == 0 || self.variables[k - 1].joint != self.variables[k].joint;
-        (0..self.variables.len()).filter(|k| is_ball(*k) && is_first(*k)).collect()
+        (0..self.variables.len()).filter(|k| is_spherical(*k) && is_first(*k)).collect()
     }
 }
 
 /// The motion of loops of many variables whose links move in a group, which no six equations bind.
-fn search_group(linkage: &Linkage<Rational>, balls: &[usize]) -> Outcome {
+fn search_group(linkage: &Linkage<Rational>, spherical_joints: &[usize]) -> Outcome {
     let is_group = |outcome: &Outcome| {
         let manifold = |c: &Configuration| matches!(c.local, Local::Manifold { .. }) && c.rank < 6;
         matches!(outcome, Outcome::Mobile(found) if found.configurations.iter().any(manifold))
     };
-    Some(search(linkage, balls)).filter(is_group).unwrap_or(Outcome::Nothing)
+    Some(search(linkage, spherical_joints)).filter(is_group).unwrap_or(Outcome::Nothing)
 }
 
 /// Closes a loop in floating point and holds as many of its joints as leave six unknowns.
@@ -288,8 +288,8 @@ impl<'a> Assembler<'a> {
         let n = self.floating.variables.len();
         let mut columns: Vec<DVector<f64>> = (0..n).map(|k| DVector::from_fn(6, |i, _| matrix[(i, k)])).collect();
         let largest = columns.iter().map(DVector::norm).fold(0.0, f64::max);
-        let balls = self.subject.balls();
-        let weight = |k: usize| if balls.iter().any(|ball| (*ball..ball + 3).contains(&k)) { BALL } else { 1.0 };
+        let spherical_joints = self.subject.spherical_joints();
+        let weight = |k: usize| if spherical_joints.iter().any(|spherical| (*spherical..spherical + 3).contains(&k)) { SPHERICAL } else { 1.0 };
         let mut kept: Vec<usize> = Vec::new();
         for _ in 0..6 {
             let size = |k: &usize| columns[*k].norm() * weight(*k);
@@ -333,10 +333,10 @@ impl<'a> Assembler<'a> {
             before_gap: last.clone(),
             after_gap: Motion::identity(),
         };
-        let is_free = |ball: &usize| !held.iter().any(|k| (*ball..ball + 3).contains(k));
-        let ball = self.subject.balls().into_iter().find(is_free);
-        let ball = ball.map(|ball| ball - held.iter().filter(|k| **k < ball).count());
-        let solver = ball.map_or_else(|| Solver::prepare(&open), |ball| Solver::with_ball(&open, ball));
+        let is_free = |spherical: &usize| !held.iter().any(|k| (*spherical..spherical + 3).contains(k));
+        let spherical = self.subject.spherical_joints().into_iter().find(is_free);
+        let spherical = spherical.map(|spherical| spherical - held.iter().filter(|k| **k < spherical).count());
+        let solver = spherical.map_or_else(|| Solver::prepare(&open), |spherical| Solver::with_spherical_joint(&open, spherical));
         let mut assembly = Assembly::default();
         if !solver.is_out_of_reach() {
             let gap = solver.exact_gap(&last);

@@ -25,13 +25,13 @@ pub(super) struct Grounded {
     pub(super) field: RealField,
     pub(super) linkage: Linkage<Algebraic>,
     /// Where the three variables of spherical joints begin.
-    pub(super) balls: Vec<usize>,
+    pub(super) spherical_joints: Vec<usize>,
 }
 
 impl Grounded {
     /// The loop of a chain over the field of its numbers; `None` if they lie in no field of a moderate degree, or the chain has a
     /// constant motion that was rounded.
-    pub(super) fn of(chain: &Chain, balls: Vec<usize>) -> Option<Self> {
+    pub(super) fn of(chain: &Chain, spherical_joints: Vec<usize>) -> Option<Self> {
         let numbers = numbers(chain)?;
         let field = DataField(RealField::containing(&numbers)?);
         let mut motions = vec![&chain.base, &chain.tool];
@@ -51,7 +51,7 @@ impl Grounded {
                 Linkage::of_motions(variables, motions)?
             }
         };
-        Some(Self { field: field.0, linkage, balls })
+        Some(Self { field: field.0, linkage, spherical_joints })
     }
 
     /// The loop modulo a prime at which the field has residues.

@@ -86,8 +86,8 @@ pub fn moves(linkage: &Linkage<Rational>) -> Option<bool> {
 }
 
 /// Looks for a motion: holds as few joints as leave finitely many configurations, and decides what passes through those.
-pub(super) fn search(linkage: &Linkage<Rational>, balls: &[usize]) -> Outcome {
-    let setting = Setting::of(linkage, balls);
+pub(super) fn search(linkage: &Linkage<Rational>, spherical_joints: &[usize]) -> Outcome {
+    let setting = Setting::of(linkage, spherical_joints);
     let found = searched(&setting, usize::MAX, |held| at(linkage, held));
     if matches!(found, Outcome::Mobile(_)) {
         return found;
@@ -174,16 +174,16 @@ struct Setting<'a> {
     lengths: Vec<Float>,
     unit: Rational,
     /// Where the three variables of spherical joints begin.
-    balls: &'a [usize],
+    spherical_joints: &'a [usize],
     /// The loop in the field of some configurations.
     image: Image<'a>,
 }
 
 impl<'a> Setting<'a> {
-    fn of(linkage: &'a Linkage<Rational>, balls: &'a [usize]) -> Self {
+    fn of(linkage: &'a Linkage<Rational>, spherical_joints: &'a [usize]) -> Self {
         let lengths = linkage.axes.iter().map(|axis| axis.length(BITS)).collect();
         let image = Box::new(|_: &Conjugates| linkage.map());
-        Self { variables: &linkage.variables, lengths, unit: linkage.unit(), balls, image }
+        Self { variables: &linkage.variables, lengths, unit: linkage.unit(), spherical_joints, image }
     }
 
     fn over(ground: &'a Grounded, unit: &Rational) -> Self {
@@ -196,7 +196,7 @@ impl<'a> Setting<'a> {
             variables: &ground.linkage.variables,
             lengths,
             unit: unit.clone(),
-            balls: &ground.balls,
+            spherical_joints: &ground.spherical_joints,
             image: Box::new(image),
         }
     }
@@ -252,12 +252,12 @@ impl Known {
     fn of(setting: &Setting, held: &[(usize, Rational)], conjugates: &Conjugates) -> Option<Self> {
         let values = with_held(held, conjugates)?;
         let linkage = (setting.image)(conjugates)?;
-        let position = linkage.at(&values).with_regular_balls(setting.balls);
+        let position = linkage.at(&values).with_regular_spherical_joints(setting.spherical_joints);
         let mut germ = Germ::of_conjugates(&position, conjugates.fewest_conjugates());
         // Two first-order motions or more: with another joint held there may be a curve all the same. It is all there is, since
         // with the one joint held the configurations are finitely many.
         let n = position.joints();
-        if germ.local == Local::Deficient && held.len() == 1 && n > 2 && setting.balls.is_empty() {
+        if germ.local == Local::Deficient && held.len() == 1 && n > 2 && setting.spherical_joints.is_empty() {
             let curve = |k: &usize| matches!(Germ::of(&position.without(*k)).local, Local::Curve);
             if let Some(k) = (0..n).filter(|k| *k != held[0].0).find(curve) {
                 let rest = Germ::of(&position.without(k));
@@ -273,7 +273,7 @@ impl Known {
             _ => (0..values.len()).map(|k| freedom.rates.iter().any(|rate| is_unit(&rate[k]))).collect(),
         };
         // The three variables of a spherical joint are those of one motion.
-        for k in setting.balls.iter().copied() {
+        for k in setting.spherical_joints.iter().copied() {
             let moves = moving[k..k + 3].contains(&true);
             moving[k..k + 3].fill(moves);
         }
@@ -319,11 +319,11 @@ impl Known {
 /// What the real ones of these configurations are.
 pub(super) fn decide(
     linkage: &Linkage<Rational>,
-    balls: &[usize],
+    spherical_joints: &[usize],
     held: &[(usize, Rational)],
     found: &[Conjugates],
 ) -> Search {
-    Setting::of(linkage, balls).decide(held, found)
+    Setting::of(linkage, spherical_joints).decide(held, found)
 }
 
 impl Setting<'_> {

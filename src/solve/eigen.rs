@@ -1,5 +1,5 @@
 //! Eigenvalues of pencils: by our own small-matrix routine, and by faer, which is the reference and decides where the
-//! first leaves a root unaccounted for. The only file that names faer.
+//! first leaves a root unresolved. The only file that names faer.
 
 use super::francis;
 use crate::elimination::pencil::Square;

@@ -1,4 +1,4 @@
-//! The curve of one equation between one unknown and the input, as that of two balls is.
+//! The curve of one equation between one unknown and the input, as that of two spherical joints is.
 //!
 //! `sum c_ij m_i(v) m_j(x) = 0` over the monomials (1, cos, sin) of an angle or (1, d, d^2) of a distance. The same
 //! questions as to the curve of a whole loop, answered in the plane of v and x.

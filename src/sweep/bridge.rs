@@ -68,10 +68,10 @@ pub(super) fn apart(curve: &InputCurve, a: &Point, b: &Point) -> f64 {
         }
         largest / size
     };
-    let Some(ball) = curve.ball() else { return plain(a) };
-    // The same orientation of a ball by other angles.
+    let Some(spherical) = curve.spherical() else { return plain(a) };
+    // The same orientation of a spherical joint by other angles.
     let mut other = *a;
-    let index = |k: usize| (ball + k) % INPUT;
+    let index = |k: usize| (spherical + k) % INPUT;
     other[index(1)] = -other[index(1)];
     other[index(0)] += PI;
     other[index(2)] += PI;

@@ -81,7 +81,7 @@ pub struct Sweep {
     pub is_full_turn: bool,
     /// Whether the loop has fewer than seven joint variables, so that it may close at single inputs.
     pub is_overconstrained: bool,
-    /// What to know of the angles of balls.
+    /// What to know of the angles of spherical joints.
     pub note: Option<String>,
     /// Inputs of the range at which the loop moves while its input stands still, where branches are proved: no branches,
     /// but configurations that these may meet.

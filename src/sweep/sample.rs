@@ -111,7 +111,7 @@ impl Swept<'_> {
         let pair = |q: &Vec<Complex<f64>>| {
             let upper = q.iter().map(|z| z.im).find(|im| *im != 0.0).is_some_and(|im| im > 0.0);
             let part = |of: fn(&Complex<f64>) -> f64| q.iter().map(of).collect::<Vec<f64>>();
-            let [re, im] = [part(|z| z.re), part(|z| z.im)].map(|q| self.curve.without_balls(&q));
+            let [re, im] = [part(|z| z.re), part(|z| z.im)].map(|q| self.curve.without_spherical_joints(&q));
             let spread = im[..INPUT].iter().map(|im| im * im).sum();
             upper.then(|| Pair { centre: here(re), spread })
         };

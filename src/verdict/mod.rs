@@ -119,9 +119,9 @@ pub fn verdict(
     if certified(&assembly.modes) < assembly.modes.len() {
         judged.proof = Proof::None;
     }
-    if assembly.rescued > 0 {
-        let (rescued, bits) = (assembly.rescued, assembly.rescued_in);
-        judged.reason += &format!("; {rescued} of them found or proved in {bits}-bit arithmetic only");
+    if assembly.by_high_precision > 0 {
+        let (by_high_precision, bits) = (assembly.by_high_precision, assembly.high_precision_bits);
+        judged.reason += &format!("; {by_high_precision} of them found or proved in {bits}-bit arithmetic only");
     }
     if let (Some((gap, links)), Status::Incomplete, 0) = (too_far, judged.status, assembly.real()) {
         judged.status = Status::Unreachable;

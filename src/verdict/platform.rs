@@ -49,9 +49,9 @@ pub fn platform_verdict(assembly: &PlatformAssembly, roots: Roots, knowledge: &P
     if !judged.is_complete() && !knowledge.complex_asked {
         judged = real_list(assembly, knowledge).unwrap_or(judged);
     }
-    if assembly.rescued > 0 {
-        let (rescued, bits) = (assembly.rescued, assembly.rescued_in);
-        judged.reason += &format!("; {rescued} of them found or proved in {bits}-bit arithmetic only");
+    if assembly.by_high_precision > 0 {
+        let (by_high_precision, bits) = (assembly.by_high_precision, assembly.high_precision_bits);
+        judged.reason += &format!("; {by_high_precision} of them found or proved in {bits}-bit arithmetic only");
     }
     Verdict {
         status: judged.status,

@@ -139,7 +139,7 @@ impl Drawing {
         }
     }
 
-    /// A joint as a drum along its axis, or as a ball.
+    /// A joint as a drum along its axis, or as a spherical joint.
     fn joint(&mut self, part: &Value, pose: &Pose) {
         let (Some(at), Some(axis)) = (point(&part["at"]), point(&part["axis"])) else { return };
         let half = match part["type"].as_str() {

@@ -2,10 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 mod degenerate;
+mod high_precision;
 mod platforms;
 mod primes;
 mod published;
-mod rescued;
 mod verdicts;
 
 use looproot::internal::assembly::Roots;

@@ -173,8 +173,8 @@ fn no_chain_allocates_once_the_list_of_modes_has_its_size() {
         let drawn = sample(Set::Chain(index), 6, 0).unwrap();
         let layout = Layout::of(&drawn.chain, None).unwrap();
         let open: OpenLoop<f64> = drawn.chain.open_loop(&layout).unwrap();
-        let solver = match layout.ball_unknown() {
-            Some(ball) => Solver::with_ball(&open, ball),
+        let solver = match layout.spherical_unknown() {
+            Some(spherical) => Solver::with_spherical_joint(&open, spherical),
             None => Solver::prepare(&open),
         };
         let filling = drawn.chain.forward::<f64>(&motions(&drawn.variables, &drawn.planted)).unwrap().inverse();

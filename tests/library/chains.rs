@@ -101,8 +101,8 @@ fn general_chains_have_the_degrees_of_the_table_modulo_a_prime() {
         let values: [Rational; 6] = std::array::from_fn(|_| small(&mut random));
         let closed: ClosedLoop<Mod> = closed_at(&chain, &values);
         let layout = Layout::of(&chain, None).unwrap();
-        let found = match layout.ball_unknown() {
-            Some(ball) => point_reach::count(&closed, ball),
+        let found = match layout.spherical_unknown() {
+            Some(spherical) => point_reach::count(&closed, spherical),
             None => degree(&closed, None).map(|degree| degree.solutions),
         };
         assert_eq!(found, Some(count), "{name}");
@@ -302,7 +302,7 @@ fn the_link_between_two_balls_may_spin() {
         let solution = arms::at_input(&chain, joint, &values[given]);
         assert_eq!((solution.verdict.status, solution.verdict.complex), (Status::Complete, 2), "{name}");
         assert!(solution.verdict.reason.contains("spins freely"), "{name}: {}", solution.verdict.reason);
-        // Index of the unknown that is no ball.
+        // Index of the unknown that is no spherical joint.
         let unknown = match name {
             "RSSR" | "PSSR" => 0,
             "RSSP" => 7,

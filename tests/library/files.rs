@@ -353,8 +353,8 @@ fn forward(entry: &Entry, q: &[f64]) -> Motion<f64> {
         Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
             let craig = matches!(entry.chain().unwrap().geometry, Geometry::ModifiedDh(_));
             for joint in joints {
-                let (angle, distance, ball) = variables(joint.kind);
-                motion = motion.then_after(&ball.unwrap_or_else(Motion::identity));
+                let (angle, distance, spherical) = variables(joint.kind);
+                motion = motion.then_after(&spherical.unwrap_or_else(Motion::identity));
                 let angle = angle + joint.theta0.radians();
                 let mut turn = Motion::rotation_z(angle.cos(), angle.sin());
                 turn.translation[2] = distance + joint.d.to_f64();
@@ -365,8 +365,8 @@ fn forward(entry: &Entry, q: &[f64]) -> Motion<f64> {
         }
         Geometry::Screws { joints, home } => {
             for joint in joints {
-                let (angle, distance, ball) = variables(joint.kind);
-                assert!(ball.is_none(), "no ball by its axis in the library");
+                let (angle, distance, spherical) = variables(joint.kind);
+                assert!(spherical.is_none(), "no spherical joint by its axis in the library");
                 let axis = joint.axis.each_ref().map(Number::to_f64);
                 motion = motion.then_after(&screw(axis, joint.point.each_ref().map(Number::to_f64), angle, distance));
             }

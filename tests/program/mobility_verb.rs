@@ -12,7 +12,7 @@ fn revolute(a: &str, alpha: i32, d: &str) -> String {
     format!("{{ type = \"R\", a = {a}, alpha = \"{alpha} deg\", d = {d} }}")
 }
 
-fn ball(a: &str) -> String {
+fn spherical(a: &str) -> String {
     format!("{{ type = \"S\", a = {a}, alpha = 0 }}")
 }
 
@@ -48,8 +48,8 @@ fn loops_without_input_move_by_as_many_freedoms_as_they_have() {
         (general(9), 3),
         ([40, 60, 75, 50].map(cylindrical).to_vec(), 2),
         ([vec![universal], general(5)].concat(), 1),
-        (vec![revolute("0.5", 30, "0.2"), ball("1.5"), ball("1.2"), revolute("2", 70, "0.1")], 2),
-        (vec![revolute("0.5", 30, "0.2"), ball("1.5"), ball("1.2"), ball("1.7")], 4),
+        (vec![revolute("0.5", 30, "0.2"), spherical("1.5"), spherical("1.2"), revolute("2", 70, "0.1")], 2),
+        (vec![revolute("0.5", 30, "0.2"), spherical("1.5"), spherical("1.2"), spherical("1.7")], 4),
     ];
     for (joints, freedoms) in loops {
         let answer = decided(&chain("loop", &joints, ""));
@@ -64,9 +64,13 @@ fn loops_without_input_move_by_as_many_freedoms_as_they_have() {
 
 #[test]
 fn idle_spins_are_named() {
-    let [two, three] = [2, 3].map(|balls| {
-        let joints =
-            [vec![revolute("0.5", 30, "0.2")], vec![ball("1.5"); balls], vec![revolute("2", 70, "0.1")]].concat();
+    let [two, three] = [2, 3].map(|spherical_joints| {
+        let joints = [
+            vec![revolute("0.5", 30, "0.2")],
+            vec![spherical("1.5"); spherical_joints],
+            vec![revolute("2", 70, "0.1")],
+        ]
+        .concat();
         decided(&chain("loop", &joints, "")).reason
     });
     assert!(two.contains("one of these freedoms is idle") && two.contains("S joints 2 and 3"), "{two}");
@@ -146,8 +150,8 @@ fn loops_that_the_verbs_cannot_take_are_refused_with_place_and_mobility() {
             "expected `distance`",
         ),
         (
-            "balls",
-            chain("loop", &[vec![ball("1"); 3], general(1)].concat(), &input(4, "angle = 1")),
+            "spherical joints",
+            chain("loop", &[vec![spherical("1"); 3], general(1)].concat(), &input(4, "angle = 1")),
             1,
             "3 freedoms too many",
         ),

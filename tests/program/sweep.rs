@@ -458,7 +458,7 @@ fn poles_of_large_residue_are_told() {
     }
 }
 
-/// The discriminant of the one equation of two balls, A^2 + B^2 - C^2 of an angle, at an input.
+/// The discriminant of the one equation of two spherical joints, A^2 + B^2 - C^2 of an angle, at an input.
 fn discriminant(entry: &Entry, joint: usize, variable: Variable, input: f64) -> f64 {
     let coupled = coupled_loop::<f64>(entry.chain().unwrap(), &case(joint, variable, input)).unwrap().unwrap();
     let [c, a, b] = spherical_pair::equation(&coupled);
@@ -468,7 +468,7 @@ fn discriminant(entry: &Entry, joint: usize, variable: Variable, input: f64) -> 
     }
 }
 
-/// Loops of two balls, both of their other joints as input: a rotation or a translation on the same side of the balls or one
+/// Loops of two spherical joints, both of their other joints as input: a rotation or a translation on the same side of the spherical joints or one
 /// on each side.
 #[test]
 fn limit_positions_of_two_balls_are_where_a_discriminant_vanishes() {
@@ -555,7 +555,7 @@ fn derivatives_of_two_balls_agree_with_finite_differences() {
     assert!(compared > 10, "{compared}");
 }
 
-/// A ball in place of a revolute joint of a planar four-bar turns about one axis only: its other angles stay where the three of
+/// A spherical joint in place of a revolute joint of a planar four-bar turns about one axis only: its other angles stay where the three of
 /// them are not independent.
 #[test]
 fn a_ball_that_turns_about_one_axis_only_is_followed() {

@@ -2,7 +2,7 @@
 //! of 384 bits.
 
 use super::prepared::Frame;
-use super::rescue::{combined, framed, upper_roots};
+use super::high_precision::{combined, framed, upper_roots};
 use crate::algebra::long_float::LongNumber;
 use crate::algebra::ring::{Field, Ring};
 use crate::closure::study::{Form, Four, left, scalar};
@@ -28,7 +28,7 @@ fn long(x: &Rational) -> Long {
     Long::from_real(LongFloat::from_rational(x).unwrap_or_else(LongFloat::zero))
 }
 
-/// What the positions at a rotation need, in long numbers.
+/// What the positions at a rotation need, in multiprecision.
 struct Positions {
     square: Form<Long>,
     moments: Vec<Form<Long>>,

@@ -10,7 +10,7 @@ mod mode;
 mod prepared;
 mod reach;
 mod reflection;
-mod rescue;
+mod high_precision;
 mod search;
 mod self_motion;
 mod solver;

@@ -111,9 +111,9 @@ pub struct PlatformAssembly {
     /// Poses of it, quaternion and position; of a curve in their order along it.
     pub motion: Vec<[f64; 7]>,
     /// How many poses were found or proved in longer numbers only.
-    pub rescued: usize,
+    pub by_high_precision: usize,
     /// Bits of the longest of these.
-    pub rescued_in: usize,
+    pub high_precision_bits: usize,
 }
 
 impl PlatformAssembly {

@@ -205,7 +205,7 @@ impl Frame {
         LegNumbers { legs, wide, curvature }
     }
 
-    /// The same in long numbers.
+    /// The same in multiprecision.
     pub fn long_legs<R: Ring>(&self, squares: &[Rational; 6]) -> [Leg<R>; 6] {
         let unit = Rational::from_f64(self.scale).map_or_else(|| Rational::from(1), Rational::square);
         std::array::from_fn(|i| {

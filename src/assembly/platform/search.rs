@@ -1,4 +1,4 @@
-//! One set of leg lengths being solved: eigenvalue after eigenvalue, until all are accounted for.
+//! One set of leg lengths being solved: eigenvalue after eigenvalue, until all are resolved.
 
 use super::candidate::candidates;
 use super::coincident::has_point_leg;
@@ -164,12 +164,12 @@ impl<'a> Search<'a> {
             .max_by_key(|found| found.0)
     }
 
-    /// How many solutions are accounted for: poses, conjugate ones included.
+    /// How many solutions are resolved: poses, conjugate ones included.
     pub fn poses(&self) -> usize {
         self.found.iter().map(|f| f.multiplicity() * if f.real { 1 } else { 2 }).sum()
     }
 
-    /// Poses that are missing, or else eigenvalues of the border basis followed last that are not accounted for.
+    /// Poses that are missing, or else eigenvalues of the border basis followed last that are not resolved.
     pub fn unresolved(&self) -> usize {
         match self.roots {
             Roots::Real => self.lost,

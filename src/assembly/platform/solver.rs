@@ -6,7 +6,7 @@ use super::homotopy::{End, Homotopy};
 use super::mode::{PlatformAssembly, Route};
 use super::prepared::{Chart, Frame, LegNumbers, Squares};
 use super::reflection::Reflection;
-use super::rescue::starts;
+use super::high_precision::starts;
 use super::search::{Found, Search, Source, real_parts, take_in, tell};
 use super::self_motion::{curve, project, self_motion};
 use super::triangle::TriangleRoute;
@@ -131,7 +131,7 @@ impl PlatformSolver {
 
     /// Looks again for what is missing of the list solved last in this workspace, in numbers of so many words of 64 bits:
     /// `platform` and `legs_squared` are the same ones exactly, `expected` the number of its poses.
-    pub fn rescue<const LIMBS: usize>(
+    pub fn solve_in_high_precision<const LIMBS: usize>(
         &self,
         platform: &Platform<Rational>,
         legs_squared: &[Rational; 6],
@@ -157,7 +157,7 @@ impl PlatformSolver {
         assembly.unresolved = search.unresolved();
         let more = proved(assembly).saturating_sub(before);
         if more > 0 {
-            (assembly.rescued, assembly.rescued_in) = (assembly.rescued + more, 64 * LIMBS);
+            (assembly.by_high_precision, assembly.high_precision_bits) = (assembly.by_high_precision + more, 64 * LIMBS);
         }
         if let Some(reflection) = &self.reflection {
             reflection.mark(&mut assembly.modes);
@@ -287,7 +287,7 @@ impl PlatformSolver {
         assembly.rank = self.charts[0].directions.rank;
         assembly.self_motion = 0;
         assembly.motion.clear();
-        (assembly.rescued, assembly.rescued_in) = (0, 0);
+        (assembly.by_high_precision, assembly.high_precision_bits) = (0, 0);
         let numbers = self.frame.with_legs(given);
         let squares = numbers.legs.each_ref().map(|leg| leg.square);
         let PlatformWorkspace { basis, spectrum, found, general } = workspace;

@@ -133,7 +133,7 @@ pub fn derive_symbolic(entry: &Entry, case: &Case, wanted: &[String]) -> Result<
 
 /// The numbers of a case: what symbols are compared with.
 enum Numeric {
-    /// Two balls.
+    /// Two spherical joints.
     Coupled(super::chain::Eliminated),
     /// Any other loop.
     Single(Box<Exact>, super::chain::Eliminated),
@@ -147,7 +147,7 @@ fn numeric(chain: &Chain, case: &Case) -> Result<(Symbols, Option<Numeric>)> {
     }
     let exact = exact(chain, case)?;
     let is_neighbour = || LinkForm::of(&exact.closed).is_some_and(|form| dual::opposite_link(&form).is_some());
-    let special = exact.ball.is_some()
+    let special = exact.spherical.is_some()
         || general_degree(exact.closed.variables) == Some(2)
         || two_sides::is_opposite(&exact)
         || is_neighbour();

@@ -85,10 +85,10 @@ pub(super) fn route(
         Numeric::Single(exact, eliminated) => (exact, eliminated),
     };
     let closed = symbolic_loop(chain, case, table)?;
-    if let Some(ball) = exact.ball {
-        let equations = Reach::of(&closed, ball).equations;
-        let plan = Reach::of(&exact.closed, ball).equations.plan(0.0);
-        return two_rows(symbols, [5, 3].map(|k| (ball + k) % 6), &equations, &plan, eliminated);
+    if let Some(spherical) = exact.spherical {
+        let equations = Reach::of(&closed, spherical).equations;
+        let plan = Reach::of(&exact.closed, spherical).equations.plan(0.0);
+        return two_rows(symbols, [5, 3].map(|k| (spherical + k) % 6), &equations, &plan, eliminated);
     }
     if let (Some(form), Some(numbers)) = (LinkForm::<_, 4, 2>::of(&closed), LinkForm::<_, 4, 2>::of(&exact.closed)) {
         if let Some(base) = opposite_link(&form) {

@@ -20,7 +20,7 @@ use rug::Rational;
 /// The equations over dual numbers of a loop whose translations run along axes of its rotations.
 pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     let none = |why: &str| refusal(Way::Dual, why);
-    if exact.ball.is_some() {
+    if exact.spherical.is_some() {
         return Err(none("a spherical joint has no axis, and so no dual angle"));
     }
     if let Some(form) = LinkForm::<Rational, 3, 3>::of(&exact.closed) {

@@ -14,7 +14,7 @@ use rug::Rational;
 /// The equations of the loop in half-angle tangents, and their resultants.
 pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     let none = |why: &str| refusal(Way::HalfAngle, why);
-    let is_cut = exact.ball.is_none() && general_degree(exact.closed.variables) == Some(16);
+    let is_cut = exact.spherical.is_none() && general_degree(exact.closed.variables) == Some(16);
     let eliminated = if is_cut {
         cuts::eliminate_keeping(exact, unknown).ok_or_else(|| none("every cut that keeps the unknown loses equations"))?
     } else {

@@ -132,7 +132,7 @@ pub fn derive_by(entry: &Entry, case: &Case, way: Way) -> Result<ByWay> {
 /// The derivation of another unknown.
 fn keeping(entry: &Entry, exact: &Exact, unknown: usize, own: &Derivation) -> Option<Derivation> {
     let eliminated = match general_degree(exact.closed.variables) {
-        _ if exact.ball.is_some() => None,
+        _ if exact.spherical.is_some() => None,
         Some(16) => cuts::eliminate_keeping(exact, unknown),
         Some(8) => four_bar::eliminate_keeping(exact, unknown),
         _ => None,
@@ -166,7 +166,7 @@ fn woernle_lee(exact: &Exact, unknown: usize) -> Result<Found> {
         }))
     });
     let matrix = |rows, columns, entries, meaning: &str| Matrix { rows, columns, entries, meaning: meaning.to_owned() };
-    let matrix = match (exact.ball, general_degree(exact.closed.variables)) {
+    let matrix = match (exact.spherical, general_degree(exact.closed.variables)) {
         (Some(_), _) => matrix(2, 3, 2, "two equations over (1, cos, sin), or (1, d, d^2), of the unknown that goes"),
         (None, Some(2)) => matrix(1, 3, 2, "one equation over (1, cos, sin) of the unknown"),
         (None, Some(16)) => matrix(8, 8, 2, "four equations times 1 and a half-angle tangent, over the products of its powers up to 3 with (1, the \

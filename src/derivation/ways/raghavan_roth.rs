@@ -21,7 +21,7 @@ type Trilinear = [[[Rational; 3]; 3]; 3];
 /// The matrix that keeps an unknown.
 pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     let none = |why: &str| refusal(Way::RaghavanRoth, why);
-    if exact.ball.is_some() {
+    if exact.spherical.is_some() {
         return Err(none("the angles of a spherical joint are not determined by lines through its centre"));
     }
     let keeps = |cut: &&Cut| cut.unknown_index(2) == unknown;

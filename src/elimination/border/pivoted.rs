@@ -1,4 +1,4 @@
-//! Relations between candidates solved in long numbers: elimination with the largest pivot of all.
+//! Relations between candidates solved in multiprecision: elimination with the largest pivot of all.
 
 use super::arithmetic::{LEVEL, LOW, MOST_CANDIDATES, Relations, STRIDE, Split, WIDTH};
 use crate::algebra::long_float::LongNumber;

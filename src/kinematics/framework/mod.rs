@@ -1,4 +1,4 @@
-//! Frameworks: bars between ball joints, rods and bodies with several joints, and whether they move.
+//! Frameworks: bars between spherical joints, rods and bodies with several joints, and whether they move.
 
 pub mod cycle;
 pub mod flex;

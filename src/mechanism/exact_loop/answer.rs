@@ -148,7 +148,7 @@ impl Question<'_> {
         for (index, ball) in cycle.indices.iter().zip(&configuration.values) {
             place(*index, ball);
         }
-        if let (Some(first), Some(angles)) = (self.layout.ball, &configuration.spherical) {
+        if let (Some(first), Some(angles)) = (self.layout.spherical, &configuration.spherical) {
             angles.iter().enumerate().for_each(|(k, angle)| place(first + k, angle));
         }
         let values: Vec<Complex<f64>> = cycle.indices.iter().map(|index| q[*index]).collect();

@@ -25,8 +25,8 @@ impl Cycle {
     /// # Errors
     /// For a case without input that has one.
     pub fn of(chain: &Chain, layout: &Layout, case: &Case) -> Result<Option<Self>> {
-        let is_inside = |ball: usize| layout.locked.is_some_and(|locked| (ball..ball + 3).contains(&locked));
-        if layout.second_ball.is_some() || layout.ball.is_some_and(is_inside) {
+        let is_inside = |spherical: usize| layout.locked.is_some_and(|locked| (spherical..spherical + 3).contains(&locked));
+        if layout.second_spherical.is_some() || layout.spherical.is_some_and(is_inside) {
             return Ok(None);
         }
         let Some((variables, mut constants)) = chain.unknowns_and_constants::<Rational>() else { return Ok(None) };
@@ -37,16 +37,16 @@ impl Cycle {
             *end = if layout.locked.is_none() { end.then_after(&filling) } else { end.clone() }.then_after(&start);
         }
         let mut items: Vec<_> = variables.into_iter().zip(constants).enumerate().collect();
-        items.rotate_left(layout.ball.map_or(0, |ball| ball + 2));
+        items.rotate_left(layout.spherical.map_or(0, |spherical| spherical + 2));
         let mut found = Self { steps: Vec::new(), indices: Vec::new(), before: None };
         // What stands before the first unknown.
         let mut first = Motion::identity();
         for (index, (variable, behind)) in items {
-            if layout.ball == Some(index) {
+            if layout.spherical == Some(index) {
                 break;
             }
             let is_given = layout.locked == Some(index);
-            if is_given || layout.ball.is_some_and(|ball| index == ball + 2) {
+            if is_given || layout.spherical.is_some_and(|spherical| index == spherical + 2) {
                 let constant = if is_given { filling.then_after(&behind) } else { behind };
                 let last = found.steps.last_mut().map_or(&mut first, |step| &mut step.behind);
                 *last = last.then_after(&constant);
@@ -55,7 +55,7 @@ impl Cycle {
                 found.indices.push(index);
             }
         }
-        if layout.ball.is_some() {
+        if layout.spherical.is_some() {
             found.before = Some(first);
             return Ok(Some(found));
         }

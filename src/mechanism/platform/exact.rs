@@ -93,14 +93,14 @@ impl ExactSide<'_> {
         };
         // Poses are isolated: none lies on a curve of them.
         search.assembly.self_motion = 0;
-        let (mut is_rescued, mut is_longer) = (false, false);
+        let (mut is_repeated, mut is_longer) = (false, false);
         if poses == MOST_POSES && known.is_none() {
             // What f64 does not reach, the exact data do.
-            self.rescue::<LIMBS>(search, poses);
-            is_rescued = true;
+            self.solve_in_high_precision::<LIMBS>(search, poses);
+            is_repeated = true;
             // Platforms near special ones have simple poses that take more digits.
             if search.proved() < poses && are_simple(self.platform, self.squares) {
-                self.rescue::<MORE_LIMBS>(search, poses);
+                self.solve_in_high_precision::<MORE_LIMBS>(search, poses);
                 is_longer = true;
             }
             if search.proved() == poses {
@@ -123,10 +123,10 @@ impl ExactSide<'_> {
         let is_done =
             |search: &Search, reals: Option<Proof>| search.proved() == total || (!self.complex && reals.is_some());
         knowledge.reals = reals(search);
-        // The algebra of rotations was solved in long numbers before.
+        // The algebra of rotations was solved in multiprecision before.
         let is_affine = polynomial.is_some_and(|polynomial| polynomial.quotient == Quotient::Affine);
-        if !is_rescued && !is_affine && !is_done(search, knowledge.reals) {
-            self.rescue::<LIMBS>(search, total);
+        if !is_repeated && !is_affine && !is_done(search, knowledge.reals) {
+            self.solve_in_high_precision::<LIMBS>(search, total);
             knowledge.reals = reals(search);
         }
         if !is_done(search, knowledge.reals)
@@ -142,7 +142,7 @@ impl ExactSide<'_> {
             && !is_done(search, knowledge.reals)
             && polynomial.is_some_and(|polynomial| search.simple() < simple_roots(polynomial))
         {
-            self.rescue::<MORE_LIMBS>(search, total);
+            self.solve_in_high_precision::<MORE_LIMBS>(search, total);
             knowledge.reals = reals(search);
         }
         if !is_general && !is_done(search, knowledge.reals) {
@@ -156,8 +156,8 @@ impl ExactSide<'_> {
         knowledge
     }
 
-    fn rescue<const LIMBS: usize>(&self, search: &mut Search, expected: usize) {
-        search.solver.rescue::<LIMBS>(self.platform, self.squares, expected, search.memory, search.assembly);
+    fn solve_in_high_precision<const LIMBS: usize>(&self, search: &mut Search, expected: usize) {
+        search.solver.solve_in_high_precision::<LIMBS>(self.platform, self.squares, expected, search.memory, search.assembly);
     }
 
     /// Puts multiple poses that are known exactly into the list.
@@ -165,7 +165,7 @@ impl ExactSide<'_> {
         let simple = search.proved();
         let poses = multiple_poses(self.platform, self.squares, polynomial);
         if !poses.is_empty() && search.solver.add_exact(&poses, search.memory, search.assembly) {
-            search.assembly.rescued = search.assembly.rescued.min(simple);
+            search.assembly.by_high_precision = search.assembly.by_high_precision.min(simple);
         }
     }
 }

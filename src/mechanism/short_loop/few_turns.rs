@@ -21,7 +21,7 @@ use rug::Rational;
 
 type Rotation = [[Rational; 3]; 3];
 
-/// What closes a loop of few rotations.
+/// What closes a loop of few revolute joints.
 #[derive(Debug, PartialEq)]
 enum Closing {
     /// Nothing does: this far off is what has to vanish, in cosines, or lengths over the mean link.

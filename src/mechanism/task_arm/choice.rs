@@ -114,7 +114,7 @@ pub(super) fn columns(task: &[Behind], tool: &Motion<f64>, reach: f64) -> Vec<[f
     for behind in task {
         let own = match behind {
             Behind::Joint(joint) => std::slice::from_ref(joint),
-            Behind::Ball => &ALL[..3],
+            Behind::Spherical => &ALL[..3],
             Behind::Constant(_) => {
                 frame = Motion::translation(tool.translation);
                 &[]

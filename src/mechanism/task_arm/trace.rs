@@ -41,7 +41,7 @@ impl<'a> Tracer<'a> {
     /// The loop at a pose; `None` where a spherical joint stands in it, or it has not seven variables.
     pub(super) fn of(of: &'a TaskArm, pose: &'a Placement, tolerance: Tolerance) -> Option<Self> {
         let mut behind = of.behind(pose);
-        if behind.contains(&Behind::Ball) {
+        if behind.contains(&Behind::Spherical) {
             return None;
         }
         behind.push(Behind::Constant(Box::new(pose.undone())));

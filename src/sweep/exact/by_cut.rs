@@ -36,7 +36,7 @@ pub(super) fn of_every_output(chain: &Chain, layout: &Layout, offset: &Rational)
 fn of_outputs(chain: &Chain, layout: &Layout, offset: &Rational, most: usize) -> Vec<Relation> {
     let (Some(locked), Ok(linkage)) = (layout.locked, Linkage::of(chain)) else { return Vec::new() };
     let unknowns = linkage.variables.len().saturating_sub(1);
-    let is_plain = layout.ball.is_none() && linkage.axes.iter().all(|axis| *axis == Axis::Z);
+    let is_plain = layout.spherical.is_none() && linkage.axes.iter().all(|axis| *axis == Axis::Z);
     if !is_plain || !(3..=5).contains(&unknowns) {
         return Vec::new();
     }

@@ -81,7 +81,7 @@ pub(super) fn of_row(kind: Variable, row: &[CircleFraction; 3]) -> InOutput {
 pub(super) fn relations(chain: &Chain, layout: &Layout, moved: Moved<'_>, offset: &Rational) -> Vec<Relation> {
     let running = moved.at(offset);
     let Some(filling) = running.filling() else { return Vec::new() };
-    if layout.second_ball.is_some() {
+    if layout.second_spherical.is_some() {
         return coupled(chain, layout, &running, &filling).into_iter().collect();
     }
     let filled = layout.with_idle(layout.missing(), 0);
@@ -93,13 +93,13 @@ pub(super) fn relations(chain: &Chain, layout: &Layout, moved: Moved<'_>, offset
         if !moved.is_input() {
             return Vec::new();
         }
-        let is_plain = layout.ball.is_none();
+        let is_plain = layout.spherical.is_none();
         let found = if is_plain { super::four_joints::relations(&closed, indices) } else { Vec::new() };
         return if found.is_empty() { super::by_cut::relations(chain, layout, offset) } else { found };
     }
     let Some(indices) = indices.into_iter().collect::<Option<Vec<usize>>>() else { return Vec::new() };
-    if let Some(ball) = layout.ball_unknown() {
-        return reach(&closed, ball, &indices);
+    if let Some(spherical) = layout.spherical_unknown() {
+        return reach(&closed, spherical, &indices);
     }
     match closed.variables.iter().filter(|kind| **kind == Variable::Rotation).count() {
         3 => triangles(&closed, &indices),
@@ -132,10 +132,10 @@ fn coupled(
 }
 
 /// One spherical joint: its centre is reached from both sides.
-fn reach(closed: &ClosedLoop<CircleFraction>, ball: usize, indices: &[usize]) -> Vec<Relation> {
-    let reach = Reach::of(closed, ball);
+fn reach(closed: &ClosedLoop<CircleFraction>, spherical: usize, indices: &[usize]) -> Vec<Relation> {
+    let reach = Reach::of(closed, spherical);
     let side = |hidden: usize| {
-        let relation = separated(&reach.equations, hidden, indices[[(ball + 5) % 6, (ball + 3) % 6][hidden]])?;
+        let relation = separated(&reach.equations, hidden, indices[[(spherical + 5) % 6, (spherical + 3) % 6][hidden]])?;
         // On the axis of the middle joint the centre leaves it free.
         let across = |i: usize| of_row(relation.kind, &std::array::from_fn(|k| reach.sides[hidden][k][i].clone()));
         let turns = reach.variables[1] == Variable::Rotation;

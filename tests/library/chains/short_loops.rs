@@ -103,7 +103,7 @@ fn a_loop_of_seven_variables_without_input_says_what_it_needs() {
     );
 }
 
-/// A planar four-bar may have a ball for one of its revolutes: the two positions of its closed form.
+/// A planar four-bar may have a spherical joint for one of its revolutes: the two positions of its closed form.
 #[test]
 fn an_overconstrained_loop_with_a_ball_is_solved_by_its_centre() {
     let joint = |kind: char, a: i32| format!("{{ type = \"{kind}\", a = {a}, alpha = 0, d = 0 }},\n");
@@ -111,20 +111,20 @@ fn an_overconstrained_loop_with_a_ball_is_solved_by_its_centre() {
     // cos q1 = 3/5, sin q1 = 4/5: the diagonal from joint 2 to joint 1 by way of link 4.
     let diagonal = (16.0_f64 + 4.0 + 2.0 * 4.0 * 2.0 * 0.6).sqrt();
     let inner = ((9.0 + 9.0 - diagonal * diagonal) / 18.0).acos();
-    for ball in [2, 3, 4] {
-        let kind = |k: usize| if k == ball { 'S' } else { 'R' };
+    for spherical in [2, 3, 4] {
+        let kind = |k: usize| if k == spherical { 'S' } else { 'R' };
         let links: String = (1..).zip([2, 3, 3, 4]).map(|(k, a)| joint(kind(k), a)).collect();
         let found = solve(&read(&bennett(&links, input)).unwrap(), 0);
         let verdict = &found.verdict;
         assert_eq!((verdict.status, verdict.complex, verdict.real), (Status::Complete, 2, 2), "{}", verdict.reason);
         // The angle of joint 3, which turns by the angle outside of the triangle.
-        let third = if ball == 2 { 4 } else { 2 };
+        let third = if spherical == 2 { 4 } else { 2 };
         for mode in &found.modes {
-            assert!(mode.residual < 1e-14 && mode.multiplicity == 1, "{ball}: {:e}", mode.residual);
-            assert!(mode.certified && mode.radius < 1e-10 && mode.condition < 1e6, "{ball}: {:e}", mode.radius);
-            if ball != 3 {
+            assert!(mode.residual < 1e-14 && mode.multiplicity == 1, "{spherical}: {:e}", mode.residual);
+            assert!(mode.certified && mode.radius < 1e-10 && mode.condition < 1e6, "{spherical}: {:e}", mode.radius);
+            if spherical != 3 {
                 let turn = mode.q[third].re.abs();
-                assert!((turn - (std::f64::consts::PI - inner)).abs() < 1e-12, "{ball}: {turn} {inner}");
+                assert!((turn - (std::f64::consts::PI - inner)).abs() < 1e-12, "{spherical}: {turn} {inner}");
             }
         }
         // A joint off by a hair closes nothing.
@@ -169,7 +169,7 @@ fn two_exact_counts_agree() {
     }
 }
 
-/// A triangle of a revolute joint and two balls: the two positions of its closed form, without input, and no other way to
+/// A triangle of a revolute joint and two spherical joints: the two positions of its closed form, without input, and no other way to
 /// close.
 #[test]
 fn a_structure_of_two_balls_needs_no_input() {
@@ -185,7 +185,7 @@ fn a_structure_of_two_balls_needs_no_input() {
     assert!(message.exit_code() == 4 && message.to_string().contains("or RSS without"), "{message}");
 }
 
-/// The second ball on the axis of the last joint: the input alone decides whether the loop closes, and then that joint turns on.
+/// The second spherical joint on the axis of the last joint: the input alone decides whether the loop closes, and then that joint turns on.
 #[test]
 fn a_ball_on_the_axis_of_its_neighbour_turns_on_or_never_closes() {
     let joint = |kind: char, a: i32| format!("{{ type = \"{kind}\", a = {a}, alpha = 0, d = 0 }},\n");
@@ -201,30 +201,30 @@ fn at(angle: &str) -> String {
     format!("[[input]]\njoint = 1\nangle = {angle}\n")
 }
 
-/// Every branch of the route of a ball: what is planted is found, with its multiplicity.
+/// Every branch of the route of a spherical joint: what is planted is found, with its multiplicity.
 #[test]
 fn planted_positions_of_a_ball_are_found() {
     let link = |kind: char, a: &str, twist: &str, own: &str| {
         format!("{{ type = \"{kind}\", a = \"{a}\", tan_half_alpha = \"{twist}\", {own} }},\n")
     };
-    let ball = link('S', "0", "0", "d = 0");
+    let spherical = link('S', "0", "0", "d = 0");
     // Both arms stretched: a double root.
     let (long, short) = (link('R', "4", "0", "d = 0"), link('R', "2", "0", "d = 0"));
-    let stretched = solve(&read(&bennett(&(long + &short + &short + &ball), &at("0"))).unwrap(), 0);
+    let stretched = solve(&read(&bennett(&(long + &short + &short + &spherical), &at("0"))).unwrap(), 0);
     let verdict = &stretched.verdict;
     assert_eq!((verdict.status, verdict.complex, verdict.real), (Status::Complete, 2, 2), "{}", verdict.reason);
     assert!(stretched.modes.len() == 1 && stretched.modes[0].multiplicity == 2);
     // The centre on the axis of a revolute joint: it turns on.
-    let still = link('R', "0", "1/2", "d = 0").repeat(2) + &ball;
+    let still = link('R', "0", "1/2", "d = 0").repeat(2) + &spherical;
     assert_eq!(solve(&read(&bennett(&still, &at("0"))).unwrap(), 0).verdict.status, Status::SelfMotion);
     // A slider between: rotation and translation, translation and rotation, two translations, one of either.
     let slider = link('P', "0", "1", "tan_half_theta = 0");
     let across = link('P', "0", "1", "tan_half_theta = 1") + &link('P', "0", "0", "tan_half_theta = 0");
     for (links, complex) in [
-        (link('R', "1", "0", "d = 0") + &link('R', "2", "1", "d = 0") + &slider + &ball, 2),
-        (link('R', "1", "1", "d = 0") + &slider + &link('R', "2", "0", "d = 0") + &ball, 2),
-        (link('R', "1", "1", "d = 0") + &across + &ball, 1),
-        (link('R', "1", "1", "d = 0") + &slider + &ball, 0),
+        (link('R', "1", "0", "d = 0") + &link('R', "2", "1", "d = 0") + &slider + &spherical, 2),
+        (link('R', "1", "1", "d = 0") + &slider + &link('R', "2", "0", "d = 0") + &spherical, 2),
+        (link('R', "1", "1", "d = 0") + &across + &spherical, 1),
+        (link('R', "1", "1", "d = 0") + &slider + &spherical, 0),
     ] {
         let found = solve(&read(&bennett(&links, &at("0"))).unwrap(), 0);
         assert_eq!(found.verdict.complex, complex, "{links}{}", found.verdict.reason);

@@ -88,7 +88,7 @@ fn numbers_of_384_bits_alone_find_every_pose_of_special_geometries() {
         let real = solved(&platform, &squares, Roots::All).real();
         let solver = PlatformSolver::prepare(&platform.map(|x| Some(nearest_f64(x))).unwrap());
         let (mut workspace, mut assembly) = (PlatformWorkspace::default(), PlatformAssembly::default());
-        solver.rescue::<6>(&platform, &squares, poses, &mut workspace, &mut assembly);
+        solver.solve_in_high_precision::<6>(&platform, &squares, poses, &mut workspace, &mut assembly);
         assert_eq!((assembly.total(), certified(&assembly), assembly.real()), (poses, poses, real), "{set:?}");
     }
 }

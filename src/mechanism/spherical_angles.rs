@@ -1,6 +1,6 @@
-//! The angles of balls along a curve: over power series, so that their rates come out of the same formulas.
+//! The angles of spherical joints along a curve: over power series, so that their rates come out of the same formulas.
 //!
-//! A ball is three rotations about z, x and z again, the second one from 0 to pi.
+//! A spherical joint is three rotations about z, x and z again, the second one from 0 to pi.
 
 use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
@@ -11,10 +11,10 @@ use crate::kinematics::motion::{Motion, Vector, cross, dot};
 
 /// A number with its first and second Taylor coefficient.
 pub(super) type Jet = Series<f64, 3>;
-/// The rotation of a ball.
+/// The rotation of a spherical joint.
 pub(super) type Rotation<S> = [[S; 3]; 3];
 
-/// Sines below this leave two axes one: the line of the centres and an axis, or the first and the third one of a ball.
+/// Sines below this leave two axes one: the line of the centres and an axis, or the first and the third one of a spherical joint.
 const ONE_AXIS: f64 = 1e-9;
 
 /// The square root of a positive series.
@@ -88,10 +88,10 @@ fn angles(r: &Rotation<Jet>) -> [Jet; 3] {
     [first, rates(second), rates(0.0)].map(|coefficients| Series { coefficients })
 }
 
-/// A ball of a curve, turned on both sides, so that its angles are independent where those of the mechanism are not:
+/// A spherical joint of a curve, turned on both sides, so that its angles are independent where those of the mechanism are not:
 /// `X = A X' B` for constant rotations A and B in general position.
 #[derive(Clone, Debug)]
-pub(super) struct TurnedBall {
+pub(super) struct TurnedJoint {
     /// Where it stands among the variables of a point.
     pub unknown: usize,
     /// Index of its first joint variable.
@@ -100,7 +100,7 @@ pub(super) struct TurnedBall {
     pub behind: Rotation<f64>,
 }
 
-impl TurnedBall {
+impl TurnedJoint {
     /// From the angles of the mechanism to those of the curve.
     pub fn inside(&self, own: [f64; 3]) -> [f64; 3] {
         let [before, behind] = [&self.before, &self.behind].map(|r| lifted(&transposed(r)));
@@ -114,10 +114,10 @@ impl TurnedBall {
     }
 }
 
-/// The angles of two balls that couple an unknown V to the input, `X L Y K V H = I`: the second one is a universal joint,
+/// The angles of two spherical joints that couple an unknown V to the input, `X L Y K V H = I`: the second one is a universal joint,
 /// with one axis fixed in L across the line of the centres and one along the z axis of the frame behind it (along its x
-/// axis where that line is parallel to z). So the idle spin is the same as at a mode of the solver.
-/// Not a number where both balls have the same centre.
+/// axis where that line is parallel to z). So the idle degree of freedom is the same as at a mode of the solver.
+/// Not a number where both spherical joints have the same centre.
 pub(super) fn coupled_angles(open: &OpenCoupled<Jet>, input: Variable, unknown: &Jet, given: &Jet) -> [[Jet; 3]; 2] {
     let coupled = open.close(&motion(input, given));
     let rest = coupled.before.then_after(&motion(coupled.variable, unknown)).then_after(&coupled.behind);
@@ -134,7 +134,7 @@ pub(super) fn coupled_angles(open: &OpenCoupled<Jet>, input: Variable, unknown: 
     let helper = farthest_axis(&along.map(|x| x.coefficients[0]));
     let x = unit(&cross(&helper.map(Series::constant), &along));
     let own = columns(&x, &cross(&along, &x), &along);
-    // The same frame where the second ball lets it be.
+    // The same frame where the second spherical joint lets it be.
     let line = unit(&across.translation);
     let column = |k: usize| -> Vector<Jet> { std::array::from_fn(|i| across.rotation[i][k]) };
     let mut side = cross(&line, &column(2));

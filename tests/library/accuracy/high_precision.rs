@@ -60,7 +60,7 @@ fn solutions_almost_at_infinity_are_found_and_proved() {
         if set == Set::Calibrated {
             assert_eq!(verdict.code, Code::ExactRootsMatched, "{}", verdict.reason);
         } else {
-            assert!(assembly.rescued > 0, "{set:?} {index}: f64 was enough");
+            assert!(assembly.by_high_precision > 0, "{set:?} {index}: f64 was enough");
             assert!(verdict.reason.contains("384-bit"), "{}", verdict.reason);
         }
         // The conjugate of every solution is one.
@@ -84,19 +84,19 @@ fn long_translations_are_no_self_motion() {
 
 #[test]
 fn both_precisions_find_the_same_solutions() {
-    // Three translations behind a ball are three linear equations: nothing of them is ever far away.
+    // Three translations behind a spherical joint are three linear equations: nothing of them is ever far away.
     for (k, (name, count)) in CHAINS.iter().enumerate().filter(|(_, (name, _))| *name != "SPPP") {
         let drawn = sample(Set::Chain(k), 7, 3).unwrap();
         let layout = Layout::of(&drawn.chain, None).unwrap();
         let (open, filling, _) = closed::<f64>(&drawn, &layout);
-        let solver = match layout.ball_unknown() {
-            Some(ball) => Solver::with_ball(&open, ball),
+        let solver = match layout.spherical_unknown() {
+            Some(spherical) => Solver::with_spherical_joint(&open, spherical),
             None => Solver::prepare(&open),
         };
         let (mut fast, mut exact) = (Assembly::default(), Assembly::default());
         solver.solve(&filling, Roots::All, &mut Workspace::default(), &mut fast);
-        solver.rescue(&closed::<LongFloat>(&drawn, &layout).2, None, *count, &mut exact);
-        assert_eq!((fast.total(), exact.total(), exact.rescued), (*count, *count, *count), "{name}");
+        solver.solve_in_high_precision(&closed::<LongFloat>(&drawn, &layout).2, None, *count, &mut exact);
+        assert_eq!((fast.total(), exact.total(), exact.by_high_precision), (*count, *count, *count), "{name}");
         assert_eq!(fast.real(), exact.real(), "{name}");
         for mode in &fast.modes {
             let near = exact.modes.iter().filter(|other| other.real == mode.real).map(|other| {
@@ -107,8 +107,8 @@ fn both_precisions_find_the_same_solutions() {
             assert!(near < 1e-8, "{name}: {near:e}");
         }
         // Solutions that are there already are not counted as new.
-        solver.rescue(&closed::<LongFloat>(&drawn, &layout).2, None, *count, &mut fast);
-        assert_eq!((fast.total(), fast.rescued), (*count, 0), "{name}");
+        solver.solve_in_high_precision(&closed::<LongFloat>(&drawn, &layout).2, None, *count, &mut fast);
+        assert_eq!((fast.total(), fast.by_high_precision), (*count, 0), "{name}");
     }
 }
 
@@ -123,7 +123,7 @@ fn both_precisions_find_the_same_complex_poses() {
             (PlatformWorkspace::default(), PlatformAssembly::default(), PlatformAssembly::default());
         let rationals = squares.each_ref().map(|square| square.rational().clone());
         let geometry = drawn.platform.map(|x| Rational::from_f64(*x)).unwrap();
-        solver.rescue::<6>(&geometry, &rationals, count, &mut workspace, &mut exact);
+        solver.solve_in_high_precision::<6>(&geometry, &rationals, count, &mut workspace, &mut exact);
         solver.solve(&squares.each_ref().map(Number::to_f64), Roots::All, &mut workspace, &mut fast);
         assert_eq!((fast.total(), exact.total()), (count, count), "{set:?}");
         assert!(exact.modes.iter().all(|mode| mode.certificate.is_some()), "{set:?}");

@@ -1,9 +1,9 @@
-//! Overconstrained loops with a ball: its centre, reached from both sides by at most two other joint variables.
+//! Overconstrained loops with a spherical joint: its centre, reached from both sides by at most two other joint variables.
 //!
-//! With a ball B the loop is `B G3 Va Ga Vb Gb = I`, and the centre of the ball is carried back to where it was:
+//! With a spherical joint B the loop is `B G3 Va Ga Vb Gb = I`, and the centre of the spherical joint is carried back to where it was:
 //! `Va Ga Vb p = p0`, three equations in at most two unknowns. Two of them are free of Va: for a rotation the height along
 //! its axis and the distance from a point of it, for a translation the place across its axis. Their common roots are
-//! exact; Va, by the third equation, and the rotation of the ball follow.
+//! exact; Va, by the third equation, and the rotation of the spherical joint follow.
 
 use super::single_loop::filling;
 use crate::algebra::ring::{Domain, Ring};
@@ -23,7 +23,7 @@ type Value = Complex<f64>;
 /// Less than this, over the sizes of all that comes in, may be rounding of the data.
 const CLEAR: f64 = 1e-9;
 
-/// All positions of the centre of a ball.
+/// All positions of the centre of a spherical joint.
 pub(super) enum Positions {
     /// Isolated ones.
     Isolated {
@@ -36,16 +36,16 @@ pub(super) enum Positions {
     Moving,
 }
 
-/// An unknown beside the ball: its index among the joint variables, what it does, and the constant behind it.
+/// An unknown beside the spherical joint: its index among the joint variables, what it does, and the constant behind it.
 type Step = (usize, Variable, Motion<Rational>);
 
-/// Finds every position of a loop with one ball and at most two more unknowns.
+/// Finds every position of a loop with one spherical joint and at most two more unknowns.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for other loops, [`Error::Invalid`] for a case without input that has one.
 pub(super) fn positions(chain: &Chain, layout: &Layout, case: &Case) -> Result<Positions> {
-    let (before, steps) = behind_ball(chain, layout, case)?;
-    // The centre as the ball's own frame has it, seen from behind the constant that follows the ball.
+    let (before, steps) = behind_spherical(chain, layout, case)?;
+    // The centre as the spherical joint's own frame has it, seen from behind the constant that follows the spherical joint.
     let target = before.inverse().translation;
     let none: Vector<Rational> = std::array::from_fn(|_| Rational::new());
     let total = layout.variables.len();
@@ -113,18 +113,18 @@ pub(super) fn positions(chain: &Chain, layout: &Layout, case: &Case) -> Result<P
             let constant = constant.map(|x| Some(Complex::from(x.to_f64())));
             motion = motion.zip(constant).map(|(motion, constant)| motion.then_after(&step).then_after(&constant));
         }
-        let (Some(motion), Some(ball)) = (motion, layout.ball) else { return (q, multiplicity) };
-        // The rotation of the ball is the inverse of the rest, its transpose.
+        let (Some(motion), Some(spherical)) = (motion, layout.spherical) else { return (q, multiplicity) };
+        // The rotation of the spherical joint is the inverse of the rest, its transpose.
         let r = motion.rotation;
         let cos = r[2][2];
         let sin = (Complex::from(1.0) - cos * cos).sqrt();
         if sin.norm() > 1e-8 {
-            q[ball] = Value::angle_of(-r[2][1] / sin, r[2][0] / sin);
-            q[ball + 1] = Value::angle_of(cos, sin);
-            q[ball + 2] = Value::angle_of(r[1][2] / sin, r[0][2] / sin);
+            q[spherical] = Value::angle_of(-r[2][1] / sin, r[2][0] / sin);
+            q[spherical + 1] = Value::angle_of(cos, sin);
+            q[spherical + 2] = Value::angle_of(r[1][2] / sin, r[0][2] / sin);
         } else {
-            q[ball] = Value::angle_of(r[0][0], r[0][1]);
-            q[ball + 1] = Value::angle_of(cos, Complex::ZERO);
+            q[spherical] = Value::angle_of(r[0][0], r[0][1]);
+            q[spherical + 1] = Value::angle_of(cos, Complex::ZERO);
         }
         (q, multiplicity)
     };
@@ -146,19 +146,19 @@ fn are_apart(one: &Univariate<Rational>, two: &Univariate<Rational>) -> bool {
     resultant.abs() > CLEAR
 }
 
-/// What stands behind the ball up to the first unknown, and the unknowns with the constants behind them, up to the ball.
-fn behind_ball(chain: &Chain, layout: &Layout, case: &Case) -> Result<(Motion<Rational>, Vec<Step>)> {
+/// What stands behind the spherical joint up to the first unknown, and the unknowns with the constants behind them, up to the spherical joint.
+fn behind_spherical(chain: &Chain, layout: &Layout, case: &Case) -> Result<(Motion<Rational>, Vec<Step>)> {
     let unsupported = || Error::Unsupported("the loop has no S joint".to_owned());
-    let ball = layout.ball.ok_or_else(unsupported)?;
+    let spherical = layout.spherical.ok_or_else(unsupported)?;
     let mut cycle: Vec<_> =
         chain.cycle::<Rational>(&Numbers).ok_or_else(unsupported)?.into_iter().enumerate().collect();
-    cycle.rotate_left(ball + 2);
+    cycle.rotate_left(spherical + 2);
     let mut cycle = cycle.into_iter();
     let mut before = cycle.next().map(|(_, (_, constant))| constant).ok_or_else(unsupported)?;
     let mut steps: Vec<Step> = Vec::new();
     for (index, (variable, constant)) in cycle {
-        // The other two turns of the ball come last.
-        if index == ball {
+        // The other two turns of the spherical joint come last.
+        if index == spherical {
             break;
         }
         if layout.locked == Some(index) {

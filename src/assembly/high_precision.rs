@@ -5,7 +5,7 @@
 //! which there are enough digits, all of its roots are found, and each is followed back to all six unknowns, polished and
 //! proved.
 
-use super::ball::canonical;
+use super::spherical::canonical;
 use super::mode::{Hits, Mode, are_apart, wrapped};
 use crate::algebra::determinant::determinant;
 use crate::algebra::ring::{Field, Ring};
@@ -41,15 +41,15 @@ const MOST_TRIES: usize = 6;
 /// Finds and proves the solutions of a loop with exact constants, lengths over the scale of the solver. Returns the
 /// modes, conjugates included, of the first closure polynomial that leads to `expected` of them, or else the most: of
 /// the ring of the loop, too, if there is a plan for that, which comes behind the first polynomial.
-pub(super) fn rescue<R: Extended>(
+pub(super) fn solve_in_high_precision<R: Extended>(
     exact: &ClosedLoop<R>,
-    ball: Option<usize>,
+    spherical: Option<usize>,
     plan: Option<&coordinate_ring::Plan>,
     expected: usize,
 ) -> Vec<Mode> {
     let mut best = Vec::new();
     let mut note = |candidates: &[Pairs<R>]| {
-        let modes = modes(exact, ball, candidates);
+        let modes = modes(exact, spherical, candidates);
         if modes.len() > best.len() {
             best = modes;
         }
@@ -61,8 +61,8 @@ pub(super) fn rescue<R: Extended>(
         tries += 1;
         note(&candidates) || (tries == 1 && by_ring().is_some_and(|all| note(&all))) || tries >= MOST_TRIES
     };
-    match (ball, general_degree(exact.variables)) {
-        (Some(ball), _) => _ = take(centre(exact, ball).unwrap_or_default()),
+    match (spherical, general_degree(exact.variables)) {
+        (Some(spherical), _) => _ = take(centre(exact, spherical).unwrap_or_default()),
         (None, Some(2)) => _ = take(spherical_triangle(exact).unwrap_or_default()),
         (None, Some(8)) => four_bars(exact, &mut take),
         _ => cuts(exact, &mut take),
@@ -282,10 +282,10 @@ fn eigenvectors<R: Extended>(ring: &CoordinateRing<R>) -> Option<Vec<Pairs<R>>> 
     Some(candidates.collect())
 }
 
-/// A ball: its centre, and what is left of the rotation.
-fn centre<R: Extended>(exact: &ClosedLoop<R>, ball: usize) -> Option<Vec<Pairs<R>>> {
+/// A spherical joint: its centre, and what is left of the rotation.
+fn centre<R: Extended>(exact: &ClosedLoop<R>, spherical: usize) -> Option<Vec<Pairs<R>>> {
     let lifted = complex(exact);
-    let (reach, complex_reach) = (Reach::of(exact, ball), Reach::of(&lifted, ball));
+    let (reach, complex_reach) = (Reach::of(exact, spherical), Reach::of(&lifted, spherical));
     let sides = both_sides(&reach.equations)?;
     let pair = |variable: Variable, m: &[Complex<R>; 3]| match variable {
         Variable::Rotation => (m[1], m[2]),
@@ -296,22 +296,22 @@ fn centre<R: Extended>(exact: &ClosedLoop<R>, ball: usize) -> Option<Vec<Pairs<R
         let [first, second, third] = reach.variables;
         let others = [(first, pair(first, &sides[1])), (second, middle), (third, pair(third, &sides[0]))];
         let mut pairs = [(Complex::zero(), Complex::zero()); 6];
-        let constant = |k: usize| &lifted.constants[(ball + k) % 6].rotation;
+        let constant = |k: usize| &lifted.constants[(spherical + k) % 6].rotation;
         let mut rest = *constant(2);
         for (k, (variable, pair)) in others.into_iter().enumerate() {
             if variable == Variable::Rotation {
                 rest = turned(&rest, &pair);
             }
             rest = product(&rest, constant(3 + k));
-            pairs[(ball + 3 + k) % 6] = pair;
+            pairs[(spherical + 3 + k) % 6] = pair;
         }
         // Rz(a) Rx(b) Rz(c) is the inverse.
         let r = |i: usize, j: usize| rest[j][i];
         let sin = r(0, 2).mul(&r(0, 2)).add(&r(1, 2).mul(&r(1, 2))).root();
         let inverse = sin.inverse()?;
-        pairs[ball % 6] = (r(1, 2).neg().mul(&inverse), r(0, 2).mul(&inverse));
-        pairs[(ball + 1) % 6] = (r(2, 2), sin);
-        pairs[(ball + 2) % 6] = (r(2, 1).mul(&inverse), r(2, 0).mul(&inverse));
+        pairs[spherical % 6] = (r(1, 2).neg().mul(&inverse), r(0, 2).mul(&inverse));
+        pairs[(spherical + 1) % 6] = (r(2, 2), sin);
+        pairs[(spherical + 2) % 6] = (r(2, 1).mul(&inverse), r(2, 0).mul(&inverse));
         Some(pairs)
     });
     Some(candidates.collect())
@@ -331,7 +331,7 @@ fn residual<R: Extended>(exact: &ClosedLoop<R>, unknowns: &Six<Complex<f64>>, re
 }
 
 /// The modes that are proved among candidates, every one once, conjugates included.
-fn modes<R: Extended>(exact: &ClosedLoop<R>, ball: Option<usize>, candidates: &[Pairs<R>]) -> Vec<Mode> {
+fn modes<R: Extended>(exact: &ClosedLoop<R>, spherical: Option<usize>, candidates: &[Pairs<R>]) -> Vec<Mode> {
     let mut modes: Vec<Mode> = Vec::new();
     for Refined { unknowns, real, certificate, condition } in candidates.iter().filter_map(|p| from_pairs(exact, p)) {
         let mut add = |mut unknowns: Six<Complex<f64>>| {
@@ -340,8 +340,8 @@ fn modes<R: Extended>(exact: &ClosedLoop<R>, ball: Option<usize>, candidates: &[
                     z.re = wrapped(z.re);
                 }
             }
-            if let Some(ball) = ball {
-                canonical(&mut unknowns, ball);
+            if let Some(spherical) = spherical {
+                canonical(&mut unknowns, spherical);
             }
             let mode = Mode {
                 unknowns,

@@ -1,6 +1,6 @@
-//! Loops with a ball: its centre first, by the point that both sides reach; its rotation is what is left.
+//! Loops with a spherical joint: its centre first, by the point that both sides reach; its rotation is what is left.
 //!
-//! A ball is three rotations about z, x and z again, the second one from 0 to pi, so that every rotation is listed once.
+//! A spherical joint is three rotations about z, x and z again, the second one from 0 to pi, so that every rotation is listed once.
 
 use super::limits;
 use super::mode::{Assembly, Mode, wrapped};
@@ -20,48 +20,48 @@ use std::f64::consts::PI;
 type Rotation<S> = [[S; 3]; 3];
 
 impl Search<'_> {
-    /// Every position of the centre of the ball that begins at this unknown.
-    pub fn centre(&mut self, ball: usize) {
-        let reach = Reach::of(self.closed, ball);
+    /// Every position of the centre of the spherical joint that begins at this unknown.
+    pub fn centre(&mut self, spherical: usize) {
+        let reach = Reach::of(self.closed, spherical);
         let Some(found) = SeparatedRoots::of(&reach.equations, limits::REACH_DEPENDENT) else { return };
         self.assembly.tries += 1;
-        let mut family = OfBall { ball, found: &found, reach: &reach, complex: None };
+        let mut family = OfCentre { spherical, found: &found, reach: &reach, complex: None };
         self.assembly.clean = self.all_roots(&mut family, found.roots());
     }
 
-    /// Admits a loop with a ball: in angles of the ball that are far from where they are not independent.
-    fn admit_ball<S: Scalar>(&mut self, ball: usize, others: &[(Variable, (S, S)); 3]) -> bool {
+    /// Admits a loop with a spherical joint: in angles of the spherical joint that are far from where they are not independent.
+    fn admit_spherical<S: Scalar>(&mut self, spherical: usize, others: &[(Variable, (S, S)); 3]) -> bool {
         let mut rest: Motion<S> = Motion::identity();
         for (k, (variable, pair)) in others.iter().enumerate() {
             turn(&mut rest, *variable, *pair);
-            rest = rest.then_after(&lifted(&self.closed.constants[(ball + 3 + k) % 6]));
+            rest = rest.then_after(&lifted(&self.closed.constants[(spherical + 3 + k) % 6]));
         }
-        let behind = lifted::<S>(&self.closed.constants[(ball + 2) % 6]);
+        let behind = lifted::<S>(&self.closed.constants[(spherical + 2) % 6]);
         let inverse = matrix_product(&behind.rotation, &rest.rotation);
         let rotation: Rotation<S> = std::array::from_fn(|i| std::array::from_fn(|j| inverse[j][i]));
         let mut start: Six<S> = [S::zero(); 6];
         for (k, (variable, (first, second))) in others.iter().enumerate() {
-            start[(ball + 3 + k) % 6] = match variable {
+            start[(spherical + 3 + k) % 6] = match variable {
                 Variable::Rotation => S::angle_of(*first, *second),
                 Variable::Translation => *first,
             };
         }
-        let (angles, lock) = ball_angles(&rotation);
+        let (angles, lock) = spherical_angles(&rotation);
         if lock > limits::LOCKED {
-            place(&mut start, ball, angles);
+            place(&mut start, spherical, angles);
             return self.admit(&start);
         }
-        // Near the lock, as a ball with its third angle about another axis.
+        // Near the lock, as a spherical joint with its third angle about another axis.
         let turned = matrix_product(&rotation, &quarter().map(|row| row.map(S::from_f64)));
-        place(&mut start, ball, ball_angles(&turned).0);
+        place(&mut start, spherical, spherical_angles(&turned).0);
         let mut closed = self.closed.clone();
-        let constant = &mut closed.constants[(ball + 2) % 6];
+        let constant = &mut closed.constants[(spherical + 2) % 6];
         *constant = Motion { rotation: quarter(), translation: [0.0; 3] }.inverse().then_after(constant);
         let mut found = Assembly { tries: self.assembly.tries, ..Assembly::default() };
         let settled = Search {
             prepared: &[],
             closed: &closed,
-            ball: None,
+            spherical: None,
             decoupled: None,
             arrangement: AS_IT_IS,
             gap_rounding: self.gap_rounding,
@@ -72,14 +72,14 @@ impl Search<'_> {
         }
         .admit(&start);
         for mut mode in found.modes {
-            back(&mut mode, ball);
+            back(&mut mode, spherical);
             self.merge(mode);
         }
         settled
     }
 }
 
-/// What was proved of a mode of a loop with a ball.
+/// What was proved of a mode of a loop with a spherical joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proof {
     /// Error bound of the unknowns.
@@ -88,25 +88,25 @@ pub struct Proof {
     pub condition: f64,
 }
 
-/// Proves that exactly one closure of a loop lies near these unknowns, where `ball` is the first one of a ball: in angles of
-/// the ball that are far from where they are not independent. None where that cannot be shown.
+/// Proves that exactly one closure of a loop lies near these unknowns, where `spherical` is the first one of a spherical joint: in angles of
+/// the spherical joint that are far from where they are not independent. None where that cannot be shown.
 #[must_use]
-pub fn proof(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>, ball: usize, real: bool) -> Option<Proof> {
+pub fn proof(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>, spherical: usize, real: bool) -> Option<Proof> {
     if real {
-        return proof_in::<f64>(closed, &unknowns.map(|z| z.re), ball);
+        return proof_in::<f64>(closed, &unknowns.map(|z| z.re), spherical);
     }
-    proof_in(closed, unknowns, ball)
+    proof_in(closed, unknowns, spherical)
 }
 
-fn proof_in<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>, ball: usize) -> Option<Proof> {
-    let rotation = ball_rotation([0, 1, 2].map(|k| unknowns[(ball + k) % 6]));
-    let own = ball_angles(&rotation).1;
+fn proof_in<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>, spherical: usize) -> Option<Proof> {
+    let rotation = spherical_rotation([0, 1, 2].map(|k| unknowns[(spherical + k) % 6]));
+    let own = spherical_angles(&rotation).1;
     let (mut closed, mut start, mut enlarged) = (closed.clone(), *unknowns, 1.0);
     if !(own > limits::LOCKED) {
         // X = X' Q for a quarter turn Q.
         let turned = product_with_inverse(&rotation, &quarter());
-        place(&mut start, ball, ball_angles(&turned).0);
-        let constant = &mut closed.constants[(ball + 2) % 6];
+        place(&mut start, spherical, spherical_angles(&turned).0);
+        let constant = &mut closed.constants[(spherical + 2) % 6];
         *constant = Motion { rotation: quarter(), translation: [0.0; 3] }.then_after(constant);
         // Near the lock the first and third angle are worse than the rotation; at the lock the third one is 0.
         enlarged = if own > limits::ONE_AXIS { 4.0 / own } else { 4.0 };
@@ -130,9 +130,9 @@ pub(super) fn lifted<S: Scalar>(motion: &Motion<f64>) -> Motion<S> {
     }
 }
 
-fn place<S: Copy>(unknowns: &mut Six<S>, ball: usize, angles: [S; 3]) {
+fn place<S: Copy>(unknowns: &mut Six<S>, spherical: usize, angles: [S; 3]) {
     for (k, angle) in angles.into_iter().enumerate() {
-        unknowns[(ball + k) % 6] = angle;
+        unknowns[(spherical + k) % 6] = angle;
     }
 }
 
@@ -146,8 +146,8 @@ pub(super) fn quarter() -> Rotation<f64> {
     [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
 }
 
-/// The rotation of a ball.
-pub(super) fn ball_rotation<S: Scalar>(angles: [S; 3]) -> Rotation<S> {
+/// The rotation of a spherical joint.
+pub(super) fn spherical_rotation<S: Scalar>(angles: [S; 3]) -> Rotation<S> {
     let about_z = |q: S| {
         let mut m: Motion<S> = Motion::identity();
         turn(&mut m, Variable::Rotation, coordinates(Variable::Rotation, q));
@@ -158,9 +158,9 @@ pub(super) fn ball_rotation<S: Scalar>(angles: [S; 3]) -> Rotation<S> {
     matrix_product(&matrix_product(&about_z(angles[0]), &about_x), &about_z(angles[2]))
 }
 
-/// The three angles of a ball, and the sine of the second one: near 0 the other two are not independent, and at 0 the
+/// The three angles of a spherical joint, and the sine of the second one: near 0 the other two are not independent, and at 0 the
 /// third one is.
-pub(super) fn ball_angles<S: Scalar>(r: &Rotation<S>) -> ([S; 3], f64) {
+pub(super) fn spherical_angles<S: Scalar>(r: &Rotation<S>) -> ([S; 3], f64) {
     let cos = r[2][2];
     // The larger of two ways to the square of the sine keeps its digits.
     let square = r[0][2].mul(&r[0][2]).add(&r[1][2].mul(&r[1][2]));
@@ -175,27 +175,27 @@ pub(super) fn ball_angles<S: Scalar>(r: &Rotation<S>) -> ([S; 3], f64) {
     ([first, S::angle_of(cos, sin), S::angle_of(over(r[2][1]), over(r[2][0]))], lock)
 }
 
-/// A mode of the turned ball in the angles of the ball as it is.
-fn back(mode: &mut Mode, ball: usize) {
-    let angles = [0, 1, 2].map(|k| mode.unknowns[(ball + k) % 6]);
+/// A mode of the turned spherical joint in the angles of the spherical joint as it is.
+fn back(mode: &mut Mode, spherical: usize) {
+    let angles = [0, 1, 2].map(|k| mode.unknowns[(spherical + k) % 6]);
     let quarter = quarter();
     let inverse: Rotation<Complex<f64>> = std::array::from_fn(|i| std::array::from_fn(|j| quarter[j][i].into()));
-    let rotation = matrix_product(&ball_rotation(angles), &inverse);
+    let rotation = matrix_product(&spherical_rotation(angles), &inverse);
     let angles = if mode.real {
-        ball_angles(&rotation.map(|row| row.map(|z| z.re))).0.map(Complex::from)
+        spherical_angles(&rotation.map(|row| row.map(|z| z.re))).0.map(Complex::from)
     } else {
-        ball_angles(&rotation).0
+        spherical_angles(&rotation).0
     };
-    place(&mut mode.unknowns, ball, angles);
+    place(&mut mode.unknowns, spherical, angles);
 }
 
 /// A real part this near to 0 or pi does not tell an angle from its negative.
 const EDGE: f64 = 1e-9;
 
-/// The angles of a ball with the second one from 0 to pi, the same rotation; where its real part is either of them, with a
+/// The angles of a spherical joint with the second one from 0 to pi, the same rotation; where its real part is either of them, with a
 /// positive imaginary part.
-pub(super) fn canonical(unknowns: &mut Six<Complex<f64>>, ball: usize) {
-    let index = |k: usize| (ball + k) % 6;
+pub(super) fn canonical(unknowns: &mut Six<Complex<f64>>, spherical: usize) {
+    let index = |k: usize| (spherical + k) % 6;
     let (second, real) = (unknowns[index(1)], wrapped(unknowns[index(1)].re));
     let on_edge = real.abs().min(PI - real.abs()) < EDGE && second.im.abs() > EDGE;
     if if on_edge { second.im < 0.0 } else { real < 0.0 } {
@@ -207,15 +207,15 @@ pub(super) fn canonical(unknowns: &mut Six<Complex<f64>>, ball: usize) {
     }
 }
 
-/// The positions of the centre of a ball.
-struct OfBall<'a> {
-    ball: usize,
+/// The positions of the centre of a spherical joint.
+struct OfCentre<'a> {
+    spherical: usize,
     found: &'a SeparatedRoots,
     reach: &'a Reach<f64>,
     complex: Option<Reach<Complex<f64>>>,
 }
 
-impl OfBall<'_> {
+impl OfCentre<'_> {
     fn one<S: Scalar>(&self, reach: &Reach<S>, search: &mut Search<'_>, x: S) -> RootOutcome {
         let mut outcome = RootOutcome { shared: self.found.are_shared(), ..RootOutcome::nothing() };
         for monomials in self.found.monomials(x).into_iter().flatten() {
@@ -226,13 +226,13 @@ impl OfBall<'_> {
             let [first, second, third] = reach.variables;
             let (near, far) = (pair(third, &monomials[0]), pair(first, &monomials[1]));
             let values = [(first, far), (second, middle), (third, near)];
-            outcome.settled |= search.admit_ball(self.ball, &values);
+            outcome.settled |= search.admit_spherical(self.spherical, &values);
         }
         outcome
     }
 }
 
-impl Family for OfBall<'_> {
+impl Family for OfCentre<'_> {
     fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome {
         self.one(self.reach, search, x)
     }
@@ -241,7 +241,7 @@ impl Family for OfBall<'_> {
         let closed = search.closed;
         let reach = self.complex.take().unwrap_or_else(|| {
             let constants = closed.constants.each_ref().map(lifted::<Complex<f64>>);
-            Reach::of(&ClosedLoop { variables: closed.variables, constants }, self.ball)
+            Reach::of(&ClosedLoop { variables: closed.variables, constants }, self.spherical)
         });
         let outcome = self.one(&reach, search, x);
         self.complex = Some(reach);
