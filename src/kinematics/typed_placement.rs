@@ -210,7 +210,9 @@ mod tests {
         for k in 0..200 {
             let mut quaternion: [f64; 4] = std::array::from_fn(|j| f64::from(5 * k + u32::try_from(j).unwrap()).cos());
             let length = quaternion.iter().map(|q| q * q).sum::<f64>().sqrt();
-            quaternion.iter_mut().for_each(|q| *q /= length);
+            for q in &mut quaternion {
+                *q /= length;
+            }
             let (quaternion, position) = (quaternion.map(decimal), [0.1, -2.5, 3e-7].map(decimal));
             let fast = Placement::of_rounded_quaternion(&quaternion, &position).unwrap();
             let numbers = (quaternion.map(Decimal::number), position.map(Decimal::number));

@@ -33,7 +33,8 @@ fn agreeing(entry: &Entry) -> Vec<(&'static str, [usize; 2])> {
 }
 
 fn degree(one: &looproot::internal::derivation::Removed) -> usize {
-    one.factor.as_ref().map_or(0, |factor| factor.total_degree().unwrap_or(0) as usize) * one.multiplicity
+    one.factor.as_ref().map_or(0, |factor| usize::try_from(factor.total_degree().unwrap_or(0)).unwrap())
+        * one.multiplicity
 }
 
 #[test]
@@ -67,7 +68,8 @@ fn ways_that_do_not_apply_say_why() {
 fn random(count: u64) {
     let mut applied = 0;
     for index in 0..count {
-        let sample = rational_sample(Set::Chain((index as usize * 7) % CHAINS.len()), 19, index).unwrap();
+        let sample =
+            rational_sample(Set::Chain((usize::try_from(index).unwrap() * 7) % CHAINS.len()), 19, index).unwrap();
         applied += agreeing(&sample.entry).len();
     }
     println!("{applied} eliminations of {count} loops agree");
