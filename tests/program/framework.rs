@@ -224,7 +224,8 @@ fn bad_frameworks_are_refused_with_their_place() {
 }
 
 fn run(arguments: &[&str]) -> (i32, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_looproot")).args(arguments).output().unwrap();
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_looproot")).args(arguments).current_dir(crate::ROOT).output().unwrap();
     assert!(!String::from_utf8_lossy(&output.stderr).contains("panicked"));
     (output.status.code().unwrap(), String::from_utf8(output.stdout).unwrap())
 }

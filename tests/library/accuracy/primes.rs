@@ -59,7 +59,9 @@ fn scan(folder: &Path, primes: &mut BTreeSet<u64>) {
             scan(&path, primes);
         } else if path.extension().is_some_and(|extension| extension == "rs") {
             let text = fs::read_to_string(&path).unwrap();
-            primes.extend(text.lines().flat_map(numbers).filter(|n| *n > LEAST && is_prime(*n)));
+            // No modulus reaches 2^63.
+            let moduli = text.lines().flat_map(numbers).filter(|n| *n > LEAST && *n < 1 << 63);
+            primes.extend(moduli.filter(|n| is_prime(*n)));
         }
     }
 }
