@@ -11,6 +11,7 @@ All solutions, each polished and proved, with a verdict on whether the list is c
 'complete'
 """
 
+from . import batch
 from ._answers import Batch, Derivation, Family, Polynomial, Solutions, Sweep, Verdict
 from ._arm import Arm, from_dh, from_file, from_screws, from_urdf, robot
 from ._certificate import Certificate, Verification, verify
@@ -36,6 +37,7 @@ __all__ = [
     "Verdict",
     "Verification",
     "__version__",
+    "batch",
     "conditions",
     "from_dh",
     "from_file",
