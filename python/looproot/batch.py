@@ -208,7 +208,7 @@ class Poses:
 
     @property
     def chunks(self) -> int:
-        """How many chunks there are."""
+        """Returns the number of chunks."""
         return -(-len(self._all()) // self.size)
 
     @property

@@ -176,7 +176,7 @@ mod tests {
         entries(one).iter().flatten().zip(entries(two).iter().flatten()).all(|(x, y)| (x - y).abs() < 1e-30)
     }
 
-    /// Rows of a rotation by a few turns, as they are printed, and a position.
+    /// Rows of a rotation matrix, as they are printed, and a position.
     fn rows(k: u32) -> [[Decimal; 4]; 3] {
         let angle = |j: u32| f64::from(7 * k + j).sin() * 3.0;
         let turn = Motion::rotation_z(angle(0).cos(), angle(0).sin())

@@ -63,7 +63,7 @@ fn is_angle(kind: Variable) -> bool {
     kind == Variable::Rotation
 }
 
-/// What of the second parameter is shown: a turn, or the lengths between which most zeros lie.
+/// Returns the range of the second parameter that is shown: a turn, or the lengths between which most zeros lie.
 fn window<'c>(kind: Variable, columns: impl Iterator<Item = &'c Cells>, given: Option<f64>) -> [f64; 2] {
     if is_angle(kind) {
         return [-PI, PI];

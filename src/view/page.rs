@@ -47,7 +47,7 @@ pub fn live_page(document: &Value, live: &Live) -> Result<String, crate::error::
     Ok(whole(document, None, Some((&controls, live))))
 }
 
-/// What of a page changes with the answer, for a page that is open: HTML and the data of the script.
+/// Returns the parts of a page that change with the answer, for a page that is open: HTML and the data of the script.
 #[must_use]
 pub fn parts(document: &Value) -> Value {
     let tracks = tracks(document);

@@ -68,7 +68,7 @@ pub struct Problem {
     pub body: Body,
     /// All real solutions, proved to be all.
     pub truth: Vec<Truth>,
-    /// How many solutions there are with complex ones and multiplicities.
+    /// The number of solutions, complex ones and multiplicities counted.
     pub complex: usize,
 }
 

@@ -227,7 +227,7 @@ fn quadric(one: [&[Univariate<Rational>; 4]; 2], other: [&[Univariate<Rational>;
     sum
 }
 
-/// Those of the quadrics that are no combination of those before, for a value of x.
+/// Returns the quadrics that are no combination of earlier ones, for a value of x.
 fn independent(all: Vec<Quadric>) -> Vec<Quadric> {
     // Any number of the field serves that is unlikely to be special.
     let x = Mod::from_integer(1_234_567);

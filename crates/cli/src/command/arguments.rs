@@ -445,7 +445,7 @@ pub struct ViewOptions {
     /// A page that solves anew when what was asked is moved: the program itself is in it (web/build makes it once)
     #[arg(long, conflicts_with_all = ["sweep", "svg", "map", "poses", "follow"])]
     pub live: bool,
-    /// What of a page changes with the answer, as JSON: live pages ask for it
+    /// Prints the parts of a page that change with the answer, as JSON: live pages ask for it
     #[arg(long, hide = true, conflicts_with_all = ["live", "sweep", "svg", "map", "open"])]
     pub parts: bool,
     /// Show the page in the browser; without -o it is written to the folder for temporary files
