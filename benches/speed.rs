@@ -20,17 +20,17 @@ fn main() {
 /// The loop of an entry, and what fills its gap in the first case.
 fn first_case(entry: &Entry) -> (OpenLoop<f64>, Motion<f64>) {
     let (case, chain) = (&entry.cases[0], entry.chain().unwrap());
-    let (locked, filling) = if let Some(pose) = &case.pose {
+    let (locked, closing) = if let Some(pose) = &case.pose {
         (None, pose.float.inverse())
     } else {
         let input = &case.input[0];
-        let (wanted, filling) = match &input.value {
+        let (wanted, closing) = match &input.value {
             InputValue::Angle(angle) => (Variable::Rotation, angle_motion(angle)),
             InputValue::Distance(distance) => (Variable::Translation, distance_motion(distance)),
         };
-        (Layout::variable_of(chain, input.joint, wanted), filling.unwrap())
+        (Layout::variable_of(chain, input.joint, wanted), closing.unwrap())
     };
-    (chain.open_loop(&Layout::of(chain, locked).unwrap()).unwrap(), filling)
+    (chain.open_loop(&Layout::of(chain, locked).unwrap()).unwrap(), closing)
 }
 
 fn builtin_case(name: &str) -> (OpenLoop<f64>, Motion<f64>) {
@@ -51,8 +51,8 @@ fn names() -> Vec<String> {
 
 /// The matrix of a general arm at a pose.
 fn matrix() -> [[f64; 16]; 16] {
-    let (open, filling) = first_case(&sample(Set::General, 1, 0).unwrap().entry);
-    Solver::prepare(&open).companion(&filling).unwrap()
+    let (open, closing) = first_case(&sample(Set::General, 1, 0).unwrap().entry);
+    Solver::prepare(&open).companion(&closing).unwrap()
 }
 
 /// The measure of all times: eigenvalues of one matrix by faer.
@@ -89,11 +89,11 @@ fn solve_all(bencher: Bencher, name: &str) {
 }
 
 fn solve(bencher: Bencher, name: &str, roots: Roots) {
-    let (open, filling) = builtin_case(name);
+    let (open, closing) = builtin_case(name);
     let solver = Solver::prepare(&open);
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
     bencher.bench_local(|| {
-        solver.solve(black_box(&filling), roots, &mut workspace, &mut assembly);
+        solver.solve(black_box(&closing), roots, &mut workspace, &mut assembly);
         assembly.modes.len()
     });
 }

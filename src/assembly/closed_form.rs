@@ -21,7 +21,7 @@ impl Search<'_> {
         let (real, complex) = (candidates.real(), candidates.complex());
         let all = real.iter().all(|start| self.confirm(start)) && complex.iter().all(|start| self.confirm(start));
         if all && self.is_full(self.proved(), most) {
-            self.assembly.clean = true;
+            self.assembly.all_resolved = true;
             return true;
         }
         self.assembly.clear();

@@ -3,8 +3,8 @@
 mod axis_triples;
 mod spherical;
 mod closed_form;
-pub mod coupler;
-mod few_rotations;
+pub mod ss_dyad;
+mod few_revolutes;
 mod limits;
 mod mode;
 pub mod platform;

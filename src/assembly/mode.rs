@@ -70,13 +70,13 @@ pub struct Assembly {
     /// The self-motions, lengths in the unit of the mechanism.
     pub families: Vec<SelfMotion>,
     /// Whether some cut gave a pencil whose every root was resolved.
-    pub clean: bool,
+    pub all_resolved: bool,
     /// Whether some cut gave a pencil whose every root near the real axis was resolved, and one root at least led
     /// to a solution.
-    pub real_clean: bool,
+    pub real_resolved: bool,
     /// How many pencils were solved.
     pub tries: usize,
-    /// How many modes were found or proved in longer numbers only.
+    /// How many modes were found or proved in multiprecision arithmetic only.
     pub by_high_precision: usize,
     /// The bits of these numbers.
     pub high_precision_bits: u32,
@@ -87,8 +87,8 @@ impl Assembly {
     pub fn clear(&mut self) {
         self.modes.clear();
         self.families.clear();
-        self.real_clean = false;
-        (self.self_motion, self.clean, self.tries, self.by_high_precision) = (0, false, 0, 0);
+        self.real_resolved = false;
+        (self.self_motion, self.all_resolved, self.tries, self.by_high_precision) = (0, false, 0, 0);
     }
 
     /// Number of isolated solutions, with multiplicity.

@@ -40,7 +40,7 @@ pub(super) enum Effort<'a> {
     /// Pencil after pencil, up to a number of solutions, and proofs of pairs that f64 hardly tells apart. Nothing is decided
     /// of what they leave open.
     Pencils(&'a dyn Fn() -> usize),
-    /// Pencils up to a number of solutions, multistart where they are not clean, and a decision on what has no certificate.
+    /// Pencils up to a number of solutions, multistart where they leave roots unresolved, and a decision on what has no certificate.
     All(&'a dyn Fn() -> usize),
 }
 
@@ -90,7 +90,7 @@ impl Search<'_> {
             Effort::Pencils(_) => return self.resolve_pairs(),
             Effort::All(_) => {}
         }
-        if !self.assembly.clean {
+        if !self.assembly.all_resolved {
             self.cast_about();
         }
         self.resolve_pairs();
@@ -172,9 +172,9 @@ impl Search<'_> {
                 None if index == 1 => Shifted::best(&equations, Hidden::Second),
                 None => continue,
             };
-            let clean = self.one_pencil(cut, view, form, &shifted, most);
-            self.assembly.clean |= clean;
-            if self.done(most, clean) {
+            let all_resolved = self.one_pencil(cut, view, form, &shifted, most);
+            self.assembly.all_resolved |= all_resolved;
+            if self.done(most, all_resolved) {
                 return true;
             }
         }
@@ -182,16 +182,16 @@ impl Search<'_> {
     }
 
     /// Whether more pencils are of no use.
-    pub fn done(&self, most: &dyn Fn() -> usize, clean: bool) -> bool {
+    pub fn done(&self, most: &dyn Fn() -> usize, all_resolved: bool) -> bool {
         match self.roots {
             _ if matches!(self.effort, Effort::OnePencil) => true,
-            Roots::Real => clean,
+            Roots::Real => all_resolved,
             Roots::All => {
                 let proved = self.proved();
                 // What has no proof yet is double, as a rule: the verdict will see.
                 let likely = 2 * self.assembly.modes.len() - proved;
                 let general = general_degree(self.closed.variables).unwrap_or(0);
-                proved >= general || self.is_full(proved, most) || (clean && (likely >= general || likely >= most()))
+                proved >= general || self.is_full(proved, most) || (all_resolved && (likely >= general || likely >= most()))
             }
         }
     }
@@ -231,8 +231,8 @@ impl Search<'_> {
 
     /// Admits what the roots of a polynomial lead to. Whether all of them are resolved.
     pub fn all_roots(&mut self, family: &mut impl Family, roots: &[Complex<f64>]) -> bool {
-        let mut clean = true;
-        let (mut real_clean, mut closes) = (true, false);
+        let mut all_resolved = true;
+        let (mut real_resolved, mut closes) = (true, false);
         let mut repeated = Repeated::default();
         for &x in roots {
             let size = 1.0 + x.norm_sqr();
@@ -251,16 +251,16 @@ impl Search<'_> {
                 // A shared root may have complex solutions beside the real ones.
                 let settled = outcome.settled && !(self.roots == Roots::All && outcome.shared && !outcome.whole);
                 repeated.expect(x, &outcome);
-                clean &= !outcome.unresolved;
+                all_resolved &= !outcome.unresolved;
                 closes |= outcome.settled;
                 // A pair of complex roots near the real axis does not close; anything else is a loss.
                 let lost = !(outcome.settled || x.im != 0.0 && outcome.separation > limits::SHARED);
-                real_clean &= !outcome.unresolved && !lost;
+                real_resolved &= !outcome.unresolved && !lost;
                 if settled {
                     continue;
                 }
                 if self.roots == Roots::Real {
-                    clean &= !lost;
+                    all_resolved &= !lost;
                     continue;
                 }
             } else if self.roots == Roots::Real {
@@ -271,12 +271,12 @@ impl Search<'_> {
             }
             let outcome = family.complex(self, x);
             repeated.expect(x, &outcome);
-            clean &= outcome.settled && !outcome.unresolved;
+            all_resolved &= outcome.settled && !outcome.unresolved;
             closes |= outcome.settled;
         }
         // Roots of what vanishes but for rounding lead nowhere.
-        self.assembly.real_clean |= real_clean && closes;
-        clean
+        self.assembly.real_resolved |= real_resolved && closes;
+        all_resolved
     }
 
     /// Everything one root of the pencil leads to.
@@ -432,10 +432,10 @@ impl Search<'_> {
         self.assembly.modes.push(mode);
     }
 
-    /// Where no pencil was clean solutions form families, as a rule: looks for points of them from everywhere.
+    /// Where every pencil leaves roots unresolved, solutions form families as a rule: looks for points of them from everywhere.
     fn cast_about(&mut self) {
         // What is missing has large imaginary parts: no start among real numbers leads there.
-        if self.assembly.real_clean {
+        if self.assembly.real_resolved {
             return;
         }
         for trial in 1..=limits::CASTS {

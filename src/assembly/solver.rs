@@ -214,10 +214,10 @@ impl Solver {
 
     /// The gap that this motion fills.
     #[must_use]
-    pub fn gap(&self, filling: &Motion<f64>) -> Gap {
-        let filling = scaled(filling, self.scale);
-        let ends = length(&self.open.before_gap) + length(&filling) + length(&self.open.after_gap);
-        let last = self.open.before_gap.then_after(&filling).then_after(&self.open.after_gap);
+    pub fn gap(&self, closing: &Motion<f64>) -> Gap {
+        let closing = scaled(closing, self.scale);
+        let ends = length(&self.open.before_gap) + length(&closing) + length(&self.open.after_gap);
+        let last = self.open.before_gap.then_after(&closing).then_after(&self.open.after_gap);
         let rounding = 0.5 * f64::EPSILON * (GAP_TURN + GAP_SHIFT * ends);
         // Ends much longer than what remains of them lose digits.
         Gap { rounding, is_rough: ends > 8.0 * (1.0 + length(&last)), last }
@@ -243,9 +243,9 @@ impl Solver {
 
     /// The 16 x 16 matrix whose eigenvalues the first pencil of this pose asks for; `None` where that is singular.
     #[must_use]
-    pub fn companion(&self, filling: &Motion<f64>) -> Option<[[f64; 16]; 16]> {
+    pub fn companion(&self, closing: &Motion<f64>) -> Option<[[f64; 16]; 16]> {
         let prepared = self.prepared.first()?;
-        let cut = prepared.cut.of(&self.close(&self.gap(filling)));
+        let cut = prepared.cut.of(&self.close(&self.gap(closing)));
         let rows = prepared.rows.unwrap_or_else(|| before_second_link(&prepared.form, &cut.constants[1]));
         let shifted = Shifted::best(&bilinear(&rows, &cut), Hidden::First);
         let (constant, linear) = shifted.monic()?;
@@ -254,8 +254,8 @@ impl Solver {
 
     /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing
     /// once `assembly` has grown to its size, but for degenerate poses.
-    pub fn solve(&self, filling: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
-        self.solve_up_to(&self.gap(filling), roots, &|| usize::MAX, workspace, assembly);
+    pub fn solve(&self, closing: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
+        self.solve_up_to(&self.gap(closing), roots, &|| usize::MAX, workspace, assembly);
     }
 
     /// As [`Solver::solve`], for a geometry known to have no more than `most()` solutions: stops looking for more.

@@ -26,7 +26,7 @@ impl Search<'_> {
         let Some(found) = SeparatedRoots::of(&reach.equations, limits::REACH_DEPENDENT) else { return };
         self.assembly.tries += 1;
         let mut family = OfCentre { spherical, found: &found, reach: &reach, complex: None };
-        self.assembly.clean = self.all_roots(&mut family, found.roots());
+        self.assembly.all_resolved = self.all_roots(&mut family, found.roots());
     }
 
     /// Admits a loop with a spherical joint: in angles of the spherical joint that are far from where they are not independent.

@@ -144,9 +144,9 @@ impl Job {
     fn pass(&mut self, workspace: &mut Workspace, assembly: &mut Assembly) -> Result<()> {
         let inputs = self.cases.iter().enumerate();
         for (k, case) in inputs.flat_map(|input| std::iter::repeat_n(input, ROUNDS)) {
-            if let Some((solver, fillings)) = &self.numeric {
-                self.clocks[0][k].time(|| solver.solve(&fillings[k], Roots::Real, workspace, assembly));
-                self.clocks[1][k].time(|| solver.solve(&fillings[k], Roots::All, workspace, assembly));
+            if let Some((solver, closings)) = &self.numeric {
+                self.clocks[0][k].time(|| solver.solve(&closings[k], Roots::Real, workspace, assembly));
+                self.clocks[1][k].time(|| solver.solve(&closings[k], Roots::All, workspace, assembly));
             }
             self.clocks[2][k].time(|| self.mechanism.solve(case, Roots::All, workspace, assembly))?;
         }
@@ -205,12 +205,12 @@ fn random_job(set: Set, seed: u64, number: u64) -> Result<Job> {
         let Some(pose) = drawn.chain.forward::<f64>(&motions(&drawn.variables, &planted)) else { break };
         entry.cases.push(Case::at(Placement::from_matrix(&matrix(&pose))?.0, 0));
     }
-    let fillings = entry.cases.iter().filter_map(|case| Some(case.pose.as_ref()?.float.inverse())).collect();
+    let closings = entry.cases.iter().filter_map(|case| Some(case.pose.as_ref()?.float.inverse())).collect();
     let solver = match layout.spherical_unknown() {
         Some(spherical) => Solver::with_spherical_joint(&open, spherical),
         None => Solver::prepare(&open),
     };
-    Job::new(&entry, Some((solver, fillings)))
+    Job::new(&entry, Some((solver, closings)))
 }
 
 /// The loops of the library, inputs given, that are no arm in disguise: with two spherical joints or fewer than six unknowns.

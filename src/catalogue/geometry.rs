@@ -104,10 +104,10 @@ pub(super) fn check_kinds(
     let count: usize = kinds.iter().map(|kind| kind.freedoms()).sum();
     let spherical_joints = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
     // The spin of a link between two spherical joints is a freedom that moves nothing else.
-    let is_short_loop = expected.0 == 7 && (2..7).contains(&count);
+    let is_overconstrained_loop = expected.0 == 7 && (2..7).contains(&count);
     let is_arm = expected.0 == 6 && (1..=MOST_OF_ARM).contains(&count);
     let is_any = is_arm || scope.chains == Chains::Any && (count > expected.0 || expected.0 == 6 && count > 0);
-    if is_any || count == expected.0 || is_short_loop || (expected.0 == 7 && count == 8 && spherical_joints == 2) {
+    if is_any || count == expected.0 || is_overconstrained_loop || (expected.0 == 7 && count == 8 && spherical_joints == 2) {
         return Ok(());
     }
     let joints = kinds.len();

@@ -34,7 +34,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
     }
     let Between { chain, links, remark } = between(scope, robot, options)?;
     let kinds = chain.iter().map(|joint| kind(scope, *joint)).collect::<Result<Vec<_>>>()?;
-    // The exact axes of a long chain have long numbers: what cannot be an arm is refused before.
+    // The exact axes of a long chain have numbers of many digits: what cannot be an arm is refused before.
     let moving: Vec<JointKind> = kinds.iter().flatten().copied().collect();
     let expected = (6, "expected 1 to 24 for an arm; name the chain by its base and tip links");
     check_kinds(

@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::freedom::Freedom;
-use crate::mechanism::{closed_loop, coupled_loop};
+use crate::mechanism::{closed_loop, ss_dyad_loop};
 use rug::Rational;
 
 /// The field in which ways to eliminate are compared before the best one is taken over the rationals.
@@ -44,9 +44,9 @@ pub(super) struct Exact {
 
 /// The derivation of one case of an arm or a loop.
 pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
-    if let Some(coupled) = coupled_loop::<Rational>(chain, case)? {
-        let symbols = Symbols::single(chain, coupled.indices[2], coupled.variable);
-        let eliminated = two_sides::coupled(&symbols, &joint_labels(chain), &coupled);
+    if let Some(ss_dyad) = ss_dyad_loop::<Rational>(chain, case)? {
+        let symbols = Symbols::single(chain, ss_dyad.indices[2], ss_dyad.variable);
+        let eliminated = two_sides::ss_dyad(&symbols, &joint_labels(chain), &ss_dyad);
         return derivation(&symbols, eliminated, |found| found.map(|(k, eliminant)| (k, Settled::as_it_is(eliminant))));
     }
     let exact = exact(chain, case)?;

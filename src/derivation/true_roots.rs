@@ -22,7 +22,7 @@ use crate::kinematics::motion::Motion;
 use rug::ops::RemRounding;
 use rug::{Integer, Rational};
 
-/// With longer numbers in a loop, in bits, or with more solutions the relations over the rationals take long.
+/// With numbers of more digits in a loop, in bits, or with more solutions the relations over the rationals take long.
 const SHORT: u32 = 64;
 const FEW: usize = 8;
 

@@ -11,7 +11,7 @@ use crate::elimination::opposite_axes::OppositeAxes;
 use crate::elimination::point_reach::Reach;
 use crate::elimination::separated::{Plan, Separated, powers, quartic};
 use crate::elimination::spherical_pair;
-use crate::kinematics::closed_loop::{Coupled, Variable};
+use crate::kinematics::closed_loop::{SsDyad, Variable};
 use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
 
@@ -42,12 +42,12 @@ pub(super) fn spherical(exact: &Exact, spherical: usize) -> Eliminated {
 }
 
 /// Two spherical joints: their centres keep their distance.
-pub(super) fn coupled(symbols: &Symbols, labels: &[String], coupled: &Coupled<Rational>) -> Eliminated {
-    let spherical = |k: usize| labels[coupled.indices[k]].split('_').next().unwrap_or_default().to_owned();
-    let equation = spherical_pair::equation(coupled);
+pub(super) fn ss_dyad(symbols: &Symbols, labels: &[String], ss_dyad: &SsDyad<Rational>) -> Eliminated {
+    let spherical = |k: usize| labels[ss_dyad.indices[k]].split('_').next().unwrap_or_default().to_owned();
+    let equation = spherical_pair::equation(ss_dyad);
     let polynomial = combination(equation.iter().zip(&symbols.monomials(0, false)));
     let name = format!("centres of spherical joints {} and {} r.r", spherical(0), spherical(1));
-    let meaning = match coupled.variable {
+    let meaning = match ss_dyad.variable {
         Variable::Rotation => Meaning::HalfTangent { degree: 2 },
         Variable::Translation => Meaning::Plain,
     };
@@ -66,7 +66,7 @@ pub(super) fn coupled(symbols: &Symbols, labels: &[String], coupled: &Coupled<Ra
     Eliminated {
         equations: vec![Equation::used(name, &polynomial)],
         steps,
-        polynomial: Some((0, of_row(coupled.variable, &equation), meaning)),
+        polynomial: Some((0, of_row(ss_dyad.variable, &equation), meaning)),
         removed: Vec::new(),
         per_root: 1,
     }

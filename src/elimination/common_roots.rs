@@ -1,7 +1,7 @@
 //! How many solutions an overconstrained loop has: the roots that its closure polynomials have in common.
 //!
 //! A loop of fewer than six unknowns is given idle ones, and becomes one of six with a closure polynomial in the tangent
-//! of half of one of its own angles. Its solutions are those at which all idle unknowns are zero, wherever the idle axes
+//! of half of one of its own angles. Its solutions are those at which all virtual joints are zero, wherever the idle axes
 //! lie; all other roots move with these axes. So the solutions are the common roots of the polynomials of two choices of
 //! axes in general position: no fewer than the solutions ever, and no more but for solutions that share a root and for
 //! accidents, of which the least number over all cuts is free if one cut is. Two polynomials without a common root

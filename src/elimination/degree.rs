@@ -150,7 +150,7 @@ fn degree_by_cuts<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&Clos
 /// A motion in general position, to fill the gap of an arm's loop, or of a loop's locked variable; another one for
 /// every `choice`.
 #[must_use]
-pub fn general_filling<F: Field>(locked: Option<Variable>, choice: i32) -> Option<Motion<F>> {
+pub fn general_closing<F: Field>(locked: Option<Variable>, choice: i32) -> Option<Motion<F>> {
     let tangent = |n: i32| half_tangent_pair(&F::from_integer(n + 1009 * choice));
     match locked {
         Some(Variable::Translation) => Some(Motion::translation_z(F::from_integer(1_234_577 + choice))),

@@ -5,15 +5,15 @@
 //! is idle: it changes no distance and is no unknown.
 
 use crate::algebra::ring::{Field, Ring};
-use crate::kinematics::closed_loop::{Coupled, Variable};
+use crate::kinematics::closed_loop::{SsDyad, Variable};
 use crate::kinematics::motion::{Vector, dot};
 
 /// `equation . m = 0` over the monomials (1, cos q, sin q) or (1, d, d^2) of V.
 #[must_use]
-pub fn equation<R: Ring>(coupled: &Coupled<R>) -> [R; 3] {
-    let (p, far) = (&coupled.behind.translation, coupled.before.inverse().translation);
-    let square = dot(&coupled.link.translation, &coupled.link.translation);
-    match coupled.variable {
+pub fn equation<R: Ring>(ss_dyad: &SsDyad<R>) -> [R; 3] {
+    let (p, far) = (&ss_dyad.behind.translation, ss_dyad.before.inverse().translation);
+    let square = dot(&ss_dyad.link.translation, &ss_dyad.link.translation);
+    match ss_dyad.variable {
         Variable::Rotation => {
             let twice = |x: R| x.add(&x).neg();
             let constant = dot(p, p).add(&dot(&far, &far)).sub(&square).add(&twice(p[2].mul(&far[2])));
@@ -30,8 +30,8 @@ pub fn equation<R: Ring>(coupled: &Coupled<R>) -> [R; 3] {
 
 /// Returns the exact number of positions; `None` where V is not determined.
 #[must_use]
-pub fn count<F: Field>(coupled: &Coupled<F>) -> Option<usize> {
-    let [constant, first, second] = equation(coupled);
+pub fn count<F: Field>(ss_dyad: &SsDyad<F>) -> Option<usize> {
+    let [constant, first, second] = equation(ss_dyad);
     match (first.is_zero() && second.is_zero(), constant.is_zero()) {
         (false, _) => Some(2),
         (true, false) => Some(0),

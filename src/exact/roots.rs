@@ -42,7 +42,7 @@ pub(super) fn isolated_in_balls<const BITS: u32>(coefficients: &[Ball<BITS>]) ->
     if coefficients.len() == 1 {
         return Some(Vec::new());
     }
-    // Most crowds are told apart by f64 about their middle; long numbers tell the others apart in more time.
+    // Most crowds are told apart by f64 about their middle; multiprecision arithmetic tells the others apart in more time.
     approximations(coefficients)
         .and_then(|midpoints| isolated_from(coefficients, midpoints))
         .or_else(|| isolated_from(coefficients, starts::<LongFloat, BITS>(coefficients)?))
@@ -107,7 +107,7 @@ impl Scale {
     }
 }
 
-/// A long number as a Float, to its first three doubles' digits.
+/// A multiprecision number as a Float, to its first three doubles' digits.
 fn wide<R: Extended>(x: R) -> Float {
     let first = x.to_f64();
     let second = x.sub(&R::from(first)).to_f64();

@@ -57,7 +57,7 @@ pub struct Layout {
 /// A loop of two spherical joints and one unknown V, `X L Y K V H = I` with rotations X and Y: the link L between the spherical joints spins
 /// freely about the line of their centres.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coupled<R> {
+pub struct SsDyad<R> {
     /// What V does.
     pub variable: Variable,
     /// L, the link between the spherical joints.
@@ -72,7 +72,7 @@ pub struct Coupled<R> {
 
 /// A loop of two spherical joints and one unknown before its locked variable is given.
 #[derive(Clone, Debug)]
-pub struct OpenCoupled<R> {
+pub struct OpenSsDyad<R> {
     pub(super) variable: Variable,
     /// The link, and the constants before and behind the unknown.
     pub(super) stretches: [Stretch<R>; 3],
@@ -100,20 +100,20 @@ impl<R: Ring> Stretch<R> {
         self.after = Some(Motion::identity());
     }
 
-    fn close(&self, filling: &Motion<R>) -> Motion<R> {
+    fn close(&self, closing: &Motion<R>) -> Motion<R> {
         match &self.after {
             None => self.before.clone(),
-            Some(after) => self.before.then_after(filling).then_after(after),
+            Some(after) => self.before.then_after(closing).then_after(after),
         }
     }
 }
 
-impl<R: Ring> OpenCoupled<R> {
+impl<R: Ring> OpenSsDyad<R> {
     /// The loop whose locked variable is this motion.
     #[must_use]
-    pub fn close(&self, filling: &Motion<R>) -> Coupled<R> {
-        let [link, before, behind] = self.stretches.each_ref().map(|stretch| stretch.close(filling));
-        Coupled { variable: self.variable, link, before, behind, indices: self.indices }
+    pub fn close(&self, closing: &Motion<R>) -> SsDyad<R> {
+        let [link, before, behind] = self.stretches.each_ref().map(|stretch| stretch.close(closing));
+        SsDyad { variable: self.variable, link, before, behind, indices: self.indices }
     }
 }
 
@@ -166,10 +166,10 @@ enum Step<R> {
 }
 
 impl<R: Ring> OpenLoop<R> {
-    /// The loop whose gap is filled by this motion: `V6 G6` with `G6 = before_gap * filling * after_gap`.
+    /// The loop whose gap is filled by this motion: `V6 G6` with `G6 = before_gap * closing * after_gap`.
     #[must_use]
-    pub fn close(&self, filling: &Motion<R>) -> ClosedLoop<R> {
-        let last = self.before_gap.then_after(filling).then_after(&self.after_gap);
+    pub fn close(&self, closing: &Motion<R>) -> ClosedLoop<R> {
+        let last = self.before_gap.then_after(closing).then_after(&self.after_gap);
         let constants = std::array::from_fn(|j| if j < 5 { self.constants[j].clone() } else { last.clone() });
         ClosedLoop { variables: self.variables, constants }
     }
@@ -211,7 +211,7 @@ impl Layout {
         6_usize.saturating_sub(self.variables.len() - usize::from(self.locked.is_some()))
     }
 
-    /// The same with idle unknowns, of which the first `rotations` are rotations, to make up for those that are missing.
+    /// The same with virtual joints, of which the first `rotations` are rotations, to make up for those that are missing.
     #[must_use]
     pub fn with_idle(&self, rotations: usize, choice: u32) -> Self {
         let total = self.variables.len();
@@ -236,7 +236,7 @@ impl Layout {
         self.spherical.filter(|spherical| (*spherical..spherical + 2).contains(&at)).map_or(at, |spherical| spherical + 2)
     }
 
-    /// What each of the six unknowns does and which joint variable it is, in loop order; none for idle unknowns.
+    /// What each of the six unknowns does and which joint variable it is, in loop order; none for virtual joints.
     fn order(&self) -> [(Variable, Option<usize>); 6] {
         let behind = |k: usize| self.idle.iter().filter(move |idle| idle.behind == k).map(|idle| (idle.variable, None));
         let joint = |k: usize| std::iter::once((self.variables[k], Some(k)));
@@ -246,7 +246,7 @@ impl Layout {
         std::array::from_fn(|k| order[(start + k) % order.len()])
     }
 
-    /// Which joint variable each of the six unknowns is, in loop order; none for idle unknowns.
+    /// Which joint variable each of the six unknowns is, in loop order; none for virtual joints.
     #[must_use]
     pub fn joint_variables(&self) -> [Option<usize>; 6] {
         self.order().map(|(_, joint)| joint)
@@ -344,7 +344,7 @@ impl Chain {
         if self.fill_up(layout, &mut unknowns, &mut constants).is_none() {
             return Ok(None);
         }
-        // Idle unknowns before the locked one move it.
+        // Virtual joints before the locked one move it.
         let before = |locked: usize| layout.idle.iter().filter(|idle| idle.behind < locked).count();
         let locked = layout.locked.map(|locked| locked + before(locked));
         let total = unknowns.len();
@@ -413,7 +413,7 @@ impl Chain {
         Some((unknowns, constants))
     }
 
-    /// Puts the idle unknowns of a layout among the unknowns of a chain; `None` for an unlucky prime.
+    /// Puts the virtual joints of a layout among the unknowns of a chain; `None` for an unlucky prime.
     fn fill_up<R: Ring>(
         &self,
         layout: &Layout,
@@ -454,19 +454,19 @@ impl Chain {
     ///
     /// # Errors
     /// Unless there is exactly one more unknown; and for an unlucky prime.
-    pub fn coupled_loop<R: Ring>(&self, layout: &Layout, filling: &Motion<R>) -> Result<Coupled<R>, Error> {
-        Ok(self.open_coupled(layout, &Numbers)?.close(filling))
+    pub fn ss_dyad_loop<R: Ring>(&self, layout: &Layout, closing: &Motion<R>) -> Result<SsDyad<R>, Error> {
+        Ok(self.open_ss_dyad(layout, &Numbers)?.close(closing))
     }
 
     /// The loop of a chain with two spherical joints before its locked variable is given, with these constants of the joints.
     ///
     /// # Errors
-    /// As [`Chain::coupled_loop`].
-    pub fn open_coupled<R: Ring>(
+    /// As [`Chain::ss_dyad_loop`].
+    pub fn open_ss_dyad<R: Ring>(
         &self,
         layout: &Layout,
         parameters: &impl Parameters<R>,
-    ) -> Result<OpenCoupled<R>, Error> {
+    ) -> Result<OpenSsDyad<R>, Error> {
         let unlucky = || Error::Unsupported("the geometry has no image in this ring (unlucky prime)".into());
         let steps = self.steps(parameters).ok_or_else(unlucky)?;
         let spherical_joints = [layout.spherical, layout.second_spherical];
@@ -517,7 +517,7 @@ impl Chain {
         items.rotate_left((position + 1) % 3);
         let [(x, link), (y, before), (v, behind)]: [(usize, Stretch<R>); 3] =
             items.try_into().map_err(|_| Error::Unsupported("two spherical joints and one unknown".into()))?;
-        Ok(OpenCoupled { variable: layout.variables[v], stretches: [link, before, behind], indices: [x, y, v] })
+        Ok(OpenSsDyad { variable: layout.variables[v], stretches: [link, before, behind], indices: [x, y, v] })
     }
 
     /// The unknowns of a chain read as a loop, each with the constant behind it; what stands before the first one comes

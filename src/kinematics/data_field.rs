@@ -166,7 +166,7 @@ fn length(joint: &ScrewJoint) -> Option<Closed> {
     let square = axis.iter().try_fold(Closed::from_small(0), |sum, x| sum.add(&x.mul(x)?))?;
     let field = RealField::containing(axis.iter().chain([&square]))?;
     let length = Surd::square_root(&field.element(&square)?.rational()?)?;
-    // The square root of a long number is one of a direction that was rounded.
+    // The square root of a multiprecision number is one of a direction that was rounded.
     let is_short = length.terms().all(|(_, radicand, _)| radicand.significant_bits() <= LONGEST_RADICAND);
     is_short.then(|| length.into())
 }

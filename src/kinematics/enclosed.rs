@@ -1,6 +1,6 @@
 //! Loops whose constants are enclosed, and how they are rounded.
 
-use super::closed_loop::{ClosedLoop, Coupled, OpenCoupled, OpenLoop, Stretch};
+use super::closed_loop::{ClosedLoop, SsDyad, OpenSsDyad, OpenLoop, Stretch};
 use super::motion::Motion;
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::ring::Ring;
@@ -61,20 +61,20 @@ impl ClosedLoop<Enclosure> {
     }
 }
 
-impl Coupled<Enclosure> {
+impl SsDyad<Enclosure> {
     /// The loop in numbers of so many digits, every constant rounded once; `None` where it is not known to them.
     #[must_use]
-    pub fn rounded<R: Ring>(&self, digits: u32) -> Option<Coupled<R>> {
+    pub fn rounded<R: Ring>(&self, digits: u32) -> Option<SsDyad<R>> {
         let motion = |motion| rounded(motion, i32::MIN, digits);
         let [link, before, behind] = [motion(&self.link)?, motion(&self.before)?, motion(&self.behind)?];
-        Some(Coupled { variable: self.variable, link, before, behind, indices: self.indices })
+        Some(SsDyad { variable: self.variable, link, before, behind, indices: self.indices })
     }
 }
 
-impl OpenCoupled<Enclosure> {
+impl OpenSsDyad<Enclosure> {
     /// The loop in numbers of so many digits, every constant rounded once; `None` where it is not known to them.
     #[must_use]
-    pub fn rounded<R: Ring>(&self, digits: u32) -> Option<OpenCoupled<R>> {
+    pub fn rounded<R: Ring>(&self, digits: u32) -> Option<OpenSsDyad<R>> {
         let stretch = |stretch: &Stretch<Enclosure>| {
             let after = match &stretch.after {
                 None => None,
@@ -83,6 +83,6 @@ impl OpenCoupled<Enclosure> {
             Some(Stretch { before: rounded(&stretch.before, i32::MIN, digits)?, after })
         };
         let [one, two, three] = self.stretches.each_ref().map(stretch);
-        Some(OpenCoupled { variable: self.variable, stretches: [one?, two?, three?], indices: self.indices })
+        Some(OpenSsDyad { variable: self.variable, stretches: [one?, two?, three?], indices: self.indices })
     }
 }

@@ -1,4 +1,4 @@
-//! Idle unknowns: what a loop of fewer than six unknowns is given to become one of six.
+//! Virtual joints: what a loop of fewer than six unknowns is given to become one of six.
 //!
 //! An overconstrained loop has fewer unknowns than equations. Idle rotations and translations about and along axes in
 //! general position make up the number, so that every route for six unknowns serves; the loop closes where all idle

@@ -1,13 +1,13 @@
 //! How exactly the numbers of a mechanism are known: as rationals, in a number field, or rounded.
 
-use super::single_loop::filling;
+use super::single_loop::closing_transformation;
 use crate::algebra::drawn::{self, Drawn};
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number_field::Algebraic;
 use crate::algebra::residue_field::{Places, Residue};
 use crate::catalogue::entry::Case;
 use crate::elimination::coordinate_ring::Plan;
-use crate::elimination::degree::{Degree, degree, general_filling};
+use crate::elimination::degree::{Degree, degree, general_closing};
 use crate::elimination::point_reach;
 use crate::exact::{OverField, general_rank, has_triple};
 use crate::kinematics::chain::Chain;
@@ -82,8 +82,8 @@ impl Data {
         choice: i32,
     ) -> Option<Modular> {
         match self {
-            Self::Field(own) => own.modular(|| general_filling(locked, choice)),
-            _ => Some(Modular::Drawn(open?.close(&general_filling(locked, choice)?))),
+            Self::Field(own) => own.modular(|| general_closing(locked, choice)),
+            _ => Some(Modular::Drawn(open?.close(&general_closing(locked, choice)?))),
         }
     }
 
@@ -91,10 +91,10 @@ impl Data {
     pub(super) fn modular(&self, open: Option<&OpenLoop<Drawn>>, chain: &Chain, case: &Case) -> Option<Modular> {
         match self {
             Self::Field(own) => {
-                let filling = own.filling(chain, case)?;
-                own.modular(|| own.reduced(&filling))
+                let closing = own.closing(chain, case)?;
+                own.modular(|| own.reduced(&closing))
             }
-            _ => Some(Modular::Drawn(open?.close(&filling(case).ok()?))),
+            _ => Some(Modular::Drawn(open?.close(&closing_transformation(case).ok()?))),
         }
     }
 }
@@ -115,7 +115,7 @@ impl FieldLoop {
     }
 
     /// What fills the gap.
-    fn filling(&self, chain: &Chain, case: &Case) -> Option<Motion<Algebraic>> {
+    fn closing(&self, chain: &Chain, case: &Case) -> Option<Motion<Algebraic>> {
         if let Some(pose) = &case.pose {
             return Some(self.field.pose(chain, pose)?.inverse());
         }
@@ -128,14 +128,14 @@ impl FieldLoop {
     }
 
     /// The loop modulo the prime, which becomes that of the thread.
-    fn modular(&self, filling: impl FnOnce() -> Option<Motion<Residue>>) -> Option<Modular> {
+    fn modular(&self, closing: impl FnOnce() -> Option<Motion<Residue>>) -> Option<Modular> {
         self.places.enter();
-        Some(Modular::Field(self.modular.close(&filling()?)))
+        Some(Modular::Field(self.modular.close(&closing()?)))
     }
 
     /// The exact side of a case, whose constants are enclosed.
     pub(super) fn exact(&self, chain: &Chain, case: &Case, enclosed: &ClosedLoop<Enclosure>) -> Option<OverField> {
-        let closed = self.open.close(&self.filling(chain, case)?);
+        let closed = self.open.close(&self.closing(chain, case)?);
         OverField::of(self.field.0.clone(), closed, enclosed)
     }
 }

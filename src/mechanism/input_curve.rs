@@ -1,16 +1,16 @@
 //! A loop followed through its input: velocities, accelerations and the points of its curve.
 
 use super::FullMode;
-use super::spherical_angles::{Jet, TurnedJoint, coupled_angles};
-use super::short_loop::filled_up;
-use super::single_loop::{filling, idle_spin, locked_variable};
+use super::spherical_angles::{Jet, TurnedJoint, ss_dyad_angles};
+use super::overconstrained_loop::filled_up;
+use super::single_loop::{closing_transformation, idle_spin, locked_variable};
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::algebra::series::Series;
 use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue};
 use crate::elimination::spherical_pair;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
-use crate::kinematics::closed_loop::{Layout, Numbers, OpenCoupled, OpenLoop, Variable};
+use crate::kinematics::closed_loop::{Layout, Numbers, OpenSsDyad, OpenLoop, Variable};
 use crate::kinematics::idle::Idle;
 use crate::kinematics::motion::Motion;
 use crate::solve::curve::{ALONG_INPUT, Curve, INPUT, Point};
@@ -46,7 +46,7 @@ enum Way {
 /// Two spherical joints: their distance couples one unknown to the input.
 struct Pair {
     curve: PlaneCurve,
-    open: OpenCoupled<Jet>,
+    open: OpenSsDyad<Jet>,
     /// Indices of the first variables of the two spherical joints, and of the unknown, in joint order.
     indices: [usize; 3],
     note: String,
@@ -188,7 +188,7 @@ impl InputCurve {
             Way::Pair(pair) => {
                 let mut q = vec![values[INPUT]; self.layout.variables.len()];
                 let [unknown, given] = [&values[UNKNOWN], &values[INPUT]];
-                let spherical_joints = coupled_angles(&pair.open, self.layout.variables[self.input()], unknown, given);
+                let spherical_joints = ss_dyad_angles(&pair.open, self.layout.variables[self.input()], unknown, given);
                 for (at, angles) in pair.indices.into_iter().zip(spherical_joints) {
                     q[at..at + 3].copy_from_slice(&angles);
                 }
@@ -294,11 +294,11 @@ fn turned(chain: &Chain, layout: &Layout, joint: usize, open: &mut OpenLoop<f64>
 impl Pair {
     /// Two spherical joints of a chain, coupled to the locked variable of a layout.
     fn of(chain: &Chain, layout: &Layout, input: Variable) -> Result<Self> {
-        let open: OpenCoupled<f64> = chain.open_coupled(layout, &Numbers)?;
+        let open: OpenSsDyad<f64> = chain.open_ss_dyad(layout, &Numbers)?;
         let unit = chain.unit();
         let given = |value: InputValue| {
             let case = Case::given(Input { joint: 1, value }, 0);
-            filling::<f64>(&case).map(|motion| open.close(&motion))
+            closing_transformation::<f64>(&case).map(|motion| open.close(&motion))
         };
         // The equation at three inputs tells its coefficients, which are linear in the monomials of the input.
         let at = |k: i32| match input {
@@ -308,7 +308,7 @@ impl Pair {
         };
         let [one, two, three] = [given(at(0))?, given(at(1))?, given(at(2))?];
         let indices = one.indices;
-        let rows = [one, two, three].map(|coupled| spherical_pair::equation(&coupled));
+        let rows = [one, two, three].map(|ss_dyad| spherical_pair::equation(&ss_dyad));
         let [low, middle, high] = rows;
         let length = unit.to_f64();
         let coefficients = std::array::from_fn(|i| {
@@ -322,6 +322,6 @@ impl Pair {
         });
         let curve = PlaneCurve::new(layout.variables[indices[2]], input, &coefficients, length);
         let note = idle_spin(chain, layout, indices[1]);
-        Ok(Self { curve, open: chain.open_coupled(layout, &Numbers)?, indices, note })
+        Ok(Self { curve, open: chain.open_ss_dyad(layout, &Numbers)?, indices, note })
     }
 }

@@ -1,6 +1,5 @@
 //! A mechanism ready to solve: what a file says, prepared once, answered case by case.
 
-mod spherical_angles;
 mod by_input;
 mod data;
 pub(crate) mod exact_loop;
@@ -8,11 +7,12 @@ mod exact_modes;
 mod family;
 mod input_curve;
 mod near;
+mod overconstrained_loop;
 mod platform;
 mod redundancy;
-mod short_spherical;
-mod short_loop;
 mod single_loop;
+mod spherical_angles;
+mod spherical_chain;
 mod task_arm;
 mod turns;
 mod vicinity;
@@ -31,9 +31,9 @@ use num_complex::Complex;
 use platform::PreparedPlatform;
 pub use platform::{exact_modes as platform_modes, over as platform_over};
 pub use redundancy::{Redundancy, redundancy};
-use short_loop::ShortLoop;
+use overconstrained_loop::OverconstrainedLoop;
 use single_loop::SingleLoop;
-pub use single_loop::{closed_loop, coupled_loop, locked_variable};
+pub use single_loop::{closed_loop, ss_dyad_loop, locked_variable};
 pub use task_arm::ArmAnswer;
 use task_arm::TaskArm;
 use turns::Turns;
@@ -127,7 +127,7 @@ pub struct Mechanism {
 /// Who solves it.
 enum Solver {
     SingleLoop(Box<SingleLoop>),
-    ShortLoop(Box<ShortLoop>),
+    OverconstrainedLoop(Box<OverconstrainedLoop>),
     Platform(Box<PreparedPlatform>),
     TaskArm(Box<TaskArm>),
 }
@@ -147,8 +147,8 @@ impl Mechanism {
     /// As [`Mechanism::prepare`], and where too many joints of an arm are free.
     pub fn prepare_for(entry: &Entry, demand: &Demand) -> Result<Self> {
         let solver = match &entry.design {
-            Design::Loop(chain) if short_loop::is_short(entry, chain)? => {
-                Solver::ShortLoop(Box::new(ShortLoop::prepare(entry, chain)?))
+            Design::Loop(chain) if overconstrained_loop::is_short(entry, chain)? => {
+                Solver::OverconstrainedLoop(Box::new(OverconstrainedLoop::prepare(entry, chain)?))
             }
             Design::Arm(chain) if chain.freedoms() != 6 || *demand != Demand::default() => {
                 Solver::TaskArm(Box::new(TaskArm::prepare(entry, chain, demand)?))
@@ -183,7 +183,7 @@ impl Mechanism {
             Solver::SingleLoop(solver) => {
                 solver.solve(case, roots, self.tolerance.unwrap_or_default(), workspace, assembly)
             }
-            Solver::ShortLoop(solver) => solver.solve(case, roots, workspace, assembly),
+            Solver::OverconstrainedLoop(solver) => solver.solve(case, roots, workspace, assembly),
             Solver::Platform(solver) => solver.solve(case, roots, workspace),
             Solver::TaskArm(solver) => solver.solve(case, roots, self.tolerance, workspace, assembly),
         }?;

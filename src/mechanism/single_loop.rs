@@ -2,7 +2,7 @@
 
 use super::by_input::{ByInput, Prepared};
 use super::data::{Data, Modular, is_rational};
-use super::exact_loop::{CoupledQuestion, Question as ExactQuestion};
+use super::exact_loop::{SsDyadQuestion, Question as ExactQuestion};
 use super::exact_modes::exact_mode;
 use super::vicinity::Vicinity;
 use super::{FullMode, Solution};
@@ -11,7 +11,7 @@ use crate::algebra::enclosure::Enclosure;
 use crate::algebra::interval::Interval;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, AxisTriple, Gap, Mode, Roots, Solver, Workspace, are_apart, coupler, wrapped};
+use crate::assembly::{Assembly, AxisTriple, Gap, Mode, Roots, Solver, Workspace, are_apart, ss_dyad, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::Degree;
@@ -20,7 +20,7 @@ use crate::error::{Error, Result};
 use crate::exact::{self, BALL_BITS, Known, MOST_WITH_TRIPLE, OverRationals, Resolution, has_no_solution, resolve};
 use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::closed_loop::{
-    ClosedLoop, Coupled, Layout, Numbers, OpenCoupled, OpenLoop, Variable, angle_motion, distance_motion,
+    ClosedLoop, SsDyad, Layout, Numbers, OpenSsDyad, OpenLoop, Variable, angle_motion, distance_motion,
 };
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::Motion;
@@ -56,9 +56,9 @@ pub(super) struct SixUnknowns {
 /// Loops with two spherical joints.
 struct SphericalPair {
     layout: Layout,
-    open: OpenCoupled<f64>,
+    open: OpenSsDyad<f64>,
     /// The same in intervals.
-    bounds: OpenCoupled<Interval>,
+    bounds: OpenSsDyad<Interval>,
 }
 
 /// Modes of a lower condition number are those of the mechanism that rounded data stand for: these are off by 1e-17.
@@ -119,7 +119,7 @@ impl SixUnknowns {
     /// The loop of a case, enclosed.
     fn enclosed(&self, chain: &Chain, case: &Case) -> Result<Option<ClosedLoop<Enclosure>>> {
         let open = self.enclosed.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
-        open.as_ref().map(|open| Ok(open.close(&filling(case)?))).transpose()
+        open.as_ref().map(|open| Ok(open.close(&closing_transformation(case)?))).transpose()
     }
 
     /// The bound on the number of solutions at every pose or input, computed when first asked for.
@@ -177,11 +177,11 @@ impl SingleLoop {
         let Prepared { of, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
         let prepared = match of {
             Way::Six(prepared) => prepared,
-            Way::SphericalPair(spherical_joints) => return self.solve_coupled(spherical_joints, *prepare_us, case, roots, workspace, assembly),
+            Way::SphericalPair(spherical_joints) => return self.solve_ss_dyad(spherical_joints, *prepare_us, case, roots, workspace, assembly),
         };
         let solver = &prepared.solver;
         let float = case.pose.as_ref().and_then(Placement::inverse_in_f64);
-        let mut gap = solver.gap(&float.map_or_else(|| filling(case), Ok)?);
+        let mut gap = solver.gap(&float.map_or_else(|| closing_transformation(case), Ok)?);
         if gap.is_rough() {
             let closed = prepared.enclosed(&self.chain, case)?.and_then(|closed| closed.rounded(f64::MANTISSA_DIGITS));
             gap = closed.map_or(gap, |ClosedLoop { constants: [.., last], .. }| solver.exact_gap(&last));
@@ -276,7 +276,7 @@ impl SingleLoop {
     }
 
     /// Solves a loop with two spherical joints.
-    fn solve_coupled(
+    fn solve_ss_dyad(
         &self,
         prepared: &SphericalPair,
         prepare_us: f64,
@@ -287,19 +287,19 @@ impl SingleLoop {
     ) -> Result<Solution> {
         let start = Instant::now();
         let layout = &prepared.layout;
-        let coupled = prepared.open.close(&filling(case)?);
-        let idle = idle_spin(&self.chain, layout, coupled.indices[1]);
+        let ss_dyad = prepared.open.close(&closing_transformation(case)?);
+        let idle = idle_spin(&self.chain, layout, ss_dyad.indices[1]);
         // Where the equation may be free of its unknown rounding would lead to roots.
-        let bounds = spherical_pair::equation(&prepared.bounds.close(&filling(case)?));
+        let bounds = spherical_pair::equation(&prepared.bounds.close(&closing_transformation(case)?));
         let is_equation = bounds[1..].iter().any(|c| c.mignitude() > 0.0);
-        let spherical_joints = is_equation.then(|| coupler::solve(&coupled, roots, workspace, assembly));
+        let spherical_joints = is_equation.then(|| ss_dyad::solve(&ss_dyad, roots, workspace, assembly));
         let fast = spherical_joints.map(|spherical_joints| {
             let general = || Bound::general(2);
             (verdict(assembly, roots, 6, 2, general, || None, None), spherical_joints)
         });
         let settled = fast.filter(|(verdict, _)| is_settled(verdict));
         let Some((mut verdict, spherical_joints)) = settled else {
-            let (mut verdict, modes) = self.coupled_exactly(layout, case)?;
+            let (mut verdict, modes) = self.ss_dyad_exactly(layout, case)?;
             verdict.reason = format!("{}; {idle}", verdict.reason);
             return Ok(exact_solution(case, verdict, modes, prepare_us, start));
         };
@@ -307,10 +307,10 @@ impl SingleLoop {
         verdict.reason = format!("{}; {idle}", verdict.reason);
         let modes = assembly.modes.iter().zip(spherical_joints).map(|(mode, spherical_joints)| {
             let mut q = vec![Complex::from(locked_value(case)); layout.variables.len()];
-            for (&at, angles) in coupled.indices.iter().zip(spherical_joints) {
+            for (&at, angles) in ss_dyad.indices.iter().zip(spherical_joints) {
                 q[at..at + 3].copy_from_slice(&angles);
             }
-            q[coupled.indices[2]] = mode.unknowns[5];
+            q[ss_dyad.indices[2]] = mode.unknowns[5];
             full_mode(mode, q, &layout.variables, &self.limits)
         });
         Ok(Solution { solve_us, ..exact_solution(case, verdict, modes.collect(), prepare_us, start) })
@@ -319,12 +319,12 @@ impl SingleLoop {
 
 impl SingleLoop {
     /// The answer to a loop with two spherical joints over the rationals.
-    fn coupled_exactly(&self, layout: &Layout, case: &Case) -> Result<(Verdict, Vec<FullMode>)> {
-        let coupled = self.chain.coupled_loop::<Rational>(layout, &filling(case)?)?;
+    fn ss_dyad_exactly(&self, layout: &Layout, case: &Case) -> Result<(Verdict, Vec<FullMode>)> {
+        let ss_dyad = self.chain.ss_dyad_loop::<Rational>(layout, &closing_transformation(case)?)?;
         let given = vec![Complex::from(locked_value(case)); layout.variables.len()];
         let is_rounded = self.is_rounded || !is_exact(case);
         let unit = self.chain.unit().to_f64();
-        let (verdict, mut modes) = CoupledQuestion { coupled: &coupled, given, unit, is_rounded }.answer();
+        let (verdict, mut modes) = SsDyadQuestion { ss_dyad: &ss_dyad, given, unit, is_rounded }.answer();
         for mode in modes.iter_mut().filter(|mode| mode.real && !self.limits.is_empty()) {
             mode.within_limits = Some(within_limits(&mode.q, &layout.variables, &self.limits));
         }
@@ -423,7 +423,7 @@ impl Question<'_> {
         }
     }
 
-    /// The verdict after a look in longer numbers for what is missing; `None` where nothing is.
+    /// The verdict after a look in multiprecision arithmetic for what is missing; `None` where nothing is.
     fn completed(&self, verdict: &Verdict, assembly: &mut Assembly) -> Option<Verdict> {
         let expected = self.expected(verdict)?;
         self.solve_in_high_precision::<LongFloat>(expected, assembly);
@@ -436,7 +436,7 @@ impl Question<'_> {
         Some(self.judge(assembly))
     }
 
-    /// Looks again for what is missing of a list, in longer numbers.
+    /// Looks again for what is missing of a list, in multiprecision arithmetic.
     fn solve_in_high_precision<R: Extended>(&self, expected: usize, assembly: &mut Assembly) {
         let enclosed = self.prepared.enclosed(&self.of.chain, self.case).ok().flatten();
         if let Some(closed) = enclosed.and_then(|closed| closed.rounded::<R>(R::BITS)) {
@@ -444,10 +444,10 @@ impl Question<'_> {
         }
     }
 
-    /// The answer to a loop without input by one pencil in f64 and longer numbers; `None` where they do not settle it.
+    /// The answer to a loop without input by one pencil in f64 and multiprecision arithmetic; `None` where they do not settle it.
     ///
     /// Solutions are crowded there where a mechanism was that moved before it was made with an error: f64 cannot tell them
-    /// apart, and to let it try costs more than longer numbers.
+    /// apart, and to let it try costs more than multiprecision arithmetic.
     fn by_longer_numbers(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> Option<Verdict> {
         let SixUnknowns { solver, .. } = self.prepared;
         let is_structure = self.case.pose.is_none() && self.case.input.is_empty();
@@ -649,7 +649,7 @@ impl Question<'_> {
     /// The loop over the rationals.
     fn exact(&self) -> Option<ClosedLoop<Rational>> {
         let open: OpenLoop<Rational> = self.of.chain.try_open_loop(&self.prepared.layout).ok().flatten()?;
-        Some(open.close(&filling(self.case).ok()?))
+        Some(open.close(&closing_transformation(self.case).ok()?))
     }
 
     /// The rank of the six joint screws in general position. What f64 calls deficient is asked modulo the prime, where full
@@ -729,10 +729,10 @@ fn in_order(modes: &mut [Mode]) {
 /// The way to solve a loop, prepared.
 fn way(chain: &Chain, layout: Layout) -> Result<Way> {
     if layout.second_spherical.is_some() {
-        let enclosed: OpenCoupled<Enclosure> = chain.open_coupled(&layout, &Numbers)?;
+        let enclosed: OpenSsDyad<Enclosure> = chain.open_ss_dyad(&layout, &Numbers)?;
         let open = enclosed.rounded(f64::MANTISSA_DIGITS);
         let open = open.ok_or_else(|| Error::Unsupported("numbers that are not known to 16 digits".into()))?;
-        let bounds = chain.open_coupled(&layout, &Numbers)?;
+        let bounds = chain.open_ss_dyad(&layout, &Numbers)?;
         return Ok(Way::SphericalPair(Box::new(SphericalPair { layout, open, bounds })));
     }
     let open: OpenLoop<f64> = chain.open_loop(&layout)?;
@@ -819,19 +819,19 @@ pub fn closed_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<(Layout
 
 fn closed_over<R: Ring>(chain: &Chain, layout: &Layout, case: &Case) -> Result<Option<ClosedLoop<R>>> {
     let open: Option<OpenLoop<R>> = chain.try_open_loop(layout)?;
-    Ok(open.and_then(|open| Some(open.close(&filling(case).ok()?))))
+    Ok(open.and_then(|open| Some(open.close(&closing_transformation(case).ok()?))))
 }
 
 /// The loop of two spherical joints of one case over a ring; `None` for chains without two spherical joints.
 ///
 /// # Errors
 /// As [`closed_loop`], and for an unlucky prime.
-pub fn coupled_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<Coupled<R>>> {
+pub fn ss_dyad_loop<R: Ring>(chain: &Chain, case: &Case) -> Result<Option<SsDyad<R>>> {
     let layout = Layout::of(chain, locked_variable(chain, case)?)?;
     if layout.second_spherical.is_none() {
         return Ok(None);
     }
-    chain.coupled_loop(&layout, &filling(case)?).map(Some)
+    chain.ss_dyad_loop(&layout, &closing_transformation(case)?).map(Some)
 }
 
 /// The variable that the input of a loop locks; `None` at the pose of an arm, and for a loop without input.
@@ -856,7 +856,7 @@ pub fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
 }
 
 /// What fills the gap of the loop: the inverse of an arm's pose, a loop's locked joint; nothing without input.
-pub(super) fn filling<R: Ring>(case: &Case) -> Result<Motion<R>> {
+pub(super) fn closing_transformation<R: Ring>(case: &Case) -> Result<Motion<R>> {
     if case.pose.is_none() && case.input.is_empty() {
         return Ok(Motion::identity());
     }

@@ -4,8 +4,8 @@
 
 use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
-use crate::assembly::coupler::farthest_axis;
-use crate::kinematics::closed_loop::{OpenCoupled, Variable};
+use crate::assembly::ss_dyad::farthest_axis;
+use crate::kinematics::closed_loop::{OpenSsDyad, Variable};
 use crate::kinematics::link_form::product;
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
 
@@ -118,9 +118,9 @@ impl TurnedJoint {
 /// with one axis fixed in L across the line of the centres and one along the z axis of the frame behind it (along its x
 /// axis where that line is parallel to z). So the idle degree of freedom is the same as at a mode of the solver.
 /// Not a number where both spherical joints have the same centre.
-pub(super) fn coupled_angles(open: &OpenCoupled<Jet>, input: Variable, unknown: &Jet, given: &Jet) -> [[Jet; 3]; 2] {
-    let coupled = open.close(&motion(input, given));
-    let rest = coupled.before.then_after(&motion(coupled.variable, unknown)).then_after(&coupled.behind);
+pub(super) fn ss_dyad_angles(open: &OpenSsDyad<Jet>, input: Variable, unknown: &Jet, given: &Jet) -> [[Jet; 3]; 2] {
+    let ss_dyad = open.close(&motion(input, given));
+    let rest = ss_dyad.before.then_after(&motion(ss_dyad.variable, unknown)).then_after(&ss_dyad.behind);
     let across = rest.inverse();
     let unit = |v: &Vector<Jet>| {
         let over = inverse(&root(&dot(v, v)));
@@ -130,7 +130,7 @@ pub(super) fn coupled_angles(open: &OpenCoupled<Jet>, input: Variable, unknown: 
         std::array::from_fn(|i| [x[i], y[i], z[i]])
     };
     // A frame of the link along the line of the centres, as the solver takes it.
-    let along = unit(&coupled.link.translation);
+    let along = unit(&ss_dyad.link.translation);
     let helper = farthest_axis(&along.map(|x| x.coefficients[0]));
     let x = unit(&cross(&helper.map(Series::constant), &along));
     let own = columns(&x, &cross(&along, &x), &along);
@@ -144,6 +144,6 @@ pub(super) fn coupled_angles(open: &OpenCoupled<Jet>, input: Variable, unknown: 
     let x = unit(&side);
     let there = columns(&x, &cross(&line, &x), &line);
     let first = product(&there, &transposed(&own));
-    let second = product(&transposed(&product(&first, &coupled.link.rotation)), &across.rotation);
+    let second = product(&transposed(&product(&first, &ss_dyad.link.rotation)), &across.rotation);
     [angles(&first), angles(&second)]
 }

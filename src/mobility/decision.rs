@@ -351,7 +351,7 @@ impl Subject<'_> {
     /// Loops of six variables in which no curve was found; `why` as above.
     fn structure(&self, why: Option<&str>) -> Result<Mobility> {
         let is_complete = |verdict: &Verdict| matches!(verdict.status, Status::Complete | Status::Unreachable);
-        // Modes that a small error has left of a motion are crowded: as a loop it is solved in longer numbers at once.
+        // Modes that a small error has left of a motion are crowded: as a loop it is solved in multiprecision arithmetic at once.
         // Where it is known that no curve is among them, the configurations themselves need no proof that takes seconds.
         let is_still = why.is_some();
         let solution = match solve(self.entry, Case::free(0), is_still) {

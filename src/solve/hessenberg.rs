@@ -1,4 +1,4 @@
-//! Eigenvalues and eigenvectors in longer numbers: a matrix in upper Hessenberg form, and its characteristic polynomial.
+//! Eigenvalues and eigenvectors in multiprecision arithmetic: a matrix in upper Hessenberg form, and its characteristic polynomial.
 
 use super::scalar::{Extended, Number};
 use crate::algebra::ring::Ring;

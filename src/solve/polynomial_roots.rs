@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 
 /// Rounds in 384 bits without a root that settles after which none will.
 const PATIENCE: usize = 60;
-/// No fewer bits than any long number has.
+/// No fewer bits than any multiprecision number has.
 const MOST_BITS: u32 = 1024;
 
 /// The simple roots of a polynomial with real coefficients; those at infinity and multiple ones, which do not settle, are
@@ -92,7 +92,7 @@ fn starts<R: Extended>(coefficients: &[R]) -> Option<Vec<Complex<R>>> {
     roots.filter(|roots| (1..roots.len()).all(|k| roots[..k].iter().all(|other| !roots[k].sub(other).is_zero())))
 }
 
-/// All digits of a long number.
+/// All digits of a multiprecision number.
 fn whole<R: Extended>(mut x: R) -> Float {
     let mut sum = Float::new(MOST_BITS);
     while !x.is_zero() {

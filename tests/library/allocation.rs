@@ -59,15 +59,15 @@ fn arm(index: u64, poses: usize) -> (Solver, Vec<Motion<f64>>) {
     let chain = sample(Set::General, 5, index).unwrap().chain;
     let open: OpenLoop<f64> = chain.open_loop(&Layout::of(&chain, None).unwrap()).unwrap();
     let mut random = ChaCha8Rng::seed_from_u64(index);
-    let mut filling = || {
+    let mut closing = || {
         let turns: [Motion<f64>; 6] = std::array::from_fn(|_| {
             let (sin, cos) = random.random_range(-PI..PI).sin_cos();
             Motion::rotation_z(cos, sin)
         });
         chain.forward::<f64>(&turns).unwrap().inverse()
     };
-    let fillings = (0..poses).map(|_| filling()).collect();
-    (Solver::prepare(&open), fillings)
+    let closings = (0..poses).map(|_| closing()).collect();
+    (Solver::prepare(&open), closings)
 }
 
 #[test]
@@ -83,12 +83,12 @@ fn solving_pose_after_pose_allocates_nothing() {
         let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
         let mut solutions = 0;
         for index in 0..10 {
-            let (solver, fillings) = arm(index, 21);
+            let (solver, closings) = arm(index, 21);
             // The list of modes grows to its size once.
-            solver.solve(&fillings[0], Roots::All, &mut workspace, &mut assembly);
-            for (k, filling) in fillings[1..].iter().enumerate() {
+            solver.solve(&closings[0], Roots::All, &mut workspace, &mut assembly);
+            for (k, closing) in closings[1..].iter().enumerate() {
                 let before = requests();
-                solver.solve(filling, roots, &mut workspace, &mut assembly);
+                solver.solve(closing, roots, &mut workspace, &mut assembly);
                 assert_eq!(requests() - before, 0, "{roots:?}, arm {index}, pose {k}");
                 solutions += assembly.modes.len();
             }
@@ -177,13 +177,13 @@ fn no_chain_allocates_once_the_list_of_modes_has_its_size() {
             Some(spherical) => Solver::with_spherical_joint(&open, spherical),
             None => Solver::prepare(&open),
         };
-        let filling = drawn.chain.forward::<f64>(&motions(&drawn.variables, &drawn.planted)).unwrap().inverse();
+        let closing = drawn.chain.forward::<f64>(&motions(&drawn.variables, &drawn.planted)).unwrap().inverse();
         for roots in [Roots::Real, Roots::All] {
             let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
-            solver.solve(&filling, Roots::All, &mut workspace, &mut assembly);
+            solver.solve(&closing, Roots::All, &mut workspace, &mut assembly);
             assert_eq!(assembly.total(), count, "{name}");
             let before = requests();
-            solver.solve(&filling, roots, &mut workspace, &mut assembly);
+            solver.solve(&closing, roots, &mut workspace, &mut assembly);
             assert_eq!(requests() - before, 0, "{name}, {roots:?}");
         }
     }

@@ -4,8 +4,8 @@
 
 mod agreement;
 mod exact_loops;
+mod overconstrained_loops;
 mod sequences;
-mod short_loops;
 mod universal;
 
 use crate::arms;

@@ -8,7 +8,7 @@ use arms::{closed_at, general, open, pose, random, ratio, rounded, small};
 use looproot::internal::assembly::{Assembly, Roots, Solver, Workspace};
 use looproot::internal::closure::half_angle::half_angle_form;
 use looproot::internal::elimination::cut::{Cut, Hidden};
-use looproot::internal::elimination::degree::{closure_polynomial, degree, general_filling, half_tangent_pair};
+use looproot::internal::elimination::degree::{closure_polynomial, degree, general_closing, half_tangent_pair};
 use looproot::internal::elimination::pencil::{Pencil, before_second_link, bilinear, offset, pencil};
 use looproot::internal::kinematics::chain::Chain;
 use looproot::internal::kinematics::closed_loop::ClosedLoop;
@@ -135,8 +135,8 @@ fn the_eigenvalues_in_f64_are_the_roots_of_the_exact_polynomial() {
         let exact: ClosedLoop<Rational> = closed_at(&chain, &values);
         let inexact = ClosedLoop { variables: exact.variables, constants: exact.constants.each_ref().map(rounded) };
         let mut assembly = Assembly::default();
-        let filling = rounded(&pose::<Rational>(&chain, &values).inverse());
-        Solver::prepare(&open(&chain)).solve(&filling, Roots::All, &mut Workspace::default(), &mut assembly);
+        let closing = rounded(&pose::<Rational>(&chain, &values).inverse());
+        Solver::prepare(&open(&chain)).solve(&closing, Roots::All, &mut Workspace::default(), &mut assembly);
         assert!(assembly.modes.len() == 16 && assembly.modes.iter().all(|m| m.multiplicity == 1), "arm {seed}");
         // The reference and our own routine under the same test.
         for ((cut, hidden), method) in ways().flat_map(|way| [(way, Method::Faer), (way, Method::Francis)]) {
@@ -204,7 +204,7 @@ fn special_arms_have_the_known_degrees() {
         ("spherical wrist", arms::spherical_wrist(), 8),
         ("general", arm(0).0, 16),
     ] {
-        let at = |choice| open::<Mod>(&chain).close(&general_filling(None, choice).unwrap());
+        let at = |choice| open::<Mod>(&chain).close(&general_closing(None, choice).unwrap());
         let found = degree(&at(0), Some(&at(1))).unwrap();
         assert_eq!((found.solutions, found.left_out), (solutions, 16 - solutions), "{name}");
     }

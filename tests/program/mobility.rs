@@ -380,7 +380,7 @@ fn exact_counts_agree_with_solutions_known() {
 }
 
 #[test]
-fn rings_with_idle_unknowns_count_short_loops() {
+fn rings_with_virtual_joints_count_overconstrained_loops() {
     type Mod = ModP<PRIME_62>;
     // Without input: what moves has no finite ring.
     for (name, count) in

@@ -7,7 +7,7 @@ use looproot::internal::catalogue::{Format, Options, load, load_text};
 use looproot::internal::elimination::spherical_pair;
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::kinematics::motion::Motion;
-use looproot::internal::mechanism::{Derivatives, InputCurve, Mechanism, Solution, coupled_loop};
+use looproot::internal::mechanism::{Derivatives, InputCurve, Mechanism, Solution, ss_dyad_loop};
 use looproot::internal::sweep::{End, Range, Sweep, case, sweep};
 use std::f64::consts::PI;
 use std::process::{Command, Output};
@@ -460,9 +460,9 @@ fn poles_of_large_residue_are_told() {
 
 /// The discriminant of the one equation of two spherical joints, A^2 + B^2 - C^2 of an angle, at an input.
 fn discriminant(entry: &Entry, joint: usize, variable: Variable, input: f64) -> f64 {
-    let coupled = coupled_loop::<f64>(entry.chain().unwrap(), &case(joint, variable, input)).unwrap().unwrap();
-    let [c, a, b] = spherical_pair::equation(&coupled);
-    match coupled.variable {
+    let ss_dyad = ss_dyad_loop::<f64>(entry.chain().unwrap(), &case(joint, variable, input)).unwrap().unwrap();
+    let [c, a, b] = spherical_pair::equation(&ss_dyad);
+    match ss_dyad.variable {
         Variable::Rotation => a * a + b * b - c * c,
         Variable::Translation => 0.25 * a * a - c * b,
     }

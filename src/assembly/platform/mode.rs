@@ -110,7 +110,7 @@ pub struct PlatformAssembly {
     pub self_motion: usize,
     /// Poses of it, quaternion and position; of a curve in their order along it.
     pub motion: Vec<[f64; 7]>,
-    /// How many poses were found or proved in longer numbers only.
+    /// How many poses were found or proved in multiprecision arithmetic only.
     pub by_high_precision: usize,
     /// Bits of the longest of these.
     pub high_precision_bits: usize,

@@ -23,7 +23,7 @@ use crate::elimination::degree::general_degree;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::link_form::LinkForm;
-use crate::mechanism::coupled_loop;
+use crate::mechanism::ss_dyad_loop;
 use parts::Parts;
 use routes::Outcome;
 use rug::Rational;
@@ -134,16 +134,16 @@ pub fn derive_symbolic(entry: &Entry, case: &Case, wanted: &[String]) -> Result<
 /// The numbers of a case: what symbols are compared with.
 enum Numeric {
     /// Two spherical joints.
-    Coupled(super::chain::Eliminated),
+    SsDyad(super::chain::Eliminated),
     /// Any other loop.
     Single(Box<Exact>, super::chain::Eliminated),
 }
 
 fn numeric(chain: &Chain, case: &Case) -> Result<(Symbols, Option<Numeric>)> {
-    if let Some(coupled) = coupled_loop::<Rational>(chain, case)? {
-        let symbols = Symbols::single(chain, coupled.indices[2], coupled.variable);
-        let eliminated = two_sides::coupled(&symbols, &joint_labels(chain), &coupled);
-        return Ok((symbols, Some(Numeric::Coupled(eliminated))));
+    if let Some(ss_dyad) = ss_dyad_loop::<Rational>(chain, case)? {
+        let symbols = Symbols::single(chain, ss_dyad.indices[2], ss_dyad.variable);
+        let eliminated = two_sides::ss_dyad(&symbols, &joint_labels(chain), &ss_dyad);
+        return Ok((symbols, Some(Numeric::SsDyad(eliminated))));
     }
     let exact = exact(chain, case)?;
     let is_neighbour = || LinkForm::of(&exact.closed).is_some_and(|form| dual::opposite_link(&form).is_some());

@@ -56,7 +56,7 @@ pub(super) fn in_variable(variable: usize, polynomial: &Univariate<Polynomial<Ra
 pub(super) fn symbolic_loop(chain: &Chain, case: &Case, table: &Table<'_>) -> Result<ClosedLoop<Symbol>> {
     let layout = Layout::of(chain, locked_variable(chain, case)?)?;
     let open = chain.open_loop_over(&layout, table)?;
-    Ok(open.ok_or_else(no_image)?.close(&table.filling()?))
+    Ok(open.ok_or_else(no_image)?.close(&table.closing()?))
 }
 
 pub(super) fn vanishing() -> Error {
@@ -77,10 +77,10 @@ pub(super) fn route(
     numeric: &Numeric,
 ) -> Result<Outcome> {
     let (exact, eliminated) = match numeric {
-        Numeric::Coupled(eliminated) => {
+        Numeric::SsDyad(eliminated) => {
             let layout = Layout::of(chain, locked_variable(chain, case)?)?;
-            let coupled = chain.open_coupled(&layout, table)?.close(&table.filling()?);
-            return one_row(symbols, 0, coupled.variable, &spherical_pair::equation(&coupled), eliminated);
+            let ss_dyad = chain.open_ss_dyad(&layout, table)?.close(&table.closing()?);
+            return one_row(symbols, 0, ss_dyad.variable, &spherical_pair::equation(&ss_dyad), eliminated);
         }
         Numeric::Single(exact, eliminated) => (exact, eliminated),
     };

@@ -33,7 +33,7 @@ impl Point<'_, '_> {
         self.table.symbols.iter().zip(&self.values).find(|(symbol, _)| symbol.place == place).map(|(_, value)| value)
     }
 
-    fn filling(&self, case: &Case) -> Option<Motion<Mod>> {
+    fn closing(&self, case: &Case) -> Option<Motion<Mod>> {
         let Some(input) = case.input.first() else {
             let Some(pose) = &case.pose else { return Some(Motion::identity()) };
             return pose.exact.inverse().map(Mod::from_rational);
@@ -82,7 +82,7 @@ fn size(chain: &Chain, case: &Case, exact: &Exact, table: &Table<'_>) -> Option<
     let choice = Choice::of(exact)?;
     let polynomial = |values: Vec<Mod>| {
         let point = Point { table, values };
-        let closed = chain.open_loop_over(&layout, &point).ok()??.close(&point.filling(case)?);
+        let closed = chain.open_loop_over(&layout, &point).ok()??.close(&point.closing(case)?);
         choice.polynomial(&closed)
     };
     let is_length = |k: usize| matches!(table.symbols[k].value, Value::Length(_));

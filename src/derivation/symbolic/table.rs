@@ -122,7 +122,7 @@ impl<'c> Table<'c> {
     }
 
     /// What fills the gap: the input, or the inverse of a pose; nothing where neither is given.
-    pub fn filling(&self) -> Result<Motion<Symbol>> {
+    pub fn closing(&self) -> Result<Motion<Symbol>> {
         if let Some(pose) = &self.case.pose {
             let image = pose.exact.inverse().map(Symbol::from_rational);
             return image.ok_or_else(|| Error::Invalid("the pose has no image".to_owned()));

@@ -19,7 +19,7 @@ use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::elimination::degree::general_degree;
 use crate::error::{Error, Result};
-use crate::mechanism::coupled_loop;
+use crate::mechanism::ss_dyad_loop;
 use rug::{Integer, Rational};
 
 /// A way from the closure of a loop to its closure polynomial.
@@ -105,7 +105,7 @@ pub fn derive_by(entry: &Entry, case: &Case, way: Way) -> Result<ByWay> {
     let (Design::Arm(chain) | Design::Loop(chain)) = &entry.design else {
         return Err(refusal(way, "a platform has one elimination, by Study's parameters: derive without --by"));
     };
-    if coupled_loop::<Rational>(chain, case)?.is_some() {
+    if ss_dyad_loop::<Rational>(chain, case)?.is_some() {
         return Err(refusal(way, "two spherical joints leave one equation in one unknown, with nothing to eliminate"));
     }
     let own = derive(entry, case)?;

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::Layout;
 use crate::kinematics::motion::Motion;
-use crate::mechanism::single_loop::filling;
+use crate::mechanism::single_loop::closing_transformation;
 use rug::Rational;
 
 /// The unknowns of a loop but those of a spherical joint.
@@ -30,11 +30,11 @@ impl Cycle {
             return Ok(None);
         }
         let Some((variables, mut constants)) = chain.unknowns_and_constants::<Rational>() else { return Ok(None) };
-        let filling = filling::<Rational>(case)?;
+        let closing = closing_transformation::<Rational>(case)?;
         // What stands before the first variable comes behind the last one, and behind the pose of an arm.
         let start = constants.remove(0);
         if let Some(end) = constants.last_mut() {
-            *end = if layout.locked.is_none() { end.then_after(&filling) } else { end.clone() }.then_after(&start);
+            *end = if layout.locked.is_none() { end.then_after(&closing) } else { end.clone() }.then_after(&start);
         }
         let mut items: Vec<_> = variables.into_iter().zip(constants).enumerate().collect();
         items.rotate_left(layout.spherical.map_or(0, |spherical| spherical + 2));
@@ -47,7 +47,7 @@ impl Cycle {
             }
             let is_given = layout.locked == Some(index);
             if is_given || layout.spherical.is_some_and(|spherical| index == spherical + 2) {
-                let constant = if is_given { filling.then_after(&behind) } else { behind };
+                let constant = if is_given { closing.then_after(&behind) } else { behind };
                 let last = found.steps.last_mut().map_or(&mut first, |step| &mut step.behind);
                 *last = last.then_after(&constant);
             } else {

@@ -8,7 +8,7 @@
 mod answer;
 mod by_cut;
 mod configuration;
-mod coupled;
+mod ss_dyad;
 mod cycle;
 mod equations;
 mod measure;
@@ -16,4 +16,4 @@ mod outcome;
 pub(crate) mod roots;
 
 pub(super) use answer::{Answer, Question};
-pub(super) use coupled::CoupledQuestion;
+pub(super) use ss_dyad::SsDyadQuestion;

@@ -45,7 +45,7 @@ impl<'c> Moved<'c> {
 
 impl Running<'_> {
     /// The motion that closes the loop; `None` where nothing is given to close it.
-    pub fn filling(&self) -> Option<Motion<CircleFraction>> {
+    pub fn closing(&self) -> Option<Motion<CircleFraction>> {
         let case = self.moved.case;
         match (self.moved.place, self.moved.kind) {
             (Place::Input, Variable::Rotation) => {

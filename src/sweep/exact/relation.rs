@@ -80,13 +80,13 @@ pub(super) fn of_row(kind: Variable, row: &[CircleFraction; 3]) -> InOutput {
 /// eliminate the others; none for loops that have no route.
 pub(super) fn relations(chain: &Chain, layout: &Layout, moved: Moved<'_>, offset: &Rational) -> Vec<Relation> {
     let running = moved.at(offset);
-    let Some(filling) = running.filling() else { return Vec::new() };
+    let Some(closing) = running.closing() else { return Vec::new() };
     if layout.second_spherical.is_some() {
-        return coupled(chain, layout, &running, &filling).into_iter().collect();
+        return ss_dyad(chain, layout, &running, &closing).into_iter().collect();
     }
     let filled = layout.with_idle(layout.missing(), 0);
     let Ok(Some(open)) = chain.open_loop_over::<CircleFraction>(&filled, &running) else { return Vec::new() };
-    let closed = OpenLoop::close(&open, &filling);
+    let closed = OpenLoop::close(&open, &closing);
     let indices = filled.joint_variables();
     if layout.missing() > 0 {
         // With numbers for its input an overconstrained loop closes at single values only.
@@ -120,15 +120,15 @@ pub(super) fn of_every_output(chain: &Chain, layout: &Layout, moved: Moved<'_>, 
 }
 
 /// Two spherical joints: their centres keep their distance.
-fn coupled(
+fn ss_dyad(
     chain: &Chain,
     layout: &Layout,
     running: &Running<'_>,
-    filling: &Motion<CircleFraction>,
+    closing: &Motion<CircleFraction>,
 ) -> Option<Relation> {
-    let coupled = chain.open_coupled::<CircleFraction>(layout, running).ok()?.close(filling);
-    let equation = of_row(coupled.variable, &spherical_pair::equation(&coupled));
-    Some(Relation::plain(coupled.indices[2], coupled.variable, &equation))
+    let ss_dyad = chain.open_ss_dyad::<CircleFraction>(layout, running).ok()?.close(closing);
+    let equation = of_row(ss_dyad.variable, &spherical_pair::equation(&ss_dyad));
+    Some(Relation::plain(ss_dyad.indices[2], ss_dyad.variable, &equation))
 }
 
 /// One spherical joint: its centre is reached from both sides.

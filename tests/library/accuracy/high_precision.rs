@@ -28,9 +28,9 @@ fn solve(drawn: &Sample) -> (Solution, Assembly) {
 fn closed<R: Ring>(drawn: &Sample, layout: &Layout) -> (OpenLoop<R>, Motion<R>, ClosedLoop<R>) {
     let open: OpenLoop<R> = drawn.chain.open_loop(layout).unwrap();
     let pose = drawn.entry.cases[0].pose.as_ref().unwrap();
-    let filling = pose.exact.inverse().map(R::from_rational).unwrap();
-    let closed = open.close(&filling);
-    (open, filling, closed)
+    let closing = pose.exact.inverse().map(R::from_rational).unwrap();
+    let closed = open.close(&closing);
+    (open, closing, closed)
 }
 
 #[test]
@@ -88,13 +88,13 @@ fn both_precisions_find_the_same_solutions() {
     for (k, (name, count)) in CHAINS.iter().enumerate().filter(|(_, (name, _))| *name != "SPPP") {
         let drawn = sample(Set::Chain(k), 7, 3).unwrap();
         let layout = Layout::of(&drawn.chain, None).unwrap();
-        let (open, filling, _) = closed::<f64>(&drawn, &layout);
+        let (open, closing, _) = closed::<f64>(&drawn, &layout);
         let solver = match layout.spherical_unknown() {
             Some(spherical) => Solver::with_spherical_joint(&open, spherical),
             None => Solver::prepare(&open),
         };
         let (mut fast, mut exact) = (Assembly::default(), Assembly::default());
-        solver.solve(&filling, Roots::All, &mut Workspace::default(), &mut fast);
+        solver.solve(&closing, Roots::All, &mut Workspace::default(), &mut fast);
         solver.solve_in_high_precision(&closed::<LongFloat>(&drawn, &layout).2, None, *count, &mut exact);
         assert_eq!((fast.total(), exact.total(), exact.by_high_precision), (*count, *count, *count), "{name}");
         assert_eq!(fast.real(), exact.real(), "{name}");

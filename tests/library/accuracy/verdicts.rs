@@ -2,7 +2,7 @@
 
 use crate::arms::{general, open, pose, puma_like, random, rounded, singular, small, three_parallel};
 use looproot::internal::assembly::{Assembly, Roots, Solver, Workspace};
-use looproot::internal::elimination::degree::{degree, general_filling};
+use looproot::internal::elimination::degree::{degree, general_closing};
 use looproot::internal::kinematics::chain::Chain;
 use looproot::internal::kinematics::motion::Motion;
 use looproot::internal::verdict::{Bound, Code, Proof, Status, verdict};
@@ -20,11 +20,11 @@ struct List {
 }
 
 fn list(name: &str, chain: &Chain, values: &[Rational; 6]) -> List {
-    let filling: Motion<Rational> = pose::<Rational>(chain, values).inverse();
+    let closing: Motion<Rational> = pose::<Rational>(chain, values).inverse();
     let mut assembly = Assembly::default();
-    Solver::prepare(&open(chain)).solve(&rounded(&filling), Roots::All, &mut Workspace::default(), &mut assembly);
-    let at = |filling: &Motion<Mod>| open::<Mod>(chain).close(filling);
-    let general = |choice| at(&general_filling(None, choice).unwrap());
+    Solver::prepare(&open(chain)).solve(&rounded(&closing), Roots::All, &mut Workspace::default(), &mut assembly);
+    let at = |closing: &Motion<Mod>| open::<Mod>(chain).close(closing);
+    let general = |choice| at(&general_closing(None, choice).unwrap());
     let everywhere = degree(&general(0), Some(&general(1))).unwrap().solutions;
     let here = degree(&at(&pose::<Mod>(chain, values).inverse()), None).unwrap().solutions;
     List { name: name.to_owned(), assembly, everywhere, here }

@@ -33,12 +33,12 @@ struct Job {
 }
 
 fn job(name: String, chain: &Chain, exact_pose: &Motion<Rational>) -> Job {
-    let filling = rounded(&exact_pose.inverse());
+    let closing = rounded(&exact_pose.inverse());
     let open_loop = open::<f64>(chain);
     let mut assembly = Assembly::default();
-    Solver::prepare(&open_loop).solve(&filling, Roots::All, &mut Workspace::default(), &mut assembly);
+    Solver::prepare(&open_loop).solve(&closing, Roots::All, &mut Workspace::default(), &mut assembly);
     let given = open::<Big>(chain).close(&exact_pose.inverse().map(Big::from_rational).unwrap());
-    Job { name, stored: open_loop.close(&filling), given, modes: assembly.modes }
+    Job { name, stored: open_loop.close(&closing), given, modes: assembly.modes }
 }
 
 fn jobs() -> Vec<Job> {

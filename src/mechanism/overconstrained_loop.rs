@@ -1,11 +1,11 @@
 //! Loops with fewer than six unknowns: overconstrained mechanisms and structures.
 
-mod few_turns;
+mod few_revolutes;
 
 use super::by_input::{ByInput, Prepared};
 use super::exact_loop::{self, Question};
-use super::short_spherical::{Positions, positions};
-use super::single_loop::{filling, full_mode, is_exact, locked_value, within_limits};
+use super::spherical_chain::{Positions, positions};
+use super::single_loop::{closing_transformation, full_mode, is_exact, locked_value, within_limits};
 use super::{FullMode, Solution};
 use crate::algebra::drawn::Drawn;
 use crate::algebra::long_float::LongFloat;
@@ -15,7 +15,7 @@ use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, by_ring, proof, 
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::elimination::common_roots::common_roots;
 use crate::elimination::coordinate_ring::Plan;
-use crate::elimination::degree::{degree, general_filling};
+use crate::elimination::degree::{degree, general_closing};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
@@ -34,15 +34,15 @@ use std::time::Instant;
 /// The field of exact counts.
 type Mod = Drawn;
 
-/// Idle unknowns up to this, in radians and lengths over the mean link, may be rounding of zero; how many of them are,
+/// Virtual joints up to this, in radians and lengths over the mean link, may be rounding of zero; how many of them are,
 /// the exact count says.
 const NEARLY_ZERO: f64 = 1e-6;
-/// Idle unknowns up to this are zero where the data of the mechanism were rounded.
+/// Virtual joints up to this are zero where the data of the mechanism were rounded.
 const ZERO: f64 = 1e-11;
-/// A loop that closes no better than this, its idle unknowns at zero and the others at their best, does not close: it is one
+/// A loop that closes no better than this, its virtual joints at zero and the others at their best, does not close: it is one
 /// made with a small error.
 const OPEN: f64 = 1e-11;
-/// Closure residuals up to this are rounding: where the equations enlarge it, idle unknowns may be larger. Loops that close so
+/// Closure residuals up to this are rounding: where the equations enlarge it, virtual joints may be larger. Loops that close so
 /// well count as solutions before they are counted exactly.
 const CLOSED: f64 = 1e-13;
 /// How many choices of idle axes are tried before a search is given up.
@@ -57,13 +57,13 @@ const RANK: f64 = 1e-9;
 /// Why there is no solution.
 const OPEN_BY_RING: &str = "no solution: 1 is a combination of the closure equations";
 
-/// One choice of idle unknowns, prepared.
+/// One choice of virtual joints, prepared.
 struct Rung {
     layout: Layout,
     solver: Solver,
     /// The loop with lengths over the mean link.
     open: OpenLoop<f64>,
-    /// At most so many solutions there are at any input, idle unknowns free, when first asked for; none where the closure
+    /// At most so many solutions there are at any input, virtual joints free, when first asked for; none where the closure
     /// polynomials vanish.
     most: OnceLock<Option<usize>>,
     /// What counts the solutions, when first asked for; none for an unlucky prime.
@@ -78,7 +78,7 @@ struct Counting {
 
 /// One choice of the locked variable.
 struct Ladder {
-    /// Without idle unknowns.
+    /// Without virtual joints.
     layout: Layout,
     rungs: Vec<Rung>,
     /// Whether an answer over the rationals took too long at some input: so it will at others.
@@ -86,7 +86,7 @@ struct Ladder {
 }
 
 /// A chain with too few unknowns, prepared for all its cases.
-pub(super) struct ShortLoop {
+pub(super) struct OverconstrainedLoop {
     chain: Chain,
     limits: Vec<[f64; 2]>,
     is_rounded: bool,
@@ -107,7 +107,7 @@ struct Candidate {
     mode: Mode,
     /// The joint variables in joint order.
     q: Vec<Complex<f64>>,
-    /// The largest of its idle unknowns, in radians and lengths over the mean link.
+    /// The largest of its virtual joints, in radians and lengths over the mean link.
     idle: f64,
 }
 
@@ -119,11 +119,11 @@ pub(super) fn is_short(entry: &Entry, chain: &Chain) -> Result<bool> {
     Ok(Layout::of(chain, None)?.variables.len() < 6 + given)
 }
 
-/// The layout with idle unknowns by which a loop is followed: with rotations only, which stay independent of the joints
+/// The layout with virtual joints by which a loop is followed: with rotations only, which stay independent of the joints
 /// where those are parallel to a plane.
 ///
 /// # Errors
-/// [`Error::Unsupported`] where no choice of idle unknowns serves.
+/// [`Error::Unsupported`] where no choice of virtual joints serves.
 pub(super) fn filled_up(chain: &Chain, layout: Layout) -> Result<Layout> {
     if layout.missing() == 0 {
         return Ok(layout);
@@ -154,7 +154,7 @@ fn dependent(chain: &Chain) -> Error {
     ))
 }
 
-/// The choices of idle unknowns by which a loop can be solved: as many translations as leave the six unknowns
+/// The choices of virtual joints by which a loop can be solved: as many translations as leave the six unknowns
 /// independent in general position, which is simplest, then rotations only.
 fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
     // A spherical joint has its own route.
@@ -195,7 +195,7 @@ fn scaled(open: &OpenLoop<f64>, unit: f64) -> OpenLoop<f64> {
     }
 }
 
-impl ShortLoop {
+impl OverconstrainedLoop {
     /// Prepares the chain of an entry for all its cases.
     pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
         let ladder =
@@ -331,7 +331,7 @@ impl ShortLoop {
         if ladder.layout.spherical.is_some() {
             return self.with_spherical_joint(&ladder.layout, case);
         }
-        if let Some(answer) = self.with_few_turns(&ladder.layout, case)? {
+        if let Some(answer) = self.with_few_revolutes(&ladder.layout, case)? {
             return Ok(answer);
         }
         let mut best: Vec<Candidate> = Vec::new();
@@ -340,7 +340,7 @@ impl ShortLoop {
         let mut tight: Vec<Candidate> = Vec::new();
         let total = |list: &[Candidate]| list.iter().map(|c| c.mode.multiplicity.max(1)).sum::<usize>();
         for (k, rung) in ladder.rungs.iter().enumerate() {
-            // Where closure polynomials vanish at every input, solutions with idle unknowns form families.
+            // Where closure polynomials vanish at every input, solutions with virtual joints form families.
             let most = *rung.most.get_or_init(|| self.most(&rung.layout));
             if most.is_none() && k + 1 < ladder.rungs.len() {
                 continue;
@@ -376,7 +376,7 @@ impl ShortLoop {
             && count.is_some_and(|count| count.most > total(&best))
             && let Some(plan) = self.plan(&ladder.layout, case)
         {
-            // What idle unknowns in general position hide.
+            // What virtual joints in general position hide.
             let found = self.by_ring(&ladder.layout, case, &plan)?;
             if total(&found) > total(&best) {
                 best = found;
@@ -414,9 +414,9 @@ impl ShortLoop {
         };
         let filled = with_idle_rotations(&self.chain, layout).unwrap_or_else(|_| layout.with_idle(layout.missing(), 0));
         let unit = self.chain.unit().to_f64();
-        let filling: Motion<f64> = filling(case)?;
-        let filling = Motion { translation: filling.translation.map(|x| x / unit), ..filling };
-        let closed = scaled(&self.chain.open_loop(&filled)?, unit).close(&filling);
+        let closing: Motion<f64> = closing_transformation(case)?;
+        let closing = Motion { translation: closing.translation.map(|x| x / unit), ..closing };
+        let closed = scaled(&self.chain.open_loop(&filled)?, unit).close(&closing);
         let joints = filled.joint_variables();
         let units = closed.variables.map(|kind| if kind == Variable::Rotation { 1.0 } else { unit });
         let locked = Complex::from(locked_value(case));
@@ -479,7 +479,7 @@ impl ShortLoop {
         Ok((Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }, modes))
     }
 
-    /// What nearly closes the loop, by the size of its idle unknowns.
+    /// What nearly closes the loop, by the size of its virtual joints.
     fn candidates(
         &self,
         rung: &Rung,
@@ -490,11 +490,11 @@ impl ShortLoop {
         assembly: &mut Assembly,
     ) -> Result<Vec<Candidate>> {
         let Rung { layout, solver, open, .. } = rung;
-        let filling: Motion<f64> = filling(case)?;
-        let mut gap = solver.gap(&filling);
+        let closing: Motion<f64> = closing_transformation(case)?;
+        let mut gap = solver.gap(&closing);
         if gap.is_rough() {
             let open: OpenLoop<Rational> = self.chain.open_loop(layout)?;
-            let [.., last] = open.close(&super::single_loop::filling(case)?).constants;
+            let [.., last] = open.close(&super::single_loop::closing_transformation(case)?).constants;
             gap = last.map(|x| Some(nearest_f64(x))).map_or(gap, |last| solver.exact_gap(&last));
         }
         solver.solve_up_to(&gap, roots, &|| most.unwrap_or(usize::MAX), workspace, assembly);
@@ -511,8 +511,8 @@ impl ShortLoop {
     /// An exact upper bound of the number of solutions, by the common roots of two choices of virtual unknowns.
     fn count(&self, rung: &Rung, case: &Case, enough: usize) -> Option<usize> {
         let Counting { loops, is_idle } = rung.counting.get_or_init(|| self.counting(&rung.layout)).as_ref()?;
-        let filling: Motion<Mod> = filling(case).ok()?;
-        let [one, other] = loops.each_ref().map(|open| open.close(&filling));
+        let closing: Motion<Mod> = closing_transformation(case).ok()?;
+        let [one, other] = loops.each_ref().map(|open| open.close(&closing));
         common_roots(&one, &other, *is_idle, enough)
     }
 
@@ -530,14 +530,14 @@ impl ShortLoop {
         let filled = layout.with_idle(layout.missing(), 0);
         let is_idle = filled.joint_variables().map(|joint| joint.is_none());
         let open = self.chain.try_open_loop::<Mod>(&filled).ok()??;
-        Plan::at_zero(&open.close(&filling(case).ok()?), is_idle)
+        Plan::at_zero(&open.close(&closing_transformation(case).ok()?), is_idle)
     }
 
-    /// The solutions by that ring, in longer numbers.
+    /// The solutions by that ring, in multiprecision arithmetic.
     fn by_ring(&self, layout: &Layout, case: &Case, plan: &Plan) -> Result<Vec<Candidate>> {
         let filled = layout.with_idle(layout.missing(), 0);
         let over = LongFloat::from(1.0 / self.chain.unit().to_f64());
-        let exact = self.chain.open_loop::<LongFloat>(&filled)?.close(&filling(case)?);
+        let exact = self.chain.open_loop::<LongFloat>(&filled)?.close(&closing_transformation(case)?);
         let constants = exact.constants.each_ref().map(|motion| {
             let translation = motion.translation.map(|x| x.mul(&over));
             Motion { translation, ..motion.clone() }
@@ -551,21 +551,21 @@ impl ShortLoop {
     /// The loop at an input, lengths over the mean link.
     fn setting(&self, layout: &Layout, open: &OpenLoop<f64>, case: &Case) -> Result<Setting> {
         let unit = self.chain.unit().to_f64();
-        let filling: Motion<f64> = filling(case)?;
-        let closed = open.close(&Motion { translation: filling.translation.map(|x| x / unit), ..filling });
+        let closing: Motion<f64> = closing_transformation(case)?;
+        let closed = open.close(&Motion { translation: closing.translation.map(|x| x / unit), ..closing });
         let units = closed.variables.map(|kind| if kind == Variable::Rotation { 1.0 } else { unit });
         let is_idle = layout.joint_variables().map(|joint| joint.is_none());
         let locked = Complex::from(locked_value(case));
         Ok(Setting { layout: layout.clone(), closed, is_idle, units, locked })
     }
 
-    /// A bound on the number of solutions with idle unknowns at every input; `None` where the closure polynomials vanish.
+    /// A bound on the number of solutions with virtual joints at every input; `None` where the closure polynomials vanish.
     fn most(&self, layout: &Layout) -> Option<usize> {
         // Without input nothing is in general position.
         let Some(locked) = layout.locked.map(|k| layout.variables[k]) else { return Some(usize::MAX) };
         let open = self.chain.try_open_loop::<Mod>(layout).ok().flatten();
-        let Some((open, filling)) = open.zip(general_filling(Some(locked), 0)) else { return Some(usize::MAX) };
-        Some(degree(&open.close(&filling), None)?.solutions)
+        let Some((open, closing)) = open.zip(general_closing(Some(locked), 0)) else { return Some(usize::MAX) };
+        Some(degree(&open.close(&closing), None)?.solutions)
     }
 
     /// Two choices of idle axes beside those of a layout.
@@ -589,7 +589,7 @@ impl ShortLoop {
             Some(0) if is_of_ring => (Status::Unreachable, OPEN_BY_RING.to_owned()),
             Some(0) => (
                 Status::Unreachable,
-                "no solution: the closure polynomials for two choices of idle unknowns have no common root".to_owned(),
+                "no solution: the closure polynomials for two choices of virtual joints have no common root".to_owned(),
             ),
             // Large imaginary parts hide how far a solution is from closing, and the count is a bound.
             Some(count) if count == total && found.iter().any(|c| !c.mode.real && !(c.idle < ZERO)) => (
@@ -599,7 +599,7 @@ impl ShortLoop {
                     if is_of_ring {
                         "of the closure equations"
                     } else {
-                        "common roots of the closure polynomials for two choices of idle unknowns"
+                        "common roots of the closure polynomials for two choices of virtual joints"
                     }
                 ),
             ),
@@ -610,7 +610,7 @@ impl ShortLoop {
                     format!("all solutions of the closure equations, whose ring has dimension {count}")
                 } else {
                     format!(
-                        "{all} of the closure polynomials for two choices of idle unknowns in place of the missing ones"
+                        "{all} of the closure polynomials for two choices of virtual joints in place of the missing ones"
                     )
                 };
                 (status, format!("{total} of {count}: {of} (modulo a prime drawn at run time)"))
@@ -633,7 +633,7 @@ impl ShortLoop {
     }
 }
 
-/// A loop with idle unknowns at an input.
+/// A loop with virtual joints at an input.
 struct Setting {
     layout: Layout,
     /// Lengths over the mean link.

@@ -5,7 +5,7 @@
 //! its axis and the distance from a point of it, for a translation the place across its axis. Their common roots are
 //! exact; Va, by the third equation, and the rotation of the spherical joint follow.
 
-use super::single_loop::filling;
+use super::single_loop::closing_transformation;
 use crate::algebra::ring::{Domain, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::Case;
@@ -162,7 +162,7 @@ fn behind_spherical(chain: &Chain, layout: &Layout, case: &Case) -> Result<(Moti
             break;
         }
         if layout.locked == Some(index) {
-            let constant = filling::<Rational>(case)?.then_after(&constant);
+            let constant = closing_transformation::<Rational>(case)?.then_after(&constant);
             let last = steps.last_mut().map_or(&mut before, |(_, _, constant)| constant);
             *last = last.then_after(&constant);
         } else {

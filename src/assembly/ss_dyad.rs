@@ -6,7 +6,7 @@ use super::mode::{Assembly, Roots};
 use super::search::{AS_IT_IS, Effort, Search};
 use super::solver::Workspace;
 use crate::elimination::spherical_pair::equation;
-use crate::kinematics::closed_loop::{ClosedLoop, Coupled, Variable};
+use crate::kinematics::closed_loop::{ClosedLoop, SsDyad, Variable};
 use crate::kinematics::link_form::product;
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
 use crate::solve::newton::{Six, turn};
@@ -20,31 +20,31 @@ type Angles = [Complex<f64>; 3];
 /// Finds both positions. Fills `assembly` with modes whose last unknown is that of the loop, and returns the angles of
 /// both spherical joints for each of them, about z, x and z.
 pub fn solve(
-    coupled: &Coupled<f64>,
+    ss_dyad: &SsDyad<f64>,
     roots: Roots,
     workspace: &mut Workspace,
     assembly: &mut Assembly,
 ) -> Vec<[Angles; 2]> {
     assembly.clear();
-    (assembly.clean, assembly.tries) = (true, 1);
-    let (scale, coupled) = scaled(coupled);
-    let row = equation(&coupled);
+    (assembly.all_resolved, assembly.tries) = (true, 1);
+    let (scale, ss_dyad) = scaled(ss_dyad);
+    let row = equation(&ss_dyad);
     let [constant, first, second] = row;
-    let discriminant = match coupled.variable {
+    let discriminant = match ss_dyad.variable {
         Variable::Rotation => first * first + second * second - constant * constant,
         Variable::Translation => 0.25 * first * first - constant,
     };
     let mut spherical_joints = Vec::new();
     if discriminant >= 0.0 {
-        for m in zeros::<f64>(coupled.variable, &row).into_iter().flatten() {
-            one(&coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut spherical_joints);
+        for m in zeros::<f64>(ss_dyad.variable, &row).into_iter().flatten() {
+            one(&ss_dyad, pair(ss_dyad.variable, &m), roots, workspace, assembly, &mut spherical_joints);
         }
     } else if roots == Roots::All
-        && let Some(m) = zeros::<Complex<f64>>(coupled.variable, &row.map(Complex::from))[0]
+        && let Some(m) = zeros::<Complex<f64>>(ss_dyad.variable, &row.map(Complex::from))[0]
     {
-        one(&coupled, pair(coupled.variable, &m), roots, workspace, assembly, &mut spherical_joints);
+        one(&ss_dyad, pair(ss_dyad.variable, &m), roots, workspace, assembly, &mut spherical_joints);
     }
-    if coupled.variable == Variable::Translation {
+    if ss_dyad.variable == Variable::Translation {
         for mode in &mut assembly.modes {
             mode.unknowns[5] *= scale;
         }
@@ -54,18 +54,18 @@ pub fn solve(
 
 /// The mean length of the links as a power of two, 1 without lengths, and the loop with lengths over it: what counts as
 /// small is so in proportion.
-fn scaled(coupled: &Coupled<f64>) -> (f64, Coupled<f64>) {
-    let links = [&coupled.link, &coupled.before, &coupled.behind];
+fn scaled(ss_dyad: &SsDyad<f64>) -> (f64, SsDyad<f64>) {
+    let links = [&ss_dyad.link, &ss_dyad.before, &ss_dyad.behind];
     let mean = links.map(|motion| dot(&motion.translation, &motion.translation)).iter().sum::<f64>() / 3.0;
     let scale = if mean > 0.0 { mean.sqrt().log2().round().exp2() } else { 1.0 };
     let [link, before, behind] =
         links.map(|motion| Motion { translation: motion.translation.map(|x| x / scale), ..motion.clone() });
-    (scale, Coupled { link, before, behind, ..coupled.clone() })
+    (scale, SsDyad { link, before, behind, ..ss_dyad.clone() })
 }
 
 /// Admits one position.
 fn one<S: Scalar>(
-    coupled: &Coupled<f64>,
+    ss_dyad: &SsDyad<f64>,
     value: (S, S),
     roots: Roots,
     workspace: &mut Workspace,
@@ -73,10 +73,10 @@ fn one<S: Scalar>(
     spherical_joints: &mut Vec<[Angles; 2]>,
 ) {
     // X L Y = (K V H)^-1
-    let mut rest = lifted::<S>(&coupled.before);
-    turn(&mut rest, coupled.variable, value);
-    let across = rest.then_after(&lifted(&coupled.behind)).inverse();
-    let link = coupled.link.translation;
+    let mut rest = lifted::<S>(&ss_dyad.before);
+    turn(&mut rest, ss_dyad.variable, value);
+    let across = rest.then_after(&lifted(&ss_dyad.behind)).inverse();
+    let link = ss_dyad.link.translation;
     let Some(frame) = frame_along(&link) else { return };
     let frame_s = frame.map(|row| row.map(S::from_f64));
     let Some(toward) = rotation_between(&link.map(S::from_f64), &across.translation, &frame_s) else { return };
@@ -105,18 +105,18 @@ fn one<S: Scalar>(
             Variable::Rotation,
             Variable::Rotation,
             Variable::Rotation,
-            coupled.variable,
+            ss_dyad.variable,
         ],
         constants: [
             to_x,
             back.clone(),
             to_link,
             back,
-            constant(behind).then_after(&coupled.before),
-            coupled.behind.clone(),
+            constant(behind).then_after(&ss_dyad.before),
+            ss_dyad.behind.clone(),
         ],
     };
-    let last = match coupled.variable {
+    let last = match ss_dyad.variable {
         Variable::Rotation => S::angle_of(value.0, value.1),
         Variable::Translation => value.0,
     };
@@ -140,7 +140,7 @@ fn one<S: Scalar>(
         let one = product(&spherical_rotation([a, b, c]), &lift(before));
         // F^-1 R_L Y = Rx(beta) Rz(gamma) Q
         let turned = product(&spherical_rotation([Complex::from(0.0), beta, gamma]), &lift(behind));
-        let joints_here = held(&one, &turned, &lift(frame), &lift(coupled.link.rotation));
+        let joints_here = held(&one, &turned, &lift(frame), &lift(ss_dyad.link.rotation));
         spherical_joints.push(joints_here.map(|r| plain_angles(&r, mode.real)));
         assembly.modes.push(mode);
     }

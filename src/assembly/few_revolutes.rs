@@ -28,7 +28,7 @@ impl Search<'_> {
         self.assembly.tries += 1;
         if !(amplitude > limits::PARALLEL) {
             // Two axes are parallel: the third one's angle with them is right or it is not.
-            self.assembly.clean = constant.abs() > limits::PARALLEL;
+            self.assembly.all_resolved = constant.abs() > limits::PARALLEL;
             return;
         }
         // Turned so that the equation is `constant + amplitude' cos q' = 0`: both roots are in sight.
@@ -37,7 +37,7 @@ impl Search<'_> {
         let root = Complex::new(square, 0.0).sqrt();
         let roots = OfTriangle { triangle, offset: (cos / turned, sin / turned) };
         let mut family = InLinkForm { form: &form, complex: None, roots };
-        self.assembly.clean = self.all_roots(&mut family, &[root, -root]);
+        self.assembly.all_resolved = self.all_roots(&mut family, &[root, -root]);
     }
 
     /// The eight solutions of a spherical four-bar whose links have to be bridged, from the best link to look at it;
@@ -58,9 +58,9 @@ impl Search<'_> {
                 let (base, offset) = (bar.base, found.offset);
                 let roots = OfFourBar { form: &form, base, hidden, offset, equations: &equations };
                 let mut family = InLinkForm { form: &form, complex: None, roots };
-                let clean = self.all_roots(&mut family, &found.roots);
-                self.assembly.clean |= clean;
-                if self.done(most, clean) {
+                let all_resolved = self.all_roots(&mut family, &found.roots);
+                self.assembly.all_resolved |= all_resolved;
+                if self.done(most, all_resolved) {
                     return;
                 }
             }
@@ -78,8 +78,8 @@ impl Search<'_> {
         let Some(found) = SeparatedRoots::of(&equations, limits::REACH_DEPENDENT) else { return false };
         self.assembly.tries += 1;
         let mut family = InLinkForm { form, complex: None, roots: OfOppositeAxes { axes, found: &found } };
-        self.assembly.clean = self.all_roots(&mut family, found.roots());
-        self.assembly.clean
+        self.assembly.all_resolved = self.all_roots(&mut family, found.roots());
+        self.assembly.all_resolved
     }
 
     /// Admits the loop at these rotations, its translations computed.

@@ -307,7 +307,7 @@ fn sliding(joints: &str, input: &str) -> Entry {
 }
 
 #[test]
-fn loops_of_few_turns_are_solved_exactly() {
+fn loops_of_few_revolutes_are_solved_exactly() {
     let slides = "{ type = \"P\", axis = [1, 0, 2] },\n{ type = \"P\", axis = [0, 3, 4] },\n{ type = \"P\", axis = [2, -1, 2] },\n";
     let general = slides.to_owned() + "{ type = \"P\", axis = [-2, 3, 6] },\n";
     let solution = solve(&sliding(&general, "joint = 4\ndistance = \"7/3\""), 0);

@@ -4,7 +4,7 @@
 //! the same angle in every position, the third column and the third row of `Rz(q1) A1 Rz(q2) A2 = I` give one cosine and
 //! sine each, rational in the data. Translations then have to bridge what is left, along known directions.
 
-use super::{Answer, ShortLoop, outcome, scaled};
+use super::{Answer, OverconstrainedLoop, outcome, scaled};
 use crate::algebra::number::nearest_f64;
 use crate::catalogue::entry::Case;
 use crate::error::Result;
@@ -12,7 +12,7 @@ use crate::kinematics::closed_loop::{ClosedLoop, Layout, Variable};
 use crate::kinematics::link_form::product;
 use crate::kinematics::motion::Motion;
 use crate::mechanism::FullMode;
-use crate::mechanism::single_loop::{filling, locked_value, within_limits};
+use crate::mechanism::single_loop::{closing_transformation, locked_value, within_limits};
 use crate::solve::dense;
 use crate::solve::newton::closure;
 use crate::verdict::{Status, Verdict};
@@ -28,7 +28,7 @@ enum Closing {
     Open(f64),
     /// A family of so many dimensions.
     Moving(usize),
-    /// One choice of cosines and sines of the rotations and, alone, of distances; none of idle unknowns.
+    /// One choice of cosines and sines of the rotations and, alone, of distances; none of virtual joints.
     Closed(Box<[Option<(Rational, Rational)>; 6]>),
 }
 
@@ -37,17 +37,17 @@ const CLEAR: f64 = 1e-9;
 /// Distances over the mean link beyond which rounded data may have made dependent directions independent.
 const FAR: f64 = 1e6;
 
-impl ShortLoop {
+impl OverconstrainedLoop {
     /// The solution of a loop of at most two unknown rotations, exactly; `None` for others, and where rounded data may hide
     /// that the loop closes.
-    pub(super) fn with_few_turns(&self, layout: &Layout, case: &Case) -> Result<Option<Answer>> {
+    pub(super) fn with_few_revolutes(&self, layout: &Layout, case: &Case) -> Result<Option<Answer>> {
         let filled = layout.with_idle(layout.missing(), 0);
         let joints = filled.joint_variables();
         let turns = |k: &usize| joints[*k].is_some() && filled.loop_kinds()[*k] == Variable::Rotation;
         if (0..6).filter(turns).count() > 2 {
             return Ok(None);
         }
-        let exact: ClosedLoop<Rational> = self.chain.open_loop(&filled)?.close(&filling(case)?);
+        let exact: ClosedLoop<Rational> = self.chain.open_loop(&filled)?.close(&closing_transformation(case)?);
         let unit = self.chain.unit();
         let Some(closing) = close(&exact, joints.map(|joint| joint.is_none()), &unit) else { return Ok(None) };
         let values = match closing {
@@ -74,9 +74,9 @@ impl ShortLoop {
         let locked = Complex::from(locked_value(case));
         let q = filled.assemble(&unknowns.map(Complex::from), locked);
         let within = (!self.limits.is_empty()).then(|| within_limits(&q, &layout.variables, &self.limits));
-        let filling: Motion<f64> = filling(case)?;
-        let filling = Motion { translation: filling.translation.map(|x| x / unit), ..filling };
-        let here = scaled(&self.chain.open_loop(&filled)?, unit).close(&filling);
+        let closing: Motion<f64> = closing_transformation(case)?;
+        let closing = Motion { translation: closing.translation.map(|x| x / unit), ..closing };
+        let here = scaled(&self.chain.open_loop(&filled)?, unit).close(&closing);
         let over_unit = std::array::from_fn(|k| match here.variables[k] {
             Variable::Rotation => Complex::from(unknowns[k]),
             Variable::Translation => Complex::from(unknowns[k] / unit),

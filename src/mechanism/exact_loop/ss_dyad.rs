@@ -5,9 +5,9 @@ use super::roots::Root;
 use crate::algebra::disc::Disc;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
-use crate::assembly::coupler::farthest_axis;
+use crate::assembly::ss_dyad::farthest_axis;
 use crate::elimination::spherical_pair::equation;
-use crate::kinematics::closed_loop::{Coupled, Variable};
+use crate::kinematics::closed_loop::{SsDyad, Variable};
 use crate::kinematics::link_form::product;
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
 use crate::mechanism::FullMode;
@@ -24,9 +24,9 @@ const BITS: u32 = 640;
 const SAME: u32 = 320;
 
 /// What is asked of a loop with two spherical joints.
-pub(crate) struct CoupledQuestion<'a> {
+pub(crate) struct SsDyadQuestion<'a> {
     /// The loop over the rationals.
-    pub coupled: &'a Coupled<Rational>,
+    pub ss_dyad: &'a SsDyad<Rational>,
     /// The value of the given joint variable, in the places of all joint variables.
     pub given: Vec<Complex<f64>>,
     /// A length of the size of the links.
@@ -49,15 +49,15 @@ enum Places {
 /// A number of a quadratic field.
 type Value = Root;
 
-impl CoupledQuestion<'_> {
+impl SsDyadQuestion<'_> {
     /// The answer.
     pub fn answer(&self) -> Answer {
-        let row = equation(self.coupled);
-        let link = &self.coupled.link.translation;
+        let row = equation(self.ss_dyad);
+        let link = &self.ss_dyad.link.translation;
         let is_point = link.iter().all(|x| *x == 0);
-        let may_touch = self.is_rounded && may_touch(self.coupled.variable, &row);
-        let roots = match places(self.coupled.variable, &row) {
-            Places::Some(_) if may_touch => vec![(touching(self.coupled.variable, &row), 2)],
+        let may_touch = self.is_rounded && may_touch(self.ss_dyad.variable, &row);
+        let roots = match places(self.ss_dyad.variable, &row) {
+            Places::Some(_) if may_touch => vec![(touching(self.ss_dyad.variable, &row), 2)],
             Places::All => return (self.verdict(Status::SelfMotion, Code::SelfMotion, &[], MOVING), Vec::new()),
             Places::Some(roots) => roots,
         };
@@ -109,19 +109,19 @@ impl CoupledQuestion<'_> {
     fn mode(&self, pair: &[Value; 2], multiplicity: usize, is_point: bool) -> Option<FullMode> {
         let [one, other] = [pair[0].ball(BITS)?, pair[1].ball(BITS)?];
         let real = pair.iter().all(Root::is_real);
-        let value = match self.coupled.variable {
+        let value = match self.ss_dyad.variable {
             Variable::Rotation => Disc::angle(&one, &other)?,
             Variable::Translation => one.clone(),
         };
         let joints = self.spherical(&[one, other], is_point)?;
-        let [first, second, unknown] = self.coupled.indices;
+        let [first, second, unknown] = self.ss_dyad.indices;
         let (mut q, mut radius) = (self.given.clone(), 0.0_f64);
         let mut place = |index: usize, ball: &Disc, variable: Variable| {
             let (value, error) = nearest(ball, variable, real);
             q[index] = value;
             radius = radius.max(if variable == Variable::Rotation { error } else { error / self.unit.min(1.0) });
         };
-        place(unknown, &value, self.coupled.variable);
+        place(unknown, &value, self.ss_dyad.variable);
         for (at, angles) in [first, second].into_iter().zip(&joints) {
             angles.iter().enumerate().for_each(|(k, angle)| place(at + k, angle, Variable::Rotation));
         }
@@ -144,14 +144,14 @@ impl CoupledQuestion<'_> {
 
     /// How fast the square of the distance of the centres changes with the unknown, upside down and over the unit.
     fn condition(&self, pair: &[Value; 2]) -> f64 {
-        let [_, first, second] = equation(self.coupled).map(|x| x.to_f64());
+        let [_, first, second] = equation(self.ss_dyad).map(|x| x.to_f64());
         let value = |root: &Root| root.ball(64).map_or(Complex::ZERO, |b| Complex::new(b.re.to_f64(), b.im.to_f64()));
         let [one, other] = pair.each_ref().map(value);
-        let slope = match self.coupled.variable {
+        let slope = match self.ss_dyad.variable {
             Variable::Rotation => (second * one - first * other).norm() / self.unit,
             Variable::Translation => (first + 2.0 * second * one).norm(),
         };
-        let [p, l] = [&self.coupled.behind.translation, &self.coupled.link.translation];
+        let [p, l] = [&self.ss_dyad.behind.translation, &self.ss_dyad.link.translation];
         let length = |v: &Vector<Rational>| v.iter().map(|x| x.to_f64().powi(2)).sum::<f64>().sqrt();
         (2.0 * (length(p) + length(l) + self.unit) / slope).max(1.0)
     }
@@ -159,13 +159,13 @@ impl CoupledQuestion<'_> {
     /// The angles of both spherical joints, the second one a universal joint.
     fn spherical(&self, [one, other]: &[Disc; 2], is_point: bool) -> Option<[[Disc; 3]; 2]> {
         let image = |motion: &Motion<Rational>| motion.map(|x| Some(Disc::of(x, BITS)));
-        let motion = match self.coupled.variable {
+        let motion = match self.ss_dyad.variable {
             Variable::Rotation => Motion::rotation_z(one.clone(), other.clone()),
             Variable::Translation => Motion::translation_z(one.clone()),
         };
         // X L Y K V H = 1
-        let rest = image(&self.coupled.before)?.then_after(&motion).then_after(&image(&self.coupled.behind)?);
-        let (across, link) = (rest.inverse(), image(&self.coupled.link)?);
+        let rest = image(&self.ss_dyad.before)?.then_after(&motion).then_after(&image(&self.ss_dyad.behind)?);
+        let (across, link) = (rest.inverse(), image(&self.ss_dyad.link)?);
         if is_point {
             // Both centres are one: the second joint stands at 0.
             let first = product(&across.rotation, &transposed(&link.rotation));
