@@ -2,8 +2,8 @@
 
 use super::border::Arithmetic;
 
-/// Coefficients of `det(x - matrix)`, constant term first; the matrix is used up. `None` where `inverse` does not exist for a
-/// number that is not 0, as may be for residues modulo several primes.
+/// Returns the coefficients of `det(x - matrix)`, constant term first; the matrix is overwritten. `None` where `inverse` does not
+/// exist for a number that is not 0, which can happen for residues modulo several primes.
 #[must_use]
 pub fn characteristic_polynomial<A: Arithmetic>(
     field: &A,
@@ -12,7 +12,7 @@ pub fn characteristic_polynomial<A: Arithmetic>(
 ) -> Option<Vec<A::Element>> {
     let (n, zero) = (matrix.len(), field.zero());
     reduce(field, inverse, matrix)?;
-    // Those of the leading blocks: p_k = (x - h_kk) p_{k-1} - sum_i h_ik (h_{i+1,i} ... h_{k,k-1}) p_{i-1}.
+    // Polynomials of the leading blocks: p_k = (x - h_kk) p_{k-1} - sum_i h_ik (h_{i+1,i} ... h_{k,k-1}) p_{i-1}.
     let mut leading: Vec<Vec<A::Element>> = vec![vec![field.one()]];
     for k in 0..n {
         let mut p = vec![zero; k + 2];

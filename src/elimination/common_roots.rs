@@ -1,11 +1,11 @@
-//! How many solutions an overconstrained loop has: the roots that its closure polynomials have in common.
+//! The number of solutions of an overconstrained loop: the roots that its closure polynomials have in common.
 //!
-//! A loop of fewer than six unknowns is given idle ones, and becomes one of six with a closure polynomial in the tangent
-//! of half of one of its own angles. Its solutions are those at which all virtual joints are zero, wherever the idle axes
-//! lie; all other roots move with these axes. So the solutions are the common roots of the polynomials of two choices of
-//! axes in general position: no fewer than the solutions ever, and no more but for solutions that share a root and for
-//! accidents, of which the least number over all cuts is free if one cut is. Two polynomials without a common root
-//! modulo a prime have none over the rationals: such a loop does not close.
+//! A loop of fewer than six unknowns is given virtual joints, and becomes one of six with a closure polynomial in the half-angle
+//! tangent of one of its own angles. Its solutions are those at which all virtual joints are zero, wherever the virtual axes lie;
+//! all other roots move with these axes. So the solutions are the common roots of the polynomials of two choices of axes in
+//! general position. There are never fewer common roots than solutions; there are more only for solutions that share a root and
+//! for accidents, and the least number over all cuts is free of these if one cut is. Two polynomials without a common root modulo
+//! a prime have none over the rationals: such a loop does not close.
 
 use super::cut::{Cut, Hidden};
 use super::degree::{closure_polynomial, general_degree};
@@ -17,9 +17,9 @@ use crate::algebra::univariate::Univariate;
 use crate::kinematics::closed_loop::ClosedLoop;
 use crate::kinematics::link_form::LinkForm;
 
-/// An upper bound on the number of isolated solutions, with multiplicity, that two loops have in common whose unknowns
-/// are the same but for the axes of the idle ones. Once it is down to `enough` nothing smaller is looked for. `None`
-/// where no cut has a closure polynomial: solutions form families as a rule.
+/// Returns an upper bound on the number of isolated solutions, with multiplicity, that two loops have in common whose unknowns
+/// differ only in the axes of the virtual joints. The search stops once the bound is down to `enough`. `None` where no cut has a
+/// closure polynomial: as a rule the solutions then form families.
 #[must_use]
 pub fn common_roots<F: Field + Domain>(
     one: &ClosedLoop<F>,
@@ -68,7 +68,7 @@ pub fn common_roots<F: Field + Domain>(
     best
 }
 
-/// The closure polynomial of four rotations without the roots that belong to no angle; `None` where it vanishes.
+/// Returns the closure polynomial of four rotations without the roots that belong to no angle; `None` where it vanishes.
 fn octic_of<F: Field + Domain>(form: &LinkForm<F, 4, 2>, base: usize, hidden: Hidden) -> Option<Univariate<F>> {
     let polynomial = octic::closure_polynomial(&FourBar::new(form, base)?.equations(), hidden, &offset());
     polynomial.degree()?;

@@ -1,18 +1,17 @@
-//! How many solutions a loop has, in any geometry: the dimension of the ring of polynomials on its solution set.
+//! The number of solutions of a loop in any geometry: the dimension of the ring of polynomials on its solution set.
 //!
 //! Unknown 6 of a cut is a rotation about z and turns no line along z, so the first five unknowns solve the 14 equations
 //! of lines with a marked point, `T(V4 G4 V5 G5) z = T((G6 V1 G1 V2 G2 V3 G3)^-1) z`, and fix the sixth one. Modulo these
 //! equations (and `cos^2 + sin^2 = 1`, by which no power of a sine above the first occurs) all polynomials in the five
-//! unknowns form a ring. If every monomial is a combination of finitely many ones, that many bound the number of
-//! solutions, with multiplicity, and no root at infinity, at a half tangent of i, or of a polynomial that knows of only
-//! part of the equations is among them: once all consequences of the equations are known the number is that of the
-//! solutions. \[CoxLittleOShea2015\]
+//! unknowns form a ring. If every monomial is a combination of finitely many of them, their number bounds the number of
+//! solutions, with multiplicity. It counts no root at infinity, at a half tangent of i, or of a polynomial that uses only part of
+//! the equations: once all consequences of the equations are known, it is the number of solutions. \[CoxLittleOShea2015\]
 //!
 //! The relations between monomials up to some degree are found by linear algebra: relations times an unknown are
 //! relations, as long as they stay below that degree. When the monomials that are left over all have a smaller degree,
 //! an unknown times one of them is again a combination of them, and the solutions are the eigenvectors of such products.
 //!
-//! Which products lead to new relations is found out once, modulo a prime; in numbers the same ones are formed again.
+//! The products that lead to new relations are found once, modulo a prime; the same ones are then formed in other numbers.
 
 use super::cut::Cut;
 use crate::algebra::ring::{Field, Ring};
@@ -26,10 +25,10 @@ type Monomial = u64;
 /// Coefficients by monomials.
 type Sparse<F> = BTreeMap<Monomial, F>;
 
-/// Degrees up to which relations are looked for: the first of them that is enough.
+/// Degrees up to which relations are looked for; the first one that suffices is used.
 const DEGREES: [u32; 2] = [3, 4];
 
-/// The number m in the half-angle tangent of a matrix: one that is minus the inverse of no tangent by chance.
+/// The number m in the half-angle tangent of a matrix: large, so that it is not minus the inverse of a tangent by chance.
 const MIXED: i32 = 1_234_577;
 
 fn digit(monomial: Monomial, unknown: usize) -> u64 {
@@ -166,8 +165,8 @@ impl<F: Field> Relations<F> {
         Self { kinds, is_zero, most, columns, places, rows }
     }
 
-    /// Reduces a relation by those known already, up to a column if it is known that nothing is left before that one.
-    /// `None` for a relation of too high a degree, and for zero.
+    /// Reduces a relation by those already known, up to column `known` where everything before that column is known to cancel.
+    /// `None` for zero, and for a relation of too high a degree.
     fn reduced(&self, relation: &Sparse<F>, known: Option<usize>) -> Option<(usize, Vec<F>)> {
         let mut row = vec![F::zero(); self.columns.len()];
         for (monomial, c) in relation.iter().filter(|(_, c)| !c.is_zero()) {
@@ -220,13 +219,13 @@ impl<F: Field> Relations<F> {
         }
     }
 
-    /// The monomials that are no leading ones, if all are of lower degree.
+    /// Returns the monomials that lead no relation, if all are of lower degree.
     fn standard(&self) -> Option<Vec<usize>> {
         let left: Vec<usize> = (0..self.columns.len()).filter(|&k| self.rows[k].is_none()).collect();
         left.iter().all(|&k| degree(self.columns[k]) < self.most).then_some(left)
     }
 
-    /// What an unknown can be multiplied by.
+    /// Returns the factors that may multiply a relation: each unknown, and whether its sine.
     fn factors(&self) -> impl Iterator<Item = (usize, bool)> {
         let both = |unknown: usize, kind: Variable| {
             let sines: &[bool] = if kind == Variable::Rotation { &[false, true] } else { &[false] };
@@ -237,26 +236,26 @@ impl<F: Field> Relations<F> {
     }
 }
 
-/// How the relations of a loop follow from its equations.
+/// A plan of the products by which the relations of a loop follow from its equations.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Unknowns that are zero.
     is_zero: [bool; 6],
     most: u32,
-    /// Which relations lead to new ones, each with its leading column then.
+    /// The relations that lead to new ones, each with its leading column at that step.
     steps: Vec<(Source, usize)>,
     count: usize,
 }
 
 impl Plan {
-    /// The plan of a loop over an exact field; `None` where solutions form families, and where relations of a higher
-    /// degree are needed to see that they do not.
+    /// Returns the plan of a loop over an exact field; `None` where solutions form families, or where only relations of a higher
+    /// degree would show that they do not.
     #[must_use]
     pub fn of<F: Field>(closed: &ClosedLoop<F>) -> Option<Self> {
         Self::at_zero(closed, [false; 6])
     }
 
-    /// As [`Plan::of`] for the solutions at which these unknowns are zero, of which there need be none.
+    /// As [`Plan::of`] for the solutions at which the marked unknowns are zero; there may be none.
     #[must_use]
     pub fn at_zero<F: Field>(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<Self> {
         let setting = Setting::of(closed, is_zero)?;
@@ -294,14 +293,14 @@ impl Plan {
         Some(Self { is_zero, most, steps, count })
     }
 
-    /// An upper bound on the number of solutions, with multiplicity: their number, unless relations of a higher degree are
-    /// needed to see that.
+    /// Returns an upper bound on the number of solutions, with multiplicity: the number itself, unless only relations of a higher
+    /// degree would show it.
     #[must_use]
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The ring of the same loop in another field; `None` where a number vanishes that should not.
+    /// Returns the ring of the same loop in another field; `None` where a pivot vanishes that should not.
     #[must_use]
     pub fn ring<F: Field>(&self, closed: &ClosedLoop<F>) -> Option<CoordinateRing<F>> {
         let setting = Setting::of(closed, self.is_zero)?;
@@ -334,12 +333,12 @@ impl Plan {
     }
 }
 
-/// A loop as its ring is computed.
+/// A loop in the form in which its ring is computed.
 struct Setting<F> {
-    /// How many unknowns went from the head to the tail.
+    /// The number of unknowns moved from the head to the tail.
     rotation: usize,
     closed: ClosedLoop<F>,
-    /// Which of the first five unknowns are zero.
+    /// Marks those of the first five unknowns that are zero.
     is_zero: [bool; 5],
     equations: Vec<Sparse<F>>,
 }
@@ -358,15 +357,15 @@ impl<F: Field> Setting<F> {
     }
 }
 
-/// The loop with a rotation that is not zero as its last unknown, and how many unknowns went from the head to the tail for
-/// that.
+/// Returns the loop with a rotation that is not zero as its last unknown, and the number of unknowns moved from the head to the
+/// tail for that.
 fn turned<F: Ring>(closed: &ClosedLoop<F>, is_zero: [bool; 6]) -> Option<(usize, ClosedLoop<F>)> {
     let last = (0..6).rev().find(|&k| closed.variables[k] == Variable::Rotation && !is_zero[k])?;
     let rotation = (last + 1) % 6;
     Some((rotation, Cut { rotation, reversed: false }.of(closed)))
 }
 
-/// A row of coordinates after a product, whose row k is that of basis element k.
+/// Multiplies a row of coordinates by a product whose row k belongs to basis element k.
 fn applied<F: Field>(vector: &[F], product: &[Vec<F>]) -> Vec<F> {
     let mut sum = vec![F::zero(); vector.len()];
     for (c, row) in vector.iter().zip(product).filter(|(c, _)| !c.is_zero()) {
@@ -406,9 +405,9 @@ impl<F: Field> CoordinateRing<F> {
         sum
     }
 
-    /// The product with a combination of cosines, sines and distances of the unknowns, with these weights in turn: row k
-    /// is that of basis element k. The values of the basis at a solution are an eigenvector, that of the combination the
-    /// eigenvalue.
+    /// Returns the product with a combination of cosines, sines and distances of the unknowns, with these weights in turn; row k
+    /// belongs to basis element k. The values of the basis at a solution are an eigenvector, and the value of the combination is
+    /// its eigenvalue.
     #[must_use]
     pub fn multiplication(&self, weights: &[F; 10]) -> Vec<Vec<F>> {
         let row = |&column: &usize| {
@@ -423,8 +422,8 @@ impl<F: Field> CoordinateRing<F> {
         self.standard.iter().map(row).collect()
     }
 
-    /// Matrices A and B with `det(A + t B) = 0` where t is the tangent of half an unknown of the ring at a solution, as often
-    /// as there are solutions, with multiplicity; those at the angle pi are at infinity. Of a distance, itself.
+    /// Returns matrices A and B with `det(A + t B) = 0` where t is the half-angle tangent of an unknown at a solution, or the
+    /// distance itself. Each solution counts with its multiplicity; solutions at the angle pi are at infinity.
     ///
     /// `place` is its place among the first five unknowns of [`Self::view`].
     #[must_use]
@@ -452,8 +451,8 @@ impl<F: Field> CoordinateRing<F> {
         }
     }
 
-    /// Whether the dimension of this ring is the number of solutions in this field, with multiplicity, and not only a bound:
-    /// the products with the unknowns commute, the closure equations hold for them, and 1 generates the ring.
+    /// Returns whether the dimension of this ring equals the number of solutions in this field, with multiplicity, and does not
+    /// only bound it: the products with the unknowns commute, the closure equations hold for them, and 1 generates the ring.
     ///
     /// Such matrices make the vectors a module over all polynomials that 1 generates and in which the equations vanish: a
     /// quotient of the ring of the solutions, which has no larger dimension than the basis that spans it.
@@ -506,13 +505,13 @@ impl<F: Field> CoordinateRing<F> {
             && self.standard.iter().enumerate().all(generates)
     }
 
-    /// The loop as it is read here, and which unknown of the original one is first.
+    /// Returns the index of the original unknown that is first here, and the loop as the ring reads it.
     #[must_use]
     pub fn view(&self) -> (usize, &ClosedLoop<F>) {
         (self.rotation, &self.closed)
     }
 
-    /// The monomial 1 in terms of the basis, then cosine and sine or the distance and 0 of the first five unknowns.
+    /// Returns the monomial 1 in terms of the basis, then cosine and sine, or the distance and 0, of the first five unknowns.
     #[must_use]
     pub fn unknowns(&self) -> (Vec<F>, [[Vec<F>; 2]; 5]) {
         let one = [(0, F::one())];

@@ -3,16 +3,16 @@
 use crate::algebra::ring::Ring;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 
-/// Where a loop is opened and which way round it is read. The loop is rotated left first, then reversed.
+/// The place where a loop is opened and the direction in which it is read. The loop is rotated left first, then reversed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cut {
-    /// How many unknowns move from the head to the tail, 0 to 5.
+    /// The number of unknowns that move from the head to the tail, 0 to 5.
     pub rotation: usize,
     /// Whether the loop is then read backwards, every unknown negated.
     pub reversed: bool,
 }
 
-/// Which unknown of a cut stays in the pencil as its eigenvalue.
+/// The unknown of a cut that stays in the pencil as its eigenvalue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hidden {
     /// Unknown 1 of the cut; 2 and 3 form the eigenvector.
@@ -22,8 +22,8 @@ pub enum Hidden {
 }
 
 impl Cut {
-    /// All twelve, those first that leave the gap of the loop (constant 6) out of the elimination of unknowns 4 to 6,
-    /// so that what depends on geometry alone can be prepared; then those with the gap in constant 2; then the rest.
+    /// All twelve cuts. The first ones leave the closing transformation (constant 6) out of the elimination of unknowns 4 to 6,
+    /// so that everything that depends on geometry alone can be prepared; then come those with it in constant 2, then the rest.
     pub const ALL: [Self; 12] = [
         Self { rotation: 0, reversed: false },
         Self { rotation: 5, reversed: false },
@@ -38,7 +38,7 @@ impl Cut {
         Self { rotation: 4, reversed: true },
         Self { rotation: 5, reversed: true },
     ];
-    /// How many of [`Cut::ALL`] can be prepared before the gap is filled.
+    /// The number of leading [`Cut::ALL`] that can be prepared before the closing transformation is known.
     pub const PREPARED: usize = 6;
 
     /// The loop as this cut reads it.
@@ -57,7 +57,7 @@ impl Cut {
         if self.reversed { original.constants[index].inverse() } else { original.constants[index].clone() }
     }
 
-    /// Which constant of the original loop stands, inverted if reversed, behind unknown j of the cut.
+    /// Returns the index of the constant of the original loop that stands behind unknown j of the cut, inverted if reversed.
     #[must_use]
     pub fn constant_index(self, j: usize) -> usize {
         if self.reversed { (self.rotation + if j == 5 { 5 } else { 4 - j }) % 6 } else { (self.rotation + j) % 6 }
@@ -69,13 +69,13 @@ impl Cut {
         std::array::from_fn(|j| original[self.unknown_index(j)])
     }
 
-    /// Which unknown of the original loop is unknown j of the cut, negated if reversed.
+    /// Returns the index of the unknown of the original loop that is unknown j of the cut, negated if reversed.
     #[must_use]
     pub fn unknown_index(self, j: usize) -> usize {
         if self.reversed { (self.rotation + 5 - j) % 6 } else { (self.rotation + j) % 6 }
     }
 
-    /// Whether the elimination can use this cut: translations may stand only as unknowns 4 and 5.
+    /// Returns whether the elimination can use this cut: translations may stand only as unknowns 4 and 5.
     #[must_use]
     pub fn fits(self, original: [Variable; 6]) -> bool {
         let kinds = self.variables(original);

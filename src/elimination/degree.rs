@@ -1,12 +1,12 @@
-//! How many solutions a loop can have: the degree of its closure polynomial, computed exactly.
+//! The largest number of solutions of a loop: the degree of its closure polynomial, computed exactly.
 //!
-//! Every finite solution of a cut that loses no equation is a root of the pencil's determinant, a polynomial in x =
-//! tan(q/2) of degree 16; solutions that share a root give it at least their number as multiplicity. Roots x = +-i
-//! belong to no finite angle, and roots that an arm shows at two general poses alike to no solution: a joint that stood
-//! still at all poses would leave five joints for six freedoms. What remains of 16 bounds the number of isolated
-//! solutions, and the least such bound over all cuts holds. Over a general pose of a geometry it holds for all its
-//! poses, because isolated solutions with multiplicity can only become fewer in special positions. Loops with three and
-//! four rotations are counted by their own polynomials, of degree 2 and 8.
+//! Every finite solution of a cut that loses no equation is a root of the pencil's determinant, a polynomial in x = tan(q/2) of
+//! degree 16; solutions that share a root give it at least their number as multiplicity. Roots x = +-i belong to no finite angle.
+//! Roots that an arm has at two general poses alike belong to no solution: a joint that stood still at all poses would leave five
+//! joints for six freedoms. The remaining degree bounds the number of isolated solutions, and the least such bound over all cuts
+//! holds. The bound of a general pose of a geometry holds for all its poses, because isolated solutions with multiplicity can
+//! only become fewer in special positions. Loops with three and four rotations are counted by their own polynomials, of degree 2
+//! and 8.
 //! \[SommeseWampler2005\]
 
 use super::cut::{Cut, Hidden};
@@ -28,16 +28,16 @@ pub struct ClosurePolynomial<F> {
     pub polynomial: Univariate<F>,
     /// The power k of the factor `(1 + x^2)^k`.
     pub spurious: usize,
-    /// What is left without that factor.
+    /// The polynomial without that factor.
     pub cofactor: Univariate<F>,
 }
 
 /// A bound on the number of isolated solutions of a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Degree {
-    /// At most this many finite solutions, with multiplicity.
+    /// Upper bound on the number of finite solutions, with multiplicity.
     pub solutions: usize,
-    /// How many roots of the closure polynomial were left out.
+    /// The number of roots of the closure polynomial that were left out.
     pub left_out: usize,
 }
 
@@ -66,13 +66,13 @@ pub fn half_tangent_pair<F: Field>(t: &F) -> Option<(F, F)> {
 pub struct TurnedPencil<F> {
     /// The loop as the cut reads it.
     pub view: ClosedLoop<F>,
-    /// What the elimination leaves of its equations.
+    /// The closure equations after the elimination.
     pub form: HalfAngleForm<F>,
     /// The pencil.
     pub pencil: Pencil<F>,
 }
 
-/// The pencil of a loop as one cut and one hidden unknown give it; `None` where the cut is degenerate.
+/// Returns the pencil of a loop for one cut and one hidden unknown; `None` where the cut is degenerate.
 #[must_use]
 pub fn turned_pencil<F: Field>(closed: &ClosedLoop<F>, cut: Cut, hidden: Hidden) -> Option<TurnedPencil<F>> {
     if !cut.fits(closed.variables) {
@@ -87,8 +87,8 @@ pub fn turned_pencil<F: Field>(closed: &ClosedLoop<F>, cut: Cut, hidden: Hidden)
     Some(TurnedPencil { pencil: pencil(&equations, hidden), view, form })
 }
 
-/// The closure polynomial of a loop as one cut and one hidden unknown give it; `None` where the cut is degenerate or
-/// the determinant vanishes identically.
+/// Returns the closure polynomial of a loop for one cut and one hidden unknown; `None` where the cut is degenerate or the
+/// determinant vanishes identically.
 #[must_use]
 pub fn closure_polynomial<F: Field + Domain>(
     closed: &ClosedLoop<F>,
@@ -103,8 +103,8 @@ pub fn closure_polynomial<F: Field + Domain>(
     Some(ClosurePolynomial { polynomial, spurious, cofactor })
 }
 
-/// The least bound over all cuts; `None` if all are degenerate. `other` is the same arm at another general pose, by
-/// which roots independent of the pose are known; none for a loop, or where the count at one special pose is wanted.
+/// Returns the least bound over all cuts; `None` if all are degenerate. `other` is the same arm at another general pose, which
+/// reveals the roots independent of the pose; `None` for a loop, or where the count at one special pose is requested.
 #[must_use]
 pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>) -> Option<Degree> {
     let general = general_degree(closed.variables)?;
@@ -147,8 +147,8 @@ fn degree_by_cuts<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&Clos
     best
 }
 
-/// A motion in general position, to fill the gap of an arm's loop, or of a loop's locked variable; another one for
-/// every `choice`.
+/// Returns a motion in general position as the closing transformation of an arm's loop, or for a loop's locked variable; every
+/// `choice` gives another one.
 #[must_use]
 pub fn general_closing<F: Field>(locked: Option<Variable>, choice: i32) -> Option<Motion<F>> {
     let tangent = |n: i32| half_tangent_pair(&F::from_integer(n + 1009 * choice));

@@ -2,8 +2,8 @@
 //! solutions with `N = 0` form curves and the border basis of the general platform does not exist.
 //!
 //! In homogeneous unknowns `z_0..z_3` (degree 1) and `tau_a` (degree 2) the ring has in each degree a basis of standard
-//! monomials; the candidates of the next degree are the products of unknowns with them. What two ways of writing one
-//! monomial as a product differ by is a relation.
+//! monomials; the candidates of the next degree are the products of unknowns with them. Two ways of writing one monomial as a
+//! product differ by a relation.
 
 use super::border::{Arithmetic, Setting};
 use crate::algebra::modp::Modulus;
@@ -139,7 +139,7 @@ impl<'a, A: Arithmetic> GradedQuotient<'a, A> {
         Some(())
     }
 
-    /// Adds a multiple of a monomial of a degree, as a combination of the candidates of that degree.
+    /// Adds a multiple of a monomial of a known degree, as a combination of the candidates of that degree.
     fn expand(
         &self,
         degree: usize,
@@ -157,7 +157,7 @@ impl<'a, A: Arithmetic> GradedQuotient<'a, A> {
         }
     }
 
-    /// The normal form of any monomial of a degree known already.
+    /// Returns the normal form of any monomial of a degree already known.
     fn normal(&self, degree: usize, monomial: Monomial) -> Vec<A::Element> {
         if let Some(normal) = self.degrees[degree].normal.get(&monomial) {
             return normal.clone();

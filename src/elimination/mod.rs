@@ -1,4 +1,4 @@
-//! Closure equations to one matrix pencil in the hidden unknown, over any field.
+//! Elimination over any field: from the closure equations to one matrix pencil in the hidden unknown.
 
 pub mod affine_platform;
 pub mod border;

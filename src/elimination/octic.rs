@@ -1,11 +1,11 @@
-//! The closure polynomial of a loop with four rotations, and how many of its eight roots are solutions.
+//! The closure polynomial of a loop with four rotations, and the number of its eight roots that are solutions.
 //!
-//! With `f = (C, A, B) . (1, cos b, sin b)`, `g` likewise and `N = f x g`, eliminating angle b leaves
-//! `N1^2 + N2^2 - N3^2`, in the tangent x of half the other angle of degree 8. Not all of its roots need be finite
-//! solutions: x = +-i belongs to no angle, nor does a root at which f and g have tan(b/2) = +-i in common; and where the
-//! two directions of translation are parallel, g = 0 whether the loop closes or not. All three are found by exact
-//! division and greatest common divisors, whose multiplicity never exceeds that of the root, so that what is left
-//! bounds the number of isolated solutions; the least such bound over all choices of angles holds.
+//! With `f = (C, A, B) . (1, cos b, sin b)`, `g` likewise and `N = f x g`, eliminating angle b leaves `N1^2 + N2^2 - N3^2`, of
+//! degree 8 in the half-angle tangent x of the other angle. Not all of its roots need be finite solutions: x = +-i belongs to no
+//! angle, nor does a root at which f and g have tan(b/2) = +-i in common; and where the two directions of translation are
+//! parallel, g = 0 whether the loop closes or not. All three are found by exact division and greatest common divisors, whose
+//! multiplicity never exceeds that of the root, so that the remaining degree bounds the number of isolated solutions; the least
+//! such bound over all choices of angles holds.
 
 use super::cut::Hidden;
 use super::separated::{offset, powers};
@@ -42,11 +42,11 @@ fn eliminant<F: Ring>(f: &[Univariate<F>; 3], g: &[Univariate<F>; 3]) -> Univari
 /// Roots of a closure polynomial of degree 8 that belong to no solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FalseRoots<F> {
-    /// Where the other half tangent would be i or -i, which belongs to no angle.
+    /// Roots at which the other half tangent would be i or -i, which belongs to no angle.
     pub imaginary: Univariate<F>,
-    /// Where the two translations are parallel and do not close the loop.
+    /// Roots at which the two translations are parallel and do not close the loop.
     pub parallel: Univariate<F>,
-    /// How many roots of the second sort are at infinity, where the hidden angle is pi.
+    /// The number of roots of the second sort at infinity, where the hidden angle is pi.
     pub parallel_at_pi: usize,
 }
 
@@ -73,7 +73,7 @@ pub fn false_roots<F: Field + Domain>(
     let condition = pair(&f, &f).gcd(&pair(&g, &g)).gcd(&pair(&f, &g)).gcd(&crossed);
     let imaginary = without(polynomial.part_with_roots_of(&condition));
     let rest = polynomial.div_exact(&imaginary);
-    // Three coordinates of u x v, and of u x s, at the other angle that belongs to a root.
+    // Three coordinates of `u x v` and of `u x s` at the other angle that belongs to a root.
     let unit = |i: usize| -> [F; 3] { std::array::from_fn(|k| if k == i { F::one() } else { F::zero() }) };
     let at_root = |form: &Form<F>| {
         let [one, cos, sin] = view(form);
@@ -99,7 +99,7 @@ pub fn false_roots<F: Field + Domain>(
     let double = rest.part_with_roots_of(&several).part_with_roots_of(&common(&rows));
     let double =
         [common(&f), common(&gap_rows)].iter().fold(double, |left, p| left.div_exact(&left.part_with_roots_of(p)));
-    // The same at infinity, by leading coefficients.
+    // The same test at infinity, by leading coefficients.
     let vanish = |list: &[Univariate<F>], degree: usize| list.iter().all(|p| p.degree() < Some(degree));
     let lost = 8_usize.saturating_sub(closure_polynomial(equations, hidden, origin).degree().unwrap_or(8));
     let is_false = if vanish(&normal, 4) {
@@ -110,17 +110,17 @@ pub fn false_roots<F: Field + Domain>(
     FalseRoots { imaginary, parallel: single.mul(&double), parallel_at_pi: if is_false { lost } else { 0 } }
 }
 
-/// What belongs to a root of the closure polynomial, as polynomials in the same half tangent.
+/// The conditions at a root of the closure polynomial, as polynomials in the same half tangent.
 #[derive(Clone, Debug)]
 pub struct RootConditions<F> {
     /// Three coordinates of `u x v` times `N3`: all of them vanish where the translations are dependent.
     pub parallel: [Univariate<F>; 3],
-    /// Three coordinates of `u x s` in the same way: the loop does not close where the translations are dependent and these
-    /// do not all vanish.
+    /// Three coordinates of `u x s` times `N3`: the loop does not close where the translations are dependent and these do not all
+    /// vanish.
     pub gap: [Univariate<F>; 3],
 }
 
-/// The conditions that say of a root of [`closure_polynomial`] whether it belongs to a solution.
+/// Returns the conditions that decide whether a root of [`closure_polynomial`] belongs to a solution.
 #[must_use]
 pub fn root_conditions<F: Field>(
     bar: &FourBar<'_, F>,
@@ -147,9 +147,9 @@ pub fn closure_polynomial<F: Ring>(equations: &Equations<F>, hidden: Hidden, ori
     eliminant(&by_hidden(&equations.f, hidden, origin), &by_hidden(&equations.g, hidden, origin))
 }
 
-/// A bound on the number of isolated solutions as one hidden angle gives it; `None` where the polynomial vanishes.
+/// Returns the bound on the number of isolated solutions for one hidden angle; `None` where the polynomial vanishes.
 fn bound_of<F: Field + Domain>(bar: &FourBar<'_, F>, equations: &Equations<F>, hidden: Hidden) -> Option<usize> {
-    // So that no root is likely at infinity.
+    // A general origin, so that no root is likely at infinity.
     let origin = &offset();
     let (f, g) = (by_hidden(&equations.f, hidden, origin), by_hidden(&equations.g, hidden, origin));
     let polynomial = eliminant(&f, &g);
@@ -173,7 +173,7 @@ fn bound_of<F: Field + Domain>(bar: &FourBar<'_, F>, equations: &Equations<F>, h
     parallel.degree()?;
     let parallel = rest.gcd(&parallel);
     if parallel.degree() > Some(0) {
-        // Parallel translations that do close the loop leave it a continuum.
+        // Parallel translations that close the loop leave it a continuum.
         let gap = eliminant(&f, &by_hidden(&bar.gap(bar.base, &general), hidden, origin));
         if parallel.gcd(&gap).degree() > Some(0) {
             return None;
@@ -183,7 +183,8 @@ fn bound_of<F: Field + Domain>(bar: &FourBar<'_, F>, equations: &Equations<F>, h
     Some(8_usize.saturating_sub(lost))
 }
 
-/// At most so many isolated solutions, with multiplicity; `None` where every choice of angles is degenerate.
+/// Returns the least bound on the number of isolated solutions, with multiplicity; `None` where every choice of angles is
+/// degenerate.
 #[must_use]
 pub fn bound<F: Field + Domain>(form: &LinkForm<F, 4, 2>) -> Option<usize> {
     let mut best: Option<usize> = None;

@@ -10,7 +10,7 @@ use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::link_form::{LinkForm, product, turned};
 use crate::kinematics::motion::{Vector, cross};
 
-/// Which axes the translations run along.
+/// The axes along which the translations run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OppositeAxes {
     /// Rotation i; the other one is two behind it.

@@ -1,4 +1,4 @@
-//! How many poses a platform has, complex ones included: exactly, modulo a prime.
+//! The number of poses of a platform, complex ones included: exact, modulo a prime.
 //!
 //! The equations of the general platform have 40 solutions with `N = x.x != 0`. In special geometry some of them, or
 //! whole curves, have `N = 0` and are no poses: they are the eigenvalue 0 of multiplication by N.
@@ -23,16 +23,16 @@ pub enum PlatformDegree {
     Finite {
         /// Poses, with multiplicity.
         poses: usize,
-        /// Those solutions of the 40 of the general platform that are no pose here (`N = 0`).
+        /// The solutions, of the 40 of the general platform, that are no pose here (`N = 0`).
         null: usize,
         /// Whether solutions with `N = 0` form curves, so that the general border basis does not exist.
         curves: bool,
     },
-    /// A curve of poses, or more: a self-motion, real or complex. Told by the count growing with the degree at which it
-    /// is taken, up to degree 10, by when it has settled in all classes of special geometry known.
+    /// A curve of poses, or more: a self-motion, real or complex. It is recognised by a count that still grows with the degree at
+    /// which it is taken, up to degree 10; in all known classes of special geometry a finite count is constant by then.
     Infinite {
-        /// The largest dimension of a family of poses, complex ones included: so many general quadrics leave finitely
-        /// many of them.
+        /// The largest dimension of a family of poses, complex ones included: this many general quadrics leave finitely many of
+        /// them.
         dimension: usize,
     },
 }
@@ -43,8 +43,8 @@ const MOST_DIMENSION: usize = 3;
 /// Quaternions that turn base and plate, so that no solution lies where a chart ends.
 const TURNS: [[[i32; 4]; 2]; 2] = [[[5, -3, 7, 4], [4, 6, -3, 5]], [[-3, 8, 2, 9], [7, -2, 5, -6]]];
 
-/// What the border basis of a platform starts from, modulo a prime; `None` where a denominator
-/// vanishes or the rank of K is below 3.
+/// Returns the input of a platform's border basis modulo a prime; `None` where a denominator vanishes or the rank of K is below
+/// 3.
 #[must_use]
 pub fn modular_setting(
     modulus: &Modulus,
@@ -56,7 +56,7 @@ pub fn modular_setting(
     Some(Setting::new(modulus, &directions, &forms))
 }
 
-/// The same modulo several primes; `None` also where these differ in what is 0.
+/// As [`modular_setting`] modulo several primes; `None` also where these differ in which numbers are 0.
 #[must_use]
 pub fn setting_side_by_side(
     field: &SideBySide,
@@ -139,9 +139,9 @@ pub fn turns<R: Ring>(choice: usize) -> [Quaternion<R>; 2] {
     })
 }
 
-/// Counts the poses of a platform with legs of these squared lengths, modulo a prime of 62 bits that is drawn at run time:
-/// no more than there are, and fewer with a chance below [`drawn::PROBABILITY_OF_ERROR`]. `None` where the prime
-/// is unlucky or the points are too special (all on two lines, or all in one point).
+/// Counts the poses of a platform with legs of these squared lengths, modulo a prime of 62 bits that is drawn at run time. The
+/// count is never too large, and is too small with a probability below [`drawn::PROBABILITY_OF_ERROR`]. `None` where the prime is
+/// unlucky or the points are too special (all on two lines, or all in one point).
 #[must_use]
 pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<PlatformDegree> {
     let modulus = Modulus::new(drawn::prime());
@@ -158,7 +158,7 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
         }
         settings.push(setting);
     }
-    // A pose where one chart ends looks like a curve there: all charts must agree on one.
+    // A pose where one chart ends looks like a curve there: one chart without curves is enough.
     let Some(products) =
         settings.iter().find_map(|setting| special_products(&modulus, |x| inverse(&modulus, x), setting))
     else {
@@ -170,7 +170,7 @@ pub fn platform_degree(platform: &Platform<Rational>, legs_squared: &[Rational; 
     Some(PlatformDegree::Finite { poses, null: DIMENSION.saturating_sub(poses), curves: true })
 }
 
-/// The number of poses where base and plate are affine images of the same points, and there are as many as these can have.
+/// Counts the poses where base and plate are affine images of the same points and have as many poses as such platforms can have.
 fn affine_degree(modulus: &Modulus, platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<usize> {
     let has_all = |choice: usize| {
         let platform = AffinePlatform::new(&turned(platform, choice), legs_squared)?;
@@ -197,7 +197,7 @@ pub fn general_products<A: Arithmetic>(
     Some(basis.products.each_ref().map(|matrix| matrix.iter().map(|row| row.to_vec()).collect()))
 }
 
-/// What powers of N leave of a quotient algebra.
+/// The part of a quotient algebra that powers of N leave.
 pub struct RegularPart<E> {
     /// A basis, in reduced echelon form.
     pub basis: Vec<Vec<E>>,
@@ -243,7 +243,7 @@ pub fn row_times<A: Arithmetic>(field: &A, v: &[A::Element], matrix: &[Vec<A::El
     product
 }
 
-/// Reduced echelon form, rows of zeros dropped; the columns of the pivots.
+/// Reduces rows to echelon form, drops rows of zeros and returns the columns of the pivots.
 pub(super) fn echelon<A: Arithmetic>(
     field: &A,
     inverse: impl Fn(A::Element) -> Option<A::Element>,
@@ -271,11 +271,11 @@ pub(super) fn echelon<A: Arithmetic>(
     Some(pivots)
 }
 
-/// Powers of N that kill what has `N = 0`, degrees at which the rest has settled, in turn.
+/// Powers of N that remove the solutions with `N = 0`, with the degree from which the rest is constant, in the order tried.
 const ATTEMPTS: [(usize, usize); 2] = [(1, 5), (2, 5)];
 
-/// The multiplication matrices where solutions with `N = 0` form curves, on what multiplication by a power of N leaves;
-/// `None` where that grows with the degree: a curve of poses; and where `inverse` does not exist for a number that is not 0.
+/// Returns the multiplication matrices where solutions with `N = 0` form curves, on the image of multiplication by a power of N;
+/// `None` where that image grows with the degree (a curve of poses), or `inverse` does not exist for a number that is not 0.
 #[must_use]
 pub fn special_products<A: Arithmetic>(
     field: &A,
@@ -285,7 +285,7 @@ pub fn special_products<A: Arithmetic>(
     finite_products(field, inverse, GradedQuotient::new(field, setting), setting.count)
 }
 
-/// Whether so many general quadrics leave finitely many poses.
+/// Returns whether `cuts` general quadrics leave finitely many poses.
 fn dimension_is(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> bool {
     let mut ring = GradedQuotient::new(modulus, setting);
     for number in 0..cuts {
@@ -294,7 +294,7 @@ fn dimension_is(modulus: &Modulus, setting: &Setting<u64>, cuts: usize) -> bool 
     finite_products(modulus, |x| inverse(modulus, x), ring, setting.count).is_some()
 }
 
-/// The matrices from a ring in degree 0, with so many unknowns beside the rotation.
+/// Returns the matrices from a ring in degree 0 with `count` unknowns beside the rotation.
 fn finite_products<A: Arithmetic>(
     field: &A,
     inverse: impl Fn(A::Element) -> Option<A::Element> + Copy,
@@ -334,8 +334,8 @@ fn finite_products<A: Arithmetic>(
     None
 }
 
-/// The matrices of `z_i / z_0`, i = 1..3, on the span of the images of z_0; `None` where these or the others, those of the
-/// tau, reach farther. Poses that share their rotation differ in tau only.
+/// Returns the matrices of `z_i / z_0`, i = 1..3, on the span of the images of z_0; `None` where the images of an unknown, a tau
+/// included, leave that span. Poses that share their rotation differ in tau only.
 fn quotients<A: Arithmetic>(
     field: &A,
     inverse: impl Fn(A::Element) -> Option<A::Element>,

@@ -1,5 +1,4 @@
-//! How large the integers of a platform's polynomial can be, known before it is: what turns its images modulo many primes
-//! into a proof.
+//! An a priori bound on the integers of a platform's polynomial, which turns its images modulo many primes into a proof.
 //!
 //! With u = N (p.p, p, R^T p) for seven unknowns of degree 2 beside the quaternion x of degree 1, a pose is an isolated
 //! zero of ten forms with integer coefficients: the six legs, linear in u; three components of `x q - p x`, of degree 3;
@@ -15,7 +14,7 @@ use rug::{Integer, Rational};
 
 /// Zeros of ten such forms, `2^6 3^3 4 / 2^7`.
 const ZEROS: f64 = 54.0;
-/// More than what rounding adds to a sum of logarithms.
+/// Upper bound on the rounding error of a sum of logarithms.
 const SLACK: f64 = 1.0;
 
 /// A bound for the isolated poses of a platform with given legs, all of them together.
@@ -48,8 +47,8 @@ impl PlatformHeight {
         Self { legs: std::array::from_fn(leg) }
     }
 
-    /// Bits of the resultant of the ten forms with a linear form, without what the latter contributes, when s is measured
-    /// in units of `4^t` and p, q in units of `2^t`.
+    /// Returns the bits of the resultant of the ten forms with a linear form, without the contribution of the latter, when s is
+    /// measured in units of `4^t` and p, q in units of `2^t`.
     fn bits(&self, t: f64) -> f64 {
         let leg = |&[s, linear, form]: &[f64; 3]| sum(sum(s + 2.0 * t, linear + t), sum(form, 2.0 * t));
         let legs: f64 = self.legs.iter().map(|parts| ZEROS / 2.0 * leg(parts)).sum();
@@ -58,7 +57,7 @@ impl PlatformHeight {
         legs + cubics + quartic - ZEROS / 2.0 * 8.0 * t + SLACK
     }
 
-    /// The least value over all units.
+    /// Returns the least value over all units.
     fn least(&self, bits: impl Fn(f64) -> f64) -> f64 {
         let longest = self.legs.iter().flatten().fold(0.0, |a: f64, &b| a.max(b));
         let (mut least, mut t) = (f64::INFINITY, 0.0);
@@ -92,7 +91,7 @@ fn logarithm(n: &Integer) -> f64 {
     mantissa.log2() + f64::from(exponent)
 }
 
-/// The binary logarithm of the sum of two numbers given by theirs, one of them finite.
+/// Returns the binary logarithm of the sum of two numbers given by their logarithms, one of them finite.
 fn sum(a: f64, b: f64) -> f64 {
     let (small, large) = if a < b { (a, b) } else { (b, a) };
     large + (small - large).exp2().ln_1p() / std::f64::consts::LN_2

@@ -1,5 +1,5 @@
-//! Points of a platform that coincide exactly, or lie in an affine relation, and what that says of the number of its poses, whatever the lengths of the
-//! legs are. docs/platforms.md, theorems 3 and 4, has the proofs.
+//! Points of a platform that coincide exactly or lie in an affine relation, and the bound on the number of poses that follows for
+//! legs of any length. docs/platforms.md, theorems 3 and 4, has the proofs.
 
 use super::affine_platform::AffineRelation;
 use super::triangle_platform::pairs;
@@ -7,10 +7,10 @@ use crate::kinematics::motion::{Vector, cross};
 use crate::kinematics::platform::Platform;
 use rug::Rational;
 
-/// Poses where three legs meet, or where all legs meet in pairs in the corners of a triangle.
+/// Bound where three legs meet, or where all legs meet in pairs in the corners of a triangle.
 const POSES: usize = 16;
 
-/// At most so many isolated poses, counted with multiplicity, and why; `None` where no such incidence is known.
+/// Returns a bound on the number of isolated poses, with multiplicity, and its reason; `None` where no such incidence is known.
 #[must_use]
 pub fn most_poses(platform: &Platform<Rational>) -> Option<(usize, &'static str)> {
     let meet =

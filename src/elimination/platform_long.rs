@@ -12,7 +12,7 @@ use rug::Rational;
 /// The algebra of a platform whose base and plate are turned.
 #[derive(Clone, Debug)]
 pub struct LongAlgebra<const LIMBS: usize> {
-    /// What it was made from.
+    /// The input that it was computed from.
     pub setting: Setting<LongNumber<LIMBS>>,
     /// `z_i b` for i = 1..3 and every basis element b.
     pub products: [Vec<[LongNumber<LIMBS>; DIMENSION]>; 3],

@@ -1,7 +1,7 @@
 //! The polynomial whose roots are the poses of a platform: exact, with integer coefficients.
 //!
-//! In the quotient algebra of the equations modulo a prime, multiplication by a quotient of two coordinates of the rotation
-//! is a matrix; its characteristic polynomial is the image of the one over the rationals. Enough primes give that.
+//! In the quotient algebra of the equations modulo a prime, multiplication by a quotient of two coordinates of the rotation is a
+//! matrix; its characteristic polynomial is the image of the polynomial over the rationals. Enough primes determine that one.
 
 use super::affine_platform::AffinePlatform;
 use super::border::{Arithmetic, BorderBasis, DIMENSION, Residues, SIDE, SideBySide};
@@ -28,11 +28,11 @@ use rug::{Integer, Rational};
 pub struct PlatformPolynomial {
     /// Integers without common factor, constant term first, the last one positive.
     pub coefficients: Vec<Integer>,
-    /// What its variable is.
+    /// The meaning of its variable.
     pub coordinate: Coordinate,
-    /// Which algebra it was taken from.
+    /// The algebra it was computed in.
     pub quotient: Quotient,
-    /// How many primes agree with it in all coefficients.
+    /// The number of primes that agree with it in all coefficients.
     pub primes: usize,
     /// Whether it is proved that its roots are those of all isolated poses, with multiplicity: the product of the primes
     /// exceeds what [`PlatformHeight`] leaves open. If not, a wrong coefficient differs from the right one by a fraction of
@@ -61,7 +61,7 @@ pub struct Coordinate {
     pub weights: [i32; 3],
 }
 
-/// What is tried in turn: the coordinates themselves where no solution has `x_0 = 0` and no two share the quotient.
+/// Coordinates in the order tried; the first ones suffice where no solution has `x_0 = 0` and no two share the quotient.
 const COORDINATES: [Coordinate; 7] = [
     Coordinate { turn: [1, 0, 0, 0], weights: [1, 0, 0] },
     Coordinate { turn: [1, 0, 0, 0], weights: [0, 1, 0] },
@@ -151,7 +151,7 @@ impl Modular<'_> {
         self.characteristic(modulus, |x| inverse(modulus, x), products, weights)
     }
 
-    /// The same modulo several primes side by side; `None` where these differ in what is 0.
+    /// As [`Self::polynomial`] modulo several primes side by side; `None` where these differ in which numbers are 0.
     fn polynomials(&self, field: &SideBySide, memory: &mut BorderBasis<Residues>) -> Option<[Vec<u64>; SIDE]> {
         let moduli = field.moduli();
         let products = if let Some(affine) = &self.affine {
@@ -172,7 +172,7 @@ impl Modular<'_> {
         Some(std::array::from_fn(|k| joined.iter().map(|c| field.part(c, k)).collect()))
     }
 
-    /// The characteristic polynomial of the coordinate on what has N != 0.
+    /// Returns the characteristic polynomial of the coordinate on the part with N != 0.
     fn characteristic<A: Arithmetic>(
         &self,
         field: &A,
@@ -223,12 +223,12 @@ impl PlatformAlgebra {
         Self { legs, squares, quotient, affine, weights: polynomial.coordinate.weights }
     }
 
-    /// How many poses belong to every element of a basis.
+    /// Returns the number of poses that belong to every element of a basis.
     pub(super) fn positions(&self) -> usize {
         self.affine.as_ref().map_or(1, |affine| affine.counts().1)
     }
 
-    /// Multiplication by `z_i / z_0`, i = 1..3, on what has N != 0; `None` for an unlucky prime.
+    /// Returns multiplication by `z_i / z_0`, i = 1..3, on the part with N != 0; `None` for an unlucky prime.
     pub(super) fn products(&self, modulus: &Modulus) -> Option<Products<u64>> {
         if let Some(affine) = &self.affine {
             return affine.products(modulus, |x| inverse(modulus, x), |q| residue(modulus, q));
@@ -287,18 +287,18 @@ fn is_square_free(modulus: &Modulus, polynomial: &[u64]) -> bool {
 
 /// Primes are taken in groups, so that all cores have one.
 const GROUP: usize = 8;
-/// More primes than any file of 15 digits asks for.
+/// More primes than any file of 15 digits needs.
 const MOST_PRIMES: usize = 4000;
 
-/// The polynomial of a platform with legs of these squared lengths; its degree is the number of poses. `None` where there
-/// is no pose, infinitely many of them, or several coincide or share their rotation.
+/// Returns the polynomial of a platform with legs of these squared lengths; its degree is the number of poses. `None` where there
+/// is no pose, where there are infinitely many, or where several coincide or share their rotation.
 #[must_use]
 pub fn platform_polynomial(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> Option<PlatformPolynomial> {
     polynomial_in(&COORDINATES, platform, legs_squared, is_square_free)
 }
 
-/// The polynomial in a general coordinate, whatever the multiplicities of its roots: those of the poses, for poses of one
-/// rotation together. `None` where there is no pose, or infinitely many of them.
+/// Returns the polynomial in a general coordinate, whatever the multiplicities of its roots; the multiplicity of a root is the
+/// sum over the poses of one rotation. `None` where there is no pose, or infinitely many of them.
 #[must_use]
 pub fn multiple_platform_polynomial(
     platform: &Platform<Rational>,
@@ -307,8 +307,8 @@ pub fn multiple_platform_polynomial(
     polynomial_in(&COORDINATES[COORDINATES.len() - 2..], platform, legs_squared, |_, _| true)
 }
 
-/// Whether a platform with 40 poses has different values of some coordinate at all of them: they are simple then. What is said
-/// modulo a prime is no more than a hint where the answer is no.
+/// Returns whether some coordinate has different values at all poses of a platform with 40 poses, which are then simple. As it is
+/// computed modulo a prime, the answer `false` is only a hint.
 #[must_use]
 pub fn are_simple(platform: &Platform<Rational>, legs_squared: &[Rational; 6]) -> bool {
     let modulus = Modulus::new(drawn::prime());
@@ -385,7 +385,7 @@ fn affine_polynomial(
             Modular { legs: &legs, squares, height, weights, quotient, affine: Some(affine), all_regular: true };
         let images = weights.map(|w| modulus.reduce(&Integer::from(w)));
         let first = modular.characteristic(modulus, |x| inverse(modulus, x), products, images);
-        // Two positions make every root a double one.
+        // Two positions per rotation make every root a double one.
         let image = first.map(|first| if positions == 1 { first } else { square(modulus, &first) });
         if image.is_some_and(|image| accepts(modulus, &image)) {
             let found = lifted(&modular, *coordinate, rotations + 1);
@@ -422,12 +422,12 @@ fn clear(legs: &mut LinearLegs<Rational>, squares: &mut [Rational; 6]) {
     }
 }
 
-/// Residues of the monic polynomial for one prime after the other, put together.
+/// Combines the residues of the monic polynomial for one prime after the other.
 fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<PlatformPolynomial> {
     let (mut all, prime_bits) = prime_numbers();
     let proof = Proof::new(modular, length, prime_bits);
     let mut combined = Combined::new(length);
-    // Images that are not combined yet, because the guess agrees with them.
+    // Images not combined yet, because the guess agrees with them.
     let mut spare: Vec<(Modulus, Vec<u64>)> = Vec::new();
     let mut guess: Option<Vec<Integer>> = None;
     let (mut taken, mut used) = (0, 0);
@@ -442,7 +442,7 @@ fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<Pl
             }
             spare.push((modulus, image));
         }
-        // As few primes as will do: the length of the numbers goes into the time more than once.
+        // As few primes as will do: the time grows faster than the length of the numbers.
         while guess.is_none() && spare.len() > 1 {
             let part = spare.len().div_ceil(4);
             for (modulus, image) in spare.drain(..part) {
@@ -463,8 +463,8 @@ fn lifted(modular: &Modular, coordinate: Coordinate, length: usize) -> Option<Pl
     guess.map(|coefficients| PlatformPolynomial { coefficients, coordinate, quotient, primes: used, proved: false })
 }
 
-/// The primes that are worked with, largest first, and less than the binary logarithm of each: short ones where these
-/// go side by side.
+/// Returns the primes to compute with, largest first, and a lower bound on the binary logarithm of each: short primes where four
+/// are computed side by side.
 fn prime_numbers() -> (Box<dyn Iterator<Item = Modulus>>, f64) {
     let short = || largest_primes().map(Modulus::new);
     let first: Vec<Modulus> = short().take(SIDE).collect();
@@ -472,7 +472,7 @@ fn prime_numbers() -> (Box<dyn Iterator<Item = Modulus>>, f64) {
     if fits { (Box::new(short()), f64::from(PRIME_BITS) - 0.001) } else { (Box::new(primes()), 61.999) }
 }
 
-/// The images of the polynomial modulo primes, in their order, without those of unlucky ones.
+/// Returns the images of the polynomial modulo primes, in their order, without those of unlucky ones.
 fn images(modular: &Modular, group: &[Modulus], length: usize) -> Vec<(Modulus, Vec<u64>)> {
     let parts: Vec<&[Modulus]> = group.chunks(SIDE).collect();
     let memory = || (None, BorderBasis::new(&group[0]));
@@ -495,13 +495,13 @@ fn images(modular: &Modular, group: &[Modulus], length: usize) -> Vec<(Modulus, 
 /// Bits of a product of primes beyond which the graded ring proves nothing.
 const MOST_SPECIAL_BITS: f64 = 8_000.0;
 
-/// How many primes make a proof.
+/// The number of primes that a proof needs.
 struct Proof {
     /// Bits that the product of the primes must have beyond those of the polynomial; `None` where nothing is proved.
     bits: Option<f64>,
     /// Bits that it must have in any case.
     least: f64,
-    /// Less than the bits of every prime.
+    /// Lower bound on the bits of every prime.
     prime_bits: f64,
 }
 
@@ -519,12 +519,12 @@ impl Proof {
             Quotient::Affine => true,
         };
         let least = if is_counted { 0.0 } else { height.norm() };
-        // The graded ring takes its time.
+        // The graded ring is slow.
         let within_reach = modular.quotient != Quotient::Graded || f64::max(bits, least) < MOST_SPECIAL_BITS;
         Self { bits: within_reach.then_some(bits), least, prime_bits }
     }
 
-    /// How many more primes are worth a try.
+    /// Returns the number of further primes that are worth a try.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count, of thousands at most")]
     fn missing(&self, guess: Option<&[Integer]>, used: usize) -> usize {
         let longest = guess.and_then(|polynomial| polynomial.iter().map(Integer::significant_bits).max());

@@ -18,7 +18,7 @@ pub type Moving<R> = [Vector<R>; 3];
 /// The centre of a spherical joint, reached from both sides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach<R> {
-    /// What the three variables behind the spherical joint do.
+    /// The kinds of the three variables behind the spherical joint.
     pub variables: [Variable; 3],
     /// The centre before V2 acts, over the monomials of V3, and behind it, over those of V1.
     pub sides: [Moving<R>; 2],
@@ -87,7 +87,7 @@ impl<F: Ring> Reach<F> {
 }
 
 impl<F: Field> Reach<F> {
-    /// V2 from the monomials of V3 and V1, as the pair with which it enters a motion: cosine and sine, or the distance
+    /// Returns V2 from the monomials of V3 and V1, as the pair with which it enters a motion: cosine and sine, or the distance
     /// and 0. `None` where the centre lies on the axis of V2.
     #[must_use]
     pub fn middle(&self, monomials: [&[F; 3]; 2]) -> Option<(F, F)> {
@@ -107,7 +107,7 @@ impl<F: Field> Reach<F> {
     }
 }
 
-/// How many positions of its centre a spherical joint allows, exactly; `None` where some are not isolated.
+/// Returns the exact number of positions of the centre of a spherical joint; `None` where some are not isolated.
 #[must_use]
 pub fn count<F: Field + Domain>(closed: &ClosedLoop<F>, spherical: usize) -> Option<usize> {
     let reach = Reach::of(closed, spherical);
@@ -152,7 +152,7 @@ pub fn count<F: Field + Domain>(closed: &ClosedLoop<F>, spherical: usize) -> Opt
     }
 }
 
-/// How many positions a spherical joint and three variables allow in general.
+/// Returns the number of positions that a spherical joint and three variables have in general.
 #[must_use]
 pub fn general_count(variables: [Variable; 3]) -> usize {
     match variables.iter().filter(|v| **v == Variable::Translation).count() {

@@ -1,4 +1,4 @@
-//! The same loop with its translation elsewhere: along parallel axes translations and rotations may change places.
+//! Loops with the translation at another place: along parallel axes translations and rotations may change places.
 //!
 //! `Rz(q) G Tz(d) G' = Tz(+-d) Rz(q) G G'` where G carries the z axis into itself or its opposite. With one translation
 //! among five rotations this gives more cuts.
@@ -7,19 +7,19 @@ use crate::algebra::ring::Field;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::Motion;
 
-/// A loop and how its unknowns are those of another one.
+/// A loop, and the relation of its unknowns to those of another one.
 #[derive(Clone, Debug)]
 pub struct Rearranged<F> {
     /// The loop.
     pub closed: ClosedLoop<F>,
-    /// Which unknown of the other loop each of its unknowns is.
+    /// Index in the other loop of each of its unknowns.
     pub order: [usize; 6],
     /// Whether the translation counts the other way.
     pub flipped: bool,
 }
 
-/// All loops that differ from a loop with one translation by its place; entries no larger than `tolerance` (0 in exact
-/// fields) are zero. None for other loops.
+/// Returns all loops that differ from a loop with one translation by its place; entries no larger than `tolerance` (0 in exact
+/// fields) are zero. The list is empty for other loops.
 #[must_use]
 pub fn rearranged<F: Field>(closed: &ClosedLoop<F>, tolerance: f64) -> Vec<Rearranged<F>> {
     let mut found = Vec::new();
@@ -40,7 +40,7 @@ pub fn rearranged<F: Field>(closed: &ClosedLoop<F>, tolerance: f64) -> Vec<Rearr
     found
 }
 
-/// The translation at `at` exchanged with the rotation behind or before it, and where it is then.
+/// Exchanges the translation at `at` with the rotation behind or before it; also returns its new place.
 fn moved<F: Field>(of: &Rearranged<F>, at: usize, ahead: bool, tolerance: f64) -> Option<(Rearranged<F>, usize)> {
     let to = (at + if ahead { 1 } else { 5 }) % 6;
     let mut next = of.clone();

@@ -1,8 +1,8 @@
 //! Two equations whose sides have one variable each.
 //!
-//! `a_e . m = b_e . m',  e = 1, 2,  m = (1, cos q, sin q)  or  (1, d, d^2)`: they give m' linearly in m, and the conic
-//! that m' lies on (a circle or a parabola) is of degree 4 in the half tangent or the distance of the other variable. Or
-//! the other way round; and where neither can be solved for, one equation has one variable.
+//! `a_e . m = b_e . m',  e = 1, 2,  m = (1, cos q, sin q)  or  (1, d, d^2)`: they give m' linearly in m, and the conic that m'
+//! lies on (a circle or a parabola) is of degree 4 in the half tangent or the distance of the other variable. The roles may be
+//! exchanged; and where neither side can be solved for, a combination of the equations has one variable only.
 
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
@@ -11,20 +11,20 @@ use crate::kinematics::closed_loop::Variable;
 /// The equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Separated<R> {
-    /// What the variable of each side is.
+    /// The kind of the variable of each side.
     pub kinds: [Variable; 2],
     /// Two rows, each over the monomials of one side and of the other.
     pub rows: [[[R; 3]; 2]; 2],
 }
 
-/// How the two equations are solved.
+/// A way to solve the two equations.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Plan<R> {
     /// Through the closure polynomial in one variable; `other` times its monomials are those of the other one.
     Together {
         /// The side whose variable the polynomial is in.
         hidden: usize,
-        /// The monomials of the other variable.
+        /// Matrix that takes the monomials of the hidden variable to those of the other one.
         other: [[R; 3]; 3],
     },
     /// One after the other: an equation in one variable alone, then one that is linear in the monomials of both.
@@ -45,7 +45,7 @@ impl<R: Ring> Separated<R> {
         one[1].mul(&two[2]).sub(&one[2].mul(&two[1]))
     }
 
-    /// The monomials of a side as combinations of those of the other one, all times the determinant: without division.
+    /// Returns the monomials of a side as combinations of those of the other one, all times the determinant: without division.
     #[must_use]
     pub fn solved(&self, side: usize) -> [[R; 3]; 3] {
         let hidden = 1 - side;
@@ -61,7 +61,7 @@ impl<R: Ring> Separated<R> {
 }
 
 impl<F: Field> Separated<F> {
-    /// How to solve the two equations; determinants no larger than `tolerance` (0 in exact fields) are zero.
+    /// Returns the plan to solve the two equations; determinants no larger than `tolerance` (0 in exact fields) are zero.
     #[must_use]
     pub fn plan(&self, tolerance: f64) -> Plan<F> {
         let determinants = [self.determinant(0), self.determinant(1)];
@@ -73,7 +73,7 @@ impl<F: Field> Separated<F> {
             let other = [[F::one(), F::zero(), F::zero()], first, second];
             return Plan::Together { hidden, other };
         }
-        // Rows are dependent in both: the smaller one takes the second side out of the other.
+        // The rows of both sides are dependent: the smaller one eliminates the second side from the other.
         let size = |row: &[F; 3]| row[1].pivot_size().max(row[2].pivot_size());
         let gone = 1;
         let [one, two] = [&self.rows[0], &self.rows[1]];

@@ -8,8 +8,8 @@
 //!
 //! `(u x v).(z+ x z-) = (u x z-).(z+ x v) + cos(alpha_opposite) (u.v) - (u.z-)(v.z+)`  (mod f),
 //!
-//! every factor of it in one angle only. Eliminating one angle from f and g leaves a polynomial of degree 8 in the
-//! tangent of half the other one, with no factor more.
+//! every factor of which has one angle only. Eliminating one angle from f and g leaves a polynomial of degree 8 in the half-angle
+//! tangent of the other one, without an extraneous factor.
 
 use crate::algebra::ring::{Field, Ring};
 use crate::kinematics::link_form::{LinkForm, product, turned};
@@ -21,7 +21,7 @@ pub type Form<R> = [[R; 3]; 3];
 /// A vector over (1, cos, sin) of one angle.
 type Turning<R> = [Vector<R>; 3];
 
-/// Where a vector is at home, counted from link a - 1: 0, 1 and 2 are reached from link a, 3 is opposite.
+/// The link in which a vector is fixed, counted from link a - 1: 0, 1 and 2 are reached from link a, 3 is opposite.
 type Place = usize;
 
 /// A loop with four rotations seen from link a.
@@ -73,7 +73,7 @@ fn outer<R: Ring>(a: &[R; 3], b: &[R; 3]) -> Form<R> {
     std::array::from_fn(|i| std::array::from_fn(|j| a[i].mul(&b[j])))
 }
 
-/// A vector that does not turn.
+/// Returns a vector that does not turn.
 fn still<R: Ring>(x: &Vector<R>) -> Turning<R> {
     let zero = || std::array::from_fn(|_| R::zero());
     [x.clone(), zero(), zero()]
@@ -184,7 +184,7 @@ impl<'a, F: Field> FourBar<'a, F> {
 
     /// The triple product of three vectors of any links, modulo f.
     fn triple(&self, [x, y, z]: [(Place, &Vector<F>); 3]) -> Form<F> {
-        // Two of one link, brought to the front cyclically, are crossed there.
+        // Two vectors of one link, brought to the front cyclically, are crossed there.
         for [x, y, z] in [[x, y, z], [y, z, x], [z, x, y]] {
             if x.0 == y.0 {
                 return self.dot((x.0, &cross(x.1, y.1)), z);
@@ -220,7 +220,7 @@ impl<'a, F: Field> FourBar<'a, F> {
             if v.0 == 2 { self.near_dot(u, (2, &cross(v.1, plus))) } else { self.three_near(u.1, v.1, plus) };
         let with_minus =
             if u.0 == 0 { self.near_dot((0, &cross(minus, u.1)), v) } else { self.three_near(minus, u.1, v.1) };
-        // Both sides of the product that stands for (u x v).(z+ x z-) turn with one angle only.
+        // Each factor of the product that stands for (u x v).(z+ x z-) turns with one angle only.
         let left =
             if u.0 == 0 { self.behind(0, &cross(u.1, minus)) } else { self.behind(0, minus).map(|z| cross(u.1, &z)) };
         let right =
@@ -272,7 +272,7 @@ impl<'a, F: Field> FourBar<'a, F> {
     pub fn rotations(&self, a: &(F, F), b: &(F, F)) -> [(F, F); 4] {
         let base = self.base;
         let link = |k: usize| &self.form.links[(base + k) % 4].rotation;
-        // Rz(q) m = r: both are the axis of rotation a - 1, in the link a + 2 turns and in the frame before it.
+        // Rz(q) m = r: both are the axis of rotation a - 1, in the link that a + 2 turns and in the frame before it.
         let behind = self.behind(0, &self.minus);
         let minus: Vector<F> =
             std::array::from_fn(|i| behind[0][i].add(&behind[1][i].mul(&a.0)).add(&behind[2][i].mul(&a.1)));

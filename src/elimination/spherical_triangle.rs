@@ -43,7 +43,7 @@ pub fn triangle_without<R: Ring>(form: &LinkForm<R, 3, 3>, dropped: usize) -> Tr
 }
 
 impl<F: Field> Triangle<F> {
-    /// All three rotations at cosine and sine of the one of the equation; `None` where two axes are parallel, so that
+    /// Returns all three rotations at the cosine and sine of the equation's angle; `None` where two axes are parallel, so that
     /// the others are not determined.
     #[must_use]
     pub fn rotations(&self, form: &LinkForm<F, 3, 3>, known: &(F, F)) -> Option<[(F, F); 3]> {
@@ -65,15 +65,15 @@ fn following<R: Ring>(form: &LinkForm<R, 3, 3>, dropped: usize, known: &(R, R), 
     (m1.mul(t1).add(&m2.mul(t2)).mul(inverse), m1.mul(t2).sub(&m2.mul(t1)).mul(inverse))
 }
 
-/// The closure polynomial of three rotations, and what their translations need, in the half tangent x of the rotation of
-/// the equation.
+/// The closure polynomial of three rotations and the conditions on their translations, in the half tangent x of the equation's
+/// rotation.
 #[derive(Clone, Debug)]
 pub struct Conditions<F> {
     /// The closure polynomial, of degree 2 in general.
     pub roots: Univariate<F>,
     /// The determinant of the directions of the translations, times powers of 1 + x^2, and its degree in general.
     pub determinant: (Univariate<F>, usize),
-    /// What vanishes with it where dependent translations close the loop, each with its degree in general.
+    /// The polynomials that vanish with it where dependent translations close the loop, each with its degree in general.
     pub bridged: [(Univariate<F>, usize); 3],
 }
 
@@ -112,16 +112,15 @@ pub fn conditions<F: Field>(
     }
     let [(u, i), (v, j), (w, k)] = [&directions[0], &directions[1], &directions[2]];
     let determinant = (dot(&cross(u, v), w), i + j + k);
-    // What the translations have to bridge: s of the three links in the same frame, over a power of `one` in common.
+    // The sum of the links that the translations must bridge, in the same frame, over a common power of `one`.
     let sum = links_sum(&lifted, triangle.dropped, &known, &next, &one);
     let across = |x: &[Univariate<F>; 3], y: &[Univariate<F>; 3]| dot(&cross(x, y), &sum);
     let bridged = [(across(v, w), j + k + 4), (across(w, u), k + i + 4), (across(u, v), i + j + 4)];
     Some(Conditions { roots, determinant, bridged })
 }
 
-/// How many solutions a loop with three rotations has, exactly: the roots of its closure polynomial at which the three
-/// translations are independent. `None` where rotations or translations are not determined, so that solutions form
-/// families, if there are any.
+/// Returns the exact number of solutions of a loop with three rotations: the roots of its closure polynomial at which the three
+/// translations are independent. `None` where rotations or translations are not determined, so that any solutions form families.
 #[must_use]
 pub fn count<F: Field + Domain>(form: &LinkForm<F, 3, 3>) -> Option<usize> {
     let triangle = triangle(form);
@@ -147,8 +146,8 @@ pub fn count<F: Field + Domain>(form: &LinkForm<F, 3, 3>) -> Option<usize> {
     Some(if double { 0 } else { 2 - lost.degree().unwrap_or(0) })
 }
 
-/// The roots of the closure polynomial at which the translations are dependent and do not close the loop: a factor with
-/// their whole multiplicity, and how many are at infinity, where the angle is pi.
+/// Returns a factor with the roots of the closure polynomial, at their whole multiplicity, at which the translations are
+/// dependent and do not close the loop, and the number of such roots at infinity, where the angle is pi.
 #[must_use]
 pub fn false_roots<F: Field + Domain>(form: &LinkForm<F, 3, 3>, triangle: &Triangle<F>) -> (Univariate<F>, usize) {
     let origin = [1, 1, 0].map(F::from_integer);

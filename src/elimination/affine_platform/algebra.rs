@@ -12,8 +12,8 @@ const QUADRATIC: [(usize, usize); 8] = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), 
 /// Every basis has these monomials of degree 1: z_0, z_1, z_2, z_3, times a power of z_0.
 const FIRST: [(usize, usize); 4] = [(0, 0), (1, 0), (2, 0), (0, 1)];
 
-/// Monomials of a degree that the last form is solved for: all without z_0, and of those with one or two z_0 as many as its
-/// products with linear forms allow.
+/// Monomials of a degree that the last form is solved for: all those without z_0, and of those with one or two z_0 as many as the
+/// products of the form with linear forms allow.
 fn solved_for(degree: usize) -> [(usize, usize); 8] {
     let [zero, one, two] = [degree, degree - 1, degree - 2];
     [(0, zero), (1, one), (2, one), (3, two), (0, one), (1, two), (2, two), (0, two)]
@@ -31,7 +31,7 @@ type Map<'a, E> = &'a dyn Fn(&Element<E>) -> Element<E>;
 pub struct Images<'a, A: Arithmetic, F> {
     /// The field.
     pub field: &'a A,
-    /// The images of rational numbers; `None` where there is none.
+    /// Maps rational numbers to the field; `None` where a number has no image.
     pub image: F,
 }
 
@@ -141,8 +141,8 @@ impl<A: Arithmetic, F: Fn(&Rational) -> Option<A::Element>> Images<'_, A, F> {
         Some([matrix(&|f| curve.times_first(f)), matrix(&|f| curve.times_second(f)), matrix(&|f| curve.times_third(f))])
     }
 
-    /// Whether all rotations are such of poses, and isolated ones: the norm and the form that tells rotations with several
-    /// positions vanish at none of them.
+    /// Returns whether every rotation belongs to isolated poses: the norm, and the form that vanishes at rotations with several
+    /// positions, vanish at none of them.
     pub fn are_all_poses(
         &self,
         inverse: impl Fn(A::Element) -> Option<A::Element> + Copy,

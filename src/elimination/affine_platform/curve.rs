@@ -4,20 +4,20 @@
 use crate::closure::study::Form;
 use crate::elimination::border::Arithmetic;
 
-/// A form of some degree d: the coefficients of `z_0^(d-j) z_3^j` beside 1, and of as many powers fewer beside z_1, z_2 and
-/// z_1 z_2.
+/// A form of some degree d: the coefficients of `z_0^(d-j) z_3^j` beside 1, one power fewer beside z_1 and z_2, and two powers
+/// fewer beside z_1 z_2.
 #[derive(Clone, Debug)]
 pub struct Element<E> {
     pub parts: [Vec<E>; 4],
     pub degree: usize,
 }
 
-/// How many coefficients the parts of a form have.
+/// Returns the number of coefficients of each part of a form.
 pub fn lengths(degree: usize) -> [usize; 4] {
     [degree + 1, degree, degree, degree.saturating_sub(1)]
 }
 
-/// A form in z_0 and z_3, and what it is multiplied with.
+/// A form in z_0 and z_3, and the element it multiplies.
 type Term<'a, E> = (&'a Vec<E>, Element<E>);
 
 /// The curve.
@@ -29,7 +29,7 @@ pub struct Curve<'a, A: Arithmetic> {
 }
 
 impl<'a, A: Arithmetic> Curve<'a, A> {
-    /// The curve of two quadrics; `None` where they cannot be solved for z_1^2 and z_2^2, or `inverse` does not exist.
+    /// Returns the curve of two quadrics; `None` where they cannot be solved for z_1^2 and z_2^2, or `inverse` does not exist.
     pub fn new(
         field: &'a A,
         inverse: impl Fn(A::Element) -> Option<A::Element>,
@@ -49,7 +49,7 @@ impl<'a, A: Arithmetic> Curve<'a, A> {
         let squares = [solved(q[2][2], field.neg(p[2][2])), solved(field.neg(q[1][1]), p[1][1])];
         let zero = Self::nothing(field, 3);
         let mut curve = Self { field, squares, mixed: [zero.clone(), zero] };
-        // z_1^2 z_2 = alpha z_1 z_2^2 + u and z_1 z_2^2 = beta z_1^2 z_2 + v, with what is known of lower terms.
+        // z_1^2 z_2 = alpha z_1 z_2^2 + u and z_1 z_2^2 = beta z_1^2 z_2 + v, reduced by the lower terms already known.
         let [one, two] = curve.squares.each_ref();
         let (alpha, beta) = (one.parts[3][0], two.parts[3][0]);
         let u =

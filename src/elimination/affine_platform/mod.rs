@@ -26,16 +26,16 @@ use form::{
 pub use relation::AffineRelation;
 use rug::Rational;
 
-/// How rotation and position depend on each other.
+/// The relation between rotation and position.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is one for every platform")]
 enum Kind {
-    /// Points of a plane: three quadrics. The normal is N times that of both rows of `R M - E`, transposed.
+    /// Points of a plane: three quadrics. The normal is N times the normal of both rows of `R M - E`, transposed.
     Plane { third: Form<Rational>, normal: [Form<Rational>; 3] },
     /// The plate is congruent to the base: the axis of the rotation R Q, with `M = Q`, and its square.
     Congruent { axis: [[Rational; 4]; 3], apart: Form<Rational> },
     /// The plate is similar to the base, `M = ratio Q`: `(ratio - 1)^2 w^2 + (ratio + 1)^2 axis^2` is not 0 where R determines p.
-    /// The quaternion of R Q is so many times as long as that of R, squared.
+    /// The squared length of the quaternion of R Q is `length` times the squared length of the quaternion of R.
     Similar { ratio: Rational, length: Rational, axis: [[Rational; 4]; 3], apart: Form<Rational> },
     /// The cofactors of `N (R M - E)` over N, and its determinant over N^2.
     General { cofactors: [[Form<Rational>; 3]; 3], determinant: Form<Rational> },
@@ -46,16 +46,16 @@ enum Kind {
 pub struct AffinePlatform {
     /// The points u_i.
     pub relation: AffineRelation,
-    /// What s and v are, times N.
+    /// The form N s.
     pub square: Form<Rational>,
-    /// As many as the points u_i have coordinates; where the base spans space, they are made its points.
+    /// The forms N v, one per coordinate of the points u_i; where the base spans space, its points serve as the u_i.
     pub moments: Vec<Form<Rational>>,
     norm: Form<Rational>,
     quadrics: [Form<Rational>; 2],
     kind: Kind,
 }
 
-/// How many isolated poses such a platform has at most, and why.
+/// The largest number of isolated poses of such a platform, with the reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AffineBound {
     /// The number, with multiplicity.
@@ -109,7 +109,7 @@ fn image_form(i: usize, y: &Vector<Rational>) -> Form<Rational> {
 }
 
 impl AffineRelation {
-    /// E and M with the points of the base for u_i, where these span space; else as they are.
+    /// Returns E and M with the points of the base for u_i where these span space, and unchanged otherwise.
     fn matrices(&self) -> (Matrix, Matrix, bool) {
         let [e, m] = [&self.columns[0], &self.columns[1]].map(|columns| of_columns(columns));
         let c = cofactors(&e);
@@ -139,7 +139,7 @@ impl AffineRelation {
 }
 
 impl AffinePlatform {
-    /// The platform with legs of these squared lengths; `None` where its points are in no such relation.
+    /// Returns the platform with legs of these squared lengths; `None` where its points have no such relation.
     #[must_use]
     pub fn new(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Option<Self> {
         let relation = AffineRelation::of(platform)?;
@@ -174,7 +174,7 @@ impl AffinePlatform {
         Some(Self { relation, square, moments, norm: norm_form(&one()), quadrics, kind })
     }
 
-    /// The number of rotations, with multiplicity, and of positions that belong to each of them.
+    /// Returns the number of rotations, with multiplicity, and the number of positions that belong to each.
     #[must_use]
     pub fn counts(&self) -> (usize, usize) {
         match self.kind {
@@ -185,7 +185,7 @@ impl AffinePlatform {
         }
     }
 
-    /// The columns of `(R M - E)` that the moments belong to: E and M.
+    /// Returns the columns of E and M that form the moments.
     #[must_use]
     pub fn columns(&self) -> [Vec<Vector<Rational>>; 2] {
         if self.relation.dimension() == 2 {
@@ -208,7 +208,8 @@ impl AffinePlatform {
         Images { field, image }.products(inverse, self)
     }
 
-    /// The same where every rotation belongs to as many isolated poses as [`AffinePlatform::counts`] says, and `None` elsewhere.
+    /// As [`Self::products`], but `None` unless every rotation belongs to as many isolated poses as [`AffinePlatform::counts`]
+    /// says.
     #[must_use]
     pub fn products_of_poses<A: Arithmetic>(
         &self,
@@ -242,7 +243,7 @@ fn normal([e, m]: &[Vec<Vector<Rational>>; 2]) -> [Form<Rational>; 3] {
     })
 }
 
-/// What relates rotation and position where the points span space.
+/// Returns the relation of rotation and position where the points span space.
 fn space(e: &Matrix, m: &Matrix, spans: bool) -> Option<Kind> {
     if spans && let Some((ratio, rotation)) = similarity(m) {
         let q = quaternion(&rotation)?;

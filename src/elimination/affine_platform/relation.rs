@@ -5,8 +5,8 @@ use crate::kinematics::motion::Vector;
 use crate::kinematics::platform::Platform;
 use rug::Rational;
 
-/// Points u_i with `a_i = o + E u_i` on the base and `b_i = c + M u_i` on the plate. One of them is 0, and as many as there are
-/// dimensions are the unit vectors.
+/// Points u_i with `a_i = o + E u_i` on the base and `b_i = c + M u_i` on the plate. One of them is 0, and one per dimension is a
+/// unit vector.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AffineRelation {
     /// The point o of the base and the point c of the plate.
@@ -15,7 +15,7 @@ pub struct AffineRelation {
     pub columns: [Vec<Vector<Rational>>; 2],
     /// The points u_i.
     pub points: [Vec<Rational>; 6],
-    /// Which of them are the unit vectors.
+    /// Indices of the points that are the unit vectors.
     pub units: Vec<usize>,
 }
 
@@ -25,11 +25,11 @@ fn difference(p: &Vector<Rational>, q: &Vector<Rational>) -> Vector<Rational> {
 }
 
 impl AffineRelation {
-    /// The relation of a platform; `None` where the points u_i would need more than three dimensions, or fewer than two.
+    /// Returns the relation of a platform; `None` where the points u_i would need more than three dimensions, or fewer than two.
     #[must_use]
     pub fn of(platform: &Platform<Rational>) -> Option<Self> {
         let bodies = [&platform.base, &platform.plate];
-        // A column for every leg but the first: how its ends differ from those of the first one.
+        // Column of each leg but the first: the differences of its ends from the ends of the first leg.
         let differences: Vec<[Vector<Rational>; 2]> =
             (1..6).map(|i| bodies.map(|points| difference(&points[i], &points[0]))).collect();
         let rows = (0..6).map(|k| differences.iter().map(|d| d[k / 3][k % 3].clone()).collect()).collect();

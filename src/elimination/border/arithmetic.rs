@@ -1,5 +1,4 @@
-//! What a border basis asks of its numbers: f64, numbers of 384 bits, or residues modulo a prime that is known at run
-//! time only.
+//! Arithmetic of a border basis: f64, numbers of 384 bits, or residues modulo a prime that is known only at run time.
 
 use super::echelon;
 use super::orthogonal;
@@ -8,15 +7,15 @@ use crate::algebra::long_float::LongNumber;
 use crate::algebra::modp::Modulus;
 use crate::algebra::ring::Ring;
 
-/// Candidates for the basis of a level, at most: 27 products and 6 of two `tau`.
+/// Largest number of candidates for the basis of a level: 27 products and 6 of two `tau`.
 pub const MOST_CANDIDATES: usize = 33;
-/// Where the second part of a relation begins.
+/// Column at which the second part of a relation begins.
 pub const LOW: usize = 36;
 /// Room for one relation.
 pub const STRIDE: usize = LOW + 40;
 /// Room for the normal form of one candidate.
 pub const WIDTH: usize = 40;
-/// Relations of one degree, at most.
+/// Largest number of relations of one degree.
 pub const MOST_RELATIONS: usize = 48;
 
 /// Relations of one degree: rows of coefficients of the candidates (from 0) and of the basis of lower levels (from
@@ -25,15 +24,15 @@ pub const MOST_RELATIONS: usize = 48;
 pub struct Relations<E> {
     /// The rows, `STRIDE` apart.
     pub rows: Vec<E>,
-    /// How many rows are in use.
+    /// The number of rows in use.
     pub count: usize,
     /// The number of candidates.
     pub candidates: usize,
-    /// How many basis elements lower levels have.
+    /// The number of basis elements of the lower levels.
     pub low: usize,
 }
 
-/// What a level's relations make of its candidates.
+/// The candidates of a level, reduced by its relations.
 #[derive(Clone, Debug)]
 pub struct Split<E> {
     /// The normal forms of the candidates, `WIDTH` apart: coefficients of the lower levels, then of the new one.
@@ -49,7 +48,7 @@ pub const LEVEL: usize = 9;
 /// The sum of this many products of residues modulo a prime below 2^62 is less than `p 2^64`.
 const PRODUCTS: usize = 4;
 
-/// Numbers, and how relations between them are solved.
+/// A field whose numbers can solve relations between candidates.
 pub trait Arithmetic {
     /// The numbers.
     type Element: Copy + PartialEq + std::fmt::Debug;
@@ -78,10 +77,10 @@ pub trait Arithmetic {
         }
     }
     /// Solves relations of the given rank for as many candidates; the others, or combinations of them, are the new basis
-    /// elements. The smallest pivot over the largest, or else the rank found.
+    /// elements. Returns the smallest pivot over the largest.
     ///
     /// # Errors
-    /// The rank found, where it is not the one asked for.
+    /// The rank found, where it differs from `rank`.
     fn solve(
         &self,
         relations: &mut Relations<Self::Element>,
@@ -132,12 +131,12 @@ impl Arithmetic for Reals {
     }
 }
 
-/// The numbers of so many words of 64 bits. What is left of a sum in which all but the last bits cancel is zero.
+/// Numbers of `LIMBS` 64-bit words. A sum in which all but the last bits cancel counts as zero.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LongReals<const LIMBS: usize>;
 
 impl<const LIMBS: usize> LongReals<LIMBS> {
-    /// Leading bits that cancel only where nothing is left: a fifth of the bits are room for rounding.
+    /// Number of leading bits whose cancellation makes a sum zero: a fifth of the bits are room for rounding.
     const CANCELLED: i32 = LongNumber::<LIMBS>::BITS.cast_signed() / 32 * 25;
 }
 

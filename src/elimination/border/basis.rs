@@ -31,7 +31,7 @@ const LEVEL_OF: [usize; DIMENSION] = {
     table
 };
 
-/// A level of the quotient algebra is not what it is for the general platform: the geometry is special.
+/// The error where a level of the quotient algebra has another rank than for the general platform: the geometry is special.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LostRank {
     /// The degree.
@@ -58,9 +58,9 @@ pub struct BorderBasis<E> {
     tau_rows: [Vec<Row<E>>; MOST],
     relations: Relations<E>,
     split: Split<E>,
-    /// How the elements of levels 2 and 3 are combined of their candidates.
+    /// The elements of levels 2 and 3 as combinations of their candidates.
     lifts: [Vec<E>; 2],
-    /// Relations that are multiplied by tau later: those of degree 2, of degree 3, and of degree 4.
+    /// Relations of degrees 2, 3 and 4, kept to be multiplied by tau later.
     kept: [Vec<Row<E>>; 3],
 }
 

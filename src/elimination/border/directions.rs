@@ -1,10 +1,10 @@
-//! The legs' matrix K solved for u as far as that is safe: what it leaves open are unknowns of their own.
+//! The legs' matrix K solved for u as far as that is safe; each direction left open becomes an unknown.
 
 use super::arithmetic::Arithmetic;
 
-/// Most unknowns beside the rotation.
+/// Largest number of unknowns beside the rotation.
 pub const MOST: usize = 4;
-/// As many of them as border bases have room for.
+/// Largest number of them for which border bases have room.
 pub const MOST_DIRECTIONS: usize = 3;
 /// Directions of K that are always divided by.
 const LEAST_KEPT: usize = 4;
@@ -31,7 +31,7 @@ pub struct Directions<E> {
     pub slopes: [[E; MOST]; MOST - 1],
 }
 
-/// Solves K by its singular values: at most the two smallest are left out, so that nothing large is divided by.
+/// Solves K by its singular values and leaves out at most the two smallest, so that nothing is divided by a small number.
 #[must_use]
 pub fn weak_directions(matrix: &[[f64; 7]; 6]) -> Directions<f64> {
     let mut rows = *matrix;
@@ -195,7 +195,7 @@ mod tests {
     use super::*;
     use crate::elimination::border::Reals;
 
-    /// `K u` for `u = particular c + sum_a tau_a null_a` is c, but for the conditions left.
+    /// Checks that `K u` for `u = particular c + sum_a tau_a null_a` is c up to the conditions left.
     fn check(matrix: &[[f64; 7]; 6], directions: &Directions<f64>) {
         let c = [0.3, -1.0, 0.7, 2.0, -0.4, 1.1];
         let tau = [0.9, -0.6, 0.8, 0.5];
@@ -205,7 +205,7 @@ mod tests {
             dot(&directions.particular[k], &c) + along
         });
         let defect: [f64; 6] = std::array::from_fn(|i| c[i] - dot(&matrix[i], &u));
-        // The defect lies in the span of the conditions: combining the legs so gives what they say is left.
+        // The defect lies in the span of the conditions: combining the legs that way gives the sides of the conditions.
         for a in 0..directions.count - 1 {
             let combined: [f64; 7] =
                 std::array::from_fn(|k| (0..6).map(|i| directions.dropped[a][i] * matrix[i][k]).sum());

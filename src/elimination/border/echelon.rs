@@ -5,7 +5,7 @@ use super::arithmetic::{Arithmetic, LEVEL, LOW, MOST_CANDIDATES, Relations, STRI
 /// Solves for the candidates that come first; those without a pivot are the new basis elements.
 ///
 /// # Errors
-/// The rank found, where it is not the one asked for.
+/// The rank found, where it differs from `rank`.
 pub fn solve<A: Arithmetic>(
     field: &A,
     inverse: impl Fn(A::Element) -> Option<A::Element>,
@@ -19,7 +19,7 @@ pub fn solve<A: Arithmetic>(
     let mut pivots = [0; MOST_CANDIDATES];
     let mut free = [0; MOST_CANDIDATES];
     let (mut found, mut left) = (0, 0);
-    // Candidates first, row after row by the pivots found; what that does to the other part is one combination.
+    // Candidates first, row after row by the pivots found; the effect on the other part is one combination.
     for i in 0..count {
         let (done, rest) = rows.split_at_mut(i * STRIDE);
         let row = &mut rest[..STRIDE];

@@ -3,7 +3,7 @@
 //! The unknowns are the rotation `z` in the chart `z0 = 1`, and `tau_1, tau_2, ...`, which measure where in the kernel of
 //! the legs' matrix K (and in its nearly singular directions) the vector `u = (p.p, p, R^T p)` lies. The algebra is
 //! filtered by the degree, `z` of degree 1 and `tau` of degree 2; its levels have 1, 3, 7, 9, 9, 7, 3, 1 basis elements.
-//! The basis of a level is what the relations of that degree leave of the products of `z` with the level below.
+//! The basis of a level consists of the products of `z` with the level below, reduced by the relations of that degree.
 //!
 //! One code runs over f64, where every step is orthogonal, over numbers of 384 bits, and modulo one prime or four.
 

@@ -4,13 +4,13 @@ use super::arithmetic::{LEVEL, LOW, MOST_CANDIDATES, MOST_RELATIONS, Relations, 
 
 /// Pivots of this relative size or less are rounding of zero: genuine ones of 20,000 random platforms were above 3e-6.
 const NO_PIVOT: f64 = 1e-10;
-/// After so many steps the sizes of the rows left are computed anew.
+/// Number of steps after which the sizes of the rows left are computed anew.
 const REFRESH: usize = 4;
 
 /// Splits the candidates: `Q^T candidates = (z, beta)` with the first ones solved for, `z = Z low`, the others new.
 ///
 /// # Errors
-/// The rank found, where it is below the one asked for.
+/// The rank found, where it is below `rank`.
 pub fn solve(relations: &mut Relations<f64>, rank: usize, split: &mut Split<f64>) -> Result<f64, usize> {
     let (n, low) = (relations.candidates, relations.low);
     let triangle = triangulate(relations, rank)?;

@@ -12,7 +12,7 @@ fn no_pivot<const LIMBS: usize>() -> f64 {
 /// Solves for the candidates with the largest pivots; those without one are the new basis elements.
 ///
 /// # Errors
-/// The rank found, where it is not the one asked for.
+/// The rank found, where it differs from `rank`.
 pub fn solve<const LIMBS: usize>(
     relations: &mut Relations<LongNumber<LIMBS>>,
     rank: usize,

@@ -1,4 +1,4 @@
-//! What the border basis starts from: u as quadratic forms and unknowns, and the conditions left.
+//! Input of the border basis: u as quadratic forms and unknowns, and the conditions left.
 
 use super::arithmetic::Arithmetic;
 use super::directions::{Directions, MOST};
@@ -11,11 +11,11 @@ pub struct Setting<E> {
     pub count: usize,
     /// The forms of u = N (p.p, p, R^T p).
     pub forms: [Form<E>; 7],
-    /// What each tau adds to u.
+    /// The part of u that multiplies each tau.
     pub null: [[E; 7]; MOST],
     /// The forms of the conditions; `count - 1` are in use.
     pub dropped: [Form<E>; MOST - 1],
-    /// Their other sides.
+    /// The right sides of the conditions.
     pub slopes: [[E; MOST]; MOST - 1],
 }
 
@@ -39,7 +39,7 @@ impl<E: Copy> Setting<E> {
         }
     }
 
-    /// The same with the squares of the legs changed: c_i gains `squares[i] N`.
+    /// As [`Self::new`], with the squares of the legs changed: c_i gains `squares[i] N`.
     #[must_use]
     pub fn with_legs<A: Arithmetic<Element = E>>(
         &self,

@@ -1,4 +1,4 @@
-//! Residues modulo four primes side by side, in the lanes of a vector register: what makes many primes cheap.
+//! Residues modulo four primes side by side, in the lanes of a vector register, which makes many primes cheap.
 
 use super::arithmetic::{Arithmetic, Relations, Split};
 use super::echelon;
@@ -6,10 +6,10 @@ use crate::algebra::modp::Modulus;
 use crate::algebra::modular::lanes::{Floats, Lanes};
 use pulp::{Arch, Simd, WithSimd};
 
-/// How many primes.
+/// The number of primes.
 pub const SIDE: usize = 4;
 
-/// One residue for each prime, of absolute value little more than half of it. All zeros, and none else, is 0.
+/// One residue for each prime, of absolute value little more than half of it. Only the element of all zeros is 0.
 pub type Residues = [f64; SIDE];
 
 /// The primes, each below `2^49` and near it, and the machine's vector unit.
@@ -21,7 +21,7 @@ pub struct SideBySide {
     reciprocals: Residues,
 }
 
-/// Terms of a combination, at most.
+/// Largest number of terms of a combination.
 const MOST_TERMS: usize = 48;
 
 impl SideBySide {
@@ -57,7 +57,7 @@ impl SideBySide {
         if element[k] < 0.0 { self.moduli[k].sub(0, size) } else { size }
     }
 
-    /// `1/a`; `None` where that is missing for one of the primes.
+    /// Returns `1/a`; `None` where the inverse is missing for one of the primes.
     #[must_use]
     pub fn inverse(&self, a: Residues) -> Option<Residues> {
         a.iter().all(|&x| x != 0.0).then(|| self.arch.dispatch(Inverse { moduli: &self.moduli, a }))
@@ -73,7 +73,7 @@ impl SideBySide {
     }
 }
 
-/// Whether elements are registers.
+/// Detects whether an element fits into a vector register.
 struct Fits;
 
 impl WithSimd for Fits {
@@ -216,7 +216,7 @@ impl Arithmetic for SideBySide {
                 self.arch.dispatch(Combination { field: self, target, terms: &open });
                 count = 0;
             }
-            // In order of their lengths: most come so.
+            // In order of their lengths: most arrive in that order.
             let source = &source[..usize::min(source.len(), target.len())];
             let mut at = count;
             while at > 0 && open[at - 1].1.len() < source.len() {

@@ -1,4 +1,4 @@
-//! How often a pose counts.
+//! The multiplicity of a pose.
 
 use crate::algebra::local_multiplicity::{Quadric, multiplicity};
 use crate::algebra::number_field::Algebraic;
@@ -32,7 +32,7 @@ fn study() -> Form {
     (0..8).map(|j| (0..8).map(|k| entry(j, k)).collect()).collect()
 }
 
-/// The multiplicity of a pose; `None` where it is none, where it exceeds `most`, or where the field splits.
+/// Returns the multiplicity of a pose; `None` where the point is no pose, the multiplicity exceeds `most`, or the field splits.
 pub fn multiplicity_at(
     platform: &Platform<Algebraic>,
     squares: &[Algebraic; 6],

@@ -1,10 +1,10 @@
 //! Poses of a platform that count more than once, or share their rotation, as algebraic numbers, with their exact
 //! multiplicities.
 //!
-//! The polynomial of the platform tells at which values of its variable k several poses coincide or share k. Modulo a prime,
-//! traces on the part of the quotient algebra that belongs to the roots of one square-free factor g give the mean rotation of
-//! the poses at each root as a polynomial in k, and some primes give it over the rational numbers. Nothing of this has to be
-//! proved: the pose is put into the equations over `Q[k]/g`, where it fulfils them or not, and its multiplicity is counted
+//! The polynomial of the platform shows at which values of its variable k several poses coincide or share k. Modulo a prime,
+//! traces on the part of the quotient algebra that belongs to the roots of one square-free factor g give the mean rotation of the
+//! poses at each root as a polynomial in k, and several primes give it over the rational numbers. None of this has to be proved:
+//! the pose is substituted into the equations over `Q[k]/g`, where it satisfies them or not, and its multiplicity is counted
 //! there.
 
 mod local;
@@ -33,17 +33,17 @@ pub struct ExactPoses {
     pub quaternion: [Algebraic; 4],
     /// The position.
     pub position: [Algebraic; 3],
-    /// How often each of them counts: once where only its rotation is shared.
+    /// The multiplicity of each of them: 1 where only the rotation is shared.
     pub multiplicity: usize,
 }
 
-/// Factors with more roots are left: their numbers are long.
+/// Most roots of a factor that is treated: the numbers of larger ones are too long.
 const MOST_CONJUGATES: usize = 20;
 /// More poses than a platform can have.
 const MOST: usize = 40;
 
-/// The poses at multiple roots of the polynomial of a platform, as far as they are found. What is listed is proved; that it is
-/// all there is has to be seen from the number of poses.
+/// Returns the poses found at multiple roots of the polynomial of a platform. Each listed pose is proved; whether the list is
+/// complete has to be judged by the number of poses.
 #[must_use]
 pub fn multiple_poses(
     platform: &Platform<Rational>,
@@ -58,8 +58,8 @@ pub fn multiple_poses(
     within_reach.flat_map(|(factor, m)| at_factor(platform, squares, polynomial, &factor, m)).collect()
 }
 
-/// The linear factors of the rational roots of a square-free polynomial, and what is left of it: a field of small degree has
-/// short numbers.
+/// Splits a square-free polynomial into the linear factors of its rational roots and the remaining factor: a field of small
+/// degree has short numbers.
 fn parts(factor: &Univariate<Integer>) -> Vec<Univariate<Integer>> {
     let mut parts: Vec<Univariate<Integer>> = Vec::new();
     let Some(mut rest) = factor.map(|c| Some(Rational::from(c))) else { return Vec::new() };
@@ -90,7 +90,7 @@ fn at_factor(
     while let Some(polynomial) = left.pop() {
         let field = NumberField::new(&polynomial);
         let here = over(&field, &polynomial, platform, squares, &rotation);
-        // Where the roots differ in what is zero, each part is looked at alone.
+        // Where the roots differ in which numbers are zero, each part is treated on its own.
         match field.split() {
             Some(part) => left.extend([part.clone(), polynomial.div_rem(part).0]),
             None => found.extend(here.unwrap_or_default()),
@@ -99,7 +99,7 @@ fn at_factor(
     found
 }
 
-/// The poses of one rotation over a field.
+/// Returns the poses of one rotation over a field.
 fn over(
     field: &Arc<NumberField>,
     polynomial: &Univariate<Rational>,
@@ -122,12 +122,12 @@ fn over(
     match positions(&here, &lengths, &x)? {
         Positions::One(p) => at(&x, p, polynomial).map(|pose| vec![pose]),
         Positions::Two(pair) => {
-            // Where both positions coincide at some roots only, these are looked at alone.
+            // Where both positions coincide at some roots only, these are treated on their own.
             pair.discriminant.inverse()?;
             if let Some(root) = pair.root() {
                 [root.clone(), root.neg()].iter().map(|root| at(&x, pair.at(root)?, polynomial)).collect()
             } else {
-                // Only where all else is rational: one square root is all that there is then.
+                // Only where everything else is rational: one square root is then the only extension.
                 let square = pair.discriminant.rational()?;
                 let rational = x.vector.iter().chain([&x.scalar]).all(|c| c.rational().is_some());
                 let minimal = Univariate::new(vec![-square, Rational::new(), Rational::from(1)]);

@@ -45,7 +45,7 @@ impl Pair {
     }
 }
 
-/// All positions at which six legs have their lengths; `None` where there is none, or a curve of them.
+/// Returns all positions at which the six legs have their lengths; `None` where there is no position, or a curve of them.
 pub fn positions(
     platform: &Platform<Algebraic>,
     squares: &[Algebraic; 6],

@@ -12,7 +12,7 @@ use crate::kinematics::platform::Platform;
 use rug::{Integer, Rational};
 use std::sync::Arc;
 
-/// More primes than rotations of a thousand digits ask for.
+/// More primes than a rotation of a thousand digits needs.
 const MOST_PRIMES: usize = 120;
 
 type Matrix = Vec<Vec<u64>>;
@@ -25,7 +25,7 @@ pub struct Rotation {
 }
 
 impl Rotation {
-    /// The rotation x over the field of the variable; `None` where the variable is not what the polynomial means.
+    /// Returns the rotation x over the field of the variable; `None` where the variable disagrees with the polynomial.
     pub fn over(&self, field: &Arc<NumberField>) -> Option<Quaternion<Algebraic>> {
         let root = field.root();
         let value = |coefficients: &Vec<Rational>| {
@@ -43,7 +43,8 @@ impl Rotation {
     }
 }
 
-/// The mean rotations at the roots of a factor of this multiplicity: certain only as far as they fulfil the equations.
+/// Returns the mean rotations at the roots of a factor of this multiplicity; they are certain only once they satisfy the
+/// equations.
 pub fn rotation(
     platform: &Platform<Rational>,
     squares: &[Rational; 6],
@@ -76,7 +77,7 @@ pub fn rotation(
     Some(Rotation { quotients, coordinate: polynomial.coordinate })
 }
 
-/// The coefficients of the three quotients modulo a prime, one behind the other.
+/// Returns the coefficients of the three quotients modulo a prime, concatenated.
 fn image(
     modulus: &Modulus,
     algebra: &PlatformAlgebra,
@@ -131,7 +132,7 @@ fn trace(modulus: &Modulus, matrix: &Matrix) -> u64 {
     matrix.iter().enumerate().fold(0, |sum, (i, row)| Modulus::add(modulus, sum, row[i]))
 }
 
-/// A power of a matrix, no less than the one asked for.
+/// Returns a power of a matrix whose exponent is at least `exponent`.
 fn power(modulus: &Modulus, mut matrix: Matrix, exponent: usize) -> Matrix {
     let mut reached = 1;
     while reached < exponent {

@@ -4,7 +4,7 @@ use crate::algebra::ring::{Field, Ring};
 use crate::kinematics::motion::{Vector, cross, dot};
 use crate::kinematics::platform::Platform;
 
-/// Which legs meet in a point of one body.
+/// The pairs of legs that meet in a point of one body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pairs {
     /// Whether they meet at the base, not at the plate.
@@ -13,8 +13,8 @@ pub struct Pairs {
     pub legs: [[usize; 2]; 3],
 }
 
-/// The pairs in which six legs meet at the plate, or else at the base; `None` where they do not, or where a pair has both
-/// its ends in common.
+/// Returns the pairs in which six legs meet at the plate, or else at the base; `None` where they do not, or where both ends of a
+/// pair coincide.
 #[must_use]
 pub fn pairs<R: PartialEq>(platform: &Platform<R>) -> Option<Pairs> {
     let grouped = |meet: &[Vector<R>; 6], foot: &[Vector<R>; 6]| {
@@ -52,7 +52,7 @@ pub struct Circle<R> {
     pub radius_square: R,
 }
 
-/// The part of a cross product, relative to the lengths of its factors and squared, above which it may be a direction.
+/// Squared sine of the angle between two directions above which their cross product may serve as a direction.
 const ACROSS: f64 = 1e-4;
 
 impl<F: Field> Circle<F> {

@@ -1,4 +1,4 @@
-//! Two resultants in closed form: of three circles and three sides one equation on the first circle is left.
+//! Two resultants in closed form: they reduce three circles and three sides to one equation on the first circle.
 
 use super::circle::Triangle;
 use crate::algebra::ring::{Field, Ring};
@@ -7,7 +7,7 @@ use crate::kinematics::motion::{cross, dot};
 /// A vector, point or line of the projective plane of `h = (1, alpha, beta)`.
 type Three<R> = [R; 3];
 
-/// What is left of a triangle for one of its corners.
+/// The eliminant of a triangle for one of its corners.
 ///
 /// With `h` on its conic `h^T G h = 0`, `G = diag(-r^2, u.u, v.v)`, and sides `h_i^T M_ij h_j = 0`: for given `h_1` the
 /// point `h_2` is on the line `a = M_12^T h_1`, and `h_3` on the line `d = M_13^T h_1`.
@@ -86,7 +86,7 @@ impl<F: Field> Eliminant<F> {
 }
 
 impl<R: Ring> Eliminant<R> {
-    /// The same over a larger ring.
+    /// Maps the eliminant to a larger ring.
     pub fn map<S>(&self, image: impl Fn(&R) -> S) -> Eliminant<S> {
         let vector = |v: &Three<R>| v.each_ref().map(&image);
         let matrix = |m: &[Three<R>; 3]| m.each_ref().map(vector);
@@ -109,7 +109,7 @@ impl<R: Ring> Eliminant<R> {
         one.sub(&other)
     }
 
-    /// The two terms of which f is the difference: equal all along the circle where the triangle moves.
+    /// Returns the two terms whose difference is f: equal all along the circle where the triangle moves.
     pub fn terms(&self, h: &Three<R>) -> [R; 2] {
         let [a, d] = self.lines_at(h);
         let [second, third] = &self.conics;

@@ -17,12 +17,12 @@ use rug::{Integer, Rational};
 pub struct TrianglePolynomial {
     /// Integers without common factor, constant term first, the last one positive.
     pub coefficients: Vec<Integer>,
-    /// Which legs meet.
+    /// The pairs of legs that meet.
     pub pairs: Pairs,
-    /// What its variable is: `direction.P` for the corner P of the first pair, in the frame of the body whose points do not
-    /// coincide.
+    /// The direction of its variable: `direction.P` for the corner P of the first pair, in the frame of the body whose points do
+    /// not coincide.
     pub direction: [Integer; 3],
-    /// How many poses belong to a root: 2 where the triangle has a mirror image in the plane of the other body.
+    /// The number of poses that belong to a root: 2 where the triangle has a mirror image in the plane of the other body.
     pub per_root: usize,
 }
 
