@@ -7,8 +7,8 @@ use crate::kinematics::closed_loop::Variable;
 
 /// A chain of up to five variables, cut.
 ///
-/// The dual quaternions of a side are linear in the tensor product of the pairs `c : s` of its variables but the hidden one,
-/// and linear in that. A configuration is a pair of tensor products in the kernel of the matrix.
+/// The dual quaternions of a side are linear in the tensor product of the pairs `c : s` of its variables other than the hidden
+/// one, and linear in the hidden pair. A configuration is a pair of tensor products in the kernel of the matrix.
 pub(crate) struct Cut<F> {
     /// The variables in loop order from the cut.
     pub order: Vec<usize>,
@@ -43,12 +43,12 @@ pub(crate) fn side<F: Field>(linkage: &Linkage<F>, variables: &[usize], choice: 
 }
 
 impl<F: Field> Cut<F> {
-    /// All cuts of a chain of n variables: where they begin, and the place of the hidden variable.
+    /// Returns all cuts of a chain of n variables: the variable at which each begins, and the place of the hidden variable.
     pub fn all(n: usize) -> impl Iterator<Item = (usize, usize)> {
         (0..n).flat_map(move |first| (0..first_side(n)).map(move |hidden| (first, hidden)))
     }
 
-    /// Those that hide a certain variable.
+    /// Returns the cuts that hide a certain variable.
     pub fn hiding(n: usize, variable: usize) -> impl Iterator<Item = (usize, usize)> {
         (0..first_side(n)).map(move |hidden| ((variable + n - hidden) % n, hidden))
     }
@@ -85,7 +85,7 @@ impl<F: Field> Cut<F> {
         self.matrix[0][0].len()
     }
 
-    /// The matrix with rows mixed to as many as there are columns; all of them are kept where they are as many.
+    /// Returns the matrix with its rows mixed down to the number of columns; with eight columns all rows are kept.
     fn mixed(&self, seed: i32) -> [Vec<Vec<F>>; 2] {
         let columns = self.columns();
         if columns == 8 {
@@ -101,14 +101,14 @@ impl<F: Field> Cut<F> {
         })
     }
 
-    /// Polynomials in t that vanish wherever the columns are dependent: one of as many rows as columns, else two mixtures of
-    /// the rows, since what is foreign to the one is not to the other.
+    /// Returns polynomials in t that vanish wherever the columns are dependent: one where there are as many rows as columns, else
+    /// two from mixtures of the rows, since an extraneous factor of the one is not a factor of the other.
     pub fn conditions(&self, determinant: impl Fn(&[Vec<Vec<F>>; 2]) -> Univariate<F>) -> Vec<Univariate<F>> {
         let seeds: &[i32] = if self.columns() == 8 { &[0] } else { &[7919, 104_729] };
         seeds.iter().map(|seed| determinant(&self.mixed(*seed))).collect()
     }
 
-    /// The degree in t that such a polynomial has in general.
+    /// Returns the degree in t that such a polynomial has in general.
     pub fn degree(&self) -> usize {
         1 << (self.first_side - 1)
     }
@@ -123,7 +123,7 @@ fn at_infinity<F>(linkage: &Linkage<F>, left: &[usize], right: &[usize], hidden:
     }
     let choices = |side: &[usize], others: usize| -> Vec<usize> {
         let count = side.iter().filter(|k| is_translation(**k)).count();
-        // Of the products of a side: how many have no, one, ... units eps.
+        // For the products of a side: the numbers with no, one, two, ... units eps.
         let mut powers = vec![0; count + others + 1];
         let rotations = side.len() - count;
         for chosen in 0..1_usize << count {

@@ -27,7 +27,7 @@ pub(super) const DEGREE: usize = 16;
 /// The eliminant of one unknown.
 #[derive(Clone, Debug)]
 pub struct Eliminant {
-    /// Which of the six unknowns.
+    /// Index of the unknown among the six.
     pub unknown: usize,
     /// Square-free factors of the polynomial in the tangent of half the unknown, each with the order of its roots, without factors
     /// `1 + x^2`; no two have a root in common.
@@ -36,15 +36,15 @@ pub struct Eliminant {
     pub at_pi: usize,
 }
 
-/// Bits of the coefficients of eliminants: those of the longest balls in which roots are compared, and what dividing and
-/// isolating them loses.
+/// Bits of the coefficients of eliminants: the bits of the longest balls in which roots are compared, and the bits lost in
+/// dividing and isolating them.
 pub const WIDE: u32 = 1536;
 
 /// The real coefficients of a polynomial, constant first; the last one is not 0.
 pub type Coefficients = Vec<Ball<WIDE>>;
 
 impl Eliminant {
-    /// The number of roots with multiplicity: no more isolated solutions, with multiplicity, are there.
+    /// Returns the number of roots with multiplicity, a bound on the number of isolated solutions with multiplicity.
     #[must_use]
     pub fn count(&self) -> usize {
         let degree = |(factor, order): &(Coefficients, usize)| factor.len().saturating_sub(1) * order;
@@ -64,12 +64,12 @@ pub(super) fn in_balls<const BITS: u32>(polynomial: &Univariate<Integer>) -> Opt
     polynomial.coefficients().iter().map(|c| Ball::from_rational(&Rational::from(c))).collect()
 }
 
-/// A cut and the unknown that it hides, with what its determinant is modulo a prime.
+/// A cut and the unknown that it hides, with the shape of its determinant modulo a prime.
 #[derive(Clone, Copy, Debug)]
 pub struct Way {
     pub(super) cut: Cut,
     pub(super) hidden: Hidden,
-    /// Which of the six unknowns is left.
+    /// Index of the remaining unknown among the six.
     pub unknown: usize,
     /// The number of roots other than those of `1 + x^2`, modulo the prime.
     pub count: usize,
@@ -95,20 +95,21 @@ pub fn ways<F: Field + Domain>(closed: &ClosedLoop<F>) -> Vec<Way> {
     ways
 }
 
-/// Numbers of more bits in a loop make the relations of its ring over the rationals long.
+/// Largest number of bits of a number in a loop for which the relations of its ring over the rationals stay short.
 const SHORT: u32 = 64;
 
-/// Whether no number of a loop is long.
+/// Returns whether all numbers of a loop are short.
 fn is_short(closed: &ClosedLoop<Rational>) -> bool {
     let bits = |x: &Rational| x.numer().significant_bits().max(x.denom().significant_bits());
     let numbers = closed.constants.iter().flat_map(|g| g.rotation.iter().flatten().chain(&g.translation));
     numbers.map(bits).max() <= Some(SHORT)
 }
 
-/// Whether it is proved that a loop has no solution, complex ones included: 1 is a combination of its closure equations over
-/// the rationals. `false` where that is not found, and where numbers are long. The plan is that of the loop modulo a prime.
+/// Returns whether a loop is proved to have no solution, complex ones included: 1 is a combination of its closure equations over
+/// the rationals. `false` where no such combination is found, and where numbers are long.
 ///
-/// The plan says which combinations lead there; each of them is formed again over the rationals.
+/// The plan is made for the loop modulo a prime and says which combinations to form; each of them is formed again over the
+/// rationals.
 #[must_use]
 pub fn has_no_solution(closed: &ClosedLoop<Rational>, plan: &Plan) -> bool {
     plan.count() == 0 && is_short(closed) && plan.ring(closed).is_some()
@@ -118,7 +119,7 @@ pub fn has_no_solution(closed: &ClosedLoop<Rational>, plan: &Plan) -> bool {
 /// rationals, for loops whose determinants vanish: its roots have the multiplicities of the solutions. `None` where
 /// solutions form families, and where numbers are long.
 ///
-/// Which relations lead to the ring is found modulo the prime. Each of them holds over the rationals as formed there, so
+/// The relations that lead to the ring are found modulo the prime. Each of them holds over the rationals as formed there, so
 /// that the ring has no larger dimension, and every solution is an eigenvector.
 #[must_use]
 pub fn eliminant_by_ring(
@@ -138,7 +139,7 @@ pub fn eliminant_by_ring(
     Eliminant::over_integers(unknown, &polynomial, count - polynomial.degree()?)
 }
 
-/// The eliminant that a way leads to; `None` where its determinant vanishes identically.
+/// Returns the eliminant that a way leads to; `None` where its determinant vanishes identically.
 #[must_use]
 pub fn eliminant(closed: &ClosedLoop<Rational>, way: &Way) -> Option<Eliminant> {
     let (polynomial, at_pi) = polynomial(closed, way)?;
@@ -159,7 +160,7 @@ pub(super) fn pencil_of<F: Field>(closed: &ClosedLoop<F>, way: &Way) -> Option<P
     Some(pencil(&rows, way.hidden))
 }
 
-/// The coefficients of a determinant in the unknown of the loop: that of a reversed cut is its negative.
+/// Returns the coefficients of a determinant in the unknown of the loop, which is the negative of the unknown of a reversed cut.
 pub(super) fn in_unknown<R: Ring>(way: &Way, coefficients: &[R]) -> Vec<R> {
     let sign = |(k, c): (usize, &R)| if way.cut.reversed && k % 2 == 1 { c.neg() } else { c.clone() };
     coefficients.iter().enumerate().map(sign).collect()

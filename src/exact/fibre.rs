@@ -15,7 +15,7 @@ pub struct Fibre<F> {
     count: usize,
 }
 
-/// Weights of a linear form in cosines and sines: any numbers do, modulo a prime that is drawn after them.
+/// Weights of a linear form in cosines and sines: any numbers will do modulo a prime that is drawn after them.
 const WEIGHTS: [i32; 10] = [
     1_000_003,
     1_299_709,

@@ -1,4 +1,4 @@
-//! Over what the equations of a loop are decided: the rationals, or a number field.
+//! The ground field over which the equations of a loop are decided: the rationals, or a number field.
 
 use super::eliminant::{Eliminant, Way, count, eliminant, eliminant_by_ring};
 use crate::algebra::ball::Ball;
@@ -13,7 +13,7 @@ pub trait Ground {
     /// The field modulo a prime.
     type Residue: Field + Domain;
 
-    /// What the unknowns do.
+    /// Returns the kinds of the unknowns.
     fn variables(&self) -> [Variable; 6];
 
     /// The loop modulo a prime.
@@ -37,7 +37,7 @@ pub trait Ground {
 pub struct OverRationals<'a> {
     /// The loop.
     pub closed: &'a ClosedLoop<Rational>,
-    /// The same modulo the prime of the run.
+    /// The loop modulo the prime of the run.
     pub modular: &'a ClosedLoop<Drawn>,
 }
 

@@ -1,8 +1,8 @@
-//! How large the coefficients of a cut's determinant can be at the conjugates of a number field.
+//! A bound on the coefficients of a cut's determinant at the conjugates of a number field.
 //!
-//! The determinant of the pencil of a cut is, up to a number that is not 0 modulo the prime, that of a square matrix of 60 rows:
-//! the closure equations before anything is eliminated, four times, as multipliers of the rows that are looked for. Its
-//! entries are polynomials in the constants of the loop, so that Hadamard's inequality bounds its coefficients at every conjugate,
+//! The determinant of the pencil of a cut is, up to a number that is not 0 modulo the prime, the determinant of a square matrix
+//! of 60 rows: the closure equations before anything is eliminated, four times, as multipliers of the requested rows. Its entries
+//! are polynomials in the constants of the loop, so that Hadamard's inequality bounds its coefficients at every conjugate,
 //! and powers of the denominators of the constants make them integers of the field.
 //!
 //! An integer of the field that is 0 at all places over a prime p is p times an integer. If it is 0 at all places over primes whose
@@ -82,7 +82,7 @@ fn upper(x: &Float) -> f64 {
     Float::with_val(64, &*x.as_abs()).to_f64() * (1.0 + 1e-15)
 }
 
-/// A loop over a number field, as far as its size goes.
+/// A loop over a number field with the sizes of its constants.
 pub(super) struct Height<'a> {
     closed: &'a ClosedLoop<Algebraic>,
     field: &'a RealField,
@@ -93,8 +93,8 @@ impl<'a> Height<'a> {
         Self { closed, field }
     }
 
-    /// The mean over all conjugates of the binary logarithm of a bound on the coefficients of the determinant of a cut, and of what
-    /// makes them integers; `None` where numbers leave the range of f64.
+    /// Returns the mean over all conjugates of the binary logarithm of a bound on the coefficients of the determinant of a cut,
+    /// multiplied by the denominators that make them integers; `None` where numbers leave the range of f64.
     pub(super) fn bits(&self, cut: Cut) -> Option<f64> {
         let denominators = self.closed.constants.each_ref().map(|motion| {
             let mut common = Integer::from(1);
@@ -185,7 +185,7 @@ fn of_columns(cut: &ClosedLoop<Majorant>) -> Option<(f64, [u32; 6])> {
         let fixed = FIXED.into_iter().map(|i| own[i].mul(&total[i]));
         turning.chain(fixed).fold(Majorant::zero(), |sum, x| sum.add(&x))
     };
-    // Half-angle forms of the hidden unknown and of the other one double an entry each; every row stands four times.
+    // Half-angle forms of the hidden unknown and of the other one double an entry each; every row occurs four times.
     let rows: Vec<Majorant> = action.iter().map(row).map(|x| Majorant { size: 8.0 * x.size, ..x }).collect();
     note(&rows.iter().collect::<Vec<_>>(), 8);
     bits.is_finite().then_some((bits, powers))

@@ -1,17 +1,17 @@
 //! Three neighbouring axes that are parallel or meet in a point, exactly: such an arm has at most 8 solutions at any pose.
 //!
-//! Of three axes through a point the other three joints have to bring that point to its place, which has at most 4 solutions,
-//! and each leaves two orientations of the three; of three parallel axes the direction takes the place of the point.
+//! Where three axes meet in a point, the other three joints have to bring that point to its place, which has at most 4 solutions,
+//! and each leaves two orientations of the three; for three parallel axes the direction takes the place of the point.
 //! \[Pieper1968\]
 
 use crate::algebra::ring::Ring;
 use crate::kinematics::closed_loop::{OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
 
-/// The most solutions of a loop of six rotations with such a triple.
+/// Upper bound on the number of solutions of a loop of six rotations with such a triple.
 pub const MOST_WITH_TRIPLE: usize = 8;
 
-/// Whether three neighbouring ones of six rotations have parallel axes, or axes through one point, whatever the pose.
+/// Returns whether three neighbouring axes of six rotations are parallel or meet in one point, whatever the pose.
 #[must_use]
 pub fn has_triple<R: Ring>(open: &OpenLoop<R>) -> bool {
     let is_rotation = |variable: &Variable| *variable == Variable::Rotation;
@@ -29,7 +29,8 @@ fn is_parallel<R: Ring>(link: &Motion<R>) -> bool {
     link.rotation[0][2].is_zero() && link.rotation[1][2].is_zero()
 }
 
-/// Where on the z axis the image of the z axis under a link crosses it, as a quotient; `None` where it does not, or lies parallel.
+/// Returns the point at which a link's image of the z axis crosses the z axis, as a quotient; `None` where it does not cross, or
+/// is parallel.
 fn crossing<R: Ring>(link: &Motion<R>) -> Option<[R; 2]> {
     let ([x, y, z], [u, v, w]) = (&link.translation, [0, 1, 2].map(|i| &link.rotation[i][2]));
     // (x, y) + s (u, v) = 0

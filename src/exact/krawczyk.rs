@@ -1,4 +1,4 @@
-//! Whether a loop closes near given values, and once only: Krawczyk's theorem in balls.
+//! Krawczyk's theorem in balls: a loop closes near given values, and exactly once.
 //!
 //! With `E(h) = V1(x1 + h1) G1 ... V6(x6 + h6) G6` let `f(h)` be the translation and the skew part of the rotation of E.
 //! For a matrix A and a box of radius r, `|A f(0)| + |I - A f'(box)| r < r` proves that f has exactly one zero in the box.
@@ -14,7 +14,7 @@ use rug::Float;
 
 type Matrix<const BITS: u32> = Vec<Vec<Ball<BITS>>>;
 
-/// A radius about which exactly one solution lies near the values, in every unknown; `None` where that is not proved.
+/// Returns a radius within which exactly one solution lies near the values, in every unknown; `None` where that is not proved.
 #[must_use]
 pub fn radius<const BITS: u32>(
     variables: [Variable; 6],
@@ -109,7 +109,7 @@ fn jacobian<const BITS: u32>(
     (0..6).map(|i| columns.iter().map(|column| column[i].clone()).collect()).collect()
 }
 
-/// Whether no entry is farther than 1/16 from that of the identity.
+/// Returns whether every entry is within 1/16 of the entry of the identity.
 fn is_near_identity<const BITS: u32>(motion: &Motion<Ball<BITS>>) -> bool {
     let off = |i: usize, j: usize| {
         let entry = &motion.rotation[i][j];

@@ -24,7 +24,7 @@ pub type JointValue<F> = [F; 2];
 pub enum Axis<F> {
     /// The z axis, of length 1.
     Z,
-    /// Along a vector, whose length need be no number of the field.
+    /// Along a vector, whose length need not be in the field.
     Along([F; 3]),
 }
 
@@ -56,9 +56,9 @@ impl Axis<Rational> {
 /// factors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linkage<F> {
-    /// What each joint variable does, in loop order.
+    /// The kind of each joint variable, in loop order.
     pub variables: Vec<Variable>,
-    /// Their axes, likewise.
+    /// The axes of the joint variables, in loop order.
     pub axes: Vec<Axis<F>>,
     /// The link behind each joint variable.
     pub links: Vec<DualQuaternion<F>>,
@@ -126,14 +126,14 @@ impl Linkage<Rational> {
         Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
     }
 
-    /// The same loop with a rotation in front of every spherical joint and its inverse behind: other angles stand for the
-    /// same motions, so that the positions at which two of the three axes coincide are others. Every rotation has such angles, so
-    /// that a curve of configurations of the one loop is one of the other.
+    /// Returns the same loop with a rotation in front of every spherical joint and its inverse behind. Other angles then describe
+    /// the same motions, and other positions are those at which two of the three axes coincide. Every rotation has such angles,
+    /// so that a curve of configurations of the one loop is one of the other.
     pub(crate) fn with_turned_spherical_joints(&self, spherical_joints: &[usize]) -> Self {
         let n = self.variables.len();
         let mut linkage = self.clone();
         for (number, k) in (0..).zip(spherical_joints.iter().copied()) {
-            // Any rotation without a special axis or angle.
+            // Any rotation without a special axis or angle will do.
             let turn = [7, 2 + number, -3, 5].map(Rational::from);
             let zero = || [0; 4].map(Rational::from);
             let rotation = DualQuaternion::from_study(&turn, &zero());
@@ -157,7 +157,7 @@ impl<F: Field> Linkage<F> {
     /// The loop of these joint variables about z axes, and the motions before, between and behind them; `None` without
     /// variables.
     pub(crate) fn of_motions(variables: Vec<Variable>, mut motions: Vec<Motion<F>>) -> Option<Self> {
-        // What stands before the first variable comes behind the last one: conjugation.
+        // The motion before the first variable moves behind the last one: conjugation.
         let first = motions.remove(0);
         let last = motions.last_mut()?;
         *last = last.then_after(&first);
@@ -165,8 +165,8 @@ impl<F: Field> Linkage<F> {
         Some(Self::about_z(variables, links))
     }
 
-    /// The loop of a list of screw axes of R, P and C joints, each along its own vector, whose numbers are these; `None` for other
-    /// joints.
+    /// Returns the loop of a list of screw axes of R, P and C joints, each along its own vector, with these numbers; `None` for
+    /// other joints.
     pub(crate) fn about_axes(
         joints: &[ScrewJoint],
         home: &Motion<F>,
@@ -191,7 +191,7 @@ impl<F: Field> Linkage<F> {
                 motions.push(Motion::identity());
             }
         }
-        // What stands before the first variable comes behind the last one: conjugation.
+        // The motion before the first variable moves behind the last one: conjugation.
         let first = motions.remove(0);
         let back = Motion::translation(here.map(|x| x.neg()));
         let last = motions.last_mut()?;
@@ -200,7 +200,7 @@ impl<F: Field> Linkage<F> {
         Some(linkage)
     }
 
-    /// The same chain with the images of its numbers in another field; `None` where one has none.
+    /// Returns the same chain with the images of its numbers in another field; `None` where a number has no image.
     #[must_use]
     pub fn over<G: Field>(&self, image: impl Fn(&F) -> Option<G>) -> Option<Linkage<G>> {
         let link = |link: &DualQuaternion<F>| -> Option<DualQuaternion<G>> {
@@ -325,13 +325,13 @@ impl<F: Field> Position<F> {
     }
 }
 
-/// The six closure equations of a product: what must vanish beside the scalars.
+/// Returns the six closure equations of a product: the coordinates that must vanish beside the scalars.
 pub(crate) fn equations<F: Field>(product: &Study<F>) -> [F; 6] {
     [1, 2, 3, 5, 6, 7].map(|i| product[i].clone())
 }
 
-/// Whether this is no zero. Over algebraic numbers what is zero at some roots only makes itself known by the attempt to
-/// invert it.
+/// Returns whether a number is invertible. Over algebraic numbers a number that is zero at some roots only is detected by the
+/// attempt to invert it.
 pub(crate) fn is_unit<F: Field>(x: &F) -> bool {
     !x.is_zero() && x.inverse().is_some()
 }
@@ -345,7 +345,7 @@ pub(crate) fn one<R: Ring>() -> Study<R> {
 pub(crate) fn joint<R: Ring>(variable: Variable, axis: &Axis<R>, value: &JointValue<R>) -> Study<R> {
     let mut study: Study<R> = std::array::from_fn(|_| R::zero());
     study[0] = value[0].clone();
-    // Where the unit k, or eps k, stands.
+    // The index of the unit k, or eps k.
     let k = match variable {
         Variable::Rotation => 3,
         Variable::Translation => 7,

@@ -1,4 +1,4 @@
-//! Unknowns without an eliminant from the others: at most three rotations or translations with all else in a loop known.
+//! Unknowns without an eliminant from the others: at most three rotations or translations, with the rest of a loop known.
 
 use super::values::Pair;
 use crate::algebra::ball::Ball;
@@ -12,7 +12,7 @@ use crate::kinematics::motion::Motion;
 pub enum Rest<const BITS: u32> {
     /// The loop does not close.
     Open,
-    /// It closes with these values at most: no other ones, and balls do not refute these.
+    /// It closes with these values at most: no others do, and balls do not refute these.
     Unique(Vec<Pair<BITS>>),
     /// Balls leave open how many values close it.
     Undetermined,
@@ -39,7 +39,7 @@ fn distances<const BITS: u32>(constants: &[Motion<Ball<BITS>>]) -> Rest<BITS> {
         return Rest::Open;
     }
     let n = directions.len();
-    // Rows: the directions' coordinates, and what they have to make up for.
+    // Rows: the directions' coordinates, and the displacement they have to make up for.
     let mut rows: Vec<Vec<Ball<BITS>>> =
         (0..3).map(|i| directions.iter().map(|u| u[i].clone()).chain([whole.translation[i].neg()]).collect()).collect();
     for k in 0..n {
@@ -83,7 +83,7 @@ fn last<const BITS: u32>(constant: &Motion<Ball<BITS>>, mut before: Vec<Pair<BIT
     Rest::Unique(before)
 }
 
-/// `V1 M V2 = K`: the axis of the second rotation tells the first one.
+/// `V1 M V2 = K`: the axis of the second rotation determines the first one.
 fn first_of_two<const BITS: u32>(
     between: &Motion<Ball<BITS>>,
     whole: &Motion<Ball<BITS>>,
@@ -108,8 +108,8 @@ fn first_of_two<const BITS: u32>(
     last(&whole.inverse().then_after(&rotated), before)
 }
 
-/// `V1 M1 V2 M2 V3 = K`: what the first and the third axis have in common is linear in cosine and sine of the second
-/// rotation.
+/// `V1 M1 V2 M2 V3 = K`: the coordinates of the third axis that the first rotation keeps are linear in cosine and sine of the
+/// second rotation.
 fn middle_of_three<const BITS: u32>(
     first: &Motion<Ball<BITS>>,
     second: &Motion<Ball<BITS>>,
@@ -143,12 +143,12 @@ fn middle_of_three<const BITS: u32>(
     }
 }
 
-/// Whether balls leave it open that a cosine and a sine belong to one angle.
+/// Returns whether balls allow a cosine and a sine to belong to one angle.
 fn on_circle<const BITS: u32>((cos, sin): &Pair<BITS>) -> bool {
     cos.mul(cos).add(&sin.mul(sin)).overlaps(&Ball::one())
 }
 
-/// Whether balls leave it open that two motions are one.
+/// Returns whether balls allow two motions to be equal.
 fn overlap<const BITS: u32>(one: &Motion<Ball<BITS>>, other: &Motion<Ball<BITS>>) -> bool {
     let entries =
         |m: &Motion<Ball<BITS>>| m.rotation.iter().flatten().chain(&m.translation).cloned().collect::<Vec<_>>();

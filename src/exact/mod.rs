@@ -1,4 +1,4 @@
-//! The exact side: what the closure equations of a loop say over the rationals wherever f64 does not settle it.
+//! Exact decisions: the closure equations of a loop over the rationals, for cases that f64 leaves open.
 
 pub(crate) mod cut;
 mod eliminant;

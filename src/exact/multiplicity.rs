@@ -1,19 +1,19 @@
-//! How often candidates count, from upper bounds at every value of every unknown and the number of all solutions.
+//! The multiplicities of candidates, from upper bounds at every value of every unknown and the number of all solutions.
 
 use super::tuples::Tuple;
 
-/// What is known of the solutions before their multiplicities.
+/// The solutions and candidates before their multiplicities are known.
 pub struct Balance<'a> {
-    /// `[unknown][value]`: at most so many solutions, with multiplicity, have this value.
+    /// `[unknown][value]`: upper bound on the number of solutions with this value, with multiplicity.
     pub orders: &'a [Vec<usize>; 6],
     /// Simple solutions.
     pub simple: &'a [Tuple],
-    /// Other combinations that may be solutions: there are no more.
+    /// The other combinations that may be solutions; no further ones exist.
     pub open: &'a [Tuple],
 }
 
 impl Balance<'_> {
-    /// How many solutions the open combinations can account for at a value of an unknown.
+    /// Returns the number of solutions for which the open combinations can account at a value of an unknown.
     fn room(&self, unknown: usize, value: usize) -> usize {
         let taken = self.simple.iter().filter(|tuple| tuple[unknown] == value).count();
         self.orders[unknown][value].saturating_sub(taken)
@@ -27,20 +27,20 @@ impl Balance<'_> {
         values
     }
 
-    /// At most so many solutions the open combinations account for, as one unknown tells.
+    /// Returns the upper bound, from one unknown, on the number of solutions for which the open combinations account.
     fn most_by(&self, unknown: usize) -> usize {
         self.occupied(unknown).into_iter().map(|value| self.room(unknown, value)).sum()
     }
 
-    /// At most so many solutions there are, with multiplicity.
+    /// Returns an upper bound on the number of solutions, with multiplicity.
     pub fn most(&self) -> usize {
         self.simple.len() + (0..6).map(|unknown| self.most_by(unknown)).min().unwrap_or(0)
     }
 
-    /// The multiplicities of the open combinations, 0 for those that are no solutions, where there are at least `least`
-    /// solutions with multiplicity; `None` where that leaves them open.
+    /// Returns the multiplicities of the open combinations, 0 for those that are no solutions, where there are at least `least`
+    /// solutions with multiplicity; `None` where these bounds leave them open.
     ///
-    /// If the values of an unknown allow for no more than `least`, each of them is taken up fully.
+    /// If the values of an unknown allow for no more than `least`, each of them is attained.
     pub fn multiplicities(&self, least: usize) -> Option<Vec<usize>> {
         let left = least.checked_sub(self.simple.len())?;
         let tight: Vec<usize> = (0..6).filter(|&unknown| self.most_by(unknown) == left).collect();
@@ -76,8 +76,8 @@ impl Balance<'_> {
         (all.iter().sum::<usize>() == left).then_some(all)
     }
 
-    /// The multiplicities of the open combinations, where those of all solutions are `exponents` in some order, if there are
-    /// as many solutions as combinations; `None` where that leaves them open.
+    /// Returns the multiplicities of the open combinations, where `exponents` lists the multiplicities of all solutions in some
+    /// order, if there are as many solutions as combinations; `None` where that leaves them open.
     pub fn by_exponents(&self, exponents: &[usize]) -> Option<Vec<usize>> {
         if exponents.len() != self.simple.len() + self.open.len() {
             return None;
@@ -126,7 +126,7 @@ mod tests {
         let balance = Balance { orders: &orders, simple: &simple, open: &open };
         assert_eq!(balance.most(), 4);
         assert_eq!(balance.multiplicities(4), Some(vec![2]));
-        // Without a lower bound that is met nothing follows.
+        // Nothing follows unless the lower bound is attained.
         assert_eq!(balance.multiplicities(3), None);
     }
 
@@ -147,7 +147,7 @@ mod tests {
         let balance = Balance { orders: &orders, simple: &[], open: &open };
         assert_eq!(balance.multiplicities(8), None);
         assert_eq!(balance.by_exponents(&[2, 2, 2, 2]), Some(vec![2, 2, 2, 2]));
-        // Which are the triple ones is open, and three roots do not say which combination is none.
+        // It is open which ones are triple, and three roots do not show which combination is no solution.
         assert_eq!(balance.by_exponents(&[3, 1, 1, 3]), None);
         assert_eq!(balance.by_exponents(&[4, 2, 2]), None);
     }

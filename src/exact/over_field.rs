@@ -1,10 +1,12 @@
 //! Loops over a real number field: their eliminants by places modulo primes and in balls.
 //!
-//! Modulo a prime over which the field falls apart into places of degree 1 everything is computed in residues, place by place. What is
-//! not 0 at a place is not 0. Three facts are equations, and hold in the field if they hold at all places over enough primes
+//! Modulo a prime over which the field splits into places of degree 1 everything is computed in residues, place by place. A
+//! number
+//! that is not 0 at a place is not 0. Three facts are equations, and hold in the field if they hold at all places over enough
+//! primes
 //! ([`super::height`]): that the determinant has a lower degree, that a power of `1 + x^2` divides it, and that powers of
-//! further factors do. Those factors are put together from their residues; nothing rests on how. The values of the roots come
-//! from balls.
+//! further factors do. Those factors are reconstructed from their residues; no proof rests on the reconstruction. The values of
+//! the roots come from balls.
 
 use super::eliminant::{Coefficients, DEGREE, Eliminant, WIDE, Way, in_unknown, pencil_of};
 use super::ground::Ground;
@@ -26,9 +28,9 @@ use rand_chacha::ChaCha8Rng;
 use rug::{Integer, Rational};
 use std::cell::RefCell;
 
-/// Determinants at places of all primes together that are computed at most for one eliminant: about a second.
+/// Largest number of determinants computed for one eliminant, at the places of all primes together: about a second.
 const MOST_DETERMINANTS: usize = 8_000;
-/// Numbers of primes after which factors are put together from their residues.
+/// Numbers of primes after which a reconstruction of the factors is attempted.
 const ATTEMPTS: [usize; 10] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32];
 
 type Polynomial = Univariate<Residue>;
@@ -37,7 +39,7 @@ type Polynomial = Univariate<Residue>;
 pub struct OverField {
     field: RealField,
     closed: ClosedLoop<Algebraic>,
-    /// The same in balls, for the values of the numbers themselves.
+    /// The loop in balls, for the values of the numbers themselves.
     balls: ClosedLoop<Ball<WIDE>>,
     primes: RefCell<Primes>,
     first: Places,
@@ -56,7 +58,7 @@ struct Prime {
     loops: Vec<ClosedLoop<Residue>>,
 }
 
-/// What a determinant looks like at a place.
+/// The shape of a determinant at a place.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Shape {
     degree: usize,
@@ -69,7 +71,7 @@ struct Shape {
 }
 
 impl Shape {
-    /// Whether it says nothing that would have to be proved.
+    /// Returns whether the shape claims nothing that would have to be proved.
     fn is_general(&self) -> bool {
         self.degree == DEGREE && self.circle == 0 && self.multiple.is_empty()
     }
@@ -112,8 +114,8 @@ impl Prime {
         (0..length).flat_map(of_entry).map(Residue::value).collect()
     }
 
-    /// The coefficients of the factors of order 2 and above, by powers of the element that generates the field; `None` where the
-    /// determinant looks otherwise at some place.
+    /// Returns the coefficients of the factors of order 2 and above, by powers of the element that generates the field; `None`
+    /// where the determinant has another shape at some place.
     fn multiple(&self, way: &Way, wanted: &Shape) -> Option<Vec<u64>> {
         let determinants = self.determinants(way)?;
         let list = |determinant: &Polynomial| -> Option<Vec<Residue>> {
@@ -155,7 +157,7 @@ fn shape(determinant: &Polynomial) -> Option<Shape> {
     })
 }
 
-/// A determinant as far as equations say it.
+/// The proved part of a determinant.
 struct Known {
     degree: usize,
     circle: usize,
@@ -177,7 +179,7 @@ impl OverField {
         Some(Self { field, closed, balls, primes, first, modular })
     }
 
-    /// Draws primes until there are so many.
+    /// Draws primes until there are `count`.
     fn draw(&self, count: usize) -> Option<()> {
         let mut primes = self.primes.borrow_mut();
         while primes.drawn.len() < count {
@@ -191,7 +193,7 @@ impl OverField {
         Some(())
     }
 
-    /// What the determinant of a way is, proved.
+    /// Returns the proved degree and factors of the determinant of a way.
     fn known(&self, way: &Way) -> Option<Known> {
         self.first.enter();
         let first = shape(&determinant(&self.modular, way)?)?;
@@ -199,7 +201,7 @@ impl OverField {
         if first.is_general() {
             return Some(general(DEGREE));
         }
-        // The best place tells; at others more vanishes by chance.
+        // The best place decides; at others more vanishes by chance.
         let all = self.primes.borrow().drawn.first()?.determinants(way)?;
         let shape = all
             .iter()
@@ -213,7 +215,7 @@ impl OverField {
         self.is_proved(way, &known).then_some(known)
     }
 
-    /// The factors of order 2 and above, put together from their residues.
+    /// Reconstructs the factors of order 2 and above from their residues.
     fn multiple(&self, way: &Way, shape: &Shape) -> Option<Vec<(Vec<Algebraic>, usize)>> {
         let mut lists: Vec<(u64, Vec<u64>)> = Vec::new();
         let mut found: Option<Vec<Rational>> = None;
@@ -272,7 +274,7 @@ impl OverField {
     fn primes_needed(&self, way: &Way, known: &Known) -> Option<usize> {
         let height = Height::of(&self.closed, &self.field);
         let mut bits = height.bits(way.cut)?;
-        // A step of the division multiplies the largest coefficient by no more than 1 and the sum of those of the divisor.
+        // A step of the division multiplies the largest coefficient by at most 1 plus the sum of the divisor's coefficients.
         let mut growth = 1.0 + known.circle as f64;
         for (factor, order) in &known.multiple {
             let (size, denominator) = height.of_polynomial(factor);
@@ -291,7 +293,7 @@ impl OverField {
     fn in_balls(&self, way: &Way) -> Option<Coefficients> {
         let [a0, a1, a2] = pencil_of(&self.balls, way)?.coefficients;
         let value = |k: i32| {
-            // Not where roots of special data are: at fractions that nobody chooses.
+            // Evaluation points away from the roots of special data: fractions that nobody chooses.
             let x = Ball::<WIDE>::from_rational(&Rational::from((104_729 * k + 31_337, 1 << 16)))?;
             let entry = |i: usize, j: usize| a2[i][j].mul(&x).add(&a1[i][j]).mul(&x).add(&a0[i][j]);
             let rows: Vec<Vec<Ball<WIDE>>> = (0..8).map(|i| (0..8).map(|j| entry(i, j)).collect()).collect();
@@ -319,13 +321,13 @@ fn below_leading(factor: &Polynomial) -> Vec<Residue> {
     coefficients[..coefficients.len().saturating_sub(1)].to_vec()
 }
 
-/// Whether rationals have these residues.
+/// Returns whether rationals have these residues.
 fn is_reduction(found: &[Rational], prime: u64, residues: &[u64]) -> bool {
     let value = |q: &Rational| Residue::from_rational(q).map(Residue::value);
     prime > 0 && found.iter().zip(residues).all(|(q, residue)| value(q) == Some(*residue))
 }
 
-/// Whether the equation holds at all places over a prime; `None` where the prime says nothing.
+/// Returns whether the equation holds at all places over a prime; `None` where the prime decides nothing.
 fn holds(prime: &Prime, way: &Way, known: &Known) -> Option<bool> {
     let determinants = prime.determinants(way)?;
     let mut multiple = Vec::new();

@@ -18,7 +18,7 @@ use crate::kinematics::closed_loop::Variable;
 use rug::{Float, Rational};
 use std::sync::Arc;
 
-/// Bits to which roots are refined to tell conjugates apart.
+/// Bits to which roots are refined to distinguish conjugates.
 const WIDTH: u32 = 512;
 
 /// Positions that are conjugate: the same expressions in the roots of one polynomial.
@@ -26,9 +26,9 @@ const WIDTH: u32 = 512;
 pub struct Conjugates {
     /// The polynomial of t; `None` for a rational position.
     pub polynomial: Option<Univariate<Rational>>,
-    /// The field of t, likewise.
+    /// The field of t; `None` for a rational position.
     pub field: Option<Arc<NumberField>>,
-    /// The real roots; of a rational position none is needed.
+    /// The real roots; empty for a rational position.
     pub roots: Vec<RealRoot>,
     /// The values of all joint variables.
     pub values: Vec<JointValue<Algebraic>>,
@@ -104,14 +104,14 @@ impl Conjugates {
         degree / self.ground.as_ref().map_or(1, |ground| ground.degree)
     }
 
-    /// How many of them are real.
+    /// Returns the number of real positions among them.
     #[must_use]
     pub fn real(&self) -> usize {
         if self.polynomial.is_none() { 1 } else { self.roots.len() }
     }
 
-    /// At least so many of them are conjugate over the rationals, and share all algebraic properties: the least degree of an
-    /// irreducible factor, or a bound of it.
+    /// Returns a lower bound on the number of them that are conjugate over the rationals and share all algebraic properties: the
+    /// least degree of an irreducible factor, or a bound on it.
     #[must_use]
     pub fn fewest_conjugates(&self) -> usize {
         let Some(polynomial) = self.polynomial.as_ref().filter(|_| self.ground.is_none()) else { return 1 };
@@ -130,7 +130,7 @@ impl Conjugates {
         if stays_whole { degree } else { 2 }
     }
 
-    /// The same at the roots of a factor of the polynomial only.
+    /// Returns the same positions restricted to the roots of a factor of the polynomial.
     fn over(&self, factor: &Univariate<Rational>) -> Self {
         let field = NumberField::new(factor);
         let image = |x: &Algebraic| x.over(&field);
@@ -141,14 +141,14 @@ impl Conjugates {
         Self { roots, polynomial: Some(factor.clone()), field: Some(field), values, ground }
     }
 
-    /// Whether the joint screws are independent at each of these positions: the chain closes there once.
+    /// Returns whether the joint screws are independent at each of these positions, so that the chain closes there once.
     pub(crate) fn are_regular(&self, linkage: &Linkage<Rational>) -> bool {
         let Some(linkage) = linkage.map::<Algebraic>() else { return false };
         self.each(|part| linkage.at(&part.values).is_regular()).iter().all(|(_, is_regular)| *is_regular)
     }
 
-    /// What `compute` finds at these positions: once for all of them where it never meets a number that is zero at some of
-    /// them only, else for every part by itself.
+    /// Returns the results of `compute` at these positions: one for all of them where it never meets a number that is zero at
+    /// only some of them, else one for every part.
     pub fn each<T>(&self, compute: impl Fn(&Self) -> T) -> Vec<(Self, T)> {
         let mut open = vec![self.clone()];
         let mut found = Vec::new();
@@ -216,7 +216,7 @@ impl<'a> Separation<'a> {
             Variable::Translation => (0, determinant.square_free_part()),
         };
         if spurious > 0 {
-            // No half-angle has the tangent i, but limits may.
+            // No half-angle has the tangent i, but limits may have it.
             let field = NumberField::new(&circle);
             let here = self.position(&[Algebraic::one(), field.root()]);
             list.is_improper |= !matches!(here, Here::Nothing) || field.split().is_some();
@@ -253,13 +253,13 @@ impl<'a> Separation<'a> {
         conditions.into_iter().reduce(|a, b| a.gcd(&b)).unwrap_or_else(Univariate::zero)
     }
 
-    /// What there is at one value of the hidden variable.
+    /// Solves the cut at one value of the hidden variable.
     fn position(&self, t: &JointValue<Algebraic>) -> Here {
         position(self.linkage, &self.cut, Algebraic::from_rational, t)
     }
 }
 
-/// What there is at one value of the hidden variable of a cut, in a field that holds the images of all numbers.
+/// Solves a cut at one value of its hidden variable, in a field that holds the images of all numbers.
 pub(crate) fn position<F: Field>(
     linkage: &Linkage<F>,
     cut: &Cut<F>,
@@ -297,14 +297,14 @@ pub(crate) fn position<F: Field>(
         let Some(value) = value else { return Here::Undecided };
         values[*k] = value;
     }
-    // A translation by an infinite distance, or a rotation by an angle of tangent i, is no motion: it does not close.
+    // A translation by an infinite distance, or a rotation by an angle of tangent i, is no motion: it does not close the chain.
     match linkage.over(image) {
         Some(linkage) if linkage.at(&values).closes() => Here::Position(values),
         _ => Here::Improper,
     }
 }
 
-/// What a cut has at one value of its hidden variable.
+/// The solution of a cut at one value of its hidden variable.
 pub(crate) enum Here {
     /// No solution.
     Nothing,
@@ -316,7 +316,7 @@ pub(crate) enum Here {
     Undecided,
 }
 
-/// What a cut has found so far.
+/// The solutions found by a cut so far.
 #[derive(Default)]
 struct List {
     found: Vec<Conjugates>,
@@ -324,8 +324,7 @@ struct List {
 }
 
 impl List {
-    /// Takes note of what there is at a value of the hidden variable, rational or a root of a polynomial; `None` if that is
-    /// not decided.
+    /// Records the solution at a value of the hidden variable, rational or a root of a polynomial; `None` if it is undecided.
     fn add(&mut self, here: Here, over: Option<(Univariate<Rational>, Arc<NumberField>)>) -> Option<()> {
         match here {
             Here::Undecided => return None,
@@ -365,7 +364,7 @@ fn is_irreducible<const P: u64>(polynomial: &Univariate<Rational>) -> bool {
     true
 }
 
-/// What one side of a vector of the kernel is.
+/// The form of one side of a vector of the kernel.
 enum Side {
     /// Zero.
     Zero,
@@ -375,7 +374,7 @@ enum Side {
     General,
 }
 
-/// The pairs whose tensor product a vector is.
+/// Splits a vector into the pairs of which it is the tensor product.
 fn factors(vector: &[Algebraic]) -> Side {
     let Some(best) = vector.iter().position(is_unit) else { return Side::Zero };
     if let [a, b, c, d] = vector

@@ -5,11 +5,11 @@ use crate::algebra::ring::Field;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::{Motion, cross};
 
-/// Half-angle tangents and distances of the six unknowns: any numbers do, modulo a prime that is drawn after them.
+/// Half-angle tangents and distances of the six unknowns: any numbers will do modulo a prime that is drawn after them.
 const PLACES: [i32; 6] = [1_234_577, 7_654_321, 3_141_593, 2_718_281, 1_414_213, 1_732_051];
 
-/// The rank of the six joint screws modulo the prime, at a configuration in general position that need not close the loop.
-/// The rank in general position is at least that.
+/// Returns the rank of the six joint screws modulo the prime, at a configuration in general position that need not close the
+/// loop: a lower bound on the rank in general position.
 #[must_use]
 pub fn general_rank<F: Field>(closed: &ClosedLoop<F>) -> usize {
     let mut frame: Motion<F> = Motion::identity();

@@ -1,8 +1,8 @@
 //! All solutions of a loop of six unknowns from the roots of its eliminants.
 //!
-//! The value of every unknown at a solution is a root of its eliminant, so that a solution is a combination of roots, and
-//! no two solutions are the same combination. Combinations that are left when balls have refuted the others are solutions
-//! with the multiplicities that the orders of the roots leave, where the number of all solutions is known from below.
+//! The value of every unknown at a solution is a root of its eliminant, so that a solution is a combination of roots, and no two
+//! solutions are the same combination. Combinations that balls do not refute are solutions with the multiplicities that the
+//! orders of the roots leave, where a lower bound on the number of all solutions is known.
 
 use super::eliminant::{Eliminant, ways};
 use super::fibre::Fibre;
@@ -27,12 +27,12 @@ pub struct Known {
     pub radius: f64,
 }
 
-/// Bits of the balls in which exact roots are compared first: solutions that differ by more than about `1e-70` are told apart.
+/// Bits of the balls in which exact roots are compared first: solutions that differ by more than about `1e-70` are distinguished.
 pub const BALL_BITS: u32 = 256;
-/// Four times as many, for solutions that crowd and for lengths of very different sizes.
+/// Bits of the second attempt, four times as many, for crowded solutions and lengths of very different sizes.
 const LONG_BITS: u32 = 1024;
 
-/// Where a solution comes from.
+/// The origin of a solution.
 #[derive(Clone, Debug)]
 pub enum Solution<const BITS: u32> {
     /// The known solution with this place in its list, which is simple.
@@ -43,28 +43,28 @@ pub enum Solution<const BITS: u32> {
         pairs: Box<[Pair<BITS>; 6]>,
         /// Whether all unknowns are real.
         is_real: bool,
-        /// How many solutions coincide here.
+        /// The number of solutions that coincide here.
         multiplicity: usize,
     },
 }
 
-/// What the eliminants say of all solutions.
+/// The conclusion of the eliminants about all solutions.
 #[derive(Clone, Debug)]
 pub enum Resolution {
-    /// The known solutions are all there are: as many as an eliminant has roots.
+    /// The known solutions are all: as many as an eliminant has roots.
     AllKnown,
     /// All solutions.
     All(Vec<Solution<BALL_BITS>>),
     /// The eliminants of these unknowns vanish: solutions may form families.
     Vanishing(Vec<usize>),
-    /// Every unknown has an eliminant, so that the solutions are finite in number, but this does not tell them all.
+    /// Every unknown has an eliminant, so that the solutions are finite in number, but they are not all distinguished.
     Finite {
-        /// At most so many solutions there are, with multiplicity.
+        /// Upper bound on the number of solutions, with multiplicity.
         most: usize,
     },
 }
 
-/// Decides what the solutions of a loop are, some of which are known.
+/// Resolves all solutions of a loop, some of which are known.
 #[must_use]
 pub fn resolve(ground: &impl Ground, known: &[Known]) -> Resolution {
     let ways = ways(ground.modular());
@@ -78,8 +78,8 @@ pub fn resolve(ground: &impl Ground, known: &[Known]) -> Resolution {
     let vanishing: Vec<usize> = (0..6).filter(|&j| found[j].is_none()).collect();
     let mut result = resolution(ground, known, &found);
     if matches!(result, Resolution::Vanishing(_)) {
-        // What the others do not determine has values in the ring, if solutions form no families. Translations follow from the
-        // rotations.
+        // The unknowns that the others do not determine have values in the ring, if solutions form no families. Translations
+        // follow from the rotations.
         let is_rotation = |unknown: &&usize| ground.variables()[**unknown] == Variable::Rotation;
         for &unknown in vanishing.iter().filter(is_rotation) {
             found[unknown] = ground.eliminant_by_ring(unknown);
@@ -92,7 +92,7 @@ pub fn resolve(ground: &impl Ground, known: &[Known]) -> Resolution {
     result
 }
 
-/// What these eliminants say.
+/// Resolves the solutions by these eliminants.
 fn resolution(ground: &impl Ground, known: &[Known], found: &[Option<Eliminant>; 6]) -> Resolution {
     let vanishing: Vec<usize> = (0..6).filter(|&j| found[j].is_none()).collect();
     if vanishing.len() > MOST_MISSING {
@@ -111,16 +111,16 @@ fn resolution(ground: &impl Ground, known: &[Known], found: &[Option<Eliminant>;
     }
 }
 
-/// Why the eliminants do not tell all solutions.
+/// The reason why the eliminants do not resolve all solutions.
 #[derive(Clone, Copy, Debug)]
 enum Obstacle {
-    /// Balls of more digits may tell.
+    /// Balls of more digits may resolve them.
     Digits,
-    /// Balls tell no more.
+    /// Balls of more digits do not help.
     Other,
 }
 
-/// All solutions, as far as balls of that precision tell them.
+/// Returns all solutions as far as balls of this precision distinguish them.
 fn solutions<const BITS: u32>(
     ground: &impl Ground,
     known: &[Known],
@@ -134,7 +134,7 @@ fn solutions<const BITS: u32>(
     Search { ground, constants, values: lists.map(Option::flatten) }.run(known)
 }
 
-/// The same solutions in balls of fewer digits.
+/// Rounds the solutions to balls of fewer digits.
 fn rounded<const BITS: u32, const LESS: u32>(solutions: Vec<Solution<BITS>>) -> Vec<Solution<LESS>> {
     let shorter = |solution| match solution {
         Solution::Known(place) => Solution::Known(place),
@@ -146,11 +146,11 @@ fn rounded<const BITS: u32, const LESS: u32>(solutions: Vec<Solution<BITS>>) -> 
     solutions.into_iter().map(shorter).collect()
 }
 
-/// Up to this many rotations follow from the others.
+/// Largest number of rotations that follow from the others.
 const MOST_MISSING: usize = 3;
-/// A loop of rotations has no more isolated solutions.
+/// Largest number of isolated solutions of a loop of rotations.
 const MOST_SOLUTIONS: usize = 16;
-/// Stands for no bound on the number of solutions: more than any loop has.
+/// A bound larger than the number of solutions of any loop: no bound.
 const UNBOUNDED: usize = 1000;
 
 /// A loop with the values of all its unknowns.
@@ -189,7 +189,7 @@ impl<const BITS: u32, G: Ground> Search<'_, BITS, G> {
         Ok(known.chain(proved).chain(more).collect())
     }
 
-    /// The multiplicities of the open combinations, by the solutions modulo the prime.
+    /// Returns the multiplicities of the open combinations from the solutions modulo the prime.
     fn multiplicities(&self, balance: &Balance) -> Option<Vec<usize>> {
         if balance.open.is_empty() {
             return Some(Vec::new());
@@ -202,7 +202,7 @@ impl<const BITS: u32, G: Ground> Search<'_, BITS, G> {
     fn is_simple(&self, closing: &Closing<BITS>) -> bool {
         let pairs = self.pairs(closing);
         let Some(radius) = krawczyk::radius(self.ground.variables(), &self.constants, &pairs) else { return false };
-        // The solution has roots of the eliminants as its values: these very ones, if no others are as near.
+        // The solution has roots of the eliminants as its values: these roots, if no others are as near.
         let wide = Float::with_val(32, radius * 2_u32);
         let around = |(cos, sin): &Pair<BITS>| {
             let size = cos.upper() + sin.upper();
@@ -216,7 +216,7 @@ impl<const BITS: u32, G: Ground> Search<'_, BITS, G> {
         })
     }
 
-    /// The combination that a known solution is; `None` where its radius leaves several.
+    /// Returns the combination of values of a known solution; `None` where its radius leaves several.
     fn tuple(&self, known: &Known) -> Option<Tuple> {
         let mut tuple = [0; 6];
         for (j, place) in tuple.iter_mut().enumerate() {
@@ -234,7 +234,7 @@ impl<const BITS: u32, G: Ground> Search<'_, BITS, G> {
 
     /// All combinations that may be solutions beside the simple ones.
     fn open(&self, simple: &[Tuple], orders: &[Vec<usize>; 6]) -> Option<Vec<Closing<BITS>>> {
-        // Where as many simple solutions have a value as its order allows there are no others.
+        // A value that as many simple solutions have as its order allows belongs to no other solution.
         let unsettled: [Vec<usize>; 6] = std::array::from_fn(|j| {
             let taken = |value: usize| simple.iter().filter(|tuple| tuple[j] == value).count();
             (0..orders[j].len()).filter(|&value| taken(value) < orders[j][value]).collect()
@@ -259,13 +259,13 @@ impl<const BITS: u32, G: Ground> Search<'_, BITS, G> {
         let mut rest = closing.rest.iter();
         std::array::from_fn(|j| match &self.values[j] {
             Some(values) => values[closing.tuple[j]].pair.clone(),
-            // As many pairs are left as there are unknowns without values.
+            // There are as many pairs left as unknowns without values.
             None => rest.next().cloned().unwrap_or_else(|| (Ball::zero(), Ball::zero())),
         })
     }
 
     fn resolved(&self, closing: &Closing<BITS>, multiplicity: usize) -> Solution<BITS> {
-        // What follows from real values is real, being the only solution with these.
+        // Unknowns that follow from real values are real: the solution with these values is unique.
         let is_real = (0..6).all(|j| self.values[j].as_ref().is_none_or(|values| values[closing.tuple[j]].is_real));
         Solution::Found { pairs: Box::new(self.pairs(closing)), is_real, multiplicity }
     }

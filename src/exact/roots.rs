@@ -11,8 +11,8 @@ use crate::solve::scalar::Extended;
 use num_complex::Complex;
 use rug::{Float, Integer, Rational};
 
-/// Weierstrass' iteration doubles the digits of simple roots: from those of an f64 this reaches any precision in use, with some
-/// steps to spare for crowded roots.
+/// Weierstrass' iteration doubles the digits of simple roots: it reaches any precision in use from an f64, with some steps to
+/// spare for crowded roots.
 const STEPS: usize = 12;
 
 /// A root in a ball that holds no other root of its polynomial.
@@ -24,7 +24,7 @@ pub struct Isolated<const BITS: u32> {
     pub is_real: bool,
 }
 
-/// The roots of a square-free polynomial, conjugates included; `None` where this precision does not tell them apart.
+/// Returns the roots of a square-free polynomial, conjugates included; `None` where this precision does not separate them.
 ///
 /// # Source
 /// Of n approximations each disc of radius `n |w_k|` around one, with Weierstrass' corrections `w_k = p(z_k) / (a_n prod_j
@@ -42,7 +42,7 @@ pub(super) fn isolated_in_balls<const BITS: u32>(coefficients: &[Ball<BITS>]) ->
     if coefficients.len() == 1 {
         return Some(Vec::new());
     }
-    // Most crowds are told apart by f64 about their middle; multiprecision arithmetic tells the others apart in more time.
+    // f64 about their middle separates most crowded roots; multiprecision arithmetic separates the rest and takes more time.
     approximations(coefficients)
         .and_then(|midpoints| isolated_from(coefficients, midpoints))
         .or_else(|| isolated_from(coefficients, starts::<LongFloat, BITS>(coefficients)?))
@@ -68,7 +68,7 @@ fn isolated_from<const BITS: u32>(
     isolated(coefficients, &midpoints)
 }
 
-/// Approximations of all roots by Aberth's iteration in multiprecision; `None` where some did not settle.
+/// Returns approximations of all roots by Aberth's iteration in multiprecision; `None` where some did not converge.
 fn starts<R: Extended, const BITS: u32>(coefficients: &[Ball<BITS>]) -> Option<Vec<Ball<BITS>>> {
     let scale = Scale::of(coefficients)?;
     let image: Option<Vec<R>> =

@@ -1,4 +1,4 @@
-//! Complex discs in f64: what they refute is refuted, and the rest is looked at in balls.
+//! Complex discs in f64: their refutations are rigorous, and the remaining cases are examined in balls.
 
 use crate::algebra::ball::Ball;
 use crate::algebra::ring::Ring;
@@ -23,7 +23,7 @@ impl Rough {
         Self { re, im, radius: enclosing(ball.radius().to_f64(), re.abs() + im.abs()) }
     }
 
-    /// Whether two discs may have a number in common; what overflowed is left open.
+    /// Returns whether two discs may have a number in common; overflow counts as yes.
     pub fn may_meet(&self, other: &Self) -> bool {
         let reach = (self.radius + other.radius) * (1.0 + 1e-15);
         !((self.re - other.re).abs() * (1.0 - 1e-15) > reach || (self.im - other.im).abs() * (1.0 - 1e-15) > reach)

@@ -1,4 +1,4 @@
-//! Which combinations of values close a loop: the first three unknowns from one side, the others from the other side.
+//! Combinations of values that close a loop: the first three unknowns from one side, the others from the other side.
 
 use super::missing::{Rest, rest};
 use super::rough::Rough;
@@ -8,12 +8,12 @@ use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::Motion;
 use std::cell::OnceCell;
 
-/// Combinations on one side of a loop that are looked at: 16 values of each of three unknowns.
+/// Largest number of combinations on one side of a loop: 16 values of each of three unknowns.
 const MOST: usize = 16 * 16 * 16;
-/// Motions of a side by which a number is chosen that tells them apart.
+/// Number of motions of a side from which the coordinate that separates them best is chosen.
 const SAMPLE: usize = 256;
 
-/// A combination: which of its values each unknown has.
+/// A combination: the index of the value of each unknown.
 pub type Tuple = [usize; 6];
 
 /// A motion of one side of a loop, roughly.
@@ -31,15 +31,15 @@ struct Sides<const BITS: u32> {
 /// A combination of values that may close a loop, with the unknowns that it leaves.
 #[derive(Clone, Debug)]
 pub struct Closing<const BITS: u32> {
-    /// Which value each unknown has; 0 for those without values.
+    /// The index of the value of each unknown; 0 for those without values.
     pub tuple: Tuple,
     /// The unknowns without values, in loop order.
     pub rest: Vec<Pair<BITS>>,
 }
 
-/// All combinations of values for which balls do not prove that the loop does not close; `None` where there are too many
-/// combinations, and where one of them may belong to several solutions. `values[j]` are those of unknown j, a rotation; up to
-/// three unknowns have none, all of them rotations or all of them translations.
+/// Returns all combinations of values for which balls do not prove that the loop stays open; `None` where there are too many
+/// combinations, and where one of them may belong to several solutions. `values[j]` lists the values of unknown j, a rotation; up
+/// to three unknowns have none, all of them rotations or all of them translations.
 #[must_use]
 pub fn closing_tuples<const BITS: u32>(
     variables: [Variable; 6],
@@ -61,8 +61,8 @@ pub fn closing_tuples<const BITS: u32>(
     }
 }
 
-/// Combinations of five unknowns, by what both sides of the loop see of the sixth one and it does not change: the axis of a rotation,
-/// the frame's directions of a translation.
+/// Returns combinations of five unknowns by an invariant of the sixth one that both sides of the loop determine: the axis of a
+/// rotation, the frame's directions of a translation.
 fn with_one_left<const BITS: u32>(
     kind: Variable,
     constants: &[Motion<Ball<BITS>>],
@@ -76,7 +76,7 @@ fn with_one_left<const BITS: u32>(
     let mut found = Vec::new();
     let last = &constants[missing];
     let rough_last = rough(last);
-    // near far V G = I with the missing V, which keeps what is compared: of a rotation far z = near^-1 G^-1 z.
+    // near far V G = I with the missing V, which keeps the compared invariant: for a rotation far z = near^-1 G^-1 z.
     let seen: Vec<_> = near.all.iter().map(|side| kept(kind, &rough_last.then_after(&side.motion).inverse())).collect();
     for (i, fourth) in lists[3].iter().enumerate() {
         for (j, fifth) in lists[4].iter().enumerate() {
@@ -100,7 +100,7 @@ fn with_one_left<const BITS: u32>(
     Some(found)
 }
 
-/// What an unknown does not change of a motion before it: direction and origin of the z axis, or two of the directions.
+/// Returns the invariant of a motion under an unknown behind it: direction and origin of the z axis, or two of the directions.
 fn kept(kind: Variable, motion: &Motion<Rough>) -> [Rough; 6] {
     let [a, b, c] = [0, 1, 2].map(|i| motion.rotation[i][2]);
     let [x, y, z] = match kind {
@@ -122,7 +122,7 @@ fn from_both_sides<const BITS: u32>(
     let (near, far) = (near?, far?);
     let one: Vec<[Rough; 12]> = near.all.iter().map(|side| entries(&side.motion)).collect();
     let two: Vec<[Rough; 12]> = far.all.iter().map(|side| entries(&side.motion.inverse())).collect();
-    // Of crowded values many a motion is asked for again and again.
+    // For crowded values many motions are requested again and again.
     let cells = |count: usize| -> Vec<OnceCell<Motion<Ball<BITS>>>> { vec![OnceCell::new(); count] };
     let (left, right) = (cells(one.len()), cells(two.len()));
     let before = |i: usize| left[i].get_or_init(|| near.motion(near.all[i].choice));
@@ -156,10 +156,10 @@ fn from_both_sides<const BITS: u32>(
     Some(found)
 }
 
-/// Visits the pairs of one list and another that may be the same, in the order of the first list, as long as that asks for
-/// more. Whether it did so to the end.
+/// Visits the pairs of one list and another that may be equal, in the order of the first list, while `visit` returns true.
+/// Returns whether it reached the end.
 fn meeting(one: &[[Rough; 12]], two: &[[Rough; 12]], mut visit: impl FnMut(usize, usize) -> bool) -> bool {
-    // In the order of the number that tells most of them apart, those that may meet follow each other.
+    // In the order of the coordinate that separates most of them, those that may meet are neighbours.
     let tells = |k: &usize| distinct(two, *k);
     let Some(number) = (0..24).max_by_key(tells) else { return true };
     let own = |entries: &[Rough; 12]| part(entries, number);
@@ -173,7 +173,7 @@ fn meeting(one: &[[Rough; 12]], two: &[[Rough; 12]], mut visit: impl FnMut(usize
     for (i, entries) in one.iter().enumerate() {
         let (x, radius) = own(entries);
         let reach = (radius + widest) * (1.0 + 1e-14) + x.abs() * 4.0 * f64::EPSILON;
-        // What is no number is left open.
+        // NaN counts as possibly equal.
         let first = narrow.partition_point(|&j| own(&two[j]).0 < x - reach);
         let near = narrow[first..].iter().take_while(|&&j| !(own(&two[j]).0 > x + reach));
         let mut open = near.chain(&wide).filter(|&&j| may_meet(entries, &two[j]));
@@ -190,14 +190,14 @@ fn part(entries: &[Rough; 12], number: usize) -> (f64, f64) {
     (if number.is_multiple_of(2) { re } else { im }, radius)
 }
 
-/// How many of a sample a number tells apart.
+/// Returns the number of motions in a sample that a coordinate separates.
 fn distinct(all: &[[Rough; 12]], number: usize) -> usize {
     let mut values: Vec<(f64, f64)> = all.iter().step_by(1 + all.len() / SAMPLE).map(|own| part(own, number)).collect();
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     values.windows(2).filter(|pair| pair[1].0 - pair[0].0 > pair[0].1 + pair[1].1).count()
 }
 
-/// Combinations of the unknowns with values, and what they leave of the others.
+/// Returns combinations of the unknowns with values, with the remaining unknowns that follow.
 fn with_rest<const BITS: u32>(
     kind: Variable,
     constants: &[Motion<Ball<BITS>>],
@@ -292,7 +292,7 @@ fn entries(motion: &Motion<Rough>) -> [Rough; 12] {
     [x, y, z, a, b, c, d, e, f, g, h, i]
 }
 
-/// Whether f64 leaves it open that two motions, or two axes, are the same one.
+/// Returns whether f64 allows two motions, or two axes, to be equal.
 fn may_meet<const N: usize>(one: &[Rough; N], other: &[Rough; N]) -> bool {
     one.iter().zip(other).all(|(a, b)| a.may_meet(b))
 }

@@ -26,13 +26,13 @@ pub fn moved<const BITS: u32>(variable: Variable, (first, second): &Pair<BITS>) 
 pub struct Value<const BITS: u32> {
     /// Cosine and sine of the unknown there.
     pub pair: Pair<BITS>,
-    /// The order of the root: at most so many solutions, with multiplicity, have this value.
+    /// The order of the root: upper bound on the number of solutions with this value, with multiplicity.
     pub order: usize,
     /// Whether the value is real.
     pub is_real: bool,
 }
 
-/// All roots of an eliminant, that at infinity included; `None` where this precision does not tell them apart.
+/// Returns all roots of an eliminant, the one at infinity included; `None` where this precision does not separate them.
 #[must_use]
 pub fn values<const BITS: u32>(eliminant: &Eliminant) -> Option<Vec<Value<BITS>>> {
     let mut all = Vec::new();
@@ -45,7 +45,7 @@ pub fn values<const BITS: u32>(eliminant: &Eliminant) -> Option<Vec<Value<BITS>>
         let pair = (Ball::one().neg(), Ball::zero());
         all.push(Value { pair, order: eliminant.at_pi, is_real: true });
     }
-    // Roots of different factors are distinct, and their balls are small: this only fails for roots that crowd.
+    // Roots of different factors are distinct, and their balls are small: the test fails only for crowded roots.
     let apart = |j: usize, k: usize| !meet(&all[j].pair, &all[k].pair);
     let are_apart = (0..all.len()).all(|k| (0..k).all(|j| apart(j, k)));
     are_apart.then_some(all)
@@ -56,14 +56,14 @@ fn shorter<const BITS: u32>(coefficients: &[Ball<WIDE>]) -> Vec<Ball<BITS>> {
     coefficients.iter().map(Ball::of_precision).collect()
 }
 
-/// Cosine and sine of the angle with this half-angle tangent; `None` where the ball is not clear of +-i.
+/// Returns cosine and sine of the angle with this half-angle tangent; `None` where the ball may contain +-i.
 fn pair<const BITS: u32>(tangent: &Ball<BITS>) -> Option<Pair<BITS>> {
     let square = tangent.mul(tangent);
     let scale = Ball::one().add(&square).inverse()?;
     Some((Ball::one().sub(&square).mul(&scale), tangent.add(tangent).mul(&scale)))
 }
 
-/// Whether two pairs may be the same one.
+/// Returns whether two pairs may be equal.
 #[must_use]
 pub fn meet<const BITS: u32>(one: &Pair<BITS>, other: &Pair<BITS>) -> bool {
     one.0.overlaps(&other.0) && one.1.overlaps(&other.1)
@@ -76,7 +76,7 @@ pub fn pair_around<const BITS: u32>(angle: Complex<f64>, radius: f64) -> Pair<BI
     let (sin, cos) = re.sin_cos(Float::new(BITS));
     let (sinh, cosh) = im.clone().sinh_cosh(Float::new(BITS));
     // Both functions have a derivative of absolute value at most cosh of the imaginary part. The functions are rounded to
-    // `BITS` bits, each product again: three roundings, of which a ball of one product knows one.
+    // `BITS` bits, each product again: three roundings, of which the ball of one product includes one.
     let bound = Float::with_val(64, im.abs() + radius).cosh();
     let rounding = Float::with_val(64, &bound * 8_u32) >> BITS;
     let error = Float::with_val(64, &bound * radius) * 1.01_f64 + rounding;

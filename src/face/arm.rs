@@ -15,7 +15,7 @@ use crate::scene::{Pose, Stage};
 use rayon::prelude::*;
 use serde_json::Value;
 
-/// How rows of four numbers describe links.
+/// The convention by which rows of four numbers describe links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convention {
     /// `Rz(q + theta0) Tz(d) Tx(a) Rx(alpha)`
@@ -52,7 +52,7 @@ pub struct ScrewRow {
 
 /// A robot arm, prepared when it is first solved. Threads share it.
 pub struct Arm {
-    /// What it is made of.
+    /// The mechanism.
     #[doc(hidden)]
     pub model: Model,
     forward: Forward,
@@ -77,12 +77,12 @@ impl Arm {
     /// An arm of a file or of the library.
     ///
     /// # Errors
-    /// For what is no arm, and for arms that are not solved.
+    /// For an entry that is no arm, and for arms that are not solved.
     #[doc(hidden)]
     pub fn new(mut model: Model) -> Result<Self> {
         let is_bare = model.entry.cases.is_empty();
         if is_bare {
-            // What solves an arm is prepared for poses by one of them.
+            // A prepared arm needs one pose as its case.
             model.entry.cases.push(Case::at(Placement::identity(), 1));
         }
         let chain = match (&model.entry.design, model.entry.kind()) {
@@ -115,20 +115,20 @@ impl Arm {
     /// An arm of a file: TOML, JSON, a DH table as CSV, URDF.
     ///
     /// # Errors
-    /// For what cannot be read.
+    /// For a file that cannot be read.
     pub fn from_file(path: &str) -> Result<Self> {
         Self::new(Model::load(path, None, None)?)
     }
 
-    /// The chain between two links of a robot description; without names the only one there is.
+    /// Reads the chain between two links of a robot description; without names it must have only one.
     ///
     /// # Errors
-    /// For what cannot be read.
+    /// For a description that cannot be read.
     pub fn from_urdf(path: &str, tip_link: Option<&str>, base_link: Option<&str>) -> Result<Self> {
         Self::new(Model::load(path, tip_link, base_link)?)
     }
 
-    /// An arm by its table. `limits` are those of the joints, or none.
+    /// Returns the arm of a DH table. `limits` are the limits of the joints, or empty.
     ///
     /// # Errors
     /// For numbers that are not finite, and for arms that are not solved.
@@ -157,7 +157,7 @@ impl Arm {
         Self::of(geometry, limits, rounded)
     }
 
-    /// An arm by the axes of its joints and the pose of its flange, all joint values zero.
+    /// Returns the arm of joint axes and the pose of the flange with all joint values zero.
     ///
     /// # Errors
     /// For numbers that are not finite, axes of length 0, a home that is no pose, and arms that are not solved.
@@ -199,7 +199,7 @@ impl Arm {
         Self::new(Model::bare("arm", Design::Arm(chain), limits, rounded))
     }
 
-    /// What the file calls the joints, in the order of every `q`.
+    /// Returns the names of the joints in the file, in the order of every `q`.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
         document::labels(&self.model.entry)
@@ -219,8 +219,8 @@ impl Arm {
         self.forward.pose(q)
     }
 
-    /// The poses of all bodies from the ground to the tool, as unit quaternions and positions; none where the joints are not
-    /// drawn.
+    /// Returns the poses of all bodies from the ground to the tool, as unit quaternions and positions; the list is empty where
+    /// the joints are not drawn.
     ///
     /// # Errors
     /// As [`Arm::fk`].
@@ -250,8 +250,8 @@ impl Arm {
         Ok(case)
     }
 
-    /// Returns every joint position that reaches a pose, the real ones only, with the verdict on their list. The geometry is prepared by the
-    /// first call and kept.
+    /// Returns every inverse-kinematics solution of a pose, the real ones only, with the verdict on their list. The first call
+    /// prepares the geometry, which is kept.
     ///
     /// # Errors
     /// For a matrix that is no pose. A pose out of reach is an answer.
@@ -272,7 +272,7 @@ impl Arm {
         Ok(solution)
     }
 
-    /// Returns what `looproot derive --json` prints of a pose: the closure equations and the exact closure polynomial
+    /// Returns the document of `looproot derive --json` for a pose: the closure equations and the exact closure polynomial
     /// (`equations/derivation.schema.json`).
     ///
     /// # Errors
@@ -289,7 +289,7 @@ impl Arm {
         self.model.certificate(&self.case(pose)?)
     }
 
-    /// The same for many poses on all threads; a bad pose does not stop the others.
+    /// Solves many poses as [`Arm::ik`] does, on all threads; a bad pose does not stop the others.
     #[must_use]
     pub fn ik_batch(&self, poses: &[Matrix]) -> Vec<Result<Solution>> {
         poses.par_iter().map_init(Workspace::default, |workspace, pose| self.ik_with(pose, workspace)).collect()

@@ -12,14 +12,14 @@ use serde_json::Value;
 
 /// A closed loop.
 pub struct Loop {
-    /// What it is made of.
+    /// The mechanism.
     #[doc(hidden)]
     pub model: Model,
 }
 
 /// A Stewart platform.
 pub struct Platform {
-    /// What it is made of.
+    /// The mechanism.
     #[doc(hidden)]
     pub model: Model,
 }
@@ -35,14 +35,14 @@ impl Loop {
     /// A loop of a file or of the library.
     ///
     /// # Errors
-    /// For what cannot be read, and for what is no loop.
+    /// For a file or name that cannot be read, and for a mechanism that is no loop.
     #[doc(hidden)]
     pub fn new(model: Model) -> Result<Self> {
         if model.entry.kind() != Kind::Loop {
             return Err(Error::Invalid(format!("found {:?}, expected a loop", model.entry.kind())));
         }
         let mut own = Self { model };
-        // What is given is prepared for: that of the file, else the first joint.
+        // A loop is prepared for its input: the input of the file, else the first joint.
         if own.model.entry.cases.is_empty() {
             let case = own.case(0.0)?;
             own.model.entry.cases.push(case);
@@ -53,7 +53,7 @@ impl Loop {
     /// A loop of a file or of the library.
     ///
     /// # Errors
-    /// For what cannot be read, and for what is no loop.
+    /// For a file or name that cannot be read, and for a mechanism that is no loop.
     pub fn from_file(name: &str) -> Result<Self> {
         Self::new(Model::load(name, None, None)?)
     }
@@ -64,7 +64,7 @@ impl Loop {
         self.model.entry.chain().map_or(0, |chain| chain.variables().len())
     }
 
-    /// The joint that is given, from 1, and what of it: the one of the file, else the first one.
+    /// Returns the input of the file, else the first joint: its number from 1, and its variable.
     #[must_use]
     pub fn input(&self) -> (usize, Variable) {
         let given = self.model.entry.cases.first().and_then(|case| case.input.first());
@@ -96,8 +96,8 @@ impl Loop {
         self.model.solve(&self.case(input)?, false)
     }
 
-    /// Returns what `looproot sweep --json --scene` prints: all branches, circuits and limit positions while the input runs through a
-    /// range. `running` is asked now and then and stops the sweep where it says no.
+    /// Returns the document of `looproot sweep --json --scene`: all branches, circuits and limit positions while the input runs
+    /// through a range. The sweep stops when `running` returns false; it is called now and then.
     ///
     /// # Errors
     /// For loops that are not solved.
@@ -106,7 +106,7 @@ impl Loop {
         self.model.sweep(joint, variable, range, running)
     }
 
-    /// Returns what `looproot derive --json` prints at this value of the input.
+    /// Returns the document of `looproot derive --json` at this value of the input.
     ///
     /// # Errors
     /// For a value that is not finite, and for loops whose closure polynomial is beyond `derive`.
@@ -114,10 +114,10 @@ impl Loop {
         self.model.derive(&self.case(input)?)
     }
 
-    /// Returns what `looproot mobility --json` prints.
+    /// Returns the document of `looproot mobility --json`.
     ///
     /// # Errors
-    /// For loops of which that is not known.
+    /// For loops whose mobility is not known.
     pub fn mobility(&self) -> Result<Value> {
         self.model.mobility()
     }
@@ -135,7 +135,7 @@ impl Platform {
     /// A platform of a file or of the library.
     ///
     /// # Errors
-    /// For what cannot be read, and for what is no platform.
+    /// For a file or name that cannot be read, and for a mechanism that is no platform.
     pub fn from_file(name: &str) -> Result<Self> {
         Self::new(Model::load(name, None, None)?)
     }
@@ -143,7 +143,7 @@ impl Platform {
     /// A platform of a file or of the library.
     ///
     /// # Errors
-    /// For what cannot be read, and for what is no platform.
+    /// For a file or name that cannot be read, and for a mechanism that is no platform.
     #[doc(hidden)]
     pub fn new(model: Model) -> Result<Self> {
         match model.entry.kind() {
@@ -185,7 +185,7 @@ impl Platform {
         self.model.solve(&self.case(legs)?, false)
     }
 
-    /// Returns what `looproot derive --json` prints of legs of these lengths.
+    /// Returns the document of `looproot derive --json` for legs of these lengths.
     ///
     /// # Errors
     /// For lengths that are negative or not finite.

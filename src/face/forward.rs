@@ -1,4 +1,4 @@
-//! Forward kinematics in f64: where the tool is, and how it moves with the joints.
+//! Forward kinematics in f64: the pose of the tool, and its velocity per joint rate.
 
 use super::pose::{Matrix, matrix};
 use crate::error::{Error, Result};
@@ -6,7 +6,7 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::joint::Variable;
 use crate::kinematics::motion::{Motion, cross};
 
-/// A chain as f64 sees it.
+/// A chain in f64.
 #[derive(Clone, Debug)]
 pub(super) struct Forward {
     variables: Vec<Variable>,

@@ -22,7 +22,7 @@ use std::sync::OnceLock;
 
 /// A mechanism, prepared when it is first solved. Threads share it.
 pub struct Model {
-    /// What was read.
+    /// The file as it was read.
     pub entry: Entry,
     mechanism: OnceLock<Result<Mechanism>>,
 }
@@ -61,7 +61,7 @@ impl Model {
         load(name, &options).map(Self::new)
     }
 
-    /// What solves it.
+    /// Returns the prepared mechanism, which the first call prepares.
     ///
     /// # Errors
     /// As [`Mechanism::prepare`].
@@ -80,7 +80,7 @@ impl Model {
         mechanism.solve(case, Roots::All, &mut workspace, &mut Assembly::default())
     }
 
-    /// What `solve --json --scene` prints of these answers.
+    /// Returns the document of `solve --json --scene` for these answers.
     #[must_use]
     pub fn document(&self, answers: &[(Case, Solution)], complex: bool) -> Value {
         let view = View { complex, ..View::default() };
@@ -102,7 +102,7 @@ impl Model {
         document
     }
 
-    /// What `derive --json` prints of one case.
+    /// Returns the document of `derive --json` for one case.
     ///
     /// # Errors
     /// As [`derive()`].
@@ -113,7 +113,7 @@ impl Model {
         Ok(document)
     }
 
-    /// What `sweep --json --scene` prints. `running` is asked now and then and stops the sweep.
+    /// Returns the document of `sweep --json --scene`. `running` is called now and then and stops the sweep by returning false.
     ///
     /// # Errors
     /// As [`sweep`].
@@ -144,7 +144,7 @@ impl Model {
         found.map_err(|reason| Error::Unsupported(format!("there is no certificate: {reason}")))
     }
 
-    /// What `mobility --json` prints.
+    /// Returns the document of `mobility --json`.
     ///
     /// # Errors
     /// As [`crate::mobility::mobility`].
@@ -156,12 +156,12 @@ impl Model {
     }
 }
 
-/// What `mobility --json` prints of a file or an entry of the library, frameworks among them.
+/// Returns the document of `mobility --json` for a file or an entry of the library, frameworks included.
 ///
 /// # Errors
-/// For what cannot be read, and for what is no mechanism.
+/// For a file or name that cannot be read, and for a file without a mechanism.
 pub fn mobility(name: &str) -> Result<Value> {
-    /// As many steps as the command line follows a motion.
+    /// Number of steps, as on the command line, for which a motion is followed.
     const STEPS: usize = 60;
     match load_any(name, &Options { chains: Chains::Any, ..Options::default() })? {
         Any::Entry(entry) => Model::new(*entry).mobility(),
@@ -196,10 +196,10 @@ pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
     Ok(Value::Array(found))
 }
 
-/// What `conditions --json` prints of `4R`, `5R`, `6R`, a file or an entry of the library.
+/// Returns the document of `conditions --json` for `4R`, `5R`, `6R`, a file or an entry of the library.
 ///
 /// # Errors
-/// For what cannot be read, and for loops that are beyond it.
+/// For a file or name that cannot be read, and for loops whose conditions are out of reach.
 pub fn conditions(name: &str) -> Result<Value> {
     /// The seed of the command line: the same question has the same answer.
     const SEED: u64 = 1;

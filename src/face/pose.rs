@@ -8,11 +8,11 @@ use crate::scene::pose_of;
 /// A homogeneous matrix, row by row.
 pub type Matrix = [[f64; 4]; 4];
 
-/// A rotation farther than this from the nearest one is refused: it is no rounding of one.
+/// Largest distance from the nearest rotation that is accepted: a matrix farther off is not a rounded rotation.
 const REFUSED: f64 = 3e-3;
-/// A rotation farther than this from the nearest one is said to be off.
+/// Distance from the nearest rotation above which a note is given.
 const NOTED: f64 = 1e-9;
-/// Bits of the quaternion that stands for a rotation.
+/// Bits of the quaternion that represents a rotation.
 const BITS: i32 = 60;
 /// Newton's iteration for the nearest rotation squares the error: from 3e-3 four steps are enough.
 const STEPS: usize = 5;
@@ -26,8 +26,8 @@ pub(super) fn matrix(motion: &Motion<f64>) -> Matrix {
     [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]]
 }
 
-/// The placement for a matrix, and what to say where it is not quite a rotation. The rotation is replaced by the nearest
-/// one, whose quaternion is written in 60 bits: that is the datum of all proofs. The position is taken as it is.
+/// Returns the placement for a matrix, and a note where it is not quite a rotation. The rotation is replaced by the nearest one,
+/// whose quaternion is written in 60 bits; all proofs rest on that quaternion. The position is taken as it is.
 pub(super) fn placement(matrix: &Matrix) -> Result<(Placement, Option<String>)> {
     if let Some(at) = matrix.iter().flatten().position(|x| !x.is_finite()) {
         let (row, column) = (at / 4, at % 4);

@@ -2,7 +2,7 @@
 
 use crate::assembly::{self, Assembly};
 
-/// What one thread needs to solve pose after pose. It grows to what the first poses need and is used again.
+/// Memory in which one thread solves pose after pose. It grows to the size that the first poses need and is reused.
 #[derive(Default)]
 pub struct Workspace {
     pub(super) solver: assembly::Workspace,

@@ -39,35 +39,35 @@ pub struct ScrewJoint {
     pub pitch: Option<Number>,
 }
 
-/// A motion as it was given, enclosed.
+/// A given motion, enclosed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Given {
     /// Its entries.
     pub motion: Motion<Enclosure>,
-    /// Whether its rotation is one; else the nearest one is meant.
+    /// Whether its rotation is orthogonal; otherwise the nearest rotation is meant.
     pub is_rotation: bool,
 }
 
 /// A constant rigid motion of a file (base, tool, home, pose): exactly rigid over the rationals, and in f64.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
-    /// The exact motion: the one given where that is exactly rigid, else the nearest one found with rational entries.
+    /// The exact motion: the given one where that is exactly rigid, else the nearest one found with rational entries.
     pub exact: ExactMotion,
-    /// What was given, where the exact motion only stands for it.
+    /// The given motion, where the exact motion only represents it.
     pub given: Option<Box<Given>>,
-    /// What was given in closed form, where that is known and not rational.
+    /// The given closed form, where it is known and not rational.
     pub closed: Option<ClosedForm>,
     /// The motion in twice the digits of f64, where it was made without exact numbers.
     pub precise: Option<Box<Motion<DoubleDouble>>>,
     /// The correctly rounded image of the motion, its rotation orthogonal to rounding.
     pub float: Motion<f64>,
-    /// The rows of the matrix that was given, where the exact motion only stands for it.
+    /// The rows of the given matrix, where the exact motion only represents it.
     pub(crate) rows: Option<Box<[[Number; 4]; 3]>>,
-    /// How far the given rotation was from a rotation: the largest entry of |R - nearest rotation|.
+    /// Distance of the given rotation from a rotation: the largest entry of |R - nearest rotation|.
     pub defect: f64,
 }
 
-/// How the links are described.
+/// The description of the links.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
     /// `prod Rz(q + theta0) Tz(d) Tx(a) Rx(alpha)`
@@ -110,7 +110,7 @@ impl Chain {
         JointVariable::of(&self.joint_kinds())
     }
 
-    /// How many variables the joints have.
+    /// Returns the number of variables of all joints.
     #[must_use]
     pub fn freedoms(&self) -> usize {
         self.joint_kinds().into_iter().map(JointKind::freedoms).sum()

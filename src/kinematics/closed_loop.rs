@@ -1,8 +1,8 @@
 //! The canonical form of every single loop: six unknown rotations or translations and six constant motions.
 //!
-//! `V1(x1) G1 V2(x2) G2 ... V6(x6) G6 = I` with each `V` a rotation about or a translation along its own z axis. An arm
-//! at a pose, a loop with one joint given, joints of type R, P, C and S: nothing else about them survives, so that one code
-//! path serves all. \[LeeLiang1988\]
+//! `V1(x1) G1 V2(x2) G2 ... V6(x6) G6 = I` with each `V` a rotation about or a translation along its own z axis. An arm at a pose
+//! and a loop with one joint given, with joints of type R, P, C and S, are all reduced to it, so that one code path serves all.
+//! \[LeeLiang1988\]
 
 use super::axis_frame::axis_frame;
 use super::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
@@ -19,30 +19,30 @@ use rug::Rational;
 /// A loop of six unknowns, `prod V_j G_j = I`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClosedLoop<R> {
-    /// What each unknown does.
+    /// The kind of each unknown.
     pub variables: [Variable; 6],
     /// The constant motion behind each unknown.
     pub constants: [Motion<R>; 6],
 }
 
-/// The geometry of a mechanism without pose or input: six unknowns, the five constants between them, and the two
-/// constants of the gap that a pose or input fills.
+/// The geometry of a mechanism without pose or input: six unknowns, the five constants between them, and the two constants beside
+/// the closing transformation, which a pose or input supplies.
 #[derive(Clone, Debug)]
 pub struct OpenLoop<R> {
-    /// What each unknown does, in loop order: the gap stands behind the last one.
+    /// The kind of each unknown, in loop order: the closing transformation stands behind the last one.
     pub variables: [Variable; 6],
     /// The constants behind unknowns 1 to 5.
     pub constants: [Motion<R>; 5],
-    /// The constant between the last unknown and the gap.
+    /// The constant between the last unknown and the closing transformation.
     pub before_gap: Motion<R>,
-    /// The constant between the gap and the first unknown.
+    /// The constant between the closing transformation and the first unknown.
     pub after_gap: Motion<R>,
 }
 
-/// The order of a mechanism's variables, and which of them a loop's input locks.
+/// The order of a mechanism's variables, and the variable that a loop's input locks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// What each joint variable does, in joint order; a C joint has its angle, then its distance.
+    /// The kind of each joint variable, in joint order; a C joint has its angle, then its distance.
     pub variables: Vec<Variable>,
     /// Index of the locked variable, for loops.
     pub locked: Option<usize>,
@@ -50,7 +50,7 @@ pub struct Layout {
     pub spherical: Option<usize>,
     /// Index of the first variable of a second spherical joint: the link between the two spins freely, an eighth variable.
     pub second_spherical: Option<usize>,
-    /// What makes up for too few unknowns, in the order of the joint variables behind which they stand.
+    /// The virtual joints that complete six unknowns, in the order of the joint variables behind which they stand.
     pub idle: Vec<Idle>,
 }
 
@@ -58,7 +58,7 @@ pub struct Layout {
 /// freely about the line of their centres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SsDyad<R> {
-    /// What V does.
+    /// The kind of V.
     pub variable: Variable,
     /// L, the link between the spherical joints.
     pub link: Motion<R>,
@@ -109,7 +109,7 @@ impl<R: Ring> Stretch<R> {
 }
 
 impl<R: Ring> OpenSsDyad<R> {
-    /// The loop whose locked variable is this motion.
+    /// Returns the loop whose locked variable has this motion.
     #[must_use]
     pub fn close(&self, closing: &Motion<R>) -> SsDyad<R> {
         let [link, before, behind] = self.stretches.each_ref().map(|stretch| stretch.close(closing));
@@ -130,7 +130,7 @@ pub enum Parameter {
     Angle,
 }
 
-/// What the constants of DH joints, counted from 0, are in a ring.
+/// The values of the constants of DH joints, counted from 0, in a ring.
 pub trait Parameters<R: Ring> {
     /// Cosine and sine of an angle; `None` for an unlucky prime.
     fn angle(&self, joint: usize, parameter: Parameter, value: &Angle) -> Option<(R, R)>;
@@ -166,7 +166,7 @@ enum Step<R> {
 }
 
 impl<R: Ring> OpenLoop<R> {
-    /// The loop whose gap is filled by this motion: `V6 G6` with `G6 = before_gap * closing * after_gap`.
+    /// Returns the loop with this closing transformation: `V6 G6` with `G6 = before_gap * closing * after_gap`.
     #[must_use]
     pub fn close(&self, closing: &Motion<R>) -> ClosedLoop<R> {
         let last = self.before_gap.then_after(closing).then_after(&self.after_gap);
@@ -205,13 +205,13 @@ impl Layout {
         Ok(Self { variables, locked, spherical, second_spherical, idle: Vec::new() })
     }
 
-    /// The number of unknowns that are missing to six; 0 where there are six or more.
+    /// Returns the number of unknowns missing from six; 0 where there are six or more.
     #[must_use]
     pub fn missing(&self) -> usize {
         6_usize.saturating_sub(self.variables.len() - usize::from(self.locked.is_some()))
     }
 
-    /// The same with virtual joints, of which the first `rotations` are rotations, to make up for those that are missing.
+    /// Returns the layout completed to six unknowns by virtual joints, of which the first `rotations` are rotations.
     #[must_use]
     pub fn with_idle(&self, rotations: usize, choice: u32) -> Self {
         let total = self.variables.len();
@@ -231,12 +231,12 @@ impl Layout {
         Self { idle, ..self.clone() }
     }
 
-    /// The last variable of the spherical joint in place of one inside: a spherical joint stays one joint.
+    /// Returns the last variable of the spherical joint for a place inside it, so that a spherical joint stays one joint.
     fn outside_spherical(&self, at: usize) -> usize {
         self.spherical.filter(|spherical| (*spherical..spherical + 2).contains(&at)).map_or(at, |spherical| spherical + 2)
     }
 
-    /// What each of the six unknowns does and which joint variable it is, in loop order; none for virtual joints.
+    /// Returns the kind and the joint variable of each of the six unknowns, in loop order; `None` for virtual joints.
     fn order(&self) -> [(Variable, Option<usize>); 6] {
         let behind = |k: usize| self.idle.iter().filter(move |idle| idle.behind == k).map(|idle| (idle.variable, None));
         let joint = |k: usize| std::iter::once((self.variables[k], Some(k)));
@@ -246,19 +246,19 @@ impl Layout {
         std::array::from_fn(|k| order[(start + k) % order.len()])
     }
 
-    /// Which joint variable each of the six unknowns is, in loop order; none for virtual joints.
+    /// Returns the joint variable of each of the six unknowns, in loop order; `None` for virtual joints.
     #[must_use]
     pub fn joint_variables(&self) -> [Option<usize>; 6] {
         self.order().map(|(_, joint)| joint)
     }
 
-    /// What each of the six unknowns does, in loop order.
+    /// Returns the kind of each of the six unknowns, in loop order.
     #[must_use]
     pub fn loop_kinds(&self) -> [Variable; 6] {
         self.order().map(|(kind, _)| kind)
     }
 
-    /// Which unknown of the loop is the first of the three rotations of a spherical joint, if there is one.
+    /// Returns the index of the unknown that is the first of the three rotations of a spherical joint, if there is one.
     #[must_use]
     pub fn spherical_unknown(&self) -> Option<usize> {
         let total = self.variables.len();
@@ -299,8 +299,8 @@ impl Layout {
 }
 
 impl Chain {
-    /// The open loop of this chain: of an arm the gap is where the inverse of the pose goes, of a loop the locked
-    /// variable.
+    /// Returns the open loop of this chain: the closing transformation of an arm is the inverse of the pose, that of a loop the
+    /// locked variable.
     ///
     /// # Errors
     /// For joints that cannot be solved, and where the unknowns are not six.
@@ -318,8 +318,8 @@ impl Chain {
     /// # Errors
     /// As [`Chain::open_loop`].
     ///
-    /// Constants in floating-point numbers are enclosed first and rounded once; `None` also where they are not known to
-    /// so many digits.
+    /// Constants in floating-point numbers are enclosed first and rounded once; `None` also where they are not known to that many
+    /// digits.
     pub fn try_open_loop<R: Ring>(&self, layout: &Layout) -> Result<Option<OpenLoop<R>>, Error> {
         match R::DIGITS {
             None => self.open_loop_over(layout, &Numbers),
@@ -356,7 +356,7 @@ impl Chain {
                 Freedom::of(self)
             )));
         }
-        // An arm's gap stands behind its last constant, a loop's at its locked variable.
+        // The closing transformation of an arm stands behind its last constant, that of a loop at its locked variable.
         let open = match locked {
             None => OpenLoop {
                 variables: std::array::from_fn(|k| unknowns[k]),
@@ -379,7 +379,7 @@ impl Chain {
         Ok(Some(open))
     }
 
-    /// What each joint variable does, in joint order, and the constant motions between them: motion k stands before
+    /// Returns the kind of each joint variable, in joint order, and the constant motions between them: motion k stands before
     /// variable k, and the last one behind them all. `None` for an unlucky prime.
     #[must_use]
     pub fn unknowns_and_constants<R: Ring>(&self) -> Option<(Vec<Variable>, Vec<Motion<R>>)> {
@@ -450,7 +450,7 @@ impl Chain {
         Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
     }
 
-    /// The loop of a chain with two spherical joints, its locked variable filled by this motion.
+    /// Returns the loop of a chain with two spherical joints, whose locked variable has this motion.
     ///
     /// # Errors
     /// Unless there is exactly one more unknown; and for an unlucky prime.
@@ -470,13 +470,13 @@ impl Chain {
         let unlucky = || Error::Unsupported("the geometry has no image in this ring (unlucky prime)".into());
         let steps = self.steps(parameters).ok_or_else(unlucky)?;
         let spherical_joints = [layout.spherical, layout.second_spherical];
-        // Index of the first variable and the constant behind each spherical joint and unknown; what stands before the first of
+        // Index of the first variable and the constant behind each spherical joint and unknown; the constant before the first of
         // them comes last.
         let mut items: Vec<(usize, Stretch<R>)> = Vec::new();
         let mut start = Stretch::empty();
         let mut index = 0;
         for step in steps {
-            // Inside a spherical joint only its own quarter turns stand, which cancel but for the unknowns.
+            // Inside a spherical joint there are only its own quarter turns, which cancel but for the unknowns.
             let last = items.last_mut().map_or(&mut start, |(_, stretch)| stretch);
             match step {
                 Step::Constant(motion) => last.extend(&motion),
@@ -520,7 +520,7 @@ impl Chain {
         Ok(OpenSsDyad { variable: layout.variables[v], stretches: [link, before, behind], indices: [x, y, v] })
     }
 
-    /// The unknowns of a chain read as a loop, each with the constant behind it; what stands before the first one comes
+    /// Returns the unknowns of a chain read as a loop, each with the constant behind it; the constant before the first one comes
     /// last. `None` for an unlucky prime, and without unknowns.
     pub fn cycle<R: Ring>(&self, parameters: &impl Parameters<R>) -> Option<Vec<(Variable, Motion<R>)>> {
         let mut start = Motion::identity();

@@ -49,8 +49,8 @@ impl JointMotion {
     }
 }
 
-/// Square roots of numbers with more bits are not adjoined: each would double the degree of the field, and every axis of a file
-/// of decimals has one of its own. Three components of six digits each have a radicand of this size.
+/// Largest number of bits of a number whose square root is adjoined: each root doubles the degree of the field, and every axis of
+/// a file of decimals has its own. Three components of six digits each have a radicand of this size.
 const LONGEST_RADICAND: u32 = 42;
 
 /// A real number field that holds the numbers of a mechanism.
@@ -111,7 +111,7 @@ impl DataField {
         if let Geometry::Screws { home, .. } = &chain.geometry {
             placements.push(home);
         }
-        // Rounded poses are met often, and seen at once.
+        // Rounded poses are frequent, and recognised at once.
         let mut all = Vec::new();
         for placement in placements {
             all.extend(placed(placement)?);
@@ -166,7 +166,7 @@ fn length(joint: &ScrewJoint) -> Option<Closed> {
     let square = axis.iter().try_fold(Closed::from_small(0), |sum, x| sum.add(&x.mul(x)?))?;
     let field = RealField::containing(axis.iter().chain([&square]))?;
     let length = Surd::square_root(&field.element(&square)?.rational()?)?;
-    // The square root of a multiprecision number is one of a direction that was rounded.
+    // The square root of a multiprecision number belongs to a direction that was rounded.
     let is_short = length.terms().all(|(_, radicand, _)| radicand.significant_bits() <= LONGEST_RADICAND);
     is_short.then(|| length.into())
 }
@@ -197,7 +197,7 @@ impl Parameters<Algebraic> for DataField {
             return placement.given.is_none().then(|| placement.exact.map(Algebraic::from_rational))?;
         };
         let motion = motion.map(|x| self.0.element(x))?;
-        // What is no rotation in the field was rounded.
+        // A matrix that is no rotation in the field was rounded.
         let unit = |i: usize, j: usize| {
             dot(&motion.rotation[i], &motion.rotation[j]) == Algebraic::from_integer(i32::from(i == j))
         };

@@ -6,7 +6,7 @@ use crate::algebra::ring::{Field, Ring};
 use rug::Rational;
 use rug::ops::Pow;
 
-/// Most digits: all of them fit in a machine word.
+/// Largest number of digits: all of them fit in a machine word.
 const MOST_DIGITS: usize = 18;
 /// Powers of ten up to this one are doubles.
 const EXACT_POWER: i32 = 22;

@@ -1,11 +1,11 @@
-//! Loops whose constants are enclosed, and how they are rounded.
+//! Loops whose constants are enclosed, and their rounding.
 
 use super::closed_loop::{ClosedLoop, SsDyad, OpenSsDyad, OpenLoop, Stretch};
 use super::motion::Motion;
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::ring::Ring;
 
-/// Bits by which entries are known better than they are rounded: their error is then no part of a rounding.
+/// Bits by which entries must be known beyond the rounding, so that their error does not affect it.
 const SPARE: i32 = 10;
 
 /// The longest coordinate of a motion's translation, as a power of two.
@@ -13,7 +13,7 @@ fn reach(motion: &Motion<Enclosure>) -> i32 {
     motion.translation.iter().map(Enclosure::size).fold(i32::MIN, i32::max)
 }
 
-/// A motion rounded once to numbers of so many digits; `None` where it is not known to them: rotations in parts of 1,
+/// Rounds a motion once to numbers of `digits` digits; `None` where it is not known to that precision: rotations in parts of 1,
 /// translations in parts of the longest coordinate and of `length`, a power of two.
 pub fn rounded<R: Ring>(motion: &Motion<Enclosure>, length: i32, digits: u32) -> Option<Motion<R>> {
     let digits = digits.cast_signed() + SPARE;
@@ -38,7 +38,7 @@ fn all<R: Ring, const N: usize>(motions: &[Motion<Enclosure>; N], length: i32, d
 }
 
 impl OpenLoop<Enclosure> {
-    /// The loop in numbers of so many digits, every constant rounded once; `None` where it is not known to them.
+    /// Rounds every constant of the loop once to numbers of `digits` digits; `None` where one is not known to that precision.
     #[must_use]
     pub fn rounded<R: Ring>(&self, digits: u32) -> Option<OpenLoop<R>> {
         let length = longest(&self.constants, &[&self.before_gap, &self.after_gap]);
@@ -52,17 +52,17 @@ impl OpenLoop<Enclosure> {
 }
 
 impl ClosedLoop<Enclosure> {
-    /// The loop in numbers of so many digits, every constant rounded once; `None` where it is not known to them.
+    /// Rounds every constant of the loop once to numbers of `digits` digits; `None` where one is not known to that precision.
     #[must_use]
     pub fn rounded<R: Ring>(&self, digits: u32) -> Option<ClosedLoop<R>> {
-        // The last constant holds what a pose or input fills in: it counts by its own length.
+        // The last constant contains the motion that a pose or input supplies: it counts by its own length.
         let length = longest(&self.constants[..5], &[&self.constants[5]]);
         Some(ClosedLoop { variables: self.variables, constants: all(&self.constants, length, digits)? })
     }
 }
 
 impl SsDyad<Enclosure> {
-    /// The loop in numbers of so many digits, every constant rounded once; `None` where it is not known to them.
+    /// Rounds every constant of the loop once to numbers of `digits` digits; `None` where one is not known to that precision.
     #[must_use]
     pub fn rounded<R: Ring>(&self, digits: u32) -> Option<SsDyad<R>> {
         let motion = |motion| rounded(motion, i32::MIN, digits);
@@ -72,7 +72,7 @@ impl SsDyad<Enclosure> {
 }
 
 impl OpenSsDyad<Enclosure> {
-    /// The loop in numbers of so many digits, every constant rounded once; `None` where it is not known to them.
+    /// Rounds every constant of the loop once to numbers of `digits` digits; `None` where one is not known to that precision.
     #[must_use]
     pub fn rounded<R: Ring>(&self, digits: u32) -> Option<OpenSsDyad<R>> {
         let stretch = |stretch: &Stretch<Enclosure>| {

@@ -1,4 +1,4 @@
-//! A rigid motion over the rationals that is worked out when it is first asked for.
+//! A rigid motion over the rationals that is computed when it is first needed.
 
 use super::decimal::Decimal;
 use super::motion::Motion;
@@ -16,10 +16,10 @@ pub struct ExactMotion {
     datum: Option<Box<Datum>>,
 }
 
-/// What a motion was made from.
+/// The data from which a motion is computed.
 #[derive(Clone, Debug)]
 pub(super) enum Datum {
-    /// A matrix, and the quaternion of the rotation that stands for it: whole numbers over 2^60.
+    /// A matrix, and the quaternion of the rotation that represents it: whole numbers over 2^60.
     Matrix([[Decimal; 4]; 3], [i64; 4]),
     /// A quaternion of any length near 1, and a position.
     Quaternion([Decimal; 4], [Decimal; 3]),
@@ -27,11 +27,11 @@ pub(super) enum Datum {
     Binary([i64; 4], [f64; 3]),
 }
 
-/// Bits behind the point of the quaternion that stands for a matrix.
+/// Bits behind the point of the quaternion that represents a matrix.
 pub(super) const QUATERNION_BITS: u32 = 60;
 
 impl ExactMotion {
-    /// The motion made from this.
+    /// Returns the motion of a datum.
     pub(super) fn of(datum: Datum) -> Self {
         Self { known: OnceLock::new(), datum: Some(Box::new(datum)) }
     }
@@ -42,7 +42,7 @@ impl ExactMotion {
         (**self).clone()
     }
 
-    /// The rows of the matrix that it stands for, if it does.
+    /// Returns the rows of the matrix that it represents, if there is one.
     pub(super) fn rows(&self) -> Option<Box<[[Number; 4]; 3]>> {
         match self.datum.as_deref()? {
             Datum::Matrix(rows, _) => Some(Box::new(rows.map(|row| row.map(Decimal::number)))),

@@ -22,20 +22,21 @@ pub struct Twist {
 }
 
 impl Forward {
-    /// The chain in f64; `None` where a constant is not known so well.
+    /// Returns the chain in f64; `None` where a constant is not known to that precision.
     #[must_use]
     pub fn of(chain: &Chain) -> Option<Self> {
         let (variables, constants) = chain.unknowns_and_constants::<f64>()?;
         Some(Self { variables, constants })
     }
 
-    /// What the joint variables measure.
+    /// Returns the kinds of the joint variables.
     #[must_use]
     pub fn variables(&self) -> &[Variable] {
         &self.variables
     }
 
-    /// The length of all constants together: no point of the arm is farther from the base, its sliding joints at zero.
+    /// Returns the sum of the lengths of all constants: no point of the arm is farther from the base while its sliding joints are
+    /// at zero.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.constants.iter().map(|constant| length(&constant.translation)).sum()

@@ -53,7 +53,7 @@ pub fn stands_still<R: Ring>(framework: &Framework<R>, squares: &[Rational]) -> 
 }
 
 impl Cycle {
-    /// The cycle that bars between so many vertices form. Further bars only hold it.
+    /// Returns the cycle that the bars between `count` vertices form. Further bars only hold it.
     fn of(count: usize, joined: impl Fn(usize, usize) -> bool) -> Option<Self> {
         if count != 9 {
             return None;
@@ -79,7 +79,7 @@ impl Cycle {
         pairs.filter(|&(p, q)| !joined(p, q)).find_map(|(p, q)| about(p, q))
     }
 
-    /// Whether it is proved that nothing moves; `None` for an unlucky prime.
+    /// Returns whether a proof shows that nothing moves; `None` for an unlucky prime.
     fn is_fixed(&self, square: impl Fn(usize, usize) -> Rational) -> Option<bool> {
         let ([p, q], [x, y, z]) = (self.edge, self.wings);
         let images = |side: usize| -> Option<Vec<Univariate<Mod>>> {
@@ -119,7 +119,7 @@ impl Cycle {
     }
 }
 
-/// The Cayley-Menger determinant of some points as a polynomial in the square of one distance.
+/// Returns the Cayley-Menger determinant of some points as a polynomial in the square of one distance.
 fn cayley_menger(
     points: &[usize],
     unknown: [usize; 2],
@@ -143,14 +143,14 @@ fn cayley_menger(
     Univariate::interpolate(&[0, 1, 2].map(at))
 }
 
-/// Whether polynomials have no zero in common.
+/// Returns whether polynomials have no zero in common.
 fn are_apart(polynomials: &[Univariate<Rational>]) -> bool {
     let common = polynomials.iter().fold(Univariate::zero(), |common: Univariate<Rational>, other| common.gcd(other));
     common.degree() == Some(0)
 }
 
-/// Whether no s makes the closures of both rings vanish for all lengths of their diagonals, nor that of one where the triangle degenerates
-/// by which the other one is held; the closures are given for each of [`SQUARES`].
+/// Returns whether no s makes the closures of both rings vanish for all lengths of their diagonals, nor the closure of one ring where
+/// the triangle that holds the other one degenerates; the closures are given for each of [`SQUARES`].
 fn are_free_of_families(closures: [&[Univariate<Mod>]; 2], triangles: [&Univariate<Mod>; 2]) -> bool {
     let [first, second] = closures.map(by_powers);
     let common = |list: &[Univariate<Mod>]| {

@@ -1,9 +1,9 @@
-//! A motion of a framework followed in f64, and how well it keeps the lengths.
+//! A motion of a framework followed in f64, and the error of the lengths along it.
 
 use super::Framework;
 use nalgebra::{DMatrix, DVector};
 
-/// Singular values below this share of the largest are those of motions.
+/// Singular values below this share of the largest one belong to motions.
 const MOTION: f64 = 1e-7;
 /// Lengths that Newton's method brings to within this, relative, are kept.
 const KEPT: f64 = 1e-13;
@@ -23,7 +23,7 @@ pub struct Flex {
     pub change: f64,
 }
 
-/// The realisation nearest to this one with the given squared lengths; `None` where Newton's method finds none.
+/// Returns the realisation nearest to this one with the given squared lengths; `None` where Newton's method finds none.
 ///
 /// # Shape
 /// One square for every bar of the framework.
@@ -33,7 +33,7 @@ pub fn settled(framework: &Framework<f64>, squares: &[f64]) -> Option<Framework<
     let mut best = f64::INFINITY;
     for _ in 0..40 {
         let error = residual(&here, squares);
-        // A last step past the goal costs little and halves the digits that are missing.
+        // A last step past the goal costs little and halves the number of missing digits.
         if error <= KEPT * 1e-2 || (error <= KEPT && error >= 0.5 * best) {
             return Some(here);
         }
@@ -72,7 +72,7 @@ fn follow(start: &Framework<f64>, squares: &[f64], steps: usize, side: f64) -> O
         let mut step = STEP * extent / tangent.amax();
         let next = loop {
             let state: Vec<f64> = here.state().iter().zip(tangent.iter()).map(|(x, v)| x + step * v).collect();
-            // Too far a jump is another branch.
+            // A jump that is too long leads to another branch.
             let near = |found: &Framework<f64>| {
                 let moved = found.state().iter().zip(&state).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
                 moved <= 0.5 * step * tangent.amax()
@@ -158,7 +158,7 @@ fn is_finite(matrix: &DMatrix<f64>) -> bool {
     matrix.iter().all(|x| x.is_finite())
 }
 
-/// Orthonormal first-order motions that are not of the whole, and their number.
+/// Returns orthonormal first-order motions, without those of the whole, and their number.
 fn tangent_space(framework: &Framework<f64>) -> (Vec<DVector<f64>>, usize) {
     let matrix = matrix(framework);
     if !is_finite(&matrix) {

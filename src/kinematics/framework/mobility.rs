@@ -1,4 +1,4 @@
-//! Does a framework move: what can be proved, and what is seen.
+//! The mobility of a framework: what can be proved, and what is computed in f64 only.
 
 use super::Framework;
 use super::cycle::stands_still;
@@ -15,14 +15,15 @@ use rug::Rational;
 
 /// Solutions of a generic octahedron with one face fixed, hence the greatest multiplicity of an isolated realisation.
 const OCTAHEDRON: usize = 16;
-/// Real and complex poses of a Stewart platform of general geometry, hence the same of two bodies with six rods.
+/// Real and complex poses of a Stewart platform of general geometry, hence the greatest multiplicity for two bodies with six
+/// rods.
 const PLATFORM: usize = 40;
-/// Orders looked at where no bound is known.
+/// Largest order tried where no bound is known.
 const ORDERS: usize = 16;
 /// Frameworks with more coordinates of free vertices are not expanded in power series over the rationals.
 const SERIES_COORDINATES: usize = 36;
 
-/// What is known of the motions of a framework.
+/// The verdict on the motions of a framework.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// No motion near the given realisation.
@@ -33,7 +34,7 @@ pub enum Verdict {
     Shaky(usize),
 }
 
-/// Why a verdict is right.
+/// The proof of a verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Proof {
     /// The rigidity matrix has full rank, over the rationals.
@@ -42,7 +43,7 @@ pub enum Proof {
     Slice(Slice),
     /// The closure of the ring about a diagonal of an octahedron, an identity in the square of the length of that diagonal.
     Octahedron([usize; 2]),
-    /// A framework on two perpendicular planes with bars from one to the other, which moves in at least so many dimensions.
+    /// A framework on two perpendicular planes with bars from one to the other, which moves in at least this many dimensions.
     Planes(usize),
     /// No diagonal of an octahedron can change.
     NoDiagonal,
@@ -52,19 +53,19 @@ pub enum Proof {
     Cycle,
     /// The lengths cannot be kept in this order.
     Order(usize),
-    /// All lengths are kept through this order, which is greater than the multiplicity of any isolated realisation, at most the
-    /// second number.
+    /// All lengths are kept through this order, which is greater than the multiplicity of any isolated realisation; the second
+    /// number bounds that multiplicity.
     Series(usize, usize),
-    /// None: seen in f64 only, with lengths kept through this order where that could be looked at.
+    /// No proof: computed in f64 only, with lengths kept through this order where the order is known.
     None(Option<usize>),
 }
 
 /// The mobility of a framework.
 #[derive(Clone, Debug)]
 pub struct Mobility {
-    /// What is known.
+    /// The verdict.
     pub verdict: Verdict,
-    /// Why.
+    /// The proof of the verdict.
     pub proof: Proof,
     /// Number of free vertices, of bars, and `3 v - 6 - bars`, Maxwell's count.
     pub count: (usize, usize, isize),
@@ -77,7 +78,7 @@ pub struct Mobility {
 }
 
 impl Mobility {
-    /// Least and greatest dimension of the motions that the verdict leaves.
+    /// Returns the least and greatest dimension of the motions that the verdict leaves.
     #[must_use]
     pub fn freedom(&self) -> (usize, usize) {
         match (&self.verdict, &self.proof) {
@@ -98,7 +99,7 @@ impl Mobility {
 /// The mobility of a framework at an exact realisation.
 ///
 /// # Shape
-/// `steps`: how many steps of the motion are followed.
+/// `steps`: number of steps for which the motion is followed.
 #[must_use]
 pub fn mobility(framework: &Framework<Rational>, steps: usize) -> Option<Mobility> {
     let float = framework.map(|q| Some(nearest_f64(q)))?;
@@ -133,7 +134,7 @@ pub fn mobility(framework: &Framework<Rational>, steps: usize) -> Option<Mobilit
 /// realisation with these lengths.
 ///
 /// # Shape
-/// A square for every bar; they are as exact as `is_exact` says, and without that nothing is proved.
+/// A square for every bar. `is_exact` says whether they are exact; otherwise nothing is proved.
 #[must_use]
 pub fn mobility_with_lengths(
     start: &Framework<f64>,
@@ -169,7 +170,7 @@ pub fn mobility_with_lengths(
     Some(found)
 }
 
-/// What the lengths of an octahedron alone prove: that no realisation moves, if there is any.
+/// Returns the verdict that the lengths of an octahedron alone prove: no realisation moves, if there is any.
 fn by_lengths(start: &Framework<f64>, squares: &[Rational]) -> Option<Mobility> {
     let octahedron = Octahedron::of(start, squares)?;
     if (0..3).any(|axis| octahedron.closure(axis).is_zero()) {
@@ -187,14 +188,14 @@ fn begin(framework: &Framework<f64>, rank: usize, infinitesimal: usize) -> Mobil
     Mobility { verdict, proof, count: (vertices, bars, maxwell), rank, infinitesimal, flex: None }
 }
 
-/// The ranks of a framework without first-order motions: full modulo a prime, they are no less over the rationals.
+/// Returns the ranks of a framework without first-order motions: full modulo a prime, hence full over the rationals.
 fn full_rank(framework: &Framework<Rational>) -> Option<(usize, usize)> {
     let image = framework.map(ModP::<PRIME_61>::from_rational)?;
     let (rank, rigid) = image.ranks();
     (rigid == 6 && rank + rigid == framework.coordinates()).then_some((rank, rigid))
 }
 
-/// What the ring about the diagonals of an octahedron proves.
+/// Returns the verdict that the rings about the diagonals of an octahedron prove.
 fn of_octahedron(octahedron: &Octahedron, realisation: &Framework<f64>) -> Option<(Verdict, Proof)> {
     let pair = |axis: usize| [octahedron.vertices[axis], octahedron.vertices[axis + 3]];
     let diagonals: Vec<Diagonal> = (0..3).map(|axis| octahedron.diagonal(axis, realisation)).collect();
@@ -204,7 +205,7 @@ fn of_octahedron(octahedron: &Octahedron, realisation: &Framework<f64>) -> Optio
     diagonals.iter().all(|diagonal| *diagonal == Diagonal::Fixed).then_some((Verdict::Rigid, Proof::NoDiagonal))
 }
 
-/// What power series tell, and what the motion in f64 looks like.
+/// Returns the verdict of the power series, with the motion in f64 where they leave it open.
 fn of_series(framework: &Framework<Rational>, is_octahedron: bool, flex: Option<&Flex>) -> (Verdict, Proof) {
     let bound = if is_octahedron { Some(OCTAHEDRON) } else { is_platform(framework).then_some(PLATFORM) };
     if framework.coordinates() > SERIES_COORDINATES {

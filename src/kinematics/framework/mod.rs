@@ -107,7 +107,7 @@ fn split(vertices: &[Vector<Rational>], body: &[usize]) -> (Vec<usize>, Vec<(usi
 }
 
 impl<R: Ring> Framework<R> {
-    /// The framework over another ring; `None` as soon as one number has no image.
+    /// Maps the framework to another ring; `None` as soon as one number has no image.
     pub fn map<S: Ring>(&self, image: impl Fn(&R) -> Option<S>) -> Option<Framework<S>> {
         let vector = |v: &Vector<R>| -> Option<Vector<S>> { Some([image(&v[0])?, image(&v[1])?, image(&v[2])?]) };
         let combination = |w: &Vec<(usize, R)>| w.iter().map(|(k, c)| Some((*k, image(c)?))).collect::<Option<_>>();
@@ -140,7 +140,7 @@ impl<R: Ring> Framework<R> {
         dot(&between, &between)
     }
 
-    /// From the second vertex to the first.
+    /// Returns the vector from the second vertex to the first.
     fn between(&self, [a, b]: [usize; 2]) -> Vector<R> {
         std::array::from_fn(|k| self.vertices[a][k].sub(&self.vertices[b][k]))
     }

@@ -1,4 +1,4 @@
-//! Whether an octahedron of bars moves, decided exactly from its twelve lengths.
+//! The mobility of an octahedron of bars, decided exactly from its twelve lengths.
 //!
 //! Let C, C' be opposite vertices and `s = |CC'|^2`. Seen along CC', the other four vertices A, B, A', B' are the corners of a
 //! closed ring of dihedral angles: the angles (A,B), (B,A'), (A',B'), (B',A) about the line CC' add up to a multiple of a full
@@ -24,9 +24,9 @@ use crate::algebra::univariate::Univariate;
 use crate::kinematics::motion::{Vector, cross, dot};
 use rug::Rational;
 
-/// Realisations known in f64 are within this share of exact ones, by far.
+/// Largest distance, as a share, of realisations in f64 from exact ones, with a wide margin.
 const NEAR: (u32, u32) = (1, 100_000_000);
-/// What must differ, differs by more than this: far above rounding.
+/// Least difference of numbers that must differ: far above rounding.
 const DISTINCT: f64 = 1e-6;
 
 type Poly = Univariate<Rational>;
@@ -40,14 +40,14 @@ pub struct Octahedron {
     squares: [[Rational; 6]; 6],
 }
 
-/// What is known of one diagonal.
+/// The verdict on one diagonal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Diagonal {
     /// Its length changes in a real motion: proved.
     Moves,
     /// It has finitely many lengths: proved.
     Fixed,
-    /// A condition holds identically, but not on the side on which the realisation is, or there it degenerates.
+    /// A condition holds identically, but not on the side of the realisation, or it degenerates there.
     Undecided,
 }
 

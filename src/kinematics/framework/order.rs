@@ -1,11 +1,11 @@
-//! To which order a framework moves: its realisations as power series about an exact one.
+//! The order to which a framework moves: its realisations as power series about an exact one.
 
 use super::Framework;
 use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::Field;
 use crate::kinematics::motion::{Vector, dot};
 
-/// How far a first-order motion can be continued.
+/// The order to which a first-order motion can be continued.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
     /// The lengths cannot be kept in this order: the realisation is isolated, a solution of this multiplicity at least.
@@ -32,7 +32,7 @@ pub fn order<F: Field>(framework: &Framework<F>, most: usize) -> Option<Order> {
     if free.len() != 7 {
         return None;
     }
-    // Rigid motions must be those that the held coordinates forbid.
+    // The held coordinates must forbid exactly the rigid motions.
     let parameter = free.iter().copied().find(|&column| restricted(column) == 6)?;
     let (rows, pivots) = (echelon.independent_rows(), echelon.pivots());
     let inverse =

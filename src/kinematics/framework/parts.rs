@@ -12,9 +12,9 @@ use crate::algebra::number::Number;
 use crate::kinematics::motion::{Vector, cross, dot};
 use rug::{Float, Rational};
 
-/// Four points whose volume is this small a share of the product of three edges are in a plane.
+/// Largest volume of four points in a plane, as a share of the product of three edges.
 const FLAT: f64 = 1e-6;
-/// Where lengths are given and no vertices, a held distance that is no bar is chosen among those nearby, with so many digits.
+/// Digits of a held distance that is no bar, where lengths but no vertices are given; it is chosen among those nearby.
 const DIGITS: u32 = 9;
 
 /// `exact`: the vertices themselves, where they are known.
@@ -61,7 +61,7 @@ fn about(
     };
     let mut found = vec![vec![p, q]];
     let mut inside: Vec<usize> = Vec::new();
-    // Each wing for itself, then those that a bar or an octahedron relates.
+    // Each wing on its own, then the wings that a bar or an octahedron relates.
     let mut component: Vec<usize> = (0..wings.len()).collect();
     for (k, &x) in wings.iter().enumerate() {
         cover(&[p, q, x]);
