@@ -1,14 +1,14 @@
-//! Triples of neighbouring axes that are parallel or meet in a point: two of them leave six joints dependent.
+//! Triples of neighbouring axes that are parallel or meet in a point; two such triples make six joints dependent.
 //!
-//! Rotations about three parallel axes are motions of a plane, those about three axes through a point turn about it. Two
-//! planes share the translation along both; two points the rotation about the line through them; a plane and a point the
-//! rotation about its normal there: six screws of two triples are dependent in every position.
+//! Rotations about three parallel axes generate planar motions, those about three axes through a point spherical ones. Two
+//! planes share the translation along both. Two points share the rotation about the line through them. A plane and a point
+//! share the rotation about its normal there. So the six screws of two triples are dependent in every position.
 
 use crate::kinematics::closed_loop::{OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
 use crate::solve::decoupled::{Common, Decoupled};
 
-/// Distances, in parts of the longest link, and sines below which axes meet or are parallel.
+/// Axes meet if their distance, over the longest link, is below this; they are parallel if the sine of their angle is.
 const NEAR: f64 = 1e-10;
 
 /// Three neighbouring axes.
@@ -21,7 +21,7 @@ pub struct AxisTriple {
 }
 
 impl AxisTriple {
-    /// All triples that do not overlap, from the first unknown on, among the links of a loop whose gap is open.
+    /// Returns all triples that do not overlap, from the first unknown on, among the links of an open loop.
     #[must_use]
     pub fn all(open: &OpenLoop<f64>) -> Vec<Self> {
         let near = near(open);
@@ -41,8 +41,8 @@ impl AxisTriple {
     }
 }
 
-/// The three rotations that a closed form takes out of a loop of six, its gap open: those through a point before parallel ones,
-/// whose positions are of the same degree.
+/// Returns the three rotations that a closed form takes out of an open loop of six. It prefers concurrent axes to parallel
+/// ones if their positions are of the same degree.
 pub(super) fn decoupled(open: &OpenLoop<f64>) -> Option<Decoupled> {
     if open.variables != [Variable::Rotation; 6] {
         return None;
@@ -62,18 +62,18 @@ pub(super) fn decoupled(open: &OpenLoop<f64>) -> Option<Decoupled> {
     })
 }
 
-/// How near axes are that meet.
+/// Returns the distance below which two axes meet.
 fn near(open: &OpenLoop<f64>) -> f64 {
     let size = |m: &Motion<f64>| m.translation.iter().map(|x| x.abs()).fold(0.0, f64::max);
     NEAR * open.constants.iter().map(size).fold(0.0, f64::max)
 }
 
-/// Whether a link keeps the direction of the z axis.
+/// Returns whether a link keeps the direction of the z axis.
 fn is_parallel(link: &Motion<f64>) -> bool {
     link.rotation[0][2].hypot(link.rotation[1][2]) <= NEAR
 }
 
-/// Where on the z axis the image of the z axis under a link crosses it.
+/// Returns the point on the z axis at which its image under a link crosses it, if it does.
 fn crossing(link: &Motion<f64>, near: f64) -> Option<f64> {
     let ([x, y, z], [u, v, w]) = (link.translation, [0, 1, 2].map(|i| link.rotation[i][2]));
     let square = u * u + v * v;

@@ -1,17 +1,17 @@
-//! Arms with a spherical wrist or three parallel axes: all solutions by closed forms, where they are certified to be as many as
-//! the geometry allows.
+//! Arms with a spherical wrist or three parallel axes: all solutions by closed forms, if as many are certified as the geometry
+//! allows.
 
 use super::search::Search;
 use crate::solve::dense::{inverse, times};
 use crate::solve::newton::{Polished, Six, closure};
 use crate::solve::scalar::Scalar;
 
-/// Closures no larger than this are rounding: a step of Newton's method brings nothing.
+/// A closure error no larger than this is rounding: a Newton step does not improve it.
 const CLOSED: f64 = 2e-15;
 
 impl Search<'_> {
-    /// Lists the candidates of the closed form, if there is one. Whether as many are proved as the loop can have: else nothing
-    /// is listed, and the pencils decide.
+    /// Lists the candidates of the closed form, if there is one. Returns whether as many are proved as the loop can have;
+    /// otherwise it lists nothing and the pencils decide.
     pub(super) fn by_closed_form(&mut self, most: &dyn Fn() -> usize) -> bool {
         let Some(decoupled) = self.decoupled else { return false };
         let candidates = decoupled.candidates(self.closed);
@@ -28,7 +28,7 @@ impl Search<'_> {
         false
     }
 
-    /// Lists a candidate that one step of Newton's method brings to a closure, with its proof. Whether it does.
+    /// Improves a candidate by one Newton step and lists it with its certificate if it closes. Returns whether it does.
     fn confirm<S: Scalar>(&mut self, start: &Six<S>) -> bool {
         let mut here = closure(self.closed, start);
         let raw = here.defect;
@@ -62,7 +62,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use std::f64::consts::PI;
 
-    /// A general link, one between axes that cross in the origin behind it, and one between parallel axes.
+    /// Returns a general link, one between axes that cross in the origin behind it, or one between parallel axes.
     fn link(kind: char, random: &mut ChaCha8Rng) -> Motion<f64> {
         let mut length = || random.random_range(-1.0..1.0);
         let translation = match kind {
@@ -72,7 +72,7 @@ mod tests {
         let angle = random.random_range(0.3..2.8);
         let turn = match kind {
             'p' => Motion::rotation_z(f64::cos(angle), f64::sin(angle)),
-            // Parallel, and the other way up.
+            // Antiparallel axes.
             'a' => Motion::rotation_z(f64::cos(angle), f64::sin(angle)).then_after(&Motion::rotation_x(-1.0, 0.0)),
             _ => Motion::rotation_z(0.6, 0.8).then_after(&Motion::rotation_x(f64::cos(angle), f64::sin(angle))),
         };
@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn closed_forms_find_what_pencils_find() {
         let variables = [Variable::Rotation; 6];
-        // A wrist or three parallel axes at every place, some with more axes that cross or are parallel.
+        // A wrist or three parallel axes at every place; some arms have more axes that cross or are parallel.
         let links = ["xxggg", "gxxgg", "ggxxg", "gggxx", "ppggg", "gppgg", "ggppg", "gggpp", "gaagg", "gpggg"];
         let links = links.iter().chain(&["xpgxx", "gpgxx", "xgpxx", "xgxxg", "xppxg", "gppxx", "gppxg"]);
         for (number, kinds) in links.enumerate() {
@@ -103,7 +103,7 @@ mod tests {
                 let (mut workspace, mut fast, mut slow) = (Workspace::default(), Assembly::default(), Assembly::default());
                 let most = if solver.is_decoupled() { 8 } else { 16 };
                 solver.solve_up_to(&gap, Roots::All, &|| most, &mut workspace, &mut fast);
-                // Nobody knows of a bound: the pencils decide.
+                // No bound is known, so the pencils decide.
                 solver.solve_up_to(&gap, Roots::All, &|| usize::MAX, &mut workspace, &mut slow);
                 assert_eq!(fast.tries == 0, solver.is_decoupled(), "{kinds}, pose {pose}");
                 assert!(slow.tries > 0, "{kinds}, pose {pose}");

@@ -1,4 +1,4 @@
-//! Loops with three or four rotations: one small polynomial in place of a pencil of size 8.
+//! Loops with three or four rotations: one small polynomial replaces a pencil of size 8.
 
 use super::limits;
 use super::search::{Family, RootOutcome, Search};
@@ -19,7 +19,7 @@ use crate::solve::separated::{SeparatedRoots, both_roots, unshifted};
 use num_complex::Complex;
 
 impl Search<'_> {
-    /// Both solutions of a spherical triangle.
+    /// Admits both solutions of a spherical triangle.
     pub fn triangle(&mut self) {
         let Some(form) = LinkForm::of(self.closed) else { return };
         let triangle = triangle(&form);
@@ -27,11 +27,11 @@ impl Search<'_> {
         let amplitude = cos.hypot(sin);
         self.assembly.tries += 1;
         if !(amplitude > limits::PARALLEL) {
-            // Two axes are parallel: the third one's angle with them is right or it is not.
+            // Two axes are parallel: the third one either makes the required angle with them or does not.
             self.assembly.all_resolved = constant.abs() > limits::PARALLEL;
             return;
         }
-        // Turned so that the equation is `constant + amplitude' cos q' = 0`: both roots are in sight.
+        // The angle is turned so that the equation reads `constant + amplitude' cos q' = 0`, which keeps both roots finite.
         let turned = -amplitude.copysign(constant);
         let square = (amplitude - constant.abs()) / (amplitude + constant.abs());
         let root = Complex::new(square, 0.0).sqrt();
@@ -40,8 +40,8 @@ impl Search<'_> {
         self.assembly.all_resolved = self.all_roots(&mut family, &[root, -root]);
     }
 
-    /// The eight solutions of a spherical four-bar whose links have to be bridged, from the best link to look at it;
-    /// from the others too, until the search is done.
+    /// Admits the eight solutions of a spherical four-bar whose translations have to bridge the links. It starts from the
+    /// best link and goes on to the others until the search is done.
     pub fn four_bars(&mut self, most: &dyn Fn() -> usize) {
         let Some(form) = LinkForm::of(self.closed) else { return };
         if self.opposite_axes(&form) {
@@ -67,8 +67,8 @@ impl Search<'_> {
         }
     }
 
-    /// The four solutions where the translations run along two opposite axes. Whether they do, and every root of the
-    /// quartic was resolved.
+    /// Admits the four solutions of a loop whose translations run along two opposite axes. Returns whether they do and every
+    /// root of the quartic was resolved.
     fn opposite_axes(&mut self, form: &LinkForm<f64, 4, 2>) -> bool {
         let Some(axes) = OppositeAxes::of(form, limits::ALONG) else { return false };
         let equations = axes.equations(form);
@@ -82,7 +82,7 @@ impl Search<'_> {
         self.assembly.all_resolved
     }
 
-    /// Admits the loop at these rotations, its translations computed.
+    /// Computes the translations at these rotations and admits the loop.
     fn admit_rotations<S: Scalar, const RHO: usize, const TAU: usize>(
         &mut self,
         form: &LinkForm<S, RHO, TAU>,
@@ -109,20 +109,20 @@ impl Search<'_> {
     }
 }
 
-/// What the translations can do at given rotations.
+/// Result of solving for the translations at given rotations.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Bridged {
-    /// Close the loop.
+    /// They close the loop.
     Closed,
-    /// They should, but did not.
+    /// They should close the loop, but did not.
     Open,
-    /// They are dependent and do not reach.
+    /// They are dependent and cannot close the loop.
     Never,
-    /// They are dependent and reach, in a continuum of ways.
+    /// They are dependent and close the loop in a continuum of ways.
     Family,
 }
 
-/// The roots of one elimination: what is made of each, real or complex.
+/// The roots of one elimination, with a handler for real and one for complex roots.
 trait Roots<const RHO: usize, const TAU: usize> {
     fn one<S: Scalar>(&self, form: &LinkForm<S, RHO, TAU>, search: &mut Search<'_>, x: S) -> RootOutcome;
 }
@@ -218,7 +218,7 @@ impl Roots<4, 2> for OfFourBar<'_> {
             let (a, b) = if self.hidden == Hidden::First { (known, other) } else { (other, known) };
             let mut bridged = search.admit_rotations(form, &bar.rotations(&a, &b));
             if bridged != Bridged::Closed && !S::REAL {
-                // Far from the real numbers little is left of the translations: from better angles, if there are any.
+                // Far from the real numbers the translations lose their digits, so better angles are used if there are any.
                 let angles = [a, b].map(|(cos, sin)| S::angle_of(cos, sin).to_complex());
                 let start = refined(self.form, self.base, angles);
                 if start.is_some_and(|start| search.admit(&start)) {

@@ -1,9 +1,8 @@
-//! The list of a loop again from its exact constants, in numbers of 384 or 960 bits: for solutions that f64 does not.
+//! Solves a loop again from exact constants in 384- or 960-bit arithmetic, for solutions that f64 cannot reach.
 //!
 //! Nearly special geometry has solutions almost at infinity: angles with large imaginary parts, translations of enormous
-//! length. In f64 they are lost in rounding; here the same eliminations lead to the same closure polynomial in numbers of
-//! which there are enough digits, all of its roots are found, and each is followed back to all six unknowns, polished and
-//! proved.
+//! length. Rounding in f64 loses them. Here the same eliminations lead to the same closure polynomial in numbers with enough
+//! digits. All of its roots are found, and each is followed back to all six unknowns, polished and proved.
 
 use super::spherical::canonical;
 use super::mode::{Hits, Mode, are_apart, wrapped};
@@ -32,15 +31,15 @@ use crate::solve::polynomial_roots::polynomial_roots;
 use crate::solve::scalar::{Extended, Number, extended};
 use num_complex::Complex;
 
-/// What enters the motions of a loop, unknown by unknown: cosine and sine, or a distance and 0.
+/// The data of the motions of a loop, per unknown: cosine and sine of an angle, or a distance and 0.
 type Pairs<R> = [(Complex<R>, Complex<R>); 6];
 
-/// Closure polynomials that are tried at most: of other cuts, or in other angles.
+/// Maximum number of closure polynomials tried, from other cuts or in other angles.
 const MOST_TRIES: usize = 6;
 
-/// Finds and proves the solutions of a loop with exact constants, lengths over the scale of the solver. Returns the
-/// modes, conjugates included, of the first closure polynomial that leads to `expected` of them, or else the most: of
-/// the ring of the loop, too, if there is a plan for that, which comes behind the first polynomial.
+/// Finds and proves the solutions of a loop with exact constants, with lengths over the scale of the solver. Returns the
+/// modes, conjugates included, of the first closure polynomial that leads to `expected` of them, or else of the one that
+/// leads to most. If the coordinate ring has a plan, the ring is tried after the first polynomial.
 pub(super) fn solve_in_high_precision<R: Extended>(
     exact: &ClosedLoop<R>,
     spherical: Option<usize>,
@@ -75,8 +74,8 @@ pub(super) fn solve_in_high_precision<R: Extended>(
     best
 }
 
-/// Finds and proves the simple solutions of a loop at which the unknowns of a plan that are zero are so, from exact
-/// constants, conjugates included.
+/// Finds and proves the simple solutions of a loop at which the zero unknowns of a plan vanish, from exact constants.
+/// Conjugates are included.
 #[must_use]
 pub fn by_ring<R: Extended>(exact: &ClosedLoop<R>, plan: &coordinate_ring::Plan) -> Vec<Mode> {
     let candidates = plan.ring(exact).and_then(|ring| eigenvectors(&ring));
@@ -92,7 +91,7 @@ fn complex<R: Extended>(closed: &ClosedLoop<R>) -> ClosedLoop<Complex<R>> {
     ClosedLoop { variables: closed.variables, constants: closed.constants.each_ref().map(lift) }
 }
 
-/// The roots on and above the real axis: the others are their conjugates.
+/// Returns the roots on and above the real axis; the others are their conjugates.
 fn upper_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<Complex<R>>> {
     let roots = polynomial_roots(polynomial)?.into_iter().filter_map(|root| {
         let real = root.im.size() <= R::UNIT_ROUNDOFF.sqrt() * (1.0 + root.size());
@@ -145,7 +144,7 @@ fn in_link_form<R: Extended, const RHO: usize, const TAU: usize>(
     Some(pairs)
 }
 
-/// Three rotations.
+/// Returns the solutions of a loop with three rotations.
 fn spherical_triangle<R: Extended>(exact: &ClosedLoop<R>) -> Option<Vec<Pairs<R>>> {
     let (form, lifted) = (LinkForm::<_, 3, 3>::of(exact)?, LinkForm::of(&complex(exact))?);
     let real = triangle(&form);
@@ -160,7 +159,7 @@ fn spherical_triangle<R: Extended>(exact: &ClosedLoop<R>) -> Option<Vec<Pairs<R>
     Some(candidates.collect())
 }
 
-/// Four rotations.
+/// Passes the solutions of a loop with four rotations to `take`.
 fn four_bars<R: Extended>(exact: &ClosedLoop<R>, take: &mut impl FnMut(Vec<Pairs<R>>) -> bool) {
     let (Some(form), Some(lifted)) = (LinkForm::<_, 4, 2>::of(exact), LinkForm::<_, 4, 2>::of(&complex(exact))) else {
         return;
@@ -207,7 +206,7 @@ fn four_bars<R: Extended>(exact: &ClosedLoop<R>, take: &mut impl FnMut(Vec<Pairs
     }
 }
 
-/// Five or six rotations: cut after cut, the loop as it is first.
+/// Solves a loop with five or six rotations, cut after cut, the loop as it is first.
 fn cuts<R: Extended>(exact: &ClosedLoop<R>, take: &mut impl FnMut(Vec<Pairs<R>>) -> bool) {
     let as_it_is = (exact.clone(), [0, 1, 2, 3, 4, 5], false);
     let moved = rearranged(exact, R::PIVOT_ZERO).into_iter().map(|m| (m.closed, m.order, m.flipped));
@@ -235,7 +234,7 @@ fn cuts<R: Extended>(exact: &ClosedLoop<R>, take: &mut impl FnMut(Vec<Pairs<R>>)
     }
 }
 
-/// The candidates of one cut, its unknowns in the order of the cut.
+/// Returns the candidates of one cut, with the unknowns in the order of the cut.
 fn one_cut<R: Extended>(closed: &ClosedLoop<R>, cut: Cut, hidden: Hidden) -> Option<Vec<Pairs<R>>> {
     let TurnedPencil { view, form, pencil } = turned_pencil(closed, cut, hidden)?;
     let value = |k: i32| {
@@ -254,8 +253,8 @@ fn one_cut<R: Extended>(closed: &ClosedLoop<R>, cut: Cut, hidden: Hidden) -> Opt
     Some(candidates.collect())
 }
 
-/// The combination of cosines, sines and distances whose eigenvalues are asked for: one that no two solutions share, as
-/// a rule.
+/// Weights of the combination of cosines, sines and distances whose eigenvalues are computed. As a rule no two solutions
+/// share its value.
 const WEIGHTS: [i32; 10] = [3, -5, 7, 11, -13, 17, 19, -23, 29, 31];
 
 /// The solutions by the eigenvectors of a product in the ring of the loop.
@@ -282,7 +281,7 @@ fn eigenvectors<R: Extended>(ring: &CoordinateRing<R>) -> Option<Vec<Pairs<R>>> 
     Some(candidates.collect())
 }
 
-/// A spherical joint: its centre, and what is left of the rotation.
+/// Returns the candidates of a loop with a spherical joint: its centre, and the rotation that remains.
 fn centre<R: Extended>(exact: &ClosedLoop<R>, spherical: usize) -> Option<Vec<Pairs<R>>> {
     let lifted = complex(exact);
     let (reach, complex_reach) = (Reach::of(exact, spherical), Reach::of(&lifted, spherical));
@@ -317,7 +316,7 @@ fn centre<R: Extended>(exact: &ClosedLoop<R>, spherical: usize) -> Option<Vec<Pa
     Some(candidates.collect())
 }
 
-/// The residual of unknowns rounded to f64, see [`Mode::residual`]. f64 itself would add errors of its own.
+/// Returns the residual of unknowns rounded to f64, see [`Mode::residual`]. Computing it in f64 would add rounding errors.
 fn residual<R: Extended>(exact: &ClosedLoop<R>, unknowns: &Six<Complex<f64>>, real: bool) -> f64 {
     let mut pairs = [(Complex::zero(), Complex::zero()); 6];
     for (j, pair) in pairs.iter_mut().enumerate() {
@@ -330,7 +329,7 @@ fn residual<R: Extended>(exact: &ClosedLoop<R>, unknowns: &Six<Complex<f64>>, re
     here.relative_defect(exact, unknowns, real)
 }
 
-/// The modes that are proved among candidates, every one once, conjugates included.
+/// Returns the modes that are proved among the candidates, each once, conjugates included.
 fn modes<R: Extended>(exact: &ClosedLoop<R>, spherical: Option<usize>, candidates: &[Pairs<R>]) -> Vec<Mode> {
     let mut modes: Vec<Mode> = Vec::new();
     for Refined { unknowns, real, certificate, condition } in candidates.iter().filter_map(|p| from_pairs(exact, p)) {

@@ -8,13 +8,13 @@ pub const LEADING: f64 = 1e-9;
 pub const GOOD_LEADING: f64 = 1e-2;
 /// |Im x| / (1 + |x|^2) below which a root may be real: double roots split by 1e-8 and more.
 pub const NEAR_REAL: f64 = 1e-4;
-/// Closure before polishing above which a candidate is none: Newton might wander to another solution.
+/// Closure error before polishing above which a candidate is rejected: Newton's method might wander to another solution.
 pub const RAW: f64 = 1e-3;
 /// Growth of rounding errors round the loop above which complex candidates are polished in double-double arithmetic.
 pub const FAR: f64 = 1e9;
-/// Translations up to this length may close with an error in proportion, not those beyond.
+/// Translations up to this length may close with an error in proportion to it; longer ones may not.
 pub const LONGEST: f64 = 1e3;
-/// Closure after polishing above which a candidate is no solution.
+/// Closure error after polishing above which a candidate is no solution.
 pub const CLOSED: f64 = 1e-12;
 /// |1 + x^2| / (1 + |x|^2) below which a root belongs to no finite angle.
 pub const INFINITE: f64 = 1e-2;
@@ -22,24 +22,24 @@ pub const INFINITE: f64 = 1e-2;
 pub const REPEATED: f64 = 1e-9;
 /// Solutions nearer than this are one unless both are proved and apart.
 pub const SAME: f64 = 1e-5;
-/// Imaginary parts below this are rounding of a real solution.
+/// Imaginary parts below this are rounding errors at a real solution.
 pub const REAL_PART: f64 = 1e-8;
-/// Solutions farther apart than this are polished to different points and have a place in the list each.
+/// Solutions farther apart than this are polished to different points and are listed separately.
 pub const MERGED: f64 = 1e-4;
-/// A solution without a known partner that is proved no better than this may be one of a cluster.
+/// A certificate radius above which a solution without a known partner may be one of a cluster.
 pub const LONE_RADIUS: f64 = 1e-7;
-/// How many times the root of rounding of its order the points found of a multiple solution may be apart.
+/// Radius of the cluster around a solution of multiplicity m, in units of eps^(1/m).
 pub const CLOUD: f64 = 32.0;
-/// Closure errors that make two solutions one and are no larger than this are rounding of the input: the solution
-/// counts as double.
+/// Closure errors up to this, if they make two solutions coincide, are rounding of the input: the solution counts as
+/// double.
 pub const TOLD_APART: f64 = 1e-13;
-/// Starts of a search without a pencil to lead it.
+/// Number of random starts of a search that no pencil leads.
 pub const CASTS: usize = 40;
-/// Closure beyond which such a search has led nowhere.
+/// Closure error above which such a start has led nowhere.
 pub const NEAR: f64 = 1e-2;
-/// Norm of the inverse Jacobian above which a solution may be one of a pair, to be proved together.
+/// Norm of the inverse Jacobian above which a solution may be one of a pair that has to be proved together.
 pub const SINGULAR: f64 = 1e5;
-/// Imaginary parts below this are rounding of a real double solution.
+/// Imaginary parts below this are rounding errors at a real double solution.
 pub const NEAR_DOUBLE: f64 = 1e-6;
 /// Separation of the kernel below which a root that does not close may belong to a family.
 pub const SHARED: f64 = 1e-7;
@@ -47,7 +47,7 @@ pub const SHARED: f64 = 1e-7;
 pub const PARALLEL: f64 = 1e-12;
 /// Determinants of the equations of a spherical joint's centre below this, in scaled lengths, are zero.
 pub const REACH_DEPENDENT: f64 = 1e-9;
-/// Sines of the second angle of a spherical joint below this are too near 0 for the other two to be told apart.
+/// Below this sine of its second angle, the other two angles of a spherical joint cannot be distinguished.
 pub const LOCKED: f64 = 0.05;
 /// Translations nearer than this to dependent ones need not close a loop.
 pub const DEPENDENT: f64 = 1e-6;
@@ -55,5 +55,5 @@ pub const DEPENDENT: f64 = 1e-6;
 pub const SHARED_ANGLE: f64 = 1e-6;
 /// Sines below which a translation runs along an axis.
 pub const ALONG: f64 = 1e-12;
-/// Sines below this leave two axes of a spherical joint one.
+/// Below this sine two axes of a spherical joint coincide.
 pub const ONE_AXIS: f64 = 1e-9;

@@ -1,4 +1,4 @@
-//! Roots to assembly modes: prepare a geometry once, then find every way to close it, pose after pose.
+//! From roots to assembly modes: prepares a geometry once, then finds every way to close it, pose after pose.
 
 mod axis_triples;
 mod spherical;

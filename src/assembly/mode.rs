@@ -1,4 +1,4 @@
-//! What is found: modes, and the list of them.
+//! An assembly mode, and the list of them at one pose.
 
 use crate::certify::Certificate;
 use crate::kinematics::closed_loop::Variable;
@@ -7,52 +7,52 @@ use crate::solve::self_motion::SelfMotion;
 use num_complex::Complex;
 use std::f64::consts::{PI, TAU};
 
-/// Which roots are wanted.
+/// The roots that are requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Roots {
-    /// Every complex root polished and certified: what completeness needs.
+    /// Every complex root is polished and certified, as completeness requires.
     All,
-    /// Real roots only: faster, without a proof that none is missing.
+    /// Only real roots are computed: faster, but without a proof that none is missing.
     Real,
 }
 
-/// One way to assemble the loop.
+/// One assembly mode of the loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
     /// The six unknowns in loop order; angles in (-pi, pi], lengths in the unit of the mechanism.
     pub unknowns: Six<Complex<f64>>,
     /// Whether all unknowns are real.
     pub real: bool,
-    /// How many solutions coincide here; 0 where that is not known.
+    /// The number of solutions that coincide here; 0 if it is not known.
     pub multiplicity: usize,
-    /// Largest entry of |E - I| of the closure E over the size of what cancels in it, see
+    /// Largest entry of |E - I| of the closure E over the size of the terms that cancel in it, see
     /// [`relative_defect`](crate::solve::newton::Closure::relative_defect).
     pub residual: f64,
     /// Row-sum condition number of the Jacobian, lengths over the scale of the mechanism.
     pub condition: f64,
-    /// The proof, if there is one. Radii hold for angles in radians and for lengths in the unit of the mechanism.
+    /// The certificate, if there is one. Its radius holds for angles in radians and for lengths in the unit of the mechanism.
     pub certificate: Option<Certificate>,
-    /// How often it was found.
+    /// The number of times it was found.
     pub hits: Hits,
 }
 
-/// How often a mode was found by the roots of one pencil.
+/// The number of times a mode was found by the roots of one pencil.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hits {
     pencil: usize,
     here: usize,
-    /// The most of all pencils.
+    /// The maximum over all pencils.
     pub most: usize,
 }
 
 impl Hits {
-    /// Found for the first time, in this pencil.
+    /// Counts the first hit, in this pencil.
     #[must_use]
     pub fn first(pencil: usize) -> Self {
         Self { pencil, here: 1, most: 1 }
     }
 
-    /// Found again.
+    /// Adds another hit.
     #[must_use]
     pub fn again(self, other: Self) -> Self {
         let here = if self.pencil == other.pencil { self.here + other.here } else { other.here };
@@ -60,7 +60,7 @@ impl Hits {
     }
 }
 
-/// What was found at one pose or input.
+/// The assembly modes and self-motions found at one pose or input.
 #[derive(Clone, Debug, Default)]
 pub struct Assembly {
     /// Isolated solutions, real ones first.
@@ -74,16 +74,16 @@ pub struct Assembly {
     /// Whether some cut gave a pencil whose every root near the real axis was resolved, and one root at least led
     /// to a solution.
     pub real_resolved: bool,
-    /// How many pencils were solved.
+    /// Number of pencils solved.
     pub tries: usize,
-    /// How many modes were found or proved in multiprecision arithmetic only.
+    /// Number of modes found or proved in multiprecision arithmetic only.
     pub by_high_precision: usize,
-    /// The bits of these numbers.
+    /// Number of bits of that arithmetic.
     pub high_precision_bits: u32,
 }
 
 impl Assembly {
-    /// Forgets what was found.
+    /// Removes all results.
     pub fn clear(&mut self) {
         self.modes.clear();
         self.families.clear();
@@ -103,8 +103,8 @@ impl Assembly {
         self.modes.iter().filter(|m| m.real).map(|m| m.multiplicity.max(1)).sum()
     }
 
-    /// Takes in modes proved in more digits: those not known are added, and where all of the `expected` ones are proved
-    /// then, what could not be proved is left out as none.
+    /// Merges modes proved in multiprecision: new ones are added. If all `expected` modes are then proved, modes without
+    /// certificate are removed.
     pub(super) fn complete_with(&mut self, modes: Vec<Mode>, variables: &[Variable; 6], expected: usize, bits: u32) {
         let proved = |modes: &[Mode]| modes.iter().filter(|m| m.certificate.is_some()).count();
         let before = proved(&self.modes);
@@ -112,7 +112,7 @@ impl Assembly {
         for mode in self.modes.drain(..) {
             let same = |other: &&mut Mode| !are_apart(variables, other, &mode);
             match all.iter_mut().find(same) {
-                // What f64 proves already stays as it is.
+                // A mode that f64 proves already is kept.
                 Some(other) if mode.certificate.is_some() && mode.real == other.real => *other = mode,
                 Some(_) => {}
                 None => all.push(mode),
@@ -130,7 +130,7 @@ impl Assembly {
     }
 }
 
-/// Whether one unknown at least differs by more than both modes are off. Those without certificate count as exact.
+/// Returns whether one unknown at least differs by more than the radii of both modes. Modes without certificate count as exact.
 #[must_use]
 pub fn are_apart(variables: &[Variable; 6], one: &Mode, two: &Mode) -> bool {
     let off = |mode: &Mode, k: usize| {
@@ -144,7 +144,7 @@ pub fn are_apart(variables: &[Variable; 6], one: &Mode, two: &Mode) -> bool {
 /// An angle in (-pi, pi].
 #[must_use]
 pub fn wrapped(angle: f64) -> f64 {
-    // The remainder of what is smaller is itself.
+    // A smaller angle is its own remainder.
     let mut x = if angle.abs() < TAU { angle } else { angle % TAU };
     if x > PI {
         x -= TAU;

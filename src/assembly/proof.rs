@@ -1,4 +1,4 @@
-//! Proofs of solutions with long translations, all lengths over the longest of them.
+//! Certificates of solutions with long translations; all lengths are divided by the longest of them.
 
 use crate::certify::{Certificate, certificate};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
@@ -6,9 +6,9 @@ use crate::solve::dense::inverse;
 use crate::solve::newton::{Six, closure, reach};
 use crate::solve::scalar::Scalar;
 
-/// As [`certificate`], with the inverse of the Jacobian at the very point and lengths over a power of two not below the
-/// longest translation: frames far out are as good as near ones then, and what bends is the angles alone. The radius is
-/// that of the loop as it is. The last constant may be off by a matrix of row-sum norm `off`.
+/// As [`certificate`], with the inverse of the Jacobian at the exact point and lengths over a power of two not below the
+/// longest translation. Then distant frames are bounded as well as near ones, and only the angles have second derivatives.
+/// The radius is that of the loop as it is. The last constant may be off by a matrix of row-sum norm `off`.
 pub(super) fn certificate_in_reach<S: Scalar>(
     closed: &ClosedLoop<f64>,
     unknowns: &Six<S>,

@@ -1,4 +1,4 @@
-//! One pose being solved: cut after cut, root after root, until nothing is missing.
+//! The search for the solutions of one pose: cut after cut, root after root, until nothing is missing.
 
 use super::spherical::canonical;
 use super::limits;
@@ -26,50 +26,50 @@ use crate::solve::self_motion::{SelfMotion, self_motions};
 use crate::solve::singular::{Nature, nature, pair, spread};
 use num_complex::Complex;
 
-/// A cut, the loop as it reads it, and its elimination.
+/// A cut, the loop in the order of the cut, and its elimination.
 type Ready = (Cut, ClosedLoop<f64>, HalfAngleForm<f64>);
 
-/// The loop with every unknown in its place.
+/// The arrangement that leaves every unknown in its place.
 pub(super) const AS_IT_IS: ([usize; 6], bool) = ([0, 1, 2, 3, 4, 5], false);
 
-/// How much a search tries.
+/// The effort of a search.
 #[derive(Clone, Copy)]
 pub(super) enum Effort<'a> {
-    /// One pencil. Nothing is decided of what it leaves open.
+    /// One pencil. Unresolved roots are left undecided.
     OnePencil,
-    /// Pencil after pencil, up to a number of solutions, and proofs of pairs that f64 hardly tells apart. Nothing is decided
-    /// of what they leave open.
+    /// Pencil after pencil, up to a number of solutions, with proofs of pairs that f64 hardly distinguishes. Unresolved roots
+    /// are left undecided.
     Pencils(&'a dyn Fn() -> usize),
-    /// Pencils up to a number of solutions, multistart where they leave roots unresolved, and a decision on what has no certificate.
+    /// Pencils up to a number of solutions, multistart if they leave roots unresolved, and a decision on modes without certificate.
     All(&'a dyn Fn() -> usize),
 }
 
-/// One pose being solved.
+/// The search for the solutions of one pose.
 pub(super) struct Search<'a> {
-    /// The cuts that are ready, best first.
+    /// The prepared cuts, best first.
     pub prepared: &'a [PreparedCut],
     /// The loop, scaled.
     pub closed: &'a ClosedLoop<f64>,
-    /// Where the three rotations of a spherical joint begin, if there is one.
+    /// Index of the first of the three rotations of a spherical joint, if there is one.
     pub spherical: Option<usize>,
-    /// What a closed form takes out of the loop, if there is one.
+    /// The part of the loop that a closed form solves, if there is one.
     pub decoupled: Option<Decoupled>,
-    /// How far rounding may have moved the gap.
+    /// Bound on the rounding error of the closing transformation.
     pub gap_rounding: f64,
-    /// Which unknown each one of the cuts is, and whether the translation counts the other way there.
+    /// Index of every unknown of a cut in the loop, and whether the translation has the opposite sign there.
     pub arrangement: ([usize; 6], bool),
-    /// What is looked for.
+    /// The roots that are requested.
     pub roots: Roots,
-    /// How much is tried.
+    /// The effort of the search.
     pub effort: Effort<'a>,
-    /// Memory of the eigenvalue routines.
+    /// Scratch memory of the eigenvalue routines.
     pub eigen: &'a mut EigenWorkspace,
-    /// What was found.
+    /// The results.
     pub assembly: &'a mut Assembly,
 }
 
 impl Search<'_> {
-    /// Finds all there is to find.
+    /// Finds all solutions.
     pub fn run(&mut self) {
         let most = match self.effort {
             Effort::OnePencil => &|| usize::MAX,
@@ -112,7 +112,7 @@ impl Search<'_> {
         }
     }
 
-    /// The cuts of the loop as it is. Whether the search is done.
+    /// Solves the cuts of the loop in its present arrangement. Returns whether the search is done.
     fn cuts_of_this(&mut self, most: &dyn Fn() -> usize) -> bool {
         for prepared in self.prepared {
             let cut = prepared.cut.of(self.closed);
@@ -131,7 +131,7 @@ impl Search<'_> {
         self.cuts_inside(closed, &Cut::ALL[Cut::PREPARED..], most)
     }
 
-    /// Cuts whose elimination is not prepared, best first. Whether the search is done.
+    /// Solves cuts whose elimination is not prepared, best first. Returns whether the search is done.
     fn cuts_inside(&mut self, closed: &ClosedLoop<f64>, cuts: &[Cut], most: &dyn Fn() -> usize) -> bool {
         let ready = |cut: &Cut| {
             let view = cut.of(closed);
@@ -181,14 +181,14 @@ impl Search<'_> {
         false
     }
 
-    /// Whether more pencils are of no use.
+    /// Returns whether further pencils are of no use.
     pub fn done(&self, most: &dyn Fn() -> usize, all_resolved: bool) -> bool {
         match self.roots {
             _ if matches!(self.effort, Effort::OnePencil) => true,
             Roots::Real => all_resolved,
             Roots::All => {
                 let proved = self.proved();
-                // What has no proof yet is double, as a rule: the verdict will see.
+                // Modes without a certificate are double as a rule; the verdict decides later.
                 let likely = 2 * self.assembly.modes.len() - proved;
                 let general = general_degree(self.closed.variables).unwrap_or(0);
                 proved >= general || self.is_full(proved, most) || (all_resolved && (likely >= general || likely >= most()))
@@ -196,9 +196,9 @@ impl Search<'_> {
         }
     }
 
-    /// Whether as many solutions are proved as the loop can have: roots that lead nowhere are extraneous then.
+    /// Returns whether as many solutions are proved as the loop can have; then the other roots are extraneous.
     ///
-    /// The number is asked only where a special geometry is likely: half of the general number, or a quarter of it.
+    /// The bound is computed only if a special geometry is likely: at half of the general number or a quarter of it.
     pub(super) fn is_full(&self, proved: usize, most: &dyn Fn() -> usize) -> bool {
         self.roots == Roots::All && proved >= FEWEST_OF_SPECIAL && proved >= most()
     }
@@ -208,8 +208,8 @@ impl Search<'_> {
         self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count()
     }
 
-    /// Solves one pencil and admits what its roots lead to. Whether the pencil was regular and every root resolved:
-    /// it led to solutions or to infinity.
+    /// Solves one pencil and admits the solutions of its roots. Returns whether the pencil was regular and every root
+    /// resolved, which means that it led to solutions or to infinity.
     fn one_pencil(
         &mut self,
         cut: Cut,
@@ -219,7 +219,7 @@ impl Search<'_> {
         most: &dyn Fn() -> usize,
     ) -> bool {
         let Some((constant, linear)) = shifted.monic() else { return false };
-        // The fast routine first; where it leaves a root unresolved, the reference decides.
+        // The fast routine comes first; if it leaves a root unresolved, the reference routine decides.
         [Method::Francis, Method::Faer].into_iter().any(|method| {
             self.assembly.tries += 1;
             let roots = self.eigen.companion(method, &constant, &linear);
@@ -229,7 +229,7 @@ impl Search<'_> {
         })
     }
 
-    /// Admits what the roots of a polynomial lead to. Whether all of them are resolved.
+    /// Admits the solutions of the roots of a polynomial. Returns whether all of the roots are resolved.
     pub fn all_roots(&mut self, family: &mut impl Family, roots: &[Complex<f64>]) -> bool {
         let mut all_resolved = true;
         let (mut real_resolved, mut closes) = (true, false);
@@ -240,7 +240,7 @@ impl Search<'_> {
                 continue;
             }
             if (1.0 + x * x).norm() < limits::INFINITE * size && x.im.abs() > limits::NEAR_REAL * size {
-                // tan(q/2) near +-i: in special geometry where no solution is, but look in case one is.
+                // tan(q/2) near +-i has no solution in special geometry as a rule, but it is checked.
                 if self.roots == Roots::All && x.im > 0.0 {
                     family.complex(self, x);
                 }
@@ -253,7 +253,7 @@ impl Search<'_> {
                 repeated.expect(x, &outcome);
                 all_resolved &= !outcome.unresolved;
                 closes |= outcome.settled;
-                // A pair of complex roots near the real axis does not close; anything else is a loss.
+                // A pair of complex roots near the real axis need not close; any other failure is a loss.
                 let lost = !(outcome.settled || x.im != 0.0 && outcome.separation > limits::SHARED);
                 real_resolved &= !outcome.unresolved && !lost;
                 if settled {
@@ -274,12 +274,12 @@ impl Search<'_> {
             all_resolved &= outcome.settled && !outcome.unresolved;
             closes |= outcome.settled;
         }
-        // Roots of what vanishes but for rounding lead nowhere.
+        // Roots of a polynomial that vanishes but for rounding lead nowhere.
         self.assembly.real_resolved |= real_resolved && closes;
         all_resolved
     }
 
-    /// Everything one root of the pencil leads to.
+    /// Admits all solutions of one root of the pencil.
     fn one_root<S: Scalar>(&mut self, cut: Cut, view: &CutView<S>, shifted: &Shifted, x: S) -> RootOutcome {
         let kernel = kernel(&at_root(&shifted.pencil, x), SHARED);
         let mut outcome = RootOutcome {
@@ -291,7 +291,7 @@ impl Search<'_> {
             separation: kernel.separation,
         };
         let Some(turned) = double_angle(S::one(), x) else { return outcome };
-        // Back from the offset: q = q' + offset.
+        // Undo the rotation of the hidden variable: q = q' + offset.
         let (cos, sin) = shifted.offset;
         let hidden = (turned.0.times(cos).sub(&turned.1.times(sin)), turned.1.times(cos).add(&turned.0.times(sin)));
         let candidates = view.candidates(hidden, &kernel);
@@ -310,18 +310,18 @@ impl Search<'_> {
         outcome
     }
 
-    /// Polishes a candidate and takes it into the list if it closes. Whether it was a solution from the start.
+    /// Polishes a candidate and lists it if it closes. Returns whether it was a solution from the start.
     pub fn admit<S: Scalar>(&mut self, start: &Six<S>) -> bool {
         let mut polished = polish(self.closed, start);
         polished.closure.constant_is_off(5, self.gap_rounding);
         let growth = 6.0 * polished.closure.growth(false);
         if !S::REAL && !(growth < limits::FAR) {
-            // Far from the real numbers f64 has no digits left to polish with.
+            // Far from the real numbers f64 has too few digits to polish with.
             let Some(mode) = self.proved_mode(&start.map(Scalar::to_complex)) else { return false };
             self.merge_with_conjugate(mode);
             return true;
         }
-        // Rounding errors of a closure grow with its longest translation, too.
+        // Rounding errors of a closure also grow with its longest translation.
         let reach = reach(&self.closed.variables, &polished.unknowns.map(Scalar::to_complex)).min(limits::LONGEST);
         let closed = limits::CLOSED * reach + self.gap_rounding;
         if !(polished.closure.defect <= closed.max((1e-14 * growth).min(1e-4))) {
@@ -329,7 +329,7 @@ impl Search<'_> {
         }
         let near = polished.raw < limits::RAW.max((1e-10 * growth).min(0.1)) * reach && polished.moved < 0.1 * reach;
         let imaginary = polished.unknowns.iter().map(|x| x.to_complex().im.abs()).fold(0.0, f64::max);
-        // Beside a real double root, a complex point within rounding of closing is no solution of its own.
+        // Beside a real double root, a complex point that closes to rounding is no solution of its own.
         let singular = polished.inverse.as_ref().is_none_or(|a| dense::norm(a) > 1e6);
         let nearly_real = if singular { limits::NEAR_DOUBLE } else { limits::REAL_PART };
         if !S::REAL && imaginary < nearly_real {
@@ -352,7 +352,7 @@ impl Search<'_> {
             if variable == Variable::Rotation {
                 let turned = z.re;
                 z.re = wrapped(turned);
-                // A whole turn has a rounding of its own.
+                // Reduction by a full rotation adds a rounding error of its own.
                 wrapping = wrapping.max(f64::EPSILON * (z.re - turned).abs());
             }
         }
@@ -382,11 +382,11 @@ impl Search<'_> {
         self.merge(mode);
     }
 
-    /// Proves a polished solution by the cheapest way that works.
+    /// Proves a polished solution by the cheapest method that works.
     fn prove<S: Scalar>(&self, polished: &Polished<S>, mode: &mut Mode) {
         let Some(inverse) = polished.inverse.as_ref() else { return };
         mode.certificate = certificate(&polished.closure, inverse);
-        // Beside a double root a proof would single out one of two solutions that cannot be told apart.
+        // Beside a double root a proof would single out one of two solutions that cannot be distinguished.
         if mode.certificate.is_none() && dense::norm(inverse) > limits::SINGULAR {
             return;
         }
@@ -432,15 +432,15 @@ impl Search<'_> {
         self.assembly.modes.push(mode);
     }
 
-    /// Where every pencil leaves roots unresolved, solutions form families as a rule: looks for points of them from everywhere.
+    /// Searches from random starts. If every pencil leaves roots unresolved, solutions form families as a rule.
     fn cast_about(&mut self) {
-        // What is missing has large imaginary parts: no start among real numbers leads there.
+        // The missing solutions have large imaginary parts, which no real start reaches.
         if self.assembly.real_resolved {
             return;
         }
         for trial in 1..=limits::CASTS {
             let start = approach(self.closed, &spread(&self.closed.variables, trial));
-            // What ends far from closing has found a dead end.
+            // A start that ends far from closing is at a dead end.
             if closure(self.closed, &start).defect < limits::NEAR {
                 self.admit::<f64>(&start);
             }
@@ -448,7 +448,7 @@ impl Search<'_> {
     }
 
     /// Proves solutions that are nearly double, both or none: the pencil may have led to one of a pair only, and f64
-    /// cannot tell them apart.
+    /// cannot distinguish them.
     fn resolve_pairs(&mut self) {
         for k in 0..self.assembly.modes.len() {
             let mode = &self.assembly.modes[k];
@@ -479,7 +479,7 @@ impl Search<'_> {
                 {
                     [Some(one), Some(two)]
                 }
-                // A pair that close is proved together or not at all.
+                // A close pair is proved together or not at all.
                 Some((near, _)) if near < limits::MERGED => continue,
                 _ => [self.proved_mode(&own).filter(alone), None],
             };
@@ -496,7 +496,7 @@ impl Search<'_> {
         }
     }
 
-    /// A solution proved in double-double arithmetic from a start nearby, real if its imaginary parts vanish.
+    /// Returns a solution proved in double-double arithmetic from a start nearby, real if its imaginary parts vanish.
     fn proved_mode(&self, start: &Six<Complex<f64>>) -> Option<Mode> {
         let refined = refined_certificate_of(self.closed, start, self.gap_rounding)?;
         let Refined { mut unknowns, real, certificate, .. } = refined;
@@ -518,7 +518,7 @@ impl Search<'_> {
         })
     }
 
-    /// Decides what the modes without certificate are: multiple, points of a self-motion, or unknown.
+    /// Classifies the modes without certificate as multiple, points of a self-motion, or unknown.
     fn resolve_singular(&mut self) {
         let closed = self.closed;
         let mut families: Vec<SelfMotion> = Vec::new();
@@ -543,7 +543,7 @@ impl Search<'_> {
             if !moves {
                 mode.multiplicity = match nature(closed, &q) {
                     Nature::Isolated(multiplicity) => multiplicity,
-                    // Several singular directions: the roots of a pencil that led here tell how many solutions coincide.
+                    // With several singular directions, the number of roots of a pencil that led here is the multiplicity.
                     _ if (2..=MOST_HITS).contains(&mode.hits.most) => mode.hits.most,
                     _ => 0,
                 };
@@ -573,14 +573,14 @@ impl Search<'_> {
             unresolved.push(mode.unknowns);
             continued += 1;
             // Beside a self-motion, complex solutions that are not isolated are points of its complex continuation. One
-            // pair is enough to tell that there is a curve of complex solutions.
+            // pair is enough to show that there is a curve of complex solutions.
             dimension == 0 && continued <= 2
         });
         self.merge_multiple();
     }
 
-    /// Rounding leaves a cloud of points where a multiple solution is, as wide as the root of its size of that order: one
-    /// of them stays, a real one if there is one, the nearest to the middle.
+    /// Merges the cluster of points that rounding leaves at a solution of multiplicity m, with a radius of the order of
+    /// eps^(1/m). One point stays: a real one if there is one, and the nearest to the middle.
     fn merge_multiple(&mut self) {
         let is_cloudy = |mode: &Mode| mode.certificate.is_none() && mode.multiplicity >= 3;
         if !self.assembly.modes.iter().any(is_cloudy) {
@@ -610,19 +610,19 @@ impl Search<'_> {
     }
 }
 
-/// More roots of one pencil than this lead to no isolated solution: a closure polynomial has no more.
+/// If more roots of one pencil than this lead to one solution, it is not isolated: a closure polynomial has no more roots.
 const MOST_HITS: usize = 16;
-/// Complex solutions that are not isolated, of which so many are looked at.
+/// Maximum number of complex solutions that are not isolated and are examined.
 const MOST_CONTINUED: usize = 6;
-/// Points of one solution of which nothing is known crowd so near: the root of rounding of order four.
+/// Distance below which points belong to one unresolved solution: the fourth root of the rounding error.
 const CROWD: f64 = 1e-3;
 
-/// Whether a solution is beside one of which nothing is known.
+/// Returns whether a solution lies beside an unresolved one.
 fn is_crowded(unresolved: &[Six<Complex<f64>>], unknowns: &Six<Complex<f64>>) -> bool {
     unresolved.iter().any(|other| distance(&[Variable::Rotation; 6], other, unknowns) < CROWD)
 }
 
-/// Whether two self-motions are one: curves that share a point, surfaces along which the same unknowns move.
+/// Returns whether two self-motions are one: curves that share a point, or surfaces along which the same unknowns move.
 fn is_same(closed: &ClosedLoop<f64>, known: &SelfMotion, other: &SelfMotion) -> bool {
     if known.dimension > 1 || other.dimension > 1 {
         return known.dimension == other.dimension && known.moving == other.moving;
@@ -630,11 +630,11 @@ fn is_same(closed: &ClosedLoop<f64>, known: &SelfMotion, other: &SelfMotion) -> 
     known.holds(closed, &other.points[other.points.len() / 2], CLOSES_WITHIN)
 }
 
-/// What the roots of one closure polynomial lead to.
+/// The handlers of the roots of one closure polynomial.
 pub(super) trait Family {
-    /// Admits what a real root leads to.
+    /// Admits the solutions of a real root.
     fn real(&mut self, search: &mut Search<'_>, x: f64) -> RootOutcome;
-    /// Admits what a complex root leads to.
+    /// Admits the solutions of a complex root.
     fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome;
 }
 
@@ -659,44 +659,44 @@ impl Family for OfPencil<'_> {
     }
 }
 
-/// What became of one root.
+/// The result of following one root.
 pub(super) struct RootOutcome {
-    /// Every candidate of the root closed.
+    /// Whether every candidate of the root closed.
     pub settled: bool,
-    /// A family of solutions belongs to the root.
+    /// Whether a family of solutions belongs to the root.
     pub unresolved: bool,
-    /// Several solutions may belong to the root.
+    /// Whether several solutions may belong to the root.
     pub shared: bool,
-    /// As many candidates belong to the root as vectors to its kernel.
+    /// Whether the root has as many candidates as its kernel has dimensions.
     pub whole: bool,
     /// The dimension of that kernel.
     pub dimension: usize,
-    /// How far from that it is.
+    /// The separation of that kernel from one of a higher dimension.
     pub separation: f64,
 }
 
 impl RootOutcome {
-    /// No root, or none that leads anywhere.
+    /// Returns the outcome of a root that leads nowhere.
     pub fn nothing() -> Self {
         Self { settled: false, unresolved: false, shared: false, whole: false, dimension: 0, separation: 1.0 }
     }
 }
 
-/// Shared roots that are done with. Such a root comes once for each of its solutions, and the first time finds them all.
+/// Shared roots that are resolved. Such a root occurs once for each of its solutions, and its first occurrence finds them all.
 #[derive(Default)]
 struct Repeated {
-    /// Roots, and how often each of them is still to come.
+    /// The roots, and the number of occurrences of each that are still to come.
     roots: [(Complex<f64>, usize); MOST_SHARED],
     count: usize,
 }
 
-/// A pencil with sixteen roots has no more of them that two solutions share.
+/// Maximum number of roots that two solutions share, of a pencil with sixteen roots.
 const MOST_SHARED: usize = 8;
-/// Arms with fewer solutions than this number are solved without a look at how many they can have.
+/// Arms with fewer solutions than this are solved without computing a bound on their number.
 const FEWEST_OF_SPECIAL: usize = 4;
 
 impl Repeated {
-    /// Whether a root is one of these that is still to come.
+    /// Returns whether a root is one of these and still to come.
     fn takes(&mut self, x: Complex<f64>, reach: f64) -> bool {
         let is_it = |(root, left): &&mut (Complex<f64>, usize)| *left > 0 && (x - *root).norm() < reach;
         let Some((_, left)) = self.roots[..self.count].iter_mut().find(is_it) else { return false };
@@ -704,7 +704,7 @@ impl Repeated {
         true
     }
 
-    /// Takes in a root, if all the solutions that share it are found.
+    /// Adds a root, if all the solutions that share it are found.
     fn expect(&mut self, x: Complex<f64>, outcome: &RootOutcome) {
         let is_done = outcome.settled && outcome.whole && outcome.shared && !outcome.unresolved;
         if is_done && self.count < MOST_SHARED {

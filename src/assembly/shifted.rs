@@ -1,4 +1,4 @@
-//! The pencil of one cut, turned so that it is well posed.
+//! The pencil of one cut with a rotated hidden variable, so that it is well posed.
 
 use super::limits;
 use crate::elimination::cut::Hidden;
@@ -6,7 +6,7 @@ use crate::elimination::pencil::{Bilinear, Pencil, Square, offset, pencil};
 use crate::solve::dense;
 use std::f64::consts::TAU;
 
-/// The pencil of a cut with its hidden unknown turned by an offset, its leading matrix factored.
+/// The pencil of a cut, its hidden unknown rotated by an offset and its leading matrix factored.
 pub(super) struct Shifted {
     pub pencil: Pencil<f64>,
     pub hidden: Hidden,
@@ -18,11 +18,11 @@ pub(super) struct Shifted {
 }
 
 impl Shifted {
-    /// The first of four offsets whose leading matrix is good, else the best.
+    /// Returns the first of four offsets whose leading matrix is good, else the best.
     pub fn best(equations: &Bilinear<f64>, hidden: Hidden) -> Self {
         let mut best: Option<Self> = None;
         for k in 0..4 {
-            // No multiple of a right angle, where roots of real mechanisms like to sit.
+            // Offsets are no multiples of a right angle, where roots of real mechanisms tend to lie.
             let (sin, cos) = (0.4 + 0.25 * TAU * f64::from(k)).sin_cos();
             let pencil = pencil(&offset(equations, hidden, &cos, &sin), hidden);
             let mut factors = pencil.coefficients[2];
@@ -39,7 +39,7 @@ impl Shifted {
 }
 
 impl Shifted {
-    /// `A2^-1 A0` and `A2^-1 A1`; `None` for a singular leading matrix.
+    /// Returns `A2^-1 A0` and `A2^-1 A1`; `None` if the leading matrix is singular.
     pub fn monic(&self) -> Option<(Square<f64, 8>, Square<f64, 8>)> {
         let [a0, a1, _] = &self.pencil.coefficients;
         let divided = |a: &[[f64; 8]; 8]| dense::solve(&self.factors, &self.order, a);

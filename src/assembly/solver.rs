@@ -21,7 +21,7 @@ use crate::solve::eigen::{EigenWorkspace, companion};
 use crate::solve::scalar::Extended;
 use crate::solve::singular::structural_rank;
 
-/// A geometry, prepared: solve many poses of it.
+/// A prepared geometry, which solves many poses.
 ///
 /// # Example
 /// ```
@@ -49,34 +49,34 @@ pub struct Solver {
     open: OpenLoop<f64>,
     /// Lengths inside the solver are lengths of the mechanism over this power of two.
     scale: f64,
-    /// Cuts that need no pose, best first.
+    /// The cuts that are independent of the pose, best first.
     prepared: Vec<PreparedCut>,
     structural_rank: usize,
     axis_triples: Vec<AxisTriple>,
-    /// What a closed form takes out of the loop, if there is one.
+    /// The part of the loop that a closed form solves, if there is one.
     decoupled: Option<Decoupled>,
-    /// Where the three rotations of a spherical joint begin, if there is one.
+    /// Index of the first of the three rotations of a spherical joint, if there is one.
     spherical: Option<usize>,
 }
 
-/// What a pose or input leaves open: the constant behind the last unknown, in the scale of its solver.
+/// The closing transformation at a pose or input: the constant behind the last unknown, in the scale of its solver.
 #[derive(Clone, Debug)]
 pub struct Gap {
     last: Motion<f64>,
-    /// How far it may be off beside one rounding: a bound of the row-sum norm.
+    /// Bound of the row-sum norm of its error beyond one rounding.
     rounding: f64,
     is_rough: bool,
 }
 
-/// Roundings of the rotation of a gap, by rows: a product of three rotations, each rounded once. An entry of the first
-/// product is off by 5 u, one of the second by 5 sqrt(3) u and 4 u of its own.
+/// Rounding errors, in units u, of the rotation of a closing transformation, by rows. It is a product of three rotations,
+/// each rounded once. An entry of the first product is off by 5 u, one of the second by 5 sqrt(3) u and 4 u of its own.
 const GAP_TURN: f64 = 40.0;
-/// Roundings of the translation of a gap, in parts of the lengths that are added up: as those of an entry, with the
-/// rotation of the first end before.
+/// Rounding errors of the translation of a closing transformation, relative to the lengths that are added up. They are
+/// those of an entry, with the rotation of the first end in front.
 const GAP_SHIFT: f64 = 16.0;
 
 impl Gap {
-    /// Whether digits were lost that exact arithmetic would keep: a base or a tool far away costs them.
+    /// Returns whether digits were lost that exact arithmetic would keep, as with a distant base or tool.
     #[must_use]
     pub fn is_rough(&self) -> bool {
         self.is_rough
@@ -98,14 +98,14 @@ pub struct Workspace {
     eigen: EigenWorkspace,
     /// The workspace of platforms.
     pub platform: PlatformWorkspace,
-    /// What was found last of a platform.
+    /// The last result for a platform.
     pub platform_assembly: PlatformAssembly,
-    /// Whether a list is complete once its real solutions are, though complex ones may be missing.
+    /// Whether a list counts as complete once its real solutions are, though complex ones may be missing.
     pub only_real_list: bool,
-    /// Whether solutions that crowd are listed as they are found, not proved to be all, where the numbers lie in a number
-    /// field: there the proof takes seconds.
+    /// Whether clustered solutions are listed without a proof of completeness if the numbers lie in a number field, where
+    /// that proof takes seconds.
     pub leaves_fields: bool,
-    /// Whether solutions are listed as f64 finds them, and that they are all is not proved.
+    /// Whether solutions are listed as f64 finds them, without a proof of completeness.
     pub only_lists: bool,
 }
 
@@ -117,12 +117,12 @@ impl Workspace {
 }
 
 impl Solver {
-    /// Prepares a geometry: all that does not depend on the pose, and the order of the cuts.
+    /// Prepares the parts of a geometry that do not depend on the pose, and the order of its cuts.
     #[must_use]
     pub fn prepare(open: &OpenLoop<f64>) -> Self {
         let square = |m: &Motion<f64>| length(m).powi(2);
-        // The mean link length, not the distance of a base or a tool; of an arm without lengths its ends, else 1. A power
-        // of two: scaling then costs no digit.
+        // The unit is the mean link length, without the distance of a base or a tool. For an arm without lengths it is that of
+        // its ends, else 1. It is a power of two, so that scaling is exact.
         let links = open.constants.iter().map(square).sum::<f64>() / 5.0;
         let mean = if links > 0.0 { links } else { square(&open.before_gap) + square(&open.after_gap) };
         let scale = if mean > 0.0 { mean.sqrt().log2().round().exp2() } else { 1.0 };
@@ -139,7 +139,7 @@ impl Solver {
             .filter_map(|&cut| {
                 let view = cut.of(&closed);
                 let form = half_angle_form(&view)?;
-                // The gap sits in constant 6 of the original loop.
+                // The closing transformation is constant 6 of the original loop.
                 let free = cut.constant_index(1) != 5;
                 let rows = free.then(|| before_second_link(&form, &view.constants[1]));
                 (form.score > limits::SCORE).then_some(PreparedCut { cut, form, rows })
@@ -158,8 +158,8 @@ impl Solver {
         Self { spherical: Some(spherical), decoupled: None, prepared: Vec::new(), ..Self::prepare(open) }
     }
 
-    /// The largest rank the six joints reach in general position: below 6 the arm is structurally deficient, and every
-    /// solution is part of a self-motion.
+    /// Returns the largest rank the six joints reach in general position. Below 6 the arm is structurally deficient, and
+    /// every solution is part of a self-motion.
     #[must_use]
     pub fn structural_rank(&self) -> usize {
         self.structural_rank
@@ -171,26 +171,26 @@ impl Solver {
         &self.axis_triples
     }
 
-    /// Whether a closed form finds the solutions: three neighbouring axes meet in a point or are parallel.
+    /// Returns whether a closed form finds the solutions: three neighbouring axes meet in a point or are parallel.
     #[must_use]
     pub fn is_decoupled(&self) -> bool {
         self.decoupled.is_some()
     }
 
-    /// Whether some cut loses equations: the geometry is special, and may have fewer than 16 solutions.
+    /// Returns whether some cut loses equations: the geometry is special, and may have fewer than 16 solutions.
     #[must_use]
     pub fn is_special(&self) -> bool {
         let fitting = Cut::ALL[..Cut::PREPARED].iter().filter(|cut| cut.fits(self.open.variables)).count();
         self.prepared.len() < fitting || fitting == 0
     }
 
-    /// Whether the loop has fewer than three rotations: its links move in parallel planes or without turning.
+    /// Returns whether the loop has fewer than three rotations: its links move in parallel planes or only translate.
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
         general_degree(self.open.variables).is_none()
     }
 
-    /// The degree of the closure polynomial of general loops with these unknowns, 0 where [`Self::is_out_of_reach`].
+    /// Returns the degree of the closure polynomial of general loops with these unknowns, 0 if [`Self::is_out_of_reach`].
     #[must_use]
     pub fn general_degree(&self) -> usize {
         match self.spherical {
@@ -199,8 +199,8 @@ impl Solver {
         }
     }
 
-    /// Whether the gap is wider than the links are long together, so that no real solution can close it; then both
-    /// lengths, in the unit of the mechanism.
+    /// Returns the distance to be closed and the total length of the links, in the unit of the mechanism, if the former is
+    /// larger, so that no real solution can close the loop.
     #[must_use]
     pub fn too_far(&self, gap: &Gap) -> Option<(f64, f64)> {
         if self.open.variables.contains(&Variable::Translation) {
@@ -208,40 +208,40 @@ impl Solver {
         }
         let width = length(&gap.last);
         let links: f64 = self.open.constants.iter().map(length).sum();
-        // Every link turns freely at best; the margin is that of rounding.
+        // At best every link points along the distance; the margin allows for rounding.
         (width > links * (1.0 + 1e-12) + gap.rounding).then_some((width * self.scale, links * self.scale))
     }
 
-    /// The gap that this motion fills.
+    /// Returns the closing constant: this motion between the two ends of the open loop.
     #[must_use]
     pub fn gap(&self, closing: &Motion<f64>) -> Gap {
         let closing = scaled(closing, self.scale);
         let ends = length(&self.open.before_gap) + length(&closing) + length(&self.open.after_gap);
         let last = self.open.before_gap.then_after(&closing).then_after(&self.open.after_gap);
         let rounding = 0.5 * f64::EPSILON * (GAP_TURN + GAP_SHIFT * ends);
-        // Ends much longer than what remains of them lose digits.
+        // If the ends are much longer than their difference, digits are lost.
         Gap { rounding, is_rough: ends > 8.0 * (1.0 + length(&last)), last }
     }
 
-    /// The gap whose closing constant (behind the last unknown) was computed exactly and rounded once.
+    /// Takes a closing constant (behind the last unknown) that was computed exactly and rounded once.
     #[must_use]
     pub fn exact_gap(&self, last: &Motion<f64>) -> Gap {
         Gap { last: scaled(last, self.scale), rounding: 0.0, is_rough: false }
     }
 
-    /// The loop at a gap, and the power of two that its lengths are in.
+    /// Returns the loop with this closing constant, and the power of two that is the unit of its lengths.
     #[must_use]
     pub fn closed(&self, gap: &Gap) -> (ClosedLoop<f64>, f64) {
         (self.close(gap), self.scale)
     }
 
-    /// The loop at a gap, scaled.
+    /// Returns the scaled loop with this closing constant.
     fn close(&self, gap: &Gap) -> ClosedLoop<f64> {
         let constants = std::array::from_fn(|j| if j < 5 { self.open.constants[j].clone() } else { gap.last.clone() });
         ClosedLoop { variables: self.open.variables, constants }
     }
 
-    /// The 16 x 16 matrix whose eigenvalues the first pencil of this pose asks for; `None` where that is singular.
+    /// Returns the 16 x 16 matrix whose eigenvalues the first pencil of this pose needs; `None` if that pencil is singular.
     #[must_use]
     pub fn companion(&self, closing: &Motion<f64>) -> Option<[[f64; 16]; 16]> {
         let prepared = self.prepared.first()?;
@@ -252,14 +252,14 @@ impl Solver {
         Some(companion(&constant, &linear))
     }
 
-    /// Finds the solutions at one pose or input, given as the motion that fills the gap of the loop. Allocates nothing
-    /// once `assembly` has grown to its size, but for degenerate poses.
+    /// Finds the solutions at one pose or input, given as the closing transformation of the loop. Allocates nothing once
+    /// `assembly` has grown to its size, except for degenerate poses.
     pub fn solve(&self, closing: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
         self.solve_up_to(&self.gap(closing), roots, &|| usize::MAX, workspace, assembly);
     }
 
-    /// As [`Solver::solve`], for a geometry known to have no more than `most()` solutions: stops looking for more.
-    /// `most` is asked only where fewer than 16 are found.
+    /// As [`Solver::solve`], for a geometry known to have at most `most()` solutions, at which the search stops. `most` is
+    /// called only if fewer than 16 are found.
     pub fn solve_up_to(
         &self,
         gap: &Gap,
@@ -271,8 +271,8 @@ impl Solver {
         self.search(gap, roots, Effort::All(most), workspace, assembly);
     }
 
-    /// As [`Solver::solve_up_to`] for all roots, by the pencils alone: what they leave open is not searched for, and nothing
-    /// is decided of what has no certificate.
+    /// As [`Solver::solve_up_to`] for all roots, by the pencils alone: unresolved roots are not searched for, and modes
+    /// without certificate are left undecided.
     pub fn solve_by_pencils(
         &self,
         gap: &Gap,
@@ -283,13 +283,13 @@ impl Solver {
         self.search(gap, Roots::All, Effort::Pencils(most), workspace, assembly);
     }
 
-    /// All solutions as one pencil alone leads to them: most of those that f64 can tell apart. What has no proof is left
-    /// undecided.
+    /// Finds the solutions of one pencil alone, which are most of those that f64 can distinguish. Modes without certificate
+    /// are left undecided.
     pub fn solve_briefly(&self, gap: &Gap, workspace: &mut Workspace, assembly: &mut Assembly) {
         self.search(gap, Roots::All, Effort::OnePencil, workspace, assembly);
     }
 
-    /// Finds solutions with some effort.
+    /// Finds solutions with the given effort.
     fn search(&self, gap: &Gap, roots: Roots, effort: Effort<'_>, workspace: &mut Workspace, assembly: &mut Assembly) {
         assembly.clear();
         let closed = self.close(gap);
@@ -310,8 +310,8 @@ impl Solver {
         self.finish(assembly);
     }
 
-    /// Looks again for what is missing of a list, in numbers of more digits: `exact` is the same loop, its gap filled, from
-    /// exact data, `plan` that of its ring, if it is known, and `expected` the number of its solutions.
+    /// Searches for the missing solutions of a list in multiprecision. `exact` is the same closed loop from exact data,
+    /// `plan` the plan of its coordinate ring, if it is known, and `expected` the number of its solutions.
     pub fn solve_in_high_precision<R: Extended>(
         &self,
         exact: &ClosedLoop<R>,
@@ -331,8 +331,8 @@ impl Solver {
         self.finish(assembly);
     }
 
-    /// Translations in another unit. A radius bounds the errors of angles and translations alike: it grows with these where
-    /// they do.
+    /// Converts translations to another unit. A radius bounds the errors of angles and translations alike, so it is
+    /// multiplied by `grown`.
     fn scale_lengths(&self, assembly: &mut Assembly, factor: f64, grown: f64) {
         if !self.open.variables.contains(&Variable::Translation) {
             return;
@@ -356,7 +356,7 @@ impl Solver {
         }
     }
 
-    /// Puts the modes in order, in the unit of the mechanism.
+    /// Sorts the modes and converts them to the unit of the mechanism.
     fn finish(&self, assembly: &mut Assembly) {
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {

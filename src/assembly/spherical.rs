@@ -1,4 +1,4 @@
-//! Loops with a spherical joint: its centre first, by the point that both sides reach; its rotation is what is left.
+//! Loops with a spherical joint: first its centre, as the point that both sides reach, then the remaining rotation.
 //!
 //! A spherical joint is three rotations about z, x and z again, the second one from 0 to pi, so that every rotation is listed once.
 
@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 type Rotation<S> = [[S; 3]; 3];
 
 impl Search<'_> {
-    /// Every position of the centre of the spherical joint that begins at this unknown.
+    /// Admits the loop at every position of the centre of the spherical joint that begins at this unknown.
     pub fn centre(&mut self, spherical: usize) {
         let reach = Reach::of(self.closed, spherical);
         let Some(found) = SeparatedRoots::of(&reach.equations, limits::REACH_DEPENDENT) else { return };
@@ -29,7 +29,7 @@ impl Search<'_> {
         self.assembly.all_resolved = self.all_roots(&mut family, found.roots());
     }
 
-    /// Admits a loop with a spherical joint: in angles of the spherical joint that are far from where they are not independent.
+    /// Admits a loop with a spherical joint, in angles of that joint that are far from dependent.
     fn admit_spherical<S: Scalar>(&mut self, spherical: usize, others: &[(Variable, (S, S)); 3]) -> bool {
         let mut rest: Motion<S> = Motion::identity();
         for (k, (variable, pair)) in others.iter().enumerate() {
@@ -51,7 +51,7 @@ impl Search<'_> {
             place(&mut start, spherical, angles);
             return self.admit(&start);
         }
-        // Near the lock, as a spherical joint with its third angle about another axis.
+        // Near the lock the spherical joint is described with its third angle about another axis.
         let turned = matrix_product(&rotation, &quarter().map(|row| row.map(S::from_f64)));
         place(&mut start, spherical, spherical_angles(&turned).0);
         let mut closed = self.closed.clone();
@@ -79,7 +79,7 @@ impl Search<'_> {
     }
 }
 
-/// What was proved of a mode of a loop with a spherical joint.
+/// The certificate of a mode of a loop with a spherical joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proof {
     /// Error bound of the unknowns.
@@ -88,8 +88,8 @@ pub struct Proof {
     pub condition: f64,
 }
 
-/// Proves that exactly one closure of a loop lies near these unknowns, where `spherical` is the first one of a spherical joint: in angles of
-/// the spherical joint that are far from where they are not independent. None where that cannot be shown.
+/// Proves that exactly one closure of a loop lies near these unknowns, in angles of the spherical joint (`spherical` is
+/// its first unknown) that are far from dependent. Returns `None` if that cannot be shown.
 #[must_use]
 pub fn proof(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>, spherical: usize, real: bool) -> Option<Proof> {
     if real {
@@ -103,12 +103,12 @@ fn proof_in<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>, spherical: u
     let own = spherical_angles(&rotation).1;
     let (mut closed, mut start, mut enlarged) = (closed.clone(), *unknowns, 1.0);
     if !(own > limits::LOCKED) {
-        // X = X' Q for a quarter turn Q.
+        // X = X' Q for a rotation Q by a right angle.
         let turned = product_with_inverse(&rotation, &quarter());
         place(&mut start, spherical, spherical_angles(&turned).0);
         let constant = &mut closed.constants[(spherical + 2) % 6];
         *constant = Motion { rotation: quarter(), translation: [0.0; 3] }.then_after(constant);
-        // Near the lock the first and third angle are worse than the rotation; at the lock the third one is 0.
+        // Near the lock the first and third angle are less accurate than the rotation; at the lock the third one is 0.
         enlarged = if own > limits::ONE_AXIS { 4.0 / own } else { 4.0 };
     }
     let here = closure(&closed, &start);
@@ -141,7 +141,7 @@ pub(super) fn transposed<S: Scalar>(r: &Rotation<S>) -> Rotation<S> {
     std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]))
 }
 
-/// A quarter turn about y.
+/// Returns a rotation by a right angle about y.
 pub(super) fn quarter() -> Rotation<f64> {
     [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
 }
@@ -158,24 +158,24 @@ pub(super) fn spherical_rotation<S: Scalar>(angles: [S; 3]) -> Rotation<S> {
     matrix_product(&matrix_product(&about_z(angles[0]), &about_x), &about_z(angles[2]))
 }
 
-/// The three angles of a spherical joint, and the sine of the second one: near 0 the other two are not independent, and at 0 the
-/// third one is.
+/// Returns the three angles of a spherical joint, and the sine of the second one. Where that is near 0 the other two are
+/// dependent, and where it is 0 the third one is set to 0.
 pub(super) fn spherical_angles<S: Scalar>(r: &Rotation<S>) -> ([S; 3], f64) {
     let cos = r[2][2];
-    // The larger of two ways to the square of the sine keeps its digits.
+    // The larger of two expressions for the square of the sine keeps its digits.
     let square = r[0][2].mul(&r[0][2]).add(&r[1][2].mul(&r[1][2]));
     let sin = square.root();
     let lock = sin.size();
     if !(lock > 1e-9) {
         return ([S::angle_of(r[0][0], r[1][0]), S::angle_of(cos, S::zero()), S::zero()], lock);
     }
-    // Of a complex sine only this one of both roots belongs to the other two angles.
+    // Of a complex sine only this square root belongs to the other two angles.
     let over = |x: S| if S::REAL { x } else { x.over(sin) };
     let first = S::angle_of(over(r[1][2].neg()), over(r[0][2]));
     ([first, S::angle_of(cos, sin), S::angle_of(over(r[2][1]), over(r[2][0]))], lock)
 }
 
-/// A mode of the turned spherical joint in the angles of the spherical joint as it is.
+/// Converts a mode of the rotated spherical joint to the angles of the joint as it is.
 fn back(mode: &mut Mode, spherical: usize) {
     let angles = [0, 1, 2].map(|k| mode.unknowns[(spherical + k) % 6]);
     let quarter = quarter();
@@ -189,11 +189,11 @@ fn back(mode: &mut Mode, spherical: usize) {
     place(&mut mode.unknowns, spherical, angles);
 }
 
-/// A real part this near to 0 or pi does not tell an angle from its negative.
+/// A real part nearer than this to 0 or pi does not distinguish an angle from its negative.
 const EDGE: f64 = 1e-9;
 
-/// The angles of a spherical joint with the second one from 0 to pi, the same rotation; where its real part is either of them, with a
-/// positive imaginary part.
+/// Replaces the angles of a spherical joint by those of the same rotation with the second one from 0 to pi; if its real
+/// part is 0 or pi, its imaginary part is positive.
 pub(super) fn canonical(unknowns: &mut Six<Complex<f64>>, spherical: usize) {
     let index = |k: usize| (spherical + k) % 6;
     let (second, real) = (unknowns[index(1)], wrapped(unknowns[index(1)].re));

@@ -1,4 +1,4 @@
-//! Loops with two spherical joints: the link between them spins freely, and is taken at one position of that spin.
+//! Loops with two spherical joints: the link between them spins freely, and is shown at one angle of that spin.
 
 use super::spherical::{spherical_angles, spherical_rotation, lifted, quarter, transposed};
 use super::limits;
@@ -17,8 +17,8 @@ use num_complex::Complex;
 type Rotation<S> = [[S; 3]; 3];
 type Angles = [Complex<f64>; 3];
 
-/// Finds both positions. Fills `assembly` with modes whose last unknown is that of the loop, and returns the angles of
-/// both spherical joints for each of them, about z, x and z.
+/// Finds the positions of both joints. Fills `assembly` with modes whose last unknown is that of the loop, and returns
+/// for each of them the angles of both spherical joints, about z, x and z.
 pub fn solve(
     ss_dyad: &SsDyad<f64>,
     roots: Roots,
@@ -52,8 +52,8 @@ pub fn solve(
     spherical_joints
 }
 
-/// The mean length of the links as a power of two, 1 without lengths, and the loop with lengths over it: what counts as
-/// small is so in proportion.
+/// Returns the mean length of the links as a power of two, 1 without lengths, and the loop with lengths over it. Limits
+/// for small numbers are relative to it.
 fn scaled(ss_dyad: &SsDyad<f64>) -> (f64, SsDyad<f64>) {
     let links = [&ss_dyad.link, &ss_dyad.before, &ss_dyad.behind];
     let mean = links.map(|motion| dot(&motion.translation, &motion.translation)).iter().sum::<f64>() / 3.0;
@@ -63,7 +63,7 @@ fn scaled(ss_dyad: &SsDyad<f64>) -> (f64, SsDyad<f64>) {
     (scale, SsDyad { link, before, behind, ..ss_dyad.clone() })
 }
 
-/// Admits one position.
+/// Admits one position of the loop.
 fn one<S: Scalar>(
     ss_dyad: &SsDyad<f64>,
     value: (S, S),
@@ -80,9 +80,9 @@ fn one<S: Scalar>(
     let Some(frame) = frame_along(&link) else { return };
     let frame_s = frame.map(|row| row.map(S::from_f64));
     let Some(toward) = rotation_between(&link.map(S::from_f64), &across.translation, &frame_s) else { return };
-    // Both spherical joints at any spin: the first turns the link where it has to be, the second is what is left.
+    // At any spin the first joint orients the link, and the second one is the remaining rotation.
     let left = product(&transposed(&product(&toward, &frame_s)), &across.rotation);
-    // The second one as a turn about the link, which is the idle degree of freedom, and two more: the better of two ways.
+    // The second joint is a rotation about the link, the idle degree of freedom, and two more, in the better of two ways.
     let quarters = [Motion::identity().rotation, quarter()];
     let tries = quarters.map(|q| spherical_angles(&product(&left, &transposed(&q.map(|row| row.map(S::from_f64))))));
     let chosen = usize::from(tries[1].1 > tries[0].1);
@@ -150,9 +150,10 @@ fn lift(rotation: Rotation<f64>) -> Rotation<Complex<f64>> {
     rotation.map(|row| row.map(Complex::from))
 }
 
-/// The rotations X and Y of both spherical joints at the one position of the idle degree of freedom that is shown, from X and `F^-1 R_L Y` at any:
-/// the second spherical joint is a universal joint with one axis along the x axis of the frame F of the link, whose z axis is the line
-/// of the centres, and one along the z axis of the frame behind that spherical joint; along its x axis where that line is parallel to z.
+/// Returns the rotations X and Y of both spherical joints at the chosen position of the idle degree of freedom, from X
+/// and `F^-1 R_L Y` at any. There the second joint is a universal joint. One of its axes is the x axis of the frame F of the
+/// link, whose z axis is the line of the centres; the other is the z axis of the frame behind that joint, or its x axis if
+/// that line is parallel to z.
 fn held(
     one: &Rotation<Complex<f64>>,
     turned: &Rotation<Complex<f64>>,
@@ -180,14 +181,14 @@ fn plain_angles(rotation: &Rotation<Complex<f64>>, real: bool) -> Angles {
     }
 }
 
-/// The coordinate axis farthest from a direction, the first of those that are equally far but for rounding.
+/// Returns the coordinate axis farthest from a direction, the first of those that are equally far but for rounding.
 #[must_use]
 pub fn farthest_axis(along: &Vector<f64>) -> Vector<f64> {
     let smallest = (1..3).fold(0, |best, i| if along[i].abs() + limits::SAME < along[best].abs() { i } else { best });
     std::array::from_fn(|i| if i == smallest { 1.0 } else { 0.0 })
 }
 
-/// A frame whose z axis lies along a vector; `None` for none.
+/// Returns a frame whose z axis lies along a vector; `None` for the zero vector.
 fn frame_along(v: &Vector<f64>) -> Option<Rotation<f64>> {
     let length = dot(v, v).sqrt();
     if !(length > limits::REACH_DEPENDENT) {
@@ -201,10 +202,10 @@ fn frame_along(v: &Vector<f64>) -> Option<Rotation<f64>> {
     Some(std::array::from_fn(|i| [x[i], y[i], z[i]]))
 }
 
-/// A rotation that carries one vector into another one of the same length; `frame` has its z axis along the first.
+/// Returns a rotation that carries one vector to another of the same length; `frame` has its z axis along the first.
 fn rotation_between<S: Scalar>(from: &Vector<S>, to: &Vector<S>, frame: &Rotation<S>) -> Option<Rotation<S>> {
     let square = dot(from, from);
-    // The shortest one, or a half turn before it where that is not unique.
+    // The shortest rotation, or a half turn before it if that is not unique.
     let opposite = square.add(&dot(from, to)).size() < 0.5 * square.size();
     let start = if opposite { from.map(|x| x.neg()) } else { *from };
     let axis = cross(&start, to);

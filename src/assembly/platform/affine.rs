@@ -1,5 +1,5 @@
-//! Poses of platforms whose base and plate are affine images of the same points, from the algebra of their rotations in numbers
-//! of 384 bits.
+//! Poses of platforms whose base and moving platform are affine images of the same points, from the algebra of their
+//! rotations in 384-bit arithmetic.
 
 use super::prepared::Frame;
 use super::high_precision::{combined, framed, upper_roots};
@@ -18,7 +18,7 @@ use crate::solve::scalar::Number;
 use num_complex::Complex;
 use rug::Rational;
 
-/// Words of 64 bits: what the algebra of 32 rotations costs of 384 bits is less than half of them.
+/// Number of 64-bit words. The algebra of 32 rotations loses less than half of the 384 bits.
 const LIMBS: usize = 6;
 
 type LongFloat = LongNumber<LIMBS>;
@@ -28,7 +28,7 @@ fn long(x: &Rational) -> Long {
     Long::from_real(LongFloat::from_rational(x).unwrap_or_else(LongFloat::zero))
 }
 
-/// What the positions at a rotation need, in multiprecision.
+/// The data that determine the positions at a rotation, in multiprecision.
 struct Positions {
     square: Form<Long>,
     moments: Vec<Form<Long>>,
@@ -100,7 +100,7 @@ fn two(rows: &[Vector<Long>], v: &[Long], s: &Long) -> Option<Vec<Vector<Long>>>
     Some(ends.iter().map(|t| std::array::from_fn(|k| foot[k].add(&t.mul(&along[k])))).collect())
 }
 
-/// Points near the poses, one of every two conjugate ones; none of those that are multiple.
+/// Returns points near the simple poses, one of each conjugate pair.
 pub fn affine_starts(platform: &Platform<Rational>, squares: &[Rational; 6], frame: &Frame) -> Vec<Eight<Long>> {
     (0..2).find_map(|choice| starts(platform, squares, frame, choice)).unwrap_or_default()
 }

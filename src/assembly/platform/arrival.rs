@@ -1,4 +1,4 @@
-//! Solutions that come by other ways than eigenvalues: taken in one by one.
+//! Takes in solutions one by one that come by other ways than eigenvalues.
 
 use super::search::{REAL_PART, Search, near_null, real_parts};
 use super::self_motion::{Numeric, project};
@@ -9,11 +9,11 @@ use crate::solve::pose::{Eight, PolishedPose, complex, equations, patch, polish,
 use crate::solve::scalar::Scalar;
 use num_complex::Complex;
 
-/// |Im| below which a solution may be a real one.
+/// |Im| below which a solution may be real.
 const NEAR_REAL: f64 = 1e-3;
 
 impl Search<'_> {
-    /// Begins anew with another way to the solutions, of which so many are known not to be poses.
+    /// Restarts the counts for another route to the solutions, of which `null` are known not to be poses.
     pub fn begin(&mut self, null: usize) {
         (self.null, self.lost, self.followed, self.followed_pair) = (null, 0, true, false);
         for found in self.found.iter_mut() {
@@ -21,7 +21,7 @@ impl Search<'_> {
         }
     }
 
-    /// Takes in the solution near a point, the one numbered `index`; whether there is one.
+    /// Takes in the solution near a point, numbered `index`. Returns whether there is one.
     pub fn arrive(&mut self, start: &Eight<Complex<f64>>, index: usize) -> bool {
         let snapped = real_parts(start);
         let reach = start.iter().map(|z| z.norm()).fold(1.0, f64::max);
@@ -67,8 +67,8 @@ impl Search<'_> {
         arrived
     }
 
-    /// Takes in the singular solution at which the path numbered `index` ends: as it is known there, for Newton's method would
-    /// lead away from it.
+    /// Takes in the singular solution at which the path numbered `index` ends. It is stored unpolished, for Newton's method
+    /// would lead away from it.
     pub fn arrive_singular(&mut self, end: &Eight<Complex<f64>>, index: usize) {
         let snapped = real_parts(end)[2];
         let reach = end.iter().map(|z| z.norm()).fold(1.0, f64::max);
@@ -91,14 +91,14 @@ impl Search<'_> {
         true
     }
 
-    /// Keeps a real rotation that led to no regular pose.
+    /// Stores a real rotation that led to no regular pose.
     pub fn keep_stray(&mut self, start: &Eight<f64>) {
         if let Some(free) = self.stray.iter_mut().find(|s| s.is_none()) {
             *free = Some(*start);
         }
     }
 
-    /// Ends a way on which conjugate solutions arrived one by one: each stands for both.
+    /// Ends a route on which conjugate solutions arrived one by one; each of them stands for both.
     pub fn end(&mut self) {
         for found in self.found.iter_mut().filter(|found| !found.real) {
             found.eigenvalues = found.eigenvalues.div_ceil(2);

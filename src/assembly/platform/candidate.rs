@@ -8,11 +8,11 @@ use crate::solve::scalar::Scalar;
 /// equations alone: the two mirror poses of plane platforms share one rotation.
 const LOOSE: f64 = 1e-3;
 
-/// Up to three candidates for Study's parameters (x, y), common factors left as they come.
+/// Up to three candidates for Study's parameters (x, y), with any common factor.
 pub struct Candidates<S> {
     /// The candidates; `count` are in use.
     pub study: [(Four<S>, Four<S>); 3],
-    /// How many there are.
+    /// Number of candidates.
     pub count: usize,
 }
 
@@ -114,7 +114,7 @@ pub fn candidates<S: Scalar>(setting: &Setting<f64>, x: &Four<S>) -> Candidates<
         }
         moved
     };
-    // p x / N, times N: no division by a norm that may vanish.
+    // `p x / N` times N avoids the division by a norm that may vanish.
     let pose = |u: &[S; 7]| (x.map(|z| z.mul(&norm)), product(&left(&[u[1], u[2], u[3]]), x));
     let first = translated(&solve(count, &right_side));
     let mut found = Candidates { study: [pose(&first); 3], count: 1 };

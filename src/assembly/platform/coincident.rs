@@ -1,8 +1,8 @@
 //! Real poses of platforms with legs of length zero.
 //!
-//! The quadric of such a leg, `w.w = 0`, has derivative zero where `w = 0`: Newton's method has nothing to hold on to. Real
-//! poses solve the linear equations `w = y + M x = 0` in its place, three of them independent, and are regular solutions of
-//! these as a rule.
+//! The quadric of such a leg, `w.w = 0`, has derivative zero where `w = 0`, so Newton's method fails there. Real poses
+//! solve the linear equations `w = y + M x = 0` instead. Three of these are independent, and as a rule the poses are regular
+//! solutions of them.
 
 use super::search::{Search, real_parts};
 use crate::closure::study::Leg;
@@ -11,9 +11,9 @@ use crate::solve::pose::{Eight, Equations, PolishedPose, equations, normalised, 
 use nalgebra::{SMatrix, SVector};
 use num_complex::Complex;
 
-/// Rows of six legs, of the Study condition and of the patch.
+/// Number of rows: those of six legs, of the Study condition and of the patch.
 const ROWS: usize = 26;
-/// Steps of Gauss and Newton at most.
+/// Maximum number of Gauss-Newton steps.
 const MOST_STEPS: usize = 25;
 /// A step of this size is the last.
 const SETTLED: f64 = 1e-15;
@@ -21,15 +21,15 @@ const SETTLED: f64 = 1e-15;
 const CLOSED: f64 = 1e-14;
 /// Singular values below this part of the largest one count as zero.
 const RANK: f64 = 1e-9;
-/// A start may be as far away as this: multiple eigenvalues are off by roots of the rounding.
+/// Maximum distance of a start from its pose: multiple eigenvalues are off by roots of the rounding error.
 const NEAR: f64 = 0.3;
 
-/// Whether the ends of a leg must coincide.
+/// Returns whether the two ends of some leg must coincide.
 pub fn has_point_leg(legs: &[Leg<f64>; 6]) -> bool {
     legs.iter().any(|leg| leg.square == 0.0)
 }
 
-/// The real pose near a point.
+/// Returns the real pose near a point.
 fn pose(legs: &[Leg<f64>; 6], start: &Eight<f64>) -> Option<(Eight<f64>, Equations<f64>)> {
     let begin = normalised(start)?;
     let mut v = begin;
@@ -77,7 +77,7 @@ fn pose(legs: &[Leg<f64>; 6], start: &Eight<f64>) -> Option<(Eight<f64>, Equatio
 }
 
 impl Search<'_> {
-    /// Takes in the real pose near a point at which the ends of legs of length zero coincide; whether there is one.
+    /// Takes in the real pose near a point at which the ends of legs of length zero coincide. Returns whether there is one.
     pub fn coincide(&mut self, start: &Eight<Complex<f64>>, eigenvalue: usize) -> bool {
         real_parts(start).iter().any(|real| {
             let Some((study, equations)) = pose(self.legs, real) else { return false };

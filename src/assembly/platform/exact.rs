@@ -1,4 +1,4 @@
-//! Poses that are known as algebraic numbers, as entries of the list.
+//! Adds poses that are known as algebraic numbers to the list.
 
 use super::prepared::Frame;
 use super::search::{Found, ROUNDED};
@@ -18,14 +18,14 @@ type Long = Complex<LongFloat>;
 
 /// Bits to which a real root is isolated.
 const BITS: u32 = 340;
-/// More than 300 bits of a root are right.
+/// Error bound of a root: more than 300 of its bits are right.
 const ROOT_ERROR: f64 = 1e-90;
-/// Imaginary parts below this, relative to the root, belong to real ones.
+/// Imaginary parts below this, relative to the root, belong to real roots.
 const REAL: f64 = 1e-60;
-/// How much an error of the root may be magnified in a coordinate: what is left of it is far below the last digit of an f64.
+/// Maximum magnification of the root's error in a coordinate; the result is far below the last digit of an f64.
 const MOST_MAGNIFIED: f64 = 1e60;
 
-/// The real roots of a polynomial, and one of every two conjugate ones; `None` where these do not settle.
+/// Returns the real roots of a polynomial and one of each conjugate pair; `None` if the isolation does not converge.
 fn roots(polynomial: &Univariate<Rational>) -> Option<Vec<(Long, bool)>> {
     let width = Rational::from((1, Integer::from(1) << BITS));
     let mut found = Vec::new();
@@ -48,7 +48,7 @@ fn roots(polynomial: &Univariate<Rational>) -> Option<Vec<(Long, bool)>> {
     Some(found)
 }
 
-/// Whether a root lies very near: one within the degree times `|f / f'|`, always.
+/// Returns whether a root lies very near: there is always one within the degree times `|f / f'|`.
 fn is_near_a_root(polynomial: &Univariate<LongFloat>, at: &Long) -> bool {
     let (mut value, mut slope) = (Long::zero(), Long::zero());
     for c in polynomial.coefficients().iter().rev() {
@@ -59,7 +59,7 @@ fn is_near_a_root(polynomial: &Univariate<LongFloat>, at: &Long) -> bool {
     degree * value.bound() < ROOT_ERROR * slope.size() * at.size().max(f64::MIN_POSITIVE)
 }
 
-/// A number at a root; `None` where it is too sensitive to it.
+/// Returns the value of a number at a root; `None` if it is too sensitive to the root.
 fn value(number: &Algebraic, root: &Long) -> Option<Long> {
     let (mut sum, mut slope, size) = (Long::zero(), 0.0_f64, root.bound().max(1.0));
     for c in number.coefficients().iter().rev() {
@@ -82,7 +82,7 @@ pub fn exact_modes(poses: &ExactPoses, frame: &Frame) -> Option<Vec<Found>> {
     roots(&poses.polynomial)?.into_iter().map(mode).collect()
 }
 
-/// Study's parameters in the frame of polishing, x of hermitian norm 1.
+/// Returns Study's parameters in the frame of polishing, with x of hermitian norm 1.
 fn study(x: &Quaternion<Long>, position: &[Long; 3], frame: &Frame) -> Eight<Complex<f64>> {
     let square: f64 = x.vector.iter().chain([&x.scalar]).map(|c| c.square_size()).sum();
     let scale = LongFloat::from(1.0 / square.sqrt().max(f64::MIN_POSITIVE));

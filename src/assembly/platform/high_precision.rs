@@ -1,4 +1,4 @@
-//! Poses again from exact data, in numbers of 384 bits and more: for complex ones almost at infinity, that f64 does not reach.
+//! Solves for poses again from exact data, in 384 bits and more, for complex poses almost at infinity that f64 cannot reach.
 
 use super::prepared::Frame;
 use crate::algebra::long_float::LongNumber;
@@ -16,25 +16,25 @@ use rug::Rational;
 
 type Long<const LIMBS: usize> = Complex<LongNumber<LIMBS>>;
 
-/// The combination of `z_1, z_2, z_3` whose eigenvalues are asked for: one that no two poses share, as a rule.
+/// Weights of the combination of `z_1, z_2, z_3` whose eigenvalues are computed; as a rule no two poses share its value.
 const WEIGHTS: [i32; 3] = [1, -2, 3];
 
 /// Eigenvalues with an imaginary part below this, relative to themselves, may be real.
 const NEARLY_REAL: f64 = 1e-3;
 
-/// How far points are moved where the border basis of the platform itself does not exist, in units of its size: by these
-/// powers of 1/2 in turn. Poses move as little; of the 384 bits every degree of the border basis costs about as many.
+/// Displacements of the points if the border basis of the platform itself does not exist, in units of its size: these
+/// powers of 1/2 in turn. Poses move by about as much. Every degree of the border basis costs about that many of the 384 bits.
 const DISTURBANCES: [u32; 2] = [24, 14];
 
-/// Points near the poses of a platform, one of every two conjugate ones: Study's parameters in the frame of polishing.
-/// Those without a pose (`N = 0`) that are multiple are left out.
+/// Returns points near the poses of a platform, one of each conjugate pair: Study's parameters in the frame of polishing.
+/// Multiple solutions without a pose (`N = 0`) are left out.
 pub fn starts<const LIMBS: usize>(
     platform: &Platform<Rational>,
     squares: &[Rational; 6],
     frame: &Frame,
 ) -> Vec<Eight<Long<LIMBS>>> {
     let of = |platform: &Platform<Rational>| (0..2).find_map(|choice| long_algebra::<LIMBS>(platform, squares, choice));
-    // Solutions with N = 0 on curves, which a platform beside this one does not have.
+    // Solutions with N = 0 may lie on curves, which a neighbouring platform does not have.
     let beside = || DISTURBANCES.into_iter().find_map(|bits| of(&disturbed(platform, frame.scale, bits)));
     let algebra = of(platform).or_else(beside);
     algebra.map_or_else(Vec::new, |algebra| {
@@ -51,7 +51,7 @@ pub fn upper_roots<const LIMBS: usize>(hessenberg: &Hessenberg<LongNumber<LIMBS>
     roots
 }
 
-/// A general platform very near to this one.
+/// Returns a general platform very near to this one.
 fn disturbed(platform: &Platform<Rational>, scale: f64, bits: u32) -> Platform<Rational> {
     let unit = Rational::from_f64(scale).unwrap_or_else(|| Rational::from(1)) >> bits;
     let mut platform = platform.clone();
@@ -63,7 +63,7 @@ fn disturbed(platform: &Platform<Rational>, scale: f64, bits: u32) -> Platform<R
     platform
 }
 
-/// Numbers between -1 and 1, far from regular, the same ones every time.
+/// Returns numbers between -1 and 1 that are far from regular and the same in every run.
 fn spread(point: usize, coordinate: usize) -> Rational {
     let root = [2.0_f64, 3.0, 5.0][coordinate % 3].sqrt();
     Rational::from_f64(2.0 * ((point + 1) as f64 * root).fract() - 1.0).unwrap_or_default()
@@ -101,15 +101,15 @@ fn study<const LIMBS: usize>(
             (0..16).fold(Long::<LIMBS>::zero(), |sum, e| sum.add(&z[e / 4].mul(&z[e % 4]).times(form[e / 4][e % 4])));
         (0..setting.count).fold(square, |sum, a| sum.add(&at(4 + a).times(setting.null[a][k])))
     };
-    // p z / N from N p, then both turned back: x = before^* z behind.
+    // `p z / N` from `N p`, then both are turned back: x = before^* z behind.
     let inverse = scalar(&z, &z).inverse()?;
     let moved = left(&[u(1), u(2), u(3)]);
     let y: Four<Long<LIMBS>> = std::array::from_fn(|i| scalar(&moved[i], &z).mul(&inverse));
     framed(&z, &y, &algebra.turns, frame)
 }
 
-/// Study's parameters in the frame, from those of the platform turned as [`turned`](crate::elimination::platform_degree::turned)
-/// says.
+/// Converts Study's parameters of the platform turned by [`turned`](crate::elimination::platform_degree::turned) to the
+/// frame.
 pub fn framed<const LIMBS: usize>(
     z: &Four<Long<LIMBS>>,
     y: &Four<Long<LIMBS>>,

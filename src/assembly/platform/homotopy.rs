@@ -1,8 +1,8 @@
 //! A parameter homotopy: the solutions of a general platform, carried to a special one.
 //!
 //! Points and squared lengths of the legs move along `target + tau (start - target)`, with tau from 1 to 0 on an arc of the
-//! complex numbers on which no platform but the last is special, whatever the arc, unless by an accident of probability
-//! zero. Of solutions that run together at the end every one is counted as often as paths lead to it.
+//! complex numbers. With probability one no platform on the arc but the last is special. A solution to which several paths
+//! converge is counted as often as paths lead to it.
 
 use crate::closure::study::{Form, Leg, scalar};
 use crate::solve::dense::solve_one;
@@ -12,52 +12,52 @@ use std::f64::consts::TAU;
 
 type Point = Eight<Complex<f64>>;
 
-/// A predicted point may be off by this much, relative to the point.
+/// Maximum error of a predicted point, relative to the point.
 const PREDICTED: f64 = 1e-4;
-/// What a prediction is meant to be off by.
+/// Intended error of a prediction.
 const AIM: f64 = 1e-5;
-/// A corrected point is off by less than this.
+/// Error below which a corrected point is accepted.
 const CORRECTED: f64 = 1e-9;
-/// Steps of Newton's method behind a prediction.
+/// Number of Newton steps after a prediction.
 const CORRECTIONS: usize = 4;
-/// Steps on a path before it is given up.
+/// Maximum number of steps on a path.
 const MOST_STEPS: usize = 600;
-/// Where the end of a path begins.
+/// Parameter at which the endgame of a path begins.
 const END: f64 = 0.02;
-/// Steps to the end of a path that leads to a regular solution.
+/// Maximum number of steps to the end of a path that leads to a regular solution.
 const LAST_STEPS: usize = 40;
-/// Circles about the end, smaller by this factor each.
+/// Number of circles about the end; each is smaller than the last by the factor `SMALLER`.
 const CIRCLES: usize = 4;
 const SMALLER: f64 = 0.1;
-/// Points taken on a circle.
+/// Number of points sampled on a circle.
 const SAMPLES: usize = 16;
-/// Turns after which a path that has not closed is given up.
+/// Number of loops around a circle after which a path that has not closed is given up.
 const MOST_TURNS: usize = 12;
-/// A path is closed when it comes back this near to where it began.
+/// A path is closed when it returns this near to its beginning.
 const CLOSED: f64 = 1e-6;
-/// An end is one if the equations hold there to this.
+/// Residual of the equations below which an end is accepted.
 const HELD: f64 = 1e-7;
 /// `|N|` over `|x|^2` below which a singular end belongs to no pose.
 const NULL: f64 = 1e-4;
-/// The bound at a regular end.
+/// The same bound at a regular end.
 const REGULAR_NULL: f64 = 1e-13;
 /// `|x|` below which an end is at infinity.
 const FAR: f64 = 1e-5;
 
-/// Where a path ends.
+/// The end of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
-    /// At a regular solution.
+    /// A regular solution.
     Regular(Point),
-    /// At a singular one.
+    /// A singular solution.
     Singular(Point),
-    /// At no pose: `N = x.x = 0`, or x = 0.
+    /// No pose: `N = x.x = 0`, or x = 0.
     Null,
-    /// Not known.
+    /// The end is not known.
     Lost,
 }
 
-/// Platforms on the way from one to another.
+/// The one-parameter family of platforms between two.
 pub struct Homotopy<'a> {
     /// The legs at the end.
     pub target: &'a [Leg<f64>; 6],
@@ -67,7 +67,7 @@ pub struct Homotopy<'a> {
     pub bend: Complex<f64>,
 }
 
-/// Left sides, derivatives by the point, and derivatives by tau, at a point.
+/// The equations, their derivatives by the point, and their derivatives by tau, at a point.
 struct Here {
     values: Point,
     jacobian: [Point; 8],
@@ -78,7 +78,7 @@ fn distance(v: &Point, w: &Point) -> f64 {
     (0..8).map(|k| (v[k] - w[k]).norm_sqr()).sum::<f64>().sqrt()
 }
 
-/// The multiple of a point on which a linear form is 1.
+/// Returns the multiple of a point on which a linear form is 1.
 fn on_patch(v: &Point, patch: &Point) -> Option<Point> {
     let value: Complex<f64> = v.iter().zip(patch).map(|(v, p)| v * p).sum();
     let scale = value.inv();
@@ -91,13 +91,13 @@ fn unit(v: &Point) -> Option<Point> {
 }
 
 impl Homotopy<'_> {
-    /// tau and its derivative on the arc, s from 1 to 0.
+    /// Returns tau and its derivative on the arc, with s from 1 to 0.
     fn arc(&self, s: f64) -> [Complex<f64>; 2] {
         let below = (self.bend * s + (1.0 - s)).inv();
         [self.bend * s * below, self.bend * below * below]
     }
 
-    /// The equations of the platform at tau, with a linear form that fixes the common factor of v.
+    /// Evaluates the equations of the platform at tau, with a linear form that fixes the common factor of v.
     fn at(&self, tau: Complex<f64>, v: &Point, patch: &Point) -> Here {
         let (x, y) = parts(v);
         let zero = Complex::from(0.0);
@@ -133,7 +133,7 @@ impl Homotopy<'_> {
         Some(velocity.map(|z| -z * speed))
     }
 
-    /// A step of Runge and Kutta.
+    /// Takes a Runge-Kutta step.
     fn predicted(&self, path: impl Fn(f64) -> [Complex<f64>; 2], v: &Point, s: f64, step: f64) -> Option<Point> {
         let patch = v.map(|z| z.conj());
         let ahead = |slope: &Point, part: f64| -> Point { std::array::from_fn(|k| v[k] + slope[k] * (part * step)) };
@@ -144,7 +144,7 @@ impl Homotopy<'_> {
         Some(std::array::from_fn(|k| v[k] + (one[k] + 2.0 * (two[k] + three[k]) + four[k]) * (step / 6.0)))
     }
 
-    /// Newton's method; the point and how far the prediction was off, `None` where that is too far or it does not settle.
+    /// Applies Newton's method. Returns the point and the prediction error; `None` if that is too large or it does not converge.
     fn corrected(&self, tau: Complex<f64>, start: &Point) -> Option<(Point, f64)> {
         let mut v = unit(start)?;
         let mut off = 0.0;
@@ -169,7 +169,7 @@ impl Homotopy<'_> {
         None
     }
 
-    /// Follows a path from s to `to`; `None` where it cannot be followed.
+    /// Follows a path from s to `to`; `None` if it cannot be followed.
     fn follow(
         &self,
         path: impl Fn(f64) -> [Complex<f64>; 2] + Copy,
@@ -203,7 +203,7 @@ impl Homotopy<'_> {
         None
     }
 
-    /// Carries a solution of the platform at the beginning to that at the end.
+    /// Carries a solution of the platform at the beginning to the one at the end.
     #[must_use]
     pub fn carry(&self, start: &Point) -> End {
         let arc = |s: f64| self.arc(s);
@@ -226,7 +226,7 @@ impl Homotopy<'_> {
                 let smaller = SMALLER * s;
                 let Some(next) = self.follow(|s| self.arc(s), &v, s, smaller, MOST_STEPS) else { return End::Lost };
                 (v, s) = (next, smaller);
-                // Another solution that passes near is left behind by now.
+                // By now a path that only passed near another solution has left it.
                 if let Some(end) = self.regular_end(&v, s) {
                     return end;
                 }

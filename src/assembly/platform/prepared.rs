@@ -12,19 +12,19 @@ use crate::kinematics::platform::Platform;
 use crate::solve::scalar::Scalar;
 use rug::Rational;
 
-/// Turns of base and plate, so that no solution of a real mechanism lies where a chart ends: (w, x, y, z).
+/// Rotations (w, x, y, z) of base and moving platform, so that no solution of a real mechanism lies at the edge of a chart.
 const TURNS: [[[f64; 4]; 2]; 2] = [
     [[0.533, -0.271, 0.618, 0.509], [0.457, 0.662, -0.324, 0.498]],
     [[-0.391, 0.587, 0.283, 0.651], [0.702, -0.219, 0.485, -0.474]],
 ];
 
-/// How far points are moved for a general platform, in units of the size of the platform.
+/// Displacement of the points of a general platform, in units of the size of the platform.
 const MOVED: f64 = 0.5;
 
-/// A platform in lengths of its own size, its points turned, ready for border bases.
+/// A platform scaled to size 1, with rotated points, ready for border bases.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// K solved.
+    /// The solution of the linear equations with K.
     pub directions: Directions<f64>,
     /// The setting with legs of length zero.
     pub setting: Setting<f64>,
@@ -36,7 +36,7 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// The chart with one of the built-in turns, of a platform shifted and scaled already.
+    /// Returns the chart with one of the built-in rotations, for a platform that is already shifted and scaled.
     pub fn new(platform: &Platform<f64>, choice: usize) -> Self {
         let [before, behind] = TURNS[choice].map(|q| {
             let size = q.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -85,7 +85,7 @@ impl Chart {
         self.setting.with_legs(&Reals, &self.directions, &local)
     }
 
-    /// Study's parameters of the platform given to `new` from those of the turned one.
+    /// Converts Study's parameters of the rotated platform to those of the platform given to `new`.
     pub fn outward<S: Scalar>(&self, z: &Four<S>, y: &Four<S>) -> [S; 8] {
         let apply = |matrix: &Form<f64>, v: &Four<S>| -> Four<S> {
             std::array::from_fn(|i| (0..4).fold(S::zero(), |sum, k| sum.add(&v[k].times(matrix[i][k]))))
@@ -101,7 +101,7 @@ pub fn centroid(points: &[Vector<f64>; 6]) -> Vector<f64> {
     std::array::from_fn(|k| points.iter().map(|p| p[k]).sum::<f64>() / 6.0)
 }
 
-/// The root mean square distance of all twelve points from their centroids; 1 where that is zero or not finite.
+/// Returns the root mean square distance of all twelve points from their centroids; 1 if that is zero or not finite.
 pub fn size(platform: &Platform<f64>) -> f64 {
     let spread = |points: &[Vector<f64>; 6]| -> f64 {
         let centre = centroid(points);
@@ -111,46 +111,46 @@ pub fn size(platform: &Platform<f64>) -> f64 {
     if size > 0.0 && size.is_finite() { size } else { 1.0 }
 }
 
-/// The platform as it is polished: about its centre, and in a unit that is a power of two. The points are moved exactly, and
-/// rounded once.
+/// The platform as it is polished: about its centre, and in a unit that is a power of two. The points are moved exactly,
+/// and rounded once.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The unit.
     pub scale: f64,
-    /// What was subtracted from the points of the base and of the plate.
+    /// The points subtracted from those of the base and of the moving platform.
     pub origins: [Vector<f64>; 2],
-    /// The points so.
+    /// The points in this frame.
     pub platform: Platform<f64>,
-    /// The legs so, of length zero.
+    /// The legs in this frame, of length zero.
     pub legs: [Leg<f64>; 6],
-    /// The same with twice the digits.
+    /// The legs in double-double arithmetic.
     pub wide: [Leg<DoubleDouble>; 6],
-    /// The same, exact.
+    /// The legs in exact arithmetic.
     pub exact: [Leg<Rational>; 6],
     /// Bound on the relative rounding of the points of `legs`.
     pub rounding: f64,
 }
 
-/// Bound on the relative rounding of a number that becomes f64.
+/// Bound on the relative rounding error of a number converted to f64.
 pub const ROUNDING: f64 = f64::EPSILON / 2.0;
 
 /// Squared lengths of legs, in the unit of the platform as given.
 pub struct Squares {
-    /// As f64.
+    /// The values in f64.
     narrow: [f64; 6],
     wide: [DoubleDouble; 6],
     rounding: f64,
-    /// Exact, where they were given so.
+    /// The exact values, if they were given.
     pub exact: Option<[Rational; 6]>,
 }
 
 impl Squares {
-    /// Numbers that are exact.
+    /// Takes numbers that are exact in f64.
     pub fn of_floats(squares: &[f64; 6]) -> Self {
         Self { narrow: *squares, wide: squares.map(Into::into), rounding: 0.0, exact: None }
     }
 
-    /// Numbers that are rounded.
+    /// Takes exact numbers and rounds them.
     pub fn of(squares: &[Rational; 6]) -> Self {
         let narrow = squares.each_ref().map(rounded);
         let rounding = if narrow.iter().zip(squares).all(|(x, q)| *q == *x) { 0.0 } else { ROUNDING };
@@ -161,16 +161,16 @@ impl Squares {
 
 /// The legs of one set of lengths, in the frame of polishing.
 pub struct LegNumbers {
-    /// As f64.
+    /// The legs in f64.
     pub legs: [Leg<f64>; 6],
-    /// With twice the digits.
+    /// The legs in double-double arithmetic.
     pub wide: [Leg<DoubleDouble>; 6],
-    /// What proofs need of them.
+    /// Bounds on second derivatives, for certificates.
     pub curvature: Curvature,
 }
 
 impl LegNumbers {
-    /// Legs that are exact as f64.
+    /// Takes legs that are exact in f64.
     pub fn of_floats(legs: [Leg<f64>; 6]) -> Self {
         let wide = legs
             .each_ref()
@@ -180,20 +180,20 @@ impl LegNumbers {
     }
 }
 
-/// A leg in numbers of another kind.
+/// Converts a leg to numbers of another kind.
 pub fn leg_in<R: Ring>(leg: &Leg<Rational>) -> Leg<R> {
     let image = |x: &Rational| R::from_rational(x).unwrap_or_else(R::zero);
     Leg { matrix: leg.matrix.each_ref().map(|row| row.each_ref().map(image)), square: image(&leg.square) }
 }
 
-/// The nearest f64, or 0 for what has none.
+/// Returns the nearest f64, or 0 if there is none.
 fn rounded(x: &Rational) -> f64 {
     let x = nearest_f64(x);
     if x.is_finite() { x } else { 0.0 }
 }
 
 impl Frame {
-    /// The legs of these squared lengths.
+    /// Returns the legs of these squared lengths.
     pub fn with_legs(&self, squares: &Squares) -> LegNumbers {
         let unit = self.scale * self.scale;
         let (mut legs, mut wide) = (self.legs.clone(), self.wide.clone());
@@ -205,7 +205,7 @@ impl Frame {
         LegNumbers { legs, wide, curvature }
     }
 
-    /// The same in multiprecision.
+    /// Returns the legs of these squared lengths in multiprecision.
     pub fn long_legs<R: Ring>(&self, squares: &[Rational; 6]) -> [Leg<R>; 6] {
         let unit = Rational::from_f64(self.scale).map_or_else(|| Rational::from(1), Rational::square);
         std::array::from_fn(|i| {
@@ -214,7 +214,7 @@ impl Frame {
         })
     }
 
-    /// The frame of a platform. Points near the origin stay where they are.
+    /// Returns the frame of a platform. Points near the origin stay where they are.
     pub fn new(platform: &Platform<Rational>) -> Self {
         let centred = |points: &[Vector<Rational>; 6]| {
             let centre: Vector<Rational> =
@@ -249,13 +249,13 @@ impl Frame {
         Self { scale, origins, platform, legs, wide, exact: exact_legs, rounding }
     }
 
-    /// A general platform not far from this one: `run` numbers the ways to move the points.
+    /// Returns a general platform not far from this one; `run` numbers the ways to move the points.
     pub fn general(&self, run: usize) -> Platform<f64> {
         let size = size(&self.platform);
         let mut platform = self.platform.clone();
         for (i, point) in platform.base.iter_mut().chain(&mut platform.plate).enumerate() {
             for (k, x) in point.iter_mut().enumerate() {
-                // Multiples of square roots of primes, modulo 1: an even spread, the same every time.
+                // Multiples of square roots of primes, modulo 1, are evenly spread and the same in every run.
                 let root = [2.0_f64, 3.0, 5.0][k].sqrt();
                 *x += MOVED * size * (2.0 * ((i + 12 * run + 1) as f64 * root).fract() - 1.0);
             }
@@ -263,7 +263,7 @@ impl Frame {
         platform
     }
 
-    /// The translation of a pose in the unit and about the origin of the platform as given.
+    /// Returns the translation of a pose in the unit and about the origin of the platform as given.
     pub fn position<S: Scalar>(&self, study: &[S; 8]) -> [S; 3] {
         let quaternion = |[w, x, y, z]: [S; 4]| Quaternion { scalar: w, vector: [x, y, z] };
         let x = quaternion([study[0], study[1], study[2], study[3]]);

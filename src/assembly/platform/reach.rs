@@ -1,14 +1,14 @@
-//! Legs of which two alone show that no real pose exists.
+//! Tests whether one or two legs alone exclude every real pose.
 
 use crate::algebra::number::nearest_f64;
 use crate::kinematics::motion::Vector;
 use crate::kinematics::platform::Platform;
 use rug::Rational;
 
-/// Room for rounding, relative to the lengths compared: each is a square root of an exact number.
+/// Allowance for rounding, relative to the lengths compared, each of which is a square root of an exact number.
 const ROOM: f64 = 1e-12;
 
-/// The distances of the points of base and plate.
+/// The pairwise distances of the points of base and moving platform.
 #[derive(Clone, Debug)]
 pub struct Distances {
     base: [[f64; 6]; 6],
@@ -33,8 +33,8 @@ impl Distances {
         Self { base: all(&platform.base), plate: all(&platform.plate) }
     }
 
-    /// Why no real pose can have legs of these squared lengths, if one or two of them tell: no square is negative, and the ends
-    /// of two legs and they themselves are the sides of a quadrangle, each at most as long as the others together.
+    /// Returns why no real pose can have legs of these squared lengths, if one or two of the legs show it: a square is
+    /// negative, or two legs and their ends form a quadrangle with one side longer than the other three together.
     #[must_use]
     pub fn out_of_reach(&self, squares: &[Rational; 6]) -> Option<String> {
         if let Some(leg) = squares.iter().position(|square| *square < 0) {

@@ -1,7 +1,7 @@
-//! Poses mirrored in the base plane, where base and plate are both plane.
+//! Poses mirrored in the base plane, if base and moving platform are both plane.
 //!
-//! With S_a the reflection in the plane of the base and S_b that in the plane of the plate, `S_a g S_b` is a motion that
-//! takes the plate to the mirror image of where g takes it, and the legs are as long as before.
+//! Let S_a be the reflection in the plane of the base and S_b the one in the plane of the moving platform. Then `S_a g S_b`
+//! is a motion that takes the moving platform to the mirror image of its pose under g, with the same leg lengths.
 
 use super::mode::PlatformMode;
 use super::prepared::{centroid, size};
@@ -22,7 +22,7 @@ struct Plane {
     offset: f64,
 }
 
-/// The planes of base and plate.
+/// The planes of base and moving platform.
 #[derive(Clone, Copy, Debug)]
 pub struct Reflection {
     base: Plane,
@@ -55,13 +55,13 @@ fn plane(points: &[Vector<f64>; 6], unit: f64) -> Option<Plane> {
 }
 
 impl Reflection {
-    /// The reflection of a platform, if base and plate are plane.
+    /// Returns the reflection of a platform, if base and moving platform are plane.
     pub fn of(platform: &Platform<f64>) -> Option<Self> {
         let unit = size(platform);
         Some(Self { base: plane(&platform.base, unit)?, plate: plane(&platform.plate, unit)?, unit })
     }
 
-    /// Rotation and translation of the mirrored pose.
+    /// Returns rotation and translation of the mirrored pose.
     fn image(&self, mode: &PlatformMode) -> ([Complex<f64>; 4], Vector<Complex<f64>>) {
         let pure = |v: &Vector<f64>, factor: f64| Quaternion {
             scalar: Complex::from(0.0),
@@ -80,7 +80,7 @@ impl Reflection {
         ([mirrored.scalar, x, y, z], image)
     }
 
-    /// Notes which modes are mirror images of which.
+    /// Records for every mode which one is its mirror image.
     pub fn mark(&self, modes: &mut [PlatformMode]) {
         for k in 0..modes.len() {
             if modes[k].mirror.is_some() {

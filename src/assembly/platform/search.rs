@@ -1,4 +1,4 @@
-//! One set of leg lengths being solved: eigenvalue after eigenvalue, until all are resolved.
+//! The search for one set of leg lengths: eigenvalue after eigenvalue, until all are resolved.
 
 use super::candidate::candidates;
 use super::coincident::has_point_leg;
@@ -21,22 +21,22 @@ use num_complex::Complex;
 
 /// |Im| / (1 + |lambda|) below which an eigenvalue may belong to a real pose: double ones split by 1e-8 and more.
 const NEAR_REAL: f64 = 1e-4;
-/// The same with a leg of length zero: an eigenvalue for every set of such legs, all equal, splits much farther.
+/// The same bound with a leg of length zero: every set of such legs gives one multiple eigenvalue, which splits much farther.
 const POINT_LEG: f64 = 0.2;
-/// Imaginary parts below this are rounding of a real pose.
+/// Imaginary parts below this are rounding errors at a real pose.
 pub const REAL_PART: f64 = 1e-7;
-/// |N| (with x of hermitian norm 1) below which an eigenvalue that leads to no regular pose is taken to be one without
-/// a pose.
+/// |N| (with x of hermitian norm 1) below which an eigenvalue that leads to no regular pose is counted as one without a
+/// pose.
 const NULL: f64 = 1e-6;
-/// The same for multiple eigenvalues, which are less accurate.
+/// The same bound for multiple eigenvalues, which are less accurate.
 const NEARLY_NULL: f64 = 1e-2;
 /// |N| below which a pose counts only if it is proved: points of families with `N = 0` look like it.
 const DOUBTFUL: f64 = 1e-4;
-/// Eigenvalues this near to each other may be one multiple eigenvalue.
+/// Eigenvalues nearer to each other than this may be one multiple eigenvalue.
 const CLUSTER: f64 = 1e-3;
-/// The number of real rotations without a pose that are kept.
+/// Maximum number of real rotations without a pose that are kept.
 const STRAYS: usize = 8;
-/// Imprecision of solutions that are not proved.
+/// Error bound assumed for solutions that are not proved.
 const SINGULAR: f64 = 1e-4;
 /// Rotations whose quaternions have `|x.conj(x')|^2` below `1 - SAME` are different without further tests.
 const SAME: f64 = 1e-6;
@@ -44,24 +44,24 @@ const SAME: f64 = 1e-6;
 /// A solution found.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
-    /// Study's parameters in the frame of polishing; of a complex solution one of the two conjugate ones.
+    /// Study's parameters in the frame of polishing; of a conjugate pair only one solution is stored.
     pub study: Eight<Complex<f64>>,
     /// Whether it is real.
     pub real: bool,
-    /// The proof, if there is one.
+    /// The certificate, if there is one.
     pub certificate: Option<Certificate>,
     residual: f64,
     condition: f64,
-    /// How many eigenvalues of the border basis followed last lead to it.
+    /// Number of eigenvalues of the last border basis that lead to it.
     pub eigenvalues: usize,
-    /// The last one of them.
+    /// Index of the last of these eigenvalues.
     last: usize,
-    /// How many solutions coincide here, where that is proved.
+    /// The number of solutions that coincide here, if it is proved.
     exact: Option<usize>,
 }
 
 impl Found {
-    /// How many solutions coincide here: 1 where it is proved that a single one does.
+    /// Returns the number of solutions that coincide here: 1 if the solution is proved to be simple.
     fn multiplicity(&self) -> usize {
         match (self.exact, self.certificate) {
             (Some(exact), _) => exact,
@@ -70,7 +70,7 @@ impl Found {
         }
     }
 
-    /// A multiple solution that is known exactly.
+    /// Returns a multiple solution that is known exactly.
     pub fn exact(study: Eight<Complex<f64>>, real: bool, radius: f64, multiplicity: usize) -> Self {
         Self {
             study,
@@ -85,43 +85,43 @@ impl Found {
     }
 }
 
-/// What eigenvalues belong to.
+/// The origin of a set of eigenvalues.
 pub struct Source<'a> {
-    /// How the platform is turned and scaled.
+    /// The rotation and scaling of the platform.
     pub chart: &'a Chart,
-    /// What its border basis was made from.
+    /// The setting from which its border basis was computed.
     pub setting: &'a Setting<f64>,
     /// The border basis.
     pub basis: &'a BorderBasis<f64>,
 }
 
-/// One set of leg lengths.
+/// The search for the poses at one set of leg lengths.
 pub struct Search<'a> {
-    /// The legs, polished on.
+    /// The legs, on which solutions are polished.
     pub legs: &'a [Leg<f64>; 6],
-    /// The same with twice the digits.
+    /// The legs in double-double arithmetic.
     pub wide: &'a [Leg<DoubleDouble>; 6],
     /// Bounds on the second derivatives of their equations.
     pub curvature: &'a Curvature,
-    /// What is looked for.
+    /// The roots that are requested.
     pub roots: Roots,
-    /// The number of poses, where it is known.
+    /// The number of poses, if it is known.
     pub expected: Option<usize>,
-    /// What was found, without conjugates.
+    /// The solutions found, without conjugates.
     pub found: &'a mut Vec<Found>,
-    /// Eigenvalues that belong to no pose.
+    /// Number of eigenvalues that belong to no pose.
     pub null: usize,
-    /// Eigenvalues that led to nothing.
+    /// Number of eigenvalues that led to nothing.
     pub lost: usize,
     /// Whether any border basis was followed.
     pub followed: bool,
     /// Whether the eigenvalue followed now is one of two conjugate ones.
     pub followed_pair: bool,
-    /// Real rotations that led to no regular pose: perhaps they belong to a self-motion.
+    /// Real rotations that led to no regular pose and may belong to a self-motion.
     pub stray: [Option<Eight<f64>>; STRAYS],
 }
 
-/// What became of one eigenvalue.
+/// The result of following one eigenvalue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
     Pose,
@@ -130,13 +130,13 @@ enum Outcome {
 }
 
 impl<'a> Search<'a> {
-    /// The search with nothing found yet.
+    /// Starts a search with an empty list.
     pub fn new(numbers: &'a LegNumbers, roots: Roots, expected: Option<usize>, found: &'a mut Vec<Found>) -> Self {
         found.clear();
         Self::going_on(numbers, roots, expected, found)
     }
 
-    /// The search with what is found already.
+    /// Continues a search with the solutions already found.
     pub fn going_on(numbers: &'a LegNumbers, roots: Roots, expected: Option<usize>, found: &'a mut Vec<Found>) -> Self {
         Self {
             legs: &numbers.legs,
@@ -153,7 +153,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The dimension of the largest self-motion on which poses lie that are no isolated solutions, and a point beside it.
+    /// Returns the dimension of the largest self-motion through the poses that are not isolated, and a point near it.
     pub fn self_motion(&self) -> Option<(usize, Eight<f64>)> {
         let singular = self.found.iter().filter(|f| f.real && f.certificate.is_none());
         let singular = singular.map(|f| f.study.map(|z| z.re));
@@ -164,12 +164,12 @@ impl<'a> Search<'a> {
             .max_by_key(|found| found.0)
     }
 
-    /// How many solutions are resolved: poses, conjugate ones included.
+    /// Returns the number of resolved solutions that are poses, conjugates included.
     pub fn poses(&self) -> usize {
         self.found.iter().map(|f| f.multiplicity() * if f.real { 1 } else { 2 }).sum()
     }
 
-    /// Poses that are missing, or else eigenvalues of the border basis followed last that are not resolved.
+    /// Returns the number of missing poses, or else of unresolved eigenvalues of the last border basis.
     pub fn unresolved(&self) -> usize {
         match self.roots {
             Roots::Real => self.lost,
@@ -180,17 +180,17 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether a border basis was followed, and nothing of it is left to be found.
+    /// Returns whether a border basis was followed and none of its eigenvalues is unresolved.
     pub fn is_done(&self) -> bool {
         self.followed && self.unresolved() == 0
     }
 
-    /// Whether fewer poses were found than there are, where that is known.
+    /// Returns whether fewer poses were found than the known number.
     pub fn lacks_known_poses(&self) -> bool {
         self.roots == Roots::All && self.expected.is_some_and(|expected| self.poses() < expected)
     }
 
-    /// Whether all poses were found, where their number is known.
+    /// Returns whether all poses were found, if their number is known.
     pub fn has_all_known_poses(&self) -> bool {
         self.roots == Roots::All && self.expected.is_some_and(|expected| self.poses() >= expected)
     }
@@ -229,7 +229,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// A real pose at which the ends of legs of length zero coincide.
+    /// Follows eigenvalue k to a real pose at which the ends of legs of length zero coincide.
     fn coincident_ends(&mut self, k: usize, source: &Source, spectrum: &mut Spectrum<DIMENSION>) -> Option<Outcome> {
         let z = rotation::<Complex<f64>>(spectrum.values[k], k, source.basis, spectrum)?;
         let candidates = candidates(source.setting, &z);
@@ -307,7 +307,7 @@ impl<'a> Search<'a> {
         outcome
     }
 
-    /// Solutions near points known in more digits; those that were found but not proved are proved.
+    /// Finds and proves solutions near points known in more digits, and proves those found without a certificate.
     pub fn proved_near<R: Extended>(&mut self, legs: &[Leg<R>; 6], starts: &[Eight<Complex<R>>]) {
         for start in starts {
             self.far_away(legs, start);
@@ -315,7 +315,7 @@ impl<'a> Search<'a> {
         if self.lacks_known_poses() || self.expected.is_none() {
             return;
         }
-        // All of them are proved: the others are none.
+        // All poses are proved, so the others are none.
         let proved: usize =
             self.found.iter().filter(|f| f.certificate.is_some()).map(|f| if f.real { 1 } else { 2 }).sum();
         if self.expected == Some(proved) {
@@ -323,7 +323,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Takes in a pose so far away that it needs more digits; whether there is one, proved.
+    /// Takes in a pose so far away that it needs more digits. Returns whether there is one that is proved.
     pub fn far_away<R: Extended>(&mut self, legs: &[Leg<R>; 6], start: &Eight<Complex<R>>) -> bool {
         let found = self.proved(legs, start, false).or_else(|| {
             // A ball about a real point holds one solution only if that is real.
@@ -343,7 +343,7 @@ impl<'a> Search<'a> {
         true
     }
 
-    /// The pose near a point in more digits, if there is one and it is proved to be real or complex, as it should be.
+    /// Returns the pose near a point in more digits, if there is one and it is proved to be real or complex as requested.
     fn proved<R: Extended>(&self, legs: &[Leg<R>; 6], start: &Eight<Complex<R>>, real: bool) -> Option<Found> {
         let (point, there, inverse) = polish_extended(legs, start)?;
         let proof = pose_certificate(self.legs, self.curvature, &point, &there, &inverse)?;
@@ -367,15 +367,15 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// The place in the list of a solution known to within `least`, or of its conjugate.
+    /// Returns the index of a solution known to within `least`, or of its conjugate.
     fn known(&self, study: &Eight<Complex<f64>>, real: bool, least: f64) -> Option<usize> {
         // Points of two balls differ by the sum of their radii, in each of eight coordinates.
         let same_rotation = |w: &Eight<Complex<f64>>, conjugate: bool, room: f64| {
             let product: Complex<f64> = (0..4).map(|k| study[k] * if conjugate { w[k] } else { w[k].conj() }).sum();
             product.norm_sqr() > 1.0 - SAME - 64.0 * room * room
         };
-        // Polished to rounding: what is farther apart than this is not one. Singular ones are less accurate, and of those
-        // known more accurately the proofs tell.
+        // Regular solutions are polished to rounding, so more distant points are different ones. Singular solutions are less
+        // accurate; solutions known more accurately are distinguished by their certificates.
         self.found.iter().position(|found| {
             let room = found.certificate.map_or(SINGULAR, |c| c.radius.max(least.min(REAL_PART)));
             let same = |w: &Eight<Complex<f64>>| !are_apart(study, room.max(least), w, room);
@@ -396,7 +396,7 @@ impl<'a> Search<'a> {
         let proof = pose_certificate(legs, curvature, &polished.study, &polished.equations, &polished.inverse);
         let mut certificate = proof.filter(|c| holds(c, &study, S::REAL));
         if certificate.is_none() {
-            // Once more with twice the digits.
+            // Once more in double-double arithmetic.
             let inverse = polished.inverse.map(|row| row.map(Scalar::to_complex));
             certificate = refine(self.wide, &study, &inverse).and_then(|(point, there)| {
                 let inverse = inverse.map(|row| row.map(wide));
@@ -408,7 +408,7 @@ impl<'a> Search<'a> {
         if certificate.is_none() && norm(&study).norm() < DOUBTFUL {
             return;
         }
-        // The solutions proved must be different ones: a wide ball may reach another.
+        // The proved solutions must be different: a wide ball may contain another.
         certificate = certificate.filter(|c| c.radius <= REAL_PART || self.known(&study, S::REAL, c.radius).is_none());
         let residual = if study == complex(&polished.study) {
             polished.equations.residual()
@@ -428,7 +428,7 @@ impl<'a> Search<'a> {
         self.count(self.found.len() - 1, eigenvalue);
     }
 
-    /// Counts an eigenvalue for a solution, once; of two conjugate ones only one is followed.
+    /// Counts an eigenvalue for a solution, once; of a conjugate pair only one is followed.
     fn count(&mut self, at: usize, eigenvalue: usize) {
         let found = &mut self.found[at];
         if found.eigenvalues == 0 || found.last != eigenvalue {
@@ -438,7 +438,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Takes in a pose that is proved, if it is none of those in the list.
+/// Adds a pose that is proved, unless it is in the list.
 pub fn take_in(list: &mut Vec<Found>, pose: Found) {
     let radius = |found: &Found| found.certificate.map_or(SINGULAR, |c| c.radius);
     let is_apart = |other: &Found| {
@@ -462,7 +462,7 @@ pub fn tell(found: &[Found], frame: &Frame, assembly: &mut PlatformAssembly) {
     }
 }
 
-/// Rounding of coordinates of a point of hermitian norm 1 to f64, generously.
+/// A generous bound on the rounding error of coordinates of a point of hermitian norm 1 in f64.
 pub const ROUNDED: f64 = 1e-15;
 
 /// Whether a polished solution may belong to a family with `N = 0`.
@@ -475,20 +475,20 @@ fn largest<S: Number>(v: &Eight<S>) -> S {
     v[1..4].iter().fold(v[0], |best, z| if z.square_size() > best.square_size() { *z } else { best })
 }
 
-/// A proof for a point that was rounded to f64 afterwards.
+/// Enlarges the certificate of a point that was rounded to f64 afterwards.
 fn rounded(proof: Certificate, study: &Eight<Complex<f64>>) -> Certificate {
     let reach = study.iter().map(|z| z.norm()).fold(1.0, f64::max);
     Certificate { radius: proof.radius + ROUNDED * reach, ..proof }
 }
 
-/// Whether what is proved is a pose, and real or not as it seems. The point may have been rounded to f64 since: every
-/// coordinate relative to itself, those of x to 1.
+/// Returns whether the proved solution is a pose, and real or not as it seems. The point may have been rounded to f64
+/// since: every coordinate relative to itself, those of x relative to 1.
 fn holds(certificate: &Certificate, study: &Eight<Complex<f64>>, real: bool) -> bool {
     let radius = certificate.radius + ROUNDED;
     is_pose(study, radius) && (real || is_complex(study, rounded(*certificate, study).radius))
 }
 
-/// The rotation z of eigenvalue k, of any length: quotients where the eigenvector is largest.
+/// Returns the rotation z of eigenvalue k, of any length, from quotients at the largest entry of the eigenvector.
 fn rotation<S: Scalar>(
     value: S,
     k: usize,

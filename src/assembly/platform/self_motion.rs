@@ -1,4 +1,4 @@
-//! Whether a platform moves with its legs locked: a curve of poses, real or complex, through a point.
+//! Decides whether a platform moves with its legs locked, along a curve of poses, real or complex, through a point.
 
 use super::prepared::norm;
 use crate::closure::study::Leg;
@@ -8,17 +8,17 @@ use nalgebra::{ComplexField, SMatrix, SVector};
 
 /// Singular values below this part of the largest one count as zero.
 const RANK: f64 = 1e-6;
-/// The same while a pose is approached: the singular values of multiple ones shrink with the distance.
+/// The same bound while a pose is approached: the singular values of multiple ones shrink with the distance.
 const NEGLIGIBLE: f64 = 1e-8;
 /// Relative residual of a pose.
 const CLOSED: f64 = 1e-12;
-/// How far a step along the curve goes.
+/// Length of a step along the curve.
 const STEP: f64 = 0.02;
-/// Poses are another direction of motion if they are farther away than this part of a step.
+/// Poses count as another direction of motion if they are farther away than this part of a step.
 const MOVED: f64 = 0.2;
-/// Steps along a curve before it is left.
+/// Maximum number of steps along a curve.
 const MOST_STEPS: usize = 1500;
-/// A curve keeps about this number of points.
+/// Approximate number of points stored for a curve.
 const KEPT: usize = 60;
 /// |N| of a point on a family without poses.
 const NULL: f64 = 1e-3;
@@ -28,8 +28,8 @@ pub trait Numeric: Scalar + ComplexField<RealField = f64> {}
 
 impl<S: Scalar + ComplexField<RealField = f64>> Numeric for S {}
 
-/// The pose near a point that solves the legs' equations as well as they can be solved, by Gauss-Newton steps; `None`
-/// where there is none.
+/// Returns the pose near a point that solves the legs' equations in the least-squares sense, by Gauss-Newton steps; `None`
+/// if there is none.
 pub fn project<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Eight<S>> {
     let mut v = normalised(start)?;
     for _ in 0..40 {
@@ -48,7 +48,7 @@ pub fn project<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Eig
     None
 }
 
-/// The directions in which the equations at a pose give way.
+/// Returns the null directions of the equations at a pose.
 fn kernel<S: Numeric>(legs: &[Leg<f64>; 6], v: &Eight<S>) -> impl Iterator<Item = Eight<S>> {
     let here = equations(legs, v, &patch(v));
     let svd = SMatrix::<S, 8, 8>::from_fn(|i, j| here.jacobian[i][j]).svd(false, true);
@@ -59,8 +59,8 @@ fn kernel<S: Numeric>(legs: &[Leg<f64>; 6], v: &Eight<S>) -> impl Iterator<Item 
         .filter_map(move |k| rows.map(|rows| std::array::from_fn(|j| Number::conjugate(rows[(k, j)]))))
 }
 
-/// Poses along the curve of poses next to a point, in their order: until it comes back to where it began, or as far as it is
-/// followed, every so many steps.
+/// Returns poses in their order along the curve of poses next to a point. The curve is followed until it closes or the
+/// number of steps is exhausted, and thinned out.
 #[must_use]
 pub fn curve(legs: &[Leg<f64>; 6], start: &Eight<f64>) -> Vec<Eight<f64>> {
     let Some(first) = project(legs, start) else { return Vec::new() };
@@ -72,7 +72,7 @@ pub fn curve(legs: &[Leg<f64>; 6], start: &Eight<f64>) -> Vec<Eight<f64>> {
     let Some(mut next) = kernel(legs, &first).find_map(|direction| ahead(&first, &direction)) else { return points };
     let (mut last, mut has_left) = (first, false);
     for _ in 0..MOST_STEPS {
-        // Quaternions of either sign are one rotation.
+        // Quaternions of opposite signs are the same rotation.
         if same_sign(&last, &next) < 0.0 {
             next = next.map(|x| -x);
         }
@@ -102,11 +102,11 @@ fn same_sign(v: &Eight<f64>, w: &Eight<f64>) -> f64 {
     (0..4).map(|k| v[k] * w[k]).sum()
 }
 
-/// The dimension of the set of poses through the pose next to a point, real or complex as the type is; 0 for isolated ones
-/// and where there is none.
+/// Returns the dimension of the set of poses through the pose next to a point, real or complex as the type is; 0 for
+/// isolated poses and if there is none.
 ///
-/// The equations may give way in more directions than there is motion: what counts is where poses are found again after a
-/// step in each of them.
+/// The equations may have more null directions than there is motion. Therefore those directions count in which a step
+/// leads to poses again.
 #[must_use]
 pub fn self_motion<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> usize {
     let Some(v) = project(legs, start) else { return 0 };

@@ -27,24 +27,24 @@ use crate::solve::spectrum::Spectrum;
 use num_complex::Complex;
 use rug::Rational;
 
-/// Homotopies from different general platforms, at most.
+/// Maximum number of homotopies from different general platforms.
 const MOST_RUNS: usize = 2;
 
-/// A radius above this is wide: two poses that are nearly one may differ by less.
+/// A radius above this is wide: two nearly coincident poses may differ by less.
 const WIDE_BALL: f64 = 1e-10;
 
-/// The factor by which more paths are followed where poses are known to be missing.
+/// Factor on `MOST_RUNS` when poses are known to be missing.
 const PATIENCE: usize = 4;
 
-/// How much is done for a set of legs.
+/// The effort spent on a set of legs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Effort {
-    /// Special geometries with an algebra of their own have only simple poses looked for: exact arithmetic does better with the
-    /// others.
+    /// Special geometries with an algebra of their own are searched for simple poses only; exact arithmetic handles the other
+    /// poses better.
     Algebra,
-    /// Homotopies where poses may be missing.
+    /// Homotopies are added if poses may be missing.
     All,
-    /// No algebra of special geometries: it was tried before.
+    /// The algebra of special geometries is skipped, because it was tried before.
     Homotopies,
 }
 
@@ -56,16 +56,16 @@ pub struct PlatformSolver {
     charts: [Chart; 2],
     reflection: Option<Reflection>,
     triangle: Option<TriangleRoute>,
-    /// The exact points where base and plate are affine images of the same six points, and how many poses there are then.
+    /// The exact points if base and moving platform are affine images of the same six points, and the number of poses then.
     affine: Option<(Box<Platform<Rational>>, usize)>,
 }
 
-/// Scratch memory, reused from call to call: one for every thread.
+/// Scratch memory, reused from call to call; each thread needs its own.
 pub struct PlatformWorkspace {
     basis: BorderBasis<f64>,
     spectrum: Spectrum<DIMENSION>,
     found: Vec<Found>,
-    /// Of the general platform at which a homotopy starts.
+    /// Solutions of the general platform at which a homotopy starts.
     general: Vec<Found>,
 }
 
@@ -81,14 +81,14 @@ impl Default for PlatformWorkspace {
 }
 
 impl PlatformSolver {
-    /// Prepares a geometry. Any finite coordinates will do; degenerate ones show in the answers.
+    /// Prepares a geometry. Any finite coordinates are accepted; the results show degenerate ones.
     #[must_use]
     pub fn prepare(platform: &Platform<f64>) -> Self {
         let exact = |points: &[Vector<f64>; 6]| points.map(|p| p.map(|x| Rational::from_f64(x).unwrap_or_default()));
         Self::prepare_exact(&Platform { base: exact(&platform.base), plate: exact(&platform.plate) })
     }
 
-    /// Prepares a geometry whose numbers are not all f64.
+    /// Prepares a geometry whose numbers are not all exact in f64.
     #[must_use]
     pub fn prepare_exact(platform: &Platform<Rational>) -> Self {
         let frame = Frame::new(platform);
@@ -106,7 +106,7 @@ impl PlatformSolver {
         &self.platform
     }
 
-    /// The 40 x 40 matrix whose eigenvalues are asked for with these legs; `None` where the geometry is special.
+    /// Returns the 40 x 40 matrix whose eigenvalues are computed for these legs; `None` if the geometry is special.
     #[must_use]
     pub fn matrix(&self, legs_squared: &[f64; 6], workspace: &mut PlatformWorkspace) -> Option<Square<f64, DIMENSION>> {
         let unit = self.frame.scale * self.frame.scale;
@@ -115,8 +115,8 @@ impl PlatformSolver {
         workspace.basis.products[0].as_slice().try_into().ok()
     }
 
-    /// All poses with legs of these squared lengths (negative ones are meant as written: no pose is real then). With
-    /// [`Roots::Real`] only real ones.
+    /// Finds all poses with legs of these squared lengths, or only the real ones with [`Roots::Real`]. A negative square is
+    /// allowed; then no pose is real.
     pub fn solve(
         &self,
         legs_squared: &[f64; 6],
@@ -125,12 +125,12 @@ impl PlatformSolver {
         assembly: &mut PlatformAssembly,
     ) {
         workspace.found.clear();
-        // The algebra of special platforms needs exact numbers and memory; the homotopy of f64 does without.
+        // The algebra of special platforms needs exact numbers and memory; the homotopy in f64 does not.
         self.run(&Squares::of_floats(legs_squared), roots, None, Effort::All, workspace, assembly);
     }
 
-    /// Looks again for what is missing of the list solved last in this workspace, in numbers of so many words of 64 bits:
-    /// `platform` and `legs_squared` are the same ones exactly, `expected` the number of its poses.
+    /// Searches for the missing poses of the list solved last in this workspace, in numbers of `LIMBS` words of 64 bits.
+    /// `platform` and `legs_squared` are the same data in exact form; `expected` is the number of poses.
     pub fn solve_in_high_precision<const LIMBS: usize>(
         &self,
         platform: &Platform<Rational>,
@@ -142,7 +142,7 @@ impl PlatformSolver {
         let numbers = self.frame.with_legs(&Squares::of(legs_squared));
         let proved = |assembly: &PlatformAssembly| assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
         let before = proved(assembly);
-        // Those with a wide ball come again with a narrow one, as a rule.
+        // Solutions with a wide ball are found again, as a rule with a narrow one.
         let is_wide = |found: &Found| found.certificate.is_some_and(|c| c.radius > WIDE_BALL);
         let wide: Vec<Found> = workspace.found.iter().copied().filter(is_wide).collect();
         workspace.found.retain(|found| found.certificate.is_some() && !is_wide(found));
@@ -164,9 +164,9 @@ impl PlatformSolver {
         }
     }
 
-    /// As [`PlatformSolver::solve`], for numbers that are not all f64; where the number of poses is known (see
+    /// As [`PlatformSolver::solve`], for numbers that are not all exact in f64. If the number of poses is known (see
     /// [`platform_degree`](crate::elimination::platform_degree::platform_degree)), special geometries are searched until
-    /// all of them are found, and not longer.
+    /// all of them are found, and no longer.
     pub fn solve_up_to(
         &self,
         legs_squared: &[Rational; 6],
@@ -180,7 +180,7 @@ impl PlatformSolver {
         self.run(&Squares::of(legs_squared), roots, expected, effort, workspace, assembly);
     }
 
-    /// Looks for more poses than those proved of the list solved last in this workspace, until there are as many as expected.
+    /// Searches for poses that are not proved in the list solved last in this workspace, up to the expected number.
     pub fn solve_further(
         &self,
         legs_squared: &[Rational; 6],
@@ -192,7 +192,7 @@ impl PlatformSolver {
         self.run(&Squares::of(legs_squared), Roots::All, Some(expected), Effort::Homotopies, workspace, assembly);
     }
 
-    /// Looks for self-motions, where it is known that there are infinitely many poses.
+    /// Searches for self-motions, if there are known to be infinitely many poses.
     pub fn find_self_motion(
         &self,
         legs_squared: &[Rational; 6],
@@ -203,8 +203,8 @@ impl PlatformSolver {
         self.run(&Squares::of(legs_squared), Roots::All, None, Effort::Homotopies, workspace, assembly);
     }
 
-    /// Replaces what is not proved of the list solved last in this workspace by multiple poses that are known exactly.
-    /// `false` where their values are not computed to the last digit: then nothing has changed.
+    /// Replaces the unproved solutions of the list solved last in this workspace by multiple poses that are known exactly.
+    /// Returns `false`, with nothing changed, if their values are not computed to the last digit.
     pub fn add_exact(
         &self,
         poses: &[ExactPoses],
@@ -215,7 +215,7 @@ impl PlatformSolver {
             return false;
         };
         workspace.found.retain(|found| found.certificate.is_some());
-        // A singular pose is none of those proved before; a regular one may be.
+        // A singular pose cannot be one of those proved before; a regular one may be.
         for pose in exact.into_iter().flatten() {
             take_in(&mut workspace.found, pose);
         }
@@ -223,7 +223,7 @@ impl PlatformSolver {
         true
     }
 
-    /// Drops what is not proved of the list solved last in this workspace, and what is not proved to differ from all others.
+    /// Drops the solutions of the last list that are not proved, or not proved to differ from all others.
     pub fn keep_proved(&self, workspace: &mut PlatformWorkspace, assembly: &mut PlatformAssembly) {
         let mut proved = std::mem::take(&mut workspace.found);
         proved.retain(|found| found.certificate.is_some());
@@ -235,8 +235,8 @@ impl PlatformSolver {
         self.list(workspace, assembly);
     }
 
-    /// Finds the poses of a platform whose base and plate are affine images of the same points; whether these are all, and `None`
-    /// for other platforms.
+    /// Finds the poses of a platform whose base and moving platform are affine images of the same points. Returns whether
+    /// these are all; `None` for other platforms.
     fn by_algebra(&self, given: &Squares, search: &mut Search) -> Option<bool> {
         let (Some((platform, poses)), Some(squares)) = (&self.affine, &given.exact) else { return None };
         let starts = affine_starts(platform, squares, &self.frame);
@@ -360,11 +360,11 @@ impl PlatformSolver {
     }
 }
 
-/// Angles by which the arcs of homotopies are bent, one after the other: none near 0 or pi, where arcs are straight or far.
+/// Angles by which the arcs of successive homotopies are bent; none is near 0 or pi, where an arc is straight or far away.
 const BENDS: [f64; 8] = [0.73, -1.31, 1.87, -0.52, 1.13, -2.05, 0.41, -0.94];
 
-/// Follows all eigenvalues of a border basis: the number of unknowns beside the rotation, or the degree in which it lost
-/// rank.
+/// Follows all eigenvalues of a border basis. Returns the number of unknowns beside the rotation, or the degree in which
+/// the basis lost rank.
 fn by_border_basis(
     chart: &Chart,
     squares: &[f64; 6],
@@ -386,14 +386,14 @@ fn by_border_basis(
     Ok(setting.count)
 }
 
-/// Carries all solutions of a general platform to the one that is searched.
+/// Carries all solutions of a general platform to the requested one.
 fn by_homotopy(homotopy: &Homotopy, general: &[Found], search: &mut Search) {
     search.begin(0);
     for (index, found) in general.iter().enumerate() {
         let conjugate = (!found.real).then(|| found.study.map(|z| z.conj()));
         for (side, start) in [Some(found.study), conjugate].into_iter().flatten().enumerate() {
             match homotopy.carry(&start) {
-                // Solutions on a curve are none to be listed, but a real one may pass near.
+                // Solutions on a curve are not listed, but a real one may pass near.
                 End::Singular(point) if self_motion(homotopy.target, &point) > 0 => {
                     search.lost += 1;
                     search.keep_stray(&real_parts(&point)[2]);

@@ -14,20 +14,20 @@ use num_complex::Complex;
 
 type Point = [Complex<f64>; 3];
 
-/// Poses of a triangle on six legs, in general.
+/// Number of poses of a triangle on six legs, in general.
 pub const POSES: usize = 16;
-/// Points of a circle this near to infinity belong to no pose.
+/// Points of a circle nearer to infinity than this belong to no pose.
 const INFINITE: f64 = 1e-10;
-/// Corners that miss their distance by this much belong together as well as the nearest ones.
+/// Corners whose distance is off by this much match as well as the nearest ones.
 const TOGETHER: f64 = 1e-6;
-/// Where, and relative to its terms, a form must differ from zero to have 16 roots: otherwise the triangle moves.
+/// Points at which a form must differ from zero, relative to its terms, to have 16 roots; otherwise the triangle moves.
 const SAMPLES: [f64; 3] = [0.4, 2.1, 4.9];
 const VANISHING: f64 = 1e-10;
-/// A turn of the complex numbers after which no solution of a real mechanism is at infinity.
+/// A Moebius map of the complex numbers after which no solution of a real mechanism is at infinity.
 const TURN: [Complex<f64>; 2] = [Complex::new(0.61, 0.27), Complex::new(-0.33, 0.67)];
 
-/// The circle in homogeneous coordinates of its points, `(2 x y, r (y^2 + x^2), -i r (y^2 - x^2))`, with x and y linear in one
-/// complex number s.
+/// Returns the circle in homogeneous coordinates of its points, `(2 x y, r (y^2 + x^2), -i r (y^2 - x^2))`, with x and y
+/// linear in one complex number s.
 fn on_circle<S: Ring>(s: &S, radius: Complex<f64>, constant: impl Fn(Complex<f64>) -> S) -> [S; 3] {
     let [p, q] = TURN;
     let x = constant(p).add(&constant(q).mul(s));
@@ -37,14 +37,14 @@ fn on_circle<S: Ring>(s: &S, radius: Complex<f64>, constant: impl Fn(Complex<f64
     [xy.add(&xy), constant(radius).mul(&yy.add(&xx)), constant(i_radius).mul(&yy.sub(&xx))]
 }
 
-/// The two points in which a line meets a circle of this radius, squared.
+/// Returns the two points in which a line meets a circle of this squared radius.
 fn meet([d, e, f]: &Point, radius_square: f64) -> [Point; 2] {
     let norm = e * e + f * f;
     let root = (norm * radius_square - d * d).sqrt();
     [root, -root].map(|root| [norm, -d * e + f * root, -d * f - e * root])
 }
 
-/// How far two corners are from having their distance, relative to its terms.
+/// Returns the error of the distance of two corners, relative to its terms.
 fn miss(side: &[Point; 3], one: &Point, two: &Point) -> f64 {
     let size = |v: &Point| v.iter().map(|z| z.norm()).sum::<f64>();
     let image: Point = std::array::from_fn(|k| dot(&side[k], two));
@@ -64,12 +64,12 @@ impl TriangleRoute {
         pairs(platform).map(|pairs| Self { pairs })
     }
 
-    /// Whether the legs meet at the base.
+    /// Returns whether the legs meet at the base.
     pub fn at_base(&self) -> bool {
         self.pairs.at_base
     }
 
-    /// Sends all poses with legs of these squared lengths to a search; whether nothing was in the way.
+    /// Passes all poses with legs of these squared lengths to a search. Returns whether there was no obstacle.
     pub fn solve(&self, platform: &Platform<f64>, squares: &[f64; 6], search: &mut Search) -> bool {
         let Some(mut triangle) = Triangle::new(platform, squares, &self.pairs) else { return false };
         for circle in &mut triangle.circles {
@@ -78,7 +78,7 @@ impl TriangleRoute {
                 *square = 1.0;
             }
         }
-        // A circle of radius zero is a pair of lines, and has no parameter: the largest one is the best.
+        // A circle of radius zero is a pair of lines and has no parameter, so the largest circle is used.
         let radius = |k: usize| triangle.circles[k].radius_square.abs();
         let first = (1..3).fold(0, |best, k| if radius(k) > radius(best) { k } else { best });
         if !(radius(first) > 0.0 && radius(first).is_finite()) {
@@ -133,7 +133,7 @@ impl TriangleRoute {
             *corner = circle.point([&(alpha / one), &(beta / one)], |x| Complex::from(*x));
         }
         let [x, y] = frame.study(&corners)?;
-        // With the legs meeting at the base this is the pose of the base as the plate sees it.
+        // If the legs meet at the base, this is the pose of the base in the frame of the moving platform.
         let (x, y) = if self.pairs.at_base { (x.conjugate(), y.conjugate()) } else { (x, y) };
         let [x1, x2, x3] = x.vector;
         let [y1, y2, y3] = y.vector;
@@ -160,7 +160,7 @@ impl Corners {
         })
     }
 
-    /// The motion that takes the points to others, as far as these are at the same distances; x of any length.
+    /// Returns the motion that takes the points to others at the same distances, with x of any length.
     fn study(&self, [p, q, r]: &[Point; 3]) -> Option<[Quaternion<Complex<f64>>; 2]> {
         let difference = |s: &Point| -> Point { std::array::from_fn(|k| s[k] - p[k]) };
         let (q, r) = (difference(q), difference(r));
