@@ -12,15 +12,15 @@
 //! every r with `Y + Z0 r + Z2 r^2 / 2 <= r` and `Z0 + Z2 r < 1` has exactly one solution of F = 0 in the ball of radius
 //! r (largest coordinate) around q. F holds the translation and the skew part of the rotation of E. \[Krawczyk1969\]
 //!
-//! At a zero of F the translation of E vanishes and its rotation is symmetric: E = I, or a half turn, for which
+//! At a zero of F the translation of E vanishes and its rotation is symmetric: E = I, or a rotation by pi, for which
 //! `|E - I| >= 2`. In the ball `|E - I|` is at most its value at q plus `(e^(r sum |Z_j|) - 1) |E(q)|`, which is checked to
-//! be below 1/2: the zero is a closure. Closures are always zeros of F, so that there is no other one within the isolation.
+//! be below 1/2, so the zero is a closure. Closures are always zeros of F, so no other one lies within the isolation.
 //!
 //! Rounding: E is computed as a product of six steps. Step j leaves an error of at most `c u |before| |step|`, which the
-//! steps behind it magnify by at most their norm. The constants of a loop count as known to a few roundings, or as far off
-//! as [`Closure::constant_is_off`] was told: the bounds hold for every loop within these errors, so that what is proved is
-//! proved of the loop as given and not only as stored. The twist of an unknown is that of a frame p, z: where the frame is
-//! off by a factor 1 + D, the twist is off by at most `3 |D|` times its lever, `|z| (1 + |p|)`, which may be large where the
+//! steps behind it magnify by at most their norm. The constants of a loop are assumed known to a few roundings, or to the error
+//! set by [`Closure::constant_is_off`]. The bounds hold for every loop within these errors, so the proof holds for
+//! the loop as given and not only as stored. The twist of an unknown is that of a frame p, z: if the frame is
+//! off by a factor 1 + D, the twist is off by at most `3 |D|` times its lever, `|z| (1 + |p|)`, which may be large even if the
 //! twist is small.
 
 pub mod pose;
@@ -36,32 +36,32 @@ use crate::solve::dense::{inverse, times};
 use crate::solve::newton::{Closure, Six, closure};
 use crate::solve::scalar::{Number, Scalar};
 
-/// What was proved of a mode.
+/// The bounds proved for a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate {
     /// Exactly one solution lies within this distance (largest coordinate) of the mode.
     pub radius: f64,
-    /// And within this larger distance there is no other one.
+    /// No other solution lies within this larger distance.
     pub isolation: f64,
-    /// The radius before the unknowns were rounded to f64: each of them is off by no more than this and a few roundings of
-    /// itself, where one of enormous size spoils the radius of all.
+    /// The radius before the unknowns were rounded to f64: each of them is off by at most this and a few roundings of
+    /// itself. An unknown of enormous size increases only the other radius.
     pub proved: f64,
 }
 
-/// Roundings per step of the product, in parts of its norms, which add up |re| and |im|: cosine and sine (4, complex ones
-/// 20), their use (3), the product (4), the stored constant (32), and room for second order.
+/// Roundings per step of the product, relative to its norms, which add up |re| and |im|: cosine and sine (4, complex ones
+/// 20), their use (3), the product (4), the stored constant (32), and a margin for second order.
 const ROUNDINGS: f64 = 70.0;
 /// Margin on bounds that are themselves computed in f64.
 const MARGIN: f64 = 1.01;
 
-/// Bounds the rounding error of every entry of the closure: computed against exact, of the mechanism as given. Holds
+/// Bounds the error of every entry of the computed closure, compared with the exact one of the mechanism as given. Holds
 /// near E = I.
 #[must_use]
 pub fn product_error<S: Number>(at: &Closure<S>) -> f64 {
     rounding_error(at) + at.data_error
 }
 
-/// Of this what roundings leave.
+/// Bounds the part of this error that is due to rounding.
 fn rounding_error<S: Number>(at: &Closure<S>) -> f64 {
     ROUNDINGS * S::UNIT_ROUNDOFF * at.norms.iter().map(|n| n.before * n.step * n.behind).sum::<f64>()
 }
@@ -71,10 +71,10 @@ fn off_identity<S: Number>(at: &Closure<S>) -> f64 {
     8.0 * at.defect + product_error(at)
 }
 
-/// Every unknown counts alike.
+/// Equal weights of all unknowns.
 const ALIKE: Six<f64> = [1.0; 6];
 
-/// Bounds the sum of the errors of the twists in one coordinate, each unknown measured by its weight: the frames are off
+/// Bounds the sum of the errors of the twists in one coordinate, each unknown measured by its weight. The frames are off
 /// by the error of the product, and their twists are computed in a few roundings.
 fn twist_error<S: Number>(at: &Closure<S>, weights: &Six<f64>) -> f64 {
     let levers: f64 = at.norms.iter().zip(weights).map(|(n, w)| n.lever * w).sum();
@@ -99,7 +99,7 @@ fn weighted_derivative_error<S: Number>(at: &Closure<S>, weights: &Six<f64>) -> 
     MARGIN * (2.0 * twists(at, weights) * off_identity(at) + twist_error(at, weights))
 }
 
-/// Bounds how much faster than a distance the derivative changes, as the largest sum over a row, within `r` (largest
+/// Bounds the rate of change of the derivative with the distance, as the largest sum over a row, within `r` (largest
 /// coordinate) of the unknowns.
 #[must_use]
 pub fn curvature<S: Number>(at: &Closure<S>, r: f64) -> f64 {
@@ -111,14 +111,15 @@ fn weighted_curvature<S: Number>(at: &Closure<S>, r: f64, weights: &Six<f64>) ->
     twists * twists * (r * twists).exp() * (1.0 + off_identity(at))
 }
 
-/// Proves that exactly one solution lies near these unknowns; `None` where that cannot be shown.
+/// Proves that exactly one solution lies near these unknowns; `None` if that cannot be shown.
 #[must_use]
 pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]) -> Option<Certificate> {
     weighted_certificate(at, approximate_inverse, &ALIKE, None)
 }
 
 /// As [`certificate`], with the size of every unknown measured by its weight, at least 1: long translations need not be
-/// as exact as angles. `moved` bounds `|A (F' - F)|` for all F' whose constants are as far off as they may be, where more is
+/// as exact as angles. `moved` bounds `|A (F' - F)|` for all F' within the errors of the constants, if a better bound than
+/// that by the norms is known.
 /// known than the norms tell.
 fn weighted_certificate<S: Number>(
     at: &Closure<S>,
@@ -137,7 +138,7 @@ fn weighted_certificate<S: Number>(
     let residual = at.residual.iter().map(|x| x.bound()).fold(0.0, f64::max);
     let moved = moved.unwrap_or(inverse_norm * at.data_error);
     let y = MARGIN * (step + inverse_norm * (rounding_error(at) + 16.0 * S::UNIT_ROUNDOFF * residual) + moved);
-    // |I - A J|, the error of J as the derivative, and the roundings of this very product.
+    // |I - A J|, the error of J as the derivative, and the roundings of this product.
     let (mut deviation, mut sums) = (0.0_f64, 0.0_f64);
     for i in 0..6 {
         let (mut off, mut sum) = (0.0, 0.0);
@@ -158,7 +159,7 @@ fn weighted_certificate<S: Number>(
     if !(z0 < 0.5) {
         return None;
     }
-    // Smallest radius that works, then the largest one (with half the contraction to spare).
+    // The smallest radius that works, then the largest one (with half the contraction to spare).
     let bend = |r: f64| MARGIN * inverse_norm * weighted_curvature(at, r, weights);
     let radius = (1.05 * y / (1.0 - z0)).max(f64::MIN_POSITIVE);
     let works = |r: f64| {
@@ -166,7 +167,7 @@ fn weighted_certificate<S: Number>(
         y + z0 * r + 0.5 * z2 * r * r <= r && z0 + z2 * r < 1.0
     };
     let radius = [1.0, 1.5, 2.0].into_iter().map(|f| f * radius).find(|&r| works(r))?;
-    // No half turn is near.
+    // No rotation by pi is near.
     let turned = (radius * twists(at, weights)).exp_m1();
     if !(off_identity(at) + 1.01 * turned < 0.5) {
         return None;
@@ -178,7 +179,7 @@ fn weighted_certificate<S: Number>(
             isolation = radius;
         }
     }
-    // Of coordinates, not of weighted ones.
+    // The radius holds for coordinates, not for weighted ones.
     let largest = weights.iter().copied().fold(1.0, f64::max);
     let radius = radius * largest;
     (radius <= isolation).then_some(Certificate { radius, isolation, proved: radius })

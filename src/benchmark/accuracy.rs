@@ -1,4 +1,4 @@
-//! Counting: what of the planted truth is found, and whether all that is found is true.
+//! Counts how many planted configurations are found, and checks that everything listed is a solution.
 
 use super::agreement::{Agreements, compare};
 use super::sample::{Sample, Set, motions, rational_sample, sample};
@@ -16,9 +16,9 @@ use std::time::Instant;
 /// The counts of one run.
 #[derive(Clone, Debug, Default)]
 pub struct Counts {
-    /// What was solved, in the plural.
+    /// The kind of problems solved, in the plural.
     pub noun: &'static str,
-    /// How many of them.
+    /// Number of problems solved.
     pub solved: usize,
     /// Planted configurations found.
     pub found: usize,
@@ -30,38 +30,38 @@ pub struct Counts {
     pub spurious: usize,
     /// Pairs of real modes of one pose nearer than 1e-6 radians, not proved to be two.
     pub duplicates: usize,
-    /// Complex solutions more or fewer than an exact count finds, where there is one: platforms.
+    /// Lists with more or fewer complex solutions than an exact count, where there is one (platforms).
     pub miscounted: usize,
-    /// In which samples.
+    /// The samples of these lists.
     pub miscounted_in: Vec<u64>,
-    /// Lists that were compared with an exact count or with the most there can be.
+    /// Lists that were compared with an exact count or with an upper bound.
     pub counted: usize,
     /// Closure residuals of all modes.
     pub residuals: Vec<f64>,
     /// Distances from the planted to the found configuration.
     pub errors: Vec<f64>,
-    /// How many arms have this many real solutions, with multiplicity.
+    /// Number of arms by their number of real solutions, with multiplicity.
     pub real: BTreeMap<usize, usize>,
-    /// How many arms have this many complex solutions, with multiplicity.
+    /// Number of arms by their number of complex solutions, with multiplicity.
     pub complex: BTreeMap<usize, usize>,
-    /// How many got each verdict.
+    /// Number of samples by verdict.
     pub verdicts: BTreeMap<&'static str, usize>,
-    /// How many verdicts are proved, probable and so on.
+    /// Number of verdicts by the kind of proof: proved, probable and so on.
     pub proofs: BTreeMap<&'static str, usize>,
-    /// Why lists are incomplete.
+    /// Number of incomplete lists by reason.
     pub reasons: BTreeMap<String, usize>,
-    /// Modes found, and how many of them are certified.
+    /// Number of modes found, and number of those with a certificate.
     pub modes: (usize, usize),
-    /// The closure polynomials beside the solutions, where they were derived.
+    /// Comparison of the closure polynomials with the solutions, if they were derived.
     pub exact: Option<Agreements>,
 }
 
-/// What was asked for.
+/// The samples to solve and the way to solve them.
 #[derive(Clone, Copy, Debug)]
 pub struct Job {
     /// The family of arms.
     pub set: Set,
-    /// How many.
+    /// Number of samples.
     pub count: u64,
     /// Seed of the draw.
     pub seed: u64,
@@ -71,16 +71,16 @@ pub struct Job {
     pub exact: bool,
 }
 
-/// Runs a job on all threads of the pool it is called in; `tick` is called after every arm. Once `running` says no,
-/// the arms not begun are left out of the counts.
+/// Runs a job on all threads of the pool it is called in; `tick` is called after every arm. Once `running` returns
+/// `false`, the arms not begun are left out of the counts.
 ///
 /// # Errors
-/// Of the derivation of a closure polynomial; else none in practice, see [`sample`].
+/// Those of the derivation of a closure polynomial; otherwise none in practice, see [`sample`].
 pub fn run(job: Job, running: impl Fn() -> bool + Sync, tick: impl Fn() + Sync) -> Result<Counts> {
     over_all(job.count, running, tick, |index, memory| one(job, index, memory))
 }
 
-/// What one thread works with.
+/// The memory of one thread.
 pub(super) type Memory = (Workspace, Assembly);
 
 /// Adds up the counts of all samples, on all threads.
@@ -140,8 +140,8 @@ fn one(job: Job, index: u64, (workspace, assembly): &mut Memory) -> Result<Count
     Ok(counts)
 }
 
-/// How far the tool is from the pose at a mode, by forward kinematics alone: largest entry of the difference, that of the
-/// place as a part of the longest translation where this is above 1.
+/// Returns the distance of the tool from the pose at a mode, by forward kinematics alone: the largest entry of the
+/// difference. That of the position is relative to the longest translation if this is above 1.
 fn miss(drawn: &Sample, mode: &FullMode) -> f64 {
     let motions = motions(&drawn.variables, &std::array::from_fn(|k| mode.q[k].re));
     let (Some(reached), Some(wanted)) = (drawn.chain.forward(&motions), &drawn.entry.cases[0].pose) else {
@@ -160,7 +160,7 @@ fn miss(drawn: &Sample, mode: &FullMode) -> f64 {
 }
 
 impl Counts {
-    /// What is counted of any answer.
+    /// Returns the counts of one answer, of any kind.
     pub(super) fn of(noun: &'static str, solution: &Solution) -> Self {
         let mut counts = Self { noun, solved: 1, ..Self::default() };
         counts.residuals = solution.modes.iter().map(|m| m.residual).collect();
@@ -169,7 +169,7 @@ impl Counts {
         counts.verdicts.insert(solution.verdict.status.word(), 1);
         counts.proofs.insert(solution.verdict.proof.word(), 1);
         if solution.verdict.status == Status::Incomplete {
-            // Numbers differ from sample to sample: the reason is what is counted.
+            // Numbers differ from sample to sample, so reasons are counted without them.
             let reason = solution.verdict.reason.split_whitespace();
             let plain = reason.map(|word| if word.parse::<usize>().is_ok() { "n" } else { word });
             counts.reasons.insert(plain.collect::<Vec<_>>().join(" "), 1);
@@ -214,7 +214,7 @@ impl Counts {
         self
     }
 
-    /// Whether nothing is lost, spurious, double or miscounted, or unlike the closure polynomial.
+    /// Returns whether nothing is lost, spurious, double or miscounted, and everything agrees with the closure polynomial.
     #[must_use]
     pub fn is_faultless(&self) -> bool {
         let alike = self.exact.as_ref().is_none_or(|exact| exact.differ.is_empty());
@@ -222,7 +222,7 @@ impl Counts {
     }
 }
 
-/// One line per family.
+/// Returns a table with one line per family.
 #[must_use]
 pub fn table(rows: &[(&str, Counts)]) -> String {
     let columns = ["chain", "loops", "found", "lost", "spurious", "double", "proved", "residual", "complex solutions"];
@@ -257,13 +257,13 @@ pub fn table(rows: &[(&str, Counts)]) -> String {
     text
 }
 
-/// Quantiles of a sample: median, 99 %, 99.9 %, largest.
+/// Returns the quantiles of a sample: median, 99 %, 99.9 %, largest.
 #[must_use]
 pub fn quantiles(values: &[f64]) -> [f64; 4] {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     [0.5, 0.99, 0.999, 1.0].map(|part| {
-        // The smallest value with at least this part of all values at or below it.
+        // The smallest value such that at least this part of all values is no larger.
         let below = |k: usize| (k as f64) < sorted.len() as f64 * part;
         let index = (1..sorted.len()).take_while(|&k| below(k)).count();
         sorted.get(index).copied().unwrap_or(f64::NAN)

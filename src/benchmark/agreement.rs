@@ -1,4 +1,4 @@
-//! Exact against f64: the closure polynomial of a loop beside the solutions that were found in floating point.
+//! Comparison of exact closure polynomials with the solutions found in floating point.
 
 use crate::assembly::wrapped;
 use crate::derivation::Derivation;
@@ -9,20 +9,20 @@ use crate::verdict::Status;
 use num_complex::Complex;
 use std::collections::BTreeMap;
 
-/// Values of the unknown this near to each other are one.
+/// Values of the unknown nearer to each other than this count as equal.
 const NEAR: f64 = 1e-6;
 
-/// What came of one comparison.
+/// The result of one comparison.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Agreement {
-    /// Simple roots, one for each solution: the same number of both, and of real ones.
+    /// The roots are simple, one for each solution, and the numbers of all and of real ones agree.
     Solutions,
-    /// Several solutions share a root, or coincide: the same number of both with multiplicity where it is known, and as many
-    /// distinct roots, and real ones, as the solutions have distinct values.
+    /// Several solutions share a root, or coincide. The numbers agree with multiplicity where it is known, and there are as
+    /// many distinct roots, and real ones, as the solutions have distinct values.
     Values,
-    /// There is no polynomial, or no finite number of solutions, and why.
+    /// There is no polynomial, or no finite number of solutions, for this reason.
     NotComparable(String),
-    /// What differs.
+    /// The difference found.
     Differs(String),
 }
 
@@ -66,7 +66,7 @@ pub fn compare(derivation: &Derivation, chain: &Chain, solution: &Solution) -> A
     Agreement::Values
 }
 
-/// How many comparisons came out how.
+/// Number of comparisons by result.
 #[derive(Clone, Debug, Default)]
 pub struct Agreements {
     /// [`Agreement::Solutions`]
@@ -75,9 +75,9 @@ pub struct Agreements {
     pub values: usize,
     /// [`Agreement::NotComparable`], by the reason.
     pub not_comparable: BTreeMap<String, usize>,
-    /// [`Agreement::Differs`]: the number of the sample, and how.
+    /// [`Agreement::Differs`]: the number of the sample, and the difference.
     pub differ: Vec<(u64, String)>,
-    /// Polynomials of which it is not proved that every root belongs to a solution, only modulo a prime.
+    /// Polynomials for which it is proved only modulo a prime that every root belongs to a solution.
     pub unproved: usize,
     /// Seconds for all derivations.
     pub time: f64,
@@ -86,7 +86,7 @@ pub struct Agreements {
 }
 
 impl Agreements {
-    /// One comparison.
+    /// Returns the tally of one comparison.
     pub(super) fn of(index: u64, agreement: Agreement, proved: bool, time: f64) -> Self {
         let mut one = Self { unproved: usize::from(!proved), time, longest: time, ..Self::default() };
         match agreement {
@@ -113,7 +113,7 @@ impl Agreements {
         self
     }
 
-    /// How many comparisons there were.
+    /// Returns the number of comparisons.
     #[must_use]
     pub fn count(&self) -> usize {
         self.solutions + self.values + self.not_comparable.values().sum::<usize>() + self.differ.len()

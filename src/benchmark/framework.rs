@@ -10,8 +10,8 @@ use rand::Rng;
 use rayon::prelude::*;
 use rug::{Integer, Rational};
 
-/// The framework with errors of 1e-3 to 1e-9, relative, other ones for every seed and number: in every coordinate of a vertex, or
-/// in every length where the file gives lengths.
+/// Returns the framework with relative errors of 1e-3 to 1e-9, which depend on seed and number, in every coordinate of a
+/// vertex, or in every length if the file gives lengths.
 #[must_use]
 pub fn disturbed(file: &FrameworkFile, seed: u64, number: u64) -> FrameworkFile {
     let mut random = stream(seed, number);
@@ -32,8 +32,8 @@ pub fn disturbed(file: &FrameworkFile, seed: u64, number: u64) -> FrameworkFile 
     FrameworkFile { framework: Framework::new(vertices, bars, &file.bodies), ..file.clone() }
 }
 
-/// Disturbs a framework so many times, on all threads of the current pool, and decides whether what comes out moves. `running`
-/// is asked now and then and stops the run; `tick` is called for every framework.
+/// Disturbs a framework `count` times, on all threads of the current pool, and decides whether the results move. `running`
+/// is called now and then and stops the run; `tick` is called for every framework.
 #[must_use]
 pub fn run(
     file: &FrameworkFile,
@@ -50,12 +50,12 @@ pub fn run(
     (0..count).into_par_iter().filter_map(one).reduce(Tally::default, Tally::and)
 }
 
-/// Whether a framework moves, if that is proved; one that is only seen to move counts as mobile, too.
+/// Returns whether a framework moves, if that is proved; one whose motion is only observed counts as mobile, too.
 fn moves(file: &FrameworkFile) -> Option<bool> {
     let answer = match &file.squares {
         None => mobility(&file.framework, 1),
         Some(squares) => {
-            // By its lengths alone, whether or not it can be put together.
+            // The lengths alone decide, whether or not the framework can be assembled.
             let start = file.framework.map(|q| Some(nearest_f64(q)))?;
             let octahedron = Octahedron::of(&start, squares);
             let is_fixed =

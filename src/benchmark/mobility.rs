@@ -1,4 +1,4 @@
-//! Overconstrained mechanisms with a small error: none of them may be called mobile, and what is left must be counted right.
+//! Overconstrained mechanisms with a small error: none may be called mobile, and their configurations must be counted right.
 
 use crate::algebra::modp::{ModP, PRIME_62};
 use crate::algebra::number::Number;
@@ -20,31 +20,31 @@ use std::cmp::Ordering;
 /// Powers of ten of the errors: 1e-3 to 1e-9.
 pub(super) const SIZES: std::ops::RangeInclusive<u32> = 3..=9;
 
-/// What became of the disturbed mechanisms of one kind.
+/// The results for the disturbed mechanisms of one kind.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// How many were looked at.
+    /// Number of mechanisms.
     pub count: usize,
     /// Proved to be immobile.
     pub immobile: usize,
     /// Not decided.
     pub undecided: usize,
-    /// Called mobile: the numbers of their draws.
+    /// The draws called mobile, by number.
     pub mobile: Vec<u64>,
-    /// Loops that `solve` was asked about.
+    /// Number of loops passed to `solve`.
     pub asked: usize,
-    /// Loops of which `solve` says that its list of configurations is complete.
+    /// Number of loops for which `solve` reports a complete list of configurations.
     pub solved: usize,
-    /// Of these, those whose number of configurations is confirmed by an exact count.
+    /// Those of them whose number of configurations is confirmed by an exact count.
     pub counted: usize,
-    /// Of these, those that an exact count contradicts: the numbers of their draws.
+    /// Those of them that an exact count contradicts, by the numbers of their draws.
     pub miscounted: Vec<u64>,
     /// Configurations of all solved loops, complex and real.
     pub configurations: (usize, usize),
 }
 
 impl Tally {
-    /// Both together.
+    /// Adds two tallies.
     pub(super) fn and(mut self, mut other: Self) -> Self {
         self.count += other.count;
         self.immobile += other.immobile;
@@ -59,7 +59,7 @@ impl Tally {
         self
     }
 
-    /// One mechanism, by whether it moves.
+    /// Returns the tally of one mechanism, by whether it moves.
     pub(super) fn of(number: u64, moves: Option<bool>) -> Self {
         Self {
             count: 1,
@@ -71,14 +71,14 @@ impl Tally {
     }
 }
 
-/// The random numbers of a draw: other ones for every seed and number.
+/// Returns the random numbers of a draw, which depend on seed and number.
 pub(super) fn stream(seed: u64, number: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(number);
     random
 }
 
-/// A loop with a small motion added behind one of its joints, another one for every seed and number: a rotation and a
+/// Returns a loop with a small motion added behind one of its joints, which depends on seed and number: a rotation and a
 /// translation of 1e-3 to 1e-9, in radians and in lengths of the links.
 #[must_use]
 pub fn disturbed(entry: &Entry, seed: u64, number: u64) -> Option<Entry> {
@@ -96,12 +96,12 @@ pub fn disturbed(entry: &Entry, seed: u64, number: u64) -> Option<Entry> {
     Some(Entry { design: Design::Loop(with_error(chain, joint, &motion)), cases: vec![Case::free(0)], ..entry.clone() })
 }
 
-/// The chain with a motion behind one of its joints.
+/// Returns the chain with a motion behind one of its joints.
 fn with_error(chain: &Chain, joint: usize, motion: &Motion<Rational>) -> Chain {
     let behind = |placement: &Placement| Placement::from_motion_exact(motion.then_after(&placement.exact));
     let mut chain = chain.clone();
     match &mut chain.geometry {
-        // A loop has no beginning: the joint becomes the last one, and the motion stands behind the chain.
+        // A loop has no beginning, so the joint becomes the last one and the motion stands behind the chain.
         Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => {
             let is_bare = *chain.base.exact == Motion::identity() && *chain.tool.exact == Motion::identity();
             if is_bare {
@@ -109,7 +109,7 @@ fn with_error(chain: &Chain, joint: usize, motion: &Motion<Rational>) -> Chain {
             }
             chain.tool = behind(&chain.tool);
         }
-        // What comes behind the joint is moved.
+        // The joints behind this one are moved.
         Geometry::Screws { joints, home } => {
             for screw in joints.iter_mut().skip(joint + 1) {
                 let exact = |v: &[Number; 3]| v.each_ref().map(|x| x.rational().clone());
@@ -122,8 +122,9 @@ fn with_error(chain: &Chain, joint: usize, motion: &Motion<Rational>) -> Chain {
     chain
 }
 
-/// Disturbs a loop so many times, on all threads of the current pool, and decides whether what comes out moves; the first
-/// `solved` of them are solved as well, and their configurations counted. `running` is asked now and then and stops the run; `tick` is called for every loop.
+/// Disturbs a loop `count` times, on all threads of the current pool, and decides whether the results move. The first
+/// `solved` of them are solved as well, and their configurations counted. `running` is called now and then and stops the run;
+/// `tick` is called for every loop.
 #[must_use]
 pub fn run(
     entry: &Entry,
@@ -143,13 +144,13 @@ pub fn run(
     (0..count).into_par_iter().filter_map(one).reduce(Tally::default, Tally::and)
 }
 
-/// A bound on the number of configurations by the ring of the loop: modulo a prime that `solve` knows nothing of.
+/// Returns a bound on the number of configurations by the ring of the loop, modulo a prime that `solve` does not use.
 fn ring_modulo_another_prime(entry: &Entry) -> Option<usize> {
     let (_, closed) = closed_loop::<ModP<PRIME_62>>(entry.chain()?, &entry.cases[0]).ok()??;
     Plan::of(&closed).map(|plan| plan.count())
 }
 
-/// What becomes of one loop, by itself and by `solve`.
+/// Returns the results for one loop, by itself and by `solve`.
 fn judged(entry: &Entry, number: u64, is_solved: bool) -> Option<Tally> {
     let linkage = Linkage::of(entry.chain()?).ok()?;
     let mut tally = Tally::of(number, moves(&linkage));
@@ -169,7 +170,7 @@ fn judged(entry: &Entry, number: u64, is_solved: bool) -> Option<Tally> {
     let is_right = if linkage.variables.len() < 6 {
         mobility::count(&linkage).map(|exact| exact == verdict.complex)
     } else {
-        // As many as there can be, and no more; certified ones are there.
+        // The bound is met, and all of the listed configurations are certified.
         let most = ring_modulo_another_prime(entry).filter(|most| *most <= verdict.complex);
         most.or_else(|| at_most(&linkage, verdict.complex)).and_then(|most| match verdict.complex.cmp(&most) {
             Ordering::Equal => Some(true),

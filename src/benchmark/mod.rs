@@ -1,4 +1,4 @@
-//! The program measures itself: solutions found, lost, spurious, duplicated against planted truth, and its speed.
+//! Self-measurement of the program: solutions found, lost, spurious or duplicated against planted truth, and its speed.
 
 pub mod accuracy;
 pub mod agreement;

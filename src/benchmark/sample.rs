@@ -25,7 +25,7 @@ pub enum Set {
     NearSingular,
     /// Link lengths and offsets of very different sizes, 1e-3 to 1.
     BadlyScaled,
-    /// Structured arms as calibrated: every parameter off by 1e-6.
+    /// Structured arms after calibration: every parameter is off by 1e-6.
     Calibrated,
     /// Loops of one of the [`CHAINS`] in general.
     Chain(usize),
@@ -34,12 +34,12 @@ pub enum Set {
     SpecialChain(usize),
 }
 
-/// What numbers the lengths, offsets, angles and planted joint variables are.
+/// The number format of lengths, offsets, angles and planted joint variables.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Data {
-    /// Those drawn.
+    /// The numbers as drawn.
     Floats,
-    /// Three decimals of the lengths and of the half-angle tangents, the pose exactly the one that these reach.
+    /// Lengths and half-angle tangents with three decimals, and the exact pose that they reach.
     Decimals,
 }
 
@@ -54,7 +54,7 @@ impl Data {
     fn angle(self, radians: f64) -> Angle {
         match self {
             Self::Floats => Angle::from_radians(radians),
-            // Half turns are drawn as such.
+            // A rotation by pi has an infinite half-angle tangent.
             Self::Decimals if radians.abs() == PI => Angle::from_half_tangent(HalfTangent::Infinite),
             Self::Decimals => Angle::from_half_tangent(HalfTangent::Finite(thousandths((0.5 * radians).tan()))),
         }
@@ -65,8 +65,8 @@ fn thousandths(x: f64) -> Rational {
     Rational::from_f64((x * 1000.0).round()).expect("a finite number was drawn") / 1000
 }
 
-/// What is left of the single-loop mechanisms with one input when that is given: six joint variables of revolute,
-/// prismatic and cylindrical joints, up to rotation and reversal, or a spherical joint and three; and the number of solutions in
+/// The residual chains of the single-loop mechanisms with given input: six joint variables of revolute, prismatic and
+/// cylindrical joints, up to rotation and reversal, or a spherical joint and three; and the number of solutions in
 /// general.
 pub const CHAINS: [(&str, usize); 32] = [
     ("CCC", 2),
@@ -113,7 +113,7 @@ impl Set {
         ("calibrated", Self::Calibrated),
     ];
 
-    /// How near the planted configuration must be found, radians.
+    /// Returns the tolerance for the planted configuration, radians.
     #[must_use]
     pub fn tolerance(self) -> f64 {
         if matches!(self, Self::General | Self::Chain(_)) { 1e-6 } else { 1e-5 }
@@ -126,12 +126,12 @@ impl Set {
         (0..letters.len()).filter_map(|at| JointKind::from_letter(&letters[at..=at])).collect()
     }
 
-    /// Whether lengths vanish and angles are right often.
+    /// Returns whether lengths often vanish and angles are often right.
     fn is_structured(self) -> bool {
         matches!(self, Self::Structured | Self::Calibrated | Self::SpecialChain(_))
     }
 
-    /// Planted configurations are farther than this from singular ones.
+    /// Returns the distance that planted configurations keep from singular ones.
     fn least_regularity(self) -> f64 {
         match self {
             Self::Calibrated => 1e-4,
@@ -142,7 +142,7 @@ impl Set {
     }
 }
 
-/// One arm, its pose, and the configuration the pose was made from.
+/// One arm, its pose, and the configuration from which the pose was computed.
 #[derive(Clone, Debug)]
 pub struct Sample {
     /// The arm with one pose.
@@ -151,7 +151,7 @@ pub struct Sample {
     pub chain: Chain,
     /// The planted joint variables.
     pub planted: [f64; 6],
-    /// What each of them measures.
+    /// The kind of each of them.
     pub variables: [Variable; 6],
     /// Smallest over largest singular value of the Jacobian there, lengths as given.
     pub regularity: f64,
@@ -165,8 +165,8 @@ pub fn sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
     draw(set, Data::Floats, seed, index)
 }
 
-/// Sample number `index` of a set with three decimals of all lengths and half-angle tangents, the planted ones too, and
-/// exactly the pose that these reach.
+/// Returns sample number `index` of a set with three decimals of all lengths and half-angle tangents, planted ones
+/// included, and the exact pose that these reach.
 ///
 /// # Errors
 /// As [`sample`].
@@ -175,7 +175,7 @@ pub fn rational_sample(set: Set, seed: u64, index: u64) -> Result<Sample> {
 }
 
 fn draw(set: Set, data: Data, seed: u64, index: u64) -> Result<Sample> {
-    // One stream per sample: any of them can be drawn alone, on any thread.
+    // Each sample has its own stream, so that it can be drawn alone, on any thread.
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(index);
     loop {
@@ -186,7 +186,7 @@ fn draw(set: Set, data: Data, seed: u64, index: u64) -> Result<Sample> {
         let variables = open.variables;
         let mut planted: [f64; 6] = std::array::from_fn(|k| value(set, variables[k], &mut random));
         if let Some(spherical) = layout.spherical {
-            // Not near the ends of the second angle's range, where the other two are not unique.
+            // Angles stay away from the ends of the second angle's range, where the other two are not unique.
             for k in 0..3 {
                 planted[spherical + k] = if k == 1 { random.random_range(0.1..3.0) } else { random.random_range(-PI..PI) };
             }

@@ -1,4 +1,4 @@
-//! Timing, one core, all figures of one run side by side with the eigenvalues of one 16 x 16 matrix by faer.
+//! Timings on one core, all of one run beside the eigenvalues of one 16 x 16 matrix by faer.
 
 use super::sample::{Set, sample};
 use crate::assembly::{Assembly, Roots, Solver, Workspace};
@@ -19,8 +19,8 @@ pub struct Timings {
     pub rows: Vec<(&'static str, f64, f64)>,
 }
 
-/// Times `count` general arms, `repeats` times over: the stages in turn within each repeat, so that a machine that
-/// changes its speed changes it for all of them.
+/// Times `count` general arms, `repeats` times over. The stages alternate within each repeat, so that a change of the
+/// machine's speed affects all of them alike.
 ///
 /// # Errors
 /// None in practice, see [`sample`].
@@ -69,12 +69,12 @@ pub(super) struct Stages {
 }
 
 impl Stages {
-    /// Stages of these names, the first one the measure of all.
+    /// Creates stages of these names; the first one is the reference for all.
     pub(super) fn new(names: &[&'static str]) -> Self {
         Self { names: names.to_vec(), times: vec![Vec::new(); names.len()] }
     }
 
-    /// Times one stage over so many samples.
+    /// Times one stage over this many samples.
     pub(super) fn time(&mut self, stage: usize, samples: usize, work: &mut dyn FnMut(usize)) {
         let start = Instant::now();
         for k in 0..samples {

@@ -1,4 +1,4 @@
-//! Timing of loops, input after input of a geometry prepared once, and of exact closure polynomials.
+//! Timings of loops, input after input of a geometry prepared once, and of exact closure polynomials.
 
 use super::sample::{CHAINS, Set, matrix, motions, sample};
 use super::speed_robots::{Posed, posed};
@@ -21,11 +21,11 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Inputs of each random loop.
+/// Number of inputs of each random loop.
 const INPUTS: usize = 4;
-/// How often an input is solved before the next one: a steady state is asked for, not that of cold caches.
+/// Number of times an input is solved before the next one, to measure a steady state and not cold caches.
 const ROUNDS: usize = 3;
-/// One of this many passes over the loops is made over the exact polynomials.
+/// Exact polynomials are timed once per this many passes.
 const PASSES: usize = 5;
 /// Sequences of unknowns whose closure polynomials are derived: degrees 2, 4, 8 and 16.
 const DERIVED: [&str; 7] = ["CCC", "CRCR", "SRRR", "PRPRRR", "CRRRR", "PRRRRR", "RRRRRR"];
@@ -37,27 +37,27 @@ pub struct Spread {
     pub median: f64,
     /// The fastest of all.
     pub least: f64,
-    /// The median of an input that 99 % of the inputs are no slower than.
+    /// The 99 % quantile of the medians of the inputs.
     pub nearly_all: f64,
     /// The median of the slowest input.
     pub slowest: f64,
 }
 
-/// Times of one kind of loop, geometry prepared, every input solved many times.
+/// Times of one kind of loop with prepared geometry; every input is solved many times.
 #[derive(Clone, Debug)]
 pub struct LoopRow {
     /// The sequence of unknowns, or the name of the entry.
     pub name: String,
-    /// How many solutions, by multiplicity, the first input has.
+    /// Number of solutions of the first input, with multiplicity.
     pub solutions: usize,
-    /// Numbers only, each mode with its certificate: real solutions. None for what is only solved as a whole.
+    /// Real solutions in numbers only, each mode with its certificate; `None` if only the whole answer is timed.
     pub real: Option<Spread>,
-    /// Numbers only, each mode with its certificate: all solutions.
+    /// All solutions in numbers only, each mode with its certificate.
     pub all: Option<Spread>,
-    /// The whole answer as `looproot solve` gives it: the input read from its exact value, all solutions, counted, and the
+    /// The whole answer of `looproot solve`: reading the input from its exact value, all solutions, their count, and the
     /// verdict.
     pub answer: Spread,
-    /// The numbers of the slowest draw, and of its input from 1, in the time of the answer.
+    /// The number of the slowest draw and of its input, from 1, by the time of the answer.
     pub slowest: (u64, usize),
 }
 
@@ -66,15 +66,15 @@ pub struct LoopRow {
 pub struct ExactRow {
     /// The sequence of unknowns.
     pub name: &'static str,
-    /// The largest degree met.
+    /// The largest degree that occurred.
     pub degree: usize,
-    /// From data to isolated real roots, with the equations and the comparison of ways to eliminate.
+    /// From data to isolated real roots, including the equations and the comparison of elimination routes.
     pub derived: Spread,
-    /// Of this the isolation of the real roots, and their number by Sturm's theorem.
+    /// The part of it spent on isolating the real roots and counting them by Sturm's theorem.
     pub isolated: Spread,
 }
 
-/// All that was timed.
+/// All timings.
 #[derive(Clone, Debug)]
 pub struct LoopTimings {
     /// The eigenvalues of one 16 x 16 matrix by faer.
@@ -85,7 +85,7 @@ pub struct LoopTimings {
     pub exact: Vec<ExactRow>,
 }
 
-/// What is timed of one job, repeat after repeat.
+/// The times of one job, repeat after repeat.
 #[derive(Clone, Debug, Default)]
 struct Clock(Vec<f64>);
 
@@ -125,7 +125,7 @@ fn spread<'a>(clocks: impl IntoIterator<Item = &'a Clock>) -> Option<Spread> {
 
 /// One geometry with its inputs.
 struct Job {
-    /// The solver and what fills the gap, input by input; none for what is only solved as a whole.
+    /// The solver and the closing transformation of each input; `None` if only the whole answer is timed.
     numeric: Option<(Solver, Vec<Motion<f64>>)>,
     mechanism: Mechanism,
     cases: Vec<Case>,
@@ -154,7 +154,7 @@ impl Job {
     }
 }
 
-/// Rows being timed: a name, how many solutions, and the jobs of it.
+/// A row being timed: its name, the number of solutions, and its jobs.
 struct Row {
     name: String,
     solutions: usize,
@@ -162,7 +162,7 @@ struct Row {
 }
 
 impl Row {
-    /// With everything computed once that is computed once.
+    /// Computes the prepared data once before the timing.
     fn warmed(name: String, mut jobs: Vec<Job>, workspace: &mut Workspace, assembly: &mut Assembly) -> Result<Self> {
         let mut solutions = 0;
         for job in &mut jobs {
@@ -213,7 +213,7 @@ fn random_job(set: Set, seed: u64, number: u64) -> Result<Job> {
     Job::new(&entry, Some((solver, closings)))
 }
 
-/// The loops of the library, inputs given, that are no arm in disguise: with two spherical joints or fewer than six unknowns.
+/// Returns the library's loops with given inputs that are no arm: with two spherical joints or fewer than six unknowns.
 fn library_jobs() -> Result<Vec<(String, Job)>> {
     let mut jobs = Vec::new();
     for name in builtin_names() {
@@ -233,8 +233,8 @@ fn three_decimals(random: &mut ChaCha8Rng) -> Rational {
     Rational::from((numerator, 1000))
 }
 
-/// A loop of these unknowns and one more revolute joint, that of the input: lengths, offsets and all half-angle tangents
-/// are numbers of three decimals.
+/// Returns a loop of these unknowns and one more revolute joint for the input. Lengths, offsets and all half-angle
+/// tangents are numbers of three decimals.
 fn rational_loop(index: usize, seed: u64, number: u64) -> Entry {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(number);
@@ -300,7 +300,7 @@ impl Exact {
     }
 }
 
-/// The matrix whose eigenvalues a general arm asks for.
+/// Returns the matrix whose eigenvalues a general arm needs.
 fn reference(seed: u64) -> Result<[[f64; 16]; 16]> {
     let drawn = sample(Set::General, seed, 0)?;
     let open: OpenLoop<f64> = drawn.chain.open_loop(&Layout::of(&drawn.chain, None)?)?;
@@ -309,7 +309,7 @@ fn reference(seed: u64) -> Result<[[f64; 16]; 16]> {
     matrix.ok_or_else(|| Error::Invalid(format!("the general arm of seed {seed} has a singular pencil")))
 }
 
-/// Whether the loops that are timed are general ones.
+/// The geometry of the loops that are timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loops {
     /// All lengths, twists and angles at random; also the library and exact polynomials.
@@ -320,9 +320,9 @@ pub enum Loops {
     Robots,
 }
 
-/// Times `count` loops of each residual chain at a few inputs; in general geometry also the loops of the library that are
-/// none of these, and the closure polynomials of `count` loops with exact data; or every robot of the library at `count` poses;
-/// `repeats` times over, all in turn within each repeat, so that a machine that changes its speed changes it for all of them.
+/// Times `count` loops of each residual chain at a few inputs. In general geometry it adds the other loops of the
+/// library and the closure polynomials of `count` loops with exact data. For robots it times each one of the library at `count`
+/// poses. Everything runs `repeats` times, in turn within each repeat, so that a change of the machine's speed affects all alike.
 ///
 /// # Errors
 /// None in practice, see [`sample`].

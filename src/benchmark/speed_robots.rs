@@ -1,4 +1,4 @@
-//! The robots of the library at random poses, as they are designed and as they are built.
+//! The robots of the library at random poses, as designed and as built.
 
 use super::sample::matrix;
 use crate::algebra::number::{Angle, Number};
@@ -12,11 +12,11 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use std::f64::consts::PI;
 
-/// Robots that are timed as built, too.
+/// Robots that are also timed as built.
 const BUILT: [&str; 3] = ["iiwa14", "puma560", "ur5e"];
-/// By how much every number of them is off, metres and radians.
+/// Errors of every number of a robot as built, metres and radians.
 const OFF: [f64; 3] = [1e-4, 1e-6, 1e-8];
-/// One of this many poses is timed of a robot as built.
+/// A robot as built is timed at one in this many poses.
 const FEWER: u64 = 4;
 
 /// A robot, or one as built, with poses that it reaches.
@@ -27,7 +27,7 @@ pub(super) struct Posed {
     pub entry: Entry,
 }
 
-/// All robots of six joints with `count` poses each, and some as they are built.
+/// Returns all robots of six joints with `count` poses each, and some of them as built.
 pub(super) fn posed(count: u64, seed: u64) -> Result<Vec<Posed>> {
     let mut all = Vec::new();
     for name in robot_names() {
@@ -66,7 +66,7 @@ fn with_poses(mut entry: Entry, count: u64, random: &mut ChaCha8Rng) -> Result<E
     Ok(entry)
 }
 
-/// A robot whose every length and angle is off by up to so much; `None` where it is not given by a table of these.
+/// Returns a robot whose every length and angle is off by up to `off`; `None` if it is not given by a table of these.
 fn disturbed(entry: &Entry, off: f64, random: &mut ChaCha8Rng) -> Option<Entry> {
     let mut joint = |joint: &Joint| {
         let mut moved = |x: f64| x + random.random_range(-off..off);

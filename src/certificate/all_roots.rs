@@ -1,4 +1,4 @@
-//! All complex roots of a square-free polynomial, each in a ball of its own.
+//! All complex roots of a square-free polynomial, each in its own ball.
 
 use super::isolation::Longer;
 use crate::algebra::ring::Ring;
@@ -6,12 +6,12 @@ use crate::algebra::univariate::Univariate;
 use num_complex::Complex;
 use rug::{Float, Rational};
 
-/// Most steps of Weierstrass' iteration: some hundreds from a circle, a few from approximations.
+/// Maximum number of Weierstrass iterations: some hundreds from a circle, a few from approximations.
 const STEPS: usize = 600;
 /// Corrections below this part of a root end the iteration, as a power of two: further steps only meet rounding.
 const DIGITS: u32 = 300;
 
-/// The roots, looked for at these places first; `None` where they are not told apart.
+/// Returns the roots, with these places as first starts; `None` if they are not separated.
 ///
 /// # Source
 /// Of n approximations each disc of radius `n |w_k|` around one, with Weierstrass' corrections `w_k = p(z_k) / (a_n prod_j
@@ -43,7 +43,7 @@ pub(super) fn all_roots(polynomial: &Univariate<Rational>, starts: &[Complex<f64
     are_apart.then_some(balls)
 }
 
-/// As many different places as there are roots: those given, and others on a circle around them all.
+/// Returns as many different starts as there are roots: those given, and others on a circle around all roots.
 fn starting(monic: &[Longer], degree: usize, starts: &[Complex<f64>]) -> Vec<Longer> {
     let point = |z: &Complex<f64>| Longer::point(&Float::with_val(53, z.re), &Float::with_val(53, z.im));
     let mut places: Vec<Complex<f64>> = Vec::new();
@@ -53,11 +53,11 @@ fn starting(monic: &[Longer], degree: usize, starts: &[Complex<f64>]) -> Vec<Lon
             places.push(*start);
         }
     }
-    // The geometric mean of all roots is the size of the last coefficient.
+    // The geometric mean of the absolute values of all roots follows from the last coefficient.
     let last = monic[0].upper();
     let exponent = f64::from(last.get_exp().unwrap_or(0)) / degree.max(1) as f64;
     let radius = exponent.clamp(-900.0, 900.0).exp2();
-    // An angle that is no part of a turn keeps the places off the symmetries of the polynomial.
+    // An angle that is no rational part of 2 pi keeps the starts off the symmetries of the polynomial.
     let on_circle = |k: usize| Complex::from_polar(radius, 0.7 + 2.399_963 * k as f64);
     places.extend((places.len()..degree).map(on_circle));
     places.iter().map(point).collect()

@@ -1,4 +1,4 @@
-//! Proofs that no solution is missing: upper bounds on the number of isolated solutions, which the modes meet.
+//! Proofs that no solution is missing: upper bounds on the number of isolated solutions that equal the number of modes.
 
 use super::chain::ChainClosure;
 use super::eliminant::{Choice, solutions_by_eliminant};
@@ -11,10 +11,10 @@ use crate::kinematics::joint::Variable;
 use rug::Rational;
 use serde_json::{Value, json};
 
-/// The half-angle tangents from which hidden angles are counted, one after the other, where an angle is pi.
+/// The half-angle tangents from which hidden angles are counted, tried in turn, in case an angle is pi.
 const SHIFTS: [(i32, i32); 2] = [(0, 1), (1, 4)];
 
-/// The bound that the proof of a certificate states; the balls are those of its modes, on which the bound does not rest.
+/// Returns the bound stated in the proof of a certificate. The balls are those of its modes; the bound does not rest on them.
 pub(super) fn bound(closed: &Closed, proof: &[Value], balls: &[Ball]) -> Result<usize, Fault> {
     let [item] = proof else {
         return refused(format!(
@@ -46,7 +46,7 @@ pub(super) fn bound(closed: &Closed, proof: &[Value], balls: &[Ball]) -> Result<
     }
 }
 
-/// A proof that there are no more solutions than those in the balls; `None` where no kind of proof bounds them so.
+/// Returns a proof that there are no solutions outside the balls; `None` if no kind of proof gives this bound.
 #[must_use]
 pub fn proof_of(closed: &Closed, balls: &[Ball]) -> Option<Value> {
     let value = balls.len();
@@ -62,7 +62,7 @@ pub fn proof_of(closed: &Closed, balls: &[Ball]) -> Option<Value> {
     Some(json!({ "kind": "eliminant", "value": value, "aid": choice.json() }))
 }
 
-/// All choices of an eliminant that are tried.
+/// Returns all choices of an eliminant that are tried.
 pub(super) fn choices() -> impl Iterator<Item = Choice> {
     let shifts = SHIFTS.into_iter().map(Rational::from);
     shifts.flat_map(|shift| (0..18).map(move |k| Choice { first: k % 6, hidden: k / 6, shift: shift.clone() }))
@@ -75,10 +75,10 @@ fn geometry(closed: &Closed) -> Option<usize> {
     }
 }
 
-/// The most isolated poses of six legs: theorem 2 of docs/platforms.md.
+/// Maximum number of isolated poses of six legs: theorem 2 of docs/platforms.md.
 const OF_PLATFORMS: usize = 40;
 
-/// What mechanisms of this kind can have at all: theorem 2 of docs/certificate.md.
+/// Returns the bound for all mechanisms of this kind: theorem 2 of docs/certificate.md.
 fn general(closed: &Closed) -> Option<usize> {
     match closed {
         Closed::Platform(_) => Some(OF_PLATFORMS),

@@ -1,7 +1,7 @@
 //! The closure equations of an arm or a loop, derived from its data.
 //!
-//! `V_1(x_1) L_1 ... V_6(x_6) L_6 = 1`, rotations about and translations along z. The six equations are that the rotation of
-//! the product is symmetric and its translation 0.
+//! `V_1(x_1) L_1 ... V_6(x_6) L_6 = 1`, rotations about and translations along z. The six equations state that the rotation
+//! of the product is symmetric and its translation 0.
 
 use super::enclosing::Enclosing;
 use super::fault::{Fault, refused, unreadable};
@@ -18,22 +18,22 @@ use rug::{Float, Rational, float::Constant};
 
 /// A closed loop of six unknowns.
 pub struct ChainClosure {
-    /// What each unknown does.
+    /// The kind of each unknown.
     pub(super) variables: [Variable; 6],
     /// The constant motion behind each unknown.
     pub(super) links: [Motion<Enclosure>; 6],
-    /// The same as rationals, where all numbers are.
+    /// The same motions as rationals, if all numbers are rational.
     pub(super) exact: Option<[Motion<Rational>; 6]>,
-    /// Which of the joint variables is given.
+    /// Index of the given joint variable, if there is one.
     pub(super) given: Option<usize>,
-    /// The first of the three angles of every spherical joint.
+    /// Index of the first of the three angles of every spherical joint.
     pub(super) spherical: Vec<usize>,
 }
 
-/// What each unknown does, the constant motions behind them, and which of the joint variables is given.
+/// The kinds of the unknowns, the constant motions behind them, and the index of the given joint variable.
 type Links<R> = ([Variable; 6], [Motion<R>; 6], Option<usize>);
 
-/// The loop of a case over a ring.
+/// Returns the loop of a case over a ring.
 fn links<R: Ring>(chain: &Chain, case: &Case) -> Result<Links<R>, Fault> {
     let own = || Fault::Unreadable("found numbers that are not known well enough".to_owned());
     let (mut variables, mut motions) = chain.unknowns_and_constants::<R>().ok_or_else(own)?;
@@ -73,7 +73,7 @@ fn links<R: Ring>(chain: &Chain, case: &Case) -> Result<Links<R>, Fault> {
 }
 
 impl ChainClosure {
-    /// The loop of a case; `is_exact` says that all its numbers are rational.
+    /// Returns the loop of a case; `is_exact` means that all its numbers are rational.
     pub(super) fn of(chain: &Chain, case: &Case, is_exact: bool) -> Result<Self, Fault> {
         let (variables, enclosed, given) = links::<Enclosure>(chain, case)?;
         let named = JointVariable::of(&chain.joint_kinds());
@@ -118,7 +118,7 @@ fn moved<S: Enclosing>(link: &Motion<S>, point: &Point<S>, k: usize) -> Motion<S
     motion
 }
 
-/// The rotation's lack of symmetry, and the translation.
+/// Returns the skew part of the rotation, and the translation.
 fn six<S: Ring>(rotation: &[[S; 3]; 3], translation: &[S; 3]) -> [S; 6] {
     let [x, y, z] = translation.clone();
     let skew = |i: usize, j: usize| rotation[i][j].sub(&rotation[j][i]);
@@ -192,11 +192,11 @@ impl Closure<6> for ChainClosure {
 
 /// Bits in which pi is compared with rational numbers.
 const PI_BITS: u32 = 512;
-/// More turns than centres may lie apart.
+/// Maximum number of full turns by which centres may differ.
 const MOST_TURNS: i32 = 3;
 
 impl ChainClosure {
-    /// Whether unknown k differs by more than a radius; `form` 1 adds half a turn to the other one, 2 changes its sign.
+    /// Returns whether unknown k differs by more than a radius; `form` 1 adds pi to the other one, 2 changes its sign.
     fn are_far(&self, k: usize, form: u8, one: &Ball, other: &Ball, radius: &Rational) -> bool {
         let ((x, y), (u, v)) = (&one.centre[k], &other.centre[k]);
         let (re, im) = if form == 2 {
@@ -215,7 +215,7 @@ impl ChainClosure {
             return false;
         }
         let pi = Float::with_val(PI_BITS, Constant::Pi).to_rational().unwrap_or_default();
-        // pi is off by less than 1e-150, and so is what few multiples of it are off.
+        // pi is off by less than 1e-150, and so are its small multiples.
         let more = radius + Rational::from_f64(1e-140).unwrap_or_default();
         (-MOST_TURNS..=MOST_TURNS).all(|turn| {
             let off = &re - Rational::from(&pi * (2 * turn + halves));

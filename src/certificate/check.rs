@@ -14,20 +14,20 @@ use crate::catalogue::entry::{Case, Design, Entry};
 use serde_json::{Deserializer, Value};
 use std::fmt;
 
-/// Largest text of one certificate, bytes.
+/// Maximum size of the text of one certificate, bytes.
 const LARGEST: usize = 4 << 20;
 
-/// What a certificate proves.
+/// The statement that a certificate proves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Holds {
     /// A complete list of solutions.
     Solutions {
-        /// All of them.
+        /// The number of all solutions.
         complex: usize,
-        /// The real ones among them.
+        /// The number of real solutions.
         real: usize,
     },
-    /// A closed loop moves in so many dimensions; 0 says that it does not.
+    /// A closed loop moves in this many dimensions; 0 means that it does not move.
     Mobility(usize),
 }
 
@@ -43,10 +43,10 @@ impl fmt::Display for Holds {
     }
 }
 
-/// Checks one certificate; with a file, that its data are those of one case of that file, too.
+/// Checks one certificate and, if a file is given, that its data are those of one case of the file.
 ///
 /// # Errors
-/// [`Fault`] names the first item that does not hold, or says what cannot be read.
+/// [`Fault`] names the first item that does not hold, or what cannot be read.
 pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> {
     let record = Record::read(certificate)?;
     if !matches!(record.claim.verb.as_str(), "solve" | "mobility") || record.claim.proof != "proved" {
@@ -103,7 +103,7 @@ fn of_motion(record: Record, file: Option<&Entry>) -> Result<usize, Fault> {
     dimension
 }
 
-/// Whether data are written in their one form.
+/// Checks that data are written in their canonical form.
 fn check_data(canonical: Result<Value, String>, own: &Value) -> Result<(), Fault> {
     match canonical {
         Ok(canonical) if canonical == *own => Ok(()),
@@ -112,7 +112,7 @@ fn check_data(canonical: Result<Value, String>, own: &Value) -> Result<(), Fault
     }
 }
 
-/// The closure equations of a case.
+/// Returns the closure equations of a case.
 ///
 /// # Errors
 /// [`Fault`] for kinds that are not covered.
@@ -128,17 +128,17 @@ pub fn closed(entry: &Entry, case: &Case) -> Result<Closed, Fault> {
     })
 }
 
-/// Checks every certificate of a text, one behind the other, and gives each outcome with its number from 1.
+/// Checks every certificate of a text, one after the other, and returns each outcome with its number from 1.
 ///
 /// # Errors
-/// [`Fault::Unreadable`] where the text is none of certificates.
+/// [`Fault::Unreadable`] if the text consists of no certificates.
 pub fn check_all(
     text: &str,
     file: Option<&Entry>,
     mut each: impl FnMut(usize, Result<Holds, Fault>),
 ) -> Result<(), Fault> {
     let mut found = 0;
-    // A long text is one certificate a line, so that no more than one is in memory.
+    // A long text has one certificate per line, so that only one is in memory.
     let parts: Vec<&str> = if text.len() > LARGEST { text.lines().collect() } else { vec![text] };
     for part in parts {
         if part.len() > LARGEST {

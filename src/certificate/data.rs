@@ -1,4 +1,4 @@
-//! The data of a case as a certificate holds them: a mechanism file of one case, every number in its one form.
+//! The data of a case as a certificate holds them: a mechanism file of one case, every number in canonical form.
 
 use super::fault::{Fault, refused};
 use crate::algebra::number::{Angle, Number};
@@ -8,10 +8,10 @@ use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, Scr
 use rug::{Integer, Rational};
 use serde_json::{Map, Value, json};
 
-/// The data of a case.
+/// Returns the data of a case.
 ///
 /// # Errors
-/// Says which number has no exact form that a certificate could hold.
+/// Names a number that has no exact form for a certificate.
 pub fn data_of(entry: &Entry, case: &Case) -> Result<Value, String> {
     match &entry.design {
         Design::Arm(chain) => {
@@ -54,7 +54,7 @@ pub fn data_of(entry: &Entry, case: &Case) -> Result<Value, String> {
     }
 }
 
-/// The data of a loop that is asked whether it moves: no input decides that.
+/// Returns the data of a loop for a certificate of mobility, which does not depend on an input.
 ///
 /// # Errors
 /// As [`data_of`], and for other mechanisms.
@@ -65,9 +65,9 @@ pub fn data_of_loop(entry: &Entry) -> Result<Value, String> {
     }
 }
 
-/// The mechanism that data describe, with as many unknowns as a reader takes.
+/// Returns the mechanism described by the data, with as many unknowns as a reader accepts.
 pub(super) fn entry_of(data: &Map<String, Value>, chains: Chains) -> Result<Entry, Fault> {
-    // Whatever does not decide the verdict has no place in the data: the reader knows more keys.
+    // The data must not contain anything that does not affect the verdict; the reader knows more keys.
     let known = ["mechanism", "pose", "input"];
     if let Some(key) = data.keys().find(|key| !known.contains(&key.as_str())) {
         return refused(format!("data: the key `{}` decides nothing", super::fault::shortened(key)));
@@ -127,8 +127,8 @@ fn joint(joint: &Joint) -> Result<Value, String> {
     Ok(Value::Object(table))
 }
 
-/// A direction has one form, whole numbers without a common factor, and so has a point of an axis: the one nearest to the
-/// origin.
+/// Returns the canonical form of a screw: whole numbers without a common factor as direction, and the point of the axis
+/// nearest to the origin.
 fn screw(joint: &ScrewJoint) -> Result<Value, String> {
     let is_exact = joint.axis.iter().chain(&joint.point).all(Number::is_exact);
     if !is_exact {
@@ -153,7 +153,7 @@ fn screw(joint: &ScrewJoint) -> Result<Value, String> {
     }
 }
 
-/// The whole numbers without a common factor that are as these rational numbers.
+/// Returns the whole numbers without a common factor in the ratio of these rational numbers.
 fn primitive(direction: &[Rational; 3]) -> [Integer; 3] {
     let below = direction.iter().fold(Integer::from(1), |all, x| all.lcm(x.denom()));
     let whole = direction.each_ref().map(|x| Rational::from(x * &below).numer().clone());
@@ -164,7 +164,7 @@ fn primitive(direction: &[Rational; 3]) -> [Integer; 3] {
 /// The rows of a motion.
 fn matrix(placed: &Placement, what: &str) -> Result<Value, String> {
     let rows: [[String; 4]; 3] = match (&placed.given, placed.rows()) {
-        // A checker finds the nearest rotation by itself.
+        // A checker computes the nearest rotation by itself.
         (_, Some(rows)) => {
             let row = |i: usize| -> Result<[String; 4], String> {
                 let text = |j: usize| number(&rows[i][j], what);

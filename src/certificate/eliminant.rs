@@ -29,12 +29,12 @@ type Rows = Vec<Vec<Square>>;
 const COLUMNS: usize = 12;
 /// Degree of its minors: 2 for each row.
 const DEGREE: usize = 2 * COLUMNS;
-/// The most bits of a number of a link: those of a pose by four integers of 60 bits have some 250.
+/// Maximum number of bits of a number of a link: those of a pose by four integers of 60 bits have some 250.
 const LONGEST: u32 = 512;
-/// A value of the hidden unknown at which a minor that is not 0 everywhere is hardly 0.
+/// A value of the hidden unknown at which a nonzero minor is unlikely to vanish.
 const SOMEWHERE: (i32, i32) = (17, 5);
 
-/// Which unknowns are taken: any choice that gives a bound proves as much.
+/// The choice of the hidden unknown. Any choice that gives a bound is a proof.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Choice {
     /// The unknown from which the loop is read, from 0.
@@ -46,22 +46,22 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    /// What stands under `aid`.
+    /// Reads the value of `aid`.
     pub(super) fn read(aid: &Value) -> Result<Self, Fault> {
         let [first, hidden, shift] = fields(aid, ["first", "hidden", "shift"], &[])?;
         Ok(Self { first: count(first)?, hidden: count(hidden)?, shift: decimal(shift)? })
     }
 
-    /// The same for a certificate; the shift is a decimal of few digits.
+    /// Returns the value of `aid` for a certificate; the shift is a decimal of few digits.
     pub(super) fn json(&self) -> Value {
         json!({ "first": self.first, "hidden": self.hidden, "shift": self.shift.to_f64().to_string() })
     }
 }
 
-/// How many solutions the eliminant of a choice allows; the balls are where its roots are looked for first.
+/// Returns the number of solutions that the eliminant of a choice allows; the balls provide starts for its roots.
 ///
 /// # Errors
-/// [`Fault::Refused`] where it allows no bound.
+/// [`Fault::Refused`] if it gives no bound.
 pub(super) fn solutions_by_eliminant(closure: &ChainClosure, choice: &Choice, balls: &[Ball]) -> Result<usize, Fault> {
     let Some(links) = closure.exact.as_ref().filter(|_| closure.spherical.is_empty()) else {
         return refused("proof: eliminant: only loops of rotations and translations with rational constants have one");
@@ -73,11 +73,11 @@ pub(super) fn solutions_by_eliminant(closure: &ChainClosure, choice: &Choice, ba
     solutions_of_loop(links, &closure.variables, choice, &starts)
 }
 
-/// How many solutions the eliminant of a choice allows to a loop with these links behind its unknowns; its roots are looked
-/// for near the starts first.
+/// Returns the number of solutions that the eliminant of a choice allows to a loop with these links behind its unknowns.
+/// The search for its roots begins at the starts.
 ///
 /// # Errors
-/// [`Fault::Refused`] where it allows no bound.
+/// [`Fault::Refused`] if it gives no bound.
 pub(super) fn solutions_of_loop(
     links: &[Motion<Rational>; 6],
     variables: &[Variable; 6],
@@ -99,7 +99,7 @@ pub(super) fn solutions_of_loop(
     }
     let is_angle = turns[choice.hidden];
     if is_angle {
-        // The angle is counted from another place, so that it is pi at no solution.
+        // The angle is counted from another origin, so that it is pi at no solution.
         let square = Rational::from(choice.shift.square_ref());
         let below = Rational::from(&square + 1);
         let (cos, sin) = ((Rational::from(1) - square) / &below, Rational::from(&choice.shift * 2) / below);
@@ -130,19 +130,19 @@ fn bits(x: &Rational) -> u32 {
     x.numer().significant_bits().max(x.denom().significant_bits())
 }
 
-/// Whether numbers of a link are too long for what is computed with them.
+/// Returns whether numbers of a link are too long for the computation.
 pub(super) fn is_long(link: &Motion<Rational>) -> bool {
     link.rotation.iter().flatten().chain(&link.translation).any(|x| bits(x) > LONGEST)
 }
 
-/// Where a root is looked for first: the hidden unknown at a mode, as half-angle tangent if it is an angle.
+/// Returns the start for a root: the hidden unknown at a mode, as half-angle tangent if it is an angle.
 fn start((re, im): &(Rational, Rational), is_angle: bool, shift: &Rational) -> Option<Complex<f64>> {
     let value = Complex::new(re.to_f64(), im.to_f64());
     let start = if is_angle { (0.5 * value - shift.to_f64().atan()).tan() } else { value };
     start.is_finite().then_some(start)
 }
 
-/// The motion of an unknown, or its inverse, with symbol 2k for cosine or distance and 2k + 1 for the sine.
+/// Returns the motion of an unknown, or its inverse, with symbol 2k for cosine or distance and 2k + 1 for the sine.
 fn moved(k: usize, is_turn: bool, is_back: bool) -> Motion<Symbols> {
     let (first, second) = (Symbols::variable(2 * k), Symbols::variable(2 * k + 1));
     match (is_turn, is_back) {
@@ -153,7 +153,7 @@ fn moved(k: usize, is_turn: bool, is_back: bool) -> Motion<Symbols> {
     }
 }
 
-/// What the image of the z axis and its origin gives: p, l, p.p, p.l, p x l, (p.p) l - 2 (p.l) p.
+/// Returns the coordinates of the image of the z axis and its origin: p, l, p.p, p.l, p x l, (p.p) l - 2 (p.l) p.
 fn fourteen(motion: &Motion<Symbols>, turns: &[bool]) -> Vec<Symbols> {
     let (p, l) = (&motion.translation, &motion.rotation.each_ref().map(|row| row[2].clone()));
     let (square, along) = (dot(p, p), dot(p, l));
@@ -164,8 +164,8 @@ fn fourteen(motion: &Motion<Symbols>, turns: &[bool]) -> Vec<Symbols> {
     all.map(|entry| reduce(&entry, &pairs)).collect()
 }
 
-/// The combinations of the fourteen equations that are free of the last two unknowns; `None` where these do not follow from
-/// the others.
+/// Returns the combinations of the fourteen equations that are free of the last two unknowns; `None` if these do not
+/// follow from the others.
 fn equations(links: &[Motion<Rational>; 6], turns: &[bool; 6]) -> Option<Vec<Symbols>> {
     let lift = |motion: &Motion<Rational>| motion.map(|x| Some(Symbols::constant(x.clone())));
     let chain = |parts: &[Motion<Symbols>]| {
@@ -185,7 +185,7 @@ fn equations(links: &[Motion<Rational>; 6], turns: &[bool; 6]) -> Option<Vec<Sym
             terms.push(term);
         }
     }
-    // Cosine, sine or distance of each of the two.
+    // The cosine and sine, or the distance, of each of the two.
     let own = [Some(0), turns[4].then_some(1), Some(2), turns[5].then_some(3)];
     let is_own = |symbol: usize| terms.contains(&trimmed((0..=symbol).map(|k| u32::from(k == symbol)).collect()));
     let coefficient = |equation: &Symbols, term: &[u32]| {
@@ -207,7 +207,7 @@ fn equations(links: &[Motion<Rational>; 6], turns: &[bool; 6]) -> Option<Vec<Sym
     Some(table.null_space().into_iter().map(combined).collect())
 }
 
-/// Exponents without zeros at the end.
+/// Removes zeros at the end of exponents.
 fn trimmed(mut exponents: Vec<u32>) -> Vec<u32> {
     while exponents.last() == Some(&0) {
         exponents.pop();
@@ -215,7 +215,7 @@ fn trimmed(mut exponents: Vec<u32>) -> Vec<u32> {
     exponents
 }
 
-/// A cosine, a sine or 1 times `1 + t^2`, or a power of a distance, as polynomial of degree 2.
+/// Returns a cosine, a sine or 1 times `1 + t^2`, or a power of a distance, as polynomial of degree 2.
 fn part(is_turn: bool, first: u32, second: u32) -> Option<[i32; 3]> {
     match (is_turn, first, second) {
         (true, 0, 0) => Some([1, 0, 1]),
@@ -228,7 +228,7 @@ fn part(is_turn: bool, first: u32, second: u32) -> Option<[i32; 3]> {
     }
 }
 
-/// The equations times `1 + t^2` of every rotation, once and times the first other unknown u.
+/// Returns the equations times `1 + t^2` of every rotation, once and times the first other unknown u.
 fn matrix(equations: &[Symbols], turns: &[bool; 6], hidden: usize) -> Option<Rows> {
     let others: Vec<usize> = (0..3).filter(|k| *k != hidden).collect();
     let mut rows = Rows::new();
@@ -261,7 +261,7 @@ fn at<R: Ring>(rows: &Rows, t: &R) -> Option<Vec<Vec<R>>> {
     rows.iter().map(|row| row.iter().map(value).collect()).collect()
 }
 
-/// A minor of twelve rows that is not 0.
+/// Returns a nonzero minor of twelve rows.
 fn minor(rows: &Rows) -> Result<Univariate<Rational>, Fault> {
     let here = at(rows, &Rational::from(SOMEWHERE)).unwrap_or_default();
     let here = Echelon::of(here, COLUMNS);
@@ -275,8 +275,8 @@ fn minor(rows: &Rows) -> Result<Univariate<Rational>, Fault> {
     Ok(modular(&[power(0), power(1), power(2)]))
 }
 
-/// How many solutions a root allows: the corank, and none where the one vector of the kernel is no `u^i v^j`; `None` where
-/// the corank is above 2.
+/// Returns the number of solutions that a root allows: the corank, or none if the only kernel vector is no `u^i v^j`;
+/// `None` if the corank is above 2.
 fn solutions_at(rows: &Rows, root: &Longer) -> Option<usize> {
     let mut entries = at(rows, root)?;
     let (mut left, mut columns): (Vec<usize>, Vec<usize>) = ((0..rows.len()).collect(), (0..COLUMNS).collect());
@@ -312,7 +312,7 @@ fn solutions_at(rows: &Rows, root: &Longer) -> Option<usize> {
     Some(usize::from(may_be_powers(&vector)))
 }
 
-/// Whether a vector may be `u^i v^j`: products of two entries whose exponents have the same sum are equal.
+/// Returns whether a vector may be `u^i v^j`: products of two entries whose exponents have the same sum are equal.
 fn may_be_powers(vector: &[Longer]) -> bool {
     let exponents = |k: usize| (k / 3, k % 3);
     let pairs: Vec<(usize, usize)> = (0..COLUMNS).flat_map(|a| (a..COLUMNS).map(move |b| (a, b))).collect();

@@ -1,4 +1,4 @@
-//! What the checker computes with: complex numbers with a bound of their errors.
+//! The numbers of the checker: complex numbers with a bound on their errors.
 
 use crate::algebra::ball::Ball;
 use crate::algebra::enclosure::Enclosure;
@@ -7,31 +7,31 @@ use rug::{Float, Rational, float::Round};
 
 /// Bits beyond those of a number in which its cosine and sine are computed.
 const GUARD: u32 = 32;
-/// Bits of bounds.
+/// Precision of bounds, in bits.
 const BOUND: u32 = 53;
 
-/// Complex numbers known up to a radius, whatever is computed with them.
+/// Complex numbers known up to a radius, independent of the arithmetic used for them.
 pub(super) trait Enclosing: Field {
     /// Bits of a midpoint.
     const BITS: u32;
-    /// A point known to so many bits and some more, and all numbers within a radius of it.
+    /// Returns a ball about a point, which is known to at least `BITS` bits, with this radius.
     fn near(re: &Float, im: &Float, radius: f64) -> Self;
-    /// A real number of the data.
+    /// Converts a real number of the data.
     fn of(known: &Enclosure) -> Self;
-    /// The midpoint alone.
+    /// Returns the midpoint alone.
     fn middle(&self) -> Self;
-    /// No less than any absolute value.
+    /// Returns an upper bound of the absolute value.
     fn at_most(&self) -> f64;
-    /// No more than any absolute value.
+    /// Returns a lower bound of the absolute value.
     fn at_least(&self) -> f64;
 
-    /// The numbers within a radius of a rational point.
+    /// Returns the ball of this radius about a rational point.
     fn about((re, im): &(Rational, Rational), radius: f64) -> Self {
         let float = |q: &Rational| Float::with_val(Self::BITS + GUARD, q);
         Self::near(&float(re), &float(im), radius)
     }
 
-    /// Cosine and sine of all angles within a radius of a rational point.
+    /// Returns cosine and sine of all angles within a radius of a rational point.
     ///
     /// Neither changes by more than `r exp(|im| + r)` within the radius r.
     fn cos_sin_about((re, im): &(Rational, Rational), radius: f64) -> (Self, Self) {
@@ -69,7 +69,7 @@ impl<const BITS: u32> Enclosing for Ball<BITS> {
     }
 }
 
-/// The inverse of the midpoints of a matrix, as near as it comes: what is proved with it does not rest on it.
+/// Returns the approximate inverse of the midpoints of a matrix; proofs with it do not rest on its accuracy.
 pub(super) fn near_inverse<S: Enclosing, const N: usize>(matrix: &[[S; N]; N]) -> Option<[[S; N]; N]> {
     let mut left = matrix.each_ref().map(|row| row.each_ref().map(Enclosing::middle));
     let unit = |i: usize, j: usize| if i == j { S::one() } else { S::zero() };

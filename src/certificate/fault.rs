@@ -1,13 +1,13 @@
-//! Why a certificate does not hold.
+//! The faults of certificates.
 
 use std::fmt;
 
-/// What is wrong with a certificate.
+/// The fault of a certificate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// It cannot be read.
     Unreadable(String),
-    /// An item of it, which the text names, does not hold.
+    /// An item, which the text names, does not hold.
     Refused(String),
 }
 
@@ -28,7 +28,7 @@ pub(super) fn refused<T>(message: impl Into<String>) -> Result<T, Fault> {
     Err(Fault::Refused(message.into()))
 }
 
-/// The first characters of what was found.
+/// Returns the first characters of the text found.
 pub(super) fn shortened(found: &impl ToString) -> String {
     found.to_string().chars().take(60).collect()
 }

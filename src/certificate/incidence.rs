@@ -7,7 +7,7 @@ use crate::kinematics::joint::Variable;
 use crate::kinematics::motion::{Motion, cross};
 use rug::Rational;
 
-/// The least bound of all triples of neighbouring axes of a loop; `None` where there is none.
+/// Returns the least bound of all triples of neighbouring axes of a loop; `None` if there is none.
 pub(super) fn of_axes(closure: &ChainClosure) -> Option<usize> {
     let turns = |k: usize| closure.variables[k % 6] == Variable::Rotation;
     let translations = |first: usize| (first + 3..first + 6).filter(|&k| !turns(k)).count();
@@ -20,7 +20,7 @@ pub(super) fn of_axes(closure: &ChainClosure) -> Option<usize> {
             Some(links) => incidence(&links[before], &links[behind]),
             None => incidence(&closure.links[before], &closure.links[behind]),
         };
-        // A point is brought to its place in at most 4, 4, 2 or 1 ways, and each leaves two ways to turn about it. A direction
+        // A point is brought to its place in at most 4, 4, 2 or 1 ways, and each leaves two rotations about it. A direction
         // is brought to its place, with the height along it, in 4 ways by three rotations and in 2 by two and a translation.
         let of_point = meet.then(|| 2 * [4, 4, 2, 1][translations(first)]);
         let of_direction = parallel.then(|| [Some(8), Some(4), None, None][translations(first)]).flatten();
@@ -29,7 +29,7 @@ pub(super) fn of_axes(closure: &ChainClosure) -> Option<usize> {
     (0..6).filter_map(bound).min()
 }
 
-/// Whether the three axes at two links are parallel, and whether they meet in a point; no where it is not seen.
+/// Returns whether the three axes at two links are parallel, and whether they meet in a point; `false` if neither is seen.
 fn incidence<R: Ring>(before: &Motion<R>, behind: &Motion<R>) -> (bool, bool) {
     let is_along = |link: &Motion<R>| link.rotation[0][2].is_zero() && link.rotation[1][2].is_zero();
     let parallel = is_along(before) && is_along(behind);
@@ -43,7 +43,7 @@ fn incidence<R: Ring>(before: &Motion<R>, behind: &Motion<R>) -> (bool, bool) {
     (parallel, !parallel && (plain || meet() == Some(true)))
 }
 
-/// Where on the z axis its image under a link crosses it, as a quotient.
+/// Returns the point of the z axis at which its image under a link crosses it, as a quotient.
 fn crossing<R: Ring>(link: &Motion<R>) -> Option<[R; 2]> {
     let ([x, y, z], [u, v, w]) = (&link.translation, [0, 1, 2].map(|i| &link.rotation[i][2]));
     let square = u.mul(u).add(&v.mul(v));
@@ -52,7 +52,7 @@ fn crossing<R: Ring>(link: &Motion<R>) -> Option<[R; 2]> {
     is_crossed.then(|| [z.mul(&square).sub(&along.mul(w)), square])
 }
 
-/// At most 16 poses where three legs meet in a point, or where all legs meet in pairs in the corners of a triangle.
+/// Returns 16 if three legs meet in a point, or if all legs meet in pairs in the corners of a triangle.
 pub(super) fn of_points(closure: &PlatformClosure) -> Option<usize> {
     let points = closure.exact.as_ref()?;
     (points.iter().any(three_meet) || points.iter().any(in_pairs)).then_some(16)

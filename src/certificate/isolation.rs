@@ -1,4 +1,4 @@
-//! Modes: each ball holds exactly one solution, balls hold different solutions, real ones are real.
+//! Checks modes: each ball holds exactly one solution, balls hold different solutions, real ones are real.
 
 use super::chain::ChainClosure;
 use super::enclosing::{Enclosing, near_inverse};
@@ -9,7 +9,7 @@ use super::platform::PlatformClosure;
 use crate::algebra::ball::Ball as Long;
 use rug::{Float, Rational, float::Round};
 
-/// Numbers of the second attempt.
+/// Numbers for the second attempt.
 pub(super) type Longer = Long<384>;
 
 /// Unknowns as balls.
@@ -22,22 +22,22 @@ pub(super) struct Point<S> {
 
 /// Closure equations: `N` of them in `N` unknowns.
 pub(super) trait Closure<const N: usize> {
-    /// Which unknowns are angles.
+    /// Returns which unknowns are angles.
     fn angles(&self) -> [bool; N];
-    /// The values.
+    /// Returns the values of the equations.
     fn values<S: Enclosing>(&self, point: &Point<S>) -> [S; N];
-    /// The derivatives, row by row.
+    /// Returns the derivatives, row by row.
     fn jacobian<S: Enclosing>(&self, point: &Point<S>) -> [[S; N]; N];
-    /// Whether every zero in a box is a solution.
+    /// Returns whether every zero in a box is a solution.
     fn is_solution<S: Enclosing>(&self, point: &Point<S>) -> bool;
-    /// Whether balls of these radii together hold no common solution.
+    /// Returns whether two balls with these radii hold no common solution.
     fn are_apart(&self, one: &Ball, other: &Ball) -> bool;
 }
 
-/// Proves balls, and that they hold different solutions.
+/// Proves that balls hold one solution each, and that these are different.
 ///
 /// # Errors
-/// [`Fault::Refused`] names the first that is not proved.
+/// [`Fault::Refused`] names the first ball that is not proved.
 pub fn proved_modes(closure: &Closed, balls: &[Ball]) -> Result<(), Fault> {
     match closure {
         Closed::Chain(closure) => all(&**closure, balls),
@@ -47,14 +47,14 @@ pub fn proved_modes(closure: &Closed, balls: &[Ball]) -> Result<(), Fault> {
 
 /// The closure equations of a case.
 pub enum Closed {
-    /// Of an arm or a loop.
+    /// The equations of an arm or a loop.
     Chain(Box<ChainClosure>),
-    /// Of a platform.
+    /// The equations of a platform.
     Platform(Box<PlatformClosure>),
 }
 
 impl Closed {
-    /// Whether no angles stand for a rotation in two ways.
+    /// Returns whether no angles represent a rotation in two ways.
     pub(super) fn is_without_spherical_joints(&self) -> bool {
         match self {
             Self::Chain(closure) => closure.spherical.is_empty(),
@@ -92,7 +92,7 @@ fn all<const N: usize>(closure: &impl Closure<N>, balls: &[Ball]) -> Result<(), 
     Ok(())
 }
 
-/// Whether a ball holds exactly one solution.
+/// Returns whether a ball is proved to hold exactly one solution.
 ///
 /// For an approximate inverse C of the derivative the map `x - C F(x)` takes the ball into itself, and contracts it, where
 /// `|C F(centre)| + |1 - C F'(ball)| r < r` in the largest norm. \[Krawczyk1969\]

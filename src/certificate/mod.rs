@@ -1,7 +1,7 @@
 //! Certificates that anyone can check: the format of docs/certificate.md, and a checker that uses no solver.
 //!
-//! A certificate holds the data of one case as a mechanism file, the verdict claimed of it, balls around its solutions, and the
-//! proof that there are no others. The checker derives the closure equations from the data and proves each item anew.
+//! A certificate holds the data of one case as a mechanism file, the verdict claimed for it, balls around its solutions, and
+//! the proof that there are no others. The checker derives the closure equations from the data and checks each item anew.
 
 mod all_roots;
 mod bound;

@@ -1,4 +1,4 @@
-//! Whether a closed loop moves: theorems 5 to 7 of docs/certificate.md.
+//! Decides whether a closed loop moves: theorems 5 to 7 of docs/certificate.md.
 
 use super::bound::choices;
 use super::check::closed;
@@ -21,21 +21,21 @@ use num_complex::Complex;
 use rug::Rational;
 use serde_json::{Map, Value, json};
 
-/// The multiplicity of an isolated configuration is no greater.
+/// Upper bound on the multiplicity of an isolated configuration.
 const MOST: usize = 16;
 type Along = Series<Rational, { MOST + 1 }>;
 
-/// An unknown this near to a simple number is looked at there; the proof does not rest on it.
+/// An unknown nearer to a simple number than this is tried there; the proof does not rest on it.
 const NEAR: f64 = 1e-11;
-/// The largest numerator and denominator of a simple number, and its square is far from the digits of f64.
+/// The largest numerator and denominator of a simple number; its square is far from the digits of f64.
 const LONGEST_PLACE: f64 = 1e5;
-/// Into how many parts the unit of the half-angle tangent of a held joint is cut.
+/// Denominator of the half-angle tangent of a held joint.
 const HELD_PARTS: f64 = 1e4;
 
-/// A loop with rational links: what each unknown does, and the link behind it.
+/// A loop with rational links: the kind of each unknown, and the link behind it.
 type Loop = (Vec<Variable>, Vec<Motion<Rational>>);
 
-/// The dimension of the motion that a certificate proves.
+/// Returns the dimension of the motion that a certificate proves.
 pub(super) fn mobility(
     entry: &Entry,
     data: &Map<String, Value>,
@@ -93,7 +93,7 @@ fn rational_loop(entry: &Entry) -> Result<Loop, Fault> {
     Ok((variables, motions))
 }
 
-/// Theorem 5: with rotations added about other axes, up to six unknowns, the loop has finitely many solutions.
+/// Checks theorem 5: with rotations added about other axes, up to six unknowns, the loop has finitely many solutions.
 fn finitely_many((variables, links): &Loop, choice: &Choice) -> Result<(), Fault> {
     let (mut variables, mut links) = (variables.clone(), links.clone());
     for k in 0..u32::try_from(6 - links.len()).unwrap_or(0) {
@@ -121,7 +121,7 @@ fn finitely_many((variables, links): &Loop, choice: &Choice) -> Result<(), Fault
     solutions_of_loop(links, &variables, choice, &[]).map(drop)
 }
 
-/// The value of an unknown at a configuration: a half-angle tangent, none for half a turn, or a distance.
+/// The value of an unknown at a configuration: a half-angle tangent (none for pi), or a distance.
 type Place = Option<Rational>;
 
 fn place(value: &Value) -> Result<Place, Fault> {
@@ -143,7 +143,7 @@ fn place(value: &Value) -> Result<Place, Fault> {
     Ok(Some(value))
 }
 
-/// The motion of an unknown that stands at a place.
+/// Returns the motion of an unknown held at a place.
 fn standing(variable: Variable, place: &Place) -> Motion<Rational> {
     match (variable, place) {
         (Variable::Translation, place) => Motion::translation_z(place.clone().unwrap_or_default()),
@@ -156,7 +156,7 @@ fn standing(variable: Variable, place: &Place) -> Motion<Rational> {
     }
 }
 
-/// Theorem 6: the closure equations hold to the order 16 along the only motion of the first order.
+/// Checks theorem 6: the closure equations hold to order 16 along the only first-order motion.
 fn follows_a_curve((variables, links): &Loop, point: &[Place]) -> Result<(), Fault> {
     let size = variables.len();
     let misplaced = |(variable, place): (&Variable, &Place)| *variable == Variable::Translation && place.is_none();
@@ -218,7 +218,7 @@ fn follows_a_curve((variables, links): &Loop, point: &[Place]) -> Result<(), Fau
     Ok(())
 }
 
-/// What is not 0 where the loop is open: six series.
+/// Returns the six series that vanish if the loop is closed.
 fn equations(variables: &[Variable], links: &[Motion<Rational>], at: &[Along]) -> Option<[Along; 6]> {
     let mut product = Motion::<Along>::identity();
     for ((variable, link), x) in variables.iter().zip(links).zip(at) {
@@ -237,7 +237,7 @@ fn equations(variables: &[Variable], links: &[Motion<Rational>], at: &[Along]) -
     Some([skew(2, 1), skew(0, 2), skew(1, 0), x, y, z])
 }
 
-/// Theorem 7: with one unknown of seven held, a real solution is simple.
+/// Checks theorem 7: with one unknown of seven held, a real solution is simple.
 fn is_regular(data: &Map<String, Value>, held: &Value, modes: Vec<Unproved>) -> Result<(), Fault> {
     let mut longer = data.clone();
     longer.insert("input".to_owned(), Value::Array(vec![held.clone()]));
@@ -254,8 +254,8 @@ fn is_regular(data: &Map<String, Value>, held: &Value, modes: Vec<Unproved>) -> 
     proved_modes(&closed, &[mode.ball])
 }
 
-/// A proof that a loop moves in one dimension, or not at all, from real configurations of it, with the balls that it asks for;
-/// `None` where theorems 5 to 7 give none.
+/// Returns a proof that a loop moves in one dimension, or not at all, from real configurations of it, with the balls that
+/// the proof needs; `None` if theorems 5 to 7 give none.
 #[must_use]
 pub fn proof_of_motion(entry: &Entry, is_mobile: bool, configurations: &[Vec<f64>]) -> Option<(Value, Vec<Ball>)> {
     if !is_mobile {
@@ -274,7 +274,7 @@ pub fn proof_of_motion(entry: &Entry, is_mobile: bool, configurations: &[Vec<f64
     configurations.iter().find_map(through).or_else(|| configurations.iter().find_map(|q| held_regular(entry, q)))
 }
 
-/// The simple place that an unknown stands at to rounding; `None` where there is none.
+/// Returns the simple value that an unknown equals to rounding; `None` if there is none.
 fn near_place(variable: Variable, x: f64) -> Option<Place> {
     if variable == Variable::Rotation && (0.5 * x).cos().abs() < NEAR {
         return Some(None);

@@ -1,8 +1,8 @@
-//! Complex discs in f64: what the checker tries first.
+//! Complex discs in f64, which the checker tries first.
 //!
 //! With u = 2^-53 a sum is off by at most u times its size, a product by at most 4 u times the sizes of its factors, sizes
 //! being sums of the absolute values of both parts. Bounds take 8 u and more of each, and radii are enlarged by a part of
-//! 2^-48 of themselves for the roundings of their own sums. What underflows is off by less than the smallest normal number.
+//! 2^-48 of themselves for the roundings of their own sums. Underflow loses less than the smallest normal number.
 
 use super::enclosing::Enclosing;
 use crate::algebra::enclosure::Enclosure;
@@ -11,12 +11,12 @@ use rug::{Float, Rational, float::Round};
 
 /// 8 u
 const ROUNDING: f64 = 8.0 * (f64::EPSILON / 2.0);
-/// What covers the roundings of a radius.
+/// Factor that covers the roundings of a radius.
 const UP: f64 = 1.0 + 32.0 * (f64::EPSILON / 2.0);
-/// Several times what underflow may lose.
+/// Several times the loss by underflow.
 const TINY: f64 = 1e-300;
 
-/// All complex numbers within a radius of a centre. A radius that is no number bounds nothing.
+/// All complex numbers within a radius of a centre. A radius that is NaN bounds nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Nearby {
     re: f64,
@@ -76,7 +76,7 @@ impl Ring for Nearby {
 }
 
 impl Field for Nearby {
-    /// The inverse of the centre: the checker divides by midpoints only, and nothing rests on what comes of it.
+    /// Returns the inverse of the centre: the checker divides by midpoints only, and no proof rests on the result.
     fn inverse(&self) -> Option<Self> {
         let inverse = num_complex::Complex::new(self.re, self.im).inv();
         (self.radius == 0.0 && inverse.is_finite()).then_some(Self { re: inverse.re, im: inverse.im, radius: 0.0 })

@@ -17,7 +17,7 @@ pub struct PlatformClosure {
     base: [[Enclosure; 3]; 6],
     plate: [[Enclosure; 3]; 6],
     squares: [Enclosure; 6],
-    /// Points of base and plate, where all are rational.
+    /// Points of base and moving platform, if all are rational.
     pub(super) exact: Option<[[[Rational; 3]; 6]; 2]>,
 }
 
@@ -112,12 +112,12 @@ impl Closure<7> for PlatformClosure {
         })
     }
 
-    /// Every zero of the seven equations is a pose.
+    /// Holds always: every zero of the seven equations is a pose.
     fn is_solution<S: Enclosing>(&self, _: &Point<S>) -> bool {
         true
     }
 
-    /// A quaternion and its negative are one pose.
+    /// Compares up to sign: a quaternion and its negative are one pose.
     fn are_apart(&self, one: &Ball, other: &Ball) -> bool {
         let radius = Rational::from(&one.radius + &other.radius);
         let far = |a: &Rational, b: &Rational, sign: i32| (a - Rational::from(b * sign)).abs() > radius;

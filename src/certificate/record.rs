@@ -9,14 +9,14 @@ use serde_json::{Map, Value};
 pub const FORMAT: &str = "looproot-certificate";
 /// The `version` of the format.
 pub const VERSION: u64 = 1;
-/// Most items of a list.
+/// Maximum number of items of a list.
 const LONGEST_LIST: usize = 1000;
-/// Most digits of a decimal before and behind the point.
+/// Maximum number of digits of a decimal before and behind the point.
 const LONGEST_DECIMAL: usize = 400;
 /// Largest exponent of a decimal.
 const LARGEST_EXPONENT: i32 = 400;
 
-/// A certificate, read.
+/// A certificate as read.
 pub(super) struct Record {
     pub data: Map<String, Value>,
     pub claim: Claim,
@@ -24,15 +24,15 @@ pub(super) struct Record {
     pub proof: Vec<Value>,
 }
 
-/// What is claimed.
+/// The claim of a certificate.
 pub(super) struct Claim {
     pub verb: String,
     pub status: String,
     pub proof: String,
-    /// All solutions, and the real ones: of `solve`.
+    /// The number of all solutions, and of the real ones, for `solve`.
     pub complex: Option<usize>,
     pub real: Option<usize>,
-    /// The dimension of the motion: of `mobility`.
+    /// The dimension of the motion, for `mobility`.
     pub mobility: Option<usize>,
 }
 
@@ -85,7 +85,7 @@ fn mode(value: &Value) -> Result<Unproved, Fault> {
     Ok(Unproved { ball, multiplicity: count(multiplicity)? })
 }
 
-/// The values of a table that has these keys, perhaps some of the optional ones, and no others.
+/// Returns the values of a table that has these keys, possibly some of the optional ones, and no others.
 pub(super) fn fields<'a, const N: usize>(
     value: &'a Value,
     needed: [&str; N],
@@ -116,13 +116,13 @@ pub(super) fn text(value: &Value) -> Result<&str, Fault> {
     value.as_str().map_or_else(|| unreadable(format!("found {}, expected a text", shortened(value))), Ok)
 }
 
-/// A small whole number.
+/// Reads a small whole number.
 pub(super) fn count(value: &Value) -> Result<usize, Fault> {
     let small = value.as_u64().filter(|count| *count < 1_000_000).and_then(|count| usize::try_from(count).ok());
     small.map_or_else(|| unreadable(format!("found {}, expected a whole number", shortened(value))), Ok)
 }
 
-/// The rational that a decimal is.
+/// Reads a decimal as a rational.
 pub(super) fn decimal(value: &Value) -> Result<Rational, Fault> {
     let written = text(value)?;
     parsed(written)

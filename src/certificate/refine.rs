@@ -9,20 +9,20 @@ use crate::algebra::ring::Ring;
 use num_complex::Complex;
 use rug::{Float, Integer, Rational, float::Constant, ops::Pow};
 
-/// Newton steps: from eight digits there are more than enough after six.
+/// Number of Newton steps: from eight digits six of them give more than enough.
 const STEPS: usize = 8;
-/// Decimals of a centre.
+/// Number of decimals of a centre.
 const DECIMALS: u32 = 30;
 /// Radii that are tried, as exponents of ten: the largest one is the easiest to check in f64.
 const RADII: [u32; 8] = [8, 9, 10, 12, 14, 16, 20, 25];
-/// The proof must hold in a ball so many times wider as well: another checker may bound the second derivatives less tightly.
+/// Factor by which the ball of the proof may be enlarged: another checker may bound the second derivatives less tightly.
 const ROOM: u32 = 10;
 
 /// The unknowns of a solution, and whether it is real.
 pub type Near = (Vec<Complex<f64>>, bool);
 
-/// Balls that hold one solution each, different ones; `None` where that is not proved. Solutions are those of the unknowns, real
-/// or not.
+/// Returns balls that hold one solution each, all different; `None` if that is not proved. A solution consists of the
+/// unknowns, real or not.
 #[must_use]
 pub fn balls(closed: &Closed, near: &[Near]) -> Option<Vec<Ball>> {
     match closed {
@@ -53,7 +53,7 @@ fn wider(ball: &Ball) -> Ball {
     Ball { radius: Rational::from(&ball.radius * ROOM), ..ball.clone() }
 }
 
-/// A solution to thirty decimals.
+/// Computes a solution to thirty decimals.
 fn refined<const N: usize>(
     closure: &impl Closure<N>,
     near: &[Complex<f64>],
@@ -82,7 +82,7 @@ fn refined<const N: usize>(
             if real {
                 *im = Rational::new();
             }
-            // Digits that the step does not settle are dropped.
+            // Digits beyond the accuracy of the step are dropped.
             (*re, *im) = (rounded(re, 3 * DECIMALS), rounded(im, 3 * DECIMALS));
         }
     }
@@ -95,7 +95,7 @@ fn refined<const N: usize>(
     Some(x)
 }
 
-/// An angle modulo a turn, between -pi and pi.
+/// Reduces an angle modulo 2 pi to -pi to pi.
 fn within_a_turn(angle: &Rational) -> Option<Rational> {
     let turn = (Float::with_val(512, Constant::Pi) * 2_u32).to_rational()?;
     let turns = Rational::from(angle / &turn).round();

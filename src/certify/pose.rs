@@ -5,7 +5,7 @@
 //! an approximate inverse A of the Jacobian, `Y >= |A F|`, `Z0 >= |I - A J|` and `Z2` the largest row of `|A|` times those
 //! bounds, every r with `Y + Z0 r + Z2 r^2 / 2 <= r` has exactly one solution within r of the point. \[Krawczyk1969\]
 //!
-//! The legs are those of the file: a bound on what their rounding changes in the equations is part of Y and Z0.
+//! The legs are those of the file: a bound on the effect of their rounding on the equations is part of Y and Z0.
 
 use super::Certificate;
 use crate::closure::study::Leg;
@@ -27,16 +27,16 @@ const DATA_ROUNDINGS: f64 = 50.0;
 /// Bounds on the second derivatives of the equations, from the legs alone.
 #[derive(Clone, Copy, Debug)]
 pub struct Curvature {
-    /// Of each halved leg quadric, of the Study condition, and of the patch.
+    /// One bound for each halved leg quadric, the Study condition, and the patch.
     bounds: Eight<f64>,
     /// `sum_c |M_rc|` of each leg, the largest row.
     reach: [f64; 6],
-    /// Bound on the relative rounding of the points and squared lengths that the legs were made from, as f64.
+    /// Bound on the relative rounding, to f64, of the points and squared lengths that determine the legs.
     rounding: f64,
 }
 
 impl Curvature {
-    /// The bounds of six legs whose numbers were rounded so much, relative to themselves, when they became f64.
+    /// Returns the bounds for six legs whose numbers have this relative rounding error in f64.
     #[must_use]
     pub fn new(legs: &[Leg<f64>; 6], rounding: f64) -> Self {
         let mut curvature = Self { bounds: [0.0; 8], reach: [0.0; 6], rounding };
@@ -51,8 +51,8 @@ impl Curvature {
     }
 }
 
-/// Proves that exactly one solution of the equations, the patch among them, lies near this point; `None` where that
-/// cannot be shown. Whether it is a pose (`N != 0`) is for [`is_pose`] to say.
+/// Proves that exactly one solution of the equations, the patch among them, lies near this point; `None` if that
+/// cannot be shown. [`is_pose`] decides whether it is a pose (`N != 0`).
 #[must_use]
 pub fn pose_certificate<S: Number>(
     legs: &[Leg<f64>; 6],
@@ -61,7 +61,7 @@ pub fn pose_certificate<S: Number>(
     at: &Equations<S>,
     approximate_inverse: &[Eight<S>; 8],
 ) -> Option<Certificate> {
-    // More digits come with data of as many digits.
+    // In multiprecision the data have as many digits.
     let data = if S::UNIT_ROUNDOFF < f64::UNIT_ROUNDOFF { S::UNIT_ROUNDOFF } else { curvature.rounding };
     let (x, y) = parts(v);
     let (size_x, size_y) = (x.map(Number::bound), y.map(Number::bound));
@@ -89,7 +89,7 @@ pub fn pose_certificate<S: Number>(
             bent += size * curvature.bounds[k];
         }
         let length = moved.bound() + slack;
-        // A maximum would pass over what is no number.
+        // `max` would ignore NaN.
         if !(length.is_finite() && bent.is_finite()) {
             return None;
         }
@@ -132,7 +132,7 @@ pub fn pose_certificate<S: Number>(
     (radius < isolation).then_some(Certificate { radius, isolation, proved: radius })
 }
 
-/// Whether `N = x.x` differs from zero on the whole ball around a point.
+/// Returns whether `N = x.x` differs from zero on the whole ball around a point.
 #[must_use]
 pub fn is_pose<S: Number>(v: &Eight<S>, radius: f64) -> bool {
     let sum: f64 = v[..4].iter().map(|x| x.bound()).sum();
@@ -141,7 +141,7 @@ pub fn is_pose<S: Number>(v: &Eight<S>, radius: f64) -> bool {
     norm.square_size().sqrt() > 2.0 * radius * sum + 4.0 * radius * radius + rounding
 }
 
-/// Whether the points of two balls cannot belong to one solution: a minor of the two vectors is not zero.
+/// Returns whether the points of two balls cannot belong to one solution: a minor of the two vectors is not zero.
 #[must_use]
 pub fn are_apart(v: &Eight<Complex<f64>>, radius: f64, w: &Eight<Complex<f64>>, other: f64) -> bool {
     let b = largest(w);
@@ -153,7 +153,7 @@ pub fn are_apart(v: &Eight<Complex<f64>>, radius: f64, w: &Eight<Complex<f64>>, 
     })
 }
 
-/// Whether no point of the ball is a multiple of a real one.
+/// Returns whether no point of the ball is a multiple of a real one.
 #[must_use]
 pub fn is_complex(v: &Eight<Complex<f64>>, radius: f64) -> bool {
     let b = largest(v);

@@ -1,7 +1,7 @@
-//! Proofs in more digits: for solutions that f64 cannot prove, badly conditioned ones, and those with large imaginary
+//! Proofs in higher precision, for solutions that f64 cannot prove: badly conditioned ones, and those with large imaginary
 //! parts.
 //!
-//! Angles are known as `w = e^(iq)`: any number but 0 is an exact angle in this form.
+//! Angles are represented as `w = e^(iq)`: any number but 0 is an exact angle in this form.
 
 use super::{ALIKE, Certificate, certificate, weighted_certificate};
 use crate::algebra::double_double::DoubleDouble;
@@ -15,32 +15,32 @@ use crate::solve::newton::{Closure, Six, behind_step, closure_at, reach};
 use crate::solve::scalar::{Extended, Number, Scalar, extended, narrowed};
 use num_complex::Complex;
 
-/// How far the rigid motion nearest to a stored constant is from the constant it was rounded from, in parts of u and of 1
+/// Distance between a stored constant's nearest rigid motion and the constant before rounding, in parts of u and of 1
 /// or the longest coordinate: entries are off by u, so are those of the nearest rotation, together by 6 u at most.
 const CONSTANT_ROUNDINGS: f64 = 8.0;
-/// A solution that the rounding of the constants may have moved farther than this, over its longest translation, is not
-/// proved at all.
+/// A solution that the rounding of the constants may have moved farther than this, over its longest translation, gets no
+/// certificate.
 const MOST_DRIFT: f64 = 1e-6;
 
 type Quad = Complex<DoubleDouble>;
 type Square<R> = [Six<Complex<R>>; 6];
 /// The closure at a point, the inverse of its Jacobian, and the product of that with the residual.
 type Step<R> = (Closure<Complex<R>>, Square<R>, Six<Complex<R>>);
-/// What enters the motions of a loop, unknown by unknown: cosine and sine, or a distance and 0.
+/// The data of the motions of a loop, per unknown: cosine and sine of an angle, or a distance and 0.
 type Pairs<R> = [(Complex<R>, Complex<R>); 6];
 
-/// `e^(iq)` of an angle known in f64: any number but 0 is an exact angle in this form, and no cosine is needed in more
-/// digits.
+/// Returns `e^(iq)` of an angle known in f64. Any number but 0 is an exact angle in this form, and no cosine is needed in
+/// higher precision.
 #[must_use]
 pub fn exponential<R: Extended>(angle: Complex<f64>) -> Complex<R> {
-    // From cosine and sine it would cancel for large imaginary parts.
+    // Computed from cosine and sine it would cancel for large imaginary parts.
     let (sin, cos) = sin_cos(angle.re);
     let w = Complex::new(cos, sin) * exp(-angle.im);
-    // What has no f64 is no angle, as 0 is none.
+    // Overflow is mapped to 0, which is not a valid e^(iq).
     if w.is_finite() { extended(w) } else { Complex::zero() }
 }
 
-/// Cosine and sine of an angle q given as `w = e^(iq)`; `None` for 0.
+/// Returns cosine and sine of an angle q given as `w = e^(iq)`; `None` for 0.
 #[must_use]
 pub fn exponential_pair<R: Extended>(w: Complex<R>) -> Option<(Complex<R>, Complex<R>)> {
     let back = w.inverse()?;
@@ -49,7 +49,7 @@ pub fn exponential_pair<R: Extended>(w: Complex<R>) -> Option<(Complex<R>, Compl
     Some((w.add(&back).halved(), Complex { re: difference.im, im: difference.re.neg() }))
 }
 
-/// `e^(id)` to order 5: good enough for a Newton step, after which w is as exact an angle as before.
+/// Returns `e^(id)` to order 5: enough for a Newton step, after which w is as exact an angle as before.
 #[must_use]
 pub fn small_turn<R: Extended>(d: Complex<R>) -> Complex<R> {
     let turn = d.mul(&Complex { re: R::zero(), im: R::one() });
@@ -61,7 +61,7 @@ pub fn small_turn<R: Extended>(d: Complex<R>) -> Complex<R> {
     factor
 }
 
-/// A solution refined and proved in more digits.
+/// A solution refined and proved in higher precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refined {
     /// The unknowns, rounded from that precision.
@@ -69,13 +69,13 @@ pub struct Refined {
     /// Whether the solution is proved to be real: conjugation maps the ball of the proof into the larger one in which there
     /// is no other solution, and a single solution there is its own conjugate.
     pub real: bool,
-    /// The proof.
+    /// The certificate.
     pub certificate: Certificate,
     /// Row-sum condition number of the Jacobian.
     pub condition: f64,
 }
 
-/// A point on the way to a solution: angles as `e^(iq)`, and distances.
+/// A Newton iterate: angles as `e^(iq)`, and distances.
 struct Approach<'a, R> {
     closed: &'a ClosedLoop<R>,
     state: Six<Complex<R>>,
@@ -94,7 +94,7 @@ impl<R: Extended> Approach<'_, R> {
         Some(pairs)
     }
 
-    /// Goes back by a step of Newton's method.
+    /// Subtracts a Newton step.
     fn step_back(&mut self, step: &Six<Complex<R>>) {
         for j in 0..6 {
             let d = step[j].neg();
@@ -116,7 +116,7 @@ impl<R: Extended> Approach<'_, R> {
         })
     }
 
-    /// The step from here, with the closure and the inverse of its Jacobian as `invert` computes it.
+    /// Returns the Newton step from here, with the closure and the inverse of its Jacobian as `invert` computes it.
     fn newton(&self, pairs: &Pairs<R>, invert: impl Fn(&Square<R>) -> Option<Square<R>>) -> Option<Step<R>> {
         let here = closure_at::<Complex<R>>(self.closed, pairs);
         let inverse = invert(&here.jacobian)?;
@@ -124,22 +124,22 @@ impl<R: Extended> Approach<'_, R> {
         Some((here, inverse, step))
     }
 
-    /// What is proved of the solution, in f64.
+    /// Returns the proved solution in f64.
     fn told(&self, proof: Certificate, condition: f64) -> Refined {
         let unknowns = self.unknowns();
         let off = |j: usize| printed_error(self.closed.variables[j], self.state[j], unknowns[j]);
         let certificate = rounded(proof, &unknowns, &std::array::from_fn(off));
-        // Judged by the solution itself, not by what its rounding left of it.
+        // The solution itself is tested, not its rounding.
         let imaginary = (0..6).map(|j| imaginary(self.closed.variables[j], self.state[j])).fold(0.0, f64::max);
-        // The conjugate of the solution is one, too, and as far away but for twice the imaginary parts of the middle.
+        // The conjugate is a solution, too, at the same distance up to twice the imaginary parts of the midpoint.
         let real = imaginary <= proof.radius && proof.radius + 2.1 * imaginary <= proof.isolation;
         let unknowns = if real { unknowns.map(|z| z.re.into()) } else { unknowns };
         Refined { unknowns, real, certificate, condition }
     }
 }
 
-/// A proof of unknowns as it holds for the f64 in their place, each off by so much. Of that a few roundings of the unknown
-/// itself are no part of `proved`.
+/// Returns the certificate of the unknowns rounded to f64, each off by `off`. A few roundings of the unknown itself do
+/// not count in `proved`.
 fn rounded<S: Scalar>(proof: Certificate, unknowns: &Six<S>, off: &Six<f64>) -> Certificate {
     let roundings = |x: &S| 4.0 * f64::EPSILON * x.bound().max(1.0);
     let excess = unknowns.iter().zip(off).map(|(x, off)| (off - roundings(x)).max(0.0)).fold(0.0, f64::max);
@@ -147,12 +147,12 @@ fn rounded<S: Scalar>(proof: Certificate, unknowns: &Six<S>, off: &Six<f64>) -> 
     Certificate { radius: proved + unknowns.iter().map(roundings).fold(0.0, f64::max), proved, ..proof }
 }
 
-/// How far an unknown in f64 is from the one that it stands for, an angle q as e^(iq), whatever functions led to it: e^(iq)
+/// Bounds the error of an unknown rounded to f64, an angle q given as e^(iq), for any functions that computed it: e^(iq)
 /// of the f64 is computed with 16 roundings at most and compared.
 fn printed_error<R: Extended>(variable: Variable, state: Complex<R>, printed: Complex<f64>) -> f64 {
     const ROUNDINGS: f64 = 16.0;
     match variable {
-        // The nearest f64 or one beside it.
+        // The result is the nearest f64 or a neighbour of it.
         Variable::Translation => f64::EPSILON * printed.bound(),
         Variable::Rotation => {
             let (sin, cos) = sin_cos(printed.re);
@@ -166,10 +166,10 @@ fn printed_error<R: Extended>(variable: Variable, state: Complex<R>, printed: Co
     }
 }
 
-/// How far the constants of a loop that is stored in f64 may be off: each by a rounding of its entries and by so much.
+/// Error bounds of the constants of a loop stored in f64: one rounding of the entries, and this much more.
 #[derive(Clone, Copy)]
 struct Data {
-    /// Bounds the coordinates of the twist by which the rigid motion nearest to a constant is off.
+    /// Bounds on the coordinates of the twist of the error of the nearest rigid motion of a constant.
     twists: Six<f64>,
 }
 
@@ -182,12 +182,12 @@ impl Data {
         Self { twists: std::array::from_fn(twist) }
     }
 
-    /// As a loop that begins behind its first k constants has it.
+    /// Returns the errors of the loop that begins behind the first k constants.
     fn behind(self, k: usize) -> Self {
         Self { twists: std::array::from_fn(|j| self.twists[(j + k) % 6]) }
     }
 
-    /// Takes note of these errors in a closure.
+    /// Adds these errors to a closure.
     fn note<S: Number>(self, at: &mut Closure<S>) {
         for j in 0..6 {
             let after = if j < 5 { at.norms[j + 1].before } else { 1.1 };
@@ -196,16 +196,16 @@ impl Data {
         }
     }
 
-    /// Bounds `|A (F' - F)|` for all F' whose constants are so far off. A constant off by a factor 1 + X behind the frame
-    /// P moves E by a factor `1 + P X P^-1`: six columns `A Ad_P` to first order, in f64, and norms for what is of second
-    /// order and for the roundings of P.
+    /// Bounds `|A (F' - F)|` for all F' within the errors of the constants. A constant off by a factor 1 + X behind the frame
+    /// P moves E by a factor `1 + P X P^-1`: six columns `A Ad_P` to first order, in f64, and norms for the second order
+    /// and for the roundings of P.
     fn moved<S: Number>(self, at: &Closure<S>, view: &View, weights: &Six<f64>) -> f64 {
         let mut sums = [0.0_f64; 6];
         let mut frame: Motion<Complex<f64>> = Motion::identity();
         for j in 0..6 {
             frame = behind_step(&frame, view.closed.variables[j], view.pairs[j], &view.closed.constants[j]);
             for axis in 0..3 {
-                // A turn about this axis of the frame, and a shift along it.
+                // A rotation about this axis of the frame, and a translation along it.
                 let direction: [Complex<f64>; 3] = std::array::from_fn(|i| frame.rotation[i][axis]);
                 let moment = cross(&frame.translation, &direction);
                 let part =
@@ -253,31 +253,31 @@ impl View {
     }
 }
 
-/// A proof of a point of a loop whose constants are off by so much.
+/// Proves a point of a loop whose constants have these errors.
 fn of_stored<S: Number>(here: &mut Closure<S>, inverse: &[Six<S>; 6], data: Data, view: &View) -> Option<Certificate> {
     data.note(here);
     let moved = data.moved(here, view, &ALIKE);
     weighted_certificate(here, inverse, &ALIKE, Some(moved))
 }
 
-/// The inverse of a matrix, as good as f64 makes it.
+/// Returns the inverse of a matrix in f64 accuracy.
 fn rough_inverse<R: Extended>(matrix: &Square<R>) -> Option<Square<R>> {
     let inverse = inverse(&matrix.map(|row| row.map(narrowed)))?;
     let is_finite = inverse.as_flattened().iter().all(|x| x.is_finite());
     is_finite.then(|| inverse.map(|row| row.map(extended)))
 }
 
-/// A proof in double-double arithmetic from unknowns known in f64, of a loop whose constants were rounded once.
+/// Proves unknowns known in f64 in double-double arithmetic, for a loop whose constants were rounded once.
 #[must_use]
 pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>) -> Option<Refined> {
     refined_certificate_of(closed, unknowns, 0.0)
 }
 
-/// As [`refined_certificate`], where the last constant may be off by a matrix of row-sum norm `off` beside its rounding.
+/// As [`refined_certificate`]; the last constant may also be off by a matrix of row-sum norm `off` beyond its rounding.
 ///
-/// The point is one of the loop whose constants are the rigid motions nearest to the stored ones. That these are off is part
-/// of the proof: it holds for all loops whose constants are as near. Where that alone moves the solution by no small
-/// amount it is not proved.
+/// The point belongs to the loop whose constants are the rigid motions nearest to the stored ones. The error of these is
+/// part of the proof, which holds for all loops with constants within it. If that error alone moves the solution by more than a
+/// small amount, there is no certificate.
 #[must_use]
 pub fn refined_certificate_of(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>, off: f64) -> Option<Refined> {
     let data = Data::of(closed, &[0.0, 0.0, 0.0, 0.0, 0.0, off]);
@@ -298,7 +298,7 @@ pub fn refined_certificate_of(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f
         let pairs = at.pairs()?;
         let (mut here, inverse, step) = at.newton(&pairs, rough_inverse)?;
         let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max) / at.reach;
-        // Newton's method has to converge from where it starts, not to wander.
+        // Newton's method has to converge from its start, not to wander.
         let stalls = !(size < 0.5 * before);
         if !(size < 0.3) || (stalls && size > 1e-12) {
             return None;
@@ -318,15 +318,15 @@ pub fn refined_certificate_of(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f
 
 /// Cosine and sine over their norm, which is nearly 1.
 fn on_circle(cos: DoubleDouble, sin: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
-    // 1/sqrt(1 + e) = 1 - e/2 + 3 e^2/8; what is left over is less than the rounding that the proof allows for.
+    // 1/sqrt(1 + e) = 1 - e/2 + 3 e^2/8; the remainder is less than the rounding that the proof allows for.
     let off = cos.mul(&cos).add(&sin.mul(&sin)).sub(&DoubleDouble::one());
     let bend = DoubleDouble::from(0.375).mul(&off).sub(&DoubleDouble::from(0.5));
     let scale = DoubleDouble::one().add(&off.mul(&bend));
     (cos.mul(&scale), sin.mul(&scale))
 }
 
-/// As [`refined_certificate`] for a real solution, in real numbers, which cost a third; `None` also where only another
-/// frame would prove it.
+/// As [`refined_certificate`] for a real solution, in real arithmetic, at a third of the cost; `None` also if only
+/// another frame would prove it.
 fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>, data: Data) -> Option<Refined> {
     let variables = closed.variables;
     let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
@@ -380,12 +380,12 @@ fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>, data: Data) -> Op
     }
 }
 
-/// Steps of Newton's method from a start that is nearly as exact as its numbers.
+/// Maximum number of Newton steps from a start that is nearly as exact as its numbers.
 const MOST_STEPS: usize = 8;
-/// A step this small ends them.
+/// A step below this ends the iteration.
 const SETTLED: f64 = 1e-30;
 
-/// A proof in the arithmetic of exact constants, from cosines, sines and distances that nearly close the loop.
+/// Proves, in the arithmetic of exact constants, cosines, sines and distances that nearly close the loop.
 #[must_use]
 pub fn from_pairs<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>) -> Option<Refined> {
     let i = Complex { re: R::zero(), im: R::one() };
@@ -414,7 +414,7 @@ pub fn from_pairs<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>) -> Opti
             && let Some(proof) = certificate(&here, &inverse).or_else(|| in_any_frame(closed, &pairs, at.reach, None))
         {
             let told = at.told(proof, norm(&here.jacobian) * norm(&inverse));
-            // Unknowns without an f64 cannot be told.
+            // Unknowns without an f64 cannot be reported.
             return told.unknowns.iter().all(|z| z.is_finite()).then_some(told);
         }
         at.step_back(&step);
@@ -442,12 +442,12 @@ fn in_any_frame<R: Extended>(
             let moved = data.map(|data| data.moved(&here, &view(), &weights));
             weighted_certificate(&here, inverse, &weights, moved)
         };
-        // Where f64 does not reach, an inverse in all digits does.
+        // If f64 does not suffice, the inverse is computed in full precision.
         rough_inverse(&here.jacobian).and_then(|inverse| proof(&inverse)).or_else(|| proof(&inverse(&here.jacobian)?))
     })
 }
 
-/// The size of the imaginary part of an unknown, an angle q given as e^(iq); near 0 to the precision of its numbers.
+/// Returns the size of the imaginary part of an unknown, an angle q given as e^(iq), accurate near 0.
 fn imaginary<R: Extended>(variable: Variable, state: Complex<R>) -> f64 {
     match variable {
         Variable::Rotation => {

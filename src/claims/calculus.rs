@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::lines;
 use crate::verdict::Status;
 
-/// Judges what a file claims of the number of solutions of each of its problems.
+/// Judges the claims of a file on the number of solutions of each of its problems.
 ///
 /// # Errors
 /// As [`lines::answers`].

@@ -21,7 +21,7 @@ impl<'a> Joints<'a> {
         Ok(Self { chain, variables: Layout::of(chain, None)?.variables })
     }
 
-    /// The joint variables with the given one put in where the claim leaves it out.
+    /// Returns the joint variables, with the given one inserted if the claim leaves it out.
     pub(super) fn complete(&self, case: &Case, q: &[f64]) -> Result<Vec<f64>> {
         let mut q = q.to_vec();
         if let (Some(input), true) = (case.input.first(), q.len() + 1 == self.variables.len()) {
@@ -40,7 +40,7 @@ impl<'a> Joints<'a> {
         Err(Error::Invalid(format!("found a solution of {found} values, expected {expected}, one per joint variable")))
     }
 
-    /// How far these joints are from closing: the largest entry of the difference of two poses, lengths over the reach.
+    /// Returns the closure error of these joints: the largest entry of the difference of two poses, lengths over the reach.
     pub(super) fn closure(&self, case: &Case, q: &[f64]) -> Result<f64> {
         let motions: Vec<Motion<f64>> = q.iter().zip(&self.variables).map(|(x, v)| joint_motion(*x, *v)).collect();
         let reached = self.chain.forward(&motions);
@@ -60,7 +60,7 @@ impl<'a> Joints<'a> {
         Ok(defect)
     }
 
-    /// The largest difference of a joint variable, imaginary parts too, angles modulo whole turns, lengths over the
+    /// Returns the largest difference of a joint variable, imaginary parts included; angles modulo 2 pi, lengths over the
     /// reach.
     pub(super) fn distance(&self, mode: &FullMode, q: &[f64]) -> f64 {
         let reach = reach(self.chain).max(f64::MIN_POSITIVE);

@@ -8,7 +8,7 @@ use crate::linkage::answer::{LinkageAnswer, LinkageMode, solve};
 use crate::verdict::Status;
 use std::f64::consts::TAU;
 
-/// Judges what a linkage file claims.
+/// Judges the claims of a linkage file.
 ///
 /// # Errors
 /// As [`solve`].
@@ -60,7 +60,7 @@ pub(super) fn linkage(file: &LinkageFile) -> Result<Judgement> {
     Ok(judgement)
 }
 
-/// The distance of the nearest real assembly, the largest difference of a claimed number relative to its size.
+/// Returns the distance of the nearest real assembly: the largest difference of a claimed number relative to its size.
 fn nearest(answer: &LinkageAnswer, claim: &LinkageClaim) -> Option<f64> {
     let real = answer.modes.iter().filter(|mode| mode.real);
     real.map(|mode| distance(mode, claim)).min_by(f64::total_cmp)
@@ -72,7 +72,7 @@ fn distance(mode: &LinkageMode, claim: &LinkageClaim) -> f64 {
     let mut worst = 0.0_f64;
     for (joint, value) in &claim.joints {
         let own = mode.joints[*joint].map_or(f64::INFINITY, |z| z.re);
-        // An angle that differs by whole turns is the same; a distance is smaller than a turn apart or not the one meant.
+        // An angle that differs by full turns is the same; a distance differs by less, or is not the one meant.
         worst = worst.max(turned(own, *value).min(moved(own, *value)));
     }
     for (body, angle, position) in &claim.bodies {

@@ -1,10 +1,10 @@
-//! How a loop moves, against what its file claims.
+//! Claims about the motion of a loop.
 
 use super::{Finding, Sort};
 use crate::catalogue::entry::{Case, Entry};
 use crate::mobility::mobility;
 
-/// The claims of a case about the motion of its loop, judged. A case is `number` in the file, from 1.
+/// Judges the claims of a case about the motion of its loop. `number` is that of the case in the file, from 1.
 pub(super) fn findings(entry: &Entry, case: &Case, number: usize) -> Vec<Finding> {
     let claims = [("mobility", case.expected.mobility), ("screw rank", case.expected.screw_rank)];
     if claims.iter().all(|(_, claimed)| claimed.is_none()) {

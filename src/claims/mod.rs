@@ -1,4 +1,4 @@
-//! Are the claims of a mechanism file true: counts against what is found, solutions against the closure itself.
+//! Judges the claims of a mechanism file: counts against those found, solutions against the closure itself.
 
 mod calculus;
 mod joints;
@@ -42,7 +42,7 @@ impl Sort {
     pub const ALL: [Self; 7] =
         [Self::Complex, Self::Real, Self::Dimension, Self::Mobility, Self::Closes, Self::Found, Self::Equations];
 
-    /// A heading.
+    /// Returns the heading of a sort.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -62,15 +62,15 @@ impl Sort {
 pub struct Finding {
     /// Number of the case in the file, from 1.
     pub case: usize,
-    /// The file of the claim, where it is another one than that of the mechanism.
+    /// The file of the claim, if it is not that of the mechanism.
     pub file: Option<String>,
     /// Line of the claim, or of its case.
     pub line: usize,
-    /// What is claimed.
+    /// The sort of the claim.
     pub sort: Sort,
-    /// Whether it is so.
+    /// Whether the claim is true.
     pub holds: bool,
-    /// What was claimed and what was found.
+    /// The claimed value and the one found.
     pub message: String,
 }
 
@@ -83,12 +83,12 @@ pub struct Judgement {
     pub cases: usize,
     /// Cases whose list of solutions was proved complete.
     pub complete: usize,
-    /// Cases with a self-motion, whose list cannot be.
+    /// Cases with a self-motion, whose list cannot be complete.
     pub self_motions: usize,
 }
 
 impl Judgement {
-    /// How many claims of a sort hold, and how many there are.
+    /// Returns the number of claims of a sort that hold, and the number of all of them.
     #[must_use]
     pub fn score(&self, sort: Sort) -> (usize, usize) {
         let of_sort = self.findings.iter().filter(|finding| finding.sort == sort);
@@ -104,7 +104,7 @@ impl Judgement {
 /// Judges the claims of a file of any kind.
 ///
 /// # Errors
-/// As [`judge`]; for a framework without a realisation, and for loops with symbols, which make no claims.
+/// As [`judge`]; also for a framework without a realisation, and for loops with symbols, which make no claims.
 pub fn judge_any(any: &Any) -> Result<Judgement> {
     match any {
         Any::Entry(entry) => judge(entry),
@@ -155,14 +155,14 @@ pub fn judge(entry: &Entry) -> Result<Judgement> {
     Ok(judgement)
 }
 
-/// What measures a claimed solution.
+/// The measure for a claimed solution.
 enum Ruler<'a> {
     Joints(Joints<'a>),
     Poses(Box<Poses>),
 }
 
 impl Ruler<'_> {
-    /// The whole of a claimed solution, of which a file may leave out what is given.
+    /// Returns the full claimed solution; a file may leave out the given variables.
     fn complete(&self, case: &Case, q: &[f64]) -> Result<Vec<f64>> {
         match self {
             Self::Joints(joints) => joints.complete(case, q),
@@ -170,7 +170,7 @@ impl Ruler<'_> {
         }
     }
 
-    /// How far a claimed solution is from being one.
+    /// Returns the closure error of a claimed solution.
     fn closure(&self, case: &Case, q: &[f64]) -> Result<f64> {
         match self {
             Self::Joints(joints) => joints.closure(case, q),
@@ -178,7 +178,7 @@ impl Ruler<'_> {
         }
     }
 
-    /// How far a mode is from a claimed solution.
+    /// Returns the distance of a mode from a claimed solution.
     fn distance(&self, mode: &FullMode, q: &[f64]) -> f64 {
         match self {
             Self::Joints(joints) => joints.distance(mode, q),
@@ -222,7 +222,7 @@ impl Judge<'_> {
 
     fn solution(&self, claim: &Claim, findings: &mut Vec<Finding>) -> Result<()> {
         let q = self.ruler.complete(self.case, &claim.q)?;
-        // Half a unit of the last digit on paper; a whole one forgives a copy that cut digits off.
+        // Half a unit of the last printed digit would do; a whole one allows for copies that cut digits off.
         let tolerance = 10_f64.powi(-i32::try_from(claim.digits.min(14)).unwrap_or(14));
         let defect = self.ruler.closure(self.case, &q)?;
         let allowed = tolerance * q.len() as f64;
@@ -232,7 +232,7 @@ impl Judge<'_> {
             // A point of a curve of solutions need not be in a list of isolated ones.
             return Ok(());
         }
-        // A double root may have become a complex pair in the rounding of the pose: near enough, it is the one meant.
+        // The rounding of the pose may have turned a double root into a complex pair; if it is near enough, it is the one meant.
         let nearest = self.solution.modes.iter().map(|mode| (self.ruler.distance(mode, &q), mode));
         let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
         let (holds, message) = match nearest {

@@ -5,13 +5,13 @@ use crate::catalogue::{FrameworkFile, MotionFile};
 use crate::error::Result;
 use crate::factoring::{Loop, factor};
 
-/// Steps of a motion that are enough to see it.
+/// Number of steps that suffice to see a motion.
 const STEPS: usize = 10;
 
-/// Judges what a framework file claims of its motions.
+/// Judges the claims of a framework file about its motions.
 ///
 /// # Errors
-/// When there is no realisation with the given lengths.
+/// If there is no realisation with the given lengths.
 pub(super) fn framework(file: &FrameworkFile) -> Result<Judgement> {
     let answer = file.mobility(STEPS)?;
     let mut findings = Vec::new();
@@ -28,10 +28,10 @@ pub(super) fn framework(file: &FrameworkFile) -> Result<Judgement> {
     Ok(Judgement { findings, ..Judgement::default() })
 }
 
-/// Judges what the file of a rational motion claims of its factorisations and the loop they close.
+/// Judges the claims of a file of a rational motion about its factorisations and the loop they close.
 ///
 /// # Errors
-/// Never: the pair of factorisations is our own choice.
+/// Never: the pair of factorisations is chosen here.
 pub(super) fn motion(file: &MotionFile) -> Result<Judgement> {
     let factored = factor(file);
     let closed = factored.closed_loop(None)?;

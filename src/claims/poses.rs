@@ -24,7 +24,7 @@ impl Poses {
         Self { platform, reach }
     }
 
-    /// The largest difference of a leg at this pose from its length, over the reach.
+    /// Returns the largest difference of a leg's length at this pose from the given one, over the reach.
     pub(super) fn closure(&self, case: &Case, q: &[f64]) -> Result<f64> {
         let &[w, x, y, z, a, b, c] = q else {
             return Err(Error::Invalid(format!("found a solution of {} values, expected 7", q.len())));
@@ -39,8 +39,8 @@ impl Poses {
         Ok(found.iter().zip(squares).map(off).fold(0.0, f64::max))
     }
 
-    /// The largest difference of a component of quaternion or position, imaginary parts too; a quaternion and its
-    /// negative are the same, lengths count over the reach.
+    /// Returns the largest difference of a component of quaternion or position, imaginary parts included; a quaternion and
+    /// its negative are the same, lengths count over the reach.
     pub(super) fn distance(&self, mode: &FullMode, q: &[f64]) -> f64 {
         let apart = |sign: f64| {
             let differences = mode.q.iter().zip(q).enumerate().map(|(k, (found, claimed))| {

@@ -8,13 +8,13 @@ use crate::linkage::sphere::{SphereAnswer, SphereMode, solve};
 use crate::verdict::Status;
 use std::f64::consts::TAU;
 
-/// Judges what a file of a linkage on the sphere claims.
+/// Judges the claims of a file of a linkage on the sphere.
 ///
 /// # Errors
 /// As [`solve`].
 pub(super) fn sphere(file: &SphereFile) -> Result<Judgement> {
     let mut judgement = Judgement { cases: file.cases.len(), ..Judgement::default() };
-    // A file of curves alone gives no input.
+    // A file of curves alone has no input.
     let is_posed = |case: &&SphereCase| !case.given.is_empty() || file.traces.is_empty();
     for (number, case) in (1..).zip(file.cases.iter().filter(is_posed)) {
         let answer = solve(&file.linkage, &case.given, file.exact && case.exact)?;

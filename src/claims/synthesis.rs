@@ -5,7 +5,7 @@ use crate::catalogue::{ClaimedDyad, SynthesisFile};
 use crate::synthesis::{Mode, synthesize};
 use crate::verdict::Status;
 
-/// Judges what the file of a synthesis claims.
+/// Judges the claims of the file of a synthesis.
 pub(super) fn judge(file: &SynthesisFile) -> Judgement {
     let answer = synthesize(file);
     let verdict = &answer.verdict;
@@ -29,7 +29,7 @@ pub(super) fn judge(file: &SynthesisFile) -> Judgement {
     for claim in &file.claims {
         let distance = answer.modes.iter().filter(|mode| mode.is_real).map(|mode| distance(claim, mode));
         let best = distance.fold(f64::INFINITY, f64::min);
-        // A number is claimed to so many correct digits: it is off by at most one unit of the last one.
+        // A number claimed to a number of correct digits is off by at most one unit of the last one.
         let tolerance = 10_f64.powi(-i32::try_from(claim.digits).unwrap_or(i32::MAX));
         let message = format!("claims a dyad to {} digits, the nearest one is off by {best:.1e}", claim.digits);
         judgement.findings.push(finding(claim.line, Sort::Found, best <= tolerance, message));
@@ -37,7 +37,7 @@ pub(super) fn judge(file: &SynthesisFile) -> Judgement {
     judgement
 }
 
-/// The largest difference of a number of a claim from that of a mode; infinite where the mode has no such number.
+/// Returns the largest difference of a number of a claim from that of a mode; infinite if the mode has no such number.
 fn distance(claim: &ClaimedDyad, mode: &Mode) -> f64 {
     let of = |(name, values): &(String, Vec<f64>)| match mode.dyad.get(name) {
         Some(found) if found.len() == values.len() => {

@@ -1,6 +1,6 @@
 //! The half-angle form: closure equations in which the one unknown next to the cut appears linearly by tan(q3/2).
 //!
-//! A turning pair (x, y) of the right side enters as `(x + i y) e^(-i q3)`. Two complex combinations of the closure
+//! A pair (x, y) of the right side that rotates with q3 enters as `(x + i y) e^(-i q3)`. Two complex combinations of the closure
 //! equations contain no `e^(+i q3)`: `P e^(-i q3) + Q = 0`, and with `x3 = tan(q3/2)` they become
 //! `(P + Q) - i x3 (P - Q) = 0`, four real equations linear in x3 without the factor `1 + x3^2`.
 //! [LeeWoernleHiller1991, RaghavanRoth1993]
@@ -10,7 +10,7 @@ use crate::algebra::reduction::{Reduction, reduce};
 use crate::algebra::ring::Field;
 use crate::kinematics::closed_loop::ClosedLoop;
 
-/// What remains of the 14 closure equations of a cut when unknowns 4, 5 and 6 are eliminated. Depends on the
+/// The closure equations of a cut that remain when unknowns 4, 5 and 6 are eliminated from its 14. They depend on the
 /// constants G3, G4, G5 alone.
 #[derive(Clone, Debug)]
 pub struct HalfAngleForm<F> {
@@ -18,13 +18,13 @@ pub struct HalfAngleForm<F> {
     pub rows: [MarkedLine<F>; 8],
     /// The six equations free of unknowns 4 to 6 before q3 is split off: `M T(Rz(-q3)) T(G2^-1) u(q1, q2) = 0`.
     pub free_of_last: [MarkedLine<F>; 6],
-    /// Solves the left side: applied to `T(G3^-1) T(Rz(-q3)) T(G2^-1) u`, the values of c5, s5, c4, s4.
+    /// Rows that solve the left side: applied to `T(G3^-1) T(Rz(-q3)) T(G2^-1) u` they give c5, s5, c4, s4.
     pub last_monomials: [MarkedLine<F>; 4],
-    /// How far the cut is from losing an equation: 0 lost, near 1 far. A cut at 0 must not be used.
+    /// Distance of the cut from losing an equation: 0 if one is lost, near 1 far from it. A cut at 0 must not be used.
     pub score: f64,
 }
 
-/// Eliminates unknowns 4, 5 and 6 of a cut; `None` where it is degenerate and loses equations.
+/// Eliminates unknowns 4, 5 and 6 of a cut; `None` if it is degenerate and loses equations.
 ///
 /// # Panics
 /// Never: a reduction of full rank has a pivot in every column.

@@ -1,4 +1,4 @@
-//! Mechanism to closure equations, over any ring.
+//! From mechanism to closure equations, over any ring.
 
 pub mod half_angle;
 pub mod study;

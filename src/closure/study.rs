@@ -52,7 +52,7 @@ pub fn leg_matrix<R: Ring>(base: &Vector<R>, plate: &Vector<R>) -> Form<R> {
     std::array::from_fn(|i| std::array::from_fn(|j| right[i][j].sub(&left[i][j])))
 }
 
-/// `x0 y0 + x1 y1 + x2 y2 + x3 y3`; of x with itself the norm N, of x with y the left side of the Study condition.
+/// Returns `x0 y0 + x1 y1 + x2 y2 + x3 y3`: the norm N of x with itself, the left side of the Study condition of x with y.
 #[must_use]
 #[inline(always)]
 pub fn scalar<R: Ring>(x: &Four<R>, y: &Four<R>) -> R {

@@ -15,9 +15,9 @@ use crate::kinematics::motion::{Motion, Vector, cross, dot};
 pub const SIZE: usize = 15;
 /// Coordinates invariant under rotations about z; the first is the trivial one.
 pub const FIXED: [usize; 7] = [0, 3, 6, 7, 8, 11, 14];
-/// First coordinates of the turning pairs.
+/// First coordinates of the rotating pairs.
 pub const TURNING_X: [usize; 4] = [1, 4, 9, 12];
-/// Second coordinates of the turning pairs.
+/// Second coordinates of the rotating pairs.
 pub const TURNING_Y: [usize; 4] = [2, 5, 10, 13];
 
 /// The 15 coordinates of a line with a marked point.
@@ -53,7 +53,7 @@ fn join<R: Ring>(one: R, l: Vector<R>, p: Vector<R>, pl: R, pp: R, q: Vector<R>,
     [one, l0, l1, l2, p0, p1, p2, pl, pp, q0, q1, q2, w0, w1, w2]
 }
 
-/// `T(g) v`: the coordinates after the motion g.
+/// Returns `T(g) v`, the coordinates after the motion g.
 #[must_use]
 pub fn act<R: Ring>(g: &Motion<R>, v: &MarkedLine<R>) -> MarkedLine<R> {
     let t = &g.translation;
@@ -75,7 +75,7 @@ pub fn act<R: Ring>(g: &Motion<R>, v: &MarkedLine<R>) -> MarkedLine<R> {
     )
 }
 
-/// `n T(g)` for a row n: the same action on linear forms.
+/// Returns `n T(g)` for a row n: the same action on linear forms.
 #[must_use]
 pub fn act_on_form<R: Ring>(n: &MarkedLine<R>, g: &Motion<R>) -> MarkedLine<R> {
     let t = &g.translation;
@@ -95,7 +95,7 @@ pub fn act_on_form<R: Ring>(n: &MarkedLine<R>, g: &Motion<R>) -> MarkedLine<R> {
     join(n[0].add(&dot(&b, t)).add(&d.mul(&tt)), back(&on_l), back(&on_p), c.sub(&ft), d.clone(), back(&on_q), back(&f))
 }
 
-/// The three parts of `T(V(x)) v` for an unknown V: coefficients of (1, cos, sin), or of (1, d, d^2).
+/// Returns the three parts of `T(V(x)) v` for an unknown V: coefficients of (1, cos, sin), or of (1, d, d^2).
 #[must_use]
 pub fn split<R: Ring>(variable: Variable, v: &MarkedLine<R>) -> [MarkedLine<R>; 3] {
     let zero = || std::array::from_fn(|_| R::zero());
@@ -133,7 +133,7 @@ pub fn split<R: Ring>(variable: Variable, v: &MarkedLine<R>) -> [MarkedLine<R>; 
     parts
 }
 
-/// The parts of `T(V(x)^-1) v`: as [`split`], for the inverse of the unknown.
+/// Returns the parts of `T(V(x)^-1) v`: as [`split`], for the inverse of the unknown.
 #[must_use]
 pub fn split_inverse<R: Ring>(variable: Variable, v: &MarkedLine<R>) -> [MarkedLine<R>; 3] {
     let [constant, first, second] = split(variable, v);
@@ -143,8 +143,8 @@ pub fn split_inverse<R: Ring>(variable: Variable, v: &MarkedLine<R>) -> [MarkedL
     }
 }
 
-/// Left sides of the closure equations: the 9 columns of `T(V4) T(G4) T(V5) T(G5) v6` over the monomials
-/// (1, c5, s5) x (1, c4, s4), the factor of unknown 5 running slowly.
+/// Returns the left sides of the closure equations: the 9 columns of `T(V4) T(G4) T(V5) T(G5) v6` over the monomials
+/// (1, c5, s5) x (1, c4, s4), with the factor of unknown 5 as the slow index.
 #[must_use]
 pub fn left_columns<R: Ring>(cut: &ClosedLoop<R>) -> [MarkedLine<R>; 9] {
     let after_five = split(cut.variables[4], &act(&cut.constants[4], &z_axis()));
@@ -152,7 +152,7 @@ pub fn left_columns<R: Ring>(cut: &ClosedLoop<R>) -> [MarkedLine<R>; 9] {
     std::array::from_fn(|k| columns[k / 3][k % 3].clone())
 }
 
-/// `u(q1, q2)` of the right sides `T(G3^-1) T(V3^-1) u`, up to its constant factor `T(G2^-1)`: coefficient of
+/// Returns `u(q1, q2)` of the right sides `T(G3^-1) T(V3^-1) u`, up to its constant factor `T(G2^-1)`: the coefficient of
 /// (1, c1, s1) x (1, c2, s2) at `[k1][k2]`.
 #[must_use]
 pub fn right_columns<R: Ring>(cut: &ClosedLoop<R>) -> [[MarkedLine<R>; 3]; 3] {

@@ -1,4 +1,4 @@
-//! What is answered to a question about displacements or lines: modes with named values, and the verdict.
+//! The answer to a question about displacements or lines: modes with named values, and the verdict.
 
 use crate::algebra::enclosure::Enclosure;
 use crate::verdict::{Code, Proof, Status, Verdict};
@@ -18,11 +18,11 @@ pub struct Mode {
     pub real: bool,
     /// Its multiplicity.
     pub multiplicity: usize,
-    /// How far its numbers are from satisfying the conditions, in f64.
+    /// Error with which its numbers satisfy the conditions, in f64.
     pub residual: f64,
-    /// How far a number of it is from that of the solution at most; `None` without a proof of that.
+    /// Bound on the distance of its numbers from the solution; `None` without a proof.
     pub radius: Option<f64>,
-    /// Its numbers by their names, in the order of reports.
+    /// Its numbers by name, in the order of reports.
     pub values: Map<String, Value>,
 }
 
@@ -33,7 +33,7 @@ pub struct Answer {
     pub verdict: Verdict,
     /// Real solutions first.
     pub modes: Vec<Mode>,
-    /// What belongs to the problem as a whole, by name.
+    /// Values that belong to the problem as a whole, by name.
     pub keys: Map<String, Value>,
     /// Warnings.
     pub warnings: Vec<String>,
@@ -45,7 +45,7 @@ pub fn number(x: f64) -> Value {
     if x.is_finite() { json!(x + 0.0) } else { Value::Null }
 }
 
-/// A list of numbers.
+/// Returns a list of numbers.
 #[must_use]
 pub fn list(numbers: &[f64]) -> Value {
     numbers.iter().map(|x| number(*x)).collect()
@@ -57,10 +57,10 @@ pub fn pairs(numbers: &[Complex<f64>]) -> Value {
     numbers.iter().map(|z| json!([number(z.re), number(z.im)])).collect()
 }
 
-/// The rounding of enclosures, and the largest distance that it has met.
+/// The rounding of enclosures, with the largest distance that occurred.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rounding {
-    /// No number is farther from its enclosure than this.
+    /// Bound on the distance of every number from its enclosure.
     pub radius: f64,
 }
 
@@ -118,7 +118,7 @@ pub fn homogeneous(motion: &Motion<f64>) -> Value {
     json!([row(0), row(1), row(2), [0, 0, 0, 1]])
 }
 
-/// The screw of a motion as LINKAGES has it: direction, point, moment, angle, translation, pitch.
+/// Returns the screw of a motion with the keys of LINKAGES: direction, point, moment, angle, translation, pitch.
 #[must_use]
 pub fn screw(motion: &Motion<f64>) -> Value {
     let Some(found) = Screw::of(motion) else { return Value::Null };
@@ -134,7 +134,7 @@ pub fn screw(motion: &Motion<f64>) -> Value {
     })
 }
 
-/// The one solution of linear equations: numbers with names, each rounded once.
+/// The unique solution of linear equations: numbers with names, each rounded once.
 #[derive(Clone, Debug, Default)]
 pub struct Named {
     rounding: Rounding,
@@ -142,55 +142,55 @@ pub struct Named {
 }
 
 impl Named {
-    /// A number.
+    /// Adds a number.
     pub fn number(&mut self, name: &str, found: &Rational) {
         let rounded = self.rounding.number(&Enclosure::of(found));
         self.put(name, number(rounded));
     }
 
-    /// A vector.
+    /// Adds a vector.
     pub fn vector(&mut self, name: &str, found: &Vector<Rational>) {
         let rounded = self.rounded(found);
         self.put(name, list(&rounded));
     }
 
-    /// The unit vector along a vector; null of the zero vector.
+    /// Adds the unit vector along a vector; null for the zero vector.
     pub fn unit(&mut self, name: &str, along: &Vector<Rational>) {
         let unit = direction(&along.each_ref().map(Enclosure::of));
         let rounded = unit.map(|unit| list(&self.rounding.vector(&unit)));
         self.put(name, rounded.unwrap_or(Value::Null));
     }
 
-    /// The length of a vector.
+    /// Adds the length of a vector.
     pub fn length(&mut self, name: &str, of: &Vector<Rational>) {
         let found = length(&of.each_ref().map(Enclosure::of)).map(|found| number(self.rounding.number(&found)));
         self.put(name, found.unwrap_or(Value::Null));
     }
 
-    /// A vector in f64, its rounding remembered.
+    /// Rounds a vector to f64 and records the rounding error.
     pub fn rounded(&mut self, vector: &Vector<Rational>) -> [f64; 3] {
         self.rounding.vector(&vector.each_ref().map(Enclosure::of))
     }
 
-    /// A number that is enclosed.
+    /// Adds a number that is enclosed.
     pub fn enclosed(&mut self, name: &str, found: &Enclosure) {
         let rounded = self.rounding.number(found);
         self.put(name, number(rounded));
     }
 
-    /// Numbers that are enclosed.
+    /// Adds numbers that are enclosed.
     pub fn enclosures<const N: usize>(&mut self, name: &str, found: &[Enclosure; N]) {
         let rounded = self.rounding.vector(found);
         self.put(name, list(&rounded));
     }
 
-    /// The numbers of another answer under one name.
+    /// Adds the numbers of another answer under one name.
     pub fn under(&mut self, name: &str, own: Self) {
         self.rounding.radius = self.rounding.radius.max(own.rounding.radius);
         self.put(name, own.into_value());
     }
 
-    /// Any other value.
+    /// Adds any other value.
     pub fn put(&mut self, name: &str, value: Value) {
         self.values.insert(name.to_owned(), value);
     }
@@ -201,7 +201,7 @@ impl Named {
         Value::Object(self.values)
     }
 
-    /// The answer that has this solution and no other.
+    /// Returns the answer that has this solution and no other.
     #[must_use]
     pub fn answer(self, reason: impl Into<String>) -> Answer {
         let Self { rounding, values } = self;
@@ -211,20 +211,20 @@ impl Named {
     }
 }
 
-/// What is known of the number of solutions.
+/// The number of solutions and its proof.
 pub struct Counted {
     /// Isolated complex solutions, with multiplicity.
     pub complex: usize,
-    /// What the verdict rests on.
+    /// The code of the proof on which the verdict rests.
     pub code: Code,
-    /// Solutions of the general problem that are at infinity here.
+    /// Number of solutions of the general problem that are at infinity here.
     pub at_infinity: usize,
-    /// Why.
+    /// The reason in words.
     pub reason: String,
 }
 
 impl Answer {
-    /// The answer where all solutions are known and their number is proved.
+    /// Returns the answer for solutions that are all known and whose number is proved.
     #[must_use]
     pub fn complete(modes: Vec<Mode>, counted: Counted) -> Self {
         // Each real solution counts once, whatever its multiplicity.
@@ -248,7 +248,7 @@ impl Answer {
         Self { verdict, modes, keys: Map::new(), warnings: Vec::new() }
     }
 
-    /// The answer where solutions form a set of some dimension, of which a sample is known.
+    /// Returns the answer for solutions that form a set of some dimension, with a sample of it.
     #[must_use]
     pub fn family(dimension: usize, sample: Option<Value>, reason: impl Into<String>) -> Self {
         let verdict = Verdict {
@@ -270,7 +270,7 @@ impl Answer {
         Self { verdict, modes: Vec::new(), keys, warnings: Vec::new() }
     }
 
-    /// The answer where nothing satisfies the conditions exactly, and a nearest solution is given in its place.
+    /// Returns the answer if nothing satisfies the conditions exactly, with a nearest solution instead.
     #[must_use]
     pub fn nearest(mode: Option<Mode>, reason: impl Into<String>) -> Self {
         let verdict = Verdict {
@@ -288,7 +288,7 @@ impl Answer {
         Self { verdict, modes: mode.into_iter().collect(), keys: Map::new(), warnings: Vec::new() }
     }
 
-    /// The answer where there is no solution, not even a complex one.
+    /// Returns the answer if there is no solution, not even a complex one.
     #[must_use]
     pub fn none(reason: impl Into<String>) -> Self {
         Self::complete(
@@ -297,7 +297,7 @@ impl Answer {
         )
     }
 
-    /// The same answer for numbers of which some had to be rounded: what is proved holds for the rounded ones.
+    /// Marks the answer of numbers of which some had to be rounded: the proof holds for the rounded ones.
     #[must_use]
     pub fn of_rounded(mut self, is_rounded: bool) -> Self {
         self.verdict.proof = self.verdict.proof.of_rounded(is_rounded);

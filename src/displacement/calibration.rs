@@ -15,7 +15,7 @@ use serde_json::{Map, Value};
 
 type Pair = (Motion<Rational>, Motion<Rational>);
 
-/// Every motion that fits all pairs, or the nearest one.
+/// Returns every motion that fits all pairs, or the nearest one.
 pub fn answer(pairs: &[Pair]) -> Result<Answer> {
     let turning: Vec<Turning> = pairs.iter().map(Turning::of).collect();
     if turning.iter().any(|pair| !pair.agrees) {
@@ -35,19 +35,19 @@ pub fn answer(pairs: &[Pair]) -> Result<Answer> {
     }
 }
 
-/// What a pair says of the rotation: its axes, and whether it can be satisfied at all.
+/// The condition of a pair on the rotation: its axes, and whether it can be satisfied at all.
 struct Turning {
     a: Vector<Rational>,
     b: Vector<Rational>,
-    /// Half a turn: the sign of the axis is free.
+    /// Whether the angle is pi, where the sign of the axis is free.
     is_half: bool,
-    /// The cosines of the angles are equal.
+    /// Whether the cosines of the angles are equal.
     agrees: bool,
 }
 
 impl Turning {
-    /// The axes scaled so that X takes b to a: by the scalar parts of the quaternions, at half a turn by the norm if that is
-    /// rational.
+    /// Scales the axes so that X takes b to a: by the scalar parts of the quaternions, for a rotation by pi by the norm if that
+    /// is rational.
     fn of((a, b): &Pair) -> Self {
         let (p, q) = (from_matrix(&a.rotation), from_matrix(&b.rotation));
         let (wp, wq) = (p.scalar.clone(), q.scalar.clone());
@@ -76,7 +76,7 @@ fn parallel(u: &Vector<Rational>, v: &Vector<Rational>) -> bool {
     cross(u, v).iter().all(|c| *c == 0)
 }
 
-/// Two axes that are not parallel determine the rotation, up to signs at half turns.
+/// Solves for the rotation from two axes that are not parallel, which is unique up to signs at rotations by pi.
 fn of_two(pairs: &[Pair], first: &Turning, second: &Turning) -> Result<Answer> {
     let signs = |pair: &Turning| if pair.is_half { vec![1, -1] } else { vec![1] };
     let signed = |v: &Vector<Rational>, sign: i32| v.each_ref().map(|c| Rational::from(c * sign));
@@ -114,7 +114,7 @@ fn of_two(pairs: &[Pair], first: &Turning, second: &Turning) -> Result<Answer> {
     ))
 }
 
-/// `A X = X B` for rotations.
+/// Returns whether `A X = X B` for rotations.
 fn commutes(a: &Matrix<Rational>, x: &Matrix<Rational>, b: &Matrix<Rational>) -> bool {
     use looproot_calculus::rotation::matrix::product;
     product(a, x) == product(x, b)
@@ -128,7 +128,7 @@ fn mode(x: &Motion<Rational>) -> Mode {
     Mode { real: true, multiplicity: 1, residual: 0.0, radius: Some(radius), values }
 }
 
-/// The largest rounding of an entry.
+/// Returns the largest rounding error of an entry.
 fn radius(x: &Motion<Rational>) -> f64 {
     let entries = x.rotation.iter().flatten().chain(&x.translation);
     let apart = |q: &Rational| {
@@ -145,7 +145,7 @@ fn float(x: &Motion<Rational>) -> Motion<f64> {
     }
 }
 
-/// One pair leaves a rotation about the axis of A and a translation along it, if the translations along the axes agree.
+/// Solves one pair, which leaves a rotation about the axis of A and a translation along it, if the translations agree.
 fn one_pair((a, b): &Pair, pair: &Turning) -> Answer {
     // The translation along the axis, over its length: rational where the axes are scaled alike.
     let along = |v: &Vector<Rational>, t: &Vector<Rational>| dot(v, t);
@@ -180,7 +180,7 @@ fn sample(a: &Motion<Rational>, b: &Motion<Rational>) -> Option<Value> {
     (residual(&pairs, &x) < 1e-6).then_some(Value::Object(values))
 }
 
-/// A pair without rotation: X takes one translation to the other, and its own translation is free.
+/// Solves a pair without rotation: X takes one translation to the other, and its own translation is free.
 fn one_translation((a, b): &Pair) -> Answer {
     let (s, t) = (&a.translation, &b.translation);
     if dot(s, s) != dot(t, t) {

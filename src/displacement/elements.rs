@@ -15,7 +15,7 @@ use serde_json::{Map, Value};
 /// By Bezout, three quadrics of P^3 that meet in points meet in eight.
 const QUADRICS: usize = 8;
 
-/// All matrices with these elements.
+/// Returns all matrices with these elements.
 pub fn answer(places: [(usize, usize); 3], values: &[Rational; 3]) -> Answer {
     let Some(elements) = Elements::of(places, values.clone()) else {
         return Answer::none("two of the places are one");
@@ -30,7 +30,7 @@ pub fn answer(places: [(usize, usize); 3], values: &[Rational; 3]) -> Answer {
     let is_real = squares.iter().all(|square| *square >= 0);
     let mut modes = Vec::new();
     for signs in signs(&squares, elements.pattern == Pattern::Scattered) {
-        // A root that is 0 has one sign for two.
+        // A root that is 0 has one sign only.
         let zeros = squares.iter().filter(|square| **square == 0).count();
         let multiplicity = 1 << zeros;
         let found = if is_real {
@@ -59,7 +59,7 @@ pub fn answer(places: [(usize, usize); 3], values: &[Rational; 3]) -> Answer {
     Answer::complete(modes, Counted { complex: QUADRICS, code: Code::GeneralBoundMet, at_infinity: 0, reason })
 }
 
-/// All choices of signs for roots; one for a root that is 0, and up to a common sign for the parameters of a quaternion.
+/// Returns all choices of signs for roots; one for a root that is 0, and up to a common sign for the parameters of a quaternion.
 fn signs(squares: &[Rational], up_to_sign: bool) -> Vec<Vec<bool>> {
     let mut choices: Vec<Vec<bool>> = vec![Vec::new()];
     let mut is_free = !up_to_sign;
@@ -97,14 +97,14 @@ fn real(
     Some(Mode { real: true, multiplicity: 1, residual, radius: Some(rounding.radius), values: named })
 }
 
-/// The root of a rational that is not negative, with a sign.
+/// Returns the root of a nonnegative rational, with a sign.
 fn root(square: &Rational, is_positive: bool) -> Option<Enclosure> {
     use crate::algebra::ring::Ring;
     let root = Root::sqrt(&Enclosure::of(square))?;
     Some(if is_positive { root } else { root.neg() })
 }
 
-/// How far a matrix is from the prescribed elements.
+/// Returns the distance of a matrix from the prescribed elements.
 fn residual(matrix: &Matrix<f64>, places: [(usize, usize); 3], values: &[Rational; 3]) -> f64 {
     let off = |((i, j), value): (&(usize, usize), &Rational)| (matrix[*i][*j] - nearest_f64(value)).abs();
     places.iter().zip(values).map(off).fold(0.0, f64::max)
@@ -126,7 +126,8 @@ fn complex(elements: &Elements<Rational>, squares: &[Rational], signs: &[bool]) 
     Some(Mode { real: false, multiplicity: 1, residual: 0.0, radius: None, values })
 }
 
-/// The quaternions of norm 0 whose matrix of products has zeros at the places: they satisfy the quadrics and are no rotations.
+/// Returns the quaternions of norm 0 whose matrix of products has zeros at these places; they satisfy the quadrics and are no
+/// rotations.
 ///
 /// Such a matrix is `f g^T` with isotropic f and g, of which at most one entry each is 0. For two places in a row and one
 /// beside, the common row or column index decides which.
@@ -184,7 +185,7 @@ fn null_quaternion(m: &Matrix<Complex<f64>>) -> Value {
     pairs(&longest.map(|z| z * scale))
 }
 
-/// Three elements of one row or column: a circle of rotations about that row, or nothing.
+/// Solves for three elements of one row or column: a circle of rotations about that row, or nothing.
 fn of_a_line(places: [(usize, usize); 3], values: &[Rational; 3]) -> Answer {
     let square: Rational = values.iter().map(|v| Rational::from(v.square_ref())).sum();
     let what = if places[0].0 == places[1].0 { "row" } else { "column" };
@@ -221,8 +222,8 @@ fn with_line(place: (usize, usize), is_row: bool, line: &[f64; 3]) -> Option<Val
     Some(Value::Object(values))
 }
 
-/// Where the roots do not determine the matrix: an element +-1 with zeros beside it leaves a circle, two zeros beside each other
-/// with a third zero leave two, and else there is no real rotation.
+/// Solves the case in which the roots do not determine the matrix. An element +-1 with zeros beside it leaves a circle, two
+/// zeros beside each other with a third zero leave two, and otherwise there is no real rotation.
 fn without_divisor(elements: &Elements<Rational>, places: [(usize, usize); 3], values: &[Rational; 3]) -> Answer {
     let [_, b, c] = &elements.values;
     let is_corner = elements.pattern == Pattern::Corner;
@@ -247,12 +248,12 @@ fn without_divisor(elements: &Elements<Rational>, places: [(usize, usize); 3], v
                   the 8 common points of the three quadrics are complex";
     let counted = Counted { complex: QUADRICS, code: Code::GeneralBoundMet, at_infinity: 0, reason: reason.into() };
     let mut answer = Answer::complete(Vec::new(), counted);
-    // The complex ones are counted and not listed.
+    // The complex solutions are counted but not listed.
     answer.verdict.complex_complete = false;
     answer
 }
 
-/// Of three zeros, two in a line and one beside both: row and column of the element that is 1.
+/// Returns row and column of the element that is 1, for three zeros, two in a line and one beside both.
 fn zero_lines(places: [(usize, usize); 3]) -> (usize, usize) {
     let pair =
         |of: fn(&(usize, usize)) -> usize| (0..3).find(|index| places.iter().filter(|p| of(p) == *index).count() == 2);

@@ -11,7 +11,7 @@ use looproot_calculus::rotation::turn::Turn;
 use rug::Rational;
 use serde_json::{Map, Value};
 
-/// The family `(cos f/2 + l2 sin f/2) m`, with f any angle, or any dual angle for lines in space.
+/// Returns the family `(cos f/2 + l2 sin f/2) m`, with f any angle, or any dual angle for lines in space.
 pub fn answer(lines: &[Line<Rational>; 2], through: Through) -> Answer {
     let float = |v: &[Rational; 3]| v.each_ref().map(nearest_f64);
     let [first, second] =
@@ -41,7 +41,7 @@ fn rotation(first: &Line<f64>, second: &Line<f64>) -> Option<Value> {
     Some(Value::Object(values))
 }
 
-/// Over dual numbers the rotation is a screw: here a half turn.
+/// Returns a motion between the lines. Over dual numbers the rotation is a screw, here by pi.
 fn motion(first: &Line<f64>, second: &Line<f64>) -> Option<Value> {
     let half: Turn<Dual<f64>> = Turn::zero();
     let motion = taking(&first.dual(), &second.dual(), &half)?.to_motion()?;

@@ -1,7 +1,7 @@
-//! Displacements with some property: the questions of files of kind `displacement`, answered with a verdict.
+//! Displacements with some property: answers, with a verdict, to the questions of files of kind `displacement`.
 //!
-//! The formulas are those of `looproot_calculus`. What must be decided, signs and zeros, is decided over the rationals; what is
-//! listed is computed in enclosures of many digits and rounded once, so that its distance from the solution is known.
+//! The formulas are those of `looproot_calculus`. Signs and zeros are decided over the rationals. Listed values are
+//! computed in enclosures of many digits and rounded once, so that their distance from the solution is known.
 
 pub mod answer;
 mod calibration;

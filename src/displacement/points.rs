@@ -9,7 +9,7 @@ use looproot_calculus::rotation::positions::is_rotation;
 use rug::Rational;
 use serde_json::Map;
 
-/// The displacement that takes all points where they are, or the nearest one.
+/// Returns the displacement that takes all points to their images, or the nearest one.
 pub fn answer(points: &[Moved<Rational>]) -> Answer {
     let before: Vec<_> = points.iter().map(|p| p.0.clone()).collect();
     let found =

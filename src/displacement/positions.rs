@@ -21,11 +21,11 @@ fn sub(a: &Vector<Rational>, b: &Vector<Rational>) -> Vector<Rational> {
     std::array::from_fn(|i| Rational::from(&a[i] - &b[i]))
 }
 
-/// The rotation of a point of the body through three positions: axis, centre of the circle, the angles of the three steps.
+/// Returns the rotation of a point of the body through three positions: axis, centre of the circle, angles of the three steps.
 pub fn circle(points: &[Vector<Rational>; 3]) -> Answer {
     let axis = circle_axis(points);
     let (a, b) = (sub(&points[1], &points[0]), sub(&points[2], &points[0]));
-    // The centre against the first point: (|b|^2 (n x a) + |a|^2 (b x n))/(2 n.n).
+    // The centre relative to the first point: (|b|^2 (n x a) + |a|^2 (b x n))/(2 n.n).
     let (to, back) = (cross(&axis, &a), cross(&b, &axis));
     let twice = dot(&axis, &axis).mul(&Rational::from(2));
     let Some(share) = twice.reciprocal() else { return Answer::none("the points lie in a line") };
@@ -51,12 +51,12 @@ pub fn circle(points: &[Vector<Rational>; 3]) -> Answer {
     )
 }
 
-/// The rotation at a share of the way.
+/// Returns the rotation at a share of the way.
 pub fn slerp([from, to]: &[Matrix<Rational>; 2], share: &Rational) -> Answer {
     let float = |m: &Matrix<Rational>| m.each_ref().map(|row| row.each_ref().map(nearest_f64));
     let quaternion = |m: &Matrix<Rational>| -> Quaternion<f64> { from_matrix(&float(m)) };
     let (start, end) = (quaternion(from), quaternion(to));
-    // Half a turn apart there are two shortest ways: the trace of to from^T is -1.
+    // For a relative rotation by pi there are two shortest ways: the trace of to from^T is -1.
     let trace = (0..3).fold(Rational::new(), |sum, i| sum + dot(&from[i], &to[i]));
     let ways = if trace == -1 { 2 } else { 1 };
     let other = Quaternion { scalar: -end.scalar, vector: end.vector.map(|c| -c) };
@@ -77,7 +77,7 @@ pub fn slerp([from, to]: &[Matrix<Rational>; 2], share: &Rational) -> Answer {
     Answer::complete(modes, counted)
 }
 
-/// The product of reflections: a displacement for an even number, else one behind a reflection.
+/// Returns the product of reflections: a displacement for an even number, else one behind a reflection.
 pub fn reflections(planes: &[Plane<Rational>]) -> Answer {
     let all = planes.iter().try_fold(Motion::<Rational>::identity(), |all, p| Some(p.mirror()?.then_after(&all)));
     let Some(all) = all else { return Answer::none("a plane without normal reflects nothing") };
@@ -100,7 +100,8 @@ pub fn reflections(planes: &[Plane<Rational>]) -> Answer {
     named.answer("an odd number of reflections changes the sense of rotation and is no displacement")
 }
 
-/// Roth's lines: through the midpoint of a point and its image, perpendicular to their chord, cutting the axis at a right angle.
+/// Returns Roth's lines: through the midpoint of a point and its image, perpendicular to their chord, cutting the axis at a
+/// right angle.
 pub fn midpoints(given: &GivenScrew, points: &[Vector<Rational>]) -> Answer {
     let Some((motion, radius)) = one(given).map(|motion| rounded(&motion)) else {
         return Answer::none("the screw has no axis");

@@ -11,7 +11,7 @@ use looproot_calculus::displacement::screw::motion;
 use looproot_calculus::line::pluecker::Line;
 use serde_json::Map;
 
-/// The displacement by all screws in their order.
+/// Returns the displacement by all screws in their order.
 pub fn answer(screws: &[GivenScrew]) -> Answer {
     let all = screws.iter().try_fold(Motion::<Enclosure>::identity(), |all, screw| Some(one(screw)?.then_after(&all)));
     let modes = all.map(|all| {
@@ -28,7 +28,7 @@ pub fn answer(screws: &[GivenScrew]) -> Answer {
     )
 }
 
-/// A motion in f64, and how far its numbers are from those enclosed at most.
+/// Returns a motion in f64, and a bound on the distance of its numbers from those enclosed.
 pub(super) fn rounded(motion: &Motion<Enclosure>) -> (Motion<f64>, f64) {
     let mut rounding = Rounding::default();
     let rotation = rounding.matrix(&motion.rotation);

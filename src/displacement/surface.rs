@@ -12,7 +12,7 @@ use rug::Rational;
 /// A number that moves: value, rate and half the second rate.
 type Moving = Series<Rational, 3>;
 
-/// Position, tangents of the parameter lines, along the path.
+/// Position, tangents of the parameter lines, and direction of the path.
 struct Path {
     position: Vector<Moving>,
     normal: Vector<Moving>,
@@ -38,7 +38,7 @@ fn coefficient(v: &Vector<Moving>, k: usize, factor: i32) -> Vector<Rational> {
     v.each_ref().map(|own| Rational::from(&own.coefficients[k] * factor))
 }
 
-/// Curvatures of the path on the surface, and the angular velocity of the frame.
+/// Returns the curvatures of the path on the surface, and the angular velocity of the frame.
 pub fn answer(motion: &OnSurface) -> Answer {
     let Some(path) = path(motion) else { return Answer::none("the coordinates have no values at these parameters") };
     let (position, velocity) = (coefficient(&path.position, 0, 1), coefficient(&path.position, 1, 1));

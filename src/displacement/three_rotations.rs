@@ -15,7 +15,7 @@ use rug::Rational;
 use serde_json::{Map, Value};
 use std::cmp::Ordering;
 
-/// All angles about the three axes.
+/// Returns all angles about the three axes.
 pub fn answer(axes: &[Vector<Rational>; 3], rotation: &Matrix<Rational>) -> Answer {
     let equation = Equation::of(axes, rotation);
     let amplitude = equation.amplitude_squared();
@@ -31,8 +31,8 @@ pub fn answer(axes: &[Vector<Rational>; 3], rotation: &Matrix<Rational>) -> Answ
     Answer { keys: keys.into_iter().chain(found.keys).collect(), ..found }
 }
 
-/// Both coefficients of the equation vanish where the outer axes are parallel to the middle one or one of them is: the middle
-/// angle is free, or there is no solution.
+/// Solves the case in which both coefficients of the equation vanish, because the outer axes are parallel to the middle one
+/// or one of them is: the middle angle is free, or there is no solution.
 fn without_amplitude(
     axes: &[Vector<Rational>; 3],
     rotation: &Matrix<Rational>,
@@ -43,17 +43,17 @@ fn without_amplitude(
     }
     let parallel = |u: &Vector<Rational>, v: &Vector<Rational>| cross(u, v).iter().all(|c| *c == 0);
     let [n1, n2, n3] = axes;
-    // With all axes parallel two angles are free; with two of them one, since only their sum counts.
+    // With all axes parallel two angles are free; with two parallel axes one, since only their sum counts.
     let dimension = if parallel(n1, n2) && parallel(n2, n3) { 2 } else { 1 };
     let sample = sample(axes, rotation).map(|q| list(&q));
     Answer::family(dimension, sample, "neighbouring axes are parallel: only the sum of their angles is determined")
 }
 
-/// Angles with the middle one 0, or the first one where the middle axis is parallel to the last.
+/// Returns angles with the middle one 0, or the first one if the middle axis is parallel to the last.
 fn sample(axes: &[Vector<Rational>; 3], rotation: &Matrix<Rational>) -> Option<[f64; 3]> {
     let axes = float_axes(axes)?;
     let rotation = rotation.each_ref().map(|row| row.each_ref().map(nearest_f64));
-    // Rot(n1, t1) Rot(n3, t3) with t2 = 0: any axis between does for the solver.
+    // Rot(n1, t1) Rot(n3, t3) with t2 = 0: the solver accepts any axis between.
     let [n1, _, n3] = axes;
     let between = direction(&cross(&n1, &n3)).unwrap_or_else(|| across(&n1));
     let found = angles(&[n1, between, n3], &rotation)?.into_iter().next()?;
@@ -149,7 +149,7 @@ fn real_modes(axes: &[Vector<Rational>; 3], rotation: &Matrix<Rational>, is_doub
     found.into_iter().flatten().filter_map(mode).collect()
 }
 
-/// The angle in (-pi, pi], enclosed: beside pi by the opposite direction, so that no enclosure reaches across the cut.
+/// Encloses the angle in (-pi, pi]: near pi by the opposite direction, so that no enclosure crosses the cut.
 fn angle_of(turn: &Turn<Enclosure>) -> Option<Enclosure> {
     if *turn.cos.middle() >= 0 {
         return turn.sin.atan2(&turn.cos);
@@ -159,7 +159,7 @@ fn angle_of(turn: &Turn<Enclosure>) -> Option<Enclosure> {
     Some(if is_above { opposite.add(&Enclosure::pi()) } else { opposite.sub(&Enclosure::pi()) })
 }
 
-/// The largest entry by which the product of the three rotations differs from the given one.
+/// Returns the largest entry by which the product of the three rotations differs from the given one.
 fn residual(axes: &[Vector<Rational>; 3], rotation: &Matrix<f64>, q: &[f64; 3]) -> Option<f64> {
     let [n1, n2, n3] = float_axes(axes)?;
     let turn = |axis: &[f64; 3], angle: &f64| turned(axis, &Turn::of_angle(angle));
@@ -168,7 +168,7 @@ fn residual(axes: &[Vector<Rational>; 3], rotation: &Matrix<f64>, q: &[f64; 3]) 
     Some(entries.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max))
 }
 
-/// The two complex solutions, in f64.
+/// Returns the two complex solutions, in f64.
 fn complex_modes(axes: &[Vector<Rational>; 3], rotation: &Matrix<Rational>) -> Vec<Mode> {
     let Some(unit) = float_axes(axes) else { return Vec::new() };
     let complex = |x: f64| Complex { re: x, im: 0.0 };

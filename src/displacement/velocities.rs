@@ -13,11 +13,11 @@ fn sub(a: &Vector<Rational>, b: &Vector<Rational>) -> Vector<Rational> {
     std::array::from_fn(|i| Rational::from(&a[i] - &b[i]))
 }
 
-/// Angular velocity, velocity screw and its complex; with accelerations the angular acceleration, the acceleration pole and the
-/// axodes.
+/// Returns angular velocity, velocity screw and its complex; with accelerations also the angular acceleration, the
+/// acceleration pole and the axodes.
 pub fn answer(points: &[MovingPoint; 3]) -> Answer {
     let pair = |i: usize| (sub(&points[(i + 1) % 3].at, &points[i].at), (i + 1) % 3, i);
-    // The distance of two points stays: their relative velocity is perpendicular to their difference.
+    // The distance of two points is constant: their relative velocity is perpendicular to their difference.
     let is_rigid = (0..3).all(|i| {
         let (apart, to, from) = pair(i);
         dot(&apart, &sub(&points[to].velocity, &points[from].velocity)) == 0
@@ -34,7 +34,7 @@ pub fn answer(points: &[MovingPoint; 3]) -> Answer {
     let zero = || -> Vector<Rational> { std::array::from_fn(|_| Rational::new()) };
     let mut state = State { omega, velocity, alpha: zero(), acceleration: zero() };
     put_screw(&mut named, &state);
-    // The same motion seen from the body: the velocities of points of space against it.
+    // The same motion seen from the body: the velocities of points of space relative to it.
     let negative = |v: &Vector<Rational>| v.each_ref().map(|c| Rational::from(-c));
     let inverse = named.rounded(&negative(&state.omega));
     let inverse =
@@ -44,7 +44,7 @@ pub fn answer(points: &[MovingPoint; 3]) -> Answer {
     let Some(accelerations) = accelerations else {
         return named.answer("the velocities of three points that are not in a line determine those of all points");
     };
-    // Without the centripetal part accelerations are as velocities are, with alpha in place of omega.
+    // Without the centripetal part accelerations behave as velocities, with alpha in place of omega.
     let rest: [_; 3] = std::array::from_fn(|k| {
         let inward = cross(&state.omega, &cross(&state.omega, &points[k].at));
         (points[k].at.clone(), sub(accelerations[k], &inward))
@@ -67,7 +67,7 @@ pub fn answer(points: &[MovingPoint; 3]) -> Answer {
     named.answer("velocities and accelerations of three points that are not in a line determine those of all points")
 }
 
-/// Axis, pitch and rate, and the complex of the lines that are perpendicular to the velocities of their points.
+/// Adds axis, pitch and rate, and the complex of the lines that are perpendicular to the velocities of their points.
 fn put_screw(named: &mut Named, state: &State<Rational>) {
     let screw = state.screw().and_then(|screw| Some((screw.axis.point()?, screw)));
     let value = match &screw {
@@ -86,9 +86,9 @@ fn put_screw(named: &mut Named, state: &State<Rational>) {
     named.put("complex", json!({ "a": list(&a), "b": list(&b) }));
 }
 
-/// Striction point and distribution parameter of both axodes.
+/// Adds striction point and distribution parameter of both axodes.
 fn put_axodes(named: &mut Named, state: &State<Rational>) {
-    // The velocity at a place that is fixed in space changes by what the point there gains, and by the point that replaces it.
+    // The velocity at a place fixed in space changes by the acceleration of the point there, and by the point that replaces it.
     let passing = cross(&state.omega, &state.velocity);
     let twist = Line { direction: state.omega.clone(), moment: state.velocity.clone() };
     let rate = Line { direction: state.alpha.clone(), moment: sub(&state.acceleration, &passing) };

@@ -1,4 +1,4 @@
-//! Counting: is the planted pose found, are all poses found, and is all that is found a pose.
+//! Counts whether the planted pose is found, whether all poses are found, and whether every result is a pose.
 
 use super::sample::{PlatformSample, PlatformSet, sample};
 use crate::algebra::number::Number;
@@ -14,19 +14,19 @@ use crate::verdict::Status;
 use num_complex::Complex;
 use rug::Rational;
 
-/// Solutions of the general platform.
+/// Number of solutions of the general platform.
 const MOST: usize = 40;
-/// How near the planted pose must be found: components of the rotation matrix, and of the position over the size.
+/// Tolerance for the planted pose: components of the rotation matrix, and of the position over the size.
 const NEAR: f64 = 1e-6;
-/// How far the legs of a mode may be off, relative to their length, and divided by the norm of the quaternion squared.
+/// Tolerance for the legs of a mode, relative to their length and divided by the norm of the quaternion squared.
 const OFF: f64 = 1e-9;
 
-/// What was asked for.
+/// The samples to solve and the way to solve them.
 #[derive(Clone, Copy, Debug)]
 pub struct PlatformJob {
     /// The family of platforms.
     pub set: PlatformSet,
-    /// How many.
+    /// Number of platforms.
     pub count: u64,
     /// Seed of the draw.
     pub seed: u64,
@@ -34,8 +34,8 @@ pub struct PlatformJob {
     pub roots: Roots,
 }
 
-/// Runs a job on all threads of the pool it is called in; `tick` is called after every platform. Once `running` says no,
-/// the platforms not begun are left out of the counts.
+/// Runs a job on all threads of the pool it is called in; `tick` is called after every platform. Once `running` returns
+/// `false`, the platforms not begun are left out of the counts.
 ///
 /// # Errors
 /// None in practice, see [`sample`].
@@ -64,7 +64,7 @@ fn one(job: PlatformJob, index: u64, (workspace, assembly): &mut Memory) -> Resu
         counts.duplicates += real[..k].iter().filter(twin).count();
     }
     if job.roots == Roots::All {
-        // A list that was proved complete was compared with the exact count already.
+        // A list that was proved complete has already been compared with the exact count.
         let complete = matches!(solution.verdict.status, Status::Complete | Status::Unreachable);
         let expected = if complete { Some(solution.verdict.complex) } else { expected(&drawn) };
         if let Some(expected) = expected {
@@ -116,7 +116,7 @@ fn apart(one: &Motion<f64>, two: &Motion<f64>, size: f64) -> f64 {
     largest
 }
 
-/// Whether the legs of a mode, complex or not, are as long as they should be: by the rotation matrix and the points alone.
+/// Returns whether the legs of a mode, complex or not, have the right lengths, by the rotation matrix and the points alone.
 fn is_pose(drawn: &PlatformSample, mode: &FullMode) -> bool {
     let [w, x, y, z, a, b, c]: [Complex<f64>; 7] = std::array::from_fn(|k| mode.q[k]);
     let quaternion = Quaternion { scalar: w, vector: [x, y, z] };

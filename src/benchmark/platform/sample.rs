@@ -1,5 +1,5 @@
 //! Random platforms with a planted pose, the same ones for the same seed. All coordinates are multiples of 2^-20, so that
-//! special geometries are so exactly.
+//! special geometries are exactly special.
 
 use crate::algebra::number::{Number, Reading};
 use crate::catalogue::entry::{Case, Design, Entry, Labels};
@@ -20,23 +20,23 @@ pub enum PlatformSet {
     General,
     /// Points of the base in a plane.
     PlanarBase,
-    /// Points of the plate in a plane.
+    /// Points of the moving platform in a plane.
     PlanarPlate,
-    /// Points of base and plate in planes.
+    /// Points of base and moving platform in planes.
     PlanarBoth,
     /// Plane but for 1e-2, 1e-3, ... 1e-9 in turn.
     NearPlanar,
     /// Hexagons with alternating sides.
     Hexapod,
-    /// Points that coincide: which pairs of legs meet in the base, and which in the plate, counted from 0.
+    /// Points that coincide: the pairs of legs that meet in the base and in the moving platform, counted from 0.
     Shared(&'static [(usize, usize)], &'static [(usize, usize)]),
-    /// The plate an affine image of the base.
+    /// The moving platform is an affine image of the base.
     Affine,
-    /// The plate similar to the base.
+    /// The moving platform is similar to the base.
     Similar,
-    /// The plate congruent to the base.
+    /// The moving platform is congruent to the base.
     Congruent,
-    /// The plate similar to the base, both plane.
+    /// The moving platform is similar to the base, and both are plane.
     SimilarPlanar,
 }
 
@@ -138,7 +138,7 @@ fn points(set: PlatformSet, index: u64, random: &mut ChaCha8Rng) -> [Points; 2] 
         PlatformSet::Similar | PlatformSet::SimilarPlanar => {
             let base = if set == PlatformSet::Similar { base } else { flattened(base) };
             let ratio = f64::from(random.random_range(2..=14)) / 8.0;
-            // Not 1, the congruent case.
+            // A ratio of 1 would be the congruent case.
             let ratio = if ratio == 1.0 { 0.75 } else { ratio };
             [base, base.map(|p| p.map(|x| ratio * x))]
         }
@@ -151,7 +151,7 @@ fn points(set: PlatformSet, index: u64, random: &mut ChaCha8Rng) -> [Points; 2] 
 /// # Errors
 /// None in practice: the numbers drawn are finite and the quaternions rational.
 pub fn sample(set: PlatformSet, seed: u64, index: u64) -> Result<PlatformSample> {
-    // One stream per sample: any of them can be drawn alone, on any thread.
+    // Each sample has its own stream, so that it can be drawn alone, on any thread.
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(index);
     loop {
@@ -162,7 +162,7 @@ pub fn sample(set: PlatformSet, seed: u64, index: u64) -> Result<PlatformSample>
         let Some(pose) = placement(quaternion, position) else { continue };
         let values = velocity(&platform, &pose.float).singular_values;
         let regularity = values[5] / values[0];
-        // A pose on a self-motion is no isolated solution to plant, and one near it no fair one.
+        // A pose on a self-motion is not isolated and cannot be planted; one near a self-motion is no fair test.
         if !(regularity > 1e-6) {
             continue;
         }

@@ -1,4 +1,4 @@
-//! Timing, one core, all figures of one run side by side with faer's eigen-decomposition of one 40 x 40 matrix.
+//! Timings on one core, all of one run beside faer's eigen-decomposition of one 40 x 40 matrix.
 
 use super::sample::{PlatformSet, sample};
 use crate::algebra::number::Number;
@@ -10,8 +10,8 @@ use crate::solve::eigen::{Eigenvectors, Method};
 use crate::solve::spectrum::Spectrum;
 use std::hint::black_box;
 
-/// Times `count` platforms of a set, `repeats` times over: the stages in turn within each repeat, so that a machine that
-/// changes its speed changes it for all of them.
+/// Times `count` platforms of a set, `repeats` times over. The stages alternate within each repeat, so that a change of
+/// the machine's speed affects all of them alike.
 ///
 /// # Errors
 /// None in practice, see [`sample`].

@@ -5,17 +5,17 @@ use crate::error::{Error, Result};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// What the first line of a file of answers says.
+/// The `format` in the first line of a file of answers.
 pub const ANSWERS: &str = "looproot-answers";
 
-/// What a solver says to one problem.
+/// The answer of a solver to one problem.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answer {
     /// Its solutions, each in the unknowns of the problem.
     pub solutions: Vec<Vec<f64>>,
-    /// Which of them it certifies; none where it says nothing.
+    /// Whether the solver certifies each of them; empty if it does not say.
     pub certified: Vec<bool>,
-    /// How long it took, seconds.
+    /// The time it took, seconds.
     pub seconds: Option<f64>,
 }
 
@@ -24,7 +24,7 @@ pub struct Answer {
 pub struct Answers {
     /// The name and version of the solver.
     pub solver: String,
-    /// The file of problems, as the answers name it.
+    /// The file of problems as named in the answers.
     pub problems: Option<String>,
     /// The hash of the problems.
     pub hash: String,
@@ -35,7 +35,7 @@ impl Answers {
     /// Reads a file of answers; [`Answers::to`] reads the solutions.
     ///
     /// # Errors
-    /// With the line, for what is not as docs/benchmark.md says.
+    /// Names the line that does not conform to docs/benchmark.md.
     pub fn read(text: &str) -> Result<Self> {
         let mut lines = text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, l)| !l.trim().is_empty());
         let Some((1, first)) = lines.next() else {
@@ -50,10 +50,10 @@ impl Answers {
         Ok(Self { solver, problems: text("problems"), hash, lines })
     }
 
-    /// The answer to each problem, in the order of the problems; none where there is no line for it.
+    /// Returns the answer to each problem, in the order of the problems; `None` if there is no line for it.
     ///
     /// # Errors
-    /// With the line, for an answer to no problem or a second one, and for a solution with another number of unknowns.
+    /// Names the line of an answer to no problem, of a second answer, or of a solution with another number of unknowns.
     pub fn to(&self, problems: &Problems) -> Result<Vec<Option<Answer>>> {
         if self.hash != problems.hash {
             let (own, other) = (&self.hash, &problems.hash);

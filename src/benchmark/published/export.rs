@@ -20,12 +20,12 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use std::f64::consts::PI;
 
-/// A sample as a problem.
+/// The conversion of a sample to a problem.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Drawn {
-    /// With its proved truth.
+    /// The problem with its proved truth.
     Proved(Box<Problem>),
-    /// Its list of solutions is not proved complete, or it has a self-motion: the code of the verdict.
+    /// The sample is left out: its list is not proved complete, or it has a self-motion. This is the code of the verdict.
     LeftOut(&'static str),
 }
 
@@ -47,7 +47,7 @@ pub fn of_platform(class: &str, name: &str, set: PlatformSet, seed: u64, index: 
     answered(class, format!("{name}-{seed}-{index}"), &drawn.entry)
 }
 
-/// A robot of the library at a pose that it reaches with random angles; `None` where it has other than six joint variables.
+/// Returns a robot of the library at a pose reached with random angles; `None` unless it has six joint variables.
 ///
 /// # Errors
 /// None in practice: the library is tested.
@@ -118,7 +118,7 @@ fn platform(entry: &Entry, case: &Case) -> Option<(Body, Option<usize>)> {
     Some((Body::Platform { base: floats(&platform.base), plate: floats(&platform.plate), legs }, None))
 }
 
-/// The axes of a chain when its joint variables are 0, and which variable of a loop is given.
+/// Returns the axes of a chain at joint variables 0, and the index of the given variable of a loop.
 fn of_chain(chain: &Chain, case: &Case) -> Option<(Body, Option<usize>)> {
     let (mut variables, mut constants) = chain.unknowns_and_constants::<f64>()?;
     let mut named = JointVariable::of(&chain.joint_kinds());

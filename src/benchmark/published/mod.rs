@@ -1,5 +1,5 @@
-//! A benchmark that others can publish against: problems with their exact truth as a file, answers of any solver as a file, and
-//! their score. docs/benchmark.md has both formats.
+//! A benchmark for published comparisons: problems with their exact truth as a file, answers of any solver as a file, and
+//! their score. Both formats are in docs/benchmark.md.
 
 mod answers;
 mod export;

@@ -1,16 +1,16 @@
-//! Problems as lines of JSON: numbers as any solver takes them, and all their real solutions.
+//! Problems as lines of JSON: numbers that any solver can read, and all their real solutions.
 
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::Motion;
 use serde_json::{Value, json};
 
-/// What the first line of a file of problems says.
+/// The `format` in the first line of a file of problems.
 pub const PROBLEMS: &str = "looproot-problems";
 /// Version of both formats.
 pub const VERSION: u64 = 1;
 
-/// A joint variable: about or along a line, when all joint variables are 0.
+/// A joint variable: rotation about or translation along a line, given at joint variables 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// Rotation or translation.
@@ -21,10 +21,10 @@ pub struct Axis {
     pub point: [f64; 3],
 }
 
-/// What is asked.
+/// The mechanism and the pose or legs to solve for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
-    /// A product of motions about axes, times `home`, is `pose`. A closed loop has the pose 1.
+    /// A product of motions about axes, times `home`, that must equal `pose`. A closed loop has the identity as pose.
     Chain {
         /// The joint variables in order.
         axes: Vec<Axis>,
@@ -39,7 +39,7 @@ pub enum Body {
     Platform {
         /// Points of the base, metres.
         base: [[f64; 3]; 6],
-        /// Points of the plate in its own frame, metres.
+        /// Points of the moving platform in its own frame, metres.
         plate: [[f64; 3]; 6],
         /// Lengths of the legs, metres.
         legs: [f64; 6],
@@ -49,9 +49,9 @@ pub enum Body {
 /// A real solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
-    /// Joint variables, radians and metres; of a platform the quaternion, w first, and the position.
+    /// Joint variables, radians and metres; for a platform the quaternion, w first, and the position.
     pub q: Vec<f64>,
-    /// How many solutions coincide.
+    /// The number of solutions that coincide.
     pub multiplicity: usize,
     /// Row-sum condition number of the Jacobian, lengths over the scale of the mechanism; infinite for a multiple solution.
     pub condition: f64,
@@ -62,11 +62,11 @@ pub struct Truth {
 pub struct Problem {
     /// Its name in the file.
     pub id: String,
-    /// The set it is of.
+    /// The set to which it belongs.
     pub class: String,
-    /// What is asked.
+    /// The mechanism and the pose or legs to solve for.
     pub body: Body,
-    /// All real solutions, proved to be all.
+    /// All real solutions, with a proof of completeness.
     pub truth: Vec<Truth>,
     /// The number of solutions, complex ones and multiplicities counted.
     pub complex: usize,
@@ -81,7 +81,8 @@ pub struct Problems {
     pub problems: Vec<Problem>,
 }
 
-/// The hash of the lines of problems, as 16 hexadecimal digits: FNV-1a of 64 bits over their bytes, a line break behind each.
+/// Returns the hash of the lines of problems, as 16 hexadecimal digits: 64-bit FNV-1a over their bytes, each followed by a
+/// line break.
 #[must_use]
 pub fn hash<'a>(lines: impl IntoIterator<Item = &'a str>) -> String {
     let bytes = lines.into_iter().flat_map(|line| line.bytes().chain(std::iter::once(b'\n')));
@@ -102,7 +103,7 @@ impl Problems {
     /// Reads a file of problems.
     ///
     /// # Errors
-    /// With the line, for what is not as docs/benchmark.md says, and for another hash than that of the lines.
+    /// Names the line that does not conform to docs/benchmark.md, or reports a hash that differs from that of the lines.
     pub fn read(text: &str) -> Result<Self> {
         let mut lines = text.lines();
         let head = object(1, lines.next().unwrap_or_default())?;
@@ -122,7 +123,7 @@ pub(super) fn object(line: usize, text: &str) -> Result<Value> {
     if value.is_object() { Ok(value) } else { Err(wrong(line, "a line", "one JSON object")) }
 }
 
-/// Whether a first line names a format and its version.
+/// Checks that a first line names a format and its version.
 pub(super) fn check_format(head: &Value, format: &str) -> Result<()> {
     if head["format"] != format || head["version"] != VERSION {
         let (found, version) = (&head["format"], &head["version"]);
@@ -211,7 +212,7 @@ impl Body {
         }
     }
 
-    /// How many unknowns a solution has.
+    /// Returns the number of unknowns of a solution.
     #[must_use]
     pub fn unknowns(&self) -> usize {
         match self {
@@ -247,7 +248,7 @@ impl Problem {
             let multiplicity = own["multiplicity"].as_u64().and_then(|m| usize::try_from(m).ok());
             let multiplicity = multiplicity.filter(|m| *m > 0 && q.len() == body.unknowns());
             let multiplicity = multiplicity.ok_or_else(|| wrong(line, "a true solution", "one of the problem"))?;
-            // JSON has no number for infinity: null stands for it.
+            // JSON has no infinity; null stands for it.
             let condition = own["condition"].as_f64().unwrap_or(f64::INFINITY);
             Ok(Truth { q, multiplicity, condition })
         };

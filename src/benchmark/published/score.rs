@@ -1,4 +1,4 @@
-//! The score of answers: every one is put into the closure equations of its problem, and compared with the true solutions.
+//! The score of answers: each is put into the closure equations of its problem and compared with the true solutions.
 
 use super::answers::Answer;
 use super::problem::{Axis, Body, Problem, Truth};
@@ -7,54 +7,54 @@ use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::{Motion, dot};
 use std::collections::BTreeMap;
 
-/// A solution may miss the pose by this much, as a part of the size of the mechanism and in radians. A true solution is
-/// found by one no farther away than this times its condition number.
+/// Maximum error of the pose at a solution, relative to the size of the mechanism and in radians. An answer finds a true
+/// solution if it is no farther away than this times the condition number.
 pub const BACKWARD: f64 = 1e-6;
 
-/// How far a solution is from the truth.
+/// The distances of an answer from the true solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Of the position of tool or plate, as a part of the size of the mechanism.
+    /// Error of the position of tool or moving platform, relative to the size of the mechanism.
     pub position: f64,
-    /// Of the rotation of tool or plate, radians.
+    /// Error of the rotation of tool or moving platform, radians.
     pub rotation: f64,
-    /// Of the unknowns, radians and metres: the largest.
+    /// Largest error of an unknown, radians or metres.
     pub unknowns: f64,
 }
 
-/// What is counted.
+/// Counts of problems, answers and true solutions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tally {
-    /// Problems.
+    /// Number of problems.
     pub problems: usize,
-    /// Problems with an answer.
+    /// Number of problems with an answer.
     pub answered: usize,
-    /// True solutions.
+    /// Number of true solutions.
     pub truths: usize,
-    /// True solutions that are among the answers.
+    /// True solutions that are found by an answer.
     pub found: usize,
-    /// True solutions that are not.
+    /// True solutions that are not found.
     pub lost: usize,
     /// Answers that miss the pose, or are at no true solution.
     pub spurious: usize,
-    /// Answers at a true solution that another answer is at.
+    /// Further answers at a true solution that is already found.
     pub duplicates: usize,
     /// True solutions found by an answer that the solver certifies.
     pub certified: usize,
-    /// Of the true solutions found.
+    /// Errors of the true solutions found.
     pub errors: Vec<Errors>,
-    /// Of each answer, seconds.
+    /// Time of each answer, seconds.
     pub seconds: Vec<f64>,
 }
 
-/// Counts of all problems, and of parts of them.
+/// Counts over all problems and over parts of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Score {
     /// All problems.
     pub all: Tally,
     /// By the class of the problem.
     pub classes: BTreeMap<String, Tally>,
-    /// True solutions by the power of ten below their condition number; the last one holds multiple solutions.
+    /// True solutions by the power of ten of their condition number; the last entry holds multiple solutions.
     pub decades: BTreeMap<i32, Tally>,
     /// The problems with a true solution that was lost.
     pub lost_in: Vec<String>,
@@ -65,7 +65,7 @@ const LARGEST_DECADE: i32 = 308;
 /// The decade of condition numbers that are not finite.
 pub const MULTIPLE: i32 = i32::MAX;
 
-/// The score of one answer for each problem, or none.
+/// Scores one answer, or none, for each problem.
 #[must_use]
 pub fn score(problems: &[Problem], answers: &[Option<Answer>]) -> Score {
     let mut score = Score::default();
@@ -133,7 +133,7 @@ impl Tally {
     }
 }
 
-/// How many answers are at no true solution, and which are at each.
+/// Returns the number of answers at no true solution, and the answers at each true one.
 fn matched(problem: &Problem, answer: &Answer) -> (usize, Vec<Matched>) {
     let mut at = vec![Matched::default(); problem.truth.len()];
     let reach = tolerances(problem);
@@ -158,8 +158,8 @@ fn matched(problem: &Problem, answer: &Answer) -> (usize, Vec<Matched>) {
     (spurious, at)
 }
 
-/// How near an answer has to be to each true solution: what an error of [`BACKWARD`] in the equations makes of it, and no
-/// more than a third of the way to the next true solution.
+/// Returns for each true solution the distance within which an answer finds it: the effect of an error of [`BACKWARD`] in
+/// the equations, and at most a third of the distance to the next true solution.
 fn tolerances(problem: &Problem) -> Vec<f64> {
     let one = |(k, truth): (usize, &Truth)| {
         let others = problem.truth.iter().enumerate().filter(|(other, _)| *other != k);
@@ -174,8 +174,8 @@ fn tolerances(problem: &Problem) -> Vec<f64> {
 }
 
 impl Body {
-    /// How far the unknowns miss the pose or the legs: as a part of the size of the mechanism, and the angle or the norm of the
-    /// quaternion.
+    /// Returns the errors of pose or legs at these unknowns: relative to the size of the mechanism, and as angle or norm of
+    /// the quaternion.
     fn missed(&self, q: &[f64]) -> [f64; 2] {
         match self {
             Self::Chain { axes, home, pose, .. } => {
@@ -198,7 +198,7 @@ impl Body {
         }
     }
 
-    /// The errors of position and rotation: of a chain those of the pose it has to reach, of a platform those of the plate.
+    /// Returns the errors of position and rotation: for a chain those of the pose to reach, for a platform those of its pose.
     fn off(&self, q: &[f64], truth: &[f64], missed: [f64; 2]) -> [f64; 2] {
         let Self::Platform { legs, .. } = self else { return missed };
         let place: [f64; 3] = std::array::from_fn(|i| q[4 + i] - truth[4 + i]);
@@ -206,7 +206,7 @@ impl Body {
         [dot(&place, &place).sqrt() / longest(legs), angle_between(&turn(q), &turn(truth))]
     }
 
-    /// The largest difference of two solutions: of angles modulo a turn, of quaternions up to their sign.
+    /// Returns the largest difference of two solutions: angles modulo 2 pi, quaternions up to their sign.
     fn distance(&self, one: &[f64], two: &[f64]) -> f64 {
         match self {
             Self::Chain { axes, spherical, .. } => {
@@ -259,7 +259,7 @@ fn angle_between(one: &[[f64; 3]; 3], two: &[[f64; 3]; 3]) -> f64 {
     dot(&skew, &skew).sqrt().atan2(off(0, 0) + off(1, 1) + off(2, 2) - 1.0)
 }
 
-/// The longest way from axis to axis and on to the tool, metres; 1 where there is none.
+/// Returns the sum of the distances from axis to axis and on to the tool, metres; 1 if it is zero.
 fn size(axes: &[Axis], home: &Motion<f64>) -> f64 {
     let points: Vec<&[f64; 3]> = axes.iter().map(|axis| &axis.point).chain([&home.translation]).collect();
     let apart = |one: &[f64; 3], two: &[f64; 3]| (0..3).map(|i| (one[i] - two[i]).powi(2)).sum::<f64>().sqrt();
