@@ -12,22 +12,22 @@ use crate::error::Result;
 use crate::kinematics::motion::Vector;
 use rug::Rational;
 
-/// A file of the calculus, read.
+/// A calculus file as read.
 #[derive(Clone, Debug)]
 pub struct CalculusFile {
     /// Title, source and remarks.
     pub heading: Heading,
-    /// What is asked.
+    /// The question of the file.
     pub question: Question,
     /// Whether some number of the file had to be replaced by a nearby rational.
     pub rounded: bool,
-    /// Warnings of the matrices that were replaced by rotations.
+    /// Warnings about matrices that were replaced by rotations.
     pub warnings: Vec<String>,
-    /// What the file claims of every problem.
+    /// The claims of the file about every problem.
     pub claims: Claims,
 }
 
-/// What a file of the calculus asks.
+/// The question of a calculus file.
 #[derive(Clone, Debug)]
 pub enum Question {
     /// Displacements with some property.
@@ -62,7 +62,7 @@ impl CalculusFile {
         }
     }
 
-    /// The word behind `find`.
+    /// Returns the value of `find`.
     #[must_use]
     pub fn find(&self) -> &'static str {
         match &self.question {
@@ -73,7 +73,7 @@ impl CalculusFile {
     }
 }
 
-/// The keys of the lists that questions are made of.
+/// The keys of the lists in questions.
 const PARTS: [&str; 14] = [
     "element", "rotation", "pair", "screw", "point", "line", "complex", "plane", "force", "couple", "shaft", "gear", "relation",
     "wheel",
@@ -102,7 +102,7 @@ fn claims(scope: &Scope<'_>, table: &Table<'_>) -> Result<Claims> {
     Ok(Claims { complex: count("complex")?, real: count("real")?, dimension: count("dimension")?, line: node.line })
 }
 
-/// The word behind `find` in `[mechanism]`, one of those given, and the table.
+/// Returns the value of `find` in `[mechanism]`, one of those allowed, and the table.
 pub(super) fn found<'n>(
     scope: &Scope<'_>,
     table: &Table<'n>,
@@ -115,7 +115,7 @@ pub(super) fn found<'n>(
     Ok((find, mechanism, node.line))
 }
 
-/// The tables of a list that must be there, with the keys that they may have; only the lists named may stand in the file.
+/// Returns the tables of a required list, with the keys that they may have; no list but those named may occur in the file.
 pub(super) fn parts<'n>(
     scope: &Scope<'_>,
     table: &Table<'n>,
@@ -136,7 +136,7 @@ pub(super) fn parts<'n>(
     scope.list(node, key)?.iter().map(|item| Ok((scope.table(item, &what, allowed)?, item))).collect()
 }
 
-/// A list of exactly this many.
+/// Checks that a list has exactly this many items.
 pub(super) fn counted<T>(scope: &Scope<'_>, line: usize, items: Vec<T>, key: &str, count: usize) -> Result<Vec<T>> {
     if items.len() == count {
         return Ok(items);
@@ -144,12 +144,12 @@ pub(super) fn counted<T>(scope: &Scope<'_>, line: usize, items: Vec<T>, key: &st
     Err(scope.fail(line, format!("found {} [[{key}]], expected {count}", items.len())))
 }
 
-/// The line at which a list begins, else that of the file.
+/// Returns the line at which a list begins, else that of the file.
 pub(super) fn line_of(table: &Table<'_>, key: &str) -> usize {
     table.get(key).map_or_else(|| table.line(), |node| node.line)
 }
 
-/// A vector of rationals that is not zero.
+/// Reads a vector of rationals that is not zero.
 pub(super) fn direction(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Vector<Rational>> {
     let vector = numbers(&scope.vector(node, Quantity::Ratio, what)?);
     if vector.iter().all(|c| *c == 0) {
@@ -158,7 +158,7 @@ pub(super) fn direction(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Ve
     Ok(vector)
 }
 
-/// The place of a point.
+/// Reads the coordinates of a point.
 pub(super) fn point(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Vector<Rational>> {
     Ok(numbers(&scope.vector(node, Quantity::Length, what)?))
 }

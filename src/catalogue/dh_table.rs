@@ -43,7 +43,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str) -> Result<Entry> 
     })
 }
 
-/// A twist; one above a full turn was meant in degrees.
+/// Reads a twist; a value above a full turn is taken to be in degrees.
 fn twist(scope: &Scope<'_>, node: &Node) -> Result<Angle> {
     let angle = scope.printed_angle(node, "alpha", &format!("line {}", node.line))?;
     let radians = angle.radians();

@@ -20,7 +20,7 @@ use rug::Rational;
 pub enum Displacement {
     /// Rotation matrices with three prescribed elements: places, rows and columns from 0, and values.
     Elements([(usize, usize); 3], [Rational; 3]),
-    /// Rotations as three rotations about given axes, which are of any length.
+    /// Rotations as three rotations about given axes of any length.
     ThreeRotations([Vector<Rational>; 3], Vec<Matrix<Rational>>),
     /// The motion X with A X = X B for pairs A, B.
     Calibration(Vec<(Motion<Rational>, Motion<Rational>)>),
@@ -53,10 +53,10 @@ pub struct OnSurface {
     pub path: [[Rational; 2]; 3],
 }
 
-/// Which displacements take a line to a line.
+/// The set of displacements that take a line to a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Through {
-    /// All of them.
+    /// All such displacements.
     Space,
     /// Rotations about the origin; only the directions of the lines matter.
     Origin,
@@ -74,7 +74,7 @@ pub struct GivenScrew {
 }
 
 impl Displacement {
-    /// The word behind `find`.
+    /// Returns the value of `find`.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
@@ -189,7 +189,7 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
     }
 }
 
-/// Coordinates in u and v, and how u and v run.
+/// Reads coordinates in u and v, and the motion of u and v.
 fn on_surface(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Displacement> {
     let node = scope.need(mechanism, "coordinates")?;
     let mut names = Names::given(["u", "v"])?;
@@ -246,7 +246,7 @@ fn three_rotations(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>) 
     Ok(Displacement::ThreeRotations(axes, rotations(scope, table)?))
 }
 
-/// The rotations of a file, one or many.
+/// Reads the rotations of a file, one or many.
 fn rotations(scope: &Scope<'_>, table: &Table<'_>) -> Result<Vec<Matrix<Rational>>> {
     let given = parts(scope, table, "rotation", &["matrix", "quaternion"], &[])?;
     if given.is_empty() {
@@ -285,7 +285,7 @@ fn resultant(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displacement> {
     Ok(Displacement::Resultant(screws(scope, table, &[])?))
 }
 
-/// The finite screws of a file.
+/// Reads the finite screws of a file.
 fn screws(scope: &Scope<'_>, table: &Table<'_>, others: &[&str]) -> Result<Vec<GivenScrew>> {
     let keys = ["direction", "point", "angle", "tan_half", "translation"];
     let given = parts(scope, table, "screw", &keys, others)?;

@@ -1,4 +1,4 @@
-//! What a mechanism file says.
+//! The content of a mechanism file.
 
 use super::snap::Snapped;
 use crate::algebra::enclosure::Enclosure;
@@ -24,7 +24,7 @@ pub enum Kind {
     Platform,
 }
 
-/// What a mechanism is made of.
+/// The joints or points of a mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Design {
     /// The joints of an arm.
@@ -35,7 +35,7 @@ pub enum Design {
     Platform(Box<Platform<Number>>),
 }
 
-/// Where a mechanism comes from.
+/// The publication a mechanism is taken from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// Key of equations/REFERENCES.md.
@@ -54,7 +54,7 @@ pub enum InputValue {
 }
 
 impl InputValue {
-    /// What the given joint variable measures.
+    /// Returns the kind of the given joint variable.
     #[must_use]
     pub fn variable(&self) -> Variable {
         match self {
@@ -63,7 +63,7 @@ impl InputValue {
         }
     }
 
-    /// Whether the value is a rational number, or its half-angle tangent is.
+    /// Returns whether the value is a rational number, or its half-angle tangent is.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         match self {
@@ -72,7 +72,7 @@ impl InputValue {
         }
     }
 
-    /// The motion of the joint variable over a ring.
+    /// Returns the motion of the joint variable over a ring.
     pub(crate) fn motion<R: Ring>(&self) -> Option<Motion<R>> {
         match self {
             Self::Angle(angle) => angle_motion(angle),
@@ -80,7 +80,7 @@ impl InputValue {
         }
     }
 
-    /// The motion of the joint variable in closed form, where one is known.
+    /// Returns the motion of the joint variable in closed form, if one is known.
     #[must_use]
     pub fn in_closed_form(&self) -> Option<JointMotion> {
         match self {
@@ -93,39 +93,39 @@ impl InputValue {
 /// The given joint variable of a loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Input {
-    /// Which joint, counted from 1.
+    /// The joint, counted from 1.
     pub joint: usize,
     /// Its value.
     pub value: InputValue,
 }
 
-/// One job of a file: a pose of an arm, an input of a loop or the legs of a platform, with what is claimed of it.
+/// One problem of a file: a pose of an arm, an input of a loop or the legs of a platform, with the claims about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    /// The pose (arm; platform, where its legs were computed from one).
+    /// The pose of an arm, or that from which the legs of a platform were computed.
     pub pose: Option<Placement>,
-    /// The given variables (loop).
+    /// The given variables of a loop.
     pub input: Vec<Input>,
-    /// The squares of the lengths of the legs (platform).
+    /// The squares of the lengths of the legs of a platform.
     pub legs_squared: Option<[Number; 6]>,
-    /// One unit of the last digit of the pose, where it was printed: no pose is known better.
+    /// One unit of the last printed digit of the pose, which limits its accuracy.
     pub typed: Option<Tolerance>,
     /// Claims about this case.
     pub expected: Expected,
-    /// Warnings to repeat in every report on this case (a projected pose, for example).
+    /// Warnings to repeat in every report on this case (for example about a projected pose).
     pub warnings: Vec<String>,
     /// Line of the file at which the case begins, from 1.
     pub line: usize,
 }
 
 impl Case {
-    /// A pose of an arm, without claims.
+    /// Returns a pose of an arm, without claims.
     #[must_use]
     pub fn at(pose: Placement, line: usize) -> Self {
         Self { pose: Some(pose), ..Self::empty(line) }
     }
 
-    /// The pose that an arm reaches with these values of its joint variables; `None` for too few of them.
+    /// Returns the pose that an arm reaches with these values of its joint variables; `None` if there are too few.
     #[must_use]
     pub fn reached(chain: &Chain, values: &[InputValue], line: usize) -> Option<Self> {
         let motions: Vec<Motion<Rational>> = values.iter().map(InputValue::motion).collect::<Option<_>>()?;
@@ -143,25 +143,25 @@ impl Case {
                 closed: Some(ClosedForm::Joints(motions.into())),
                 ..Placement::standing_for(exact, enclosed, true)
             },
-            // The rational motion nearest to it is the datum.
+            // The nearest rational motion replaces it.
             None => Placement::near(&enclosed),
         };
         Some(Self::at(pose, line))
     }
 
-    /// A loop without input, without claims.
+    /// Returns a loop without input, without claims.
     #[must_use]
     pub fn free(line: usize) -> Self {
         Self::empty(line)
     }
 
-    /// An input of a loop, without claims.
+    /// Returns an input of a loop, without claims.
     #[must_use]
     pub fn given(input: Input, line: usize) -> Self {
         Self { input: vec![input], ..Self::empty(line) }
     }
 
-    /// Legs of a platform with these squared lengths, without claims.
+    /// Returns the case of a platform with these squared leg lengths, without claims.
     #[must_use]
     pub fn legs(squares: [Number; 6], line: usize) -> Self {
         let empty: Vec<String> =
@@ -175,7 +175,7 @@ impl Case {
         Self { legs_squared: Some(squares), warnings, ..Self::empty(line) }
     }
 
-    /// Legs of a platform as long as this pose of the plate makes them, exact where it is; without claims.
+    /// Returns the case of a platform with the leg lengths of this pose, exact if the pose is; without claims.
     #[must_use]
     pub fn legs_at(platform: &Platform<Number>, pose: Placement, line: usize) -> Self {
         let exact = |points: &[[Number; 3]; 6]| points.each_ref().map(|p| p.each_ref().map(|x| x.rational().clone()));
@@ -199,7 +199,7 @@ pub struct Expected {
     pub real: Option<usize>,
     /// Dimension of the solution set.
     pub dimension: Option<usize>,
-    /// Dimension of the motion of a loop, whatever its inputs are.
+    /// Dimension of the motion of a loop, independent of its inputs.
     pub mobility: Option<usize>,
     /// Rank of the joint screws along that motion.
     pub screw_rank: Option<usize>,
@@ -210,7 +210,7 @@ pub struct Expected {
 /// A claimed solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
-    /// Joint variables in joint order; of a platform the quaternion `w, x, y, z` and the position `x, y, z`.
+    /// Joint variables in joint order; for a platform the quaternion `w, x, y, z` and the position `x, y, z`.
     pub q: Vec<f64>,
     /// Correct decimal digits of `q`.
     pub digits: u32,
@@ -218,14 +218,14 @@ pub struct Claim {
     pub line: usize,
 }
 
-/// A mechanism file, read.
+/// A mechanism file as read.
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// The file's own name without extension, or a built-in entry's name.
     pub name: String,
     /// One line that names the mechanism.
     pub title: String,
-    /// Where it comes from; obligatory for built-in entries.
+    /// The publication it is taken from; obligatory for built-in entries.
     pub source: Option<Source>,
     /// Remarks of the file.
     pub notes: Option<String>,
@@ -237,22 +237,22 @@ pub struct Entry {
     pub cases: Vec<Case>,
     /// Whether some number of the file had to be replaced by a nearby rational for exact work.
     pub rounded: bool,
-    /// How numbers without a unit are read in the file.
+    /// The interpretation of numbers without a unit in the file.
     pub reading: Reading,
-    /// What the file calls the parts of a chain.
+    /// The names of the parts of a chain in the file.
     pub labels: Labels,
 }
 
-/// What a file calls the parts of a chain.
+/// The names of the parts of a chain in a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Labels {
-    /// The names of the joints, in joint order; empty where the file names none.
+    /// The names of the joints, in joint order; empty if the file names none.
     pub joints: Vec<Option<String>>,
     /// The base link and the tip link of a robot description.
     pub links: Option<[String; 2]>,
-    /// Angles that stand for multiples of half a degree, taken as these or noticed.
+    /// Angles near multiples of half a degree, replaced by these or reported.
     pub snapped: Vec<Snapped>,
-    /// What the reader decided and the user should know, each a sentence.
+    /// Decisions of the reader to be reported to the user, each a sentence.
     pub remarks: Vec<String>,
 }
 

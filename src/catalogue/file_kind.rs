@@ -1,9 +1,9 @@
-//! The kinds of mechanism files: what they are called, and which verb of the command line takes them.
+//! The kinds of mechanism files, with their names and the verbs of the command line that take them.
 
 use super::entry;
 use super::node::{Node, Value};
 
-/// What a mechanism file is about.
+/// The kind of a mechanism file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// A serial arm at poses of its tool.
@@ -18,7 +18,7 @@ pub enum FileKind {
     Linkage,
     /// A rational motion.
     Motion,
-    /// Positions or pairs of angles for which a linkage is wanted.
+    /// Positions or pairs of angles for the synthesis of a linkage.
     Synthesis,
     /// A loop with symbols for parameters.
     Conditions,
@@ -31,7 +31,7 @@ pub enum FileKind {
 }
 
 impl FileKind {
-    /// What it is called, with its article.
+    /// Returns its name, with its article.
     #[must_use]
     pub const fn noun(self) -> &'static str {
         match self {
@@ -49,7 +49,7 @@ impl FileKind {
         }
     }
 
-    /// The verb of the command line that takes it.
+    /// Returns the verb of the command line that takes it.
     #[must_use]
     pub const fn verb(self) -> &'static str {
         match self {
@@ -67,14 +67,14 @@ impl FileKind {
         }
     }
 
-    /// What is wrong where something else was expected.
+    /// Returns the message for a file of this kind that should be of another.
     #[must_use]
     pub fn unexpected(self, expected: &str) -> String {
         let (noun, verb) = (self.noun(), self.verb());
         format!("found {noun}, expected {expected}; {noun} is for `looproot {verb}`")
     }
 
-    /// The kind that a file names, with the line where it does, if it is one.
+    /// Returns the kind named in a file, with its line, if it is one.
     pub(super) fn of(root: &Node) -> Option<(Self, usize)> {
         if let Some((_, line)) = field(root, "symbols") {
             return Some((Self::Conditions, line));
@@ -109,7 +109,7 @@ impl From<entry::Kind> for FileKind {
     }
 }
 
-/// A field of a table and its line.
+/// Returns a field of a table and its line.
 fn field<'a>(node: &'a Node, key: &str) -> Option<(&'a Node, usize)> {
     let Value::Table(fields) = &node.value else { return None };
     fields.iter().find(|field| field.key == key).map(|field| (&field.node, field.line))

@@ -1,4 +1,4 @@
-//! Frameworks: vertices, bars, rods and bodies, and what is none.
+//! Frameworks: vertices, bars, rods and bodies, and checks of these.
 
 use super::heading::{Heading, heading};
 use super::node::{Field, Node, Value};
@@ -9,10 +9,10 @@ use crate::kinematics::framework::{Framework, Mobility, mobility, mobility_with_
 use crate::kinematics::motion::Vector;
 use rug::Rational;
 
-/// Frameworks with more vertices are refused: their rigidity matrices are dense here.
+/// Maximum number of vertices of a framework: the rigidity matrices are dense.
 const MOST_VERTICES: usize = 100;
 
-/// A framework file, read.
+/// A framework file as read.
 #[derive(Clone, Debug)]
 pub struct FrameworkFile {
     /// Title, source and remarks.
@@ -21,10 +21,10 @@ pub struct FrameworkFile {
     pub names: Vec<String>,
     /// The bodies, by their vertices.
     pub bodies: Vec<Vec<usize>>,
-    /// The framework where the file puts its vertices.
+    /// The framework with the vertices of the file.
     pub framework: Framework<Rational>,
-    /// The squared length of every bar, where the file gives lengths: then its vertices are where the search for a realisation
-    /// begins.
+    /// The squared length of every bar, if the file gives lengths; then its vertices are the start of the search for a
+    /// realisation.
     pub squares: Option<Vec<Rational>>,
     /// Whether every number of the file is exact.
     pub exact: bool,
@@ -37,10 +37,10 @@ pub struct FrameworkFile {
 }
 
 impl FrameworkFile {
-    /// Whether the framework moves; its motion followed for a number of steps in f64.
+    /// Decides whether the framework moves, and follows its motion for a number of steps in f64.
     ///
     /// # Errors
-    /// When there is no realisation with the given lengths near the given vertices.
+    /// If there is no realisation with the given lengths near the given vertices.
     pub fn mobility(&self, steps: usize) -> Result<Mobility> {
         let found = match (&self.squares, self.exact) {
             (None, true) => mobility(&self.framework, steps),
@@ -109,7 +109,7 @@ pub(super) fn framework(scope: &mut Scope<'_>, root: &Node, name: &str) -> Resul
     })
 }
 
-/// The vertices: a table of names, or a list, whose vertices are named by their numbers from 1.
+/// Reads the vertices: a table of names, or a list, whose vertices are named by their numbers from 1.
 fn vertices(scope: &Scope<'_>, node: &Node) -> Result<(Vec<String>, Vec<Vector<Rational>>)> {
     let named: Vec<(String, &Node)> = match &node.value {
         Value::Table(fields) => fields.iter().map(|Field { key, node, .. }| (key.clone(), node)).collect(),
@@ -134,7 +134,7 @@ fn vertices(scope: &Scope<'_>, node: &Node) -> Result<(Vec<String>, Vec<Vector<R
     Ok((names, vertices))
 }
 
-/// A vertex by its name.
+/// Returns the index of a vertex by its name.
 fn vertex(scope: &Scope<'_>, node: &Node, names: &[String]) -> Result<usize> {
     let name = match &node.value {
         Value::Text(text) | Value::Number(text) => text.as_str(),
@@ -151,13 +151,13 @@ fn vertex(scope: &Scope<'_>, node: &Node, names: &[String]) -> Result<usize> {
     })
 }
 
-/// The first few names.
+/// Returns the first few names.
 fn shortened(names: &[String]) -> String {
     let shown = names.iter().take(12).cloned().collect::<Vec<_>>().join(", ");
     if names.len() > 12 { format!("{shown}, ...") } else { shown }
 }
 
-/// The bars: pairs of vertices, each once.
+/// Reads the bars: pairs of vertices, each once.
 fn bars(scope: &Scope<'_>, node: &Node, names: &[String]) -> Result<Vec<[usize; 2]>> {
     let mut bars: Vec<[usize; 2]> = Vec::new();
     for item in scope.list(node, "bars")? {
@@ -177,7 +177,7 @@ fn bars(scope: &Scope<'_>, node: &Node, names: &[String]) -> Result<Vec<[usize; 
     Ok(bars)
 }
 
-/// The bodies: lists of at least three vertices, each once.
+/// Reads the bodies: lists of at least three vertices, each once.
 fn bodies(scope: &Scope<'_>, node: &Node, names: &[String]) -> Result<Vec<Vec<usize>>> {
     let mut bodies = Vec::new();
     for item in scope.list(node, "bodies")? {
@@ -199,7 +199,7 @@ fn bodies(scope: &Scope<'_>, node: &Node, names: &[String]) -> Result<Vec<Vec<us
     Ok(bodies)
 }
 
-/// The squared lengths of all bars if the file gives some: those of bodies are as their vertices make them.
+/// Reads the squared lengths of all bars if the file gives some; those of bodies follow from their vertices.
 fn squares(scope: &Scope<'_>, table: &Table<'_>, framework: &Framework<Rational>) -> Result<Option<Vec<Rational>>> {
     let (node, key) = match (table.get("lengths"), table.get("lengths_squared")) {
         (None, None) => return Ok(None),

@@ -7,7 +7,7 @@ use crate::algebra::number::{Angle, Quantity};
 use crate::error::{Error, Result};
 use rug::Rational;
 
-/// More teeth than any gear has.
+/// Maximum number of teeth accepted.
 const MOST_TEETH: usize = 100_000;
 
 /// A question about gears and wheels.
@@ -19,7 +19,7 @@ pub enum Gearing {
     Wheels {
         /// The wheels.
         wheels: Vec<Wheel>,
-        /// Velocity of the origin of the vehicle along its axes, and its angular velocity, where they are given.
+        /// Velocity of the origin of the vehicle along its axes, and its angular velocity, if given.
         twist: Option<[Rational; 3]>,
     },
     /// A pair of involute gears.
@@ -33,16 +33,16 @@ pub enum Gearing {
 pub struct Train {
     /// The names of the shafts.
     pub shafts: Vec<String>,
-    /// Sums of rates times these factors that are 0: by shaft.
+    /// The relations: sums of rates times these factors, by shaft, are 0.
     pub relations: Vec<Vec<Rational>>,
-    /// The rates that are given.
+    /// The given rates.
     pub given: Vec<(usize, Rational)>,
 }
 
 /// A wheel with free rollers at its rim.
 #[derive(Clone, Debug)]
 pub struct Wheel {
-    /// Where it touches the floor, in coordinates of the vehicle.
+    /// Its point of contact with the floor, in coordinates of the vehicle.
     pub at: [Rational; 2],
     /// The direction in which it rolls when it turns and its rollers do not.
     pub drive: [Rational; 2],
@@ -59,7 +59,7 @@ pub struct Pair {
     pub module: Rational,
     /// The normal pressure angle.
     pub pressure_angle: Angle,
-    /// The helix angle; 0 of spur gears.
+    /// The helix angle; 0 for spur gears.
     pub helix: Angle,
     /// The numbers of teeth.
     pub teeth: [u32; 2],
@@ -67,12 +67,12 @@ pub struct Pair {
     pub shift: [Rational; 2],
     /// The face width.
     pub width: Option<Rational>,
-    /// Whether the second gear has its teeth inside.
+    /// Whether the second gear has internal teeth.
     pub internal: bool,
 }
 
 impl Gearing {
-    /// The word behind `find`.
+    /// Returns the value of `find`.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
@@ -105,7 +105,7 @@ pub(super) fn gearing(scope: &Scope<'_>, table: &Table<'_>) -> Result<Gearing> {
         "wheels" => wheels(scope, table, &mechanism),
         "pair" => pair(scope, &mechanism),
         _ => {
-            // Angles are used as enclosures of themselves: nothing is rounded by reading them.
+            // Angles are used as their enclosures, so reading them rounds nothing.
             let free = Scope::new(scope.path, scope.reading.clone());
             let radius = positive(scope, scope.need(&mechanism, "radius")?, "radius")?;
             let roll = free.angle(scope.need(&mechanism, "roll")?, "roll")?;
@@ -215,7 +215,7 @@ fn wheels(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>) -> Result
 }
 
 fn pair(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Gearing> {
-    // Angles are used as enclosures of themselves: nothing is rounded by reading them.
+    // Angles are used as their enclosures, so reading them rounds nothing.
     let free = Scope::new(scope.path, scope.reading.clone());
     let angle = |key: &str, otherwise: Option<Angle>| -> Result<Angle> {
         match (mechanism.get(key), otherwise) {

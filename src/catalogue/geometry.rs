@@ -16,9 +16,9 @@ use rug::Rational;
 pub(super) struct Mechanism {
     pub(super) design: Design,
     pub(super) limits: Vec<[f64; 2]>,
-    /// The legs of a platform, where they stand beside its points.
+    /// The legs of a platform, if given beside its points.
     pub(super) case: Option<Case>,
-    /// What the file calls its joints.
+    /// The names of its joints in the file.
     pub(super) labels: Labels,
 }
 
@@ -78,14 +78,14 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     Ok(Mechanism { design, limits, case: None, labels: Labels { joints, ..Labels::default() } })
 }
 
-/// The name of a joint, where it has one.
+/// Returns the name of a joint, if it has one.
 fn label(node: &Node) -> Option<String> {
     let Value::Table(fields) = &node.value else { return None };
     let name = fields.iter().find(|field| field.key == "name")?;
     if let Value::Text(name) = &name.node.value { Some(name.clone()) } else { None }
 }
 
-/// Most joint variables of an arm: all but six or seven are locked before it is solved.
+/// Maximum number of joint variables of an arm: all but six or seven are locked before it is solved.
 const MOST_OF_ARM: usize = 24;
 
 /// Refuses a chain whose number of joint variables does not fit its kind.
@@ -93,7 +93,7 @@ pub(super) fn check_count(scope: &Scope<'_>, chain: &Chain, line: usize, expecte
     check_kinds(scope, &chain.joint_kinds(), || Freedom::of(chain), line, expected)
 }
 
-/// The same, of joints of which no more than the kinds need be known.
+/// Applies the same check to joint kinds alone.
 pub(super) fn check_kinds(
     scope: &Scope<'_>,
     kinds: &[JointKind],
@@ -103,7 +103,7 @@ pub(super) fn check_kinds(
 ) -> Result<()> {
     let count: usize = kinds.iter().map(|kind| kind.freedoms()).sum();
     let spherical_joints = kinds.iter().filter(|kind| **kind == JointKind::Spherical).count();
-    // The spin of a link between two spherical joints is a freedom that moves nothing else.
+    // The spin of a link between two spherical joints is an idle degree of freedom.
     let is_overconstrained_loop = expected.0 == 7 && (2..7).contains(&count);
     let is_arm = expected.0 == 6 && (1..=MOST_OF_ARM).contains(&count);
     let is_any = is_arm || scope.chains == Chains::Any && (count > expected.0 || expected.0 == 6 && count > 0);
@@ -115,7 +115,7 @@ pub(super) fn check_kinds(
     let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
     let what = match (expected.0, count > expected.0) {
         (7, true) => {
-            // Two spherical joints have a spin that moves nothing else: eight variables are right then.
+            // Two spherical joints have an idle spin, so eight variables are right then.
             let off = off - usize::from(spherical_joints == 2);
             let freedoms = if off == 1 { "one freedom".to_owned() } else { format!("{off} freedoms") };
             let constants = if off == 1 { "one variable" } else { "as many variables" };
@@ -136,7 +136,7 @@ pub(super) fn check_kinds(
     ))
 }
 
-/// The kind of a joint that is one of these.
+/// Reads the kind of a joint, one of these.
 pub(super) fn joint_kind(scope: &Scope<'_>, node: &Node, known: &[JointKind]) -> Result<JointKind> {
     let letters: Vec<&str> = known.iter().map(|kind| kind.letter()).collect();
     let letter = scope.word(node, "type", &letters)?;
@@ -144,7 +144,7 @@ pub(super) fn joint_kind(scope: &Scope<'_>, node: &Node, known: &[JointKind]) ->
     kind.ok_or_else(|| scope.fail(node.line, format!("found the joint type {letter}, expected another one")))
 }
 
-/// The kind of a joint, read before its other keys are judged by it.
+/// Reads the kind of a joint, on which its other keys depend.
 fn kind_of(scope: &Scope<'_>, node: &Node, known: &[&str]) -> Result<JointKind> {
     let table = scope.table(node, "a joint", known)?;
     joint_kind(scope, scope.need(&table, "type")?, &JointKind::ALL)
@@ -165,7 +165,7 @@ const DH_KEYS: [&str; 12] = [
     "name",
 ];
 
-/// A joint of a DH list.
+/// Reads a joint of a DH list.
 fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
     let kind = kind_of(scope, node, &DH_KEYS)?;
     let link = ["type", "name", "a", "alpha", "tan_half_alpha"];
@@ -200,7 +200,7 @@ fn pitch(scope: &Scope<'_>, table: &Table<'_>, kind: JointKind) -> Result<Option
     if kind == JointKind::Helical { scope.length(scope.need(table, "pitch")?, "pitch").map(Some) } else { Ok(None) }
 }
 
-/// An angle given as such or by its half-angle tangent, but not by both.
+/// Reads an angle given directly or by its half-angle tangent, but not both.
 fn angle(scope: &Scope<'_>, table: &Table<'_>, key: &str, half: &str, obligatory: bool) -> Result<Angle> {
     match (table.get(key), table.get(half)) {
         (Some(_), Some(node)) => {
@@ -226,7 +226,7 @@ fn screws(scope: &Scope<'_>, table: &Table<'_>, kind: Kind, nodes: &[Node]) -> R
     Ok(Geometry::Screws { joints, home: Box::new(home) })
 }
 
-/// A joint of a list of screw axes.
+/// Reads a joint of a list of screw axes.
 fn screw_joint(scope: &Scope<'_>, node: &Node) -> Result<ScrewJoint> {
     let kind = kind_of(scope, node, &["type", "name", "axis", "point", "pitch"])?;
     let allowed: &[&str] = match kind {
@@ -244,11 +244,11 @@ fn screw_joint(scope: &Scope<'_>, node: &Node) -> Result<ScrewJoint> {
     if axis.iter().all(|component| component.rational().is_zero()) {
         return Err(scope.fail(axis_node.line, "found the axis [0, 0, 0], expected a direction"));
     }
-    // A direction of irrational length has no rational unit vector and is replaced by one nearby.
+    // A direction of irrational length has no rational unit vector and is replaced by a nearby one.
     let square: Rational = axis.iter().map(|component| Rational::from(component.rational().square_ref())).sum();
     scope.note(square.numer().is_perfect_square() && square.denom().is_perfect_square());
     let point = match (table.get("point"), kind) {
-        // A translation has a direction but no place.
+        // A translation has a direction but no location.
         (None, JointKind::Prismatic) => std::array::from_fn(|_| Number::zero()),
         _ => scope.vector(scope.need(&table, "point")?, Quantity::Length, "point")?,
     };
@@ -278,7 +278,7 @@ fn limits(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Vec<[f64; 2]>
     Ok(limits)
 }
 
-/// The value of a joint variable, radians or metres.
+/// Reads the value of a joint variable, radians or metres.
 pub(super) fn variable_value(scope: &Scope<'_>, node: &Node, variable: Variable, what: &str) -> Result<f64> {
     Ok(match variable {
         Variable::Rotation => scope.angle(node, what)?.radians(),

@@ -1,4 +1,4 @@
-//! What stands above every mechanism: its title, its source, remarks, the units.
+//! The head of every mechanism file: title, source, remarks, units.
 
 use super::entry::Source;
 use super::job::{source, units};
@@ -13,13 +13,13 @@ pub struct Heading {
     pub name: String,
     /// One line that names the mechanism.
     pub title: String,
-    /// Where it comes from.
+    /// The publication it is taken from.
     pub source: Option<Source>,
     /// Remarks of the file.
     pub notes: Option<String>,
 }
 
-/// Reads the head of a file with a `[mechanism]` and `[expected]`; units are set for what is read behind it.
+/// Reads the head of a file with `[mechanism]` and `[expected]`; its units apply to everything read afterwards.
 pub(super) fn heading(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<Heading> {
     heading_with(scope, root, name, &[])
 }

@@ -1,4 +1,4 @@
-//! Poses, inputs and the claims made of them.
+//! Poses, inputs and claims about them.
 
 use super::entry::{Case, Claim, Design, Entry, Expected, Input, InputValue, Source};
 use super::geometry::{Mechanism, mechanism, variable_value};
@@ -13,7 +13,7 @@ use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::tolerance::Tolerance;
 
-/// Correct digits of a claimed solution that names none.
+/// Number of correct digits of a claimed solution that gives none.
 const DIGITS: u32 = 6;
 
 /// Reads a whole mechanism file.
@@ -35,7 +35,7 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
     for case in &mut cases {
         case.warnings.splice(0..0, shared.iter().cloned());
     }
-    // Claims at the top of a file are about its first case.
+    // Claims at the top of a file concern its first case.
     let top = expected(scope, &table, &|scope, node| claim_of(scope, node, &design))?;
     if let (Some(first), true) = (cases.first_mut(), top != Expected::default()) {
         if first.expected != Expected::default() {
@@ -48,7 +48,7 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
     Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, cases, rounded, reading, labels })
 }
 
-/// The poses of an arm, the inputs of a loop, the legs of a platform: one at least, or a loop that needs no input.
+/// Reads the poses of an arm, the inputs of a loop, the legs of a platform: one at least, or a loop that needs no input.
 fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case>) -> Result<Vec<Case>> {
     let (what, allowed): (&str, &[&str]) = match design {
         Design::Arm(_) => ("an arm", &["pose"]),
@@ -99,8 +99,8 @@ fn cases(scope: &Scope<'_>, table: &Table<'_>, design: &Design, own: Option<Case
     blocks.iter().map(read).collect()
 }
 
-/// Whether a loop has no more variables than equations, so that it needs no input. The spin of a link between two S joints
-/// is no motion of the loop.
+/// Returns whether a loop has no more variables than equations, so that it needs no input. The idle spin of a link between
+/// two S joints is not counted.
 fn is_short(design: &Design) -> bool {
     let Design::Loop(chain) = design else { return false };
     let kinds = chain.joint_kinds();
@@ -150,7 +150,7 @@ pub(super) fn pose(scope: &Scope<'_>, node: &Node, design: &Design) -> Result<Ca
     Ok(Case { typed, expected, warnings, ..case })
 }
 
-/// One unit of the last digit of a pose.
+/// Returns one unit of the last digit of a pose.
 fn typed(scope: &Scope<'_>, table: &Table<'_>) -> Tolerance {
     let (mut lengths, mut others) = (Vec::new(), Vec::new());
     if let Some(matrix) = table.get("matrix") {
@@ -167,7 +167,7 @@ fn typed(scope: &Scope<'_>, table: &Table<'_>) -> Tolerance {
     poses::typed(lengths.into_iter(), others.into_iter(), poses::Of::Rotation, &scope.reading, is_quaternion)
 }
 
-/// A number as it was printed.
+/// Returns the printed form of a number.
 fn printed(node: &Node) -> Option<&str> {
     match &node.value {
         Value::Number(text) | Value::Text(text) => Some(text),
@@ -211,7 +211,7 @@ fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
     Ok(Case { expected, warnings: scope.take_warnings(), ..Case::given(Input { joint, value }, table.line()) })
 }
 
-/// The claims beside a case or at the top of the file, whose solutions `claim` reads.
+/// Reads the claims beside a case or at the top of the file; `claim` reads their solutions.
 pub(super) fn expected(
     scope: &Scope<'_>,
     table: &Table<'_>,
@@ -248,7 +248,7 @@ fn claim_of(scope: &Scope<'_>, node: &Node, design: &Design) -> Result<Claim> {
     }
 }
 
-/// A `[[solution]]` of an arm or a loop.
+/// Reads a `[[solution]]` of an arm or a loop.
 fn claim(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Claim> {
     let table = scope.table(node, "[[solution]]", &["q", "digits"])?;
     let list = scope.need(&table, "q")?;
@@ -260,7 +260,7 @@ fn claim(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Claim> {
             scope.fail(list.line, format!("found {found} values in `q`, expected {expected}, one per joint variable"))
         );
     }
-    // Claims are compared in f64: they do not make the mechanism a rounded one.
+    // Claims are compared in f64, so rounding them does not make the mechanism inexact.
     let own = Scope::new(scope.path, scope.reading.clone());
     let values =
         nodes.iter().zip(variables).map(|(node, own_variable)| variable_value(&own, node, own_variable.variable, "q"));
@@ -268,7 +268,7 @@ fn claim(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Claim> {
     Ok(Claim { q, digits: digits(scope, &table)?, line: table.line() })
 }
 
-/// How many digits of a claimed solution are correct.
+/// Reads the number of correct digits of a claimed solution.
 pub(super) fn digits(scope: &Scope<'_>, table: &Table<'_>) -> Result<u32> {
     match table.get("digits") {
         None => Ok(DIGITS),

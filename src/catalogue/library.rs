@@ -11,19 +11,19 @@ use include_dir::{Dir, DirEntry, include_dir};
 
 static LIBRARY: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/equations");
 
-/// The folder of the loops with symbols, which are no mechanisms to be solved.
+/// The folder of the loops with symbols, which cannot be solved as mechanisms.
 const CONDITIONS: &str = "conditions/";
 
-/// The folders of frameworks, linkages, rational motions and syntheses, which are no single chains.
+/// The folders of frameworks, linkages, rational motions and syntheses, which are not single chains.
 const MOVING: [&str; 4] = ["framework/", "linkage/", "motion/", "synthesis/"];
 
 /// The folders of questions about displacements, gears and lines.
 const CALCULUS: [&str; 3] = ["displacement/", "gearing/", "lines/"];
 
-/// Loops that were moved to another folder: how their full names began and begin.
+/// Loops that were moved to another folder: the old and new beginnings of their full names.
 const MOVED: [(&str, &str); 2] = [("loop/structure_", "chain/structure_"), ("loop/ik_", "chain/ik_")];
 
-/// The names of all built-in frameworks, linkages, rational motions and syntheses, such as `framework/steffen`, in order.
+/// Returns the names of all built-in frameworks, linkages, rational motions and syntheses, such as `framework/steffen`, in order.
 #[must_use]
 pub fn moving_names() -> Vec<String> {
     all_names().into_iter().filter(|name| is_moving(name)).collect()
@@ -33,7 +33,7 @@ fn is_moving(name: &str) -> bool {
     MOVING.iter().any(|folder| name.starts_with(folder))
 }
 
-/// The names of all built-in questions about displacements and lines, such as `lines/transversals`, in order.
+/// Returns the names of all built-in questions about displacements and lines, such as `lines/transversals`, in order.
 #[must_use]
 pub fn calculus_names() -> Vec<String> {
     all_names().into_iter().filter(|name| is_calculus(name)).collect()
@@ -79,7 +79,7 @@ fn collect(folder: &Dir<'_>, names: &mut Vec<String>) {
     }
 }
 
-/// The full names of everything in the library of this name, given without its folder: more than one where folders share it.
+/// Returns the full names in the library for a name without its folder: more than one if folders share it.
 ///
 /// # Example
 /// ```
@@ -92,19 +92,19 @@ pub fn namesakes(name: &str) -> Vec<String> {
     all_names().into_iter().filter(|full| is_called(full, &name)).collect()
 }
 
-/// The name of today for an entry that was in another folder once.
+/// Returns the present name of an entry that was once in another folder.
 fn today(name: &str) -> String {
     let moved = MOVED.iter().find_map(|(old, new)| Some(format!("{new}{}", name.strip_prefix(old)?)));
     moved.unwrap_or_else(|| name.to_owned())
 }
 
-/// Whether a full name is this one, with or without its folder.
+/// Returns whether a full name is this one, with or without its folder.
 fn is_called(full: &str, name: &str) -> bool {
     full == name || full.rsplit('/').next() == Some(name)
 }
 
-/// The text of what the library has under this name, with or without its folder, and its full name: the entry first, as the
-/// others may share its name.
+/// Returns the text in the library for this name, with or without its folder, and its full name. Entries come first, as
+/// other files may share their names.
 fn find(name: &str) -> Option<(String, &'static str)> {
     [builtin_names, moving_names, calculus_names, ansatz_names].into_iter().find_map(|names| find_in(names(), name))
 }
@@ -117,13 +117,13 @@ fn find_in(names: Vec<String>, name: &str) -> Option<(String, &'static str)> {
     Some((full, text))
 }
 
-/// The text of a file of the library, with or without its folder; `None` for an unknown name.
+/// Returns the text of a file of the library, with or without its folder; `None` for an unknown name.
 #[must_use]
 pub fn builtin_text(name: &str) -> Option<&'static str> {
     find(name).map(|(_, text)| text)
 }
 
-/// The derived equations that the library keeps of an entry, with or without its folder, and the name of their file.
+/// Returns the derived equations that the library holds for an entry, with or without its folder, and the name of their file.
 #[must_use]
 pub fn builtin_page(name: &str) -> Option<(String, &'static str)> {
     let (full, _) = find(name)?;
@@ -132,7 +132,7 @@ pub fn builtin_page(name: &str) -> Option<(String, &'static str)> {
     Some((format!("equations/{file}"), text))
 }
 
-/// The citation behind a key of equations/REFERENCES.md, on one line; `None` for an unknown key.
+/// Returns the citation for a key of equations/REFERENCES.md, on one line; `None` for an unknown key.
 ///
 /// # Example
 /// ```
@@ -152,22 +152,22 @@ pub fn citation(key: &str) -> Option<String> {
     Some(citation)
 }
 
-/// The built-in loop with symbols of this name, with or without its folder, else what else is called so.
+/// Returns the built-in loop with symbols of this name, with or without its folder, else any other file of that name.
 pub(super) fn builtin_ansatz(name: &str, options: &Options) -> Option<Result<Ansatz>> {
     let (full, text) = find_in(ansatz_names(), name).or_else(|| find(name))?;
     Some(ansatz_from_text(text, &format!("equations/{full}.toml"), Format::Toml, options))
 }
 
-/// The built-in question of this name, with or without its folder, unless an entry is called so.
+/// Returns the built-in question of this name, with or without its folder, unless an entry has that name.
 pub(super) fn builtin_calculus(name: &str, options: &Options) -> Option<Result<Any>> {
     let (full, text) = find(name).filter(|(full, _)| is_calculus(full) || full.starts_with("linkage/"))?;
     Some(any_from_text(text, &format!("equations/{full}.toml"), Format::Toml, options))
 }
 
-/// What the library has under this name, with or without its folder.
+/// Returns the library's file of this name, with or without its folder.
 ///
 /// # Errors
-/// [`Error::UnknownEntry`] with the names that come near.
+/// [`Error::UnknownEntry`] with similar names.
 pub fn builtin_any(name: &str, options: &Options) -> Result<Any> {
     let Some((full, text)) = find(name) else {
         let robot = robots::robot(name, options).ok_or_else(|| unknown(name))??;
@@ -176,27 +176,27 @@ pub fn builtin_any(name: &str, options: &Options) -> Result<Any> {
     any_from_text(text, &format!("equations/{full}.toml"), Format::Toml, options)
 }
 
-/// Whether the library has anything of this name.
+/// Returns whether the library has a file of this name.
 pub(super) fn has(name: &str) -> bool {
     find(name).is_some() || robots::has(name)
 }
 
-/// The text of a file of the library.
+/// Returns the text of a file of the library.
 pub(super) fn file(name: &str) -> Option<&'static str> {
     LIBRARY.get_file(name)?.contents_utf8()
 }
 
-/// The error for a name that the library does not have, with those that resemble it.
+/// Returns the error for a name that the library does not have, with similar names.
 pub(super) fn unknown(name: &str) -> Error {
     let names = [all_names(), robots::robot_names()].concat();
     let near = nearest(name, names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]));
     Error::UnknownEntry { name: name.to_owned(), near }
 }
 
-/// The built-in entry of a name, with or without its folder: `puma560` or `arm/puma560`.
+/// Returns the built-in entry of a name, with or without its folder: `puma560` or `arm/puma560`.
 ///
 /// # Errors
-/// [`Error::UnknownEntry`] with the names that come near, [`Error::File`] for what is no arm, loop or platform.
+/// [`Error::UnknownEntry`] with similar names, [`Error::File`] if it is no arm, loop or platform.
 ///
 /// # Example
 /// ```

@@ -21,7 +21,7 @@ pub(super) const LINE: [&str; 4] = ["through", "point", "direction", "moment"];
 pub enum Lines {
     /// The lines that meet four lines.
     Transversals([Line<Rational>; 4]),
-    /// The complex of five lines, and the points whose null planes are asked for.
+    /// The complex of five lines, and the points whose null planes are requested.
     Complex(Vec<Line<Rational>>, Vec<Vector<Rational>>),
     /// The cylindroid of two screws.
     Cylindroid([Pitched<Rational>; 2]),
@@ -35,28 +35,28 @@ pub enum Lines {
     Plane([Vector<Rational>; 3]),
     /// The line of two planes.
     Planes([Plane<Rational>; 2]),
-    /// What a complex makes of points, planes and lines.
+    /// The polarity of a complex, applied to points, planes and lines.
     Polarity(Box<Polarity>),
     /// A generator of a ruled surface, and its rate.
     Generator(Box<[Line<Rational>; 2]>),
-    /// Two bodies that turn about lines, one against the other.
+    /// Two bodies that rotate about lines, one relative to the other.
     Relative([Turning; 2]),
     /// The resultant of forces and couples, and the screws on which it works.
     Wrench(Box<Wrench>),
-    /// The screws that are reciprocal to some screws.
+    /// The screws that are reciprocal to given ones.
     Reciprocal(Vec<Pitched<Rational>>),
 }
 
-/// A complex, and what its polarity is applied to.
+/// A complex, and the elements to which its polarity is applied.
 #[derive(Clone, Debug)]
 pub struct Polarity {
     /// The complex.
     pub complex: Complex<Rational>,
-    /// Points, whose null planes are asked for.
+    /// Points, whose null planes are requested.
     pub points: Vec<Vector<Rational>>,
-    /// Planes, whose null points are asked for.
+    /// Planes, whose null points are requested.
     pub planes: Vec<Plane<Rational>>,
-    /// Lines, whose reciprocal polars are asked for.
+    /// Lines, whose reciprocal polars are requested.
     pub lines: Vec<Line<Rational>>,
 }
 
@@ -72,7 +72,7 @@ pub struct Wrench {
 }
 
 impl Lines {
-    /// The word behind `find`.
+    /// Returns the value of `find`.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
@@ -171,7 +171,7 @@ pub(super) fn lines(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
     })
 }
 
-/// A complex, and the points, planes and lines that it is applied to.
+/// Reads a complex, and the points, planes and lines to which it is applied.
 fn polarity(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
     let found = complexes(scope, table, &["point", "plane", "line"])?;
     let [complex]: [Complex<Rational>; 1] = counted(scope, line_of(table, "complex"), found, "complex", 1)?
@@ -189,7 +189,7 @@ fn polarity(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
     Ok(Lines::Polarity(Box::new(Polarity { complex, points, planes, lines })))
 }
 
-/// Forces, couples and velocity screws.
+/// Reads forces, couples and velocity screws.
 fn wrench(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
     let forces = parts(scope, table, "force", &["at", "vector"], &["couple", "screw"])?;
     let forces = forces.iter().map(|(own, _)| {
@@ -208,7 +208,7 @@ fn wrench(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
     Ok(Lines::Wrench(Box::new(Wrench { forces, couples, screws })))
 }
 
-/// A line with the rates of its point and of its direction.
+/// Reads a line with the rates of its point and of its direction.
 fn generator(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
     let given = parts(scope, table, "line", &["point", "direction", "point_rate", "direction_rate"], &[])?;
     let given = counted(scope, line_of(table, "line"), given, "line", 1)?;
@@ -224,14 +224,14 @@ fn generator(scope: &Scope<'_>, table: &Table<'_>) -> Result<Lines> {
     Ok(Lines::Generator(Box::new([Line::at(&at, &along), Line { direction: rate, moment }])))
 }
 
-/// Exactly this many lines.
+/// Reads exactly this many lines.
 fn given(scope: &Scope<'_>, table: &Table<'_>, count: usize, others: &[&str]) -> Result<Vec<Line<Rational>>> {
     let lines = parts(scope, table, "line", &LINE, others)?;
     let lines = counted(scope, line_of(table, "line"), lines, "line", count)?;
     lines.iter().map(|(line, node)| pluecker(scope, line, node)).collect()
 }
 
-/// A line by two points, by a point and a direction, or by direction and moment.
+/// Reads a line by two points, by a point and a direction, or by direction and moment.
 pub(super) fn pluecker(scope: &Scope<'_>, line: &Table<'_>, node: &Node) -> Result<Line<Rational>> {
     match (line.get("through"), line.get("point"), line.get("direction"), line.get("moment")) {
         (Some(through), None, None, None) => {

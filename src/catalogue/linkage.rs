@@ -1,4 +1,4 @@
-//! Linkages: bodies with named points, the joints between them, and what is given.
+//! Linkages: bodies with named points, the joints between them, and the inputs.
 
 use super::heading::{Heading, heading_with};
 use super::job::digits;
@@ -12,17 +12,17 @@ use crate::kinematics::linkage::{Body, Gaussian, Given, Linkage, LinkageJoint, P
 use rug::{Integer, Rational};
 use std::collections::{HashMap, HashSet};
 
-/// Linkages of more bodies are refused: beyond any mechanism, and within what is searched for groups in seconds.
+/// Maximum number of bodies: beyond any mechanism, and few enough to search for groups in seconds.
 const MOST_BODIES: usize = 10_000;
 
-/// A linkage file, read.
+/// A linkage file as read.
 #[derive(Clone, Debug)]
 pub struct LinkageFile {
     /// Title, source and remarks.
     pub heading: Heading,
     /// Its bodies and joints.
     pub linkage: Linkage,
-    /// What is asked, one case for every `[[input]]`; without any the linkage is a structure.
+    /// The problems, one for every `[[input]]`; without any the linkage is a structure.
     pub cases: Vec<LinkageCase>,
     /// Claims about curves of points.
     pub traces: Vec<TraceClaim>,
@@ -30,7 +30,7 @@ pub struct LinkageFile {
     pub exact: bool,
     /// Masses and gravity.
     pub masses: Masses,
-    /// How numbers of the file are read.
+    /// The interpretation of numbers in the file.
     pub reading: Reading,
 }
 
@@ -39,7 +39,7 @@ pub struct LinkageFile {
 pub struct TraceClaim {
     /// The body of the point.
     pub body: usize,
-    /// Its name and where it is in the body.
+    /// Its name and its position in the body.
     pub point: (String, Gaussian),
     /// The degree of the curve.
     pub degree: u64,
@@ -50,11 +50,11 @@ pub struct TraceClaim {
 /// One problem of a linkage.
 #[derive(Clone, Debug)]
 pub struct LinkageCase {
-    /// The values that are given.
+    /// The given values.
     pub given: Vec<Given>,
     /// Whether all of them are exact.
     pub exact: bool,
-    /// What is claimed.
+    /// The claims.
     pub expected: LinkageClaims,
     /// Line of the file at which the case begins, from 1.
     pub line: usize,
@@ -80,7 +80,7 @@ pub struct LinkageClaims {
 pub struct LinkageClaim {
     /// Joints with their values, radians or metres.
     pub joints: Vec<(usize, f64)>,
-    /// Bodies with their angles and the places of their origins against the ground, where they are claimed.
+    /// Bodies with their angles and the positions of their origins relative to the ground, as far as claimed.
     pub bodies: Vec<(usize, Option<f64>, Option<[f64; 2]>)>,
     /// Correct decimal digits.
     pub digits: u32,
@@ -88,7 +88,7 @@ pub struct LinkageClaim {
     pub line: usize,
 }
 
-/// Whether a linkage file says that its axes pass through one point.
+/// Returns whether a linkage file states that its axes pass through one point.
 pub(super) fn is_on_sphere(root: &Node) -> bool {
     let get = |node: &Node, key: &str| match &node.value {
         Value::Table(fields) => fields.iter().find(|field| field.key == key).map(|field| field.node.clone()),
@@ -129,7 +129,7 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
         let line = mechanism.line();
         cases.push(LinkageCase { given: Vec::new(), exact: true, expected: LinkageClaims::default(), line });
     }
-    // Claims at the top of a file are about its first case.
+    // Claims at the top of a file concern its first case.
     let top = claims(scope, &table, &linkage)?;
     if let (Some(first), true) = (cases.first_mut(), top != LinkageClaims::default()) {
         if first.expected != LinkageClaims::default() {
@@ -148,7 +148,7 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
     Ok(LinkageFile { heading, linkage, cases, traces, exact, masses, reading: scope.reading.clone() })
 }
 
-/// A claim about the curve of a point, `BODY.POINT`.
+/// Reads a claim about the curve of a point, `BODY.POINT`.
 fn traced(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -> Result<TraceClaim> {
     let table = scope.table(node, "[[trace]]", &["point", "degree"])?;
     let point = scope.need(&table, "point")?;
@@ -164,7 +164,7 @@ fn traced(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -> Result<TraceClai
     Ok(TraceClaim { body, point: (name.to_owned(), place.clone()), degree, line: table.line() })
 }
 
-/// Every body is joined to the ground, if by others.
+/// Checks that every body is joined to the ground, possibly through others.
 fn joined(scope: &Scope<'_>, linkage: &Linkage) -> Result<()> {
     let mut around: Vec<Vec<usize>> = vec![Vec::new(); linkage.bodies.len()];
     for joint in linkage.joints.iter().filter(|joint| !joint.is_gear()) {
@@ -192,7 +192,7 @@ fn joined(scope: &Scope<'_>, linkage: &Linkage) -> Result<()> {
     }
 }
 
-/// What is read so far.
+/// The parts of the linkage read so far.
 struct Reader<'a, 's> {
     scope: &'a Scope<'s>,
     bodies: Vec<Body>,
@@ -231,7 +231,7 @@ impl Reader<'_, '_> {
         self.bodies.len() - 1
     }
 
-    /// A point: two coordinates, or one on the x axis.
+    /// Reads a point: two coordinates, or one on the x axis.
     fn point(&self, node: &Node, what: &str) -> Result<Gaussian> {
         let scope = self.scope;
         if let Value::List(_) = &node.value {
@@ -272,7 +272,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// A joint at every point name that several bodies have: of the first of them with each other one.
+    /// Adds a joint at every point name that several bodies share, between the first of them and each other one.
     fn shared(&mut self, line: usize, ground: usize) -> Result<()> {
         let mut order: Vec<usize> = (0..self.bodies.len()).collect();
         order.sort_by_key(|body| *body != ground);
@@ -423,7 +423,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// A direction that is not zero, and its length.
+    /// Reads a direction that is not zero, and its length.
     fn direction(&self, node: &Node) -> Result<(Gaussian, Rational)> {
         let [x, y] = self.scope.exactly::<2>(node, "along")?;
         let number = |node: &Node| self.scope.number(node, Quantity::Ratio, "along");
@@ -492,7 +492,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// The square root of a positive rational number, and whether it is exact; else it is right to 30 digits.
+/// Returns the square root of a positive rational number, and whether it is exact; else it is right to 30 digits.
 pub(super) fn root(square: &Rational) -> (Rational, bool) {
     let (numerator, denominator) = (square.numer(), square.denom());
     if numerator.is_perfect_square() && denominator.is_perfect_square() {
@@ -504,13 +504,13 @@ pub(super) fn root(square: &Rational) -> (Rational, bool) {
     (Rational::from((whole.sqrt(), Integer::from(Integer::u_pow_u(10, 30)))), false)
 }
 
-/// An angle as a rotation, and whether it is exact.
+/// Returns an angle as a rotation, and whether it is exact.
 pub(super) fn rotation(angle: &Angle) -> (Gaussian, bool) {
     let (re, im) = exact_cos_sin(angle);
     (Gaussian { re, im }, angle.is_exact())
 }
 
-/// An angle, or a table with `angle` or `tan_half`, as a rotation; and whether it is exact.
+/// Reads an angle, or a table with `angle` or `tan_half`, as a rotation, and whether it is exact.
 fn turn(scope: &Scope<'_>, node: &Node, what: &str) -> Result<(Gaussian, bool)> {
     if !matches!(node.value, Value::Table(_)) {
         return Ok(rotation(&scope.angle(node, what)?));
@@ -524,7 +524,7 @@ fn turn(scope: &Scope<'_>, node: &Node, what: &str) -> Result<(Gaussian, bool)> 
     }
 }
 
-/// A length, or a table with `distance`.
+/// Reads a length, or a table with `distance`.
 fn distance(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Number> {
     if !matches!(node.value, Value::Table(_)) {
         return scope.length(node, what);
@@ -552,7 +552,7 @@ fn body_named(scope: &Scope<'_>, linkage: &Linkage, name: &str, line: usize) -> 
     })
 }
 
-/// The given value of a joint; and whether it is exact.
+/// Reads the given value of a joint, and whether it is exact.
 fn given_joint(scope: &Scope<'_>, linkage: &Linkage, joint: usize, node: &Node, line: usize) -> Result<(Given, bool)> {
     let own = &linkage.joints[joint];
     if let Pair::Prismatic { along, length, .. } = &own.pair {
@@ -571,7 +571,7 @@ fn given_joint(scope: &Scope<'_>, linkage: &Linkage, joint: usize, node: &Node, 
     Ok((Given::Turn { joint, turn, line }, exact))
 }
 
-/// An `[[input]]`.
+/// Reads an `[[input]]`.
 fn case(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -> Result<LinkageCase> {
     let keys = ["joint", "angle", "tan_half", "distance", "given", "body", "position", "expected", "solution"];
     let table = scope.table(node, "[[input]]", &keys)?;
@@ -665,10 +665,10 @@ fn case(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -> Result<LinkageCase
     Ok(LinkageCase { given, exact, expected: claims(scope, &table, linkage)?, line })
 }
 
-/// The claims beside a case or at the top of the file.
+/// Reads the claims beside a case or at the top of the file.
 fn claims(scope: &Scope<'_>, table: &Table<'_>, linkage: &Linkage) -> Result<LinkageClaims> {
     let mut found = LinkageClaims::default();
-    // Claims are compared in f64: they do not make the mechanism a rounded one.
+    // Claims are compared in f64, so rounding them does not make the mechanism inexact.
     let own = Scope::new(scope.path, scope.reading.clone());
     if let Some(node) = table.get("expected") {
         let claims = own.table(node, "the [expected] of a linkage", &["complex", "real", "dimension", "groups"])?;

@@ -1,4 +1,4 @@
-//! Inputs of linkages that are typed: `A=60 deg, leg1=4`.
+//! Inputs of linkages as typed on the command line: `A=60 deg, leg1=4`.
 
 use super::linkage::{LinkageCase, LinkageClaims, LinkageFile, root, rotation};
 use super::sphere::{SphereCase, SphereClaims, SphereFile, turned};
@@ -8,7 +8,7 @@ use crate::kinematics::linkage::{Given, Pair};
 use crate::kinematics::sphere::SphereGiven;
 use rug::Rational;
 
-/// Names and values: `A=60 deg, B=1/2`.
+/// Splits names and values: `A=60 deg, B=1/2`.
 fn typed(text: &str) -> Result<Vec<(&str, &str)>> {
     let pairs = text.split(',').map(|part| {
         let message = || format!("found --input \"{}\", expected JOINT=VALUE, such as A=60 deg", part.trim());
@@ -35,11 +35,11 @@ fn in_option(name: &str, error: impl Into<Error>) -> Error {
 }
 
 impl LinkageFile {
-    /// The first case with these values in place of those of the same joints, or beside them. Values without a unit have that of the
-    /// file.
+    /// Returns the first case with these values, which replace those of the same joints or are added. Values without a unit have
+    /// that of the file.
     ///
     /// # Errors
-    /// For unknown joints, gears, and values that are none.
+    /// For unknown joints, gears, and invalid values.
     pub fn case_with(&self, text: &str) -> Result<LinkageCase> {
         let mut case = LinkageCase { expected: LinkageClaims::default(), ..self.cases[0].clone() };
         let line = case.line;
@@ -74,10 +74,10 @@ impl LinkageFile {
 }
 
 impl SphereFile {
-    /// The first case with these angles in place of those of the same joints, or beside them.
+    /// Returns the first case with these angles, which replace those of the same joints or are added.
     ///
     /// # Errors
-    /// For unknown joints and values that are none.
+    /// For unknown joints and invalid values.
     pub fn case_with(&self, text: &str) -> Result<SphereCase> {
         let mut case = SphereCase { expected: SphereClaims::default(), ..self.cases[0].clone() };
         let line = case.line;

@@ -19,21 +19,21 @@ pub struct Mass {
     pub centre: [f64; 2],
     /// The moment of inertia about the centre.
     pub inertia: f64,
-    /// Mass and centre as they stand in the file; none where one of them is not rational.
+    /// Mass and centre as given in the file; `None` if one of them is not rational.
     pub exact: Option<(Rational, Gaussian)>,
 }
 
-/// What moves a linkage.
+/// The masses and the gravity that act on a linkage.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Masses {
-    /// Of every body its mass; bodies without one weigh nothing.
+    /// The mass of every body; bodies without one are massless.
     pub bodies: Vec<Option<Mass>>,
     /// The acceleration of gravity, metres per square second.
     pub gravity: [f64; 2],
 }
 
 impl Masses {
-    /// Whether no body has a mass.
+    /// Returns whether no body has a mass.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.bodies.iter().all(Option::is_none)
@@ -42,7 +42,7 @@ impl Masses {
 
 /// Reads `mass` and `gravity` of `[mechanism]`.
 pub(super) fn masses(scope: &Scope<'_>, mechanism: &Table<'_>, linkage: &Linkage) -> Result<Masses> {
-    // Masses are used in f64 alone: they do not make the mechanism a rounded one.
+    // Masses are used in f64 only, so rounding them does not make the mechanism inexact.
     let scope = &Scope::new(scope.path, scope.reading.clone());
     let mut found = Masses { bodies: vec![None; linkage.bodies.len()], gravity: [0.0; 2] };
     if let Some(node) = mechanism.get("gravity") {

@@ -10,10 +10,10 @@ use crate::kinematics::motion::dot;
 use crate::kinematics::motion_polynomial::{Flaw, MotionPolynomial, from_coefficients, from_parts, monic, product};
 use rug::Rational;
 
-/// Degrees that are factored: there are up to n! factorisations.
+/// Degrees that can be factored: there are up to n! factorisations.
 const DEGREES: std::ops::RangeInclusive<usize> = 2..=5;
 
-/// A file with a rational motion, read.
+/// A file with a rational motion, as read.
 #[derive(Clone, Debug)]
 pub struct MotionFile {
     /// Title, source and remarks.
@@ -94,7 +94,7 @@ fn check_degree(scope: &Scope<'_>, line: usize, degree: usize) -> Result<()> {
     Err(if degree > *most { Error::Unsupported(message).at(scope.path, line) } else { error })
 }
 
-/// The coefficients, constant term first, eight numbers each.
+/// Reads the coefficients, constant term first, eight numbers each.
 fn coefficients(scope: &Scope<'_>, node: &Node) -> Result<Vec<DualQuaternion<Rational>>> {
     let items = scope.list(node, "polynomial")?;
     check_degree(scope, node.line, items.len().saturating_sub(1))?;
@@ -108,7 +108,7 @@ fn coefficients(scope: &Scope<'_>, node: &Node) -> Result<Vec<DualQuaternion<Rat
     items.iter().map(one).collect()
 }
 
-/// The factors `t - h` from left to right.
+/// Reads the factors `t - h` from left to right.
 fn factors(scope: &Scope<'_>, node: &Node) -> Result<Vec<DualQuaternion<Rational>>> {
     let items = scope.list(node, "factors")?;
     check_degree(scope, node.line, items.len())?;

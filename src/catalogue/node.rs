@@ -1,4 +1,4 @@
-//! What TOML and JSON have in common: values that know their line, numbers that keep their text.
+//! The common form of TOML and JSON: values with their line, numbers with their text.
 
 use crate::error::{Error, Result};
 use jsonc_parser::ast;
@@ -23,7 +23,7 @@ pub(super) enum Value {
     Text(String),
     List(Vec<Node>),
     Table(Vec<Field>),
-    /// Something no mechanism file has; its name.
+    /// A value that no mechanism file has, by its name.
     Other(&'static str),
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Field {
 }
 
 impl Node {
-    /// The kind of value, for messages.
+    /// Returns the kind of value, for messages.
     pub(super) fn describe(&self) -> String {
         match &self.value {
             Value::Number(text) => format!("the number {}", text.chars().take(40).collect::<String>()),
@@ -56,7 +56,7 @@ impl Lines {
         Self(text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect())
     }
 
-    /// The line of a byte offset, from 1.
+    /// Returns the line of a byte offset, from 1.
     pub(super) fn at(&self, offset: usize) -> usize {
         self.0.partition_point(|newline| *newline < offset) + 1
     }
@@ -161,7 +161,7 @@ fn json_node(value: &ast::Value<'_>, lines: &Lines, path: &str) -> Result<Node> 
 }
 
 /// Refuses deep nesting before a recursive reader meets it: brackets, and dotted TOML keys, which nest as well.
-/// Text is not told from structure here; strings with that many unbalanced brackets do not occur.
+/// Brackets in strings are counted, too; strings with that many unbalanced ones do not occur.
 fn check_depth(text: &str, path: &str) -> Result<()> {
     let (mut brackets, mut dots, mut after_key) = (0_usize, 0_usize, false);
     for (at, byte) in text.bytes().enumerate() {

@@ -1,38 +1,38 @@
-//! How to read a mechanism file.
+//! Options for reading a mechanism file.
 
 use crate::algebra::number::DIGITS;
 
-/// Which chains are read.
+/// The chains that are accepted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Chains {
-    /// Those that are solved, with their poses or inputs.
+    /// Chains that can be solved, with their poses or inputs.
     #[default]
     Solved,
-    /// The same; poses, inputs and legs need not be given: they come from elsewhere.
+    /// The same chains; poses, inputs and legs may be missing, because they come from elsewhere.
     Swept,
-    /// Loops and arms of any number of joint variables, with poses or inputs or without.
+    /// Loops and arms of any number of joint variables, with or without poses or inputs.
     Any,
 }
 
-/// How to read a file.
+/// Options for reading a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Decimal digits to which irrational angles and numbers are replaced by rationals for exact work.
+    /// Number of decimal digits of the rationals that replace irrational angles and numbers for exact work.
     pub digits: u32,
-    /// URDF: the link at the root of the chain; the root of the robot if none is named.
+    /// URDF: the link at the root of the chain; by default the root of the robot.
     pub base_link: Option<String>,
-    /// URDF: the link at the end of the chain; that of the only arm if none is named.
+    /// URDF: the link at the end of the chain; by default that of the only arm.
     pub tip_link: Option<String>,
-    /// Which chains are read.
+    /// The chains that are accepted.
     pub chains: Chains,
-    /// URDF and DH tables: truncated multiples of pi are the angles meant.
+    /// URDF and DH tables: whether truncated multiples of pi are replaced by the exact angles.
     pub snap: bool,
     /// URDF: the SRDF file and the planning group in it that name the chain.
     pub group: Option<(std::path::PathBuf, String)>,
 }
 
 impl Default for Options {
-    /// 15 digits, no links named, chains that are solved.
+    /// Returns 15 digits, no links named, chains that can be solved.
     fn default() -> Self {
         Self { digits: DIGITS, base_link: None, tip_link: None, chains: Chains::Solved, snap: false, group: None }
     }

@@ -1,4 +1,4 @@
-//! A `[[plane]]`, a `[[point]] at` and what else questions of the calculus are made of.
+//! Reads `[[plane]]`, `[[point]] at` and other parts of questions of the calculus.
 
 use super::calculus::{direction, parts, point};
 use super::node::Node;
@@ -18,11 +18,11 @@ use rug::Rational;
 pub struct Turning {
     /// Axis and pitch.
     pub screw: Pitched<Rational>,
-    /// The rate about the direction as it stands in the file, taken as a unit vector.
+    /// The rate about the direction given in the file, taken as a unit vector.
     pub rate: Rational,
 }
 
-/// A point of a body with its velocity, and with its acceleration where that is given.
+/// A point of a body with its velocity, and with its acceleration if given.
 #[derive(Clone, Debug)]
 pub struct MovingPoint {
     /// Its place.
@@ -33,7 +33,7 @@ pub struct MovingPoint {
     pub acceleration: Option<Vector<Rational>>,
 }
 
-/// The planes of a file, none where there is no such list.
+/// Reads the planes of a file; empty if there is no such list.
 pub(super) fn planes(scope: &Scope<'_>, table: &Table<'_>, others: &[&str]) -> Result<Vec<Plane<Rational>>> {
     if table.get("plane").is_none() {
         return Ok(Vec::new());
@@ -54,7 +54,7 @@ pub(super) fn planes(scope: &Scope<'_>, table: &Table<'_>, others: &[&str]) -> R
     given.iter().map(one).collect()
 }
 
-/// The points of a file by `at`, none where there is no such list.
+/// Reads the points of a file by `at`; empty if there is no such list.
 pub(super) fn places(scope: &Scope<'_>, table: &Table<'_>, others: &[&str]) -> Result<Vec<Vector<Rational>>> {
     if table.get("point").is_none() {
         return Ok(Vec::new());
@@ -63,7 +63,7 @@ pub(super) fn places(scope: &Scope<'_>, table: &Table<'_>, others: &[&str]) -> R
     given.iter().map(|(own, _)| point(scope, scope.need(own, "at")?, "at")).collect()
 }
 
-/// Three points with their velocities, and with their accelerations where all three have one.
+/// Reads three points with their velocities, and with their accelerations if all three have one.
 pub(super) fn moving(scope: &Scope<'_>, table: &Table<'_>) -> Result<[MovingPoint; 3]> {
     let given = parts(scope, table, "point", &["at", "velocity", "acceleration"], &[])?;
     let one = |(own, _): &(Table<'_>, &Node)| {
@@ -89,7 +89,7 @@ pub(super) fn moving(scope: &Scope<'_>, table: &Table<'_>) -> Result<[MovingPoin
     Ok([a, b, c])
 }
 
-/// Velocity screws: `direction`, `point`, `pitch` and `rate`.
+/// Reads velocity screws: `direction`, `point`, `pitch` and `rate`.
 pub(super) fn turnings(scope: &Scope<'_>, table: &Table<'_>, others: &[&str]) -> Result<Vec<Turning>> {
     if table.get("screw").is_none() {
         return Ok(Vec::new());
@@ -111,7 +111,7 @@ pub(super) fn turnings(scope: &Scope<'_>, table: &Table<'_>, others: &[&str]) ->
     given.iter().map(one).collect()
 }
 
-/// The complexes of a file.
+/// Reads the complexes of a file.
 pub(super) fn complexes(scope: &Scope<'_>, table: &Table<'_>, others: &[&str]) -> Result<Vec<Complex<Rational>>> {
     let given = parts(scope, table, "complex", &["a", "b"], others)?;
     let one = |(own, node): &(Table<'_>, &Node)| {

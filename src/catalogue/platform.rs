@@ -1,4 +1,4 @@
-//! Stewart platforms: their points, the lengths of their legs, and what is no platform.
+//! Stewart platforms: their points, the lengths of their legs, and checks of these.
 
 use super::entry::{Case, Claim};
 use super::node::Node;
@@ -11,9 +11,9 @@ use rug::Rational;
 
 /// The keys of the `[mechanism]` of a platform.
 const KEYS: [&str; 5] = ["kind", "base", "plate", "legs", "legs_squared"];
-/// Points this near to a line, relative to their extent, are taken to lie on it.
+/// Points nearer to a line than this, relative to their extent, are taken to lie on it.
 const ON_A_LINE: f64 = 1e-12;
-/// A claimed quaternion whose norm is further than this from 1 is a mistake.
+/// Maximum deviation from 1 of the norm of a claimed quaternion.
 const NORM: f64 = 1e-3;
 
 /// The points of a platform, and the legs if the `[mechanism]` gives them.
@@ -42,7 +42,7 @@ pub(super) fn platform(scope: &Scope<'_>, node: &Node) -> Result<(Platform<Numbe
     Ok((platform, case))
 }
 
-/// The points of one body, which have an extent in two directions at least.
+/// Reads the points of one body, which must not lie on a line.
 fn points(scope: &Scope<'_>, node: &Node, what: &str) -> Result<[[Number; 3]; 6]> {
     let nodes = scope.list(node, what)?;
     let points: Vec<[Number; 3]> =
@@ -74,14 +74,14 @@ fn points(scope: &Scope<'_>, node: &Node, what: &str) -> Result<[[Number; 3]; 6]
     Ok(points)
 }
 
-/// A table of `[[legs]]`.
+/// Reads a table of `[[legs]]`.
 pub(super) fn leg_lengths(scope: &Scope<'_>, node: &Node) -> Result<Case> {
     let table = scope.table(node, "[[legs]]", &["lengths", "squared", "expected", "solution"])?;
     let case = legs(scope, &table, ["lengths", "squared"], "[[legs]]")?;
     Ok(Case { expected: super::job::expected(scope, &table, &claim)?, line: table.line(), ..case })
 }
 
-/// Six lengths or their squares, by these two keys.
+/// Reads six lengths or their squares, by these two keys.
 fn legs(scope: &Scope<'_>, table: &Table<'_>, keys: [&str; 2], place: &str) -> Result<Case> {
     let [lengths, squared] = keys;
     let (node, key) = match (table.get(lengths), table.get(squared)) {
@@ -116,16 +116,16 @@ fn found_line(table: &Table<'_>, keys: [&str; 2]) -> usize {
     table.get(keys[1]).map_or(table.line(), |node| node.line)
 }
 
-/// The square of a length: a number in the square of the unit of length.
+/// Reads the square of a length: a number in the square of the unit of length.
 fn square(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Number> {
     let number = scope.number(node, Quantity::Ratio, what)?;
     Ok(number.scaled(&Rational::from(scope.reading.length.square_ref())))
 }
 
-/// A `[[solution]]` of a platform.
+/// Reads a `[[solution]]` of a platform.
 pub(super) fn claim(scope: &Scope<'_>, node: &Node) -> Result<Claim> {
     let table = scope.table(node, "the [[solution]] of a platform", &["quaternion", "position", "digits"])?;
-    // Claims are compared in f64: they do not make the mechanism a rounded one.
+    // Claims are compared in f64, so rounding them does not make the mechanism inexact.
     let own = Scope::new(scope.path, scope.reading.clone());
     let quaternion = scope.need(&table, "quaternion")?;
     let mut q = Vec::with_capacity(7);

@@ -1,4 +1,4 @@
-//! Tables of poses: one a row, read row by row.
+//! Tables of poses, one per row, read row by row.
 
 use super::entry::{Case, Design};
 use super::job;
@@ -11,29 +11,29 @@ use crate::kinematics::decimal::Decimal;
 use crate::kinematics::tolerance::Tolerance;
 use rug::Rational;
 
-/// What a header may be.
+/// The admissible headers.
 const EXPECTED: &str = "expected the header `x,y,z,qw,qx,qy,qz`, `x,y,z,roll,pitch,yaw` or `m00,m01,...,m23`, with units as in `x_mm` or \
                         `roll_deg`";
 const QUATERNION: [&str; 7] = ["x", "y", "z", "qw", "qx", "qy", "qz"];
 const ANGLES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 const MATRIX: [&str; 12] = ["m00", "m01", "m02", "m03", "m10", "m11", "m12", "m13", "m20", "m21", "m22", "m23"];
-/// A pose typed with fewer digits is not meant to be known so badly.
+/// Upper bound on the tolerance of a pose: one typed with fewer digits is not meant to be that inaccurate.
 const COARSEST: f64 = 1e-3;
-/// By how many units of the last digit of a quaternion the angle may be off: the angle is twice that of the quaternion.
+/// Tolerance of the angle in units of the last digit of a quaternion, whose angle is half as large.
 const OF_QUATERNION: f64 = 2.0;
 
-/// How the rows of a table say a pose.
+/// The form of a pose in the rows of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     Quaternion,
     Angles,
     Matrix,
-    /// Each row is a JSON object as it stands under `[[pose]]`.
+    /// Each row is a JSON object as under `[[pose]]`.
     Objects,
 }
 
 impl Form {
-    /// Whether the value in this place is a length.
+    /// Returns whether the value in this place is a length.
     fn is_length(self, place: usize) -> bool {
         if self == Self::Matrix { place % 4 == 3 } else { place < 3 }
     }
@@ -45,18 +45,18 @@ pub struct PoseRows<'a> {
     design: &'a Design,
     reading: Reading,
     form: Form,
-    /// The place of every column among the names of the form, and the unit of its numbers.
+    /// The index of every column among the names of the form, and the unit of its numbers.
     columns: Vec<(usize, String)>,
-    /// The power of ten that a length in each column is in, in metres, where all are in such a one.
+    /// The power of ten of the unit of each length column, in metres, if all have one.
     powers: Option<Vec<i32>>,
 }
 
 impl<'a> PoseRows<'a> {
-    /// The reader of a table whose first line that is not empty is this one. Where that line is a row itself, not a header,
-    /// the second value is true.
+    /// Creates the reader of a table from its first nonempty line. The second value tells whether that line is a row itself, not
+    /// a header.
     ///
     /// # Errors
-    /// For a header that is none.
+    /// For an invalid header.
     pub fn of(first: &str, line: usize, path: &'a str, design: &'a Design, reading: &Reading) -> Result<(Self, bool)> {
         let reading = reading.clone();
         let first = first.trim_start_matches('\u{feff}').trim();
@@ -78,10 +78,10 @@ impl<'a> PoseRows<'a> {
         Err(Error::Invalid(format!("found the header `{found}`, {EXPECTED}")).at(path, line))
     }
 
-    /// The pose of a row.
+    /// Returns the pose of a row.
     ///
     /// # Errors
-    /// [`Error::File`] with the line for what is no pose.
+    /// [`Error::File`] with the line if it is no pose.
     pub fn case(&self, text: &str, line: usize) -> Result<Case> {
         if self.form == Form::Objects {
             return self.object(text, line);
@@ -107,7 +107,7 @@ impl<'a> PoseRows<'a> {
         Ok(case)
     }
 
-    /// The pose of a row of plain decimals, which no exact number is needed for, and what it is typed to.
+    /// Reads a pose in plain decimals, which need no exact numbers, and its tolerance.
     fn of_decimals(&self, cells: &[&str]) -> Option<(Placement, Tolerance)> {
         let mut values = [Decimal::default(); 12];
         for (((place, _), power), cell) in self.columns.iter().zip(self.powers.as_ref()?).zip(cells) {
@@ -133,7 +133,7 @@ impl<'a> PoseRows<'a> {
     }
 
     fn object(&self, text: &str, line: usize) -> Result<Case> {
-        // The reader counts the lines of the row.
+        // The reader counts lines from the beginning of the row.
         let there = |fault: Error| match fault {
             Error::File { path, message, line: own } => Error::File { path, message, line: line + own - 1 },
             other => other,
@@ -168,7 +168,7 @@ impl<'a> PoseRows<'a> {
         }
     }
 
-    /// One unit of the last digit typed.
+    /// Returns one unit of the last digit typed.
     fn typed(&self, values: &[String]) -> Tolerance {
         let is_length = |k: &usize| self.form.is_length(*k);
         let texts =
@@ -178,7 +178,7 @@ impl<'a> PoseRows<'a> {
     }
 }
 
-/// What the numbers of an orientation are.
+/// The kind of the numbers of an orientation.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
     /// Entries of a matrix or a quaternion.
@@ -187,7 +187,7 @@ pub(super) enum Of {
     Angles,
 }
 
-/// The tolerance of a pose as it was typed: one unit of the last digit of its lengths and of its orientation.
+/// Returns the tolerance of a pose as typed: one unit of the last digit of its lengths and of its orientation.
 pub(super) fn typed<'a>(
     lengths: impl Iterator<Item = &'a str>,
     orientation: impl Iterator<Item = &'a str>,
@@ -213,19 +213,19 @@ pub(super) fn typed<'a>(
     }
 }
 
-/// A number and its unit.
+/// Splits a number and its unit.
 fn split(text: &str) -> (&str, &str) {
     let text = text.trim();
     let at = text.find(' ').unwrap_or(text.len());
     (&text[..at], text[at..].trim())
 }
 
-/// One unit of the last digit of a decimal; nothing is known of an expression.
+/// Returns one unit of the last digit of a decimal; [`COARSEST`] for an expression.
 fn last_digit(text: &str) -> f64 {
     super::snap::printed(text).map_or(COARSEST, |(_, unit)| unit)
 }
 
-/// The case of a pose.
+/// Returns the case of a pose.
 fn of_design(design: &Design, pose: Placement, line: usize) -> Case {
     match design {
         Design::Platform(platform) => Case::legs_at(platform, pose, line),
@@ -233,7 +233,7 @@ fn of_design(design: &Design, pose: Placement, line: usize) -> Case {
     }
 }
 
-/// The place of a column among these names, and its unit.
+/// Returns the index of a column among these names, and its unit.
 fn column(name: &str, names: &[&str]) -> Option<(usize, String)> {
     let (plain, unit) = name.split_once('_').unwrap_or((name, ""));
     let place = names.iter().position(|own| *own == plain)?;
@@ -248,7 +248,7 @@ fn column(name: &str, names: &[&str]) -> Option<(usize, String)> {
     known.then(|| (place, unit.to_owned()))
 }
 
-/// The power of ten that the number in a place is in; 0 for what is no length.
+/// Returns the power of ten of the unit of the number in a place; 0 if it is no length.
 fn power(form: Form, place: usize, unit: &str, reading: &Reading) -> Option<i32> {
     if !form.is_length(place) {
         return Some(0);
@@ -263,7 +263,7 @@ fn power(form: Form, place: usize, unit: &str, reading: &Reading) -> Option<i32>
     }
 }
 
-/// A pose as the command line gives it: `x, y, z; w, x, y, z` or `x, y, z; roll, pitch, yaw`.
+/// Reads a pose of the command line: `x, y, z; w, x, y, z` or `x, y, z; roll, pitch, yaw`.
 ///
 /// # Errors
 /// For anything else.

@@ -1,4 +1,4 @@
-//! Which link of a robot description is meant as its tip, where none is named.
+//! Chooses the tip link of a robot description that names none.
 
 use super::robot_tree::Tree;
 use super::scope::Scope;
@@ -6,13 +6,13 @@ use super::urdf::{LONGEST, child, line};
 use crate::error::Result;
 use std::collections::{BTreeMap, HashSet};
 
-/// How many moving joints an arm has whose tip is looked for: fewer are a head or a wheel, more are two chains in one.
+/// Number of moving joints of an arm whose tip is sought: fewer are a head or a wheel, more are two chains in one.
 const JOINTS: std::ops::RangeInclusive<usize> = 4..=7;
 
-/// The words by which people call the tip of an arm, the best one first.
+/// Common words for the tip of an arm, the best one first.
 const WORDS: [&str; 7] = ["tool0", "tcp", "ee", "end_effector", "tool", "flange", "tip"];
 
-/// A tip, and why it is this one.
+/// A tip, and the reason for its choice.
 pub(super) struct Tip<'a> {
     pub(super) link: &'a str,
     pub(super) remark: String,
@@ -25,7 +25,7 @@ struct Arm<'a> {
 }
 
 impl<'a> Arm<'a> {
-    /// The link that its name shows to be the tip, with the rank of the name.
+    /// Returns the link whose name marks it as the tip, with the rank of the name.
     fn named(&self) -> Option<(usize, &'a str)> {
         let rank = |link: &&'a str| Some((rank(link)?, *link));
         // The last of several of one name is the outermost one.
@@ -33,7 +33,7 @@ impl<'a> Arm<'a> {
     }
 }
 
-/// How good a name is for a tip.
+/// Returns the rank of a name as that of a tip.
 fn rank(link: &str) -> Option<usize> {
     let name = link.rsplit('/').next().unwrap_or(link).to_ascii_lowercase();
     let has = |word: &str| name.split(['_', '-', '.']).any(|part| part == word);
@@ -44,12 +44,12 @@ fn rank(link: &str) -> Option<usize> {
     })
 }
 
-/// The tip of the only arm of a robot.
+/// Returns the tip of the only arm of a robot.
 pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &Tree<'a, '_>, base: Option<&str>) -> Result<Tip<'a>> {
     let all = arms(tree, base);
     let wanted: Vec<&Arm<'a>> =
         all.iter().filter(|(joints, _)| JOINTS.contains(&joints.len())).map(|(_, arm)| arm).collect();
-    // A chain of another length is taken where it is the only one; what becomes of it is said by its solver.
+    // A chain of another length is taken if it is the only one; its solver reports the outcome.
     let arms: Vec<&Arm<'a>> = if wanted.is_empty() { all.values().collect() } else { wanted };
     let best = arms.iter().filter_map(|arm| Some((arm.named()?, *arm))).min_by_key(|((rank, _), _)| *rank);
     let rivals = best.map_or(0, |((rank, _), _)| {
@@ -70,7 +70,7 @@ pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &Tree<'a, '_>, base: Option<&s
     Err(scope.fail(line(tree.robot), format!("{message}: --tip-link LINK")))
 }
 
-/// The links below the base by the moving joints that move them, mimic joints, joints that others mimic and links without moving joints left out.
+/// Groups the links below the base by the moving joints that move them, without mimic joints, those they mimic and immobile links.
 fn arms<'a>(tree: &Tree<'a, '_>, base: Option<&str>) -> BTreeMap<Vec<usize>, Arm<'a>> {
     let leaves = tree.leaves();
     // The joint that others mimic is a finger, too.
@@ -95,7 +95,7 @@ fn arms<'a>(tree: &Tree<'a, '_>, base: Option<&str>) -> BTreeMap<Vec<usize>, Arm
             arm.leaves.push(link);
         }
     }
-    // What more joints stand behind is the middle of an arm, unless a link ends there or is named as a tip.
+    // If more joints follow, it is the middle of an arm, unless a link ends there or is named as a tip.
     arms.retain(|_, arm| !arm.leaves.is_empty() || arm.named().is_some());
     arms
 }

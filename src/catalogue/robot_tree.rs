@@ -6,7 +6,7 @@ use crate::error::Result;
 use roxmltree::Node as Element;
 use std::collections::{HashMap, HashSet};
 
-/// Most joints or links read.
+/// Maximum number of joints or links.
 const LARGEST: usize = 10_000;
 
 /// The links and joints of a robot: a tree, or several.
@@ -54,7 +54,7 @@ impl<'a, 'i> Tree<'a, 'i> {
         Ok(tree)
     }
 
-    /// Every link must be below one that is below none.
+    /// Checks that every link descends from a root.
     fn refuse_circles(&self, scope: &Scope<'_>) -> Result<()> {
         let mut below: HashMap<&str, Vec<&str>> = HashMap::new();
         for (parent, child) in &self.ends {
@@ -75,7 +75,7 @@ impl<'a, 'i> Tree<'a, 'i> {
         }
     }
 
-    /// The name of a link, as the file has it.
+    /// Returns the name of a link as in the file.
     pub(super) fn known(&self, scope: &Scope<'_>, name: &str) -> Result<&'a str> {
         if let Some(link) = self.links.iter().find(|link| **link == name) {
             return Ok(link);
@@ -87,7 +87,7 @@ impl<'a, 'i> Tree<'a, 'i> {
         Err(scope.fail(line(self.robot), format!("found no link `{name}`; {hint}")))
     }
 
-    /// The joints on the way from the base, or from a root, to a link; `None` where the base is not above it, or beyond so many.
+    /// Returns the joints from the base, or from a root, to a link; `None` if the base is not above it, or beyond `most` joints.
     pub(super) fn path(&self, base: Option<&str>, tip: &str, most: usize) -> Option<Vec<usize>> {
         let (mut path, mut at) = (Vec::new(), tip);
         while base != Some(at) {
@@ -105,7 +105,7 @@ impl<'a, 'i> Tree<'a, 'i> {
         Some(path)
     }
 
-    /// The links that are no joint's parent.
+    /// Returns the links that are no joint's parent.
     pub(super) fn leaves(&self) -> Vec<&'a str> {
         let parents: HashSet<&str> = self.ends.iter().map(|(parent, _)| *parent).collect();
         self.links.iter().copied().filter(|link| !parents.contains(link)).collect()
@@ -118,7 +118,7 @@ impl<'a, 'i> Tree<'a, 'i> {
     }
 }
 
-/// Refuses two parts of one name.
+/// Refuses two parts with the same name.
 fn only_once(scope: &Scope<'_>, parts: &[Element<'_, '_>], what: &str) -> Result<()> {
     let mut names = HashSet::new();
     match parts.iter().find(|part| part.attribute("name").is_some_and(|name| !names.insert(name))) {
@@ -130,7 +130,7 @@ fn only_once(scope: &Scope<'_>, parts: &[Element<'_, '_>], what: &str) -> Result
     }
 }
 
-/// The link at an end of a joint, which must be one of the robot.
+/// Returns the link at an end of a joint, which must be one of the robot.
 fn end_of<'a>(scope: &Scope<'_>, joint: Element<'a, '_>, end: &str, links: &HashSet<&str>) -> Result<&'a str> {
     let link = child(joint, end).and_then(|element| element.attribute("link"));
     let link =

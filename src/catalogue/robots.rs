@@ -30,12 +30,12 @@ pub fn robot_names() -> Vec<String> {
     names
 }
 
-/// Whether there is a robot of this name beside the entries.
+/// Returns whether there is a robot of this name beside the entries.
 pub(super) fn has(wanted: &str) -> bool {
     all().iter().any(|robot| name(robot) == wanted)
 }
 
-/// The robot of this name beside the entries; it has no pose.
+/// Returns the robot of this name beside the entries; it has no pose.
 pub(super) fn robot(wanted: &str, options: &Options) -> Option<Result<Entry>> {
     let mut robot = all().into_iter().find(|robot| name(robot) == wanted)?;
     robot.as_object_mut()?.remove("name");

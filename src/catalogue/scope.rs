@@ -9,19 +9,19 @@ use crate::kinematics::chain::Placement;
 use rug::Rational;
 use std::cell::{Cell, RefCell};
 
-/// What the reader of one file carries along.
+/// The state of the reader of one file.
 pub(super) struct Scope<'a> {
     pub(super) path: &'a str,
     pub(super) reading: Reading,
-    /// Which chains are read.
+    /// The chains that are accepted.
     pub(super) chains: Chains,
     /// Whether some value had to be rounded to a rational.
     rounded: Cell<bool>,
-    /// Warnings of the placements read since they were last taken.
+    /// Warnings about the placements read since they were last taken.
     warnings: RefCell<Vec<String>>,
-    /// Whether truncated multiples of pi are the angles meant.
+    /// Whether truncated multiples of pi are replaced by the exact angles.
     pub(super) snap: bool,
-    /// Angles that stand for multiples of half a degree.
+    /// Angles near multiples of half a degree.
     snapped: RefCell<Vec<Snapped>>,
 }
 
@@ -57,12 +57,12 @@ impl<'a> Scope<'a> {
         self.rounded.get()
     }
 
-    /// The warnings since the last call, each once.
+    /// Returns the warnings since the last call, each once.
     pub(super) fn take_warnings(&self) -> Vec<String> {
         self.warnings.take()
     }
 
-    /// A table with no keys but the allowed ones.
+    /// Reads a table with no keys but the allowed ones.
     pub(super) fn table<'n>(&self, node: &'n Node, what: &str, allowed: &[&str]) -> Result<Table<'n>> {
         let Value::Table(fields) = &node.value else {
             return Err(self.unexpected(node, what, "a table"));
@@ -88,7 +88,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// A list of exactly `N`.
+    /// Reads a list of exactly `N` items.
     pub(super) fn exactly<'n, const N: usize>(&self, node: &'n Node, what: &str) -> Result<&'n [Node; N]> {
         let items = self.list(node, what)?;
         items.try_into().map_err(|_| self.unexpected(node, what, &format!("a list of {N}")))
@@ -101,7 +101,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// One of the given words.
+    /// Reads one of the given words.
     pub(super) fn word<'n>(&self, node: &'n Node, what: &str, words: &[&str]) -> Result<&'n str> {
         let text = self.text(node, what)?;
         if words.contains(&text) {
@@ -122,7 +122,7 @@ impl<'a> Scope<'a> {
         result.map_err(|fault| Error::Invalid(format!("{} for `{what}`", fault.into())).at(self.path, node.line))
     }
 
-    /// A count: a whole number from 0 to 10000.
+    /// Reads a count: a whole number from 0 to 10000.
     pub(super) fn count(&self, node: &Node, what: &str) -> Result<usize> {
         let expected = "a whole number from 0 to 10000";
         match &node.value {
@@ -151,7 +151,7 @@ impl<'a> Scope<'a> {
         Ok(angle)
     }
 
-    /// An angle in radians that a program may have printed: it is the multiple of half a degree that it stands for.
+    /// Reads an angle in radians that a program may have printed, as the multiple of half a degree that it represents.
     pub(super) fn printed_angle(&self, node: &Node, what: &str, place: &str) -> Result<Angle> {
         let text = self.written(node, what, "an angle")?.trim();
         let Some((halves, nearness)) = snap::multiple(text).filter(|_| !self.reading.degrees) else {
@@ -166,7 +166,7 @@ impl<'a> Scope<'a> {
         Ok(angle)
     }
 
-    /// The angles since the last call that stand for multiples of half a degree.
+    /// Returns the angles since the last call that represent multiples of half a degree.
     pub(super) fn take_snapped(&self) -> Vec<Snapped> {
         self.snapped.take()
     }
@@ -183,7 +183,7 @@ impl<'a> Scope<'a> {
         Ok([self.number(x, quantity, what)?, self.number(y, quantity, what)?, self.number(z, quantity, what)?])
     }
 
-    /// A rigid motion: a 4x4 matrix.
+    /// Reads a rigid motion: a 4x4 matrix.
     pub(super) fn matrix(&self, node: &Node, what: &str) -> Result<Placement> {
         let rows = self.exactly::<4>(node, what)?;
         let mut numbers: [[Number; 4]; 4] = std::array::from_fn(|_| std::array::from_fn(|_| Number::zero()));
@@ -193,12 +193,12 @@ impl<'a> Scope<'a> {
                 image[k] = self.number(entry, quantity, what)?;
             }
         }
-        // The corner is a bare 1, whatever the unit of length.
+        // The corner is 1 without a unit, whatever the unit of length.
         numbers[3][3] = self.number(&self.exactly::<4>(&rows[3], what)?[3], Quantity::Ratio, what)?;
         self.placement(Placement::from_matrix(&numbers), node, what)
     }
 
-    /// A rigid motion: a quaternion and a position.
+    /// Reads a rigid motion: a quaternion and a position.
     pub(super) fn quaternion_position(&self, quaternion: &Node, position: &Node) -> Result<Placement> {
         let mut components: [Number; 4] = std::array::from_fn(|_| Number::zero());
         for (component, item) in components.iter_mut().zip(self.exactly::<4>(quaternion, "quaternion")?) {
@@ -208,7 +208,7 @@ impl<'a> Scope<'a> {
         self.placement(Placement::from_quaternion_position(&components, &position), quaternion, "quaternion")
     }
 
-    /// A rotation: a 3x3 matrix.
+    /// Reads a rotation: a 3x3 matrix.
     pub(super) fn rotation_matrix(&self, node: &Node, what: &str) -> Result<[[Rational; 3]; 3]> {
         let mut numbers: [[Number; 4]; 4] = std::array::from_fn(|_| std::array::from_fn(|_| Number::zero()));
         for (row, image) in self.exactly::<3>(node, what)?.iter().zip(&mut numbers) {
@@ -220,7 +220,7 @@ impl<'a> Scope<'a> {
         Ok(self.placement(Placement::from_matrix(&numbers), node, what)?.exact.motion().rotation)
     }
 
-    /// A rotation: a quaternion.
+    /// Reads a rotation: a quaternion.
     pub(super) fn rotation_quaternion(&self, node: &Node) -> Result<[[Rational; 3]; 3]> {
         let mut components: [Number; 4] = std::array::from_fn(|_| Number::zero());
         for (component, item) in components.iter_mut().zip(self.exactly::<4>(node, "quaternion")?) {
@@ -231,7 +231,7 @@ impl<'a> Scope<'a> {
         Ok(self.placement(placed, node, "quaternion")?.exact.motion().rotation)
     }
 
-    /// The rotation nearest to a matrix or a quaternion is the datum: nothing of the file is rounded by taking it.
+    /// Takes the rotation nearest to a matrix or a quaternion as the datum, which does not count as rounding.
     fn placement(&self, found: Result<(Placement, Option<String>)>, node: &Node, what: &str) -> Result<Placement> {
         let (placement, warning) = self.placed(found, node, what)?;
         if let Some(warning) = warning {
@@ -246,25 +246,25 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The value of a key that must be there.
+    /// Returns the value of a required key.
     pub(super) fn need<'n>(&self, table: &Table<'n>, key: &str) -> Result<&'n Node> {
         table.get(key).ok_or_else(|| self.fail(table.line, format!("found no `{key}` in {}, expected one", table.what)))
     }
 }
 
 impl<'a> Table<'a> {
-    /// The value of a key, if it is there.
+    /// Returns the value of a key, if it is there.
     pub(super) fn get(&self, key: &str) -> Option<&'a Node> {
         self.fields.iter().find(|field| field.key == key).map(|field| &field.node)
     }
 
-    /// The line at which the table begins.
+    /// Returns the line at which the table begins.
     pub(super) fn line(&self) -> usize {
         self.line
     }
 }
 
-/// The candidates that resemble a word, best first, at most three.
+/// Returns the candidates that resemble a word, best first, at most three.
 pub(super) fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Vec<String> {
     let word: String = word.chars().take(60).collect();
     let mut scored: Vec<(usize, &str)> = candidates

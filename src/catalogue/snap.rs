@@ -1,32 +1,32 @@
-//! Angles that files hold as printed doubles: which of them are multiples of half a degree.
+//! Detects printed angles that are multiples of half a degree.
 
 use std::f64::consts::PI;
 
-/// Printed digits from which on an angle that agrees with a multiple of half a degree is that one.
+/// Number of agreeing digits from which on an angle is taken as a multiple of half a degree.
 const DIGITS: i32 = 12;
-/// Fewer digits are a coincidence too often to be worth a remark: of four, one in thirty angles agrees with a multiple of half
-/// a degree.
+/// Number of agreeing digits from which on an angle is reported. Fewer are too often a coincidence: with four, one in thirty
+/// angles agrees with a multiple of half a degree.
 const NOTICED: i32 = 6;
-/// The same for multiples of 45 degrees, which are ninety times rarer.
+/// The same number for multiples of 45 degrees, which are ninety times rarer.
 const NOTICED_RIGHT: i32 = 3;
-/// By how many units of its last digit a truncated angle may be off: `1.570796325` is a popular `pi/2`.
+/// Maximum error of a truncated angle, in units of its last digit: `1.570796325` is a popular `pi/2`.
 const UNITS: f64 = 2.0;
 
-/// An angle of a file that stands for a multiple of half a degree.
+/// An angle of a file that represents a multiple of half a degree.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snapped {
-    /// As it was written.
+    /// Its text in the file.
     pub written: String,
-    /// How many halves of a degree it stands for.
+    /// The angle in halves of a degree.
     pub halves: i64,
     /// The joint, or the row of a table.
     pub place: String,
-    /// Whether it was taken as that angle, or only noticed.
+    /// Whether it was replaced by that angle, or only reported.
     pub taken: bool,
 }
 
 impl Snapped {
-    /// The angle that is meant, as it is written with its unit.
+    /// Returns the intended angle with its unit.
     #[must_use]
     pub fn meant(&self) -> String {
         let sign = if self.halves < 0 { "-" } else { "" };
@@ -35,7 +35,7 @@ impl Snapped {
     }
 }
 
-/// How near a number in radians is to a multiple of half a degree.
+/// The nearness of a number in radians to a multiple of half a degree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Nearness {
     /// It is the double nearest to it, or agrees in twelve digits.
@@ -44,7 +44,7 @@ pub(super) enum Nearness {
     Truncated,
 }
 
-/// The multiple of half a degree that a plain decimal in radians may stand for, other than a plain zero.
+/// Returns the multiple of half a degree that a plain decimal in radians may represent, except a plain zero.
 pub(super) fn multiple(text: &str) -> Option<(i64, Nearness)> {
     let is_decimal = text.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+' | b'e' | b'E'));
     let value: f64 = if is_decimal { text.parse().ok()? } else { return None };
@@ -55,7 +55,7 @@ pub(super) fn multiple(text: &str) -> Option<(i64, Nearness)> {
     let meant = halves * PI / 360.0;
     let off = (value - meant).abs();
     let (digits, unit) = printed(text)?;
-    // A zero has no digits of its own: what is 0 to twelve decimals agrees with it so far.
+    // A zero has no digits of its own; it is compared to twelve decimals.
     let agrees = if halves == 0.0 { off < 0.5e-12 } else { digits >= DIGITS && off <= unit.max(value.abs() * 4e-16) };
     let noticed = if halves % 90.0 == 0.0 { NOTICED_RIGHT } else { NOTICED };
     let is_truncated = halves != 0.0 && digits >= noticed && off <= UNITS * unit;
@@ -70,7 +70,7 @@ pub(super) fn multiple(text: &str) -> Option<(i64, Nearness)> {
     }
 }
 
-/// The significant digits of a decimal, and one unit of its last one.
+/// Returns the significant digits of a decimal, and one unit of its last one.
 pub(super) fn printed(text: &str) -> Option<(i32, f64)> {
     let lower = text.to_ascii_lowercase();
     let (mantissa, exponent) = lower.split_once('e').unwrap_or((&lower, "0"));

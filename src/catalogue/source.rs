@@ -1,4 +1,4 @@
-//! Where the text of a mechanism comes from: a file, standard input, the library.
+//! Loads the text of a mechanism from a file, standard input, or the library.
 
 use super::ansatz::Ansatz;
 use super::entry::Entry;
@@ -14,8 +14,8 @@ use std::path::Path;
 /// Reads the mechanism named on a command line: a file, `-` for standard input, or a built-in entry.
 ///
 /// # Errors
-/// [`Error::Io`] for what cannot be read at all, [`Error::UnknownEntry`] for a name that is neither file nor entry,
-/// [`Error::File`] with file and line for what the text says, [`Error::Unsupported`] for kinds not solved yet.
+/// [`Error::Io`] if nothing can be read, [`Error::UnknownEntry`] for a name that is neither file nor entry,
+/// [`Error::File`] with file and line for faults of the text, [`Error::Unsupported`] for kinds not solved yet.
 pub fn load(name: &str, options: &Options) -> Result<Entry> {
     match text_of(name, library::has(name))? {
         Some((text, path, format)) => load_text(&text, path, format, options),
@@ -23,7 +23,7 @@ pub fn load(name: &str, options: &Options) -> Result<Entry> {
     }
 }
 
-/// Reads what `solve` takes and is named on a command line: a file, `-` for standard input, or a built-in entry.
+/// Reads the input of `solve` named on a command line: a file, `-` for standard input, or a built-in entry.
 ///
 /// # Errors
 /// As [`load`].
@@ -61,7 +61,7 @@ pub fn load_ansatz(name: &str, options: &Options) -> Result<Ansatz> {
     }
 }
 
-/// The text of a file or of standard input, the name that errors give it, and its format; `None` where there is none of
+/// Returns the text of a file or of standard input, its name in errors, and its format; `None` if nothing has
 /// this name.
 fn text_of(name: &str, is_built_in: bool) -> Result<Option<(String, &str, Format)>> {
     let unreadable = |message: String| Error::Io { path: name.to_owned(), message };

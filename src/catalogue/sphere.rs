@@ -1,4 +1,4 @@
-//! Linkages on the sphere: bodies with named directions, revolute joints between them, and what is given.
+//! Linkages on the sphere: bodies with named directions, revolute joints between them, and the inputs.
 
 use super::heading::{Heading, heading_with};
 use super::job::digits;
@@ -15,23 +15,23 @@ use looproot_calculus::rotation::matrix::{Matrix, from_matrix, product};
 use rug::Rational;
 use std::collections::HashSet;
 
-/// More bodies than any linkage on the sphere that can be solved.
+/// Maximum number of bodies, more than any linkage on the sphere that can be solved.
 const MOST_BODIES: usize = 1000;
 
-/// A file of a linkage on the sphere, read.
+/// A file of a linkage on the sphere, as read.
 #[derive(Clone, Debug)]
 pub struct SphereFile {
     /// Title, source and remarks.
     pub heading: Heading,
     /// Its bodies and joints.
     pub linkage: SphereLinkage,
-    /// What is asked, one case for every `[[input]]`; without any the linkage is a structure.
+    /// The problems, one for every `[[input]]`; without any the linkage is a structure.
     pub cases: Vec<SphereCase>,
     /// Claims about curves of points: body, point, degree of the curve on the sphere, line.
     pub traces: Vec<SphereTrace>,
     /// Whether every direction is exact.
     pub exact: bool,
-    /// How numbers of the file are read.
+    /// The interpretation of numbers in the file.
     pub reading: Reading,
 }
 
@@ -51,11 +51,11 @@ pub struct SphereTrace {
 /// One problem of a linkage on the sphere.
 #[derive(Clone, Debug)]
 pub struct SphereCase {
-    /// The rotations that are given.
+    /// The given rotations.
     pub given: Vec<SphereGiven>,
     /// Whether all of them are exact.
     pub exact: bool,
-    /// What is claimed.
+    /// The claims.
     pub expected: SphereClaims,
     /// Line of the file at which the case begins, from 1.
     pub line: usize,
@@ -79,7 +79,7 @@ pub struct SphereClaims {
 pub struct SphereClaim {
     /// Joints with their angles, radians.
     pub joints: Vec<(usize, f64)>,
-    /// Bodies with their quaternions against the ground.
+    /// Bodies with their quaternions relative to the ground.
     pub bodies: Vec<(usize, [f64; 4])>,
     /// Correct decimal digits.
     pub digits: u32,
@@ -156,7 +156,7 @@ fn fields<'n>(scope: &Scope<'_>, node: &'n Node, what: &str) -> Result<&'n [Fiel
     }
 }
 
-/// A direction that is not zero.
+/// Reads a direction that is not zero.
 fn direction(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Direction> {
     let numbers = scope.vector(node, Quantity::Ratio, what)?;
     let vector: Direction = numbers.each_ref().map(|c| c.rational().clone());
@@ -223,8 +223,8 @@ fn joints(scope: &Scope<'_>, linkage: &mut SphereLinkage, node: &Node) -> Result
     Ok(())
 }
 
-/// References where the file names none: at angle 0 equal axes fall on one another without a turn, others by half a turn about the
-/// direction between them, or about one across opposite ones. Rational directions have rational references then.
+/// Returns references if the file names none. At angle 0 equal axes coincide without a rotation; others do by a rotation by
+/// pi about the direction between them, or for opposite axes about a perpendicular one. Rational directions have rational ones.
 fn references(at: &[Direction; 2]) -> [Direction; 2] {
     let [u, w] = at;
     let first = least_along(u);
@@ -240,14 +240,14 @@ fn references(at: &[Direction; 2]) -> [Direction; 2] {
     [first, second]
 }
 
-/// The coordinate axis that is least along a direction.
+/// Returns the coordinate axis that is least along a direction.
 fn least_along(direction: &Direction) -> Direction {
     let sizes = direction.each_ref().map(|c| Rational::from(c.abs_ref()));
     let least = (0..3).min_by(|a, b| sizes[*a].cmp(&sizes[*b])).unwrap_or(0);
     std::array::from_fn(|k| Rational::from(u8::from(k == least)))
 }
 
-/// A joint at every point name that several bodies have: of the first of them, the ground first, with each other one.
+/// Adds a joint at every point name that several bodies share, between the first of them, or the ground, and each other one.
 fn shared(scope: &Scope<'_>, linkage: &mut SphereLinkage, line: usize) -> Result<()> {
     let mut order: Vec<usize> = (0..linkage.bodies.len()).collect();
     order.sort_by_key(|body| *body != linkage.ground);
@@ -314,7 +314,7 @@ fn push(scope: &Scope<'_>, linkage: &mut SphereLinkage, joint: SphereJoint) -> R
     Ok(())
 }
 
-/// Every body is joined to the ground, if by others.
+/// Checks that every body is joined to the ground, possibly through others.
 fn joined(scope: &Scope<'_>, linkage: &SphereLinkage) -> Result<()> {
     let mut seen = HashSet::from([linkage.ground]);
     let mut open = vec![linkage.ground];
@@ -333,7 +333,7 @@ fn joined(scope: &Scope<'_>, linkage: &SphereLinkage) -> Result<()> {
     }
 }
 
-/// The rotation of the second body of a joint against the first, and whether it is exact.
+/// Returns the rotation of the second body of a joint relative to the first, and whether it is exact.
 pub(crate) fn turned(joint: &SphereJoint, angle: &Angle) -> (Matrix<Rational>, bool) {
     let (cos, sin) = exact_cos_sin(angle);
     let [u, w] = &joint.at;
@@ -341,7 +341,7 @@ pub(crate) fn turned(joint: &SphereJoint, angle: &Angle) -> (Matrix<Rational>, b
     let [e, f] = [joint.reference(0), joint.reference(1)];
     let (size, exact_size) = root(&Rational::from(&dot(&e, &e) * &dot(&f, &f)));
     let (length, exact_length) = root(&square);
-    // The turn from the second body to the first at angle 0: axis to axis, reference to reference.
+    // The rotation from the second body to the first at angle 0: axis to axis, reference to reference.
     let (x, y) = (cross(u, &e), cross(w, &f));
     let first: Matrix<Rational> = std::array::from_fn(|i| {
         std::array::from_fn(|j| {
@@ -369,7 +369,7 @@ pub(crate) fn turned(joint: &SphereJoint, angle: &Angle) -> (Matrix<Rational>, b
     if exact {
         return (rotation, angle.is_exact());
     }
-    // Roots are right to 30 digits only: the quaternion of the matrix gives a rotation in any case.
+    // Roots are right to 30 digits only; the quaternion of the matrix gives a rotation in any case.
     let q = from_matrix(&rotation);
     let [x, y, z] = &q.vector;
     (rotation_of([&q.scalar, x, y, z]), false)
@@ -404,7 +404,7 @@ fn one_angle(scope: &Scope<'_>, table: &Table<'_>, line: usize) -> Result<Angle>
     }
 }
 
-/// An `[[input]]`.
+/// Reads an `[[input]]`.
 fn case(scope: &Scope<'_>, node: &Node, linkage: &SphereLinkage) -> Result<SphereCase> {
     let keys = ["joint", "angle", "tan_half", "given", "body", "quaternion", "expected", "solution"];
     let table = scope.table(node, "[[input]]", &keys)?;
@@ -444,10 +444,10 @@ fn case(scope: &Scope<'_>, node: &Node, linkage: &SphereLinkage) -> Result<Spher
     Ok(SphereCase { given, exact, expected: claims(scope, &table, linkage)?, line })
 }
 
-/// The claims beside a case or at the top of the file.
+/// Reads the claims beside a case or at the top of the file.
 fn claims(scope: &Scope<'_>, table: &Table<'_>, linkage: &SphereLinkage) -> Result<SphereClaims> {
     let mut found = SphereClaims::default();
-    // Claims are compared in f64: they do not make the mechanism a rounded one.
+    // Claims are compared in f64, so rounding them does not make the mechanism inexact.
     let own = Scope::new(scope.path, scope.reading.clone());
     if let Some(node) = table.get("expected") {
         let claims = own.table(node, "the [expected] of a linkage on the sphere", &["complex", "real", "dimension"])?;
@@ -487,7 +487,7 @@ fn claims(scope: &Scope<'_>, table: &Table<'_>, linkage: &SphereLinkage) -> Resu
     Ok(found)
 }
 
-/// A claim about the curve of a point, `BODY.POINT`.
+/// Reads a claim about the curve of a point, `BODY.POINT`.
 fn traced(scope: &Scope<'_>, node: &Node, linkage: &SphereLinkage) -> Result<SphereTrace> {
     let table = scope.table(node, "[[trace]]", &["point", "degree"])?;
     let node = scope.need(&table, "point")?;

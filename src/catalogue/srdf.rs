@@ -1,4 +1,4 @@
-//! Planning groups of semantic robot descriptions (SRDF): between which links their chains run.
+//! Planning groups of semantic robot descriptions (SRDF) and the end links of their chains.
 
 use super::options::Options;
 use super::scope::Scope;
@@ -19,7 +19,7 @@ pub(super) struct Ends {
 /// Deepest nesting of groups that is followed.
 const DEEPEST: usize = 8;
 
-/// The ends of the chain of a planning group; `ends_of` gives parent and child of a joint of the robot.
+/// Returns the ends of the chain of a planning group; `ends_of` gives parent and child of a joint of the robot.
 pub(super) fn ends<'a>(path: &Path, group: &str, ends_of: &dyn Fn(&str) -> Option<(&'a str, &'a str)>) -> Result<Ends> {
     let shown = path.display().to_string();
     let unreadable = |message: String| Error::Io { path: shown.clone(), message };

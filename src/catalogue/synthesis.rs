@@ -1,4 +1,4 @@
-//! Synthesis: positions of a body, or pairs of angles, for which a linkage is wanted.
+//! Synthesis: positions of a body, or pairs of angles, that a linkage has to reach.
 
 use super::entry::Expected;
 use super::heading::{Heading, heading};
@@ -11,15 +11,15 @@ use crate::kinematics::motion::Motion;
 use crate::kinematics::placement::rotation_of;
 use rug::Rational;
 
-/// More positions than any dyad can be asked for.
+/// Maximum number of positions, more than any dyad can reach.
 const MOST_POSITIONS: usize = 20;
-/// Correct digits of a claimed solution that names none.
+/// Number of correct digits of a claimed solution that gives none.
 const DIGITS: u32 = 6;
-/// What a claimed dyad may say of itself.
+/// The keys of a claimed dyad.
 const CLAIMED: [&str; 10] =
     ["fixed", "moving", "length", "angle", "distance", "crank", "rocker", "coupler", "crank_angle0", "rocker_angle0"];
 
-/// Where a linkage is looked for.
+/// The space in which a linkage is sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
     /// The plane.
@@ -31,7 +31,7 @@ pub enum Space {
 }
 
 impl Space {
-    /// The word of a file.
+    /// Returns the word used in files.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -60,7 +60,7 @@ pub enum DyadKind {
 }
 
 impl DyadKind {
-    /// The word of a file.
+    /// Returns the word used in files.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -74,22 +74,22 @@ impl DyadKind {
     }
 }
 
-/// What the linkage is to do.
+/// The task of the linkage.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Task {
-    /// The body shall take these positions, each a motion from the body to the ground. In the plane they are rotations about
+    /// The body has to take these positions, each a motion from the body to the ground. In the plane they are rotations about
     /// z and translations along x and y, on the sphere rotations.
     Motion(DyadKind, Vec<Motion<Rational>>),
-    /// Crank and rocker of a planar four-bar shall take these pairs of angles together.
+    /// Crank and rocker of a planar four-bar have to take these pairs of angles.
     Function(Vec<AnglePair>),
 }
 
-/// Angles of crank and rocker that belong together.
+/// A pair of angles of crank and rocker.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnglePair {
     /// The angle of the crank and that of the rocker, each as cosine and sine.
     pub angles: [(Rational, Rational); 2],
-    /// The rate of the rocker for unit rate of the crank there, where it is given.
+    /// The rate of the rocker for unit rate of the crank there, if given.
     pub ratio: Option<Rational>,
 }
 
@@ -98,20 +98,20 @@ pub struct AnglePair {
 pub struct ClaimedDyad {
     /// Line of the claim, from 1.
     pub line: usize,
-    /// What it says, by the names of the output: numbers of `fixed`, of `fixed.direction`, and so on.
+    /// Its numbers, under the names of the output: `fixed`, `fixed.direction`, and so on.
     pub values: Vec<(String, Vec<f64>)>,
     /// Correct digits after the point.
     pub digits: u32,
 }
 
-/// A synthesis file, read.
+/// A synthesis file as read.
 #[derive(Clone, Debug)]
 pub struct SynthesisFile {
     /// Title, source and remarks.
     pub heading: Heading,
     /// Plane, sphere or space.
     pub space: Space,
-    /// What is wanted.
+    /// The task of the linkage.
     pub task: Task,
     /// Whether every number of the file is exact.
     pub exact: bool,
@@ -160,7 +160,7 @@ pub(super) fn synthesis(scope: &mut Scope<'_>, root: &Node, name: &str) -> Resul
     Ok(SynthesisFile { heading, space, task, exact, expected, claims, line })
 }
 
-/// The head, which knows fewer keys than this file has.
+/// Reads the head, which knows fewer keys than this file has.
 fn heading_of(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<Heading> {
     let Value::Table(fields) = &root.value else { return heading(scope, root, name) };
     let own = ["title", "source", "notes", "units"];
@@ -168,7 +168,7 @@ fn heading_of(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<Heading>
     heading(scope, &Node { value: Value::Table(fields), ..root.clone() }, name)
 }
 
-/// Fails where a list stands in the file that its task does not take.
+/// Refuses lists in the file that its task does not take.
 fn only(scope: &Scope<'_>, table: &Table<'_>, wanted: &str, task: &str) -> Result<()> {
     for key in ["position", "pair", "point"] {
         if let (true, Some(node)) = (key != wanted, table.get(key)) {
@@ -179,7 +179,7 @@ fn only(scope: &Scope<'_>, table: &Table<'_>, wanted: &str, task: &str) -> Resul
     Ok(())
 }
 
-/// The items of `[[position]]` or `[[pair]]`, no fewer than two.
+/// Returns the items of `[[position]]` or `[[pair]]`, at least two.
 fn items<'n>(scope: &Scope<'_>, table: &Table<'n>, key: &str) -> Result<&'n [Node]> {
     let node = scope.need(table, key)?;
     let items = scope.list(node, key)?;
@@ -247,7 +247,7 @@ fn function(
     Ok(Task::Function(items(scope, table, "pair")?.iter().map(pair).collect::<Result<_>>()?))
 }
 
-/// An angle: a value, or a table with `angle` or `tan_half`.
+/// Reads an angle: a value, or a table with `angle` or `tan_half`.
 fn angle_of(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Angle> {
     if !matches!(node.value, Value::Table(_)) {
         return scope.angle(node, what);
@@ -306,7 +306,7 @@ fn in_space(scope: &Scope<'_>, item: &Node) -> Result<Motion<Rational>> {
     Ok(motion)
 }
 
-/// The rotation of a quaternion of any length.
+/// Reads the rotation of a quaternion of any length.
 fn quaternion(scope: &Scope<'_>, node: &Node) -> Result<Motion<Rational>> {
     let mut parts: [Rational; 4] = std::array::from_fn(|_| Rational::new());
     for (part, item) in parts.iter_mut().zip(scope.exactly::<4>(node, "quaternion")?) {
@@ -320,7 +320,7 @@ fn quaternion(scope: &Scope<'_>, node: &Node) -> Result<Motion<Rational>> {
     Ok(Motion { rotation: rotation_of([w, x, y, z]), translation })
 }
 
-/// A claimed dyad: its numbers by their names.
+/// Reads a claimed dyad: its numbers by their names.
 fn claim(scope: &Scope<'_>, item: &Node) -> Result<ClaimedDyad> {
     let keys = [&CLAIMED[..], &["digits"]].concat();
     let table = scope.table(item, "a [[solution]] of a synthesis", &keys)?;

@@ -1,4 +1,4 @@
-//! From the text of a mechanism to its entry: which reader it goes to.
+//! Reads the text of a mechanism with the reader of its format and kind.
 
 use super::ansatz::{Ansatz, ansatz};
 use super::calculus::{CalculusFile, calculus};
@@ -23,20 +23,20 @@ pub(super) const LARGEST: u64 = 64 << 20;
 /// The formats of mechanism files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// equations/README.md.
+    /// TOML as described in equations/README.md.
     Toml,
     /// The same keys as TOML.
     Json,
     /// A DH table with the header `type,a,alpha,d,theta0`.
     Csv,
-    /// A robot description, of which a chain between two links is taken.
+    /// A robot description, from which a chain between two links is taken.
     Urdf,
 }
 
-/// Reads a mechanism from text; `path` is the name that errors give.
+/// Reads a mechanism from text; `path` is its name in errors.
 ///
 /// # Errors
-/// [`Error::File`] with file and line for what the text says, [`Error::Unsupported`] for kinds not solved yet.
+/// [`Error::File`] with file and line for faults of the text, [`Error::Unsupported`] for kinds not solved yet.
 pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Entry> {
     let (text, name, mut scope) = prepared(text, path, options)?;
     let root = match format {
@@ -72,7 +72,7 @@ pub enum Any {
     Sphere(Box<SphereFile>),
     /// A rational motion.
     Motion(Box<MotionFile>),
-    /// Positions or pairs of angles for which a linkage is wanted.
+    /// Positions or pairs of angles for the synthesis of a linkage.
     Synthesis(Box<SynthesisFile>),
     /// A loop with symbols for parameters.
     Conditions(Box<Ansatz>),
@@ -81,7 +81,7 @@ pub enum Any {
 }
 
 impl Any {
-    /// What it is.
+    /// Returns its kind.
     #[must_use]
     pub fn kind(&self) -> FileKind {
         match self {
@@ -96,7 +96,7 @@ impl Any {
     }
 }
 
-/// Reads a mechanism of any kind from text; `path` is the name that errors give.
+/// Reads a mechanism of any kind from text; `path` is its name in errors.
 ///
 /// # Errors
 /// As [`load_text`].
@@ -125,7 +125,7 @@ pub fn any_from_text(text: &str, path: &str, format: Format, options: &Options) 
     })
 }
 
-/// Reads what `solve` takes from text: a linkage, a question of the calculus, else as [`load_text`].
+/// Reads the input of `solve` from text: a linkage, a question of the calculus, else as [`load_text`].
 ///
 /// # Errors
 /// As [`load_text`].
@@ -143,7 +143,7 @@ pub(super) fn solvable_from_text(text: &str, path: &str, format: Format, options
     }
 }
 
-/// Refuses the kinds of files that the reader is not for.
+/// Refuses the kinds of files that the reader does not accept.
 fn refuse(scope: &Scope<'_>, root: &Node, kinds: &[FileKind], expected: &str) -> Result<()> {
     match FileKind::of(root) {
         Some((kind, line)) if kinds.contains(&kind) => Err(scope.fail(line, kind.unexpected(expected))),
@@ -151,10 +151,10 @@ fn refuse(scope: &Scope<'_>, root: &Node, kinds: &[FileKind], expected: &str) ->
     }
 }
 
-/// Reads a loop with symbols for parameters from text; `path` is the name that errors give.
+/// Reads a loop with symbols for parameters from text; `path` is its name in errors.
 ///
 /// # Errors
-/// [`Error::File`] with file and line for what the text says, [`Error::Unsupported`] for loops that are beyond this.
+/// [`Error::File`] with file and line for faults of the text, [`Error::Unsupported`] for loops that are not covered.
 pub fn ansatz_from_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Ansatz> {
     let (text, name, mut scope) = prepared(text, path, options)?;
     let root = match format {
@@ -179,13 +179,13 @@ pub fn ansatz_from_text(text: &str, path: &str, format: Format, options: &Option
     ansatz(&mut scope, &root, &name)
 }
 
-/// Whether a text in TOML is an ansatz and no mechanism: whether it has symbols.
+/// Returns whether a text in TOML is an ansatz and no mechanism: whether it has symbols.
 #[must_use]
 pub fn is_ansatz(text: &str) -> bool {
     text.lines().any(|line| line.trim_start().starts_with("[symbols]"))
 }
 
-/// The text without byte-order mark, the name of the mechanism and what its reader carries along.
+/// Returns the text without byte-order mark, the name of the mechanism and the state of its reader.
 fn prepared<'a>(text: &'a str, path: &'a str, options: &Options) -> Result<(&'a str, String, Scope<'a>)> {
     if !(1..=MOST_DIGITS).contains(&options.digits) {
         return Err(Error::Invalid(format!("found {} digits, expected 1 to {MOST_DIGITS}", options.digits)));
@@ -209,7 +209,7 @@ fn prepared<'a>(text: &'a str, path: &'a str, options: &Options) -> Result<(&'a 
     Ok((text, name, scope))
 }
 
-/// The format that the beginning of a text shows.
+/// Returns the format indicated by the beginning of a text.
 pub(super) fn sniffed(text: &str) -> Format {
     let start = text.trim_start_matches('\u{feff}').trim_start();
     if start.starts_with('{') {

@@ -21,7 +21,7 @@ use roxmltree::{Document, Node as Element};
 use rug::Rational;
 use std::path::Path;
 
-/// Most joints between base and tip, fixed ones included: the exact rotations of so many have half a million digits.
+/// Maximum number of joints between base and tip, fixed ones included; their exact rotations then have half a million digits.
 pub(super) const LONGEST: usize = 100;
 
 /// Reads the arm between two links; it has no pose.
@@ -34,7 +34,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
     }
     let Between { chain, links, remark } = between(scope, robot, options)?;
     let kinds = chain.iter().map(|joint| kind(scope, *joint)).collect::<Result<Vec<_>>>()?;
-    // The exact axes of a long chain have numbers of many digits: what cannot be an arm is refused before.
+    // The exact axes of a long chain have numbers of many digits, so a chain that cannot be an arm is refused first.
     let moving: Vec<JointKind> = kinds.iter().flatten().copied().collect();
     let expected = (6, "expected 1 to 24 for an arm; name the chain by its base and tip links");
     check_kinds(
@@ -49,7 +49,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
         return Err(scope.fail(line(robot), format!("found a chain of {found} joints, expected at most {LONGEST}")));
     }
     let origins = chain.iter().map(|joint| Origin::read(scope, *joint)).collect::<Result<Vec<_>>>()?;
-    // Fixed joints have no axis that counts.
+    // The axis of a fixed joint is irrelevant.
     let moves = |(joint, kind): (&Element<'_, '_>, &Option<JointKind>)| match kind {
         Some(_) => axis(scope, *joint),
         None => Ok(along_x()),
@@ -89,7 +89,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options
     })
 }
 
-/// The kind of a joint; none for a fixed one.
+/// Returns the kind of a joint; `None` for a fixed one.
 fn kind(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<Option<JointKind>> {
     let kind = match joint.attribute("type") {
         Some("fixed") => return Ok(None),
@@ -133,7 +133,7 @@ pub(super) fn parse<'a>(scope: &Scope<'_>, text: &'a str) -> Result<Document<'a>
     })
 }
 
-/// What is wrong with a file of macros, and the command that expands it.
+/// Returns the error message for a file of macros, with the command that expands it.
 pub(super) fn macro_found(scope: &Scope<'_>) -> String {
     let path = scope.path;
     let expanded = Path::new(path).with_extension("urdf").display().to_string();
@@ -149,14 +149,14 @@ pub(super) fn child<'a, 'i>(element: Element<'a, 'i>, name: &str) -> Option<Elem
     element.children().find(|child| child.has_tag_name(name))
 }
 
-/// The joints from the base link to the tip link, the names of these links, and why it is this tip.
+/// The joints from the base link to the tip link, the names of these links, and the reason for the choice of the tip.
 struct Between<'a, 'i> {
     chain: Vec<Element<'a, 'i>>,
     links: [String; 2],
     remark: Option<String>,
 }
 
-/// The chain that was asked for, else that of the only arm.
+/// Returns the requested chain, else that of the only arm.
 fn between<'a, 'i>(scope: &Scope<'_>, robot: Element<'a, 'i>, options: &Options) -> Result<Between<'a, 'i>> {
     let tree = Tree::read(scope, robot)?;
     let group = match &options.group {
@@ -180,7 +180,7 @@ fn between<'a, 'i>(scope: &Scope<'_>, robot: Element<'a, 'i>, options: &Options)
     Ok(Between { chain, links: [start.to_owned(), tip.to_owned()], remark })
 }
 
-/// The numbers of an attribute, each as a node of the attribute's line.
+/// Returns the numbers of an attribute, each as a node of the attribute's line.
 fn triple(scope: &Scope<'_>, element: Element<'_, '_>, name: &str) -> Result<Option<[Node; 3]>> {
     let Some(text) = element.attribute(name) else { return Ok(None) };
     let nodes: Vec<Node> =
@@ -216,7 +216,7 @@ impl Origin {
         Ok(origin)
     }
 
-    /// The motion; `None` for an angle that is not known well enough.
+    /// Returns the motion; `None` for an angle that is not known well enough.
     fn motion(&self, field: Option<&RealField>) -> Option<KnownMotion> {
         let mut exact = Motion::<Rational>::roll_pitch_yaw(&self.angles)?;
         exact.translation = self.position.each_ref().map(|x| x.rational().clone());
@@ -236,7 +236,7 @@ impl Origin {
     }
 }
 
-/// The field of all numbers of the origins and axes of a chain, where there is one.
+/// Returns the field of all numbers of the origins and axes of a chain, if there is one.
 fn field(origins: &[Origin], axes: &[[Number; 3]]) -> Option<RealField> {
     let mut all = Vec::new();
     for Origin { angles, position } in origins {
@@ -254,7 +254,7 @@ fn field(origins: &[Origin], axes: &[[Number; 3]]) -> Option<RealField> {
     RealField::containing(&all)
 }
 
-/// The axis of a joint that has none of its own.
+/// Returns the default axis of a joint.
 fn along_x() -> [Number; 3] {
     [1, 0, 0].map(|n| Number::exact(Rational::from(n)))
 }

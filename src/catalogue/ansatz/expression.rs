@@ -11,14 +11,14 @@ use rug::Rational;
 /// The functions of an angle, in the order of their variables.
 pub(super) const FUNCTIONS: [&str; 3] = ["cos", "sin", "tan_half"];
 
-/// Words that numbers are written with.
+/// Words that occur in numbers.
 const RESERVED: [&str; 15] =
     ["pi", "sqrt", "cos", "sin", "tan", "tan_half", "acos", "asin", "atan", "atan2", "deg", "rad", "m", "cm", "mm"];
 
-/// Factors of angles beyond this are refused.
+/// The largest factor of an angle that is accepted.
 const LARGEST_FACTOR: i32 = 12;
 
-/// The words of a text, each with the place where it begins.
+/// Returns the words of a text, each with its position.
 fn words(text: &str) -> Vec<(usize, &str)> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '\'';
     let mut words = Vec::new();
@@ -39,7 +39,7 @@ fn words(text: &str) -> Vec<(usize, &str)> {
     words
 }
 
-/// Refuses a name that numbers are written with.
+/// Refuses a name that occurs in numbers.
 pub(super) fn check_name(name: &str) -> Result<()> {
     if RESERVED.contains(&name) {
         return Err(Error::Invalid(format!(
@@ -49,12 +49,12 @@ pub(super) fn check_name(name: &str) -> Result<()> {
     Ok(())
 }
 
-/// Whether a text is a number and no expression in symbols.
+/// Returns whether a text is a number and no expression in symbols.
 pub(super) fn is_number(text: &str) -> bool {
     words(text).iter().all(|(_, word)| RESERVED.contains(word))
 }
 
-/// The words that are no names of numbers and are not in `cos(...)`, `sin(...)` or `tan_half(...)`.
+/// Returns the words that are no part of a number and are not in `cos(...)`, `sin(...)` or `tan_half(...)`.
 pub(super) fn bare_words(text: &str) -> Result<Vec<String>> {
     let flat = flattened(text)?;
     let is_function = |word: &str| FUNCTIONS.iter().any(|name| word.starts_with(&format!("{name}_")));
@@ -62,7 +62,7 @@ pub(super) fn bare_words(text: &str) -> Result<Vec<String>> {
     Ok(words(&flat).iter().filter(|word| bare(word)).map(|(_, word)| (*word).to_owned()).collect())
 }
 
-/// `cos_alpha ` for `cos(alpha)`: of the same length, so that places stay right.
+/// Replaces `cos(alpha)` by `cos_alpha `, which has the same length, so that positions remain valid.
 fn flattened(text: &str) -> Result<String> {
     let mut flat = text.to_owned();
     for (at, word) in words(text) {
@@ -86,7 +86,7 @@ fn flattened(text: &str) -> Result<String> {
     Ok(flat)
 }
 
-/// A polynomial in the variables of the symbols.
+/// Reads a polynomial in the variables of the symbols.
 pub(super) fn polynomial(text: &str, symbols: &Symbols) -> Result<Polynomial<Rational>> {
     let flat = flattened(text)?;
     for (at, word) in words(&flat) {
@@ -106,7 +106,7 @@ pub(super) fn polynomial(text: &str, symbols: &Symbols) -> Result<Polynomial<Rat
     Ok(expression.map_err(fault)?.to_rational())
 }
 
-/// The terms of a sum outside parentheses, with their signs.
+/// Returns the terms of a sum outside parentheses, with their signs.
 fn terms(text: &str) -> Vec<(bool, &str)> {
     let (mut terms, mut start, mut negative, mut depth) = (Vec::new(), 0, false, 0_usize);
     for (at, c) in text.char_indices() {
@@ -130,7 +130,7 @@ fn terms(text: &str) -> Vec<(bool, &str)> {
     terms
 }
 
-/// An angle: a sum of multiples of symbols and at most one number.
+/// Reads an angle: a sum of multiples of symbols and at most one number.
 pub(super) fn twist(text: &str, symbols: &Symbols, reading: &Reading) -> Result<(Twist, bool)> {
     let count = symbols.angles.len();
     let mut sum = Twist { multiples: vec![0; count], constant: (Rational::from(1), Rational::new()) };

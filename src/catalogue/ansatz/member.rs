@@ -24,11 +24,11 @@ pub struct Members<'a, F> {
     joints: Vec<[Polynomial<F>; 2]>,
     /// The relations that are linear in the lengths.
     relations: Vec<Polynomial<F>>,
-    /// Those that are not and give no symbol, which hold or do not.
+    /// Other relations that give no symbol; a member satisfies them or not.
     others: Vec<Polynomial<F>>,
-    /// What the others give.
+    /// Symbols given by the other relations.
     solved: Vec<Given<F>>,
-    /// A square root, where there is one.
+    /// The square root, if there is one.
     root: fn(&F) -> Option<F>,
 }
 
@@ -39,13 +39,13 @@ enum Given<F> {
 }
 
 impl Ansatz {
-    /// The ansatz over a field; `None` for an unlucky prime. Angles that need a square root have no value.
+    /// Converts the ansatz to a field; `None` for an unlucky prime. Angles that need a square root have no value.
     #[must_use]
     pub fn over<F: Field>(&self) -> Option<Members<'_, F>> {
         self.with_roots(|_| None)
     }
 
-    /// The ansatz over a field with square roots; `None` for an unlucky prime.
+    /// Converts the ansatz to a field with square roots; `None` for an unlucky prime.
     #[must_use]
     pub fn with_roots<F: Field>(&self, root: fn(&F) -> Option<F>) -> Option<Members<'_, F>> {
         let image = |p: &Polynomial<rug::Rational>| p.map(F::from_rational);
@@ -71,38 +71,38 @@ impl Ansatz {
 }
 
 impl<F: Field> Members<'_, F> {
-    /// The member of the family with these half-angle tangents of the free angles and these free lengths, in the order of
-    /// [`Ansatz::free_angles`] and [`Ansatz::free_lengths`]; `None` where the relations cannot be solved for the other
+    /// Returns the member of the family with these half-angle tangents of the free angles and these free lengths, in the order
+    /// of [`Ansatz::free_angles`] and [`Ansatz::free_lengths`]; `None` if the relations cannot be solved for the other
     /// lengths, or are not satisfied.
     ///
     /// # Panics
-    /// When the number of values is wrong.
+    /// If the number of values is wrong.
     #[must_use]
     pub fn member(&self, tangents: &[F], lengths: &[F]) -> Option<Vec<Link<F>>> {
         self.links(&self.values(tangents, lengths)?)
     }
 
-    /// The same member, and the values of all relations that give no length: where they vanish, it is one.
+    /// Returns the same member, and the values of all relations that give no length, which vanish for a true member.
     ///
     /// # Panics
-    /// When the number of values is wrong.
+    /// If the number of values is wrong.
     #[must_use]
     pub fn with_residuals(&self, tangents: &[F], lengths: &[F]) -> Option<(Vec<Link<F>>, Vec<F>)> {
         let (values, residuals) = self.solved(tangents, lengths)?;
         Some((self.links(&values)?, residuals))
     }
 
-    /// The values of all variables of [`Symbols`] for that member; `None` as for [`Self::member`].
+    /// Returns the values of all variables of [`Symbols`] for that member; `None` as for [`Self::member`].
     ///
     /// # Panics
-    /// When the number of values is wrong.
+    /// If the number of values is wrong.
     #[must_use]
     pub fn values(&self, tangents: &[F], lengths: &[F]) -> Option<Vec<F>> {
         let (values, residuals) = self.solved(tangents, lengths)?;
         residuals.iter().all(F::is_zero).then_some(values)
     }
 
-    /// The loop for given values of all variables; `None` for an unlucky prime.
+    /// Returns the loop for given values of all variables; `None` for an unlucky prime.
     #[must_use]
     pub fn links(&self, values: &[F]) -> Option<Vec<Link<F>>> {
         let angle = |k: usize| (values[Symbols::cos(k)].clone(), values[Symbols::sin(k)].clone());
@@ -114,7 +114,7 @@ impl<F: Field> Members<'_, F> {
         links.collect()
     }
 
-    /// The values of all variables, and what is left of the relations that give no symbol.
+    /// Returns the values of all variables, and the residuals of the relations that give no symbol.
     fn solved(&self, tangents: &[F], lengths: &[F]) -> Option<(Vec<F>, Vec<F>)> {
         let (symbols, free) = (&self.ansatz.symbols, self.ansatz.free_lengths());
         assert_eq!(lengths.len(), free.len(), "one value for every free length");
@@ -133,16 +133,16 @@ impl<F: Field> Members<'_, F> {
         Some((values, all))
     }
 
-    /// Whether the angles that relations give have values over the field.
+    /// Returns whether the angles given by relations have values over the field.
     ///
     /// # Panics
-    /// When the number of values is wrong.
+    /// If the number of values is wrong.
     #[must_use]
     pub fn has_angles(&self, tangents: &[F]) -> bool {
         self.angles(tangents).is_some()
     }
 
-    /// The values of the functions of all angles, lengths 0.
+    /// Returns the values of the functions of all angles, with lengths 0.
     fn angles(&self, tangents: &[F]) -> Option<Vec<F>> {
         let symbols = &self.ansatz.symbols;
         assert_eq!(tangents.len(), self.ansatz.free_angles.len(), "one tangent for every free angle");
@@ -164,7 +164,7 @@ impl<F: Field> Members<'_, F> {
         Some(values)
     }
 
-    /// The half-angle tangent that makes a polynomial of the first power in the functions of an angle vanish.
+    /// Returns the half-angle tangent at which a polynomial, linear in the functions of an angle, vanishes.
     fn tangent_of(&self, angle: usize, polynomial: &Polynomial<F>, values: &mut [F]) -> Option<F> {
         let tangent = Symbols::tan_half(angle);
         if polynomial.degree(tangent) > 0 {
@@ -190,7 +190,7 @@ impl<F: Field> Members<'_, F> {
         }
     }
 
-    /// The values of the functions of all angles from cosines and sines of the free ones and of those that are solved for.
+    /// Returns the functions of all angles from cosines and sines of the free and the solved ones.
     fn functions(&self, known: &[(F, F)]) -> Option<Vec<F>> {
         let angles: Vec<(F, F)> =
             self.ansatz.angles.iter().map(|angle: &Twist| angle.cos_sin(known)).collect::<Option<_>>()?;
@@ -198,7 +198,7 @@ impl<F: Field> Members<'_, F> {
         for (k, (cos, sin)) in angles.iter().enumerate() {
             values[Symbols::cos(k)] = cos.clone();
             values[Symbols::sin(k)] = sin.clone();
-            // At pi there is no tangent; an ansatz that uses it is not for that angle.
+            // At pi there is no tangent, so an ansatz that uses it excludes that angle.
             values[Symbols::tan_half(k)] = match F::one().add(cos).inverse() {
                 Some(inverse) => sin.mul(&inverse),
                 None if self.uses(Symbols::tan_half(k)) => return None,
@@ -212,10 +212,10 @@ impl<F: Field> Members<'_, F> {
         self.joints.iter().flatten().chain(&self.relations).chain(&self.others).any(|p| p.degree(variable) > 0)
     }
 
-    /// Solves the linear relations for the lengths that they give; what is left of those that give none.
+    /// Solves the linear relations for the lengths that they give. Returns the residuals of those that give none.
     fn solve(&self, values: &mut [F]) -> Option<Vec<F>> {
         let given: Vec<usize> = self.ansatz.given_lengths.iter().map(|&k| self.ansatz.symbols.length(k)).collect();
-        // Each relation is linear in the lengths that relations give: its value with all of them 0 or one of them 1.
+        // Each relation is linear in these lengths: it is evaluated with all of them 0 and with one of them 1.
         let mut rows: Vec<Vec<F>> = Vec::new();
         for relation in &self.relations {
             let constant = relation.evaluate(values);
@@ -250,7 +250,7 @@ impl<F: Field> Members<'_, F> {
     }
 }
 
-/// The value of a variable, which a polynomial has to the first power, that makes it vanish.
+/// Returns the value of a variable, in which a polynomial is linear, at which the polynomial vanishes.
 fn zero_of<F: Field>(polynomial: &Polynomial<F>, variable: usize, values: &mut [F]) -> Option<F> {
     values[variable] = F::zero();
     let constant = polynomial.evaluate(values);

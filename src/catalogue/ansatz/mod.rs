@@ -1,4 +1,4 @@
-//! Loops with symbols for parameters, and relations between these: what `conditions` starts from.
+//! Loops with symbols for parameters, and relations between these: the input of `conditions`.
 
 mod expression;
 mod member;
@@ -35,14 +35,14 @@ impl Symbols {
     /// These symbols.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for what is no name, for a name with two meanings, and for too many names.
+    /// [`Error::Invalid`] for an invalid name, for a name with two meanings, and for too many names.
     pub fn new(angles: Vec<String>, lengths: Vec<String>) -> Result<Self> {
         if let Some(both) = angles.iter().find(|angle| lengths.contains(angle)) {
             return Err(Error::Invalid(format!(
                 "found the symbol `{both}` among the angles and among the lengths, expected it to mean one of them"
             )));
         }
-        // First by themselves, so that an error speaks of the name that the file has.
+        // The names are checked by themselves first, so that an error cites the name in the file.
         Names::given(angles.iter().chain(&lengths))?;
         let functions = angles.iter().flat_map(|angle| expression::FUNCTIONS.map(|name| format!("{name}_{angle}")));
         let names = Names::given(functions.chain(lengths.iter().cloned()))?;
@@ -83,7 +83,7 @@ impl Symbols {
 /// An angle as a sum of multiples of the angles of an ansatz and a constant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Twist {
-    /// How often each angle is in it.
+    /// The coefficient of each angle.
     pub multiples: Vec<i32>,
     /// Cosine and sine of the constant.
     pub constant: (Rational, Rational),
@@ -100,18 +100,18 @@ pub struct SymbolicJoint {
     pub d: Polynomial<Rational>,
 }
 
-/// A relation between the symbols, with the place where it is written.
+/// A relation between the symbols, with its position in the file.
 #[derive(Clone, Debug)]
 pub struct Relation {
-    /// As it is written.
+    /// Its text.
     pub text: String,
     /// Line of the file, from 1; 0 where there is no file.
     pub line: usize,
-    /// What it says.
+    /// Its meaning.
     pub meaning: Meaning,
 }
 
-/// What a relation says.
+/// The meaning of a relation.
 #[derive(Clone, Debug)]
 pub enum Meaning {
     /// This angle is a multiple of a full turn.
@@ -120,23 +120,23 @@ pub enum Meaning {
     Polynomial(Polynomial<Rational>),
 }
 
-/// A symbol that a relation gives by what is known before it, though not linearly.
+/// A symbol that a relation determines, not linearly, from the symbols before it.
 #[derive(Clone, Debug, PartialEq)]
 enum Solved {
-    /// An angle whose cosine and sine, or half-angle tangent, the polynomial has to the first power.
+    /// An angle in whose cosine and sine, or half-angle tangent, the polynomial is linear.
     Angle(usize, Polynomial<Rational>),
-    /// A length that the polynomial has to the first power.
+    /// A length in which the polynomial is linear.
     Length(usize, Polynomial<Rational>),
 }
 
 /// A closed chain of revolute joints with symbols for parameters.
 #[derive(Clone, Debug)]
 pub struct Ansatz {
-    /// The name of its file, or what was asked for.
+    /// The name of its file, or the name requested.
     pub name: String,
-    /// A title for people.
+    /// A title for readers.
     pub title: String,
-    /// Where it comes from.
+    /// The publication it is taken from.
     pub source: Option<Source>,
     /// Remarks.
     pub notes: Option<String>,
@@ -154,22 +154,22 @@ pub struct Ansatz {
     pub fit: Vec<Polynomial<Rational>>,
     /// Whether a number of the file had to be replaced by a rational nearby.
     pub rounded: bool,
-    /// The loop itself, where it has numbers only.
+    /// The loop itself, if it has numbers only.
     pub chain: Option<Chain>,
     /// Every angle in terms of the free ones.
     angles: Vec<Twist>,
     /// The angles to which no relation gives a value.
     free_angles: Vec<usize>,
-    /// The lengths that relations give by the others.
+    /// The lengths determined by relations from the others.
     given_lengths: Vec<usize>,
-    /// What other relations give, one after the other: angles first.
+    /// The symbols determined by the other relations, in order: angles first.
     solved: Vec<Solved>,
-    /// Why no real numbers satisfy the relations, where that is proved.
+    /// The reason why no real numbers satisfy the relations, if that is proved.
     empty: Option<String>,
 }
 
 impl Ansatz {
-    /// The loop of n revolute joints with all twists, lengths and offsets symbols: `alpha1`, `a1`, `d1` and so on.
+    /// Returns the loop of n revolute joints whose twists, lengths and offsets are all symbols: `alpha1`, `a1`, `d1` and so on.
     ///
     /// # Panics
     /// Never: the names are distinct.
@@ -211,14 +211,14 @@ impl Ansatz {
         &self.free_angles
     }
 
-    /// The lengths, by number, to which no relation gives a value; those sought are among them.
+    /// Returns the lengths, by number, to which no relation gives a value, including those sought.
     #[must_use]
     pub fn free_lengths(&self) -> Vec<usize> {
         let is_solved = |k: usize| self.solved.iter().any(|solved| matches!(solved, Solved::Length(j, _) if *j == k));
         (0..self.symbols.lengths.len()).filter(|k| !self.given_lengths.contains(k) && !is_solved(*k)).collect()
     }
 
-    /// Whether relations that are not linear give some symbols: over a field there is not always a member with given values of
+    /// Returns whether nonlinear relations determine some symbols: then a field need not have a member for given values of
     /// the others.
     #[must_use]
     pub fn has_solved_symbols(&self) -> bool {
@@ -244,7 +244,7 @@ impl Ansatz {
         &self.angles
     }
 
-    /// Why no real mechanism satisfies the relations; `None` where that is not proved.
+    /// Returns the reason why no real mechanism satisfies the relations; `None` if that is not proved.
     #[must_use]
     pub fn empty(&self) -> Option<&str> {
         self.empty.as_deref()
@@ -252,14 +252,14 @@ impl Ansatz {
 }
 
 impl Twist {
-    /// One of the angles of an ansatz.
+    /// Returns one of the angles of an ansatz.
     #[must_use]
     pub fn symbol(angle: usize, angles: usize) -> Self {
         let multiples = (0..angles).map(|k| i32::from(k == angle)).collect();
         Self { multiples, constant: (Rational::from(1), Rational::new()) }
     }
 
-    /// Whether no angle is in it.
+    /// Returns whether it contains no angle.
     #[must_use]
     pub fn is_constant(&self) -> bool {
         self.multiples.iter().all(|&k| k == 0)
@@ -278,14 +278,14 @@ impl Twist {
         sum
     }
 
-    /// The same angle with others in place of the angles of the ansatz.
+    /// Substitutes others for the angles of the ansatz.
     fn in_terms_of(&self, angles: &[Self]) -> Self {
         let constant = Self { multiples: vec![0; angles.len()], constant: self.constant.clone() };
         let terms = self.multiples.iter().copied().zip(angles);
         Self::sum(std::iter::once((1, &constant)).chain(terms), angles.len())
     }
 
-    /// Cosine and sine where those of the angles are given; `None` for an unlucky prime.
+    /// Returns cosine and sine from those of the angles; `None` for an unlucky prime.
     #[must_use]
     pub fn cos_sin<R: Ring>(&self, angles: &[(R, R)]) -> Option<(R, R)> {
         let constant = (R::from_rational(&self.constant.0)?, R::from_rational(&self.constant.1)?);
@@ -294,7 +294,7 @@ impl Twist {
     }
 }
 
-/// Cosine and sine of `x + factor y`.
+/// Returns cosine and sine of `x + factor y`.
 fn turned<R: Ring>(x: &(R, R), y: &(R, R), factor: i32) -> (R, R) {
     let y = if factor < 0 { (y.0.clone(), y.1.neg()) } else { y.clone() };
     (0..factor.unsigned_abs())

@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use rug::Rational;
 
-/// Loops have at least so many joints and at most as many.
+/// Number of joints of a loop.
 const JOINTS: std::ops::RangeInclusive<usize> = 3..=7;
 
 /// Reads a loop with symbols, or one with numbers only.
@@ -59,7 +59,7 @@ pub(in crate::internal::catalogue) fn ansatz(scope: &mut Scope<'_>, root: &Node,
     Ok(ansatz)
 }
 
-/// The loop of a table without symbols.
+/// Returns the loop of a table without symbols.
 fn chain(scope: &Scope<'_>, node: &Node) -> Option<Chain> {
     let mut own = Scope::new(scope.path, scope.reading.clone());
     own.chains = Chains::Any;
@@ -98,7 +98,7 @@ fn joints(scope: &Scope<'_>, node: &Node, symbols: &Symbols) -> Result<Vec<Symbo
     match convention {
         "screws" => super::screws::joints(scope, &table, nodes, symbols.angles.len()),
         "modified-dh" => {
-            // Rx Tx of each joint stand before its Rz Tz: round the loop, behind those of the joint before it.
+            // Rx Tx of each joint stands before its Rz Tz: round the loop, behind those of the joint before it.
             let mut joints: Vec<SymbolicJoint> =
                 nodes.iter().map(|node| joint(scope, node, symbols)).collect::<Result<_>>()?;
             let links: Vec<_> = joints.iter().map(|joint| (joint.a.clone(), joint.alpha.clone())).collect();
@@ -111,9 +111,9 @@ fn joints(scope: &Scope<'_>, node: &Node, symbols: &Symbols) -> Result<Vec<Symbo
     }
 }
 
-/// Refuses joints that are no revolute ones.
+/// Refuses joints that are not revolute.
 pub(super) fn check_kind(scope: &Scope<'_>, joint: &Node) -> Result<()> {
-    // Which other keys there are depends on the type.
+    // The other keys depend on the type.
     let Value::Table(fields) = &joint.value else { return Ok(()) };
     let Some(kind) = fields.iter().find(|field| field.key == "type").map(|field| &field.node) else { return Ok(()) };
     let letter = scope.word(kind, "type", &["R", "P", "C", "H", "U", "S"])?;
@@ -164,7 +164,7 @@ fn constant((cos, sin): &(Rational, Rational), symbols: &Symbols) -> Twist {
     Twist { multiples: vec![0; symbols.angles.len()], constant: (cos.clone(), sin.clone()) }
 }
 
-/// A length: a number with its unit, or a polynomial in symbols, whose numbers are metres.
+/// Reads a length: a number with its unit, or a polynomial in symbols, whose numbers are metres.
 fn length(scope: &Scope<'_>, node: &Node, what: &str, symbols: &Symbols) -> Result<Polynomial<Rational>> {
     match &node.value {
         Value::Text(text) if !is_number(text) => {
@@ -174,7 +174,7 @@ fn length(scope: &Scope<'_>, node: &Node, what: &str, symbols: &Symbols) -> Resu
     }
 }
 
-/// The `[ansatz]` table.
+/// Reads the `[ansatz]` table.
 fn relations(scope: &Scope<'_>, node: &Node, ansatz: &mut Ansatz) -> Result<()> {
     let table = scope.table(node, "[ansatz]", &["relations", "unknown", "fit"])?;
     if let Some(list) = table.get("unknown") {
@@ -211,7 +211,7 @@ fn relations(scope: &Scope<'_>, node: &Node, ansatz: &mut Ansatz) -> Result<()> 
     Ok(())
 }
 
-/// The terms that a condition may have: a list, or lists of which all products are meant.
+/// Reads the terms that a condition may have: a list, or lists of which all products are taken.
 fn fit(scope: &Scope<'_>, node: &Node, symbols: &Symbols) -> Result<Vec<Polynomial<Rational>>> {
     let items = scope.list(node, "fit")?;
     let term = |item: &Node| -> Result<Polynomial<Rational>> {

@@ -1,4 +1,4 @@
-//! Relations that no real numbers satisfy, where that is seen.
+//! Detects relations that no real numbers satisfy.
 
 use super::{Ansatz, Meaning, Relation, Symbols};
 use crate::algebra::polynomial::Polynomial;
@@ -9,7 +9,7 @@ use rug::Rational;
 use std::cmp::Ordering;
 
 impl Relation {
-    /// Why it has no real solution, by itself or with the relations that give values to symbols.
+    /// Returns why it has no real solution, by itself or together with the relations that give values to symbols.
     pub(super) fn without_real_solution(&self, ansatz: &Ansatz) -> Option<String> {
         let Meaning::Polynomial(polynomial) = &self.meaning else { return None };
         let here = ansatz.without_real_solution(polynomial);
@@ -22,10 +22,10 @@ impl Relation {
 }
 
 impl Ansatz {
-    /// Why a polynomial in the symbols has no real zero; `None` where that is not seen.
+    /// Returns why a polynomial in the symbols has no real zero; `None` if that is not detected.
     ///
-    /// It is seen of a polynomial in one length or in functions of one angle, by its number of real roots; of a sum of even
-    /// powers of one sign and a constant; and of one of degree 2 in lengths, by completing squares.
+    /// It is detected for a polynomial in one length or in functions of one angle, by its number of real roots; for a sum of even
+    /// powers of one sign and a constant; and for one of degree 2 in lengths, by completing squares.
     #[must_use]
     pub fn without_real_solution(&self, polynomial: &Polynomial<Rational>) -> Option<String> {
         let angles = self.symbols.angles.len();
@@ -74,7 +74,7 @@ impl Ansatz {
     }
 }
 
-/// Whether the constant of a polynomial in cosines and sines exceeds all its other terms together.
+/// Returns whether the constant of a polynomial in cosines and sines exceeds the sum of all its other terms.
 fn bounded_away(polynomial: &Polynomial<Rational>, angles: usize) -> bool {
     let (mut constant, mut others) = (Rational::new(), Rational::new());
     for (exponents, c) in polynomial.terms() {
@@ -88,7 +88,7 @@ fn bounded_away(polynomial: &Polynomial<Rational>, angles: usize) -> bool {
     constant.abs() > others
 }
 
-/// Whether a polynomial of degree 2 has one sign everywhere.
+/// Returns whether a polynomial of degree 2 has one sign everywhere.
 fn is_definite(polynomial: &Polynomial<Rational>) -> bool {
     let mut rest = polynomial.clone();
     let mut sign = None;

@@ -1,4 +1,4 @@
-//! An ansatz with the symbols that its relations give replaced by what they give, and one with more relations.
+//! Replaces the symbols that relations determine in an ansatz, and adds relations to one.
 
 use super::{Ansatz, Meaning, Relation, SymbolicJoint, Symbols, Twist};
 use crate::algebra::polynomial::Polynomial;
@@ -6,17 +6,17 @@ use crate::algebra::ring::{Field, Ring};
 use crate::algebra::trigonometric::{Pair, reduce};
 use rug::Rational;
 
-/// An ansatz without relations: the members are the same.
+/// An ansatz without relations that has the same members.
 #[derive(Clone, Debug)]
 pub struct Replaced {
-    /// In the symbols that were free.
+    /// The ansatz in the symbols that were free.
     pub ansatz: Ansatz,
     /// Every variable of the old symbols in the new ones, as far as it can occur.
     substitution: Vec<(usize, Polynomial<Rational>)>,
 }
 
 impl Replaced {
-    /// A polynomial of the old symbols in the new ones.
+    /// Converts a polynomial of the old symbols to the new ones.
     #[must_use]
     pub fn polynomial(&self, polynomial: &Polynomial<Rational>) -> Polynomial<Rational> {
         let symbols = &self.ansatz.symbols;
@@ -27,7 +27,7 @@ impl Replaced {
 }
 
 impl Ansatz {
-    /// The same loop with further relations, and with other symbols for which conditions are sought; `None` where the
+    /// Returns the same loop with further relations, and with other symbols for which conditions are sought; `None` if the
     /// relations contradict one another.
     #[must_use]
     pub fn satisfying(&self, relations: Vec<Meaning>, unknown: Vec<usize>, unknown_angles: Vec<usize>) -> Option<Self> {
@@ -38,7 +38,7 @@ impl Ansatz {
         Some(ansatz)
     }
 
-    /// The same loop without one of its relations, given by number; `None` where that is no relation between lengths.
+    /// Returns the loop without one of its relations, given by number; `None` if that is no relation between lengths.
     #[must_use]
     pub fn without_relation(&self, number: usize) -> Option<(Self, Polynomial<Rational>)> {
         let Meaning::Polynomial(relation) = self.relations.get(number)?.meaning.clone() else { return None };
@@ -48,8 +48,8 @@ impl Ansatz {
         Some((ansatz, relation))
     }
 
-    /// The symbols that relations give, cosine and sine of angles and lengths, as polynomials in the others; lengths only
-    /// where their relation has a number as coefficient.
+    /// Returns the symbols determined by relations, cosine and sine of angles and lengths, as polynomials in the others. A
+    /// length is included only if its coefficient in the relation is a number.
     pub(super) fn replacements(&self) -> Vec<(usize, Polynomial<Rational>)> {
         let free: Vec<_> = (0..self.symbols.angles.len())
             .map(|k| (Polynomial::variable(Symbols::cos(k)), Polynomial::variable(Symbols::sin(k))))
@@ -77,8 +77,8 @@ impl Ansatz {
         list
     }
 
-    /// The ansatz in its free symbols alone; `None` where it has relations that are no replacement of a symbol, or the
-    /// half-angle tangent of an angle that is replaced.
+    /// Returns the ansatz in its free symbols alone; `None` if some relation is no replacement of a symbol, or if the
+    /// half-angle tangent of a replaced angle occurs.
     #[must_use]
     pub fn without_relations(&self) -> Option<Replaced> {
         if self.has_solved_symbols() {
@@ -94,7 +94,7 @@ impl Ansatz {
         let symbols =
             Symbols::new(names(&self.symbols.angles, &self.free_angles), names(&self.symbols.lengths, &lengths));
         let symbols = symbols.ok()?;
-        // Where each variable that is kept goes.
+        // The new index of each variable that is kept.
         let mut kept: Vec<(usize, usize)> = Vec::new();
         for (new, &old) in self.free_angles.iter().enumerate() {
             let functions = [Symbols::cos, Symbols::sin, Symbols::tan_half];

@@ -1,5 +1,5 @@
-//! Relations solved: which symbols they give by the others, whether they contradict one another, whether any real
-//! numbers satisfy them.
+//! Solves the relations: finds the symbols that they determine, contradictions between them, and relations without real
+//! solutions.
 
 use super::{Ansatz, Meaning, Relation, Solved, Symbols, Twist};
 use crate::algebra::polynomial::Polynomial;
@@ -8,7 +8,7 @@ use crate::catalogue::scope::Scope;
 use crate::error::{Error, Result};
 use rug::Rational;
 
-/// Half-angle tangents at which the linear system for the lengths is looked at: any set will do that is not special.
+/// Half-angle tangents at which the linear system for the lengths is examined; any set that is not special would do.
 const TANGENTS: [[i32; 2]; 12] = [
     [3, 7],
     [5, 13],
@@ -25,7 +25,7 @@ const TANGENTS: [[i32; 2]; 12] = [
 ];
 
 impl Ansatz {
-    /// The polynomials of the relations that are about lengths, or about functions of angles.
+    /// Returns the polynomials of the relations about lengths, or about functions of angles.
     pub(super) fn polynomials(&self) -> impl Iterator<Item = &Polynomial<Rational>> {
         self.relations.iter().filter_map(|relation| match &relation.meaning {
             Meaning::Polynomial(polynomial) => Some(polynomial),
@@ -33,16 +33,16 @@ impl Ansatz {
         })
     }
 
-    /// Whether a relation is linear in the lengths.
+    /// Returns whether a relation is linear in the lengths.
     pub(super) fn is_linear(&self, relation: &Polynomial<Rational>) -> bool {
         let lengths = 3 * self.symbols.angles.len();
         relation.terms().all(|(exponents, _)| exponents.iter().skip(lengths).sum::<u32>() <= 1)
     }
 
-    /// Solves the relations for as many symbols as they give.
+    /// Solves the relations for as many symbols as they determine.
     ///
     /// # Errors
-    /// The line and what it contradicts, or what about it cannot be solved.
+    /// The line, and the relation it contradicts or the reason why it cannot be solved.
     pub(super) fn resolve(&mut self) -> std::result::Result<(), (usize, Error)> {
         self.resolve_angles()?;
         self.resolve_others();
@@ -52,7 +52,7 @@ impl Ansatz {
         Ok(())
     }
 
-    /// Refuses a relation of higher degree that is a number where the others give its symbols.
+    /// Refuses a relation of higher degree that becomes a nonzero number when the others are substituted.
     fn contradiction(&self) -> std::result::Result<(), (usize, Error)> {
         let list = self.replacements();
         for relation in &self.relations {
@@ -80,7 +80,7 @@ impl Ansatz {
                 }
                 continue;
             }
-            // The symbol that stands first in the relation, where a unit stands before it.
+            // The first symbol in the relation; a unit before it is skipped.
             let place = |k: &usize| {
                 let is_unknown = self.unknown_angles.contains(k);
                 (is_unknown, relation.text.find(&self.symbols.angles[*k]).unwrap_or(usize::MAX))
@@ -110,11 +110,11 @@ impl Ansatz {
         Ok(())
     }
 
-    /// Chooses a symbol for each relation that is not linear in lengths to give it: the first named that is in no relation
-    /// before it and has the first power.
+    /// Chooses a symbol for each relation that is not linear in lengths: the first named one that is in no earlier relation
+    /// and occurs to the first power.
     fn resolve_others(&mut self) {
         self.solved.clear();
-        // Of four joints, relations are conditions beside those that are derived.
+        // For four joints, relations are conditions beside those that are derived.
         if self.joints.len() < 5 {
             return;
         }
@@ -129,7 +129,7 @@ impl Ansatz {
                 _ => None,
             })
             .collect();
-        // Of what is in a relation before, the value is needed there.
+        // Symbols of earlier relations need a value there.
         let mut known = vec![false; angles + lengths];
         let (mut of_angles, mut of_lengths) = (Vec::new(), Vec::new());
         for (text, polynomial) in others {
@@ -175,13 +175,13 @@ impl Ansatz {
         (0..self.symbols.lengths.len()).any(|k| polynomial.degree(self.symbols.length(k)) > 0)
     }
 
-    /// Whether a polynomial is in functions of an angle, or of one that is a sum with it.
+    /// Returns whether a polynomial contains functions of an angle, or of one that is a sum with it.
     fn depends(&self, polynomial: &Polynomial<Rational>, angle: usize) -> bool {
         (0..self.angles.len()).any(|k| self.angles[k].multiples[angle] != 0 && uses_angle(polynomial, k))
     }
 
-    /// Whether a polynomial has cosine and sine of an angle, or its half-angle tangent, to the first power, and is in no other
-    /// angle that is a sum with it.
+    /// Returns whether a polynomial is linear in cosine and sine of an angle, or in its half-angle tangent, and contains no
+    /// other angle that is a sum with it.
     fn is_of_first_power(&self, polynomial: &Polynomial<Rational>, angle: usize) -> bool {
         let others = (0..self.angles.len()).filter(|&k| k != angle);
         let is_alone = others.into_iter().all(|k| self.angles[k].multiples[angle] == 0 || !uses_angle(polynomial, k));
@@ -194,10 +194,10 @@ impl Ansatz {
         is_alone && matches!((circle, tangent), (1, 0) | (0, 1))
     }
 
-    /// The values of cosine, sine and half-angle tangent of all angles at chosen free ones.
+    /// Returns cosine, sine and half-angle tangent of all angles for a choice of the free ones.
     fn sample(&self, shift: usize) -> Vec<(usize, Polynomial<Rational>)> {
         let mut known = vec![(Rational::from(1), Rational::new()); self.symbols.angles.len()];
-        // Symbols that relations give have any values here: the lengths do not depend on which.
+        // Symbols determined by relations take any values here: the pivots do not depend on them.
         let solved = self.solved.iter().filter_map(|solved| match solved {
             Solved::Angle(angle, _) => Some(angle),
             Solved::Length(..) => None,
@@ -230,7 +230,7 @@ impl Ansatz {
             for relation in &self.relations {
                 let Meaning::Polynomial(polynomial) = &relation.meaning else { continue };
                 let at = polynomial.substitute_all(&values);
-                // Of higher degree: a condition that members satisfy or not.
+                // A relation of higher degree is a condition that members satisfy or not.
                 if !self.is_linear(polynomial) {
                     continue;
                 }
@@ -242,7 +242,7 @@ impl Ansatz {
             }
             let found = self.pivots(rows)?;
             if let Some(before) = given.take().filter(|before| *before != found) {
-                // A special place: take what both have in common to be on the safe side.
+                // At a special point only the common part of both results is safe.
                 given = Some(before.into_iter().filter(|k| found.contains(k)).collect());
             } else {
                 given = Some(found);
@@ -253,7 +253,7 @@ impl Ansatz {
         Ok(())
     }
 
-    /// Which lengths a linear system gives by the others: the first of each relation, never one that is sought.
+    /// Returns the lengths that a linear system determines: the first of each relation, never one that is sought.
     fn pivots(&self, mut rows: Vec<(Vec<Rational>, &Relation)>) -> std::result::Result<Vec<usize>, (usize, Error)> {
         let count = self.symbols.lengths.len();
         let mut given = Vec::new();
@@ -269,7 +269,7 @@ impl Ansatz {
                 }
                 let is_decided = self.free_angles.is_empty() && self.solved.is_empty();
                 if !relation_has_length(relation, &self.symbols) && !is_decided {
-                    // A condition on angles only: members satisfy it or not.
+                    // A condition on angles only, which members satisfy or not.
                     continue;
                 }
                 let general = if self.polynomials().any(|p| (0..3 * self.symbols.angles.len()).any(|k| p.degree(k) > 0))
@@ -297,7 +297,7 @@ impl Ansatz {
     }
 }
 
-/// The complaint about a relation that gives a value to a symbol for which conditions are sought.
+/// Returns the error for a relation that gives a value to a symbol for which conditions are sought.
 fn gives_unknown(relation: &Relation, name: &str) -> Error {
     Error::Invalid(format!(
         "found `{}`, which gives a value to `{name}`: it contradicts `unknown`, expected `{name}` to be free",
@@ -305,18 +305,18 @@ fn gives_unknown(relation: &Relation, name: &str) -> Error {
     ))
 }
 
-/// Whether a polynomial is in cosine, sine or half-angle tangent of an angle.
+/// Returns whether a polynomial contains cosine, sine or half-angle tangent of an angle.
 fn uses_angle(polynomial: &Polynomial<Rational>, angle: usize) -> bool {
     [Symbols::cos(angle), Symbols::sin(angle), Symbols::tan_half(angle)].into_iter().any(|k| polynomial.degree(k) > 0)
 }
 
-/// Whether a length is in a relation as it is written.
+/// Returns whether a length occurs in the text of a relation.
 fn relation_has_length(relation: &Relation, symbols: &Symbols) -> bool {
     let Meaning::Polynomial(polynomial) = &relation.meaning else { return false };
     (0..symbols.lengths.len()).any(|k| polynomial.degree(symbols.length(k)) > 0)
 }
 
-/// The relation `left = right` (or `expression`, meant to vanish) between symbols.
+/// Reads the relation `left = right` (or `expression`, meant to vanish) between symbols.
 pub(super) fn relation(text: &str, line: usize, symbols: &Symbols, scope: &Scope<'_>) -> Result<Relation> {
     use super::expression::{bare_words, polynomial, twist};
     let (left, right) = text.split_once('=').unwrap_or((text, "0"));
@@ -337,7 +337,7 @@ pub(super) fn relation(text: &str, line: usize, symbols: &Symbols, scope: &Scope
         Meaning::Angle(Twist::sum([(1, &left), (-1, &right)], symbols.angles.len()))
     } else {
         let column = left.chars().count() + 1;
-        // Places in the right side are counted in the whole relation.
+        // Positions in the right side are counted from the beginning of the relation.
         let right = format!("{}{right}", " ".repeat(column));
         let difference = polynomial(left, symbols)?.sub(&polynomial(&right, symbols)?);
         if difference.is_zero() {

@@ -1,4 +1,4 @@
-//! Loops given by their axes in one position: twists, lengths and offsets from the common normals, where they are rational.
+//! Loops given by their axes in one position: twists, lengths and offsets from the common normals, if they are rational.
 
 use super::read::check_kind;
 use super::{SymbolicJoint, Twist};
@@ -17,7 +17,7 @@ struct Axis {
     point: Vector<Rational>,
 }
 
-/// A link: its twist and length, and where its common normal meets the two axes.
+/// A link: its twist and length, and the feet of its common normal on the two axes.
 struct Normal {
     cos: Rational,
     sin: Rational,
@@ -25,7 +25,7 @@ struct Normal {
     feet: [Vector<Rational>; 2],
 }
 
-/// The joints of a loop of screw axes.
+/// Returns the joints of a loop of screw axes.
 pub(super) fn joints(
     scope: &Scope<'_>,
     table: &Table<'_>,
@@ -71,7 +71,7 @@ fn axis(scope: &Scope<'_>, node: &Node) -> Result<Axis> {
     Ok(Axis { direction: direction.map(|x| Ring::mul(&x, &inverse)), point })
 }
 
-/// Lengths of vectors must be rational, for the loop to be exact.
+/// Returns the error for an irrational length, which would make the loop inexact.
 fn irrational(what: &str) -> Error {
     Error::Unsupported(format!(
         "found {what}, which has no rational root: conditions are derived for rational cosines and sines of twists and \
@@ -85,7 +85,7 @@ fn normal(one: &Axis, other: &Axis, first: usize, second: usize) -> Result<Norma
     let between = difference(&other.point, &one.point);
     let square = dot(&across, &across);
     let Some(inverse) = square.inverse() else {
-        // Parallel: the normal may stand anywhere.
+        // For parallel axes the normal may be anywhere.
         let along = dot(&between, &one.direction);
         let foot = moved(&other.point, &one.direction, &along.neg());
         let distance = difference(&foot, &one.point);
