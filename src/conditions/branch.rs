@@ -1,8 +1,8 @@
-//! A constant K of a 5R loop followed from one choice of twists to all others.
+//! Follows a constant K of a 5R loop from one choice of twists to all others.
 //!
 //! On a curve of tied joints the discriminant D times a known denominator is the square of a polynomial S in one tangent.
-//! Where K and S are isolated solutions of `S^2 = D`, they are power series in a parameter along every line of twists, by
-//! Newton's method; where the series of K is that of a rational function, K is known all along the line, on the same branch.
+//! If K and S are isolated solutions of `S^2 = D`, they are power series in a parameter along every line of twists, by
+//! Newton's method. If the series of K is that of a rational function, K is known all along the line, on the same branch.
 
 use super::curve_ansatz::Tie;
 use super::finite_field::square_root;
@@ -17,10 +17,10 @@ use rug::Rational;
 /// The field in which branches are followed.
 pub(super) type Image = ModP<PRIME_61>;
 
-/// Coefficients of the power series: enough for rational functions with numerator and denominator of degree 7.
+/// Number of coefficients of the power series: enough for rational functions with numerator and denominator of degree 7.
 const ORDER: usize = 18;
 
-/// A power series; one with constant coefficient has an inverse.
+/// A power series; it has an inverse if its constant coefficient is not 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Local(Series<Image, ORDER>);
 
@@ -76,7 +76,7 @@ impl Field for Local {
     const PIVOT_ZERO: f64 = 0.0;
 }
 
-/// The loop of an ansatz without lengths, for half-angle tangents of its free angles; `None` where the square of one is -1.
+/// Returns the loop of an ansatz without lengths, for half-angle tangents of its free angles; `None` if the square of one is -1.
 pub(super) fn spherical_loop<F: Field>(ansatz: &Ansatz, tangents: &[F]) -> Option<Vec<Link<F>>> {
     let mut angles = vec![(F::one(), F::zero()); ansatz.symbols.angles.len()];
     for (&angle, t) in ansatz.free_angles().iter().zip(tangents) {
@@ -96,16 +96,16 @@ pub(super) struct Branch<'a> {
     base: Vec<Image>,
     constant: Image,
     root: Vec<Image>,
-    /// Tangents at which the equation is looked at, and what corrects S and K when it is off by 1 at one of them.
+    /// Tangents at which the equation is evaluated, and the corrections of S and K for an error of 1 at one of them.
     places: Vec<Image>,
     corrections: Vec<Vec<Image>>,
 }
 
-/// S has degree 4.
+/// Number of coefficients of S, which has degree 4.
 const ROOT: usize = 5;
 
 impl<'a> Branch<'a> {
-    /// The branch of a constant K at some tangents of the free angles; `None` where K is not isolated.
+    /// Returns the branch of a constant K at some tangents of the free angles; `None` if K is not isolated.
     pub(super) fn new(ansatz: &'a Ansatz, tie: Tie, base: &[Image], constant: Image) -> Option<Self> {
         let links = spherical_loop(ansatz, base)?;
         let tangents: Vec<Image> = (2..14).map(Image::new).collect();
@@ -146,8 +146,8 @@ impl<'a> Branch<'a> {
         Some(Self { ansatz, tie, base: base.to_vec(), constant, root, places, corrections })
     }
 
-    /// K along the line from the base in a direction, as a rational function of the parameter; `None` where it is none of
-    /// low degree.
+    /// Returns K along the line from the base in a direction, as a rational function of the parameter; `None` if it is none
+    /// of low degree.
     pub(super) fn along(&self, direction: &[Image]) -> Option<(Univariate<Image>, Univariate<Image>)> {
         let tangents: Vec<Local> = self.base.iter().zip(direction).map(|(t, u)| Local::line(*t, *u)).collect();
         let links = spherical_loop(self.ansatz, &tangents)?;
@@ -169,21 +169,21 @@ impl<'a> Branch<'a> {
         rational_function(&unknown[ROOT].0.coefficients)
     }
 
-    /// The tangents at a place of a line.
+    /// Returns the tangents at a point of a line.
     pub(super) fn at(&self, direction: &[Image], parameter: &Image) -> Vec<Image> {
         self.base.iter().zip(direction).map(|(t, u)| t.add(&u.mul(parameter))).collect()
     }
 }
 
-/// D times the square of its denominator.
+/// Returns D times the square of its denominator.
 fn square(links: &[Link<Local>], tie: Tie, x: &Local, constant: &Local) -> Option<Local> {
     let (_, triad) = tie.triad(links, x, constant)?;
     let denominator = tie.denominator(x, constant);
     Some(triad.discriminant().mul(&denominator).mul(&denominator))
 }
 
-/// The rational function with a power series, by Euclid's algorithm; `None` unless two coefficients more than determine it
-/// agree.
+/// Returns the rational function of a power series, by Euclid's algorithm; `None` unless two more coefficients than
+/// determine it agree.
 fn rational_function(series: &[Image]) -> Option<(Univariate<Image>, Univariate<Image>)> {
     let mut power = vec![Image::zero(); series.len()];
     power.push(Image::one());

@@ -11,17 +11,17 @@ type Poly = Polynomial<Int>;
 /// A joint with the link behind it, every angle by its half-angle tangent.
 #[derive(Clone, Debug)]
 pub struct Member {
-    /// Of the joint.
+    /// The joint angle.
     pub theta: Ratio,
     /// The offset.
     pub d: Poly,
-    /// Of the twist.
+    /// The twist.
     pub alpha: Ratio,
     /// The length of the link.
     pub a: Poly,
 }
 
-/// The seven components of the product besides the scalar, which vanish where the loop closes, and the scalar.
+/// Returns the seven components of the product besides the scalar, which vanish if the loop closes, and the scalar.
 #[must_use]
 pub fn product(members: &[Member]) -> ([Poly; 7], Poly) {
     let nought = Poly::zero;
@@ -36,7 +36,7 @@ pub fn product(members: &[Member]) -> ([Poly; 7], Poly) {
     ([x1, x2, x3, y0, y1, y2, y3], scalar)
 }
 
-/// Whether the loop closes for all values of the variables: the product is a number, and not zero.
+/// Returns whether the loop closes for all values of the variables: the product is a nonzero number.
 #[must_use]
 pub fn closes(members: &[Member]) -> bool {
     let (rest, scalar) = product(members);

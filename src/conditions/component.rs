@@ -15,24 +15,24 @@ const Y: usize = Variables::Y;
 /// The coefficients of a spherical four-bar in half-angle tangents.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coefficients {
-    /// Of `x^2 y^2`.
+    /// The coefficient of `x^2 y^2`.
     pub a: Poly,
-    /// Of `x^2`.
+    /// The coefficient of `x^2`.
     pub b: Poly,
-    /// Of `y^2`.
+    /// The coefficient of `y^2`.
     pub c: Poly,
-    /// Of `x y`.
+    /// The coefficient of `x y`.
     pub m: Poly,
-    /// Of 1.
+    /// The constant term.
     pub e: Poly,
 }
 
 /// A part of the curve that is irreducible over the complex numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Component {
-    /// One of the joints stands still, its half-angle tangent 0 or infinite.
+    /// One of the joints is locked, its half-angle tangent 0 or infinite.
     Fold {
-        /// The variable that stands still.
+        /// The variable of the locked joint.
         variable: usize,
         /// Whether it is infinite.
         infinite: bool,
@@ -41,15 +41,15 @@ pub enum Component {
     Graph {
         /// The variable that is a function of the other one.
         solved: usize,
-        /// In the other variable.
+        /// A polynomial in the other variable.
         numerator: Poly,
-        /// In the other variable.
+        /// A polynomial in the other variable.
         denominator: Poly,
     },
 }
 
 impl Coefficients {
-    /// The coefficients of f; `None` if it has other terms.
+    /// Returns the coefficients of f; `None` if it has other terms.
     #[must_use]
     pub fn of(f: &Poly) -> Option<Self> {
         let at = |k: usize, l: usize| {
@@ -60,7 +60,7 @@ impl Coefficients {
         (found.polynomial() == *f).then_some(found)
     }
 
-    /// `A x^2 y^2 + B x^2 + C y^2 + M x y + E`
+    /// Returns `A x^2 y^2 + B x^2 + C y^2 + M x y + E`.
     #[must_use]
     pub fn polynomial(&self) -> Poly {
         let (x, y) = (Poly::variable(X), Poly::variable(Y));
@@ -70,8 +70,8 @@ impl Coefficients {
         terms.iter().fold(Poly::zero(), |sum, (c, monomial)| sum.add(&c.mul(monomial)))
     }
 
-    /// The components, with those at infinity, where M is not zero; `None` where the curve is irreducible or does not split
-    /// over the field of the coefficients. Their product has been compared with the polynomial.
+    /// Returns the components, including those at infinity, if M is not zero; `None` if the curve is irreducible or does not
+    /// split over the field of the coefficients. Their product is compared with the polynomial.
     #[must_use]
     pub fn components(&self) -> Option<Vec<Component>> {
         if self.m.is_zero() {
@@ -98,7 +98,7 @@ impl Coefficients {
         let nought = [fold(Y, false), fold(X, turned)];
         let infinite = [fold(Y, true), fold(X, !turned)];
         let moving = |numerator: &Poly, denominator: &Poly| {
-            // The denominator first: it gets the positive leading coefficient.
+            // The denominator comes first to get the positive leading coefficient.
             let ratio = primitive(&[denominator.clone(), numerator.clone()]);
             let x = Poly::variable(X);
             let [numerator, denominator] =
@@ -118,7 +118,7 @@ impl Coefficients {
         })
     }
 
-    /// A fold, and the rest of degree 1 in `solved`: two coefficients, with the square of the other variable and without.
+    /// Returns a fold, and the rest of degree 1 in `solved`: its two coefficients with the square of the other variable and without.
     fn deltoid(&self, solved: usize, infinite: bool, [square, constant]: [&Poly; 2]) -> Vec<Component> {
         let other = Poly::variable(X + Y - solved);
         let quadratic = square.mul(&other).mul(&other).add(constant);
@@ -127,7 +127,7 @@ impl Coefficients {
         vec![Component::Fold { variable: solved, infinite }, Component::Graph { solved, numerator, denominator }]
     }
 
-    /// Whether the product of the components is the polynomial, up to a factor without x and y.
+    /// Returns whether the product of the components is the polynomial, up to a factor without x and y.
     fn is_product(&self, components: &[Component]) -> bool {
         let product = components.iter().map(Component::polynomial).fold(Poly::one(), |product, p| product.mul(&p));
         let Some(other) = Self::of(&product) else { return false };
@@ -137,7 +137,7 @@ impl Coefficients {
             .all(|(p, q)| own.iter().zip(&other).all(|(r, s)| p.mul(s) == q.mul(r)) && p.is_zero() == q.is_zero())
     }
 
-    /// All five.
+    /// Returns all five coefficients.
     #[must_use]
     pub const fn list(&self) -> [&Poly; 5] {
         [&self.a, &self.b, &self.c, &self.m, &self.e]
@@ -145,7 +145,7 @@ impl Coefficients {
 }
 
 impl Component {
-    /// The polynomial that vanishes on it; 1 for what lies at infinity.
+    /// Returns the polynomial that vanishes on the component; 1 if that lies at infinity.
     #[must_use]
     pub fn polynomial(&self) -> Poly {
         match self {
@@ -155,13 +155,13 @@ impl Component {
         }
     }
 
-    /// Whether both joints move.
+    /// Returns whether both joints move.
     #[must_use]
     pub const fn moves(&self) -> bool {
         matches!(self, Self::Graph { .. })
     }
 
-    /// The conditions under which a polynomial, of degree 2 or less in x and in y, vanishes on the component.
+    /// Returns the conditions under which a polynomial, of degree 2 or less in x and in y, vanishes on the component.
     #[must_use]
     pub fn restricted(&self, g: &Poly) -> Vec<Poly> {
         let (variable, restricted) = match self {
@@ -181,7 +181,7 @@ impl Component {
         restricted.coefficients_in(variable)
     }
 
-    /// The linear conditions on lengths under which g vanishes on the component, one row each.
+    /// Returns the linear conditions on lengths under which g vanishes on the component, one row each.
     #[must_use]
     pub fn equations(&self, g: &Poly, lengths: &[usize]) -> Vec<Vec<Poly>> {
         let columns: Vec<Vec<Poly>> = lengths.iter().map(|&length| self.restricted(&g.derivative(length))).collect();

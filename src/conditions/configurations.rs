@@ -1,7 +1,7 @@
 //! All configurations of a loop of revolute joints over a small prime field, by meeting in the middle.
 //!
-//! An isolated configuration is one of at most 16 (as many as a general 6R loop has); on a curve of configurations there
-//! are about as many as the field has elements. Counting them is a test of mobility that knows no degenerate cut.
+//! An isolated configuration is one of at most 16 (as many as a general 6R loop has); a curve of configurations has
+//! about as many as the field has elements. Counting them is a test of mobility without degenerate cuts.
 
 use super::finite_field::{Turn, all_turns, turn_number};
 use crate::algebra::modp::ModP;
@@ -9,7 +9,7 @@ use crate::algebra::ring::{Field, Ring};
 use crate::catalogue::ansatz::Link;
 use crate::kinematics::motion::{Motion, dot};
 
-/// Most isolated configurations of a loop of up to six revolute joints.
+/// Maximum number of isolated configurations of a loop of up to six revolute joints.
 pub const MOST_ISOLATED: usize = 16;
 
 /// The configurations of a loop over the field of P elements.
@@ -17,18 +17,18 @@ pub const MOST_ISOLATED: usize = 16;
 pub struct Configurations {
     /// The rotation of each joint by its number in [`all_turns`].
     pub turns: Vec<Vec<u16>>,
-    /// Whether these are all; otherwise the count was stopped.
+    /// Whether the list is complete; otherwise the count was stopped.
     pub complete: bool,
 }
 
 impl Configurations {
-    /// Whether there are more than isolated ones can be.
+    /// Returns whether there are too many for all of them to be isolated.
     #[must_use]
     pub fn are_a_family(&self) -> bool {
         self.turns.len() > MOST_ISOLATED
     }
 
-    /// How many different rotations each joint makes.
+    /// Returns the number of different rotations of each joint.
     #[must_use]
     pub fn values(&self) -> Vec<usize> {
         let joints = self.turns.first().map_or(0, Vec::len);
@@ -41,15 +41,15 @@ impl Configurations {
         (0..joints).map(distinct).collect()
     }
 
-    /// The joints that move in a family of configurations: on a curve, at most 16 configurations share the rotation of a
-    /// joint that moves, while a locked one has a few values only.
+    /// Returns the joints that move in a family of configurations. On a curve at most 16 configurations share the rotation of a
+    /// moving joint, while a locked one has a few values only.
     #[must_use]
     pub fn moving(&self) -> Vec<bool> {
         let least = 2.max(self.turns.len() / MOST_ISOLATED);
         self.values().iter().map(|&values| self.are_a_family() && values > least).collect()
     }
 
-    /// Whether there is a family of configurations in which every joint moves.
+    /// Returns whether there is a family of configurations in which every joint moves.
     #[must_use]
     pub fn all_move(&self) -> bool {
         self.are_a_family() && self.moving().iter().all(|&moves| moves)
@@ -64,11 +64,11 @@ pub fn link_motion<R: Ring>(link: &Link<R>) -> Motion<R> {
     motion
 }
 
-/// The configurations of a loop of four to six revolute joints, at most `limit` of them.
+/// Returns the configurations of a loop of four to six revolute joints, at most `limit` of them.
 ///
-/// The loop is cut at the first and the fourth joint (the third of four). What rotations about these two axes do not
-/// change of the motion between them, `R_33`, `t_3`, `(R^T t)_3` and `t.t`, is computed for every rotation of the joints on
-/// one side and looked up for every rotation of those on the other: `2 (P + 1)^2` entries.
+/// The loop is cut at the first and the fourth joint (the third of four). The invariants of the motion between these two
+/// axes under rotations about them are `R_33`, `t_3`, `(R^T t)_3` and `t.t`. They are computed for every rotation of the joints
+/// on one side and looked up for every rotation of those on the other: `2 (P + 1)^2` entries.
 ///
 /// # Panics
 /// Unless there are four to six joints.
@@ -101,7 +101,7 @@ pub fn configurations<const P: u64>(links: &[Link<ModP<P>>], limit: usize) -> Co
     found
 }
 
-/// The rotations `u`, `v` with `Rz(u) one Rz(v) = other`.
+/// Returns the rotations `u`, `v` with `Rz(u) one Rz(v) = other`.
 fn cuts<const P: u64>(
     one: &Motion<ModP<P>>,
     other: &Motion<ModP<P>>,
@@ -127,12 +127,12 @@ struct Side<'a, const P: u64> {
     first: &'a Motion<ModP<P>>,
     /// The links behind its one or two joints.
     others: &'a [Motion<ModP<P>>],
-    /// Whether the inverse motion is meant.
+    /// Whether the inverse motion is used.
     reversed: bool,
 }
 
 impl<const P: u64> Side<'_, P> {
-    /// The rotations that a number stands for.
+    /// Returns the rotations with this number.
     fn turns<const Q: u64>(&self, number: usize) -> Vec<u16> {
         let base = usize::try_from(Q + 1).unwrap_or(usize::MAX);
         let digits = if self.others.len() == 1 { vec![number] } else { vec![number / base, number % base] };
@@ -150,7 +150,7 @@ impl<const P: u64> Side<'_, P> {
         })
     }
 
-    /// What rotations about the axes of the cut leave as it is. Linear in cosine and sine of each joint.
+    /// Returns the invariants of rotations about the axes of the cut, which are linear in cosine and sine of each joint.
     fn invariants(&self, turns: &[Turn<ModP<P>>]) -> [ModP<P>; 4] {
         let m = self.at(turns);
         let t = &m.translation;
@@ -159,7 +159,7 @@ impl<const P: u64> Side<'_, P> {
         [m.rotation[2][2], first, second, dot(t, t)]
     }
 
-    /// The invariants for all rotations, packed into a number each.
+    /// Returns the invariants for all rotations, each packed into a number.
     fn keys(&self, all: &[Turn<ModP<P>>]) -> Vec<u64> {
         // f = f_0 + f_c cos + f_s sin from its values at 0, pi and pi/2.
         let nodes = [(1, 0), (-1, 0), (0, 1)].map(|(c, s)| (ModP::from_integer(c), ModP::from_integer(s)));
@@ -180,7 +180,7 @@ impl<const P: u64> Side<'_, P> {
             row(nodes.map(|turn| self.invariants(&[turn])));
             return keys;
         }
-        // At each node of the second joint the forms in the first.
+        // The forms in the first joint at each node of the second.
         let columns = nodes.map(|second| {
             let values = nodes.map(|first| self.invariants(&[first, second]));
             std::array::from_fn::<_, 4, _>(|i| fit(values.map(|at| at[i])))
@@ -193,7 +193,7 @@ impl<const P: u64> Side<'_, P> {
     }
 }
 
-/// Four sums of products of residues as one number.
+/// Packs four sums of products of residues into one number.
 #[inline(always)]
 fn pack<const P: u64>(values: [u32; 4]) -> u64 {
     #[expect(clippy::cast_possible_truncation, reason = "a small prime")]
@@ -201,7 +201,7 @@ fn pack<const P: u64>(values: [u32; 4]) -> u64 {
     ((reduced[0] * P + reduced[1]) * P + reduced[2]) * P + reduced[3]
 }
 
-/// Entries by their keys.
+/// A hash table of entries by their keys.
 struct Index {
     keys: Vec<u64>,
     /// The last entry of each bucket, and for every entry the one before it in its bucket; [`NONE`] for no entry.
@@ -210,7 +210,7 @@ struct Index {
     shift: u32,
 }
 
-/// No entry.
+/// Marks the absence of an entry.
 const NONE: u32 = u32::MAX;
 
 impl Index {

@@ -3,7 +3,7 @@
 //!
 //! The spherical image of a 5R loop has two degrees of freedom. With `tan(theta_i/2) tan(theta_j/2) = K`, or with a
 //! constant ratio, one is left, and the other three joints follow from a quadratic equation whose discriminant D is a
-//! function of one tangent. The curve falls into two where D is a square; on each part the lengths that close everywhere
+//! function of one tangent. The curve splits in two if D is a square; on each part the lengths that close everywhere
 //! are the solutions of linear equations.
 
 use super::finite_field::{Turn, half_tangent_turn, square_root, turn};
@@ -18,7 +18,7 @@ use crate::kinematics::motion::{Vector, cross};
 use rayon::prelude::*;
 use rug::Rational;
 
-/// How the half-angle tangents of two joints are related.
+/// The relation between the half-angle tangents of two joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Relation {
     /// `x_i x_j = K`
@@ -27,19 +27,19 @@ pub enum Relation {
     Quotient,
 }
 
-/// Two joints, counted from 0, and how they are related.
+/// Two joints, counted from 0, and the relation between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Tie {
-    /// The joint whose tangent runs.
+    /// The joint whose tangent is the parameter.
     pub first: usize,
-    /// The joint whose tangent follows.
+    /// The joint whose tangent depends on it.
     pub second: usize,
-    /// How.
+    /// The relation.
     pub relation: Relation,
 }
 
 impl Tie {
-    /// All ties of a loop of five joints.
+    /// Returns all ties of a loop of five joints.
     fn all() -> impl Iterator<Item = Self> {
         let pairs = (0..5).flat_map(|first| (first + 1..5).map(move |second| (first, second)));
         pairs.flat_map(|(first, second)| {
@@ -47,7 +47,7 @@ impl Tie {
         })
     }
 
-    /// The tangent of the second joint.
+    /// Returns the tangent of the second joint.
     fn follow<F: Field>(self, x: &F, constant: &F) -> Option<F> {
         match self.relation {
             Relation::Product => Some(constant.mul(&x.inverse()?)),
@@ -55,7 +55,7 @@ impl Tie {
         }
     }
 
-    /// The joints that follow from the quadratic equation.
+    /// Returns the joints that follow from the quadratic equation.
     fn others(self) -> [usize; 3] {
         let mut rest = (0..5).filter(|&k| k != self.first && k != self.second);
         std::array::from_fn(|_| rest.next().expect("five joints without two"))
@@ -69,7 +69,8 @@ impl Tie {
         Some((turns, triad))
     }
 
-    /// `(1 + x^2)(x^2 + K^2)` or `(1 + x^2)(1 + K^2 x^2)`, which times the square root of D is a polynomial of degree 4.
+    /// Returns `(1 + x^2)(x^2 + K^2)` or `(1 + x^2)(1 + K^2 x^2)`, whose product with the square root of D is a polynomial of
+    /// degree 4.
     pub(super) fn denominator<F: Field>(self, x: &F, constant: &F) -> F {
         let (square, k) = (x.mul(x), constant.mul(constant));
         let second = match self.relation {
@@ -80,7 +81,7 @@ impl Tie {
     }
 }
 
-/// A curve of spherical configurations with the lengths that close all along it.
+/// A curve of spherical configurations and the lengths that close on all of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<F> {
     /// The tied joints.
@@ -91,24 +92,24 @@ pub struct Curve<F> {
     pub lengths: Vec<Vec<F>>,
     /// The joints that move.
     pub moving: Vec<bool>,
-    /// Joints whose axes coincide all along, for every choice of these lengths.
+    /// Joints whose axes coincide on the whole curve, for every choice of these lengths.
     pub coincident: Vec<(usize, usize)>,
     /// Some of its points: the rotation of each joint.
     pub points: Vec<Vec<Turn<F>>>,
 }
 
 impl<F> Curve<F> {
-    /// Whether all joints move and no two axes coincide.
+    /// Returns whether all joints move and no two axes coincide.
     #[must_use]
     pub fn is_proper(&self) -> bool {
         self.coincident.is_empty() && self.moving.iter().all(|&moves| moves)
     }
 }
 
-/// Points of a curve that are looked at: more than seven, which determine lengths if there are no accidents.
+/// Number of points examined on a curve; seven of them determine the lengths in general.
 const POINTS: usize = 16;
 
-/// The curves of one tie with constant K on which some lengths close; none where the two parts of the curve are not
+/// Returns the curves of one tie with constant K on which some lengths close; none if the two parts of the curve are not
 /// separated over the field.
 ///
 /// `root` gives square roots of numbers of the field.
@@ -124,7 +125,7 @@ pub fn curves<F: Field + Domain>(
     branches.iter().filter_map(|branch| on_branch(links, tie, constant, tangents, branch)).collect()
 }
 
-/// The square root of D times the denominator, as a polynomial.
+/// Returns the square root of D times the denominator, as a polynomial.
 pub(super) fn separated<F: Field + Domain>(
     links: &[Link<F>],
     tie: Tie,
@@ -142,7 +143,7 @@ pub(super) fn separated<F: Field + Domain>(
     if numerator.is_zero() {
         return Some(numerator);
     }
-    // Degree 8 from eleven points: two of them are a check.
+    // Degree 8 follows from nine of eleven points; two of them are a check.
     let degree = numerator.degree().filter(|degree| points.len() == 11 && *degree <= 8)?;
     let mut product = Univariate::constant(F::one());
     for (factor, multiplicity) in numerator.square_free_decomposition() {
@@ -199,7 +200,7 @@ fn on_branch<F: Field>(
     })
 }
 
-/// Whether the axes i and j > i are one line.
+/// Returns whether the axes i and j > i are one line.
 fn same_axis<F: Ring>(directions: &Directions<F>, lengths: &[F], i: usize, j: usize) -> bool {
     let axis = &directions.axes[i];
     let parallel = |v: &Vector<F>| cross(axis, v).iter().all(Ring::is_zero);
@@ -258,7 +259,7 @@ pub fn search<const P: u64>(links: &[Link<ModP<P>>]) -> Vec<Curve<ModP<P>>> {
     candidates.par_iter().flat_map_iter(search).collect()
 }
 
-/// Whether D is a square for all tangents where it is not zero: almost never unless it is the square of a function.
+/// Returns whether D is a square at all tangents at which it is not zero: almost never unless it is the square of a function.
 fn character_is_constant<const P: u64>(links: &[Link<ModP<P>>], tie: Tie, constant: ModP<P>) -> bool {
     (1..P).all(|x| {
         let triad = tie.triad(links, &ModP::new(x), &constant);
@@ -266,13 +267,13 @@ fn character_is_constant<const P: u64>(links: &[Link<ModP<P>>], tie: Tie, consta
     })
 }
 
-/// The primes of the search for rational constants.
+/// The primes for the search for rational constants.
 const LIFTED_FROM: [u64; 3] = [479, 491, 499];
 
 /// The curves over the rationals, with rational constants K of height up to some thousands.
 ///
-/// K is found modulo three primes, put together, and what comes out is tried exactly: every curve that is returned is one.
-/// Twists are given by the tangents of half the angle.
+/// K is found modulo three primes and lifted, and the result is checked exactly, so every returned curve is one.
+/// Twists are given by half-angle tangents.
 ///
 /// # Panics
 /// Unless there are five joints.
@@ -299,13 +300,13 @@ pub fn rational_curves(twists: &[Rational]) -> Vec<Curve<Rational>> {
     lifted
 }
 
-/// The loop of these twists without lengths.
+/// Returns the loop of these twists without lengths.
 pub fn spherical_links<F: Field>(twists: &[F]) -> Option<Vec<Link<F>>> {
     let link = |t: &F| half_tangent_turn(t).map(|(cos, sin)| Link { cos, sin, a: F::zero(), d: F::zero() });
     twists.iter().map(link).collect()
 }
 
-/// The ties and constants found modulo a prime; `None` for an unlucky one.
+/// Returns the ties and constants found modulo a prime; `None` for an unlucky one.
 fn residues<const P: u64>(twists: &[Rational]) -> Option<Vec<(Tie, u64)>> {
     let images: Option<Vec<ModP<P>>> = twists.iter().map(ModP::from_rational).collect();
     let links = images?.into_iter().map(|t| {
@@ -319,7 +320,7 @@ fn residues<const P: u64>(twists: &[Rational]) -> Option<Vec<(Tie, u64)>> {
     Some(list)
 }
 
-/// A rational square root.
+/// Returns a rational square root.
 #[must_use]
 pub fn rational_square_root(x: &Rational) -> Option<Rational> {
     let is_square = x.numer().is_perfect_square() && x.denom().is_perfect_square();

@@ -1,4 +1,4 @@
-//! What the theorem on four joints says of a loop with its own symbols, or with numbers.
+//! Applies the theorem on four joints to a loop with its own symbols, or with numbers.
 
 use super::closure_identity::{Member, closes};
 use super::component::{Coefficients, Component};
@@ -37,11 +37,11 @@ pub enum Class {
 pub struct Family {
     /// Its kind.
     pub class: Class,
-    /// A few words.
+    /// A short name.
     pub name: String,
-    /// The polynomials that vanish; none where every loop asked about is of the family.
+    /// The polynomials that vanish; empty if every loop of the ansatz is of the family.
     pub conditions: Vec<Poly>,
-    /// What the conditions do not say.
+    /// A remark on what the conditions leave out.
     pub note: Option<String>,
 }
 
@@ -52,13 +52,13 @@ pub struct Decision {
     pub names: Names,
     /// The families, those whose joints all move first.
     pub families: Vec<Family>,
-    /// The links whose twist is taken to be no multiple of pi, counted from 1; the others' is one always.
+    /// The links whose twist is assumed to be no multiple of pi, counted from 1; the twist of the others always is one.
     pub oblique: Vec<usize>,
     /// Whether the loop has numbers only.
     pub is_numeric: bool,
-    /// Whether the linear conditions at the numbers themselves have the same solutions; `None` where they were not set up.
+    /// Whether the linear conditions at the numbers themselves have the same solutions; `None` if they were not set up.
     pub confirmed: Option<bool>,
-    /// The degree of the number field of a loop whose numbers were not rounded but taken as its elements.
+    /// The degree of the number field, if the numbers of the loop were not rounded but taken as elements of it.
     pub field: Option<usize>,
 }
 
@@ -67,7 +67,7 @@ struct Setting {
     names: Names,
     links: Vec<Link<Quotient>>,
     residuals: Vec<Poly>,
-    /// Factors that are not zero for real loops with the twists meant.
+    /// Factors that are not zero for real loops with the intended twists.
     harmless: Vec<Poly>,
     is_numeric: bool,
 }
@@ -94,7 +94,7 @@ impl Setting {
         Ok(Self { is_numeric: names.list().is_empty(), names, links, residuals, harmless })
     }
 
-    /// A condition without factors that do not vanish; `None` where it cannot be satisfied by real numbers.
+    /// Returns a condition without factors that do not vanish; `None` if no real numbers satisfy it.
     fn condition(&self, value: &Quotient) -> Option<Poly> {
         let rest = remove_factors(value.numerator(), &self.harmless).rest.primitive_part();
         if rest.is_zero() {
@@ -112,8 +112,8 @@ impl Setting {
         }
     }
 
-    /// The conditions as polynomials in the symbols, each once; `None` where they cannot be satisfied together with the
-    /// relations of the ansatz.
+    /// Returns the conditions as polynomials in the symbols, each once; `None` if they contradict the relations of the
+    /// ansatz.
     fn conditions(&self, values: impl IntoIterator<Item = Quotient>) -> Option<Vec<Poly>> {
         let own = self.residuals.iter().cloned().map(Quotient::from);
         let mut found: Vec<Poly> = Vec::new();
@@ -123,7 +123,7 @@ impl Setting {
                 found.push(condition);
             }
         }
-        // Two that vanish have a sum and a difference that vanish.
+        // If two polynomials vanish, so do their sum and difference.
         for (k, p) in found.iter().enumerate() {
             for q in &found[..k] {
                 self.condition(&Quotient::from(p.add(q)))?;
@@ -152,10 +152,10 @@ impl Setting {
     }
 }
 
-/// All families of a loop of four joints with these symbols.
+/// Returns all families of a loop of four joints with these symbols.
 ///
 /// # Errors
-/// Where the relations cannot be solved in general.
+/// If the relations cannot be solved in general.
 pub fn decide(theorem: &FourBar, ansatz: &Ansatz) -> Result<Decision> {
     let setting = Setting::of(ansatz)?;
     let parallel: Vec<usize> = (0..4).filter(|&k| setting.links[k].sin.is_zero()).collect();
@@ -178,7 +178,7 @@ pub fn decide(theorem: &FourBar, ansatz: &Ansatz) -> Result<Decision> {
     Ok(Decision { names, families, oblique, is_numeric, confirmed, field: None })
 }
 
-/// The values of the twelve parameters of the theorem, by its variables; no twist is a multiple of pi.
+/// Returns the values of the twelve parameters of the theorem, by its variables; `None` if a twist is a multiple of pi.
 fn values(links: &[Link<Quotient>]) -> Option<Vec<Quotient>> {
     let mut values = vec![Quotient::zero(); Variables::X];
     for (k, link) in links.iter().enumerate() {
@@ -189,25 +189,25 @@ fn values(links: &[Link<Quotient>]) -> Option<Vec<Quotient>> {
     Some(values)
 }
 
-/// The value of a polynomial at rational functions.
+/// Returns the value of a polynomial at rational functions.
 fn at(p: &Poly, values: &[Quotient]) -> Quotient {
     let image = p.map(|c| Some(Quotient::from(Poly::constant(c.clone()))));
     image.map_or_else(Quotient::zero, |image| image.evaluate(values))
 }
 
-/// Bennett, spherical and folded loops.
+/// Adds Bennett, spherical and folded loops.
 fn oblique_families(theorem: &FourBar, setting: &Setting, families: &mut Vec<Family>) -> Option<bool> {
     let values = values(&setting.links)?;
     let mut bennett: Vec<Family> = Vec::new();
     for variant in &theorem.bennett {
-        // Where K is 0 or infinite both joints are folded.
+        // If K is 0 or infinite, both joints are folded.
         let at_one = |p: &Poly| at(&p.substitute(Variables::X, &Poly::one()), &values);
         if at_one(&variant.fourth.0).is_zero() || at_one(&variant.fourth.1).is_zero() {
             continue;
         }
         let own = conditions(variant);
         let Some(found) = setting.conditions(own.iter().map(|p| at(p, &values))) else { continue };
-        // With lengths that are all zero it is a spherical loop.
+        // If all lengths are zero, it is a spherical loop.
         let lengths = setting.links.iter().all(|link| {
             setting.conditions([link.a.clone()]).is_some_and(|zero| zero.iter().all(|p| found.contains(p)))
         });
@@ -217,7 +217,7 @@ fn oblique_families(theorem: &FourBar, setting: &Setting, families: &mut Vec<Fam
         let note = Some(constants(variant, &values, &setting.names));
         bennett.push(Family { class: Class::Bennett, name: sign(variant), conditions: found, note });
     }
-    // What is a case of another one says nothing new.
+    // A family contained in another one is redundant.
     let implied = |a: &Family, b: &Family| b.conditions.iter().all(|p| a.conditions.contains(p));
     let kept = |k: &usize| (0..bennett.len()).all(|other| other == *k || !implied(&bennett[*k], &bennett[other]));
     let mut kept: Vec<Family> = (0..bennett.len()).filter(kept).map(|k| bennett[k].clone()).collect();
@@ -248,7 +248,7 @@ fn split(q: &Quotient) -> Ratio {
     (q.numerator().clone(), q.denominator().clone())
 }
 
-/// How the other angles depend on that of joint 1.
+/// Returns the dependence of the other angles on that of joint 1.
 fn constants(variant: &Bennett, values: &[Quotient], names: &Names) -> String {
     let one = |k: usize| {
         let (numerator, denominator) = &variant.angles[k];
@@ -265,14 +265,14 @@ fn constants(variant: &Bennett, values: &[Quotient], names: &Names) -> String {
     [1, 2, 3].map(one).join(", ")
 }
 
-/// Which of the two families, by the sign of `a1 sin(alpha2) / (a2 sin(alpha1))`.
+/// Returns which of the two families it is, by the sign of `a1 sin(alpha2) / (a2 sin(alpha1))`.
 pub(super) fn sign(variant: &Bennett) -> String {
     let sum_of_degrees = |p: &Poly| p.coefficients().first().is_some_and(|c| c.to_i64().is_some_and(|c| c > 0));
     let same = sum_of_degrees(&variant.lengths[0]) == sum_of_degrees(&variant.lengths[1]);
     format!("Bennett ({})", if same { "+" } else { "-" })
 }
 
-/// The conditions under which the axes of two opposite joints coincide while the other two are locked, for every
+/// Returns the conditions under which the axes of two opposite joints coincide while the other two are locked, for every
 /// orientation; each has been proved by the closure identity.
 pub(super) fn folds(axes: usize) -> Vec<Vec<Poly>> {
     let v = Poly::variable;
@@ -290,7 +290,7 @@ pub(super) fn folds(axes: usize) -> Vec<Vec<Poly>> {
             let [t2, a2] = relation(link(0), link(1), first);
             let [t4, a4] = relation(link(2), link(3), second);
             let d = |k: usize| v(Variables::offset(link(k)));
-            // The joint beyond turns in the same sense about an axis of the other direction.
+            // The other joint rotates in the same sense about an axis of the opposite direction.
             let along = if odd { d(2).sub(&d(0)) } else { d(2).add(&d(0)) };
             if folded(odd, first, second) {
                 found.push(vec![t2, t4, a2, a4, d(1), d(3), along]);
@@ -300,7 +300,7 @@ pub(super) fn folds(axes: usize) -> Vec<Vec<Poly>> {
     found
 }
 
-/// Whether a loop with coincident axes 1 and 3 closes for all angles of joint 1.
+/// Returns whether a loop with coincident axes 1 and 3 closes for all angles of joint 1.
 fn folded(odd: bool, first: bool, second: bool) -> bool {
     let v = Poly::variable;
     let x = v(Variables::X);
@@ -316,7 +316,7 @@ fn folded(odd: bool, first: bool, second: bool) -> bool {
         |straight: bool| -> Ratio { if straight { (Poly::zero(), Poly::one()) } else { (Poly::one(), Poly::zero()) } };
     let member = |theta: Ratio, d: Poly, (alpha, a): (Ratio, Poly)| Member { theta, d, alpha, a };
     let d = v(Variables::offset(0));
-    // Joint 3 turns back, about an axis that may have the other direction, perhaps from half a turn on.
+    // Joint 3 rotates back, about an axis that may have the opposite direction, possibly with an offset of pi.
     let turns = [(x.neg(), Poly::one()), (x.clone(), Poly::one()), (Poly::one(), x.clone()), (Poly::one(), x.neg())];
     turns.into_iter().any(|third| {
         closes(&[
@@ -328,7 +328,7 @@ fn folded(odd: bool, first: bool, second: bool) -> bool {
     })
 }
 
-/// All axes parallel.
+/// Adds loops with all axes parallel.
 fn planar(setting: &Setting, families: &mut Vec<Family>) {
     let mut direction = Quotient::one();
     let mut along = Quotient::zero();
@@ -343,7 +343,7 @@ fn planar(setting: &Setting, families: &mut Vec<Family>) {
     }
     let name = "planar: all axes parallel".to_owned();
     if sines.is_empty() {
-        // Directions that do not come back to themselves close nowhere.
+        // If the directions do not return to themselves, the loop never closes.
         if direction == Quotient::one()
             && let Some(conditions) = setting.conditions([along])
         {
@@ -353,12 +353,12 @@ fn planar(setting: &Setting, families: &mut Vec<Family>) {
         }
         return;
     }
-    // The sines are set aside as factors that do not vanish: put them in as they are.
+    // The sines were set aside as nonvanishing factors and are inserted as they are.
     let possible = sines.iter().all(|sine| sine.numerator().to_constant().is_none());
     if possible {
         let mut conditions: Vec<Poly> =
             sines.iter().map(|sine| sine.numerator().primitive_part().square_free_part()).collect();
-        // Tangents that vanish are angles of 0, which turn no axis round.
+        // A tangent 0 is an angle of 0, which reverses no axis.
         let zeros: Vec<(usize, Poly)> = conditions
             .iter()
             .filter_map(|p| (0..p.variables()).find(|&k| *p == Poly::variable(k)))
@@ -373,7 +373,7 @@ fn planar(setting: &Setting, families: &mut Vec<Family>) {
     }
 }
 
-/// Two neighbouring axes coincide.
+/// Adds loops with two coincident neighbouring axes.
 fn neighbours(setting: &Setting, families: &mut Vec<Family>) {
     for (k, link) in setting.links.iter().enumerate() {
         let sine = &link.sin;
@@ -390,8 +390,8 @@ fn neighbours(setting: &Setting, families: &mut Vec<Family>) {
     }
 }
 
-/// The linear conditions at twists that are numbers: the lengths, columns as in [`LENGTHS`], with which the loop moves on a
-/// component of its curve on which both joints move. `None` where the curve falls apart, but not over the rationals.
+/// Solves the linear conditions at numeric twists: returns the lengths, columns as in [`LENGTHS`], with which the loop moves
+/// on a component of its curve on which both joints move. `None` if the curve is reducible, but not over the rationals.
 #[must_use]
 pub fn lengths_at(theorem: &FourBar, tangents: &[Ratio; 4]) -> Option<Vec<Vec<Vec<Poly>>>> {
     let f = with_tangents(&theorem.pair.f, tangents);
@@ -405,7 +405,7 @@ pub fn lengths_at(theorem: &FourBar, tangents: &[Ratio; 4]) -> Option<Vec<Vec<Ve
     if ((a || b) && (c || e)) || (c && e) || (a && b) {
         return None;
     }
-    // Irreducible: g = lambda f, one more column; lambda alone cannot be, since f is not zero.
+    // Irreducible: g = lambda f, one more column; lambda alone is impossible, since f is not zero.
     let zero_fold = Component::Fold { variable: Variables::X, infinite: false };
     let mut rows = Vec::new();
     let columns: Vec<Poly> = LENGTHS.iter().map(|&v| g.derivative(v)).chain([f]).collect();
@@ -419,7 +419,7 @@ pub fn lengths_at(theorem: &FourBar, tangents: &[Ratio; 4]) -> Option<Vec<Vec<Ve
     Some(vec![null_space(&rows, columns.len())])
 }
 
-/// Whether the linear conditions at the numbers say the same as the families.
+/// Returns whether the linear conditions at the numbers agree with the families.
 fn confirmed(theorem: &FourBar, tangents: &[Ratio; 4], values: &[Quotient], families: &[Family]) -> Option<bool> {
     let spaces = lengths_at(theorem, tangents)?;
     let bennett = families.iter().any(|family| family.class == Class::Bennett);
@@ -431,7 +431,7 @@ fn confirmed(theorem: &FourBar, tangents: &[Ratio; 4], values: &[Quotient], fami
         })
         .collect();
     let Some(_) = numbers else {
-        // Unknown lengths: there are Bennett loops among them only if some null space is not zero.
+        // For unknown lengths, there are Bennett loops among them only if some null space is not zero.
         return Some(!bennett || spaces.iter().any(|space| !space.is_empty()));
     };
     let ratio = |k: usize| &values[LENGTHS[k]];

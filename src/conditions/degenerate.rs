@@ -1,4 +1,4 @@
-//! What is left besides the curves on which both joints move: locked joints, and twists of 0 or pi.
+//! The cases besides the curves on which both joints move: locked joints, and twists of 0 or pi.
 
 use super::closure_identity::{Member, closes};
 use super::four_bar::LENGTHS;
@@ -15,12 +15,12 @@ fn ratio(p: Poly) -> Ratio {
     (p, Poly::one())
 }
 
-/// The angle pi.
+/// Returns the angle pi.
 fn pi() -> Ratio {
     (Poly::one(), Poly::zero())
 }
 
-/// The loop whose links 1, 2 and 3, 4 are folded onto one another, so that axes 1 and 3 coincide.
+/// Returns the loop whose links 1, 2 and 3, 4 are folded onto one another, so that axes 1 and 3 coincide.
 #[must_use]
 pub fn folded() -> [Member; 4] {
     let v = Poly::variable;
@@ -40,7 +40,7 @@ pub fn folded() -> [Member; 4] {
     ]
 }
 
-/// Folds: one joint stands still.
+/// Treats folds, in which one joint is locked.
 pub(super) fn folds(steps: &mut Vec<Step>) {
     steps.push(Step {
         title: "Folds".to_owned(),
@@ -56,7 +56,7 @@ pub(super) fn folds(steps: &mut Vec<Step>) {
     });
 }
 
-/// Twists that are multiples of pi.
+/// Treats twists that are multiples of pi.
 pub(super) fn zero_twists(pair: &SpatialPair<Poly>, steps: &mut Vec<Step>) {
     let v = Poly::variable;
     let (x, y, zero) = (v(Variables::X), v(Variables::Y), Poly::zero());
@@ -67,7 +67,7 @@ pub(super) fn zero_twists(pair: &SpatialPair<Poly>, steps: &mut Vec<Step>) {
     };
     let parallel = pair.f.substitute(Variables::twist(3), &zero);
     let sum_only = turned(&parallel, Variables::X) == turned(&parallel, Variables::Y) && !parallel.is_zero();
-    // Three twists zero: f does not depend on the angles, and leaves the fourth twist zero as well.
+    // With three twists zero f does not depend on the angles, and requires the fourth twist to be zero as well.
     let flat =
         (0..3).filter(|&k| k != 1).chain([3]).fold(pair.f.clone(), |f, k| f.substitute(Variables::twist(k), &zero));
     let circles = |p: &Poly| p.mul(p).add(&Poly::one());

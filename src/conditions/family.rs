@@ -1,4 +1,4 @@
-//! What fitted relations make of an ansatz: some give values to symbols, one is left as the condition.
+//! The family that fitted relations define within an ansatz: some determine symbols, and one remains as the condition.
 
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
@@ -11,13 +11,13 @@ use rug::Rational;
 pub struct Family {
     /// The ansatz with all relations but the condition.
     pub ansatz: Ansatz,
-    /// The relation that is left.
+    /// The relation that remains.
     pub condition: Option<Polynomial<Rational>>,
-    /// What the relations between angles alone say together.
+    /// The joint meaning of the relations between angles alone.
     pub angle: Option<String>,
 }
 
-/// The family of an ansatz that satisfies relations, the simplest first; `None` where more than one of them is neither
+/// Returns the family of an ansatz that satisfies relations, the simplest first; `None` if more than one of them is neither
 /// linear in lengths nor an equation between two angles.
 #[must_use]
 pub fn family(ansatz: &Ansatz, relations: &[Polynomial<Rational>]) -> Option<Family> {
@@ -44,8 +44,8 @@ pub fn family(ansatz: &Ansatz, relations: &[Polynomial<Rational>]) -> Option<Fam
     Some(Family { ansatz, condition, angle })
 }
 
-/// The equation `alpha = +-beta + c`, c a multiple of a right angle, or `alpha = c`, for an unknown angle alpha, that makes
-/// polynomials vanish; `None` where there is none.
+/// Returns the equation `alpha = +-beta + c`, c a multiple of a right angle, or `alpha = c`, for an unknown angle alpha, for
+/// which the polynomials vanish; `None` if there is none.
 fn angle_equation(ansatz: &Ansatz, relations: &[&Polynomial<Rational>]) -> Option<(Meaning, String)> {
     if relations.is_empty() {
         return None;

@@ -1,7 +1,7 @@
-//! The prime fields in which searches run, and what they need beside the field operations.
+//! The prime fields of the searches, with operations beyond those of a field.
 //!
-//! Their primes are 3 modulo 4: -1 is no square then, so that a vector of a plane has length 0 only when it is 0, and the
-//! half-angle tangents of the field and infinity are all its rotations.
+//! Their primes are 3 modulo 4. Then -1 is no square, so a plane vector has length 0 only if it is 0, and the
+//! half-angle tangents in the field and infinity are all its rotations.
 
 use crate::algebra::modp::ModP;
 use crate::algebra::ring::Ring;
@@ -11,12 +11,12 @@ use rand_chacha::ChaCha8Rng;
 /// Cosine and sine of an angle.
 pub type Turn<F> = (F, F);
 
-/// A random element of the field other than zero.
+/// Returns a random nonzero element of the field.
 pub fn random_unit<const P: u64>(rng: &mut ChaCha8Rng) -> ModP<P> {
     ModP::new(rng.random_range(1..P))
 }
 
-/// A square root; `None` where there is none.
+/// Returns a square root; `None` if there is none.
 ///
 /// `x^((p+1)/4)`, as p is 3 modulo 4.
 #[must_use]
@@ -33,7 +33,7 @@ pub fn square_root<const P: u64>(x: ModP<P>) -> Option<ModP<P>> {
     (root.mul(&root) == x).then_some(root)
 }
 
-/// Cosine and sine from the tangent of half the angle.
+/// Returns cosine and sine from the half-angle tangent.
 ///
 /// # Panics
 /// Never in the fields of the searches, where `1 + t^2` does not vanish.
@@ -43,21 +43,21 @@ pub fn turn<const P: u64>(t: ModP<P>) -> Turn<ModP<P>> {
     half_tangent_turn(&t).expect("-1 is no square")
 }
 
-/// Cosine and sine from the tangent of half the angle; `None` where its square is -1.
+/// Returns cosine and sine from the half-angle tangent; `None` if its square is -1.
 pub fn half_tangent_turn<F: crate::algebra::ring::Field>(t: &F) -> Option<Turn<F>> {
     let square = t.mul(t);
     let inverse = F::one().add(&square).inverse()?;
     Some((F::one().sub(&square).mul(&inverse), t.add(t).mul(&inverse)))
 }
 
-/// All rotations about an axis: number j < P has half-angle tangent j, number P is the half-turn.
+/// Returns all rotations about an axis: number j < P has half-angle tangent j, number P is the rotation by pi.
 #[must_use]
 pub fn all_turns<const P: u64>() -> Vec<Turn<ModP<P>>> {
     let finite = (0..P).map(|j| turn(ModP::new(j)));
     finite.chain([(ModP::one().neg(), ModP::zero())]).collect()
 }
 
-/// The number of a rotation in [`all_turns`].
+/// Returns the number of a rotation in [`all_turns`].
 #[must_use]
 pub fn turn_number<const P: u64>((cos, sin): &Turn<ModP<P>>) -> u16 {
     use crate::algebra::ring::Field;

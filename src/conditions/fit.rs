@@ -15,24 +15,24 @@ use rayon::prelude::*;
 use rug::Rational;
 use std::collections::BTreeMap;
 
-/// What random members over one prime field said.
+/// The results of random members over one prime field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Evidence {
     /// The prime.
     pub prime: u64,
-    /// Random choices of the parameters.
+    /// Number of random choices of the parameters.
     pub draws: usize,
-    /// How many of these have how many mobile members.
+    /// Number of these choices by their number of mobile members.
     pub roots: BTreeMap<usize, usize>,
     /// The typical number: the degree of the condition in the unknown.
     pub typical: usize,
-    /// Mobile members that relations were fitted to.
+    /// Number of mobile members used in the fit.
     pub members: usize,
     /// The number of independent relations among the terms.
     pub relations: usize,
 }
 
-/// A symbol that runs through the field while the others are drawn: its place among the free ones of its kind.
+/// A symbol that runs through the field while the others are drawn: its index among the free ones of its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     /// A half-angle tangent.
@@ -40,7 +40,7 @@ pub(super) enum Place {
     Length(usize),
 }
 
-/// The places of the unknown, lengths first.
+/// Returns the places of the unknown symbols, lengths first.
 pub(super) fn unknown_places(ansatz: &Ansatz) -> Vec<Place> {
     let lengths = ansatz.free_lengths();
     let angles = ansatz.free_angles();
@@ -49,7 +49,7 @@ pub(super) fn unknown_places(ansatz: &Ansatz) -> Vec<Place> {
     of_lengths.chain(ansatz.unknown_angles.iter().filter_map(|k| place(angles, k).map(Place::Tangent))).collect()
 }
 
-/// Choices of angles before one is left without the square roots that it needs.
+/// Maximum number of choices of angles until the required square roots exist.
 const TRIES: usize = 64;
 
 /// A choice of all free parameters.
@@ -59,7 +59,7 @@ pub(super) struct Draw<F> {
 }
 
 impl<const P: u64> Draw<ModP<P>> {
-    /// A random choice; where square roots are needed, the last of a few if none of them has these.
+    /// Makes a random choice. If square roots are needed and none of a few choices has them, it returns the last one.
     pub(super) fn random(ansatz: &Ansatz, members: &Members<'_, ModP<P>>, rng: &mut ChaCha8Rng) -> Self {
         let mut tangents: Vec<ModP<P>> = Vec::new();
         for _ in 0..TRIES {
@@ -71,7 +71,7 @@ impl<const P: u64> Draw<ModP<P>> {
         Self { tangents, lengths: ansatz.free_lengths().iter().map(|_| random_unit(rng)).collect() }
     }
 
-    /// The same with the values number `choice` of the symbols that run.
+    /// Sets the running symbols to their values number `choice`.
     pub(super) fn set(&mut self, places: &[Place], choice: u64) {
         let mut rest = choice;
         for &place in places {
@@ -85,22 +85,22 @@ impl<const P: u64> Draw<ModP<P>> {
     }
 }
 
-/// How many values symbols have together.
+/// Returns the number of joint values of the symbols.
 pub(super) fn choices<const P: u64>(places: &[Place]) -> u64 {
     P.pow(u32::try_from(places.len()).unwrap_or(u32::MAX))
 }
 
-/// The random numbers of a draw.
+/// Returns the random numbers of a draw.
 pub(super) fn random<const P: u64>(seed: u64, number: usize) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed ^ (P << 32) ^ number as u64)
 }
 
-/// The ansatz over a field.
+/// Converts the ansatz to a field.
 pub(super) fn over<const P: u64>(ansatz: &Ansatz) -> Result<Members<'_, ModP<P>>> {
     ansatz.with_roots(|x| square_root(*x)).ok_or_else(unlucky::<P>)
 }
 
-/// Polynomials over a field.
+/// Converts polynomials to a field.
 pub(super) fn images<const P: u64>(polynomials: &[Polynomial<Rational>]) -> Result<Vec<Polynomial<ModP<P>>>> {
     polynomials.iter().map(|term| term.map(ModP::from_rational)).collect::<Option<_>>().ok_or_else(unlucky::<P>)
 }
@@ -109,7 +109,7 @@ fn unlucky<const P: u64>() -> Error {
     Error::Unsupported(format!("a number of the ansatz that is a fraction modulo {P}"))
 }
 
-/// The values of all symbols of the members of a draw that move, for all values of the symbols that run.
+/// Returns the values of all symbols of the mobile members of a draw, for all values of the running symbols.
 fn mobile<const P: u64>(
     members: &Members<'_, ModP<P>>,
     places: &[Place],
@@ -123,24 +123,24 @@ fn mobile<const P: u64>(
     (0..choices::<P>(places)).filter_map(member).collect()
 }
 
-/// Whether a member has a family of configurations in which all joints move.
+/// Returns whether a member has a family of configurations in which all joints move.
 pub(super) fn moves<const P: u64>(members: &Members<'_, ModP<P>>, values: &[ModP<P>]) -> bool {
     let limit = usize::try_from(4 * P).unwrap_or(usize::MAX);
     members.links(values).is_some_and(|links| configurations(&links, limit).all_move())
 }
 
-/// The number of conditions on the symbols that run.
+/// The fraction of draws with mobile members.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scouted {
     /// Almost no draw has a mobile member.
     Rigid,
     /// Some members move.
     Some,
-    /// Almost all do.
+    /// Almost all members move.
     All,
 }
 
-/// Looks at some draws before many are made.
+/// Examines a few draws before many are made.
 pub(super) fn scout<const P: u64>(ansatz: &Ansatz, places: &[Place], draws: usize, seed: u64) -> Result<Scouted> {
     let members = over::<P>(ansatz)?;
     let one =
@@ -156,12 +156,12 @@ pub(super) fn scout<const P: u64>(ansatz: &Ansatz, places: &[Place], draws: usiz
     })
 }
 
-/// Members more than terms, so that a relation among them is no accident.
+/// Excess of members over terms, so that a relation among them is no accident.
 const SURPLUS: usize = 12;
-/// Random choices of parameters, for each member wanted, before a sweep gives up.
+/// Number of random choices of parameters per required member before a sweep gives up.
 const PATIENCE: usize = 4;
 
-/// The relations among the terms over one prime field.
+/// Fits the relations among the terms over one prime field.
 pub(super) fn fit<const P: u64>(
     ansatz: &Ansatz,
     terms: &[Polynomial<Rational>],
@@ -200,7 +200,7 @@ pub(super) fn fit<const P: u64>(
     Ok((evidence, space.iter().map(|vector| vector.iter().map(|x| x.value()).collect()).collect()))
 }
 
-/// The number of mobile members, none apart, that most draws have.
+/// Returns the number of mobile members of most draws, not counting draws with none.
 fn usual<T>(draws: &[Vec<T>]) -> usize {
     let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
     for found in draws.iter().filter(|found| !found.is_empty()) {
@@ -209,11 +209,11 @@ fn usual<T>(draws: &[Vec<T>]) -> usize {
     counts.into_iter().max_by_key(|&(_, count)| count).map_or(0, |(roots, _)| roots)
 }
 
-/// Subsets tried where a few members spoil the fit.
+/// Number of subsets tried if a few members spoil the fit.
 const SUBSETS: usize = 40;
 
-/// The null space of the rows; where there is none, that of a subset with which most of the rows agree, as a few members
-/// move by accident modulo a small prime.
+/// Returns the null space of the rows. If there is none, it returns that of a subset on which most of the rows agree, as a few
+/// members move by accident modulo a small prime.
 fn null_space<const P: u64>(rows: &[Vec<ModP<P>>], columns: usize) -> Vec<Vec<ModP<P>>> {
     let whole = Echelon::of(rows.to_vec(), columns).null_space();
     if !whole.is_empty() {

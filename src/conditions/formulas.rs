@@ -19,22 +19,22 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use rug::{Integer, Rational};
 
-/// What moves for all twists.
+/// A loop that moves for all twists.
 #[derive(Clone, Debug)]
 pub struct Formulas {
-    /// What the lengths satisfy, in cosines and sines of the free angles and the lengths `a1` to `a5`, `d1` to `d5` of the
-    /// loop; together they give all lengths but for a common factor.
+    /// Conditions on the lengths, in cosines and sines of the free angles and the lengths `a1` to `a5`, `d1` to `d5` of the
+    /// loop; together they determine all lengths up to a common factor.
     pub conditions: Vec<Polynomial<Rational>>,
-    /// The names of its variables.
+    /// The names of the variables of the conditions.
     pub names: Names,
     /// The half-angle tangent of every joint, as a function of that of one joint (the last variable) and those of the free
     /// angles.
     pub motion: Vec<Ratio>,
     /// The names of the variables of the motion.
     pub motion_names: Names,
-    /// Whether the product of all joints and links, with these for joints and lengths, was expanded and is a number.
+    /// Whether the product of all joints and links with these joint angles and lengths was expanded and is a number.
     pub proved: bool,
-    /// Twists at which the loop was looked at.
+    /// Number of twists at which the loop was examined.
     pub samples: usize,
 }
 
@@ -42,21 +42,21 @@ pub struct Formulas {
 struct Sample {
     /// Half-angle tangents of the free angles.
     tangents: Vec<Image>,
-    /// All a, then all d.
+    /// The lengths, all a, then all d.
     lengths: Vec<Image>,
     /// For every joint, numerator and denominator of its half-angle tangent as polynomials in that of the tied one.
     motion: Vec<Vec<Image>>,
 }
 
-/// Lines of twists, and places on each of them.
+/// Number of lines of twists, and of points on each of them.
 const LINES: usize = 12;
 const PLACES: usize = 14;
-/// More rows than columns, so that a formula is no accident.
+/// Excess of rows over columns, so that a formula is no accident.
 const SURPLUS: usize = 8;
-/// The degree of a half-angle tangent in another one, at most.
+/// Maximum degree of a half-angle tangent as a function of another.
 const MOTION: usize = 4;
 
-/// The loop of a curve at some tangents of the free angles, for all of them; `None` where it has no formulas of low degree.
+/// Extends the loop of a curve at some tangents of the free angles to all of them; `None` if it has no formulas of low degree.
 #[must_use]
 pub fn formulas(ansatz: &Ansatz, tangents: &[Rational], curve: &Curve<Rational>, seed: u64) -> Option<Formulas> {
     let angles = tangents.len();
@@ -77,7 +77,7 @@ pub fn formulas(ansatz: &Ansatz, tangents: &[Rational], curve: &Curve<Rational>,
         let places: Vec<Image> = (0..PLACES).map(|_| random()).collect();
         Some(places.iter().filter_map(place).collect::<Vec<_>>())
     };
-    // Along one line first: a constant that is no rational function is none along the others.
+    // One line comes first: a constant that is no rational function there is none along the others.
     let mut samples = line(0)?;
     samples.par_extend((1..LINES).into_par_iter().filter_map(line).flatten_iter());
     let shape = |sample: &Sample| -> (Vec<bool>, Vec<usize>) {
@@ -108,7 +108,7 @@ pub fn formulas(ansatz: &Ansatz, tangents: &[Rational], curve: &Curve<Rational>,
     Some(Formulas { conditions, names, motion, motion_names, proved, samples: samples.len() })
 }
 
-/// Cosine and sine of the free angles, then the lengths of the loop.
+/// Returns the names: cosine and sine of the free angles, then the lengths of the loop.
 fn names(ansatz: &Ansatz) -> Option<Names> {
     let angle = |k: &usize| ["cos", "sin"].map(|function| format!("{function}_{}", ansatz.symbols.angles[*k]));
     let functions = ansatz.free_angles().iter().flat_map(angle);
@@ -116,13 +116,13 @@ fn names(ansatz: &Ansatz) -> Option<Names> {
     Names::given(functions.chain(lengths)).ok()
 }
 
-/// The loop on the same branch at other twists.
+/// Returns the loop on the same branch at other twists.
 fn sample(ansatz: &Ansatz, curve: &Curve<Rational>, tangents: Vec<Image>, constant: &Image) -> Option<Sample> {
     let links = spherical_loop(ansatz, &tangents)?;
     let places: Vec<Image> = (2..34).map(Image::new).collect();
     let mut found = curves(&links, curve.tie, constant, &places, |x| square_root(*x));
     found.retain(|other| other.lengths.len() == 1 && other.is_proper());
-    // Two loops on one branch are not told apart here; another tie does.
+    // Two loops on one branch are not distinguished here; another tie does that.
     let [found] = found.as_slice() else { return None };
     let half = |turn: &Turn<Image>| turn.0.add(&Image::one()).inverse().map(|inverse| turn.1.mul(&inverse));
     let xs: Vec<Option<Image>> = found.points.iter().map(|turns| half(&turns[curve.tie.first])).collect();
@@ -135,8 +135,8 @@ fn sample(ansatz: &Ansatz, curve: &Curve<Rational>, tangents: Vec<Image>, consta
     Some(Sample { tangents, lengths: found.lengths[0].clone(), motion })
 }
 
-/// Numerator and denominator of the rational function of least degree through points: their coefficients, the lowest ones
-/// first, the first of the numerator or else the next one 1.
+/// Returns numerator and denominator of the rational function of least degree through points: their coefficients, lowest
+/// first, normalised so that the first of the numerator, or else the next one, is 1.
 fn motion(points: &[(Image, Image)]) -> Option<Vec<Image>> {
     (0..=MOTION).find_map(|degree| {
         let columns = 2 * (degree + 1);
@@ -155,7 +155,7 @@ fn motion(points: &[(Image, Image)]) -> Option<Vec<Image>> {
     })
 }
 
-/// The products of powers up to a degree in each of some variables, those of high degree first.
+/// Returns the products of powers up to a degree in each of some variables, those of high degree first.
 fn monomials(variables: usize, degree: u32) -> Vec<Vec<u32>> {
     let mut list = vec![Vec::new()];
     for _ in 0..variables {
@@ -166,7 +166,7 @@ fn monomials(variables: usize, degree: u32) -> Vec<Vec<u32>> {
     list
 }
 
-/// A rational function of the tangents with given values, with small coefficients; `None` where there is none of low
+/// Returns a rational function of the tangents with given values and small coefficients; `None` if there is none of low
 /// degree.
 fn rational_fit(samples: &[Sample], angles: usize, value: &dyn Fn(&Sample) -> Image) -> Option<Ratio> {
     for degree in 0.. {
@@ -175,7 +175,7 @@ fn rational_fit(samples: &[Sample], angles: usize, value: &dyn Fn(&Sample) -> Im
         if columns + SURPLUS > samples.len() {
             return None;
         }
-        // Numerator and denominator of one degree stand together, so that the last vector is one of lowest degree.
+        // Numerator and denominator of one degree are neighbours, so that the last vector is one of lowest degree.
         let row = |sample: &Sample| {
             let v = value(sample);
             let powers = |exponents: &Vec<u32>| {
@@ -207,7 +207,7 @@ fn rational_fit(samples: &[Sample], angles: usize, value: &dyn Fn(&Sample) -> Im
     None
 }
 
-/// Integers in the ratios of residues, if they are small.
+/// Returns integers in the ratios of residues, if they are small.
 fn integers(vector: &[Image]) -> Option<Vec<Int>> {
     let rationals: Vec<Rational> =
         vector.iter().map(|x| lift::rational(&[(x.value(), PRIME_61)])).collect::<Option<_>>()?;
@@ -216,7 +216,7 @@ fn integers(vector: &[Image]) -> Option<Vec<Int>> {
     Some(rationals.iter().map(whole).collect())
 }
 
-/// The numerators over a common denominator, and this.
+/// Returns the numerators over a common denominator, and this.
 fn common(ratios: &[Ratio]) -> (Vec<Polynomial<Int>>, Polynomial<Int>) {
     let denominator = ratios.iter().fold(Polynomial::<Int>::one(), |lcm, (_, denominator)| {
         let gcd = lcm.gcd(denominator);
@@ -226,7 +226,7 @@ fn common(ratios: &[Ratio]) -> (Vec<Polynomial<Int>>, Polynomial<Int>) {
     (ratios.iter().map(scaled).collect(), denominator.clone())
 }
 
-/// Numerator and denominator from their coefficients in the last variable.
+/// Returns numerator and denominator from their coefficients in the last variable.
 fn in_tangent(coefficients: &[Polynomial<Int>], angles: usize) -> Ratio {
     let (numerator, denominator) = coefficients.split_at(coefficients.len() / 2);
     let [n, d] = [numerator, denominator].map(|part| Polynomial::from_coefficients_in(angles, part));
@@ -234,7 +234,7 @@ fn in_tangent(coefficients: &[Polynomial<Int>], angles: usize) -> Ratio {
     if n.is_zero() { (n, Polynomial::one()) } else { (n.div_exact(&common), d.div_exact(&common)) }
 }
 
-/// The tangent of half a twist in those of the free angles.
+/// Returns the tangent of half a twist in terms of those of the free angles.
 fn half_tangent(twist: &Twist, free: &[usize]) -> Ratio {
     let (cos, sin) = &twist.constant;
     // Cosine and sine of half the constant, up to a factor.
@@ -257,7 +257,7 @@ fn half_tangent(twist: &Twist, free: &[usize]) -> Ratio {
     (imaginary.div_exact(&common), real.div_exact(&common))
 }
 
-/// Relations that give all lengths that are not zero by one of them, with fewest terms.
+/// Returns relations with fewest terms that determine all nonzero lengths from one of them.
 fn conditions(ansatz: &Ansatz, samples: &[Sample]) -> Option<Vec<Polynomial<Rational>>> {
     let angles = ansatz.free_angles().len();
     let variable = |k: usize| Polynomial::<Rational>::variable(2 * angles + k);
@@ -279,7 +279,7 @@ fn conditions(ansatz: &Ansatz, samples: &[Sample]) -> Option<Vec<Polynomial<Rati
     Some(zero.into_iter().map(variable).chain(best).collect())
 }
 
-/// The simplest relation between a length and some others, linear in these, with functions of the angles as coefficients.
+/// Returns the simplest relation between a length and some others, linear in these, with functions of the angles as coefficients.
 fn relation(samples: &[Sample], angles: usize, length: usize, known: &[usize]) -> Option<Polynomial<Rational>> {
     let variable = |k: usize| Polynomial::<Rational>::variable(2 * angles + k);
     let mut functions = vec![Polynomial::one()];
@@ -319,7 +319,7 @@ fn relation(samples: &[Sample], angles: usize, length: usize, known: &[usize]) -
             let coefficients = integers(vector)?;
             let scaled = |(term, c): (&Polynomial<Rational>, &Int)| term.scale(&Rational::from(c.to_integer()));
             let sum = terms.iter().zip(&coefficients).map(scaled).fold(Polynomial::zero(), |sum, term| sum.add(&term));
-            // A relation between the others says nothing of this length.
+            // A relation between the others does not contain this length.
             (sum.degree(2 * angles + length) > 0).then_some(sum)
         };
         if let Some(found) = space.iter().filter_map(sum).min_by_key(Polynomial::len) {

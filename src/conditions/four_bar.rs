@@ -1,8 +1,8 @@
-//! When a loop of four revolute joints moves: all conditions, derived and proved step by step.
+//! Mobility of a loop of four revolute joints: all conditions, derived and proved step by step.
 //!
 //! The loop closes where f = 0, a curve in the angles of joints 1 and 4, and g = 0, linear in lengths and offsets
-//! ([`crate::derivation::transference`]). It moves where g vanishes on a component of the curve. So: find the twists at
-//! which the curve falls apart, its components there, and the null space of the linear conditions on each.
+//! ([`crate::derivation::transference`]). It moves if g vanishes on a component of the curve. The proof finds the twists
+//! at which the curve is reducible, its components there, and the null space of the linear conditions on each.
 
 use super::closure_identity::{Member, closes};
 use super::component::{Coefficients, Component};
@@ -20,7 +20,7 @@ type Poly = Polynomial<Int>;
 /// The lengths and offsets in g, in the order of the columns of all linear systems.
 pub const LENGTHS: [usize; 6] = [4, 5, 6, 7, 8, 11];
 
-/// How each coefficient of f splits: twice the product of two sines of half sums of the twists.
+/// The factors of each coefficient of f: twice the product of two sines of half sums of the twists.
 const SPLITS: [(&str, [Signs; 2]); 4] = [
     ("A", [[1, 1, 1, -1], [1, -1, 1, -1]]),
     ("B", [[-1, 1, 1, 1], [-1, -1, 1, 1]]),
@@ -28,32 +28,32 @@ const SPLITS: [(&str, [Signs; 2]); 4] = [
     ("E", [[1, 1, 1, 1], [1, -1, 1, 1]]),
 ];
 
-/// A way in which a loop of four joints with a given orientation of its axes is a Bennett loop.
+/// A Bennett loop of four joints, for a given orientation of its axes.
 #[derive(Clone, Debug)]
 pub struct Bennett {
     /// The twists.
     pub twists: TwistFamily,
-    /// The half-angle tangent of joint 4 by that of joint 1, `numerator / denominator` in x.
+    /// The half-angle tangent of joint 4 as a function of x, that of joint 1.
     pub fourth: Ratio,
     /// The lengths `a1, a2, a3, a4`, up to a common factor.
     pub lengths: [Poly; 4],
-    /// The half-angle tangents of all joints by x, that of joint 1.
+    /// The half-angle tangents of all joints as functions of x, that of joint 1.
     pub angles: [Ratio; 4],
 }
 
-/// What has been derived and proved.
+/// The conditions derived and proved.
 #[derive(Clone, Debug)]
 pub struct FourBar {
     /// The closure equations.
     pub pair: SpatialPair<Poly>,
-    /// The steps of the proof, each with what was computed and whether it came out as stated.
+    /// The steps of the proof, each with its computation and whether it came out as stated.
     pub steps: Vec<Step>,
     /// Bennett's loops: every choice of signs, the first two those of equal opposite twists.
     pub bennett: Vec<Bennett>,
 }
 
 impl FourBar {
-    /// Whether every step came out as stated.
+    /// Returns whether every step came out as stated.
     #[must_use]
     pub fn is_proved(&self) -> bool {
         self.steps.iter().all(|step| step.holds)
@@ -69,17 +69,17 @@ fn circle(k: usize) -> Poly {
     t(k).mul(&t(k)).add(&Poly::one())
 }
 
-/// The factors that are not zero where no sine of a twist is: `t_k` and `1 + t_k^2`.
+/// Returns the factors that are not zero if no sine of a twist is: `t_k` and `1 + t_k^2`.
 fn harmless() -> Vec<Poly> {
     (0..4).map(t).chain((0..4).map(circle)).collect()
 }
 
-/// What is left of a polynomial without `t_k` and `1 + t_k^2`.
+/// Removes the factors `t_k` and `1 + t_k^2` from a polynomial.
 fn bare(p: &Poly) -> Poly {
     remove_factors(p, &harmless()).rest.primitive_part()
 }
 
-/// Whether a polynomial has no zero where no sine of a twist is zero: nothing is left but a number.
+/// Returns whether a polynomial has no zero if no sine of a twist is zero: only a number remains of it.
 fn is_harmless(p: &Poly) -> bool {
     !p.is_zero() && bare(p) == Poly::one()
 }
@@ -103,7 +103,7 @@ pub fn derive() -> FourBar {
     FourBar { pair, steps, bennett }
 }
 
-/// The closure equations and the form that f has.
+/// Derives the closure equations and the form of f.
 fn closure(pair: &SpatialPair<Poly>, steps: &mut Vec<Step>) -> Option<Coefficients> {
     let coefficients = Coefficients::of(&pair.f);
     // Even monomials carry lengths of links, odd ones offsets.
@@ -135,7 +135,7 @@ fn closure(pair: &SpatialPair<Poly>, steps: &mut Vec<Step>) -> Option<Coefficien
     coefficients
 }
 
-/// Every coefficient is a product of two sines.
+/// Proves that every coefficient is a product of two sines.
 fn splits(coefficients: &Coefficients, steps: &mut Vec<Step>) {
     let named = [("A", &coefficients.a), ("B", &coefficients.b), ("C", &coefficients.c), ("E", &coefficients.e)];
     let mut formulas = Vec::new();
@@ -161,7 +161,7 @@ fn splits(coefficients: &Coefficients, steps: &mut Vec<Step>) {
     });
 }
 
-/// The discriminant argument.
+/// Applies the discriminant argument.
 fn reducibility(c: &Coefficients, steps: &mut Vec<Step>) {
     // disc_y/4 in X = x^2, with M = 2D: quadratic alpha X^2 + beta X + gamma, here times 4.
     let four = Int::from_integer(4);
@@ -184,13 +184,13 @@ fn reducibility(c: &Coefficients, steps: &mut Vec<Step>) {
     });
 }
 
-/// The coefficient of a power of x times one of y.
+/// Returns the coefficient of a power of x times one of y.
 fn monomial(p: &Poly, i: usize, j: usize) -> Poly {
     let part = p.coefficients_in(Variables::X).get(i).cloned().unwrap_or_else(Poly::zero);
     part.coefficients_in(Variables::Y).get(j).cloned().unwrap_or_else(Poly::zero)
 }
 
-/// Where f is irreducible, g is a multiple of it.
+/// Treats irreducible f, of which g is then a multiple.
 fn irreducible(pair: &SpatialPair<Poly>, c: &Coefficients, steps: &mut Vec<Step>) {
     let parts: Vec<Poly> = LENGTHS.iter().map(|&length| pair.g.derivative(length)).collect();
     let even = [(2, 2), (2, 0), (0, 2), (1, 1), (0, 0)];
@@ -206,7 +206,7 @@ fn irreducible(pair: &SpatialPair<Poly>, c: &Coefficients, steps: &mut Vec<Step>
         .flat_map(|i| (i + 1..4).map(move |j| (i, j)))
         .map(|(i, j)| bare(&rows[i][0].mul(&rows[j][1]).sub(&rows[j][0].mul(&rows[i][1]))))
         .collect();
-    // Two minors bring the common zeros down to finitely many values of t1 and t3; at none of them all others vanish.
+    // Two minors leave finitely many common zeros t1 and t3; at each of them some other one does not vanish.
     let square = |k: usize| t(k).mul(&t(k)).sub(&Poly::one());
     let only = |p: &Poly| minors.contains(p);
     let at = |p: &Poly, i: i32, j: i32| {
@@ -230,7 +230,7 @@ fn irreducible(pair: &SpatialPair<Poly>, c: &Coefficients, steps: &mut Vec<Step>
     });
 }
 
-/// The twists at which f is reducible.
+/// Returns the twists at which f is reducible.
 fn twist_families(steps: &mut Vec<Step>) -> Vec<TwistFamily> {
     let [a, b, c, e] = SPLITS.map(|(_, factors)| factors);
     let pairs = |left: &[Signs], right: &[Signs]| -> Vec<(Signs, Signs)> {
@@ -262,13 +262,13 @@ fn twist_families(steps: &mut Vec<Step>) -> Vec<TwistFamily> {
     all
 }
 
-/// The components of all families, and the linear conditions on them.
+/// Treats the components of all families, and the linear conditions on them.
 fn reducible(pair: &SpatialPair<Poly>, mut twists: Vec<TwistFamily>, steps: &mut Vec<Step>) -> Vec<Bennett> {
     let mut bennett: Vec<Bennett> = Vec::new();
     let (mut isogram, mut deltoid, mut folds) = (true, true, true);
     let (mut moving, mut still) = (0, 0);
     let (mut exceptional, mut excluded) = (Vec::new(), Vec::new());
-    // Opposite twists equal: the family that is usually meant comes first.
+    // Equal opposite twists come first, the family that is usually meant.
     let usual = [t(0).sub(&t(2)), t(1).sub(&t(3))];
     twists.sort_by_key(|family| !usual.iter().all(|relation| family.relations.contains(relation)));
     for family in &twists {
@@ -354,10 +354,10 @@ fn reducible(pair: &SpatialPair<Poly>, mut twists: Vec<TwistFamily>, steps: &mut
     bennett
 }
 
-/// The polynomial by which the maximal minors differ from the null vector, without `t_k` and `1 + t_k^2`: what is left, and
-/// whether that vanishes only where K is 0 or infinite.
+/// Returns the factor by which the maximal minors differ from the null vector, without `t_k` and `1 + t_k^2`, and
+/// whether its rest vanishes only where K is 0 or infinite.
 fn rank_drops(rows: &[Vec<Poly>], vector: &[Poly], family: &TwistFamily) -> (Vec<Poly>, bool) {
-    // The columns without the first entry of the null vector: its minor is that entry times the common factor.
+    // The columns without the first nonzero entry of the null vector: their minor is that entry times the common factor.
     let Some(skipped) = vector.iter().position(|entry| !entry.is_zero()) else { return (Vec::new(), false) };
     let columns: Vec<usize> = (0..vector.len()).filter(|&k| k != skipped).collect();
     if rows.len() != columns.len() {
@@ -370,16 +370,16 @@ fn rank_drops(rows: &[Vec<Poly>], vector: &[Poly], family: &TwistFamily) -> (Vec
     let [i, j] = family.free.map(t);
     let known = [i.sub(&j), i.add(&j), i.mul(&j).sub(&Poly::one()), i.mul(&j).add(&Poly::one())];
     let removal = remove_factors(&bare(&common), &known);
-    // No entry of the null vector vanishes together with all others: it has an entry that is harmless.
+    // The entries of the null vector never all vanish: one of them is harmless.
     let never = vector.iter().any(is_harmless) && removal.rest.primitive_part() == Poly::one();
     (removal.factors.into_iter().filter(|(_, power)| *power > 0).map(|(factor, _)| factor).collect(), never)
 }
 
-/// Where the moving component of a deltoid could have lengths: the common zeros of maximal minors. Returned are the factors
+/// Finds lengths for the moving component of a deltoid: the common zeros of maximal minors. Returns the factors
 /// that minors have besides harmless ones, and whether all common zeros are among theirs.
 ///
-/// Rows hold lengths or offsets, never both: a maximal minor is the determinant of the rows of lengths times a 2 x 2 minor of
-/// those of offsets.
+/// Rows hold lengths or offsets, never both, so a maximal minor is the determinant of the rows of lengths times a 2 x 2
+/// minor of those of offsets.
 fn deltoid_exceptions(rows: &[Vec<Poly>], family: &TwistFamily) -> (Vec<Poly>, bool) {
     let [i, j] = family.free.map(t);
     let one = Poly::one();
@@ -391,7 +391,7 @@ fn deltoid_exceptions(rows: &[Vec<Poly>], family: &TwistFamily) -> (Vec<Poly>, b
     if lengths.len() != 4 || !apart {
         return (Vec::new(), false);
     }
-    // Without the common factors of rows, which are kept beside.
+    // The common factors of rows are kept apart.
     let reduced: Vec<Vec<Poly>> = lengths.iter().map(|row| primitive(&row[..4])).collect();
     let contents = lengths.iter().map(|row| row[..4].iter().fold(Poly::zero(), |common, entry| common.gcd(entry)));
     let determinant = Poly::determinant(&reduced);
@@ -413,7 +413,7 @@ fn deltoid_exceptions(rows: &[Vec<Poly>], family: &TwistFamily) -> (Vec<Poly>, b
         p[4].mul(&q[5]).sub(&p[5].mul(&q[4]))
     });
     let minors: Vec<(Vec<Poly>, Poly)> = minors.filter(|minor| !minor.is_zero()).map(|minor| split(&minor)).collect();
-    // One of them vanishes besides at most where a tangent is 1 or -1; there another one does not.
+    // The rest of one minor vanishes at most where a tangent is 1 or -1; there another one does not vanish.
     let chosen = minors.iter().find(|(_, rest)| *rest == one || squares.contains(rest));
     let Some((found, rest)) = chosen else { return (factors, false) };
     factors.extend(found.iter().cloned());
@@ -429,7 +429,7 @@ fn deltoid_exceptions(rows: &[Vec<Poly>], family: &TwistFamily) -> (Vec<Poly>, b
     (factors, decided && excluded)
 }
 
-/// Every Bennett loop closes for all x: the angles of joints 2 and 3, and the identity.
+/// Proves that every Bennett loop closes for all x: the angles of joints 2 and 3, and the identity.
 fn sufficiency(pair: &SpatialPair<Poly>, found: Vec<Bennett>, steps: &mut Vec<Step>) -> Vec<Bennett> {
     let total = found.len();
     let complete: Vec<Bennett> = found.into_iter().filter_map(|bennett| completed(pair, bennett)).collect();
@@ -461,7 +461,7 @@ fn sufficiency(pair: &SpatialPair<Poly>, found: Vec<Bennett>, steps: &mut Vec<St
     complete
 }
 
-/// The loop with all of its angles as functions of x, and `b` times the lengths.
+/// Returns the loop with all of its angles as functions of x, and `b` times the lengths.
 #[must_use]
 pub fn members(bennett: &Bennett) -> [Member; 4] {
     let scale = Poly::variable(Variables::length(0));
@@ -486,13 +486,14 @@ fn completed(pair: &SpatialPair<Poly>, mut bennett: Bennett) -> Option<Bennett> 
     Some(bennett)
 }
 
-/// The component of the closure equations in the angles of a joint and the one before it on which g vanishes at the lengths.
+/// Returns the component of the closure equations in the angles of a joint and its predecessor on which g vanishes at the
+/// lengths.
 fn component_between(pair: &SpatialPair<Poly>, bennett: &Bennett, joint: usize) -> Option<Component> {
     let tangents = std::array::from_fn(|k| bennett.twists.tangents[(joint + k) % 4].clone());
     let f = with_tangents(&pair.f, &tangents);
     let mut g = with_tangents(&pair.g, &tangents);
     for k in 0..4 {
-        // Lengths of the links as they are numbered from this joint on; none of the replacements holds a length.
+        // Lengths of the links are numbered from this joint on; none of the replacements contains a length.
         g = g.substitute(Variables::length(k), &bennett.lengths[(joint + k) % 4]);
     }
     let g = g.substitute(Variables::offset(0), &Poly::zero()).substitute(Variables::offset(3), &Poly::zero());
@@ -500,7 +501,7 @@ fn component_between(pair: &SpatialPair<Poly>, bennett: &Bennett, joint: usize) 
     components.into_iter().find(|c| c.moves() && c.restricted(&g).iter().all(Poly::is_zero))
 }
 
-/// The angle of the first of two joints where that of the other is given: `y = K/x` or `y = K x` solved for x.
+/// Returns the angle of the first of two joints from that of the other: `y = K/x` or `y = K x` solved for x.
 fn solved_for_first(component: &Component, other: &Ratio) -> Option<Ratio> {
     let Component::Graph { numerator, denominator, .. } = component else { return None };
     let split = |p: &Poly| -> [Poly; 2] {
@@ -516,7 +517,7 @@ fn solved_for_first(component: &Component, other: &Ratio) -> Option<Ratio> {
     Some((ratio[1].clone(), ratio[0].clone()))
 }
 
-/// The conditions under which a loop is of a Bennett family: twists, lengths, offsets; each vanishes.
+/// Returns the conditions under which a loop is of a Bennett family: twists, lengths, offsets; each vanishes.
 #[must_use]
 pub fn conditions(bennett: &Bennett) -> Vec<Poly> {
     let mut conditions = bennett.twists.relations.to_vec();

@@ -1,4 +1,4 @@
-//! Mobility of a family for all parameters, by identities that are expanded.
+//! Mobility of a family for all parameters, proved by expanded identities.
 
 use super::symmetry::{Signs, Slice, SymmetricSlice};
 use crate::algebra::dual::Dual;
@@ -10,10 +10,10 @@ use crate::kinematics::motion::Motion;
 
 type Symbol = Polynomial<Int>;
 
-/// Whether `G^2 - 2 Sc(G) G + G G* = 0` for the dual quaternion G with eight symbols as coordinates.
+/// Returns whether `G^2 - 2 Sc(G) G + G G* = 0` for the dual quaternion G with eight symbols as coordinates.
 ///
-/// Hence for a motion G, whose norm `G G*` is real, `G^2` is no motion but rest when and only when its dual scalar part
-/// vanishes, or G itself is rest: two equations.
+/// Hence for a motion G, whose norm `G G*` is real, `G^2` is the identity if and only if its dual scalar part
+/// vanishes, or G itself is the identity: two equations.
 #[must_use]
 pub fn square_identity() -> bool {
     let symbol = |k: usize| Symbol::variable(k);
@@ -28,12 +28,12 @@ pub fn square_identity() -> bool {
 /// A change of signs of the three coordinates.
 type Flip = [bool; 3];
 
-/// What a flip S does to the four elementary motions: `S Rz(theta) S = Rz(+-theta)` and so on.
+/// Returns the action of a flip S on the four elementary motions: `S Rz(theta) S = Rz(+-theta)` and so on.
 const fn conjugation([x, y, z]: Flip) -> Signs {
     Signs { angle: x != y, twist: y != z, length: x, offset: z }
 }
 
-/// Whether a flip acts on the elementary motions as [`conjugation`] says, with symbols for cosines, sines and distances.
+/// Returns whether a flip acts on the elementary motions as [`conjugation`] states, with symbols for cosines, sines and distances.
 #[must_use]
 fn acts(flip: Flip) -> bool {
     let symbol = |k: usize| Symbol::variable(k);
@@ -53,7 +53,7 @@ fn acts(flip: Flip) -> bool {
         && flipped(&Motion::translation_z(symbol(2))) == Motion::translation_z(sign(signs.offset, symbol(2)))
 }
 
-/// Why a slice moves for all lengths and all twists of its pattern; `None` where no identity is known.
+/// Returns why a slice moves for all lengths and all twists of its pattern; `None` if no identity is known.
 #[must_use]
 pub fn proof(slice: &SymmetricSlice) -> Option<String> {
     if !matches!(slice.slice, Slice::Mobile | Slice::Folded) {
@@ -63,7 +63,7 @@ pub fn proof(slice: &SymmetricSlice) -> Option<String> {
     let negated = |flip: &Flip| flip.iter().filter(|&&negative| negative).count();
     if slice.involution.name == "half-turn" {
         let flip = flips.into_iter().find(|&flip| conjugation(flip) == slice.signs)?;
-        // A rotation: none or two signs.
+        // A rotation has no or two negative signs.
         let holds = negated(&flip).is_multiple_of(2) && acts(flip) && square_identity();
         return holds.then(|| {
             "the loop closes as (G S)^2 = 1, where G is half of it and S a half-turn about a coordinate axis or none; \

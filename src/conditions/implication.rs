@@ -1,10 +1,10 @@
 //! Mobility of a family because closure implies its condition: Lee's invariant of a cut.
 //!
 //! Between two opposite joints of a 6R loop with axes n, n' and the vector r from one to the other, `n . n'` and
-//! `r^2 (n . n') - 2 (n . r)(n' . r)` do not depend on the rotations of these two joints. Where on either side of the loop the
-//! second is the first times a number made of lengths, `mu` on the one and `mu'` on the other, closure implies
-//! `(n . n')(mu - mu') = 0`. Every part of the set of all closed positions of all members, where `n . n'` is not 0, then has
-//! members on the condition only, and is as large as if there were none: the position moves (docs/conditions_search.md).
+//! `r^2 (n . n') - 2 (n . r)(n' . r)` do not depend on the rotations of these two joints. Suppose that on either side of the loop
+//! the second is the first times a number made of lengths, `mu` on one side and `mu'` on the other. Then closure implies
+//! `(n . n')(mu - mu') = 0`. Every component of the set of all closed positions of all members with `n . n'` not 0 then has members
+//! on the condition only, and is as large as without it, so the position moves (docs/conditions_search.md).
 
 use super::configurations::link_motion;
 use crate::algebra::polynomial::Polynomial;
@@ -13,7 +13,7 @@ use crate::catalogue::ansatz::{Ansatz, Link};
 use crate::kinematics::motion::{Motion, dot};
 use rug::Rational;
 
-/// A cut at which closure implies the condition.
+/// A cut for which closure implies the condition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Implication {
     /// The first joint of the cut, counted from 0; the second is the opposite one.
@@ -22,7 +22,7 @@ pub struct Implication {
 
 type Symbol = Polynomial<Rational>;
 
-/// A cut of a 6R loop with constant twists at which closure implies the relation; `None` where there is none of this kind.
+/// Returns a cut of a 6R loop with constant twists for which closure implies the relation; `None` if there is none of this kind.
 ///
 /// # Panics
 /// Unless there are six joints.
@@ -56,8 +56,8 @@ pub fn implication(ansatz: &Ansatz, relation: &Polynomial<Rational>) -> Option<I
     (0..3).find(implied).map(|joint| Implication { joint })
 }
 
-/// What Lee's invariant of three links from a joint on is times the cosine between the axes; `None` where that is no number
-/// made of lengths.
+/// Returns the ratio of Lee's invariant of three links from a joint on to the cosine between the axes; `None` if it is no
+/// number made of lengths.
 fn factor(links: &[Link<Symbol>], from: usize, first: usize) -> Option<Symbol> {
     let cos = |joint: usize| first + 2 * joint;
     let sin = |joint: usize| first + 2 * joint + 1;
@@ -77,7 +77,7 @@ fn factor(links: &[Link<Symbol>], from: usize, first: usize) -> Option<Symbol> {
     is_free.then_some(quotient)
 }
 
-/// The remainder modulo `cos^2 + sin^2 - 1`, linear in the sine.
+/// Returns the remainder modulo `cos^2 + sin^2 - 1`, linear in the sine.
 fn on_the_circle(p: &Symbol, cos: usize, sin: usize) -> Symbol {
     let cos = Symbol::variable(cos);
     let square = Symbol::one().sub(&cos.mul(&cos));

@@ -1,4 +1,4 @@
-//! For which parameters a closed chain moves: conditions derived symbolically, each step computed and checked.
+//! Conditions on the parameters for a closed chain to move, derived symbolically, each step computed and checked.
 
 mod branch;
 pub mod closure_identity;

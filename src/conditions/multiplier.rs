@@ -1,8 +1,8 @@
 //! Mobility of a family by a multiplier: a direction along which the translations close by themselves.
 //!
 //! In a spherical configuration of a 6R loop with axes `z_i`, let `w = sum_ij omega_ij z_i x z_j` with numbers omega. If
-//! `w . t = 0` for the closing translation `t = sum_k a_k x_k + d_k z_k` of all members of the family, then of the three
-//! equations t = 0 two are left wherever w is not 0, for the three degrees of freedom of the spherical loop: every real
+//! `w . t = 0` for the closing translation `t = sum_k a_k x_k + d_k z_k` of all members of the family, then only two of the three
+//! equations t = 0 remain wherever w is not 0, for the three degrees of freedom of the spherical loop. So every real
 //! closed position of screw rank 5 in which w is not 0 and the axes span the space lies on a curve of positions.
 //! With `x_k = z_k x z_(k+1) / sin(alpha_k)` all products are polynomials in the cosines between axes and the triple
 //! products of axes, so that the identity is expanded for all parameters at once (docs/conditions_search.md).
@@ -26,27 +26,27 @@ use rug::Rational;
 pub struct Multiplier {
     /// The terms `omega_ij z_i x z_j` of w: axes i < j, counted from 0, and the number.
     pub terms: Vec<(usize, usize, Rational)>,
-    /// The number of terms of `w . t`, times the sines of all twists, before the relation is divided out.
+    /// The number of terms of `w . t`, times the sines of all twists, before division by the relation.
     pub size: usize,
 }
 
 type Symbol = Polynomial<Rational>;
 type Image = ModP<PRIME_61>;
 
-/// Pairs of axes.
+/// Returns the pairs of axes.
 fn pairs() -> impl Iterator<Item = (usize, usize)> {
     (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)))
 }
 
-/// A multiplier for the members of an ansatz that satisfy a relation, or for all of them where there is none: sought modulo a
-/// prime, proved by expansion. `None` where there is no multiplier, or where the relation is not linear in any length.
+/// Returns a multiplier for the members of an ansatz that satisfy a relation, or for all of them if there is none. It is sought
+/// modulo a prime and proved by expansion. `None` if there is no multiplier, or if the relation is not linear in any length.
 ///
 /// # Panics
 /// Unless there are six joints.
 #[must_use]
 pub fn multiplier(ansatz: &Ansatz, relation: Option<&Polynomial<Rational>>, seed: u64) -> Option<Multiplier> {
     assert_eq!(ansatz.joints.len(), 6, "six joints");
-    // Symbols that relations of the file give would have to be replaced first.
+    // Symbols determined by relations of the file would have to be replaced first.
     let (angles, lengths) = (&ansatz.symbols.angles, &ansatz.symbols.lengths);
     if ansatz.free_angles().len() < angles.len() || ansatz.free_lengths().len() < lengths.len() {
         return None;
@@ -61,10 +61,10 @@ pub fn multiplier(ansatz: &Ansatz, relation: Option<&Polynomial<Rational>>, seed
     })
 }
 
-/// The multipliers that annihilate the translations of random members in random spherical configurations, and are not zero
-/// in all of these.
+/// Returns the multipliers that annihilate the translations of random members in random spherical configurations, and are
+/// not zero in all of these.
 fn candidates(ansatz: &Ansatz, relation: Option<&Polynomial<Rational>>, seed: u64) -> Option<Vec<Vec<Image>>> {
-    // Solved for a length in which it is linear, an unknown one if it can be.
+    // The relation is solved for a length in which it is linear, if possible an unknown one.
     let is_linear = |k: &usize| relation.is_none_or(|relation| relation.degree(ansatz.symbols.length(*k)) == 1);
     let free = ansatz.free_lengths();
     let place = ansatz.unknown.iter().copied().chain(free.iter().copied()).find(is_linear)?;
@@ -158,8 +158,8 @@ impl Axes {
     }
 }
 
-/// The number of terms of `w . t` times the sines of the twists, if it is a multiple of the relation (without one: zero);
-/// `None` if it is not.
+/// Returns the number of terms of `w . t` times the sines of the twists, if it is a multiple of the relation (or zero
+/// without one); `None` if it is not.
 fn expanded(ansatz: &Ansatz, relation: Option<&Polynomial<Rational>>, omega: &[Rational]) -> Option<usize> {
     let angles: Vec<(Symbol, Symbol)> = (0..ansatz.symbols.angles.len())
         .map(|k| (Symbol::variable(Symbols::cos(k)), Symbol::variable(Symbols::sin(k))))

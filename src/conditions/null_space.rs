@@ -7,12 +7,12 @@ use std::cmp::Ordering;
 
 type Poly = Polynomial<Int>;
 
-/// The null space over the field of fractions: the vectors of a basis, polynomials without common factor.
+/// Returns a basis of the null space over the field of fractions: vectors of polynomials without common factor.
 ///
-/// Every vector of the basis has been multiplied with the matrix.
+/// Every vector of the basis is multiplied by the matrix as a check.
 ///
 /// # Panics
-/// When a row has another length, or, which arithmetic without error excludes, when the product is not zero.
+/// If a row has another length or, which error-free arithmetic excludes, if the product is not zero.
 #[must_use]
 pub fn null_space(rows: &[Vec<Poly>], columns: usize) -> Vec<Vec<Poly>> {
     let mut reduced: Vec<Vec<Poly>> = Vec::new();
@@ -47,7 +47,7 @@ pub fn null_space(rows: &[Vec<Poly>], columns: usize) -> Vec<Vec<Poly>> {
     basis
 }
 
-/// The vector of the null space with a free column of its own, from rows that each have one pivot to themselves.
+/// Returns the vector of the null space for a free column, from rows in reduced form with one pivot each.
 fn vector(reduced: &[Vec<Poly>], pivots: &[usize], free: usize, columns: usize) -> Vec<Poly> {
     let mut common = Poly::one();
     for (row, &pivot) in reduced.iter().zip(pivots) {
@@ -64,7 +64,7 @@ fn vector(reduced: &[Vec<Poly>], pivots: &[usize], free: usize, columns: usize) 
     primitive(&vector)
 }
 
-/// A row without the common factor of its entries, the first of them that is not zero with positive leading coefficient.
+/// Divides a row by the common factor of its entries; the first nonzero one gets a positive leading coefficient.
 #[must_use]
 pub fn primitive(row: &[Poly]) -> Vec<Poly> {
     let mut common = Poly::zero();
@@ -81,7 +81,7 @@ pub fn primitive(row: &[Poly]) -> Vec<Poly> {
     row.iter().map(|entry| entry.div_exact(&common)).collect()
 }
 
-/// The square root with positive leading coefficient; `None` for what is no square.
+/// Returns the square root with positive leading coefficient; `None` if the polynomial is no square.
 #[must_use]
 pub fn square_root(square: &Poly) -> Option<Poly> {
     if square.is_zero() {

@@ -1,4 +1,4 @@
-//! What the theorem on four joints says of a loop whose numbers lie in one number field.
+//! Applies the theorem on four joints to a loop whose numbers lie in one number field.
 
 use super::decide::{Class, Decision, Family, folds, sign};
 use super::four_bar::{FourBar, conditions};
@@ -15,9 +15,9 @@ use crate::kinematics::chain::{Chain, Geometry, JointKind};
 
 type Poly = Polynomial<Int>;
 
-/// The links of a loop of four revolute joints over the field of its numbers, and the degree of that.
+/// Returns the links of a loop of four revolute joints over the field of its numbers, and the degree of the field.
 fn links(chain: &Chain) -> Option<(usize, Vec<Link<Algebraic>>)> {
-    // The link behind joint k stands with it, or with the next one.
+    // The link behind joint k is stored with it, or with the next one.
     let (joints, shift) = match &chain.geometry {
         Geometry::Dh(joints) => (joints, 0),
         Geometry::ModifiedDh(joints) => (joints, 1),
@@ -41,7 +41,7 @@ fn links(chain: &Chain) -> Option<(usize, Vec<Link<Algebraic>>)> {
     Some((field.degree(), links?))
 }
 
-/// All families to which a loop of four joints with numbers of one field belongs; `None` for other loops.
+/// Returns all families of a loop of four joints with numbers of one field; `None` for other loops.
 #[must_use]
 pub fn decide_over_field(theorem: &FourBar, chain: &Chain) -> Option<Decision> {
     let (degree, links) = links(chain)?;
@@ -57,7 +57,7 @@ pub fn decide_over_field(theorem: &FourBar, chain: &Chain) -> Option<Decision> {
         let without_lengths = links.iter().all(|link| link.a.is_zero());
         for variant in &theorem.bennett {
             let at_one = |p: &Poly| at(&p.substitute(Variables::X, &Poly::one()), &values);
-            // Where the ratio is 0 or infinite both joints are folded; without lengths the loop is spherical.
+            // If the ratio is 0 or infinite, both joints are folded; without lengths the loop is spherical.
             let is_folded = at_one(&variant.fourth.0).is_zero() || at_one(&variant.fourth.1).is_zero();
             if !is_folded && !without_lengths && vanish(&conditions(variant)) {
                 note(Class::Bennett, sign(variant), None);
@@ -99,7 +99,7 @@ pub fn decide_over_field(theorem: &FourBar, chain: &Chain) -> Option<Decision> {
     })
 }
 
-/// The values of the twelve parameters of the theorem, by its variables; no twist is a multiple of pi.
+/// Returns the values of the twelve parameters of the theorem, by its variables; `None` if a twist is a multiple of pi.
 fn values(links: &[Link<Algebraic>]) -> Option<Vec<Algebraic>> {
     let mut values = vec![Algebraic::zero(); Variables::X];
     for (k, link) in links.iter().enumerate() {
@@ -110,7 +110,7 @@ fn values(links: &[Link<Algebraic>]) -> Option<Vec<Algebraic>> {
     Some(values)
 }
 
-/// The value of a polynomial at elements of the field.
+/// Returns the value of a polynomial at elements of the field.
 fn at(p: &Poly, values: &[Algebraic]) -> Algebraic {
     let image = p.map(|c| Algebraic::from_rational(&c.to_integer().into()));
     image.map_or_else(Algebraic::zero, |image| image.evaluate(values))

@@ -1,7 +1,7 @@
-//! For the twists of an ansatz: the symmetric families that it belongs to, and what its lengths have to satisfy for that.
+//! The symmetric families to which the twists of an ansatz belong, and the conditions on its lengths.
 //!
 //! An axis may be directed the other way, `Rx(pi) Rz(theta) Tz(d) Rx(pi) = Rz(-theta) Tz(-d)`, and so may a common normal,
-//! `Rz(pi) Rx(alpha) Tx(a) Rz(pi) = Rx(-alpha) Tx(-a)`: a pattern holds if it does for some directions.
+//! `Rz(pi) Rx(alpha) Tx(a) Rz(pi) = Rx(-alpha) Tx(-a)`. A pattern holds if it holds for some directions.
 
 use super::search::MobileSlice;
 use super::symmetry::Slice;
@@ -11,33 +11,33 @@ use crate::catalogue::ansatz::{Ansatz, Twist};
 use rug::Rational;
 use std::collections::BTreeSet;
 
-/// A symmetric family that the twists of an ansatz belong to.
+/// A symmetric family to which the twists of an ansatz belong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TwistPattern {
     /// The name of the permutation.
     pub involution: &'static str,
     /// The joint, counted from 0, that is the first one of the pattern.
     pub joint: usize,
-    /// What lengths have to satisfy, as polynomials of the ansatz; nothing where all members belong to the family.
+    /// The conditions on the lengths, as polynomials of the ansatz; empty if all members belong to the family.
     pub conditions: Vec<Polynomial<Rational>>,
-    /// Whether mobility for all such lengths is proved, for all twists of the pattern.
+    /// Whether mobility is proved for all such lengths and all twists of the pattern.
     pub proved: bool,
 }
 
-/// The symmetric families that move for all lengths and that all twists of an ansatz belong to; those with fewest
+/// Returns the symmetric families that move for all lengths and to which all twists of an ansatz belong, those with fewest
 /// conditions first, each choice of lengths once.
 #[must_use]
 pub fn patterns(ansatz: &Ansatz, slices: &[MobileSlice]) -> Vec<TwistPattern> {
     let n = ansatz.joints.len();
     let twists: Vec<Twist> = (0..n).map(|k| ansatz.twist(k)).collect();
     let replaced = ansatz.without_relations();
-    // In the free symbols, where that is possible, so that relations of the file are made use of.
+    // Free symbols are used if possible, so that relations of the file are taken into account.
     let in_free =
         |p: &Polynomial<Rational>| replaced.as_ref().map_or_else(|| p.clone(), |replaced| replaced.polynomial(p));
     let mut found: Vec<TwistPattern> = Vec::new();
     let mut names: BTreeSet<&str> = BTreeSet::new();
     for mobile in slices.iter().filter(|mobile| mobile.slice.slice == Slice::Mobile) {
-        // The other patterns of signs are this one with other directions.
+        // The other sign patterns are this one with other directions.
         if !names.insert(mobile.slice.involution.name) {
             continue;
         }
@@ -59,7 +59,7 @@ pub fn patterns(ansatz: &Ansatz, slices: &[MobileSlice]) -> Vec<TwistPattern> {
         }
     }
     found.sort_by_key(|pattern| pattern.conditions.len());
-    // Lengths that belong to a larger family already.
+    // Skip lengths that belong to a larger family already.
     let larger: Vec<TwistPattern> = found.clone();
     found.retain(|pattern| {
         let is_part = |other: &TwistPattern| {
@@ -71,7 +71,7 @@ pub fn patterns(ansatz: &Ansatz, slices: &[MobileSlice]) -> Vec<TwistPattern> {
     found
 }
 
-/// Equal up to the sign.
+/// Returns whether two polynomials are equal up to sign.
 fn equal(one: &Polynomial<Rational>, other: &Polynomial<Rational>) -> bool {
     one == other || *one == other.neg()
 }
@@ -80,8 +80,8 @@ fn same(one: &[Polynomial<Rational>], other: &[Polynomial<Rational>]) -> bool {
     one.len() == other.len() && one.iter().all(|condition| other.iter().any(|own| equal(own, condition)))
 }
 
-/// The conditions on lengths and offsets when the axes in `reversed` are directed the other way, one list for each choice of
-/// directions of the common normals; none where the twists are not of the pattern.
+/// Returns the conditions on lengths and offsets for reversed axes in `reversed`, one list for each choice of directions of
+/// the common normals; none if the twists are not of the pattern.
 fn conditions(
     ansatz: &Ansatz,
     twists: &[Twist],
@@ -124,7 +124,7 @@ fn conditions(
             continue;
         }
         let mut next = Vec::new();
-        // The common normal of the image directed the same way or the other way.
+        // The common normal of the image has the same or the opposite direction.
         for flipped in [false, true] {
             let sign = if signs.twist == flipped { 1 } else { -1 };
             let difference = Twist::sum([(1, &twist(image)), (-sign, &twist(k))], angles);

@@ -1,4 +1,4 @@
-//! Rational functions in lowest terms: the field over which an ansatz with symbols is a single mechanism.
+//! Rational functions in lowest terms, the field over which an ansatz with symbols is a single mechanism.
 
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
@@ -32,7 +32,7 @@ impl Quotient {
         &self.denominator
     }
 
-    /// In lowest terms.
+    /// Reduces a quotient to lowest terms.
     fn reduced(numerator: Polynomial<Int>, denominator: Polynomial<Int>) -> Self {
         if numerator.is_zero() {
             return Self::zero();

@@ -1,4 +1,4 @@
-//! Everything that is tried on a 5R or 6R loop with symbols, and what came out.
+//! All methods for a 5R or 6R loop with symbols, and their results.
 
 use super::curve_ansatz::{Curve, rational_curves};
 use super::family::{Family, family};
@@ -26,12 +26,12 @@ use rug::Rational;
 pub struct MobileSlice {
     /// The slice.
     pub slice: SymmetricSlice,
-    /// Why it does so for all twists of its pattern too; `None` where random twists are all the evidence.
+    /// The reason why it also moves for all twists of its pattern; `None` if random twists are the only evidence.
     pub proof: Option<String>,
 }
 
 impl MobileSlice {
-    /// Whether a loop has this symmetry.
+    /// Returns whether a loop has this symmetry.
     #[must_use]
     pub fn contains(&self, links: &[Link<Rational>]) -> bool {
         let (involution, signs) = (&self.slice.involution, self.slice.signs);
@@ -56,30 +56,30 @@ pub struct CurveLoop {
     pub lengths: Vec<Vec<Rational>>,
     /// All curves found that have these lengths, each with another tie.
     pub curves: Vec<Curve<Rational>>,
-    /// What the positions near one position of a member form.
+    /// The set of positions near one position of a member.
     pub germ: Germ<Rational>,
-    /// Whether some of these lengths are those of a member of the ansatz with these twists.
+    /// Whether some of these lengths belong to a member of the ansatz with these twists.
     pub in_ansatz: bool,
-    /// Whether all members of the ansatz with these twists have these lengths, but for a common factor.
+    /// Whether all members of the ansatz with these twists have these lengths, up to a common factor.
     pub is_whole: bool,
-    /// The same for all twists of the ansatz, where it leaves angles free and these were found.
+    /// The formulas for all twists, if the ansatz leaves angles free and they were found.
     pub formulas: Option<Formulas>,
 }
 
 impl CurveLoop {
-    /// Whether all joints move and no two axes coincide.
+    /// Returns whether all joints move and no two axes coincide.
     #[must_use]
     pub fn is_proper(&self) -> bool {
         self.curves.iter().all(Curve::is_proper)
     }
 
-    /// Whether it is a proper loop of the ansatz that is proved to move.
+    /// Returns whether it is a proper loop of the ansatz that is proved to move.
     #[must_use]
     pub fn is_proved(&self) -> bool {
         self.in_ansatz && self.is_proper() && self.germ.local == Local::Curve
     }
 
-    /// Whether it is all of the ansatz, and proved to move for all twists.
+    /// Returns whether it is all of the ansatz, and proved to move for all twists.
     #[must_use]
     pub fn is_proved_family(&self) -> bool {
         self.is_whole && self.is_proper() && self.formulas.as_ref().is_some_and(|formulas| formulas.proved)
@@ -91,26 +91,26 @@ impl CurveLoop {
 pub struct CurveSearch {
     /// The half-angle tangents of the twists.
     pub twists: Vec<Rational>,
-    /// Whether these were chosen at random because the ansatz leaves them free.
+    /// Whether the twists were chosen at random because the ansatz leaves them free.
     pub chosen: bool,
     /// The loops found.
     pub loops: Vec<CurveLoop>,
 }
 
-/// The fit of relations and what was made of it.
+/// The fitted relations and the results derived from them.
 #[derive(Clone, Debug)]
 pub struct Fitted {
     /// The sweep.
     pub sweep: Sweep,
     /// Random closed positions; for six joints.
     pub closed: Option<Closed>,
-    /// The ansatz with the relations, where they can be solved.
+    /// The ansatz with the relations, if they can be solved.
     pub family: Option<Family>,
     /// A member over the rationals; for six joints.
     pub member: Option<RationalMember>,
     /// Random members over large prime fields; for six joints.
     pub modular: Option<ModularMembers>,
-    /// Why no real numbers satisfy the relations, where that is proved.
+    /// The reason why no real numbers satisfy the relations, if that is proved.
     pub empty: Option<String>,
     /// A proof for the family.
     pub proof: Option<FamilyProof>,
@@ -126,7 +126,7 @@ pub enum FamilyProof {
 }
 
 impl FamilyProof {
-    /// A proof for the members of an ansatz of six joints that satisfy a condition, or for all of them.
+    /// Finds a proof for the members of an ansatz of six joints that satisfy a condition, or for all of them.
     fn find(ansatz: &Ansatz, condition: Option<&Polynomial<Rational>>, seed: u64) -> Option<Self> {
         let replaced = ansatz.without_relations()?;
         let condition = condition.map(|condition| replaced.polynomial(condition));
@@ -134,7 +134,7 @@ impl FamilyProof {
         multiplier.map(Self::Multiplier).or_else(|| implication(&replaced.ansatz, &condition?).map(Self::Implication))
     }
 
-    /// A proof for the members of an ansatz with relations, one of which may be what makes them move.
+    /// Finds a proof for the members of an ansatz with relations, one of which may be the cause of their motion.
     fn of_all(ansatz: &Ansatz, seed: u64) -> Option<Self> {
         let with_condition = |number: usize| {
             let (ansatz, condition) = ansatz.without_relation(number)?;
@@ -144,37 +144,37 @@ impl FamilyProof {
     }
 }
 
-/// What was tried and found.
+/// The results of all methods.
 #[derive(Clone, Debug)]
 pub struct Search {
-    /// Slices looked at.
+    /// Number of slices examined.
     pub slices: usize,
-    /// Those that move.
+    /// The mobile slices.
     pub mobile_slices: Vec<MobileSlice>,
     /// The curve ansatz, for five joints.
     pub curves: Option<CurveSearch>,
-    /// The sweep and fit, where a length is unknown.
+    /// The sweep and fit, if a length is unknown.
     pub fitted: Option<Fitted>,
-    /// A member that satisfies all relations of the file, where no symbol is unknown; for six joints.
+    /// A member that satisfies all relations of the file, if no symbol is unknown; for six joints.
     pub member: Option<RationalMember>,
-    /// Such members over large prime fields.
+    /// Random members over large prime fields that satisfy all relations.
     pub modular: Option<ModularMembers>,
-    /// A proof that all of these move.
+    /// A proof that all members move.
     pub proof: Option<FamilyProof>,
-    /// The symmetric families that the twists of the ansatz belong to.
+    /// The symmetric families to which the twists of the ansatz belong.
     pub patterns: Vec<TwistPattern>,
 }
 
-/// The prime of the slices.
+/// The prime for the slices.
 pub const SLICE_PRIME: u64 = 23;
-/// Random closed positions looked at.
+/// Number of random closed positions examined.
 const CLOSED: usize = 64;
-/// Random members over each large prime field.
+/// Number of random members over each large prime field.
 const MEMBERS: usize = 8;
-/// Draws for a member over the rationals.
+/// Number of draws for a member over the rationals.
 const DRAWS: usize = 60_000;
 
-/// Tries everything that fits the ansatz.
+/// Applies every method suited to the ansatz.
 ///
 /// # Errors
 /// [`crate::error::Error::Unsupported`] for loops of other than five or six joints, and for six joints without symbols.
@@ -199,7 +199,7 @@ pub fn search(ansatz: &Ansatz, seed: u64) -> Result<Search> {
     let mobile_slices: Vec<MobileSlice> =
         mobile.map(|slice| MobileSlice { proof: identity::proof(&slice), slice }).collect();
     let fitted = if has_unknown { Some(fitted(ansatz, seed)?) } else { None };
-    // With the relations that were fitted, the curves are those of the family.
+    // With the fitted relations the curves belong to the family.
     let of_family = fitted.as_ref().and_then(Fitted::all_relations);
     let curves = (joints == 5).then(|| curve_search(of_family.as_ref().unwrap_or(ansatz), seed)).flatten();
     let as_it_is = joints == 6 && !has_unknown && is_special;
@@ -213,7 +213,7 @@ pub fn search(ansatz: &Ansatz, seed: u64) -> Result<Search> {
 }
 
 impl Fitted {
-    /// The ansatz with all relations that were fitted, where they are linear in lengths or equations between angles.
+    /// Returns the ansatz with all fitted relations that are linear in lengths or equations between angles.
     fn all_relations(&self) -> Option<Ansatz> {
         let family = self.family.as_ref()?;
         let Some(condition) = &family.condition else { return Some(family.ansatz.clone()) };
@@ -251,12 +251,12 @@ fn fitted(ansatz: &Ansatz, seed: u64) -> Result<Fitted> {
     Ok(fitted)
 }
 
-/// Whether a member is proved to move.
+/// Returns whether a member is proved to move.
 fn moves(member: Option<&RationalMember>) -> bool {
     member.is_some_and(|member| member.germ.local == Local::Curve)
 }
 
-/// The curve ansatz at the twists of the ansatz, free angles chosen at random.
+/// Applies the curve ansatz at the twists of the ansatz, with random free angles.
 fn curve_search(ansatz: &Ansatz, seed: u64) -> Option<CurveSearch> {
     let members = ansatz.over::<Rational>()?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -274,7 +274,7 @@ fn curve_search(ansatz: &Ansatz, seed: u64) -> Option<CurveSearch> {
     let own = |links: &[Link<Rational>]| -> Vec<Rational> {
         links.iter().map(|link| link.a.clone()).chain(links.iter().map(|link| link.d.clone())).collect()
     };
-    // The lengths of the members with these twists: one vector for each free length, and one that they are added to.
+    // The lengths of the members with these twists: one vector for each free length, and a constant one to which they are added.
     let constant = own(&links);
     let mut family = Vec::new();
     for k in 0..free {
@@ -315,7 +315,7 @@ fn curve_search(ansatz: &Ansatz, seed: u64) -> Option<CurveSearch> {
             formulas: None,
         });
     }
-    // Formulas are in free symbols alone.
+    // Formulas contain free symbols only.
     let is_plain =
         |found: &&mut CurveLoop| found.is_proper() && found.lengths.len() == 1 && !ansatz.has_solved_symbols();
     for found in loops.iter_mut().filter(is_plain) {
@@ -324,7 +324,7 @@ fn curve_search(ansatz: &Ansatz, seed: u64) -> Option<CurveSearch> {
     Some(CurveSearch { chosen: !tangents.is_empty(), twists, loops })
 }
 
-/// A vector other than zero of a space that is a constant and a combination of others; `None` where there is none.
+/// Returns a nonzero vector of a space that is a constant and a combination of others; `None` if there is none.
 fn in_common(others: &[Vec<Rational>], constant: &[Rational], space: &[Vec<Rational>]) -> Option<Vec<Rational>> {
     let columns: Vec<&[Rational]> =
         space.iter().map(Vec::as_slice).chain(others.iter().map(Vec::as_slice)).chain([constant]).collect();

@@ -1,4 +1,4 @@
-//! The spherical image of a loop of revolute joints: directions only, and what they say about lengths.
+//! The spherical image of a loop of revolute joints: directions only, and their conditions on lengths.
 
 use super::finite_field::Turn;
 use crate::algebra::ring::{Field, Ring};
@@ -12,12 +12,12 @@ pub struct Directions<F> {
     pub axes: Vec<Vector<F>>,
     /// `x_k`, the common normal of axes k and k + 1.
     pub normals: Vec<Vector<F>>,
-    /// What all rotations and twists together do.
+    /// The product of all rotations and twists.
     pub product: [[F; 3]; 3],
 }
 
 impl<F: Ring> Directions<F> {
-    /// The directions for given rotations of the joints.
+    /// Returns the directions for given rotations of the joints.
     #[must_use]
     pub fn of(links: &[Link<F>], turns: &[Turn<F>]) -> Self {
         let (mut axes, mut normals) = (Vec::new(), Vec::new());
@@ -32,13 +32,13 @@ impl<F: Ring> Directions<F> {
         Self { axes, normals, product: frame.rotation }
     }
 
-    /// Whether the rotations close.
+    /// Returns whether the rotations close.
     #[must_use]
     pub fn closes(&self) -> bool {
         self.product == Motion::<F>::identity().rotation
     }
 
-    /// `sum_k a_k x_k + d_k z_k`, which vanishes where the loop closes with these lengths.
+    /// Returns `sum_k a_k x_k + d_k z_k`, which vanishes if the loop closes with these lengths.
     ///
     /// # Shape
     /// All `a` first, then all `d`.
@@ -53,14 +53,14 @@ impl<F: Ring> Directions<F> {
         sum
     }
 
-    /// The three equations `sum_k a_k x_k + d_k z_k = 0` as rows in the lengths, all `a` first.
+    /// Returns the three equations `sum_k a_k x_k + d_k z_k = 0` as rows in the lengths, all `a` first.
     #[must_use]
     pub fn equations(&self) -> [Vec<F>; 3] {
         std::array::from_fn(|i| self.normals.iter().chain(&self.axes).map(|direction| direction[i].clone()).collect())
     }
 }
 
-/// Three joints that close a rotation: `Rz(p) A Rz(q) B Rz(r) C = 1`, the rotations A, B and C given.
+/// Three joints that close a rotation: `Rz(p) A Rz(q) B Rz(r) C = 1`, with the rotations A, B and C given.
 ///
 /// The third row of the third column gives `f + c cos q + s sin q = 0`; whether it can be solved depends on
 /// `D = c^2 + s^2 - f^2`.
@@ -73,7 +73,7 @@ pub struct Triad<F> {
 }
 
 impl<F: Field> Triad<F> {
-    /// The triad with these rotations behind its joints.
+    /// Creates the triad with these rotations behind its joints.
     #[must_use]
     pub fn new(links: [Motion<F>; 3]) -> Self {
         let [a, b, c] = links.each_ref().map(|link| &link.rotation);
@@ -89,7 +89,7 @@ impl<F: Field> Triad<F> {
         self.cos.mul(&self.cos).add(&self.sin.mul(&self.sin)).sub(&self.constant.mul(&self.constant))
     }
 
-    /// The three rotations for one square root of D; `None` in a position where they are not determined.
+    /// Returns the three rotations for one square root of D; `None` in a position in which they are not determined.
     #[must_use]
     pub fn turns(&self, root: &F) -> Option<[Turn<F>; 3]> {
         let inverse = self.cos.mul(&self.cos).add(&self.sin.mul(&self.sin)).inverse()?;
@@ -102,13 +102,13 @@ impl<F: Field> Triad<F> {
         let column = |m: &[[F; 3]; 3]| [m[0][2].clone(), m[1][2].clone()];
         let row = |m: &[[F; 3]; 3]| [m[2][0].clone(), m[2][1].clone()];
         let first = carry(&column(&between), &column(&target))?;
-        // A row times Rz turns the other way.
+        // A row times Rz rotates in the opposite sense.
         let (third, minus) = carry(&row(&between), &row(&target))?;
         Some([first, (cos, sin), (third, minus.neg())])
     }
 }
 
-/// The rotation that carries one vector of the plane to another of the same length; `None` where this has the square 0.
+/// Returns the rotation that carries one plane vector to another of the same length; `None` if the square of the length is 0.
 fn carry<F: Field>(from: &[F; 2], to: &[F; 2]) -> Option<Turn<F>> {
     let inverse = from[0].mul(&from[0]).add(&from[1].mul(&from[1])).inverse()?;
     let cos = from[0].mul(&to[0]).add(&from[1].mul(&to[1])).mul(&inverse);
@@ -116,8 +116,8 @@ fn carry<F: Field>(from: &[F; 2], to: &[F; 2]) -> Option<Turn<F>> {
     Some((cos, sin))
 }
 
-/// The configurations of the spherical image in which the joints outside `closing` have the given rotations: at most two,
-/// all rotations round the loop.
+/// Returns the configurations of the spherical image in which the joints outside `closing` have the given rotations: at most
+/// two, each with all rotations round the loop.
 ///
 /// # Panics
 /// Unless the three joints are given in increasing order.
@@ -140,7 +140,7 @@ pub fn closed_by<F: Field>(
     roots.iter().filter_map(complete).collect()
 }
 
-/// The triad of three joints when the others have the given rotations.
+/// Returns the triad of three joints when the others have the given rotations.
 ///
 /// # Panics
 /// Unless the three joints are given in increasing order.

@@ -1,4 +1,4 @@
-//! A step of a derivation: what is claimed, the polynomials that were computed, and whether the claim came out.
+//! A step of a derivation: the claim, the polynomials computed, and whether the claim holds for them.
 
 use super::quotient::Quotient;
 use super::twist_family::Ratio;
@@ -15,13 +15,13 @@ type Poly = Polynomial<Int>;
 /// A step.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// A few words.
+    /// A short title.
     pub title: String,
-    /// The claim and why it holds.
+    /// The claim and its reason.
     pub text: String,
-    /// What was computed.
+    /// The formulas computed.
     pub formulas: Vec<Formula>,
-    /// Whether what was computed is as claimed.
+    /// Whether the computation confirms the claim.
     pub holds: bool,
 }
 
@@ -30,31 +30,31 @@ pub struct Step {
 pub struct Formula {
     /// The left side.
     pub name: String,
-    /// The right side, for people.
+    /// The right side as readable text.
     pub value: String,
 }
 
 impl Formula {
-    /// A polynomial in factors: the given ones, and what is left.
+    /// Creates a formula from a polynomial in factors: the given ones, and the rest.
     #[must_use]
     pub fn new(name: &str, polynomial: &Poly, factors: &[Poly]) -> Self {
         Self { name: name.to_owned(), value: product(&factored(polynomial, factors), &tangents()) }
     }
 
-    /// Something else.
+    /// Creates a formula with any text.
     #[must_use]
     pub fn text(name: &str, value: String) -> Self {
         Self { name: name.to_owned(), value }
     }
 
-    /// A ratio of polynomials.
+    /// Creates a formula from a ratio of polynomials.
     #[must_use]
     pub fn ratio(name: &str, ratio: &Ratio) -> Self {
         Self { name: name.to_owned(), value: ratio_text(ratio, &tangents()) }
     }
 }
 
-/// The names of the half-angle tangents, lengths and offsets.
+/// Returns the names of the half-angle tangents, lengths and offsets.
 ///
 /// # Panics
 /// Never: the names are distinct.
@@ -63,7 +63,7 @@ pub fn tangents() -> Names {
     Names::given(Variables::TANGENTS).expect("the names are distinct")
 }
 
-/// A ratio of polynomials as text, both in factors.
+/// Returns a ratio of polynomials as text, both in factors.
 #[must_use]
 pub fn ratio_text((numerator, denominator): &Ratio, names: &Names) -> String {
     let bracketed = |p: &Poly| {
@@ -76,26 +76,26 @@ pub fn ratio_text((numerator, denominator): &Ratio, names: &Names) -> String {
     format!("{}/{}", bracketed(numerator), bracketed(denominator))
 }
 
-/// A rational function as text.
+/// Returns a rational function as text.
 #[must_use]
 pub fn quotient_text(quotient: &Quotient, names: &Names) -> String {
     ratio_text(&(quotient.numerator().clone(), quotient.denominator().clone()), names)
 }
 
-/// Over the rationals, as texts want it.
+/// Converts to rational coefficients, as text output needs.
 #[must_use]
 pub fn rational(polynomial: &Poly) -> Polynomial<Rational> {
     polynomial.map(|c| Some(Rational::from(c.to_integer()))).unwrap_or_else(Polynomial::zero)
 }
 
-/// A polynomial as text.
+/// Returns a polynomial as text.
 #[must_use]
 pub fn plain(polynomial: &Poly, names: &Names) -> String {
     Format::Text.polynomial(&rational(polynomial), names)
 }
 
-/// The factors of a polynomial with their powers, a number first where it is not 1: the given factors, then the square-free
-/// factors of the rest.
+/// Returns the factors of a polynomial with their powers, a number first if it is not 1: the given factors, then the
+/// square-free factors of the rest.
 #[must_use]
 pub fn factored(polynomial: &Poly, factors: &[Poly]) -> Vec<(Poly, u32)> {
     if polynomial.is_zero() {
@@ -127,7 +127,7 @@ pub fn factored(polynomial: &Poly, factors: &[Poly]) -> Vec<(Poly, u32)> {
     found
 }
 
-/// A product as text.
+/// Returns a product as text.
 #[must_use]
 pub fn product(factors: &[(Poly, u32)], names: &Names) -> String {
     let one = |(factor, power): &(Poly, u32)| {

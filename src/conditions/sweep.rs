@@ -1,9 +1,9 @@
 //! Conditions for the mobility of an ansatz with free parameters: mobile members are sought over small prime fields, and
-//! relations fitted to what they have in common.
+//! relations are fitted to them.
 //!
-//! Parameters are drawn at random and one unknown runs through the whole field, then two where one is not enough; members
+//! Parameters are drawn at random and one unknown runs through the whole field, then two if one is not enough. Members
 //! with a family of configurations in which every joint moves are kept. The terms of a relation, evaluated at these, are
-//! linearly dependent. What is found is a conjecture.
+//! linearly dependent. The relations found are conjectures.
 
 use super::fit::{Draw, Place, Scouted, choices, fit, images, moves, over, random, scout, unknown_places};
 use crate::algebra::echelon::Echelon;
@@ -19,21 +19,21 @@ use rug::{Integer, Rational};
 
 pub use super::fit::Evidence;
 
-/// What a sweep found.
+/// The results of a sweep.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// For each prime, what the random members said.
+    /// The results of the random members for each prime.
     pub evidence: Vec<Evidence>,
     /// The symbols that ran through the fields, by name; the other unknown ones were drawn like parameters.
     pub running: Vec<String>,
     /// Relations with coprime integer coefficients that all mobile members satisfy, none of them a consequence of the
-    /// others; none where there are none among the terms.
+    /// others; empty if there are none among the terms.
     pub relations: Vec<Polynomial<Rational>>,
     /// The terms among which relations were sought.
     pub terms: usize,
-    /// Fresh members looked at to try the relations; absent without relations.
+    /// A trial of the relations on fresh members; `None` without relations.
     pub trial: Option<Trial>,
-    /// Whether almost all members move, whatever the unknown is.
+    /// Whether almost all members move for any value of the unknown.
     pub always: bool,
 }
 
@@ -42,18 +42,18 @@ pub struct Sweep {
 pub struct Trial {
     /// The prime.
     pub prime: u64,
-    /// Members that satisfy the relations.
+    /// Number of members that satisfy the relations.
     pub on: usize,
-    /// How many of these have a family of configurations.
+    /// Number of these members with a family of configurations.
     pub mobile_on: usize,
-    /// Members that do not.
+    /// Number of members that do not satisfy the relations.
     pub off: usize,
-    /// How many of these have one.
+    /// Number of these members with a family of configurations.
     pub mobile_off: usize,
 }
 
 impl Trial {
-    /// Whether every member on the relations moves and none off them.
+    /// Returns whether every member on the relations moves and none off them.
     #[must_use]
     pub const fn agrees(&self) -> bool {
         self.on > 0 && self.on == self.mobile_on && self.off > 0 && self.mobile_off == 0
@@ -63,19 +63,19 @@ impl Trial {
 type Fit = fn(&Ansatz, &[Polynomial<Rational>], &[Place], u64) -> Result<(Evidence, Vec<Vec<u64>>)>;
 type Scout = fn(&Ansatz, &[Place], usize, u64) -> Result<Scouted>;
 
-/// The fields where one unknown runs through them, and smaller ones where two do: two of them, and more where coefficients
-/// are so large that two do not give them back.
+/// The fields for one running unknown, and smaller ones for two. Two fields are used, and more if the coefficients are
+/// too large for two.
 const FITS: [[Fit; 4]; 2] =
     [[fit::<59>, fit::<67>, fit::<71>, fit::<79>], [fit::<31>, fit::<43>, fit::<47>, fit::<59>]];
-/// The field in which is looked whether any member moves, and in how many draws.
+/// The field, and number of draws, of the test whether any member moves.
 const SCOUTS: [(Scout, usize); 2] = [(scout::<59>, 16), (scout::<31>, 8)];
 /// The prime of the trial.
 const TRIAL: u64 = 103;
-/// One of so many members off the relations is tried.
+/// One in this many members off the relations is tried.
 const OFF: u64 = 8;
-/// Random choices of parameters in the trial.
+/// Number of random choices of parameters in the trial.
 const TRIALS: usize = 12;
-/// Draws in which is looked whether relations imply another one.
+/// Number of draws in the test whether relations imply another one.
 const SAMPLES: usize = 8;
 
 /// Sweeps an ansatz.
@@ -134,7 +134,7 @@ pub fn sweep(ansatz: &Ansatz, seed: u64) -> Result<Sweep> {
     Ok(sweep)
 }
 
-/// Which of the unknown have to run for some members to move: one of them, two, or none that was looked at.
+/// Returns the unknowns that have to run for some members to move: one of them, two, or none of those tried.
 fn running(ansatz: &Ansatz, unknown: &[Place], seed: u64) -> Result<Option<(Vec<Place>, Scouted)>> {
     let singles = unknown.iter().map(|&place| vec![place]);
     let pairs = (0..unknown.len()).flat_map(|i| (i + 1..unknown.len()).map(move |j| vec![unknown[i], unknown[j]]));
@@ -157,8 +157,8 @@ fn names(ansatz: &Ansatz, places: &[Place]) -> Vec<String> {
     places.iter().map(name).collect()
 }
 
-/// The terms of the file, or what usual conditions are made of: lengths times functions of one angle, products of two
-/// lengths; where an angle is unknown, functions of angles first.
+/// Returns the terms of the file, or those of usual conditions: lengths times functions of one angle, products of two
+/// lengths; if an angle is unknown, functions of angles first.
 fn term_lists(ansatz: &Ansatz) -> Vec<Vec<Polynomial<Rational>>> {
     if !ansatz.fit.is_empty() {
         return vec![ansatz.fit.clone()];
@@ -185,7 +185,7 @@ fn term_lists(ansatz: &Ansatz) -> Vec<Vec<Polynomial<Rational>>> {
     lists
 }
 
-/// The terms without those that are combinations of the ones before them for every member, mobile or not.
+/// Returns the terms without those that are combinations of earlier ones for every member, mobile or not.
 fn independent(ansatz: &Ansatz, terms: &[Polynomial<Rational>], seed: u64) -> Result<Vec<Polynomial<Rational>>> {
     let members = over::<PRIME_61>(ansatz)?;
     let images = images::<PRIME_61>(terms)?;
@@ -204,8 +204,8 @@ fn independent(ansatz: &Ansatz, terms: &[Polynomial<Rational>], seed: u64) -> Re
     Ok(pivots.into_iter().map(|k| terms[k].clone()).collect())
 }
 
-/// The relations from their residues modulo the primes that give as many; `None` unless there are two such primes, and
-/// integers of a size that they determine.
+/// Lifts the relations from their residues modulo the primes with equally many; `None` unless there are two such
+/// primes, and integers of a size that they determine.
 fn lifted(spaces: &[(u64, Vec<Vec<u64>>)], terms: &[Polynomial<Rational>]) -> Option<Vec<Polynomial<Rational>>> {
     let count = spaces.iter().map(|(_, space)| space.len()).min()?;
     let spaces: Vec<_> = spaces.iter().filter(|(_, space)| space.len() == count).collect();
@@ -224,7 +224,7 @@ fn lifted(spaces: &[(u64, Vec<Vec<u64>>)], terms: &[Polynomial<Rational>]) -> Op
     (0..count).map(relation).collect()
 }
 
-/// A polynomial without the product of variables that divides it.
+/// Divides a polynomial by the product of variables that divides it.
 fn without_monomial(polynomial: &Polynomial<Rational>) -> Polynomial<Rational> {
     let variables = polynomial.variables();
     let exponent = |variable: usize| polynomial.terms().map(|(exponents, _)| exponents[variable]).min().unwrap_or(0);
@@ -235,7 +235,7 @@ fn without_monomial(polynomial: &Polynomial<Rational>) -> Polynomial<Rational> {
     Polynomial::from_terms(polynomial.terms().map(divided))
 }
 
-/// The simplest relations, without those that the others imply for general values of the parameters.
+/// Returns the simplest relations, without those that the others imply for general values of the parameters.
 fn minimal(
     ansatz: &Ansatz,
     mut relations: Vec<Polynomial<Rational>>,
@@ -252,7 +252,7 @@ fn minimal(
     Ok(kept)
 }
 
-/// Whether a relation vanishes wherever others do, for random values of the symbols that do not run.
+/// Returns whether a relation vanishes wherever others do, for random values of the symbols that do not run.
 fn implied<const P: u64>(
     ansatz: &Ansatz,
     others: &[Polynomial<Rational>],
@@ -275,7 +275,7 @@ fn implied<const P: u64>(
             }
         }
     }
-    // A few accidents of a small field apart.
+    // A few accidents of a small field are allowed.
     Ok(!others.is_empty() && common > 0 && 10 * also >= 9 * common)
 }
 
@@ -298,7 +298,7 @@ fn trial<const P: u64>(
             draw.set(running, choice);
             let Some(values) = members.values(&draw.tangents, &draw.lengths) else { continue };
             let on = images.iter().all(|relation| relation.evaluate(&values).is_zero());
-            // Off the relations a few are enough.
+            // Off the relations a few members are enough.
             if !on && rng.random_range(0..off) != 0 {
                 continue;
             }

@@ -1,7 +1,7 @@
-//! Loops that move because of a symmetry: which patterns of lengths move for all lengths, for which patterns of twists.
+//! Loops that move because of a symmetry: patterns of lengths that move for all lengths, for patterns of twists.
 //!
 //! A symmetry of a loop permutes its joints and links and may change signs. The spherical configurations that have it form
-//! a slice; on the slice the closure of translations is a linear condition on the lengths that have it too. Where it is
+//! a slice; on the slice the closure of translations is a linear condition on the lengths that have it, too. If it has
 //! fewer equations than the slice has dimensions, every real closed position lies on a curve of positions.
 
 use super::finite_field::{Turn, all_turns, random_unit, turn};
@@ -19,11 +19,11 @@ use std::collections::BTreeMap;
 /// A permutation of joints and links of order two that keeps or reverses their order round the loop.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Involution {
-    /// What it is.
+    /// Its name.
     pub name: &'static str,
-    /// Where each joint goes.
+    /// The image of each joint.
     pub joints: Vec<usize>,
-    /// Where each link goes, link k being that between joints k and k + 1.
+    /// The image of each link; link k lies between joints k and k + 1.
     pub links: Vec<usize>,
 }
 
@@ -46,7 +46,7 @@ pub fn involutions(joints: usize) -> Vec<Involution> {
     found
 }
 
-/// Which quantities a symmetry negates.
+/// The quantities that a symmetry negates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Signs {
     /// The angle of rotation.
@@ -60,7 +60,7 @@ pub struct Signs {
 }
 
 impl Signs {
-    /// All of them.
+    /// Returns all sign patterns.
     pub fn all() -> impl Iterator<Item = Self> {
         (0..16_u8).map(|bits| Self {
             angle: bits & 8 != 0,
@@ -71,27 +71,27 @@ impl Signs {
     }
 }
 
-/// What a slice says about its lengths.
+/// The result for the lengths of a slice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slice {
-    /// Fewer positions than decide anything were found, if any.
+    /// Too few positions were found to decide.
     Few,
-    /// As many conditions as dimensions or more.
+    /// There are at least as many conditions as dimensions.
     Isolated,
     /// Mobile for all lengths of the pattern.
     Mobile,
-    /// Mobile, but in pairs the axes coincide: the loop is folded back on itself.
+    /// Mobile, but axes coincide in pairs: the loop is folded back on itself.
     Folded,
 }
 
-/// A slice of the spherical configurations and what was found on it.
+/// A slice of the spherical configurations and the results for it.
 #[derive(Clone, Debug)]
 pub struct SymmetricSlice {
     /// The permutation.
     pub involution: Involution,
     /// The signs.
     pub signs: Signs,
-    /// What the slice says.
+    /// The result.
     pub slice: Slice,
     /// The dimension of the slice.
     pub dimension: usize,
@@ -103,14 +103,14 @@ pub struct SymmetricSlice {
     pub positions: usize,
 }
 
-/// Draws at most from a slice.
+/// Maximum number of draws from a slice.
 const DRAWS: u64 = 40_000;
-/// Positions enough to decide.
+/// Number of positions that suffice to decide.
 const ENOUGH: usize = 64;
-/// Fewer than these do not.
+/// Number of positions below which nothing is decided.
 const FEW: usize = 6;
 
-/// All slices of a loop of n joints with random twists of each pattern, over the field of P elements.
+/// Returns all slices of a loop of n joints with random twists of each pattern, over the field of P elements.
 ///
 /// # Panics
 /// Unless there are four to six joints.
@@ -129,7 +129,7 @@ pub fn slices<const P: u64>(joints: usize, seed: u64) -> Vec<SymmetricSlice> {
     all.into_par_iter().enumerate().map(study).collect()
 }
 
-/// Rotations as a random draw made them, and with them the closing product.
+/// A random draw of rotations with their closing product.
 struct Pattern<const P: u64> {
     involution: Involution,
     signs: Signs,
@@ -145,7 +145,7 @@ impl<const P: u64> Pattern<P> {
 }
 
 impl Pattern<3> {
-    /// A loop with random twists of the pattern.
+    /// Returns a loop with random twists of the pattern.
     fn random<const P: u64>(involution: Involution, signs: Signs, rng: &mut ChaCha8Rng) -> Pattern<P> {
         let n = involution.links.len();
         let mut tangents = vec![ModP::<P>::zero(); n];
@@ -169,7 +169,7 @@ impl Pattern<3> {
 }
 
 impl<const P: u64> Pattern<P> {
-    /// A basis of the lengths of the pattern, all a first, then all d.
+    /// Returns a basis of the lengths of the pattern, all a first, then all d.
     fn lengths(&self) -> Vec<Vec<ModP<P>>> {
         let n = self.links.len();
         let parts = [(0, &self.involution.links, self.signs.length), (n, &self.involution.joints, self.signs.offset)];
@@ -192,7 +192,7 @@ impl<const P: u64> Pattern<P> {
     fn study(self, rng: &mut ChaCha8Rng) -> SymmetricSlice {
         let basis = self.lengths();
         let positions = self.positions(rng);
-        // Components of different dimension and special positions: what is met in a quarter of the positions counts.
+        // Components may have different dimensions, and positions may be special; a result counts if a quarter of positions has it.
         let mut met: BTreeMap<(usize, usize, bool), usize> = BTreeMap::new();
         for turns in &positions {
             *met.entry(self.at(turns, &basis)).or_default() += 1;
@@ -220,7 +220,7 @@ impl<const P: u64> Pattern<P> {
         }
     }
 
-    /// The dimension of the slice at a position, the number of conditions there, and whether the axes coincide in pairs.
+    /// Returns the dimension of the slice at a position, the number of conditions there, and whether the axes coincide in pairs.
     fn at(&self, turns: &[Turn<ModP<P>>], basis: &[Vec<ModP<P>>]) -> (usize, usize, bool) {
         let directions = Directions::of(&self.links, turns);
         let rows: Vec<Vec<ModP<P>>> = basis.iter().map(|lengths| directions.translation(lengths).to_vec()).collect();
@@ -241,7 +241,7 @@ impl<const P: u64> Pattern<P> {
         (self.orbits.len() - rank(&velocities), rank(&rows), (0..self.links.len()).all(parallel))
     }
 
-    /// Positions of the slice: all if they can be looked through, else those among random rotations.
+    /// Returns positions of the slice: all if they can be enumerated, else those among random rotations.
     fn positions(&self, rng: &mut ChaCha8Rng) -> Vec<Vec<Turn<ModP<P>>>> {
         let all = all_turns::<P>();
         let zero = ModP::zero();
@@ -280,7 +280,7 @@ impl<const P: u64> Pattern<P> {
     }
 }
 
-/// Cosine and sine of half the angle, up to a factor.
+/// Returns cosine and sine of half the angle, up to a factor.
 fn half_turn<const P: u64>((cos, sin): &Turn<ModP<P>>) -> Turn<ModP<P>> {
     let cos = cos.add(&ModP::one());
     if cos.is_zero() { (ModP::zero(), ModP::one()) } else { (cos, *sin) }

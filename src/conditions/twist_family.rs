@@ -1,4 +1,4 @@
-//! Twists of four links at which the spherical four-bar falls apart.
+//! Twists of four links at which the curve of the spherical four-bar is reducible.
 
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
@@ -10,7 +10,7 @@ type Poly = Polynomial<Int>;
 /// Signs of the four twists in half of their sum.
 pub type Signs = [i32; 4];
 
-/// The numerator of `sin((e1 alpha1 + ... + e4 alpha4)/2)`: the imaginary part of `prod (1 + i e_k t_k)`.
+/// Returns the numerator of `sin((e1 alpha1 + ... + e4 alpha4)/2)`, the imaginary part of `prod (1 + i e_k t_k)`.
 #[must_use]
 pub fn sine(signs: Signs) -> Poly {
     let (mut real, mut imaginary) = (Poly::one(), Poly::zero());
@@ -21,14 +21,14 @@ pub fn sine(signs: Signs) -> Poly {
     imaginary
 }
 
-/// Which two pairs of links are related.
+/// The two pairs of related links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Opposite links: (1, 3) and (2, 4).
     Isogram,
     /// Neighbours: (1, 2) and (3, 4).
     Deltoid,
-    /// Neighbours the other way: (1, 4) and (2, 3).
+    /// The other neighbours: (1, 4) and (2, 3).
     TurnedDeltoid,
 }
 
@@ -38,9 +38,9 @@ pub type Ratio = (Poly, Poly);
 /// Twists with two relations: `t_j = +-t_i` or `t_j = +-1/t_i` for two pairs of links.
 #[derive(Clone, Debug)]
 pub struct TwistFamily {
-    /// Which pairs.
+    /// The pairs of links.
     pub shape: Shape,
-    /// The half-angle tangents of all twists, by those of the first link of each pair.
+    /// The half-angle tangents of all twists, in terms of those of the first link of each pair.
     pub tangents: [Ratio; 4],
     /// The links whose twists are free.
     pub free: [usize; 2],
@@ -48,8 +48,8 @@ pub struct TwistFamily {
     pub relations: [Poly; 2],
 }
 
-/// `factors e and e' vanish`: half their sum and half their difference are multiples of pi, both even ones or both odd ones.
-/// `None` where one of them is a single twist, which is then a multiple of pi itself.
+/// Returns the families with vanishing factors `e` and `e'`: half their sum and half their difference are multiples of pi,
+/// both even or both odd. `None` if one of these is a single twist, which is then a multiple of pi itself.
 #[must_use]
 pub fn families(e: Signs, other: Signs) -> Option<[TwistFamily; 2]> {
     let halves: [Signs; 2] =
@@ -83,11 +83,11 @@ pub fn families(e: Signs, other: Signs) -> Option<[TwistFamily; 2]> {
     }))
 }
 
-/// A polynomial of degree 2 or less in the half-angle tangents of the twists, with other ones in their place; multiplied by
-/// the squares of the denominators.
+/// Substitutes half-angle tangents of the twists in a polynomial of degree 2 or less in each, and multiplies by the
+/// squares of the denominators.
 #[must_use]
 pub fn with_tangents(p: &Poly, tangents: &[Ratio; 4]) -> Poly {
-    // All at once: a tangent that is replaced may be that of another link.
+    // All are replaced at once: a tangent that is replaced may be that of another link.
     fn insert(p: &Poly, link: usize, tangents: &[Ratio; 4]) -> Poly {
         if link == 4 {
             return p.clone();

@@ -1,5 +1,5 @@
-//! From a relation that a sweep found to what can be said for certain: a member with an exact position that is proved
-//! mobile, and closed positions that all satisfy the relation.
+//! Tests of a relation that a sweep found: a member with an exact position that is proved mobile, and closed positions that
+//! all satisfy the relation.
 
 use super::curve_ansatz::rational_square_root;
 use super::finite_field::{Turn, half_tangent_turn, square_root};
@@ -16,20 +16,20 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rug::Rational;
 
-/// What the positions near one position of a loop form, as power series.
+/// Returns the set of positions near one position of a loop, as power series.
 #[must_use]
 pub fn germ<F: Field>(links: &[Link<F>], turns: &[Turn<F>]) -> Germ<F> {
     let values: Vec<[F; 2]> = turns.iter().map(|(cos, sin)| half(cos, sin)).collect();
     Germ::of(&linkage(links).at(&values))
 }
 
-/// Cosine and sine of half an angle, up to a factor.
+/// Returns cosine and sine of half an angle, up to a factor.
 fn half<F: Field>(cos: &F, sin: &F) -> [F; 2] {
     let cos = cos.add(&F::one());
     if cos.is_zero() { [F::zero(), F::one()] } else { [cos, sin.clone()] }
 }
 
-/// The loop of revolute joints with these links.
+/// Returns the loop of revolute joints with these links.
 fn linkage<F: Field>(links: &[Link<F>]) -> Linkage<F> {
     let link = |link: &Link<F>| {
         let [c, s] = half(&link.cos, &link.sin);
@@ -39,25 +39,25 @@ fn linkage<F: Field>(links: &[Link<F>]) -> Linkage<F> {
     Linkage::about_z(vec![Variable::Rotation; links.len()], links.iter().map(link).collect())
 }
 
-/// Closed positions of random members of an ansatz, looked at for a relation.
+/// Counts of closed positions of random members of an ansatz, tested for a relation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Closed {
-    /// Closed positions found.
+    /// Number of closed positions found.
     pub positions: usize,
-    /// How many belong to members that satisfy the relations.
+    /// Number of those whose members satisfy the relations.
     pub satisfied: usize,
 }
 
-/// Random closed positions over the field of `2^61 - 1` elements: do their members satisfy the relations?
+/// Tests random closed positions over the field of `2^61 - 1` elements: do their members satisfy the relations?
 ///
-/// The six closure equations of a 6R loop leave of the positions and an ansatz of N parameters together a set every part
-/// of which has dimension N at least. If all its members satisfy a relation, they are of dimension N - 1 at most, and every
-/// closed position belongs to positions of dimension 1 at least: mobility follows from closure. A position is drawn with
+/// The six closure equations of a 6R loop define a set of positions and members of an ansatz of N parameters, every component
+/// of which has dimension at least N. If all its members satisfy a relation, they are of dimension at most N - 1, and every
+/// closed position belongs to positions of dimension at least 1, so mobility follows from closure. A position is drawn with
 /// three rotations and all twists at random, and lengths at random among those that close there.
 ///
-/// The relation is a polynomial of a degree below 200 at points of a variety parametrised by the draws, so if it did not
-/// vanish on it, one draw would say so but for a probability below `2^-50`. That bound is for relations that are linear: where
-/// others give symbols, nothing is drawn.
+/// The relation is a polynomial of a degree below 200 at points of a variety parametrised by the draws. If it did not
+/// vanish on the variety, one draw would show it except with a probability below `2^-50`. That bound holds for linear relations;
+/// if others determine symbols, nothing is drawn.
 ///
 /// # Panics
 /// Unless there are six joints.
@@ -96,7 +96,7 @@ pub fn closed_positions(
     Some(closed)
 }
 
-/// The joints whose rotations are chosen, and those that follow.
+/// The joints whose rotations are chosen; the others follow.
 const CHOSEN: [usize; 3] = [0, 1, 3];
 const FOLLOWING: [usize; 3] = [2, 4, 5];
 
@@ -109,9 +109,9 @@ struct ClosingMember<F> {
     is_general: bool,
 }
 
-/// A member of given twists that closes in a position with given half-angle tangents of three joints, its free lengths
-/// combined with the given weights from those that close and satisfy the relations that are linear in them: the values of
-/// its symbols, and its rotations. `None` where there is none over the field.
+/// Returns a member of given twists that closes in a position with given half-angle tangents of three joints: the values of
+/// its symbols, and its rotations. Its free lengths combine, with the given weights, those that close and satisfy the linear
+/// relations. `None` if there is none over the field.
 fn closing_member<F: Field>(
     members: &Members<'_, F>,
     ansatz: &Ansatz,
@@ -141,7 +141,7 @@ fn closing_member<F: Field>(
         let relations = linear.iter().map(|relation| relation.evaluate(&values));
         Some(translation(lengths)?.into_iter().chain(relations).collect::<Vec<F>>())
     };
-    // Linear in the lengths, up to a constant: one column for every length, the last for the constant.
+    // The equations are affine in the lengths: one column for every length, the last for the constant.
     let constant = equations(&zero)?;
     let mut columns = Vec::new();
     for k in 0..count {
@@ -152,7 +152,7 @@ fn closing_member<F: Field>(
     columns.push(constant);
     let row = |i: usize| columns.iter().map(|column| column[i].clone()).collect::<Vec<F>>();
     let rows: Vec<Vec<F>> = (0..3 + linear.len()).map(row).collect();
-    // Three rotations and the lengths that close, without the curve through each, are as many as there are members.
+    // Three rotations and the closing lengths, without the curve through each, have as many parameters as the members.
     let own = |row: &Vec<F>| row[..count].to_vec();
     let closing = Echelon::of(rows.iter().map(own).collect(), count).rank();
     let related = Echelon::of(rows[3..].iter().map(own).collect(), count).rank() + relations.len() - linear.len();
@@ -177,36 +177,36 @@ fn closing_member<F: Field>(
     Some(ClosingMember { values, turns, is_general })
 }
 
-/// Whether a polynomial is linear in the lengths.
+/// Returns whether a polynomial is linear in the lengths.
 fn is_linear<F: Field>(ansatz: &Ansatz, polynomial: &Polynomial<F>) -> bool {
     let first = ansatz.symbols.length(0);
     polynomial.terms().all(|(exponents, _)| exponents.iter().skip(first).sum::<u32>() <= 1)
 }
 
-/// Random members with a closed position over prime fields, and how many of them the order test calls mobile.
+/// Random members with a closed position over prime fields, and the number of them that the order test finds mobile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ModularMembers {
-    /// Members with a position of screw rank 5.
+    /// Number of members with a position of screw rank 5.
     pub members: usize,
-    /// How many of these have a curve of positions there.
+    /// Number of those with a curve of positions there.
     pub mobile: usize,
 }
 
 impl ModularMembers {
-    /// Whether all of them move.
+    /// Returns whether all of them move.
     #[must_use]
     pub const fn all_move(&self) -> bool {
         self.members > 0 && self.members == self.mobile
     }
 }
 
-/// The order test at random members that satisfy the relations, over the fields of `2^61 - 1` and of `2^62 - 57` elements.
+/// Applies the order test to random members that satisfy the relations, over the fields of `2^61 - 1` and `2^62 - 57` elements.
 ///
 /// The coefficients of orders up to 16 of the reduced closure equations are algebraic functions of the draws, of a degree
 /// below `2^21` (docs/conditions_search.md). If general members did not move, one of these functions would not vanish, and a
 /// random draw over the field of p elements would be a zero of it with a probability below `2^21 / p < 2^-39`. Draws are as
 /// in [`closed_positions`]; relations that are not linear in the lengths are left to chance. Draws whose members are not
-/// general, by a count of dimensions, do not count. The degrees are those of linear relations: where others give symbols, no
+/// general, by a count of dimensions, do not count. The degrees are those of linear relations; if others determine symbols, no
 /// member is drawn.
 ///
 /// # Panics
@@ -219,7 +219,7 @@ pub fn modular_members(ansatz: &Ansatz, relations: &[Polynomial<Rational>], draw
     }
     let one = modular::<PRIME_61>(ansatz, relations, draws, seed);
     let other = modular::<PRIME_62>(ansatz, relations, draws, seed);
-    // An unlucky prime, or no members, is no evidence.
+    // An unlucky prime, or the lack of members, is no evidence.
     let found = [one, other].map(Option::unwrap_or_default);
     if found.iter().any(|&[members, _]| members == 0) {
         return ModularMembers { members: 0, mobile: 0 };
@@ -227,7 +227,7 @@ pub fn modular_members(ansatz: &Ansatz, relations: &[Polynomial<Rational>], draw
     ModularMembers { members: found[0][0] + found[1][0], mobile: found[0][1] + found[1][1] }
 }
 
-/// Members of screw rank 5 met in the draws, and how many of them move.
+/// Counts members of screw rank 5 in the draws, and those of them that move.
 fn modular<const P: u64>(
     ansatz: &Ansatz,
     relations: &[Polynomial<Rational>],
@@ -269,25 +269,24 @@ pub struct RationalMember {
     pub links: Vec<Link<Rational>>,
     /// The rotations of its joints.
     pub turns: Vec<Turn<Rational>>,
-    /// What the positions near that one form.
+    /// The set of positions near that one.
     pub germ: Germ<Rational>,
 }
 
-/// Half-angle tangents of the exact search, small so that a discriminant is a square now and then, and no two of them of
-/// equal or opposite angles, or of angles that are so but for a half-turn.
+/// Half-angle tangents of the exact search. They are small, so that a discriminant is sometimes a square, and no two belong
+/// to equal or opposite angles, even modulo pi.
 const TANGENTS: [(i32, i32); 10] = [(1, 2), (1, 3), (2, 3), (1, 4), (3, 4), (1, 5), (2, 5), (3, 5), (4, 5), (1, 7)];
 
-/// The rotations are taken from so many of these.
+/// Number of these tangents from which the rotations are taken.
 const ROTATIONS: usize = 3;
 
-/// After this many positions of screw rank 6 no position of another rank is expected.
+/// Number of positions of screw rank 6 after which no position of lower rank is expected.
 const RIGID: usize = 60;
 
-/// A member of an ansatz of a 6R loop that satisfies the relations, with an exact position, both over the rationals: the
-/// first of screw rank 5, where there is none one of rank 6; `None`
-/// where the search finds none in so many draws.
+/// Returns a member of an ansatz of a 6R loop that satisfies the relations, with an exact position, both over the
+/// rationals: the first of screw rank 5, or else one of rank 6; `None` if the search finds none in `draws` draws.
 ///
-/// Twists and three rotations are drawn; where the discriminant of the other three is the square of a rational number, the
+/// Twists and three rotations are drawn. If the discriminant of the other three is the square of a rational number, the
 /// position is exact, and lengths that close in it are the solutions of linear equations.
 ///
 /// # Panics
@@ -315,7 +314,7 @@ pub fn rational_member(
             let tangent = if rng.random() { tangent } else { tangent.recip() };
             if rng.random() { tangent } else { -tangent }
         };
-        // Different twists, so that the member is no special one.
+        // The twists are different, so that the member is not special.
         let places = rand::seq::index::sample(&mut order, TANGENTS.len(), TANGENTS.len()).into_vec();
         let tangents: Vec<_> = (0..ansatz.free_angles().len()).map(|k| random(places[k % TANGENTS.len()])).collect();
         let chosen = [0, 1, 2].map(|k| random(places[TANGENTS.len() - 1 - k] % ROTATIONS));
@@ -342,14 +341,14 @@ pub fn rational_member(
     rigid.pop()
 }
 
-/// Members over the rationals that are looked at with a joint held.
+/// Number of rational members examined with a joint held.
 const HELD: usize = 24;
-/// Draws among which such members are sought.
+/// Number of draws in the search for such members.
 const DRAWN: usize = 20_000;
 
-/// A member of an ansatz without further conditions with an exact position of screw rank 5 that lies on a curve: random
-/// members are held at rational values of their first joint, and their positions found exactly. `None` where no position met
-/// is rational.
+/// Returns a member of an ansatz without further conditions with an exact position of screw rank 5 that lies on a curve.
+/// Random members are held at rational values of their first joint, and their positions found exactly. `None` if no position
+/// found is rational.
 ///
 /// # Panics
 /// Unless there are six joints.
@@ -368,7 +367,7 @@ pub fn held_member(ansatz: &Ansatz, seed: u64) -> Option<RationalMember> {
             (0..ansatz.free_angles().len()).map(|k| Rational::from(TANGENTS[places[k % TANGENTS.len()]])).collect();
         let lengths: Vec<Rational> =
             ansatz.free_lengths().iter().map(|_| Rational::from(rng.random_range(1..9))).collect();
-        // Where square roots are needed, they are seldom rational.
+        // Required square roots are seldom rational.
         let Some(links) = members.member(&tangents, &lengths) else { continue };
         looked_at += 1;
         for tangent in &TANGENTS[..ROTATIONS] {
@@ -392,14 +391,14 @@ pub fn held_member(ansatz: &Ansatz, seed: u64) -> Option<RationalMember> {
     None
 }
 
-/// Cosine and sine of an angle from those of its half, up to a factor.
+/// Returns cosine and sine of an angle from those of its half, up to a factor.
 fn whole(c: &Rational, s: &Rational) -> Turn<Rational> {
     let (cc, ss) = (Rational::from(c.square_ref()), Rational::from(s.square_ref()));
     let norm = Rational::from(&cc + &ss);
     ((cc - ss) / &norm, Rational::from(c * s) * 2 / norm)
 }
 
-/// Whether the discriminant is a square modulo a prime, as it is if it is one: half of the rest is told apart without
+/// Returns whether the discriminant is a square modulo a prime, which is necessary. This rejects half of the others without
 /// large numbers.
 fn may_be_square(
     members: &Members<'_, ModP<PRIME_61>>,
