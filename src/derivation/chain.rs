@@ -1,4 +1,4 @@
-//! Arms and loops: which elimination.
+//! Arms and loops: the choice of the elimination.
 
 use super::polynomial::{ClosurePolynomial, Eliminant, Meaning, Removed};
 use super::symbols::{Symbols, joint_labels};
@@ -15,21 +15,21 @@ use crate::kinematics::freedom::Freedom;
 use crate::mechanism::{closed_loop, ss_dyad_loop};
 use rug::Rational;
 
-/// The field in which ways to eliminate are compared before the best one is taken over the rationals.
+/// The field in which eliminations are compared before the best one is carried out over the rationals.
 pub(super) type Mod = Drawn;
 
-/// What there is to say of a polynomial where solutions are not isolated.
+/// The remark on a polynomial whose solutions need not be isolated.
 const FAMILY: &str = "the solutions are not known to be finite in number: a root may belong to a self-motion";
 
-/// What an elimination hands over.
+/// The result of an elimination.
 pub(super) struct Eliminated {
     pub equations: Vec<Equation>,
     pub steps: Vec<String>,
-    /// The unknown that is left, the polynomial in it, and what its variable is.
+    /// The remaining unknown, the polynomial in it, and the meaning of its variable.
     pub polynomial: Option<(usize, Univariate<Rational>, Meaning)>,
-    /// What was divided out of the polynomial.
+    /// The factors divided out of the polynomial.
     pub removed: Vec<Removed>,
-    /// At most so many solutions belong to a root by the way of the elimination.
+    /// Upper bound on the number of solutions of a root in this elimination.
     pub per_root: usize,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct Exact {
     pub spherical: Option<usize>,
 }
 
-/// The derivation of one case of an arm or a loop.
+/// Derives one case of an arm or a loop.
 pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
     if let Some(ss_dyad) = ss_dyad_loop::<Rational>(chain, case)? {
         let symbols = Symbols::single(chain, ss_dyad.indices[2], ss_dyad.variable);
@@ -50,7 +50,7 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
         return derivation(&symbols, eliminated, |found| found.map(|(k, eliminant)| (k, Settled::as_it_is(eliminant))));
     }
     let exact = exact(chain, case)?;
-    // Of six unknown rotations, or all but one, the ring takes as long as the elimination.
+    // With six unknown rotations, or five and a translation, the ring takes as long as the elimination.
     let is_long = exact.spherical.is_none() && general_degree(exact.closed.variables) == Some(16);
     let (eliminated, count) =
         rayon::join(|| eliminate(&exact), || if is_long { true_roots::count(&exact) } else { None });
@@ -61,7 +61,7 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
     Ok(derivation)
 }
 
-/// What an elimination leaves, without the roots that belong to no solution; `count` is the number of solutions where it is known.
+/// Removes the roots of an eliminant that belong to no solution; `count` is the number of solutions, if it is known.
 pub(super) fn settle(exact: &Exact, eliminated: Eliminated, count: Option<usize>) -> Result<Derivation> {
     let per_root = eliminated.per_root;
     derivation(&exact.symbols, eliminated, |found| match found {
@@ -73,7 +73,7 @@ pub(super) fn settle(exact: &Exact, eliminated: Eliminated, count: Option<usize>
     })
 }
 
-/// The loop of a case with one spherical joint or none.
+/// Returns the loop of a case with one spherical joint or none.
 pub(super) fn exact(chain: &Chain, case: &Case) -> Result<Exact> {
     let Some((layout, closed)) = closed_loop::<Rational>(chain, case)? else {
         return Err(Error::Invalid("a case without pose and input".to_owned()));
@@ -83,7 +83,7 @@ pub(super) fn exact(chain: &Chain, case: &Case) -> Result<Exact> {
     Ok(Exact { closed, modular, symbols, spherical: layout.spherical_unknown() })
 }
 
-/// The elimination that the unknowns ask for.
+/// Carries out the elimination that fits the unknowns.
 pub(super) fn eliminate(exact: &Exact) -> Result<Eliminated> {
     let eliminated = match (exact.spherical, general_degree(exact.closed.variables)) {
         (Some(spherical), _) => Some(two_sides::spherical(exact, spherical)),
@@ -118,7 +118,7 @@ fn derivation(
         polynomial = Some(ClosurePolynomial::of(Symbols::variable(unknown), settled.eliminant)?);
         (proved, finite) = (settled.proved, settled.finite);
         if let Some(step) = settled.step {
-            // From here on as often as there are solutions.
+            // From here on there is one root for each solution.
             per_root = 1;
             steps.push(step);
         }

@@ -22,11 +22,11 @@ use rug::Rational;
 
 /// The invariants of two lines with a marked point each: n, n' their directions, r from one point to the other.
 const INVARIANTS: [&str; 6] = ["n.n'", "n.r", "n'.r", "r.r", "n.(r x n')", "(r.r) n.n' - 2 (n.r)(n'.r)"];
-/// The vectors whose coordinates across the first axis turn with it.
+/// The vectors whose coordinates perpendicular to the first axis rotate with it.
 const TURNING: [&str; 4] = ["n'", "r", "r x n'", "(r.r) n' - 2 (n'.r) r"];
 
-/// The first cut that leaves the fewest roots, distinct if possible: of special loops some leave roots that belong to no
-/// solution, and look like the general case.
+/// Returns the first cut that leaves the fewest roots, distinct if possible. In special loops some cuts leave roots that belong
+/// to no solution, and look like the general case.
 pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
     best(closed).map(|(_, cut, hidden)| (cut, hidden))
 }
@@ -49,11 +49,11 @@ fn best(closed: &ClosedLoop<Mod>) -> Option<((usize, bool), Cut, Hidden)> {
 struct Reading<'e> {
     symbols: &'e Symbols,
     cut: Cut,
-    /// The loop as the cut reads it.
+    /// The loop in the order of the cut.
     view: ClosedLoop<Rational>,
-    /// Which unknown each of the loop's is.
+    /// The index in the loop of each unknown of the cut.
     order: [usize; 6],
-    /// Whether the translation counts the other way than in the loop itself.
+    /// Whether the translation has the opposite sign to that in the loop.
     flipped: bool,
 }
 
@@ -89,7 +89,7 @@ impl<'e> Reading<'e> {
     }
 }
 
-/// The best cut: where all of them fail, of the loop with its translation elsewhere.
+/// Returns the best cut; if all fail, that of the loop with its translation elsewhere.
 fn reading(exact: &Exact) -> Option<(Reading<'_>, Hidden)> {
     let Some(modular) = &exact.modular else {
         let regular = |cut: &Cut| cut.fits(exact.closed.variables) && half_angle_form(&cut.of(&exact.closed)).is_some();
@@ -106,7 +106,7 @@ fn reading(exact: &Exact) -> Option<(Reading<'_>, Hidden)> {
     Some((Reading::moved(exact, moved, cut), hidden))
 }
 
-/// The same with a cut that keeps a certain unknown, the best of these; `None` where all of them lose equations.
+/// As `eliminate`, with the best cut that keeps a certain unknown; `None` if all of these lose equations.
 pub(super) fn eliminate_keeping(exact: &Exact, unknown: usize) -> Option<Eliminated> {
     let modular = exact.modular.as_ref()?;
     let all = Cut::ALL.into_iter().flat_map(|cut| [Hidden::First, Hidden::Second].map(|hidden| (cut, hidden)));
@@ -118,7 +118,7 @@ pub(super) fn eliminate_keeping(exact: &Exact, unknown: usize) -> Option<Elimina
     Some(eliminated(&Reading::own(exact, cut), hidden))
 }
 
-/// The equations of the best cut and the determinant of its pencil.
+/// Returns the equations of the best cut and the determinant of its pencil.
 pub(super) fn eliminate(exact: &Exact) -> Eliminated {
     let Some((reading, hidden)) = reading(exact) else {
         let cut = Cut::ALL.into_iter().find(|cut| cut.fits(exact.closed.variables));
@@ -132,7 +132,7 @@ fn without_polynomial(equations: Vec<Equation>, steps: Vec<String>) -> Eliminate
     Eliminated { equations, steps, polynomial: None, removed: Vec::new(), per_root: 1 }
 }
 
-/// The equations of a cut and the determinant of its pencil.
+/// Returns the equations of a cut and the determinant of its pencil.
 fn eliminated(reading: &Reading<'_>, hidden: Hidden) -> Eliminated {
     let mut equations = listed(reading);
     let Some(form) = half_angle_form(&reading.view) else { return without_polynomial(equations, Vec::new()) };
@@ -144,13 +144,13 @@ fn eliminated(reading: &Reading<'_>, hidden: Hidden) -> Eliminated {
     Eliminated { polynomial, ..without_polynomial(equations, steps(reading, hidden)) }
 }
 
-/// The determinant of the pencil, in the half-angle tangent of the joint itself.
+/// Returns the determinant of the pencil, in the half-angle tangent of the joint itself.
 fn determinant(cut: Cut, hidden: Hidden, rows: &Bilinear<Rational>) -> Univariate<Rational> {
     let determinant = modular(&pencil(rows, hidden).coefficients);
     if cut.reversed { mirrored(&determinant) } else { determinant }
 }
 
-/// The same polynomials of an unknown by all cuts, modulo the prime: every solution is a root of each.
+/// Returns the polynomials of an unknown by all cuts, modulo the prime: every solution is a root of each.
 pub(super) fn eliminants(closed: &ClosedLoop<Mod>, unknown: usize) -> impl Iterator<Item = Univariate<Mod>> {
     let kept = move |cut: &Cut, hidden| cut.unknown_index(usize::from(hidden == Hidden::Second)) == unknown;
     let each = move |cut: Cut| {
@@ -168,18 +168,18 @@ pub(super) fn eliminants(closed: &ClosedLoop<Mod>, unknown: usize) -> impl Itera
     })
 }
 
-/// `p(-x)`
+/// Returns `p(-x)`.
 fn mirrored<R: Ring>(polynomial: &Univariate<R>) -> Univariate<R> {
     let signed = |(k, c): (usize, &R)| if k % 2 == 1 { c.neg() } else { c.clone() };
     Univariate::new(polynomial.coefficients().iter().enumerate().map(signed).collect())
 }
 
-/// The fourteen equations of a cut.
+/// Returns the fourteen equations of a cut.
 fn listed(reading: &Reading<'_>) -> Vec<Equation> {
     let view = &reading.view;
     let monomials: [[Polynomial<Rational>; 3]; 5] = std::array::from_fn(|j| reading.monomials(j));
     let label = |j: usize| reading.label(j);
-    // All as seen from the axis of unknown 3: the left sides in unknowns 4 and 5, the right ones in 1, 2 and 3.
+    // All are written in the frame of unknown 3: the left sides in unknowns 4 and 5, the right ones in 1, 2 and 3.
     let left: [MarkedLine<Rational>; 9] = left_columns(view).map(|column| act(&view.constants[2], &column));
     let back = view.constants[1].inverse();
     let right = right_columns(view).map(|row| row.map(|column| split_inverse(view.variables[2], &act(&back, &column))));
@@ -203,7 +203,7 @@ fn listed(reading: &Reading<'_>) -> Vec<Equation> {
     fixed.chain(turning).collect()
 }
 
-/// The four equations without unknowns 4 to 6, linear in the half-angle tangent of unknown 3.
+/// Returns the four equations without unknowns 4 to 6, linear in the half-angle tangent of unknown 3.
 fn reduced(reading: &Reading<'_>, rows: &Bilinear<Rational>) -> Vec<Equation> {
     let monomials = [0, 1].map(|j| reading.monomials(j));
     let tangent = Symbols::tangent(reading.unknown(2), reading.is_negated(2));

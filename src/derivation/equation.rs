@@ -10,25 +10,25 @@ use rug::Rational;
 pub struct Equation {
     /// Its name, with the axes at which the loop is cut.
     pub name: String,
-    /// In the cosines and sines of the unknowns.
+    /// The equation in the cosines and sines of the unknowns.
     pub polynomial: Polynomial<Rational>,
-    /// In half-angle tangents, where the elimination goes on with it. Where the first form has no cosine, the same one.
+    /// The equation in half-angle tangents, if the elimination uses it; identical if the first form has no cosine.
     pub algebraic: Option<Polynomial<Rational>>,
 }
 
-/// The primitive multiple with positive leading coefficient.
+/// Returns the primitive multiple with positive leading coefficient.
 pub(super) fn primitive(polynomial: &Polynomial<Rational>) -> Polynomial<Rational> {
     let image = |c: &Int| Some(Rational::from(c.to_integer()));
     polynomial.primitive().0.map(image).unwrap_or_else(|| polynomial.clone())
 }
 
 impl Equation {
-    /// An equation that is only listed.
+    /// Returns an equation that is only listed.
     pub(super) fn listed(name: String, polynomial: &Polynomial<Rational>) -> Self {
         Self { name, polynomial: primitive(polynomial), algebraic: None }
     }
 
-    /// An equation that the elimination goes on with.
+    /// Returns an equation that the elimination uses.
     pub(super) fn used(name: String, polynomial: &Polynomial<Rational>) -> Self {
         let algebraic = Some(primitive(&half_angles(polynomial)));
         Self { algebraic, ..Self::listed(name, polynomial) }

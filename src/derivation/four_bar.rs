@@ -15,7 +15,7 @@ use crate::elimination::spherical_four_bar::FourBar;
 use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
 
-/// How good a polynomial is: the number of roots that may be solutions, then whether some coincide. Less is better.
+/// Returns the quality of a polynomial: the number of roots that may be solutions, then whether some coincide. Less is better.
 pub(super) fn quality<F: Field + Domain>(polynomial: &Univariate<F>) -> Option<(usize, bool)> {
     polynomial.degree()?;
     let rest = polynomial.remove_factor(&circle()).1;
@@ -23,12 +23,12 @@ pub(super) fn quality<F: Field + Domain>(polynomial: &Univariate<F>) -> Option<(
     Some((rest.degree().unwrap_or(0), multiple))
 }
 
-/// The link from which to look, and the angle to keep: the first that leaves the fewest roots, distinct if possible.
+/// Returns the base link and the angle to keep: the first choice that leaves the fewest roots, distinct if possible.
 pub(super) fn choice(form: &LinkForm<Mod, 4, 2>) -> Option<(usize, Hidden)> {
     choice_of(form, |_, _| true)
 }
 
-/// The best of those that serve.
+/// Returns the best choice among those that `serves` accepts.
 fn choice_of(form: &LinkForm<Mod, 4, 2>, serves: impl Fn(usize, Hidden) -> bool) -> Option<(usize, Hidden)> {
     let mut best = None;
     for base in 0..4 {
@@ -44,7 +44,7 @@ fn choice_of(form: &LinkForm<Mod, 4, 2>, serves: impl Fn(usize, Hidden) -> bool)
     best.map(|(_, base, hidden)| (base, hidden))
 }
 
-/// The two equations and their polynomial in a certain unknown; `None` where no link has its angle at one end and leaves a polynomial.
+/// Returns the two equations and their polynomial in a certain unknown; `None` if no link has its angle at one end and leaves one.
 pub(super) fn eliminate_keeping(exact: &Exact, unknown: usize) -> Option<Eliminated> {
     let modular: LinkForm<Mod, 4, 2> = LinkForm::of(exact.modular.as_ref()?)?;
     let keeps = |base: usize, hidden: Hidden| {
@@ -53,7 +53,7 @@ pub(super) fn eliminate_keeping(exact: &Exact, unknown: usize) -> Option<Elimina
     eliminate_by(exact, Some(choice_of(&modular, keeps)?))
 }
 
-/// The two equations and their polynomial.
+/// Returns the two equations and their polynomial.
 pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
     eliminate_by(exact, exact.modular.as_ref().and_then(|modular| choice(&LinkForm::of(modular)?)))
 }
@@ -126,7 +126,7 @@ fn circle<F: Field>() -> Univariate<F> {
     Univariate::new(vec![F::one(), F::zero(), F::one()])
 }
 
-/// A factor of false roots, divided into square-free ones, and the false roots at infinity.
+/// Returns a factor of false roots, split into square-free ones, and the false roots at infinity.
 pub(super) fn removed(kept: usize, factor: &Univariate<Rational>, at_pi: usize, reason: &str) -> Vec<Removed> {
     let square_free = |(factor, multiplicity): (Univariate<Rational>, usize)| {
         let factor = Polynomial::from_univariate(Symbols::variable(kept), &factor);

@@ -19,11 +19,11 @@ use rug::{Integer, Rational};
 pub(crate) struct Relation {
     /// Index of the output among the joint variables.
     pub output: usize,
-    /// With integer coefficients, without multiple factors and without factors in the input alone.
+    /// The polynomial with integer coefficients, without multiple factors and without factors in the input alone.
     pub polynomial: Polynomial<Int>,
 }
 
-/// The derivation that these polynomials are; the closure polynomial is the first one of them at the input of the case.
+/// Returns the derivation with these polynomials; its closure polynomial is the first one at the input of the case.
 pub(crate) fn derivation(
     chain: &Chain,
     input: usize,
@@ -97,7 +97,7 @@ pub(crate) fn derivation(
     })
 }
 
-/// The polynomial in the output at the input of a case.
+/// Returns the polynomial in the output at the input of a case.
 fn at_input(polynomial: &Polynomial<Int>, value: &InputValue) -> Univariate<Integer> {
     let rows: Vec<Univariate<Integer>> = polynomial.coefficients_in(1).iter().map(|row| over_integers(row, 0)).collect();
     let number = match value {

@@ -1,7 +1,7 @@
-//! A mechanism's closure equations and its closure polynomial, exactly.
+//! The closure equations and the closure polynomial of a mechanism, exactly.
 //!
 //! The equations are those of [`crate::closure`] and [`crate::elimination`], written over the rationals in the cosines and
-//! sines of the unknowns; the polynomial comes from the same eliminations as the numbers of the solver.
+//! sines of the unknowns. The polynomial comes from the same eliminations as the numbers of the solver.
 
 mod chain;
 mod cuts;
@@ -55,26 +55,26 @@ pub struct Derivation {
     pub names: Names,
     /// The closure equations, in the order in which they are used.
     pub equations: Vec<Equation>,
-    /// How they lead to the polynomial, a sentence each.
+    /// The steps from the equations to the polynomial, a sentence each.
     pub steps: Vec<String>,
-    /// The closure polynomial; `None` where it vanishes identically or is not known.
+    /// The closure polynomial; `None` if it vanishes identically or is not known.
     pub polynomial: Option<ClosurePolynomial>,
-    /// Why there is no polynomial.
+    /// The reason why there is no polynomial.
     pub without: Option<String>,
-    /// Whether it is proved that the polynomial is the right one; if not, the probability of error is below 2^-40.
+    /// Whether the polynomial is proved to be the right one; if not, the probability of error is below 2^-40.
     pub proved: bool,
-    /// At most so many solutions belong to a simple root in general.
+    /// Upper bound on the number of solutions of a simple root in general.
     pub per_root: usize,
-    /// Whether the solutions are finite in number, as far as is known; a root may belong to a self-motion else.
+    /// Whether the solutions are finite in number, as far as is known; otherwise a root may belong to a self-motion.
     pub finite: bool,
-    /// What the variable of the polynomial is, as an equation; none where the equations have it.
+    /// The definition of the variable of the polynomial, as an equation; `None` if the equations contain it.
     pub definition: Option<Polynomial<Rational>>,
-    /// What the reader wants known.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
 impl Derivation {
-    /// The variable of a loop's polynomial as an index among the joint variables of the chain, and what it measures.
+    /// Returns the variable of a loop's polynomial as an index among the joint variables of the chain, and its kind.
     #[must_use]
     pub fn unknown(&self, chain: &Chain) -> Option<(usize, Variable)> {
         let name = &self.names.list()[self.polynomial.as_ref()?.variable];
@@ -83,7 +83,7 @@ impl Derivation {
         Some((found.0, found.1.1))
     }
 
-    /// The equations that hold the unknowns of the polynomial without cosines and sines, and the polynomial itself.
+    /// Returns the equations that contain the unknowns of the polynomial without cosines and sines, and the polynomial itself.
     #[must_use]
     pub fn system(&self) -> Vec<Polynomial<Rational>> {
         let equations = self.equations.iter().filter_map(|equation| equation.algebraic.clone());
@@ -95,13 +95,13 @@ impl Derivation {
     }
 }
 
-/// A polynomial in one variable with integer coefficients.
+/// Returns a polynomial in one variable with integer coefficients.
 fn over_integers(polynomial: &Polynomial<Int>, variable: usize) -> Univariate<Integer> {
     let converted = polynomial.to_univariate(variable).and_then(|p| p.map(|c| Some(c.to_integer())));
     converted.unwrap_or_else(Univariate::zero)
 }
 
-/// The closure equations of a platform alone, with the names of their variables.
+/// Returns the closure equations of a platform alone, with the names of their variables.
 ///
 /// # Errors
 /// [`crate::error::Error::Invalid`] for a case without legs.

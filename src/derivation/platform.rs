@@ -21,14 +21,14 @@ use crate::kinematics::platform::Platform;
 use crate::mechanism::platform_over;
 use rug::{Integer, Rational};
 
-/// Variables 0 to 3 are x, 4 to 7 are y; the last ones, of a triangle, the coordinates of its corners on their circles.
+/// Names of the variables: 0 to 3 are x, 4 to 7 are y, and the last ones are coordinates of a triangle's corners on circles.
 const NAMES: [&str; 15] = ["x0", "x1", "x2", "x3", "y0", "y1", "y2", "y3", "k", "a1", "b1", "a2", "b2", "a3", "b3"];
 /// The variable of the polynomial.
 const QUOTIENT: usize = 8;
 /// The first of the coordinates on circles.
 const ON_CIRCLE: usize = 9;
 
-/// What the polynomial is in.
+/// The variable of the polynomial.
 enum Found {
     /// A quotient of coordinates of the rotation.
     Quotient(PlatformPolynomial),
@@ -104,7 +104,7 @@ impl Found {
         }
     }
 
-    /// The variable at a pose, as a fraction.
+    /// Returns the variable at a pose, as a fraction.
     fn fraction<R: Ring>(&self, platform: &Platform<Rational>, x: &Quaternion<R>, y: &Quaternion<R>) -> [R; 2] {
         match self {
             Self::Quotient(found) => found.coordinate.fraction(x),
@@ -118,7 +118,7 @@ impl Found {
     }
 }
 
-/// `k below - above` for the variable as a fraction.
+/// Returns `k below - above` for the variable as a fraction.
 fn definition(found: &Found, platform: &Platform<Rational>) -> Polynomial<Rational> {
     let [x0, x1, x2, x3, y0, y1, y2, y3]: [Polynomial<Rational>; 8] = std::array::from_fn(Polynomial::variable);
     let (x, y) = (Quaternion { scalar: x0, vector: [x1, x2, x3] }, Quaternion { scalar: y0, vector: [y1, y2, y3] });
@@ -126,7 +126,7 @@ fn definition(found: &Found, platform: &Platform<Rational>) -> Polynomial<Ration
     Polynomial::variable(QUOTIENT).mul(&below).sub(&above)
 }
 
-/// The derivation of one set of legs.
+/// Derives the closure polynomial of one set of legs.
 pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivation> {
     let missing = || Error::Invalid("a case of a platform without legs".to_owned());
     let squares = case.legs_squared.as_ref().ok_or_else(missing)?;
@@ -206,7 +206,7 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
     })
 }
 
-/// The equations of one set of legs alone, with the names of their variables.
+/// Returns the equations of one set of legs alone, with the names of their variables.
 pub(super) fn equations_of(geometry: &Platform<Number>, case: &Case) -> Result<(Names, Vec<Equation>)> {
     let missing = || Error::Invalid("a case of a platform without legs".to_owned());
     let squares = case.legs_squared.as_ref().ok_or_else(missing)?;
@@ -230,7 +230,7 @@ fn equations(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Vec<Equa
     legs.chain([both("Study x.y".to_owned(), &scalar(&x, &y))]).collect()
 }
 
-/// The circles of the corners and the sides of the triangle, in the coordinates of each corner on its circle.
+/// Returns the circles of the corners and the sides of the triangle, in the coordinates of each corner on its circle.
 fn triangle_equations(platform: &Platform<Rational>, squares: &[Rational; 6], pairs: &Pairs) -> Vec<Equation> {
     let Some(triangle) = Triangle::new(platform, squares, pairs) else { return Vec::new() };
     let corner = |n: usize| -> [Polynomial<Rational>; 3] {
@@ -254,7 +254,7 @@ fn triangle_equations(platform: &Platform<Rational>, squares: &[Rational; 6], pa
     circles.chain(sides).collect()
 }
 
-/// The quotient in words: `(x1 - 2 x2 + 3 x3)/x0`.
+/// Returns the quotient as text: `(x1 - 2 x2 + 3 x3)/x0`.
 fn words(coordinate: &Coordinate) -> String {
     let plain = coordinate.turn == [1, 0, 0, 0];
     let letter = if plain { 'x' } else { 'z' };

@@ -1,4 +1,4 @@
-//! A closure polynomial over the integers, with all that can be proved of its roots.
+//! A closure polynomial over the integers, with all provable properties of its roots.
 
 use super::pose::RootPose;
 use crate::algebra::polynomial::Polynomial;
@@ -10,13 +10,13 @@ use rug::{Integer, Rational};
 /// A closure polynomial in one variable.
 #[derive(Clone, Debug)]
 pub struct ClosurePolynomial {
-    /// Which variable.
+    /// The index of the variable.
     pub variable: usize,
     /// Integers without common factor, constant term first, the last one positive.
     pub coefficients: Univariate<Integer>,
-    /// What was divided out.
+    /// The factors divided out.
     pub removed: Vec<Removed>,
-    /// How many roots are at infinity, where the angle is pi.
+    /// Number of roots at infinity, where the angle is pi.
     pub at_pi: usize,
     /// Degree and multiplicity of the square-free factors.
     pub factors: Vec<(usize, usize)>,
@@ -29,22 +29,22 @@ pub struct ClosurePolynomial {
 pub struct Removed {
     /// The factor, square-free, integers without common factor; `None` for roots at infinity.
     pub factor: Option<Polynomial<Rational>>,
-    /// How often it was divided out.
+    /// The multiplicity with which it was divided out.
     pub multiplicity: usize,
-    /// Why its roots belong to no solution.
+    /// The reason why its roots belong to no solution.
     pub reason: String,
 }
 
 /// A real root.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Root {
-    /// The number itself, where it was met, else the nearest float.
+    /// The number itself if an evaluation hit it, else the nearest float.
     pub value: f64,
-    /// The root where it is known to be rational.
+    /// The exact root if it is known to be rational.
     pub exact: Option<Rational>,
-    /// How often it counts.
+    /// Its multiplicity.
     pub multiplicity: usize,
-    /// The real poses at it, of a platform.
+    /// The real poses at it, for a platform.
     pub poses: Vec<RootPose>,
 }
 
@@ -54,17 +54,17 @@ impl Root {
     }
 }
 
-/// What the variable of a polynomial is.
+/// The meaning of the variable of a polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Meaning {
-    /// The half-angle tangent in a polynomial that would be of this degree if no root were at infinity.
+    /// The half-angle tangent in a polynomial that would have this degree if no root were at infinity.
     HalfTangent { degree: usize },
-    /// Anything else.
+    /// Any other variable.
     Plain,
 }
 
-/// What an elimination leaves: the coefficients, constant term first, of a polynomial without factors `1 + t^2`, how many more
-/// roots are at infinity, and what was divided out.
+/// The result of an elimination: the coefficients, constant term first, of a polynomial without factors `1 + t^2`, the number of
+/// further roots at infinity, and the factors divided out.
 pub(super) struct Eliminant {
     pub coefficients: Univariate<Integer>,
     pub at_pi: usize,
@@ -72,12 +72,12 @@ pub(super) struct Eliminant {
 }
 
 impl Eliminant {
-    /// The number of roots with multiplicity, among them the angle pi.
+    /// Returns the number of roots with multiplicity, including the angle pi.
     pub fn roots(&self) -> usize {
         self.coefficients.degree().unwrap_or(0) + self.at_pi
     }
 
-    /// The polynomial without factors `1 + t^2`; `None` for zero. Other factors are `removed` already.
+    /// Returns the polynomial without factors `1 + t^2`; `None` for zero. Other factors are `removed` already.
     pub fn of(variable: usize, integers: Vec<Integer>, meaning: Meaning, mut removed: Vec<Removed>) -> Option<Self> {
         let mut coefficients = Univariate::new(integers);
         let degree = coefficients.degree()?;
@@ -100,10 +100,10 @@ impl Eliminant {
 }
 
 impl ClosurePolynomial {
-    /// All there is to prove of an eliminant.
+    /// Proves all properties of an eliminant.
     ///
     /// # Errors
-    /// Where isolation and Sturm's theorem disagree on the number of real roots, which neither can be wrong about.
+    /// If isolation and Sturm's theorem disagree on the number of real roots, which would be a fault of the program.
     pub(super) fn of(variable: usize, Eliminant { coefficients, at_pi, removed }: Eliminant) -> Result<Self> {
         let coefficients = coefficients.primitive_part();
         let factors = coefficients.square_free_decomposition();
@@ -129,8 +129,8 @@ impl ClosurePolynomial {
         self.factors.iter().map(|(degree, _)| degree).sum()
     }
 
-    /// The sign of the discriminant, 0 with multiple roots: square-free polynomials of degree n with r real roots have
-    /// the sign `(-1)^((n - r)/2)`. `None` for constants.
+    /// Returns the sign of the discriminant, 0 with multiple roots: for square-free polynomials of degree n with r real roots
+    /// it is `(-1)^((n - r)/2)`. `None` for constants.
     #[must_use]
     pub fn discriminant_sign(&self) -> Option<i32> {
         if self.degree() == 0 {
@@ -143,7 +143,7 @@ impl ClosurePolynomial {
         Some(if pairs.is_multiple_of(2) { 1 } else { -1 })
     }
 
-    /// As a polynomial in its variable.
+    /// Converts to a polynomial in its variable.
     #[must_use]
     pub fn to_polynomial(&self) -> Polynomial<Rational> {
         over_rationals(self.variable, &self.coefficients)

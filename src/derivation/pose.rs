@@ -22,13 +22,13 @@ pub struct RootPose {
     pub position: [f64; 3],
 }
 
-/// Steps of Newton's method with exact residuals; the derivative stays, so each brings some twelve digits.
+/// Maximum number of Newton steps with exact residuals and a fixed derivative; each brings about twelve digits.
 const MOST_STEPS: usize = 12;
-/// A step of this size, x of norm 1 and lengths about 1, is the last.
+/// A step below this size, for x of norm 1 and lengths about 1, is the last.
 const SETTLED: f64 = 1e-30;
-/// Bits with which the norm of a quaternion is divided out.
+/// Precision in bits of the division by the norm of a quaternion.
 const BITS: u32 = 160;
-/// A pose belongs to the root this near to its coordinate, relative to 1 + |k|.
+/// Distance of a pose's coordinate from the root to which it belongs, relative to 1 + |k|.
 const NEAR: f64 = 1e-9;
 /// Real parts of quaternions below this are zero.
 const ZERO: f64 = 1e-15;
@@ -36,8 +36,8 @@ const ZERO: f64 = 1e-15;
 /// A dual quaternion with rational parameters near those of a pose.
 type Exact = Eight<Rational>;
 
-/// Puts the real poses of a platform at the roots of its polynomial. `coordinate` is the value of the variable at a pose as
-/// a fraction. What is left without a pose, in words.
+/// Assigns the real poses of a platform to the roots of its polynomial. `coordinate` is the value of the variable at a pose as
+/// a fraction. Returns a remark on roots without a pose.
 pub(super) fn lift(
     platform: &Platform<Rational>,
     squares: &[Rational; 6],
@@ -74,7 +74,7 @@ pub(super) fn lift(
         complaints.push(format!("{homeless} poses of the numeric solution belong to no root of the polynomial"));
     }
     let Some(known) = known else { return complaints };
-    // Of two poses at a real root neither may be real: they share a real rotation, and their positions are complex.
+    // It may be that neither of two poses at a real root is real: they share a real rotation, and their positions are complex.
     let is_complex = |root: &Root| {
         let proved = modes.iter().filter(|mode| !mode.real && mode.certificate.is_some());
         let values = proved.map(|mode| known.coordinate.at(&std::array::from_fn(|k| mode.study[k])));
@@ -91,7 +91,7 @@ fn exact(x: f64) -> Rational {
     Rational::from_f64(x).unwrap_or_default()
 }
 
-/// A power of two near the largest length.
+/// Returns a power of two near the largest length.
 fn unit(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Rational {
     let points = platform.base.iter().chain(&platform.plate).flatten().map(|x| x.to_f64().abs());
     let largest = points.chain(squares.iter().map(|s| s.to_f64().abs().sqrt())).fold(0.0, f64::max);
@@ -99,7 +99,7 @@ fn unit(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Rational {
     if exponent.is_finite() { exact(exponent.exp2()) } else { Rational::from(1) }
 }
 
-/// Study's parameters of a real mode, lengths over the unit.
+/// Returns Study's parameters of a real mode, lengths over the unit.
 fn start(mode: &PlatformMode, unit: f64) -> Eight<f64> {
     let [w, i, j, k] = mode.quaternion.map(|z| z.re);
     let x = Quaternion { scalar: w, vector: [i, j, k] };
@@ -107,7 +107,7 @@ fn start(mode: &PlatformMode, unit: f64) -> Eight<f64> {
     [w, i, j, k, y.scalar, y.vector[0], y.vector[1], y.vector[2]]
 }
 
-/// The solution near a point, to far more digits than the point has; `None` where it is singular.
+/// Returns the solution near a point, to far more digits than the point has; `None` if it is singular.
 fn refined(legs: &[Leg<Rational>; 6], start: &Eight<f64>) -> Option<Exact> {
     let numbers = legs.each_ref().map(|leg| Leg {
         matrix: leg.matrix.each_ref().map(|row| row.each_ref().map(nearest_f64)),
@@ -142,7 +142,7 @@ fn refined(legs: &[Leg<Rational>; 6], start: &Eight<f64>) -> Option<Exact> {
     None
 }
 
-/// The pose of Study's parameters, each number the nearest float.
+/// Returns the pose of Study's parameters, each number the nearest float.
 fn pose(x: &Quaternion<Rational>, y: &Quaternion<Rational>) -> RootPose {
     let norm = x.norm();
     let length = Float::with_val(BITS, &norm).sqrt();

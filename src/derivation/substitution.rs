@@ -1,4 +1,4 @@
-//! Solutions put into equations: what a derivation displays is checked against what the solver found.
+//! Substitutes the solver's solutions in the equations that a derivation displays.
 
 use super::{ClosurePolynomial, Derivation, Displayed, Symbolic};
 use crate::algebra::polynomial::Polynomial;
@@ -15,28 +15,28 @@ use num_complex::Complex;
 use rug::Rational;
 use std::collections::BTreeMap;
 
-/// An equation holds if its value at a solution is at most this part of the sizes of all its terms.
+/// An equation holds if its value at a solution is at most this part of the sum of the sizes of its terms.
 const VANISHING: f64 = 1e-8;
-/// Beyond this the half-angle tangent stands for the angle pi, and equations in it say nothing.
+/// Half-angle tangent above which the angle is taken as pi, where equations in it have no meaning.
 const AT_PI: f64 = 1e6;
 
 /// Values of variables by their names.
 type Values = BTreeMap<String, Complex<f64>>;
 
-/// What came of putting solutions into equations.
+/// The result of substituting solutions in equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Substitution {
-    /// How many solutions there were, complex ones included.
+    /// Number of solutions, complex ones included.
     pub solutions: usize,
-    /// How many of them are real.
+    /// Number of real solutions.
     pub real: usize,
-    /// How many equations were displayed.
+    /// Number of displayed equations.
     pub equations: usize,
-    /// How many values were looked at; less than solutions times equations where an angle is pi, or a variable has no value.
+    /// Number of values; less than solutions times equations if an angle is pi, or a variable has no value.
     pub values: usize,
-    /// The largest value over the sizes of all terms.
+    /// The largest value relative to the sizes of all terms.
     pub largest: f64,
-    /// Why there was nothing to put in.
+    /// The reason why there was nothing to substitute.
     pub without: Option<String>,
 }
 
@@ -47,10 +47,10 @@ struct Shown<'d> {
 }
 
 impl Derivation {
-    /// Puts every solution of the case, found by the solver in floating point, into every equation of the derivation.
+    /// Substitutes every solution of the case, found by the solver in floating point, in every equation of the derivation.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where one does not vanish: either the derivation or the solver is wrong.
+    /// [`Error::Invalid`] if one does not vanish: either the derivation or the solver is wrong.
     pub fn substituted(&self, entry: &Entry, case: &Case) -> Result<Substitution> {
         let polynomial = self.polynomial.as_ref().map(ClosurePolynomial::to_polynomial);
         let mut shown = Vec::new();
@@ -75,11 +75,11 @@ impl Derivation {
 }
 
 impl Symbolic {
-    /// Puts every solution of the case, found by the solver in floating point, with the numbers of the file for the
-    /// symbols into every equation of the derivation, in names and expanded.
+    /// Substitutes every solution of the case, found by the solver in floating point, with the numbers of the file for the
+    /// symbols, in every equation of the derivation, in names and expanded.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where one does not vanish: either the derivation or the solver is wrong.
+    /// [`Error::Invalid`] if one does not vanish: either the derivation or the solver is wrong.
     pub fn substituted(&self, entry: &Entry, case: &Case) -> Result<Substitution> {
         let displayed: Vec<&Displayed> =
             self.equations.iter().chain(self.polynomial.iter().map(|one| &one.displayed)).collect();
@@ -108,7 +108,7 @@ impl Symbolic {
     }
 }
 
-/// Puts solutions into equations.
+/// Substitutes solutions in equations.
 fn checked(
     entry: &Entry,
     case: &Case,
@@ -138,7 +138,7 @@ fn checked(
         found.real += usize::from(mode.real);
         for equation in shown {
             let Some((value, size)) = value(equation.polynomial, names, &values) else { continue };
-            // At the origin all terms may be rounding.
+            // At the origin all terms may be rounding errors.
             let part = value.norm() / (size + 1e-6);
             if !(part <= VANISHING) {
                 return Err(Error::Invalid(format!(
@@ -154,7 +154,7 @@ fn checked(
     Ok(found)
 }
 
-/// Cosine, sine and half-angle tangent, or distance, of every joint variable.
+/// Returns cosine, sine and half-angle tangent, or distance, of every joint variable.
 fn joints(chain: &Chain, q: &[Complex<f64>]) -> Values {
     let mut values = Values::new();
     let mut q = q.iter();
@@ -177,7 +177,7 @@ fn joints(chain: &Chain, q: &[Complex<f64>]) -> Values {
     values
 }
 
-/// Study's parameters of a pose.
+/// Returns Study's parameters of a pose.
 fn study(q: &[Complex<f64>]) -> Values {
     let &[w, i, j, k, x, y, z] = q else { return Values::new() };
     let rotation = Quaternion { scalar: w, vector: [i, j, k] };
@@ -189,14 +189,14 @@ fn study(q: &[Complex<f64>]) -> Values {
     list('x', rotation).chain(list('y', y)).collect()
 }
 
-/// The value of a polynomial of moderate coefficients.
+/// Returns the value of a polynomial of moderate coefficients.
 fn number(polynomial: &Polynomial<Rational>, names: &Names, values: &Values) -> Option<Complex<f64>> {
     let largest = polynomial.coefficients().iter().map(|c| c.clone().abs()).max()?;
     value(polynomial, names, values).map(|(value, _)| value * largest.to_f64())
 }
 
-/// The value of a polynomial, and the sum of the sizes of its terms, both over the largest coefficient; `None` where a
-/// variable has no value.
+/// Returns the value of a polynomial, and the sum of the sizes of its terms, both over the largest coefficient; `None` if
+/// a variable has no value.
 fn value(polynomial: &Polynomial<Rational>, names: &Names, values: &Values) -> Option<(Complex<f64>, f64)> {
     let largest = polynomial.coefficients().iter().map(|c| c.clone().abs()).max()?;
     let list: Vec<Option<&Complex<f64>>> = names.list().iter().map(|name| values.get(name)).collect();

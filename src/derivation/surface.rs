@@ -1,8 +1,8 @@
 //! The surface on which a point of an open chain of two variables moves, as a polynomial in its coordinates.
 //!
-//! What the first joint does not change is a function of the second variable alone: of a rotation the height along its axis and
-//! the distance from a point of the axis, of a translation the two coordinates across it. Both are linear in the cosine and sine
-//! of the second variable, or in the displacement, which are eliminated. \[Wittenburg2016, 7.1\]
+//! The invariants of the first joint are functions of the second variable alone: for a rotation the height along its axis and
+//! the distance from a point of the axis, for a translation the two coordinates perpendicular to it. Both are linear in the
+//! cosine and sine of the second variable, or in the displacement, which are eliminated. \[Wittenburg2016, 7.1\]
 
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
@@ -19,11 +19,11 @@ type Space = Polynomial<Rational>;
 /// The surface of a point.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// What vanishes at every place of the point: primitive, in x, y, z, metres.
+    /// The polynomial that vanishes at every position of the point: primitive, in x, y, z, metres.
     pub polynomial: Polynomial<Int>,
-    /// What the joints do, R or P, from the base on.
+    /// The kinds of the joints, R or P, from the base on.
     pub variables: Vec<Variable>,
-    /// How it was found, a sentence each.
+    /// The steps of the derivation, a sentence each.
     pub steps: Vec<&'static str>,
 }
 
@@ -35,18 +35,18 @@ impl Surface {
     }
 }
 
-/// What a function of the second variable is: `constant + first c + second s` of a rotation, or `constant + first s + second s^2`
-/// of a translation.
+/// A function of the second variable: `constant + first c + second s` for a rotation, or `constant + first s + second s^2` for
+/// a translation.
 struct Function {
     constant: Rational,
     first: Rational,
     second: Rational,
 }
 
-/// The surface of a point with these coordinates in the tool.
+/// Returns the surface of a point with these coordinates in the tool.
 ///
 /// # Errors
-/// For chains of other than two variables, for data that are not rational, and where the point moves on a curve only.
+/// For chains of other than two variables, for data that are not rational, and if the point moves on a curve only.
 pub fn surface(chain: &Chain, point: &Vector<Rational>) -> Result<Surface> {
     let unknown = chain.unknowns_and_constants::<Rational>();
     let (variables, constants) =
@@ -59,7 +59,7 @@ pub fn surface(chain: &Chain, point: &Vector<Rational>) -> Result<Surface> {
         return Err(Error::Invalid(message));
     };
     let p = tool.apply(point);
-    // The place before the first joint moves: the second one at cosine, sine or displacement.
+    // The position before the first joint moves, as a function of the second joint's cosine, sine or displacement.
     let [x, y, z] = &p;
     let zero = Rational::new;
     let parts: [Vector<Rational>; 3] = match second {
@@ -77,7 +77,7 @@ pub fn surface(chain: &Chain, point: &Vector<Rational>) -> Result<Surface> {
         first: parts[1][k].clone(),
         second: parts[2][k].clone(),
     };
-    // Of a rotation the cosine and the sine belong to vectors of equal length at right angles, of which the squares add up to one.
+    // For a rotation the cosine and the sine belong to perpendicular vectors of equal length, whose squares add up to one.
     let square = || {
         let [a, b, c] = &parts;
         let own = dot(a, a);
@@ -100,7 +100,7 @@ pub fn surface(chain: &Chain, point: &Vector<Rational>) -> Result<Surface> {
         Variable::Rotation => "the first joint keeps the height along its axis and the distance from a point of it",
         Variable::Translation => "the first joint keeps the two coordinates across its direction",
     }];
-    // What is left of each equation without its constant.
+    // Each equation without its constant.
     let rest: [Space; 2] = [0, 1].map(|k| left[k].sub(&Space::constant(right[k].constant.clone())));
     let found = match second {
         Variable::Rotation => of_turn(&rest, &right, &mut steps),
@@ -116,7 +116,7 @@ fn scaled(p: &Space, q: &Rational) -> Space {
     p.mul(&Space::constant(q.clone()))
 }
 
-/// `rest = first c + second s` twice, with `c^2 + s^2 = 1`.
+/// Solves `rest = first c + second s` twice, with `c^2 + s^2 = 1`.
 fn of_turn(rest: &[Space; 2], right: &[Function; 2], steps: &mut Vec<&'static str>) -> Option<Space> {
     let [f, g] = right;
     let minor = |a: &Rational, b: &Rational, c: &Rational, d: &Rational| Rational::from(a * d) - Rational::from(b * c);
@@ -131,7 +131,7 @@ fn of_turn(rest: &[Space; 2], right: &[Function; 2], steps: &mut Vec<&'static st
     dependent(rest, right, steps)
 }
 
-/// `rest = first s + second s^2` twice, of which one has no square.
+/// Solves `rest = first s + second s^2` twice, one of which has no square.
 fn of_slide(rest: &[Space; 2], right: &[Function; 2], steps: &mut Vec<&'static str>) -> Option<Space> {
     let [f, g] = right;
     // Only the distance has a square, and it comes second.
@@ -143,7 +143,7 @@ fn of_slide(rest: &[Space; 2], right: &[Function; 2], steps: &mut Vec<&'static s
     Some(scaled(&s, &g.first).add(&scaled(&s.mul(&s), &g.second)).sub(&rest[1]))
 }
 
-/// Where the right sides depend on one another, a combination of the equations is free of the second variable.
+/// If the right sides are dependent, a combination of the equations is free of the second variable.
 fn dependent(rest: &[Space; 2], right: &[Function; 2], steps: &mut Vec<&'static str>) -> Option<Space> {
     steps.push("a combination of the two equations is free of the second variable");
     let is_free = |f: &Function| f.first == 0 && f.second == 0;

@@ -17,7 +17,7 @@ pub(super) struct Symbols {
 }
 
 impl Symbols {
-    /// Named by the numbers of the joints: `c3`, `s3` and `t3`, or `d3`.
+    /// Names the unknowns by the numbers of their joints: `c3`, `s3` and `t3`, or `d3`.
     pub fn of(chain: &Chain, layout: &Layout, kinds: [Variable; 6]) -> Self {
         let total = layout.variables.len();
         let joints = joint_labels(chain);
@@ -26,27 +26,27 @@ impl Symbols {
         Self { kinds: kinds.to_vec(), labels: labels.collect() }
     }
 
-    /// A single unknown, given by its index among the joint variables.
+    /// Creates a single unknown, given by its index among the joint variables.
     pub fn single(chain: &Chain, index: usize, kind: Variable) -> Self {
         Self { kinds: vec![kind], labels: vec![joint_labels(chain).get(index).cloned().unwrap_or_default()] }
     }
 
-    /// The number of the joint of an unknown, for a U or S joint with that of the rotation.
+    /// Returns the number of the joint of an unknown, for a U or S joint with that of the rotation.
     pub fn label(&self, unknown: usize) -> &str {
         &self.labels[unknown % self.labels.len()]
     }
 
-    /// Rotations only, one for each label.
+    /// Creates rotations only, one for each label.
     pub fn rotations(labels: Vec<String>) -> Self {
         Self { kinds: vec![Variable::Rotation; labels.len()], labels }
     }
 
-    /// Any list of variables.
+    /// Creates any list of variables.
     pub fn variables(labels: Vec<String>, kinds: impl Iterator<Item = Variable>) -> Self {
         Self { kinds: kinds.collect(), labels }
     }
 
-    /// The number of unknowns; each has three variables.
+    /// Returns the number of unknowns; each has three variables.
     pub fn len(&self) -> usize {
         self.kinds.len()
     }
@@ -56,8 +56,8 @@ impl Symbols {
         Ok(Names::given(self.list())?)
     }
 
-    /// Cosine, sine and half-angle tangent of each unknown rotation. A translation has neither cosine nor sine: it has
-    /// names there that its own joint's rotation does not have.
+    /// Returns the names of cosine, sine and half-angle tangent of each unknown rotation. A translation has neither cosine nor
+    /// sine; it gets names there that its own joint's rotation does not have.
     pub fn list(&self) -> Vec<String> {
         let of_one = |(kind, label): (&Variable, &String)| match kind {
             Variable::Rotation => ["c", "s", "t"].map(|letter| format!("{letter}{label}")),
@@ -66,23 +66,23 @@ impl Symbols {
         self.kinds.iter().zip(&self.labels).flat_map(of_one).collect()
     }
 
-    /// The variable of the half-angle tangent or of the distance.
+    /// Returns the variable of the half-angle tangent or of the distance.
     pub fn variable(unknown: usize) -> usize {
         3 * (unknown % 6) + 2
     }
 
-    /// The name of that variable.
+    /// Returns the name of that variable.
     pub fn name(&self, unknown: usize) -> String {
         name(self.label(unknown), self.kinds[unknown % self.kinds.len()])
     }
 
-    /// The half-angle tangent or the distance of an unknown, or of its negative.
+    /// Returns the half-angle tangent or the distance of an unknown, or of its negative.
     pub fn tangent(unknown: usize, negated: bool) -> Polynomial<Rational> {
         let variable = Polynomial::variable(Self::variable(unknown));
         if negated { variable.neg() } else { variable }
     }
 
-    /// `(1, cos, sin)` or `(1, d, d^2)` of an unknown, or of its negative.
+    /// Returns `(1, cos, sin)` or `(1, d, d^2)` of an unknown, or of its negative.
     pub fn monomials(&self, unknown: usize, negated: bool) -> [Polynomial<Rational>; 3] {
         let k = unknown % 6;
         let signed = |p: Polynomial<Rational>| if negated { p.neg() } else { p };
@@ -96,8 +96,8 @@ impl Symbols {
     }
 }
 
-/// The polynomial with half-angle tangents in place of cosines and sines, multiplied by the powers of `1 + t^2` that this
-/// takes.
+/// Substitutes half-angle tangents for cosines and sines in a polynomial, and multiplies by the powers of `1 + t^2` that
+/// this requires.
 pub(super) fn half_angles(polynomial: &Polynomial<Rational>) -> Polynomial<Rational> {
     let used = |k: &usize| polynomial.degree(3 * k) > 0 || polynomial.degree(3 * k + 1) > 0;
     let pairs: Vec<(Pair, usize)> =
@@ -105,28 +105,28 @@ pub(super) fn half_angles(polynomial: &Polynomial<Rational>) -> Polynomial<Ratio
     half_tangents(polynomial, &pairs).polynomial
 }
 
-/// The name of the half-angle tangent or of the distance of a joint.
+/// Returns the name of the half-angle tangent or of the distance of a joint.
 pub(super) fn name(label: &str, kind: Variable) -> String {
     let letter = if kind == Variable::Rotation { 't' } else { 'd' };
     format!("{letter}{label}")
 }
 
-/// The name of the half-angle tangent or of the distance of a joint variable, given by its index.
+/// Returns the name of the half-angle tangent or of the distance of a joint variable, given by its index.
 pub(crate) fn variable_name(chain: &Chain, index: usize) -> Option<String> {
     joint_variables(chain).get(index).map(|(label, kind)| name(label, *kind))
 }
 
-/// Per joint variable the number of its joint, for a U or S joint with that of the rotation, and what it measures.
+/// Returns for each joint variable the number of its joint, for a U or S joint with that of the rotation, and its kind.
 pub(super) fn joint_variables(chain: &Chain) -> Vec<(String, Variable)> {
     chain.variables().into_iter().map(|variable| (variable.number(), variable.variable)).collect()
 }
 
-/// Per joint variable the number of its joint; the rotations of a U or S joint are told apart.
+/// Returns for each joint variable the number of its joint; the rotations of a U or S joint are distinguished.
 pub(super) fn joint_labels(chain: &Chain) -> Vec<String> {
     joint_variables(chain).into_iter().map(|(label, _)| label).collect()
 }
 
-/// `sum coefficient * monomial`
+/// Returns `sum coefficient * monomial`.
 pub(super) fn combination<'a>(
     terms: impl IntoIterator<Item = (&'a Rational, &'a Polynomial<Rational>)>,
 ) -> Polynomial<Rational> {
@@ -138,7 +138,7 @@ pub(super) fn combination<'a>(
     )
 }
 
-/// `sum form[i][j] rows[i] columns[j]`
+/// Returns `sum form[i][j] rows[i] columns[j]`.
 pub(super) fn bilinear_form(
     form: &[[Rational; 3]; 3],
     rows: &[Polynomial<Rational>; 3],

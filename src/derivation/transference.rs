@@ -1,10 +1,10 @@
 //! The principle of transference: the closure equation of a spherical loop, over dual numbers, is that of the spatial one.
 //!
-//! One equation, generic over the ring: `z2 . z3 = cos alpha2` of the spherical four-bar `R1 R2 R3 R4 = 1`, `R_k =
+//! One equation is generic over the ring: `z2 . z3 = cos alpha2` of the spherical four-bar `R1 R2 R3 R4 = 1`, `R_k =
 //! Rz(theta_k) Rx(alpha_k)`. Every angle `phi` becomes `phi + eps l`, a twist with the length of its link, a joint angle with
-//! the offset of its joint; the part without eps is the spherical equation f again, the part with eps a second equation g. For
-//! the loop `prod Rz(theta_k) Tz(d_k) Rx(alpha_k) Tx(a_k) = 1`, both hold exactly where axes 2 and 3 are in the position to
-//! one another that link 2 gives them: same angle, same mutual moment.
+//! the offset of its joint. The part without eps is again the spherical equation f, the part with eps a second equation g. For
+//! the loop `prod Rz(theta_k) Tz(d_k) Rx(alpha_k) Tx(a_k) = 1`, both hold if and only if axes 2 and 3 have the relative position
+//! that link 2 gives them: the same angle and the same mutual moment.
 
 use crate::algebra::dual::Dual;
 use crate::algebra::int::Int;
@@ -22,10 +22,10 @@ use rug::Rational;
 /// Cosine and sine of an angle.
 pub type CosSin<R> = (R, R);
 
-/// `z2 . z3 - cos alpha2`, the closure equation of a spherical four-bar in the angles of joints 1 and 4, over any ring.
+/// Returns `z2 . z3 - cos alpha2`, the closure equation of a spherical four-bar in the angles of joints 1 and 4, over any ring.
 ///
 /// # Shape
-/// `twists` holds those of links 1 to 4; link k lies between joints k and k + 1.
+/// `twists` holds the twists of links 1 to 4; link k lies between joints k and k + 1.
 ///
 /// # Source
 /// \[Wittenburg2016\]
@@ -45,7 +45,7 @@ pub type CosSin<R> = (R, R);
 pub fn spherical_four_bar<R: Ring>(twists: &[CosSin<R>; 4], first: &CosSin<R>, fourth: &CosSin<R>) -> R {
     let [first_link, opposite, before, base] = twists.each_ref().map(|(c, s)| Motion::rotation_x(c.clone(), s.clone()));
     let form = four_bar([&before, &base, &first_link, &opposite].map(|link| &link.rotation));
-    // Seen from link 4: bilinear in (1, cos, sin) of the joints at its ends.
+    // In the frame of link 4: bilinear in (1, cos, sin) of the joints at its ends.
     let monomials = |(cos, sin): &CosSin<R>| [R::one(), cos.clone(), sin.clone()];
     dot(&monomials(fourth), &form.map(|row| dot(&row, &monomials(first))))
 }
@@ -55,7 +55,7 @@ pub fn spherical_four_bar<R: Ring>(twists: &[CosSin<R>; 4], first: &CosSin<R>, f
 pub struct SpatialFourBar<R> {
     /// The twists of the four links.
     pub twists: [CosSin<R>; 4],
-    /// Their lengths.
+    /// The lengths of the four links.
     pub lengths: [R; 4],
     /// The angle of joint 1.
     pub first: CosSin<R>,
@@ -72,12 +72,12 @@ pub struct SpatialFourBar<R> {
 pub struct SpatialPair<R> {
     /// The spherical equation, in the angles only.
     pub f: R,
-    /// The other one, linear in lengths and offsets: `sum a_k df/dalpha_k + d1 df/dtheta1 + d4 df/dtheta4`.
+    /// The second equation, linear in lengths and offsets: `sum a_k df/dalpha_k + d1 df/dtheta1 + d4 df/dtheta4`.
     pub g: R,
 }
 
 impl<R: Ring> SpatialFourBar<R> {
-    /// The spherical closure equation over the dual numbers.
+    /// Evaluates the spherical closure equation over the dual numbers.
     pub fn pair(&self) -> SpatialPair<R> {
         let dual = |angle: &CosSin<R>, d: &R| Dual::angle(angle.0.clone(), angle.1.clone(), d);
         let twists = std::array::from_fn(|k| dual(&self.twists[k], &self.lengths[k]));
@@ -90,7 +90,7 @@ impl<R: Ring> SpatialFourBar<R> {
 
 /// The variables of the general loop of four joints.
 ///
-/// A polynomial in half-angle tangents has the tangent where one in cosines and sines has the cosine.
+/// A polynomial in half-angle tangents has the tangent in the place of the cosine.
 pub struct Variables;
 
 impl Variables {
@@ -128,14 +128,14 @@ impl Variables {
         8 + k
     }
 
-    /// The six angles: the twists, then the angles of joints 1 and 4.
+    /// Returns the six angles: the twists, then the angles of joints 1 and 4.
     #[must_use]
     pub const fn angle(k: usize) -> Pair {
         Pair { cos: if k < 4 { k } else { 8 + k }, sin: 14 + k }
     }
 }
 
-/// The closure equations of the general loop of four joints: f and g with every twist, length, offset and angle a symbol.
+/// Returns the closure equations of the general loop of four joints: f and g with every twist, length, offset and angle a symbol.
 #[must_use]
 pub fn general_pair() -> SpatialPair<Trigonometric<Int>> {
     type Symbol = Trigonometric<Int>;
@@ -152,7 +152,7 @@ pub fn general_pair() -> SpatialPair<Trigonometric<Int>> {
     loop_of_four.pair()
 }
 
-/// The same in half-angle tangents, times `1 + t^2` of all six angles, so that both are of degree 2 in every tangent.
+/// Returns both equations in half-angle tangents, times `1 + t^2` of all six angles, so that they are of degree 2 in every tangent.
 ///
 /// # Panics
 /// Never: f and g are linear in cosine and sine of every angle.
@@ -167,24 +167,24 @@ pub fn half_angle_pair(pair: &SpatialPair<Trigonometric<Int>>) -> SpatialPair<Po
     SpatialPair { f: form(&pair.f), g: form(&pair.g) }
 }
 
-/// A loop of four joints before and behind the step from the sphere into space.
+/// A loop of four joints before and after the step from the sphere into space.
 #[derive(Clone, Debug)]
 pub struct Transfer {
-    /// What loop it is.
+    /// The name of the loop.
     pub title: String,
     /// The names of all variables.
     pub names: Names,
     /// The spherical equation.
     pub f: Polynomial<Rational>,
-    /// The part with eps.
+    /// The coefficient of eps.
     pub g: Polynomial<Rational>,
     /// The offsets that g gives, each as a name, numerator and denominator.
     pub offsets: Vec<(String, Polynomial<Rational>, Polynomial<Rational>)>,
-    /// What this means, a sentence each.
+    /// The meaning of these equations, a sentence each.
     pub steps: Vec<String>,
 }
 
-/// The loops that have a name: their words on a command line.
+/// The names of loops on a command line.
 pub const NAMED: [&str; 4] = ["rccc", "ccrr", "4r", "hooke"];
 
 impl Transfer {
@@ -206,10 +206,10 @@ impl Transfer {
         Self { title: title.to_owned(), names, f, g, offsets, steps }
     }
 
-    /// A loop by its name, with every parameter a symbol; `None` for another name.
+    /// Returns a loop by its name, with every parameter a symbol; `None` for another name.
     ///
     /// # Errors
-    /// Never for the names that it has.
+    /// Never for the names in `NAMED`.
     pub fn named(name: &str) -> Result<Option<Self>> {
         let general = general_pair();
         let rational = |p: &Trigonometric<Int>| {
@@ -259,7 +259,7 @@ impl Transfer {
         Ok(Some(transfer))
     }
 
-    /// The loop of a file: four joints of type R or C.
+    /// Returns the loop of a file: four joints of type R or C.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for other loops.

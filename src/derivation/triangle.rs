@@ -13,14 +13,14 @@ use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
 
-/// The polynomial of a row over `(1, cos, sin)` or `(1, d, d^2)`.
+/// Returns the polynomial of a row over `(1, cos, sin)` or `(1, d, d^2)`.
 pub(super) fn of_row<R: Ring>(kind: Variable, row: &[R; 3]) -> Univariate<R> {
     let powers = powers(kind, &[1, 1, 0].map(R::from_integer));
     let coefficient = |k: usize| (0..3).fold(R::zero(), |sum, i| sum.add(&row[i].mul(&powers[i][k])));
     Univariate::new((0..3).map(coefficient).collect())
 }
 
-/// The equation of the spherical triangle and its polynomial.
+/// Returns the equation of the spherical triangle and its polynomial.
 pub(super) fn eliminate(exact: &Exact) -> Option<Eliminated> {
     let form: LinkForm<Rational, 3, 3> = LinkForm::of(&exact.closed)?;
     let found = triangle(&form);

@@ -1,9 +1,9 @@
-//! Which roots of an eliminant belong to solutions, and to how many.
+//! Finds the roots of an eliminant that belong to solutions, and the number of solutions of each.
 //!
-//! Every solution is a root of the eliminant, but of special loops there may be more roots. The ring of the closure equations
-//! has one dimension for every solution: in it the unknown is a matrix, whose characteristic polynomial counts each value as
+//! Every solution is a root of the eliminant, but in special loops there may be more roots. The ring of the closure equations
+//! has one dimension for every solution. In it the unknown is a matrix, whose characteristic polynomial has each value as
 //! often as there are solutions. It is computed modulo a prime. The square-free factors of the eliminant, over the integers, are
-//! split as it says, by Hensel's lemma, and exact division confirms the split.
+//! split accordingly by Hensel's lemma, and exact division confirms the split.
 
 use super::chain::{Exact, Mod};
 use super::cuts;
@@ -22,43 +22,43 @@ use crate::kinematics::motion::Motion;
 use rug::ops::RemRounding;
 use rug::{Integer, Rational};
 
-/// With numbers of more digits in a loop, in bits, or with more solutions the relations over the rationals take long.
+/// Limits on bits of the numbers and on solutions of a loop beyond which the relations over the rationals take long.
 const SHORT: u32 = 64;
 const FEW: usize = 8;
 
-/// An eliminant of which nothing but the roots that belong to solutions is left.
+/// An eliminant reduced to the roots that belong to solutions.
 pub(super) struct Settled {
     pub eliminant: Eliminant,
-    /// Whether it is proved that what was divided out belongs to no solution.
+    /// Whether the factors divided out are proved to belong to no solution.
     pub proved: bool,
-    /// What was done, if anything.
+    /// The step taken, if any.
     pub step: Option<String>,
     /// Whether the solutions are finite in number, as far as is known.
     pub finite: bool,
 }
 
 impl Settled {
-    /// The eliminant as it is.
+    /// Returns the eliminant unchanged.
     pub fn as_it_is(eliminant: Eliminant) -> Self {
         Self { eliminant, proved: true, step: None, finite: true }
     }
 }
 
-/// How many solutions a loop without a spherical joint has, by the ring of its closure equations; `None` where they form families.
+/// Returns the number of solutions of a loop without a spherical joint, by the ring of its closure equations; `None` for families.
 pub(super) fn count(exact: &Exact) -> Option<usize> {
     Some(Plan::of(exact.modular.as_ref()?)?.count())
 }
 
-/// Divides out of the eliminant of an unknown, at each root of which there are `per_root` solutions in general, what belongs to
-/// no solution.
+/// Divides out of the eliminant of an unknown the factors that belong to no solution. In general there are `per_root`
+/// solutions at each root.
 pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_root: usize) -> Settled {
     let reach = exact.spherical.zip(exact.modular.as_ref()).map(|(spherical, modular)| point_reach::count(modular, spherical));
     let Some(ring) = SolutionRing::of(exact, unknown) else {
-        // The three angles of a spherical joint may be a family where its centre is not.
+        // The three angles of a spherical joint may form a family while its centre does not.
         let finite = exact.modular.is_none() || reach.flatten().is_some();
         return Settled { finite, ..Settled::as_it_is(eliminant) };
     };
-    // Some complex rotations of a spherical joint have no three angles: where its centre is counted, less than that says nothing.
+    // Some complex rotations of a spherical joint have no three angles; if its centre is counted, a smaller number means nothing.
     if reach.flatten().is_some() && ring.count() > 0 {
         return Settled::as_it_is(eliminant);
     }
@@ -82,27 +82,27 @@ pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_r
     Settled { proved, step: Some(step), ..Settled::as_it_is(kept) }
 }
 
-/// An eliminant with as many roots as the ring counts solutions: nothing is divided out.
+/// Returns an eliminant with as many roots as the ring counts solutions: nothing is divided out.
 ///
-/// That each root belongs to solutions is proved where those modulo the prime are simple. Closure maps a smooth scheme of
-/// dimension 6 to the group of motions, which is one too, so that a simple solution modulo the prime lifts to one over the
-/// algebraic numbers, by Hensel's lemma. Then there are as many solutions as the roots can have together. Of multiple
-/// solutions modulo the prime nothing follows: the count is probable.
+/// If the roots modulo the prime are simple, each root is proved to belong to solutions. Closure maps a smooth scheme of
+/// dimension 6 to the group of motions, which is one too, so a simple solution modulo the prime lifts to one over the
+/// algebraic numbers, by Hensel's lemma. Then there are as many solutions as the roots can have together. For multiple
+/// solutions modulo the prime nothing follows, and the count is probable.
 pub(super) fn met(exact: &Exact, unknown: usize, eliminant: Eliminant) -> Settled {
     let proved = exact.spherical.is_some() || are_simple(exact, unknown);
     Settled { proved, ..Settled::as_it_is(eliminant) }
 }
 
-/// Whether a combination of the unknowns takes a value of its own at every solution modulo the prime, as often as the ring
-/// has dimensions.
+/// Returns whether a combination of the unknowns takes distinct values at the solutions modulo the prime, as many as the
+/// ring has dimensions.
 fn are_simple(exact: &Exact, unknown: usize) -> bool {
     let ring = SolutionRing::of(exact, unknown).filter(|ring| ring.repeats == 1);
     let values = ring.as_ref().and_then(SolutionRing::combined_values);
     values.is_some_and(|values| values.square_free_part().degree() == ring.map(|ring| ring.count()))
 }
 
-/// Whether each factor has no root in common with the polynomial of the same unknown by some cut. Factors must keep their
-/// degree modulo the prime: a common root may be one that goes to infinity there.
+/// Returns whether each factor has no root in common with the polynomial of the same unknown by some cut. Factors must keep
+/// their degree modulo the prime: a common root may be one that goes to infinity there.
 fn is_proved(exact: &Exact, unknown: usize, removed: &[Removed]) -> bool {
     let Some(modular) = &exact.modular else { return false };
     let all: Vec<Univariate<Mod>> = cuts::eliminants(modular, unknown).collect();
@@ -116,8 +116,8 @@ fn is_proved(exact: &Exact, unknown: usize, removed: &[Removed]) -> bool {
     })
 }
 
-/// The polynomial of an unknown from the ring of the closure equations, for loops of which every elimination vanishes
-/// identically; `None` where solutions form families.
+/// Returns the polynomial of an unknown from the ring of the closure equations, for loops for which every elimination
+/// vanishes identically; `None` if solutions form families.
 pub(super) fn by_ring(exact: &Exact) -> Option<(usize, Settled)> {
     let rotations = (0..6).filter(|k| exact.closed.variables[*k] == Variable::Rotation);
     let rings = rotations.filter_map(|unknown| {
@@ -126,7 +126,7 @@ pub(super) fn by_ring(exact: &Exact) -> Option<(usize, Settled)> {
         let distinct = values.square_free_part().degree()?;
         Some((unknown, ring, distinct))
     });
-    // Those with the most distinct values, and of these the first.
+    // The first of those with the most distinct values.
     let (unknown, ring, _) = rings
         .filter(|(_, ring, _)| ring.repeats == 1)
         .reduce(|best, other| if other.2 > best.2 { other } else { best })?;
@@ -149,34 +149,34 @@ pub(super) fn by_ring(exact: &Exact) -> Option<(usize, Settled)> {
     Some((unknown, Settled { proved, step: Some(step), ..Settled::as_it_is(eliminant) }))
 }
 
-/// The ring of polynomials on the solutions of a loop, seen from one unknown.
+/// The ring of polynomials on the solutions of a loop, with one unknown as variable.
 struct SolutionRing {
     view: ClosedLoop<Mod>,
     plan: Plan,
-    /// How often it counts each solution: the three angles of a spherical joint are either of two for the same rotation.
+    /// The number of times it counts each solution: two triples of angles of a spherical joint give the same rotation.
     repeats: usize,
 }
 
 impl SolutionRing {
-    /// The ring; `None` where solutions form families.
+    /// Returns the ring; `None` if solutions form families.
     fn of(exact: &Exact, unknown: usize) -> Option<Self> {
         let view = Self::view(exact.modular.as_ref()?, unknown);
         let plan = Plan::of(&view)?;
         Some(Self { view, plan, repeats: if exact.spherical.is_some() { 2 } else { 1 } })
     }
 
-    /// The number of solutions.
+    /// Returns the number of solutions.
     fn count(&self) -> usize {
         self.plan.count() / self.repeats
     }
 
-    /// The polynomial of the values of a combination of all unknowns, one for each dimension of the ring.
+    /// Returns the polynomial of the values of a combination of all unknowns, one for each dimension of the ring.
     fn combined_values(&self) -> Option<Univariate<Mod>> {
         let n = self.plan.count();
         if n == 0 {
             return Some(Univariate::one());
         }
-        // Weights without a relation between them.
+        // Weights without a simple linear relation.
         let weight = |k: usize| i32::try_from(k).map_or(1, |k| 1_299_709 + 7_919 * k * (k + 3) + k);
         let matrix = self.plan.ring(&self.view)?.multiplication(&std::array::from_fn(|k| Mod::from_integer(weight(k))));
         let one: Vec<Vec<Mod>> =
@@ -185,13 +185,13 @@ impl SolutionRing {
         Some(by_interpolation(&[minus, one]))
     }
 
-    /// The loop with an unknown at its head.
+    /// Returns the loop with an unknown as the first.
     fn view<F: Field>(closed: &ClosedLoop<F>, unknown: usize) -> ClosedLoop<F> {
         Cut { rotation: unknown, reversed: false }.of(closed)
     }
 
-    /// Whether the relations of the ring hold over the rationals as well as modulo the prime, so that nothing but its values
-    /// belongs to solutions. Asked only where their numbers stay short.
+    /// Returns whether the relations of the ring hold over the rationals as well as modulo the prime, so that only its values
+    /// belong to solutions. It is called only if the numbers stay short.
     fn holds_over_rationals(&self, exact: &Exact, unknown: usize) -> bool {
         let bits = |x: &Rational| x.numer().significant_bits().max(x.denom().significant_bits());
         let numbers = exact.closed.constants.iter().flat_map(|g| g.rotation.iter().flatten().chain(&g.translation));
@@ -199,7 +199,7 @@ impl SolutionRing {
         (is_short || self.count() <= 2) && self.plan.ring(&Self::view(&exact.closed, unknown)).is_some()
     }
 
-    /// The polynomial of the values of the unknown at all solutions that are not at the angle pi, a determinant linear in it.
+    /// Returns the polynomial of the unknown's values at all solutions that are not at pi, a determinant linear in it.
     fn values<F: Field>(
         &self,
         view: &ClosedLoop<F>,
@@ -215,7 +215,7 @@ impl SolutionRing {
     }
 }
 
-/// What is left of an eliminant with these values; `None` where it does not have all of them as roots.
+/// Returns the factor of an eliminant with these values as roots; `None` if not all of them are roots.
 fn kept(unknown: usize, eliminant: &Eliminant, values: &Univariate<Mod>, ring: &SolutionRing) -> Option<Eliminant> {
     let parts = values.square_free_decomposition();
     let finite = values.degree()? / ring.repeats;
@@ -257,8 +257,8 @@ fn modular(c: &Integer) -> Option<Mod> {
     Mod::from_rational(&Rational::from(c))
 }
 
-/// The factor over the integers that is a multiple of `part` modulo the prime, if there is one. The polynomial has no multiple
-/// root modulo the prime.
+/// Returns the factor over the integers that is a multiple of `part` modulo the prime, if there is one. The polynomial has no
+/// multiple root modulo the prime.
 ///
 /// # Source
 /// Hensel's lemma with quadratic convergence: von zur Gathen and Gerhard, Modern Computer Algebra, section 15.4.
@@ -273,7 +273,7 @@ fn lifted(polynomial: &Univariate<Integer>, part: &Univariate<Mod>) -> Option<Un
     let whole = |p: &Univariate<Mod>| p.map(|c| Some(Integer::from(c.value())));
     let (mut g, mut h, mut s, mut t) = (whole(part)?, whole(&other)?, whole(&s)?, whole(&t)?);
     let size = polynomial.coefficients().iter().map(Integer::significant_bits).max()?;
-    // Twice the largest coefficient that a divisor times the leading coefficient can have, by Mignotte's bound.
+    // Twice the largest coefficient of a divisor times the leading coefficient, by Mignotte's bound.
     let enough = 2 * size + 2 * u32::try_from(degree).ok()? + 4;
     let mut modulus = Integer::from(drawn::prime());
     loop {
@@ -307,7 +307,7 @@ fn reduced(p: &Univariate<Integer>, modulus: &Integer) -> Univariate<Integer> {
     Univariate::new(p.coefficients().iter().map(|c| Integer::from(c.rem_euc(modulus))).collect())
 }
 
-/// Quotient and remainder by a monic polynomial.
+/// Returns quotient and remainder by a monic polynomial.
 fn divided(
     p: &Univariate<Integer>,
     divisor: &Univariate<Integer>,
@@ -328,7 +328,7 @@ fn divided(
     (Univariate::new(quotient), Univariate::new(rest))
 }
 
-/// s and t of degrees below those of b and a with `s a + t b = 1`; `None` with a common factor.
+/// Returns s and t of degrees below those of b and a with `s a + t b = 1`; `None` with a common factor.
 fn bezout(a: &Univariate<Mod>, b: &Univariate<Mod>) -> Option<(Univariate<Mod>, Univariate<Mod>)> {
     let (mut old, mut new) = ((a.clone(), Univariate::one()), (b.clone(), Univariate::zero()));
     while !new.0.is_zero() {
@@ -356,7 +356,7 @@ mod tests {
 
     #[test]
     fn factors_are_lifted_from_the_prime_and_what_is_no_factor_is_refused() {
-        // Coefficients longer than the prime, leading ones other than 1.
+        // Coefficients longer than the prime, and leading ones other than 1.
         let one = polynomial(&[-1_234_567_890_123_456_789, 17, 0, 6_000_000_000_000_000_077]);
         let two = polynomial(&[4_611_686_018_427_387_847, -3, 10]);
         let product = one.mul(&two);
@@ -364,7 +364,7 @@ mod tests {
         assert_eq!(lifted(&product, &image(&one)).unwrap(), one);
         assert_eq!(lifted(&product, &image(&two)).unwrap(), two);
         assert_eq!(lifted(&product, &image(&product)).unwrap(), product);
-        // Of 2, 3 and 6 one is a square modulo the prime, by which its polynomial splits; none is over the integers.
+        // One of 2, 3 and 6 is a square modulo the prime, so its polynomial splits there; none is a square over the integers.
         let root = |n: i32| {
             let n = Mod::from_integer(n);
             let root = (0..(drawn::prime() + 1).ilog2()).fold((Mod::one(), n), |(power, square), bit| {

@@ -1,4 +1,4 @@
-//! Spherical joints, and translations along two opposite axes: two equations whose sides have one unknown each.
+//! Spherical joints, and translations along two opposite axes: two equations with one unknown on each side.
 
 use super::Equation;
 use super::chain::{Eliminated, Exact};
@@ -15,7 +15,7 @@ use crate::kinematics::closed_loop::{SsDyad, Variable};
 use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
 
-/// A spherical joint: the point at its centre is reached from both sides.
+/// Derives loops with a spherical joint, whose centre is reached from both sides.
 pub(super) fn spherical(exact: &Exact, spherical: usize) -> Eliminated {
     let reach = Reach::of(&exact.closed, spherical);
     let [first, second, third] = [3, 4, 5].map(|k| (spherical + k) % 6);
@@ -41,7 +41,7 @@ pub(super) fn spherical(exact: &Exact, spherical: usize) -> Eliminated {
     Eliminated { steps, ..eliminated }
 }
 
-/// Two spherical joints: their centres keep their distance.
+/// Derives loops with two spherical joints, whose centres keep their distance.
 pub(super) fn ss_dyad(symbols: &Symbols, labels: &[String], ss_dyad: &SsDyad<Rational>) -> Eliminated {
     let spherical = |k: usize| labels[ss_dyad.indices[k]].split('_').next().unwrap_or_default().to_owned();
     let equation = spherical_pair::equation(ss_dyad);
@@ -72,14 +72,14 @@ pub(super) fn ss_dyad(symbols: &Symbols, labels: &[String], ss_dyad: &SsDyad<Rat
     }
 }
 
-/// Whether the translations run along two opposite axes, and both equations are needed for either unknown.
+/// Returns whether the translations run along two opposite axes, and both equations are needed for either unknown.
 pub(super) fn is_opposite(exact: &Exact) -> bool {
     let form: Option<LinkForm<Rational, 4, 2>> = LinkForm::of(&exact.closed);
     let plan = |form: &LinkForm<_, 4, 2>| Some(OppositeAxes::of(form, 0.0)?.equations(form).plan(0.0));
     matches!(form.as_ref().and_then(plan), Some(Plan::Together { .. }))
 }
 
-/// Translations along two opposite axes; `None` where they run otherwise, or the polynomial vanishes.
+/// Derives loops with translations along two opposite axes; `None` for other translations, or if the polynomial vanishes.
 pub(super) fn opposite_axes(exact: &Exact) -> Option<Eliminated> {
     let form: LinkForm<Rational, 4, 2> = LinkForm::of(&exact.closed)?;
     let axes = OppositeAxes::of(&form, 0.0)?;
@@ -103,7 +103,7 @@ pub(super) fn opposite_axes(exact: &Exact) -> Option<Eliminated> {
     Some(Eliminated { steps, ..eliminated })
 }
 
-/// The equations with these unknowns on their sides.
+/// Solves the equations with these unknowns on their sides.
 fn solve(exact: &Exact, equations: &Separated<Rational>, unknowns: [usize; 2], names: [String; 2]) -> Eliminated {
     let monomials = unknowns.map(|unknown| exact.symbols.monomials(unknown, false));
     let listed = equations.rows.iter().zip(names).map(|(row, name)| {

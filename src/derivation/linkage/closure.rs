@@ -1,4 +1,4 @@
-//! The closure polynomial of every group of a linkage, and how its output depends on its input.
+//! The closure polynomial of every group of a linkage, and the relation of its output to its input.
 
 use super::without_circles;
 use crate::algebra::int::Int;
@@ -20,77 +20,76 @@ use crate::linkage::real_form::RealForm;
 use crate::linkage::state::{State, place_of};
 use rug::{Integer, Rational};
 
-/// Rows of a matrix whose determinant is taken for every body of a group; of larger ones the best body is taken alone.
+/// Maximum number of rows for which the determinants of all bodies of a group are computed; beyond it only that of the best one.
 const SMALL: usize = 20;
-/// Rows of a matrix beyond which there is no polynomial.
+/// Number of rows of a matrix beyond which there is no polynomial.
 const LARGE: usize = 70;
 
-/// Numbers of a group, exact.
+/// The exact equations of a group.
 type Exact = Equations<Isotropic<Gaussian>>;
 
 /// The polynomial of one body of a group.
 #[derive(Clone, Debug)]
 pub struct GroupPolynomial {
-    /// The number of the group, in the order in which they are solved.
+    /// The number of the group, in the order in which the groups are solved.
     pub group: usize,
     /// The body whose half-angle tangent is the variable.
     pub body: usize,
-    /// The body against which its angle is measured.
+    /// The body relative to which its angle is measured.
     pub against: usize,
     /// Integers without common factor, constant term first, the last one positive.
     pub coefficients: Univariate<Integer>,
-    /// How many roots are the half turn.
+    /// Number of roots at the angle pi.
     pub at_pi: usize,
-    /// The assemblies of the groups on which this one stands, and of itself, with multiplicity; `None` where they are not
-    /// known.
+    /// The number of assemblies of this group and those it depends on, with multiplicity; `None` if it is not known.
     pub assemblies: Option<usize>,
-    /// Rows of the matrix.
+    /// Number of rows of the matrix.
     pub rows: usize,
 }
 
 impl GroupPolynomial {
-    /// The roots with multiplicity.
+    /// Returns the number of roots with multiplicity.
     #[must_use]
     pub fn roots(&self) -> usize {
         self.coefficients.degree().unwrap_or(0) + self.at_pi
     }
 
-    /// Whether every root is one of an assembly, and every assembly has its root: it is proved by the numbers of both.
+    /// Returns whether every root belongs to an assembly and every assembly to a root, which follows from the numbers of both.
     #[must_use]
     pub fn is_proved(&self) -> bool {
         self.assemblies == Some(self.roots())
     }
 }
 
-/// How the angle of a body depends on the input.
+/// The relation of the angle of a body to the input.
 #[derive(Clone, Debug)]
 pub struct InputOutput {
     /// The joint whose value is the first variable: a half-angle tangent or metres.
     pub input: usize,
     /// The body whose half-angle tangent is the second variable.
     pub body: usize,
-    /// The body against which its angle is measured.
+    /// The body relative to which its angle is measured.
     pub against: usize,
     /// The polynomial in both.
     pub polynomial: Polynomial<Int>,
-    /// Whether at the value of the input it is the closure polynomial.
+    /// Whether it equals the closure polynomial at the value of the input.
     pub agrees: bool,
 }
 
-/// What there is to derive of a case.
+/// The derivation of a case.
 #[derive(Clone, Debug)]
 pub struct LinkageDerivation {
     /// The polynomials, those of the last group first, the best of every group before the others.
     pub polynomials: Vec<GroupPolynomial>,
-    /// How the output depends on the input, where one joint is given.
+    /// The relation of output and input, if one joint is given.
     pub input_output: Option<InputOutput>,
-    /// The numbers of assemblies of the groups, in the order in which they are solved.
+    /// The numbers of assemblies of the groups, in the order in which the groups are solved.
     pub groups: Vec<(Vec<Vec<usize>>, usize)>,
-    /// The closure equations behind the best polynomial, two for every cycle; `variables` are theirs.
+    /// The closure equations of the best polynomial, two for every cycle, in `variables`.
     pub equations: Vec<Polynomial<Rational>>,
-    /// What the variables of the equations are.
+    /// The meaning of the variables of the equations.
     pub variables: Vec<Symbol>,
-    /// Why some polynomials are not there.
+    /// The reasons why some polynomials are missing.
     pub warnings: Vec<String>,
 }
 
@@ -99,9 +98,9 @@ pub struct LinkageDerivation {
 pub enum Symbol {
     /// The cosine of the angle of a body.
     Cosine(usize),
-    /// Its sine.
+    /// The sine of the angle of a body.
     Sine(usize),
-    /// The displacement of a joint, in parts of the length of its direction.
+    /// The displacement of a joint, relative to the length of its direction.
     Shift(usize),
 }
 
@@ -121,15 +120,15 @@ impl Part {
         Some(Self { closure, state, exact })
     }
 
-    /// Class and rotation of a body against it, exactly.
+    /// Returns class and rotation of a body relative to it, exactly.
     fn class_of(&self, body: usize) -> Option<(usize, Isotropic<Gaussian>)> {
         let (class, turn) = self.closure.class_of(&self.state, body)?;
         let half = |value: &crate::linkage::isotropic::Value| value.exact.as_ref()?.to_gaussian();
         Some((class, Isotropic { z: half(&turn.z)?, w: half(&turn.w)? }))
     }
 
-    /// The equations in which a class is turned so that its rotation is that of `body` against `base`, or the inverse
-    /// one where `is_inverse`: the class at rest and the class that turns.
+    /// Returns the equations in which a class is rotated so that its rotation is that of `body` relative to `base`, or the
+    /// inverse one if `is_inverse`, with the class at rest and the class that rotates.
     fn measured(&self, base: usize, body: usize, is_inverse: bool, exact: &mut Exact) -> Option<(usize, usize)> {
         let ((rest, own), (hidden, turned)) = (self.class_of(base)?, self.class_of(body)?);
         if rest == hidden {
@@ -147,11 +146,11 @@ impl Part {
         Some((rest, hidden))
     }
 
-    /// The closure equations in cosines and sines of the angles against `base`.
+    /// Returns the closure equations in cosines and sines of the angles relative to `base`.
     fn equations(&self, base: usize) -> Option<(Vec<Symbol>, Vec<Polynomial<Rational>>)> {
         let (rest, own) = self.class_of(base)?;
         let exact = &self.exact;
-        // The first body of every class stands for it.
+        // The first body of every class represents it.
         let firsts: Vec<(usize, Isotropic<Gaussian>)> = (0..exact.classes)
             .map(|class| {
                 let bodies = (0..self.state.bodies.len()).filter_map(|body| Some((body, self.class_of(body)?)));
@@ -202,7 +201,7 @@ impl Part {
         Some((symbols, equations))
     }
 
-    /// Whether the class of another body must rest, because all slides are fixed in it.
+    /// Returns whether the class of another body must be at rest, because all slides are fixed in it.
     fn rests(&self, base: usize, body: usize) -> Option<bool> {
         let slides: Vec<usize> = self.exact.slides.iter().map(|slide| slide.class).collect();
         let is_all = |body: usize| self.class_of(body).map(|(class, _)| slides.iter().all(|own| *own == class));
@@ -214,7 +213,7 @@ impl Part {
     }
 }
 
-/// The branch in which everything is as inputs glue it.
+/// Returns the state in which bodies are joined as the inputs require.
 pub(super) fn glued_state(linkage: &Linkage, given: &[Given]) -> Option<State> {
     let mut state = State::new(linkage.bodies.len(), 1);
     for one in given {
@@ -224,13 +223,13 @@ pub(super) fn glued_state(linkage: &Linkage, given: &[Given]) -> Option<State> {
     Some(state)
 }
 
-/// The polynomial with the variable of the other sign.
+/// Returns the polynomial with the variable negated.
 fn mirrored(polynomial: &Univariate<Integer>) -> Univariate<Integer> {
     let signs = polynomial.coefficients().iter().enumerate();
     Univariate::new(signs.map(|(k, c)| if k % 2 == 1 { Integer::from(-c) } else { c.clone() }).collect())
 }
 
-/// With the last coefficient positive.
+/// Returns the polynomial with positive last coefficient.
 fn positive(polynomial: Univariate<Integer>) -> Univariate<Integer> {
     let is_negative = polynomial.coefficients().last().is_some_and(|c| *c < 0);
     if is_negative { polynomial.scale(&Integer::from(-1)) } else { polynomial }
@@ -268,12 +267,12 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
 const WITHOUT: &str =
     "its data are not rational, its slides are fixed in bodies that turn, or its matrix is singular or too large";
 
-/// The joints of some groups.
+/// Returns the joints of some groups.
 fn joints_of(found: &Assemblies, needed: &[usize]) -> Vec<usize> {
     needed.iter().flat_map(|k| found.groups[*k].joints.iter().copied()).collect()
 }
 
-/// The polynomials of the bodies of the last of these groups, the best first.
+/// Returns the polynomials of the bodies of the last of these groups, the best first.
 fn of_group(
     linkage: &Linkage,
     given: &[Given],
@@ -337,7 +336,7 @@ fn of_group(
     list
 }
 
-/// The polynomial of the input, where one joint is given, and the body of the best polynomial.
+/// Returns the polynomial of the input, if one joint is given, and the body of the best polynomial.
 fn input_output(
     linkage: &Linkage,
     given: &[Given],
@@ -379,7 +378,7 @@ fn input_output(
     if is_inverse {
         polynomial = polynomial.substitute(0, &Polynomial::variable(0).neg()).primitive_part();
     }
-    // Factors of the input alone are places where the matrix is singular for all outputs.
+    // Factors of the input alone are inputs at which the matrix is singular for all outputs.
     let content = polynomial.content_in(1);
     if let Some(rest) = polynomial.checked_div_exact(&content).filter(|_| content.to_constant().is_none()) {
         polynomial = rest;
@@ -394,7 +393,7 @@ fn input_output(
     Some(InputOutput { input: *joint, body: best.body, against: best.against, polynomial, agrees })
 }
 
-/// The polynomial at the value of the input; `None` for a half turn.
+/// Returns the polynomial at the value of the input; `None` for the angle pi.
 fn at_input(polynomial: &Polynomial<Int>, linkage: &Linkage, given: &Given) -> Option<Univariate<Rational>> {
     let value = match given {
         Given::Turn { turn, .. } => {
@@ -412,7 +411,7 @@ fn at_input(polynomial: &Polynomial<Int>, linkage: &Linkage, given: &Given) -> O
     rational.substitute(0, &value).to_univariate(1)
 }
 
-/// Whether two polynomials agree up to a factor.
+/// Returns whether two polynomials agree up to a factor.
 fn is_multiple(one: &Univariate<Rational>, two: &Univariate<Integer>) -> bool {
     let (a, b) = (one.coefficients(), two.coefficients());
     let (Some(last), Some(other)) = (a.last(), b.last()) else { return false };

@@ -11,7 +11,7 @@ use crate::algebra::modular::Terms;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
 
-/// The primitive polynomial of a determinant without the factors `1 + t^2` of those variables that are half-angle tangents;
+/// Returns the primitive polynomial of a determinant without the factors `1 + t^2` of its half-angle tangents t;
 /// `None` for zero.
 fn without_circles(terms: &Terms, variables: usize, tangents: &[usize]) -> Option<Polynomial<Int>> {
     let list = terms.iter(variables).map(|(exponents, c)| (exponents.to_vec(), Int::from(c.clone())));

@@ -1,7 +1,7 @@
 //! The curve of a point of a body, as a polynomial in its coordinates.
 //!
-//! The place of the point is one cycle more, with all rotations unknown: the matrix is linear in the coordinates x and y, and
-//! its determinant vanishes at every place of the point. \[Wampler2001\]
+//! The position of the point adds one cycle, with all rotations unknown. The matrix is linear in the coordinates x and y, and
+//! its determinant vanishes at every position of the point. \[Wampler2001\]
 
 use super::closure::glued_state;
 use super::without_circles;
@@ -20,21 +20,21 @@ use crate::linkage::real_form::RealForm;
 use crate::linkage::state::{Number, State, number, real};
 use rug::Rational;
 
-/// Rows of a matrix beyond which its determinant in two variables is not taken.
+/// Number of rows of a matrix beyond which its determinant in two variables is not computed.
 const LARGE: usize = 20;
 
 /// The curve of a point.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// The bodies whose joints make the curve, the ground among them.
+    /// The bodies whose joints determine the curve, including the ground.
     pub bodies: Vec<usize>,
     /// A polynomial in x and y, metres, that vanishes along every curve on which the point moves: primitive and without
     /// multiple factors.
     pub polynomial: Polynomial<Int>,
-    /// Points of the ground whose isotropic lines were divided out of the determinant: the square of the distance from such a
-    /// point, and how often. There a rotation is zero or infinite.
+    /// Points of the ground whose isotropic lines were divided out of the determinant: the squared distance from such a
+    /// point, and its multiplicity. There a rotation is zero or infinite.
     pub removed: Vec<(Polynomial<Int>, usize)>,
-    /// Rows of its matrix.
+    /// Number of rows of its matrix.
     pub rows: usize,
     /// Degree and multiplicity of the square-free factors of the determinant.
     pub factors: Vec<(u64, usize)>,
@@ -48,11 +48,11 @@ impl Curve {
     }
 }
 
-/// The curve of a point of a body in coordinates of the ground. Of a linkage of several freedoms all given values but the
-/// first are held.
+/// Returns the curve of a point of a body in coordinates of the ground. In a linkage of several degrees of freedom all
+/// given values but the first are held.
 ///
 /// # Errors
-/// For a point that does not move on a curve, and where the curve is beyond what is implemented.
+/// For a point that does not move on a curve, and for curves that are not implemented.
 pub fn trace(linkage: &Linkage, given: &[Given], body: usize, point: &Gaussian) -> Result<Curve> {
     let held = held(linkage, given)?;
     let (mut merged, joints) = glued(linkage, held)?;
@@ -62,10 +62,10 @@ pub fn trace(linkage: &Linkage, given: &[Given], body: usize, point: &Gaussian) 
     curve(linkage, held, &mut merged, &group, name, &[(body, point.clone(), Rational::from(1))])
 }
 
-/// The curve of the centre of mass of bodies, each with its own centre and its mass, as [`trace`].
+/// Returns the curve of the centre of mass of bodies, each with its own centre and its mass, as [`trace`].
 ///
 /// # Errors
-/// As [`trace`], and where the masses add up to nothing.
+/// As [`trace`], and if the sum of the masses is 0.
 pub fn trace_mass(linkage: &Linkage, given: &[Given], masses: &[(usize, Gaussian, Rational)]) -> Result<Curve> {
     let total: Rational = masses.iter().map(|(_, _, mass)| mass).sum();
     if total == 0 {
@@ -83,7 +83,7 @@ fn unsupported(name: &str, what: &str) -> Error {
     Error::Unsupported(format!("the curve of {name} {what}"))
 }
 
-/// What is held of the given values while the first one moves.
+/// Returns the given values that are held while the first one moves.
 fn held<'g>(linkage: &Linkage, given: &'g [Given]) -> Result<&'g [Given]> {
     let links: Vec<(usize, [usize; 2])> = linkage.joints.iter().enumerate().map(|(k, joint)| (k, joint.of)).collect();
     if let Some(gear) = linkage.joints.iter().find(|joint| joint.is_gear()) {
@@ -106,7 +106,7 @@ fn held<'g>(linkage: &Linkage, given: &'g [Given]) -> Result<&'g [Given]> {
     }
 }
 
-/// The cycles of a group and one more: a mean of points of bodies, each with its share.
+/// Returns the cycles of a group and one more, for a weighted mean of points of bodies.
 fn mean(closure: &Closure, state: &State, base: usize, parts: &[(usize, Gaussian, Rational)]) -> Option<Equations<Number>> {
     let mut sum: Option<Equations<Number>> = None;
     for (body, point, share) in parts {
@@ -132,7 +132,7 @@ fn mean(closure: &Closure, state: &State, base: usize, parts: &[(usize, Gaussian
     sum
 }
 
-/// The curve of a mean of points that a group of one freedom moves.
+/// Returns the curve of a mean of points that a group of one degree of freedom moves.
 fn curve(
     linkage: &Linkage,
     held: &[Given],
@@ -166,8 +166,8 @@ fn curve(
     Ok(Curve { bodies, polynomial: polynomial.square_free_part(), removed, rows, factors })
 }
 
-/// Divides out the squares of the distances from the joints of the ground. Such a factor vanishes on two isotropic lines, of
-/// which only the joint itself is real.
+/// Divides out the squares of the distances from the joints of the ground. Such a factor vanishes on two isotropic lines,
+/// on which only the joint itself is real.
 fn without_isotropic_lines(
     mut polynomial: Polynomial<Int>,
     linkage: &Linkage,

@@ -1,8 +1,9 @@
-//! The coupler curve of a four-bar on the sphere: a polynomial in the coordinates of the point, which with the sphere is the curve.
+//! The coupler curve of a four-bar on the sphere: a polynomial in the coordinates of the point, whose zeros on the sphere are the
+//! curve.
 //!
-//! The end B of the crank satisfies three linear equations, whose coefficients are polynomials in the point P: the crank keeps its
-//! angle to the ground, the coupler that between B and P, and the other end of the coupler, a combination of B, P and B x P,
-//! that of the rocker. Cramer's rule gives B, and its length is the equation of the curve.
+//! The end B of the crank satisfies three linear equations, whose coefficients are polynomials in the point P. The crank keeps
+//! its angle to the ground, and the coupler the one between B and P. The other end of the coupler, a combination of B, P and
+//! B x P, keeps the angle of the rocker. Cramer's rule gives B, and its length is the equation of the curve.
 
 use super::{FourBar, axis};
 use crate::algebra::disc::Disc;
@@ -19,19 +20,19 @@ use crate::mechanism::exact_loop::roots::roots;
 use num_complex::Complex;
 use rug::Rational;
 
-/// Products of words that a basis of special points may take: a second.
+/// Maximum number of word products for a basis of special points: about a second.
 const EFFORT: u64 = 300_000_000;
-/// Bits in which special points are listed.
+/// Precision in bits of the listed special points.
 const BITS: u32 = 320;
 
-/// A point of the curve with something special.
+/// A special point of the curve.
 #[derive(Clone, Debug)]
 pub struct SpecialPoint {
-    /// Where it is.
+    /// Its coordinates.
     pub at: [Complex<f64>; 3],
     /// Whether it is real.
     pub real: bool,
-    /// How often it counts.
+    /// Its multiplicity.
     pub multiplicity: usize,
 }
 
@@ -40,39 +41,39 @@ pub struct SpecialPoint {
 pub struct SphereCurve {
     /// The four-bar.
     pub four_bar: FourBar,
-    /// What vanishes on the curve, in x, y and z of the ground; the curve is where the sphere meets it.
+    /// The polynomial in x, y and z of the ground whose zeros on the sphere are the curve.
     pub polynomial: Polynomial<Int>,
-    /// The square of the radius of the sphere: that of the length of the point.
+    /// The square of the radius of the sphere, which is the squared length of the point.
     pub square: Rational,
     /// A quadric on which all double points of the curve lie.
     pub locus: Polynomial<Int>,
-    /// The double points; none where their equations are too much work or have a curve of solutions.
+    /// The double points; `None` if their equations are too much work or have a curve of solutions.
     pub double_points: Option<Vec<SpecialPoint>>,
-    /// The cusps, in the same way.
+    /// The cusps, under the same conditions.
     pub cusps: Option<Vec<SpecialPoint>>,
-    /// Normals of planes through the centre in which the curve is its own mirror image: the plane of the joints of the ground and
-    /// that between them are tried.
+    /// Normals of planes through the centre in which the curve is its own mirror image. The plane of the joints of the ground and
+    /// the one between them are tried.
     pub mirrors: Vec<Direction>,
-    /// The curve in the plane, by projection from (0, 0, -1) times the radius on the plane through the centre, in u and v of radii;
-    /// none where the radius is irrational.
+    /// The curve in the plane, projected from (0, 0, -1) times the radius on the plane through the centre, in u and v in units of
+    /// the radius; `None` if the radius is irrational.
     pub stereographic: Option<Polynomial<Int>>,
 }
 
 impl SphereCurve {
-    /// The degree of the curve in space: how often a general plane meets it.
+    /// Returns the degree of the curve in space: the number of intersections with a general plane.
     #[must_use]
     pub fn degree(&self) -> u64 {
         2 * self.polynomial.total_degree().unwrap_or(0)
     }
 }
 
-/// A four-bar by its numbers: a, d the joints of the ground, b, c, p those of the coupler and the point.
+/// The numbers of a four-bar: a, d are the joints of the ground, b, c, p those of the coupler and the point.
 struct Numbers {
     a: Direction,
     d: Direction,
     b: Direction,
     p: Direction,
-    /// a.B and d.C, which crank and rocker keep.
+    /// a.B and d.C, which crank and rocker keep constant.
     kept: [Rational; 2],
     /// C as a combination of B, P and B x P.
     alpha: Rational,
@@ -130,7 +131,7 @@ impl Numbers {
         })
     }
 
-    /// `(alpha d + gamma P x d) . B = kept - beta d.P` beside the two plain rows.
+    /// Returns the equation `(alpha d + gamma P x d) . B = kept - beta d.P` and the two simple rows.
     fn linear<R: Ring>(&self, p: &Vector<R>) -> Linear<R> {
         let (a, d): (Vector<R>, Vector<R>) = (vector(&self.a), vector(&self.d));
         let row = sum(&times(&d, &self.alpha), &times(&cross(p, &d), &self.gamma));
@@ -139,14 +140,14 @@ impl Numbers {
         Linear { rows: [a, p.clone(), row], right }
     }
 
-    /// C for B and P.
+    /// Returns C for B and P.
     fn other_end<R: Ring>(&self, b: &Vector<R>, p: &Vector<R>) -> Vector<R> {
         sum(&sum(&times(b, &self.alpha), &times(p, &self.beta)), &times(&cross(b, p), &self.gamma))
     }
 }
 
 impl<R: Ring> Linear<R> {
-    /// Numerators and denominator of Cramer's rule.
+    /// Returns numerators and denominator of Cramer's rule.
     fn cramer(&self) -> (Vector<R>, R) {
         let [u, v, w] = &self.rows;
         let scaled = |x: &Vector<R>, q: &R| -> Vector<R> { x.each_ref().map(|c| c.mul(q)) };
@@ -156,7 +157,7 @@ impl<R: Ring> Linear<R> {
     }
 }
 
-/// The curve of a point of a coupler.
+/// Returns the curve of a point of a coupler.
 ///
 /// # Errors
 /// For a body that is no coupler of a four-bar, a point on the axis of the crank's end, and a curve that is the whole sphere.
@@ -196,14 +197,14 @@ fn sphere(square: &Rational) -> Polynomial<Rational> {
     dot(&p, &p).sub(&number(square))
 }
 
-/// The terms of the highest degree.
+/// Returns the terms of the highest degree.
 fn highest(polynomial: &Polynomial<Int>) -> Polynomial<Int> {
     let degree = polynomial.total_degree().unwrap_or(0);
     let size = |exponents: &[u32]| exponents.iter().map(|e| u64::from(*e)).sum::<u64>();
     Polynomial::from_terms(polynomial.terms().filter(|(e, _)| size(e) == degree).map(|(e, c)| (e, c.clone())))
 }
 
-/// The same on the sphere, of the least degree: where the highest terms are a multiple of x^2 + y^2 + z^2 they are lowered.
+/// Returns the polynomial of least degree with the same zeros on the sphere, by reducing highest terms x^2 + y^2 + z^2.
 fn on_sphere(polynomial: &Polynomial<Int>, square: &Rational) -> Polynomial<Int> {
     let mut polynomial = polynomial.clone();
     let p: Vector<Polynomial<Int>> = std::array::from_fn(Polynomial::variable);
@@ -221,7 +222,7 @@ fn on_sphere(polynomial: &Polynomial<Int>, square: &Rational) -> Polynomial<Int>
     polynomial
 }
 
-/// Whether the curve is its mirror image in the plane with this normal through the centre.
+/// Returns whether the curve is its mirror image in the plane with this normal through the centre.
 fn is_mirror(polynomial: &Polynomial<Int>, normal: &Direction, square: &Rational) -> bool {
     let Some(exact) = polynomial.map(|c| Some(Rational::from(c.to_integer()))) else { return false };
     let p: Vector<Polynomial<Rational>> = std::array::from_fn(Polynomial::variable);
@@ -230,7 +231,7 @@ fn is_mirror(polynomial: &Polynomial<Int>, normal: &Direction, square: &Rational
     let image: Vec<(usize, Polynomial<Rational>)> =
         (0..3).map(|k| (k, p[k].sub(&along.mul(&number(&Rational::from(&twice * &normal[k])))))).collect();
     let mirrored = exact.substitute_all(&image);
-    // Equal up to a factor and a multiple of the sphere's equation, which divides the difference then.
+    // They are equal up to a factor and a multiple of the sphere's equation, which then divides the difference.
     let same = |sign: i32| {
         let other = mirrored.mul(&number(&Rational::from(sign)));
         let difference = exact.sub(&other);
@@ -239,7 +240,7 @@ fn is_mirror(polynomial: &Polynomial<Int>, normal: &Direction, square: &Rational
     same(1) || same(-1)
 }
 
-/// The curve projected from the south pole on the plane z = 0, in units of the radius.
+/// Returns the curve projected from the south pole on the plane z = 0, in units of the radius.
 fn stereographic(polynomial: &Polynomial<Int>, square: &Rational) -> Option<Polynomial<Int>> {
     let root = looproot_calculus::unit::Root::sqrt(square)?;
     let degree = u32::try_from(polynomial.total_degree()?).ok()?;
@@ -262,7 +263,7 @@ fn stereographic(polynomial: &Polynomial<Int>, square: &Rational) -> Option<Poly
     (!image.is_zero()).then(|| image.primitive().0)
 }
 
-/// The points where the three equations of B depend on one another: B has two places there.
+/// Returns the points at which the three equations of B are dependent, so that B has two positions.
 fn double_points(numbers: &Numbers, square: &Rational) -> Option<Vec<SpecialPoint>> {
     let p: Vector<Equation> = std::array::from_fn(Equation::variable);
     let (numerators, denominator) = numbers.linear(&p).cramer();
@@ -270,7 +271,7 @@ fn double_points(numbers: &Numbers, square: &Rational) -> Option<Vec<SpecialPoin
     special(3, &[x, y, z, denominator, dot(&p, &p).sub(&number(square))])
 }
 
-/// The points of the curve at which the point is the pole of the coupler: in the planes of crank and of rocker.
+/// Returns the points of the curve that are the pole of the coupler: in the planes of crank and of rocker.
 fn cusps(numbers: &Numbers, square: &Rational) -> Option<Vec<SpecialPoint>> {
     let p: Vector<Equation> = std::array::from_fn(Equation::variable);
     let b: Vector<Equation> = std::array::from_fn(|k| Equation::variable(3 + k));
@@ -284,7 +285,7 @@ fn cusps(numbers: &Numbers, square: &Rational) -> Option<Vec<SpecialPoint>> {
     special(6, &equations)
 }
 
-/// All points of a finite set of solutions, by their first three coordinates.
+/// Returns all points of a finite set of solutions, by their first three coordinates.
 fn special(unknowns: usize, equations: &[Equation]) -> Option<Vec<SpecialPoint>> {
     let basis = Basis::of(unknowns, equations, EFFORT)?;
     match basis.dimension() {
@@ -314,7 +315,7 @@ fn special(unknowns: usize, equations: &[Equation]) -> Option<Vec<SpecialPoint>>
     Some(list)
 }
 
-/// The spherical distances of a four-bar in degrees: crank, coupler, rocker, ground.
+/// Returns the spherical distances of a four-bar in degrees: crank, coupler, rocker, ground.
 #[must_use]
 pub fn sides(linkage: &SphereLinkage, four: &FourBar) -> [f64; 4] {
     let angle = |body: usize, one: usize, two: usize| {

@@ -18,7 +18,7 @@ pub struct FourBar {
     pub bodies: [usize; 4],
 }
 
-/// The joints of a body, each with the body at its other end.
+/// Returns the joints of a body, each with the body at its other end.
 fn around(linkage: &SphereLinkage, body: usize) -> Vec<(usize, usize)> {
     let ends = linkage.joints.iter().enumerate().filter_map(|(k, joint)| match joint.of {
         [a, b] if a == body => Some((k, b)),
@@ -28,17 +28,17 @@ fn around(linkage: &SphereLinkage, body: usize) -> Vec<(usize, usize)> {
     ends.collect()
 }
 
-/// The axis of a joint in one of its bodies.
+/// Returns the axis of a joint in one of its bodies.
 fn axis(linkage: &SphereLinkage, joint: usize, body: usize) -> &Direction {
     let joint = &linkage.joints[joint];
     &joint.at[usize::from(joint.of[0] != body)]
 }
 
 impl FourBar {
-    /// The four-bar whose coupler a body is.
+    /// Returns the four-bar with this body as coupler.
     ///
     /// # Errors
-    /// Where it is the coupler of none.
+    /// If it is the coupler of no four-bar.
     pub fn around(linkage: &SphereLinkage, coupler: usize) -> Result<Self> {
         let to_ground = |body: usize| {
             around(linkage, body).into_iter().find(|(_, other)| *other == linkage.ground).map(|(joint, _)| joint)
@@ -56,7 +56,7 @@ impl FourBar {
         Ok(Self { joints: [a.2, a.0, b.0, b.2], bodies: [linkage.ground, a.1, coupler, b.1] })
     }
 
-    /// The four-bar whose crank is joined to the ground by a joint; none of the bodies `before` belongs to it but the crank.
+    /// Returns the four-bar whose crank is joined to the ground by a joint; it contains none of the bodies `before` but the crank.
     fn of_crank(linkage: &SphereLinkage, joint: usize, crank: usize, before: &[usize]) -> Option<Self> {
         let is_new = |body: &usize| *body != linkage.ground && *body != crank && !before.contains(body);
         around(linkage, crank).into_iter().filter(|(_, coupler)| is_new(coupler)).find_map(|(second, coupler)| {

@@ -23,16 +23,16 @@ pub struct Transfer {
     pub output: usize,
     /// The bodies of every four-bar in the series.
     pub bodies: Vec<[usize; 4]>,
-    /// What vanishes for the half-angle tangents t of the input and s of the output.
+    /// The polynomial that vanishes for the half-angle tangents t of the input and s of the output.
     pub polynomial: Polynomial<Int>,
-    /// Factors along which the angles have a constant sum or difference: the coupling is homokinetic there.
+    /// Factors on which the angles have a constant sum or difference, so that the coupling is homokinetic.
     pub constant_ratio: Vec<(Polynomial<Int>, &'static str)>,
 }
 
-/// Derives the relation of the angle of a joint at the ground and that of the last rocker behind it.
+/// Derives the relation of the angle of a joint at the ground to that of the last rocker behind it.
 ///
 /// # Errors
-/// Where the crank of the joint belongs to no four-bar, and where its angles are no rational functions of half-angle tangents.
+/// If the crank of the joint belongs to no four-bar, or its angles are no rational functions of half-angle tangents.
 pub fn transfer(linkage: &SphereLinkage, input: usize) -> Result<Transfer> {
     let [a, b] = linkage.joints[input].of;
     let name = &linkage.joints[input].name;
@@ -69,7 +69,7 @@ fn circle(variable: usize) -> Plane {
     t.mul(&t).add(&Ring::one())
 }
 
-/// The rotation of the second body of a joint against the first times `1 + t^2`.
+/// Returns the rotation of the second body of a joint relative to the first, times `1 + t^2`.
 fn rotation(joint: &SphereJoint, variable: usize) -> Result<[Vector<Plane>; 3]> {
     let at = |t: i32| turned(joint, &Angle::from_half_tangent(HalfTangent::Finite(Rational::from(t))));
     let ((start, exact), (quarter, also)) = (at(0), at(1));
@@ -91,7 +91,7 @@ fn rotation(joint: &SphereJoint, variable: usize) -> Result<[Vector<Plane>; 3]> 
     }))
 }
 
-/// The axis of a joint at the far end of a body that turns against the ground, times `1 + t^2`.
+/// Returns the axis of a joint at the far end of a body that rotates relative to the ground, times `1 + t^2`.
 fn far_axis(linkage: &SphereLinkage, joint: usize, body: usize, far: usize, variable: usize) -> Result<Vector<Plane>> {
     let turn = rotation(&linkage.joints[joint], variable)?;
     let place = axis(linkage, far, body);
@@ -102,7 +102,7 @@ fn far_axis(linkage: &SphereLinkage, joint: usize, body: usize, far: usize, vari
     }))
 }
 
-/// The relation of a four-bar: the angle between the ends of crank and rocker is that of the coupler.
+/// Returns the relation of a four-bar: the angle between the ends of crank and rocker is that of the coupler.
 fn of_four_bar(linkage: &SphereLinkage, four: &FourBar) -> Result<Plane> {
     let [first, second, third, fourth] = four.joints;
     let [_, crank, coupler, rocker] = four.bodies;
@@ -112,7 +112,7 @@ fn of_four_bar(linkage: &SphereLinkage, four: &FourBar) -> Result<Plane> {
     Ok(dot(&b, &c).sub(&circle(0).mul(&circle(1)).mul(&number(&cosine))))
 }
 
-/// The relation of t and s where both are related to one more variable, in which both relations are quadratic.
+/// Returns the relation of t and s if both are related to one more variable, in which both relations are quadratic.
 fn eliminated(first: &Plane, second: &Plane) -> Plane {
     let quadratic = |p: &Plane, variable: usize| {
         let mut list = p.coefficients_in(variable);
@@ -125,7 +125,7 @@ fn eliminated(first: &Plane, second: &Plane) -> Plane {
     outer.mul(&outer).sub(&minor(2, 1).mul(&minor(1, 0)))
 }
 
-/// Without factors `1 + t^2` and `1 + s^2`, on which no angle is real.
+/// Removes the factors `1 + t^2` and `1 + s^2`, on which no angle is real.
 fn without_circles(mut polynomial: Polynomial<Int>) -> Polynomial<Int> {
     for variable in 0..2 {
         let t = Polynomial::<Int>::variable(variable);
@@ -137,7 +137,7 @@ fn without_circles(mut polynomial: Polynomial<Int>) -> Polynomial<Int> {
     polynomial
 }
 
-/// Factors on which the output turns as fast as the input.
+/// Returns factors on which the output rotates as fast as the input.
 fn constant_ratio(polynomial: &Polynomial<Int>) -> Vec<(Polynomial<Int>, &'static str)> {
     let [t, s] = [0, 1].map(Polynomial::<Int>::variable);
     let one = Polynomial::<Int>::one();

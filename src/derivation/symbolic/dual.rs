@@ -23,7 +23,7 @@ use crate::kinematics::link_form::{LinkForm, Slide};
 use crate::kinematics::motion::{Motion, Vector, cross};
 use rug::Rational;
 
-/// The rotation with a motion's translation in its dual part, `R + eps [t] R`: what carries lines as R carries directions.
+/// Returns the rotation with a motion's translation in its dual part, `R + eps [t] R`, which acts on lines as R on directions.
 fn dual_rotation<R: Ring>(motion: &Motion<R>) -> [[Dual<R>; 3]; 3] {
     let column = |j: usize| -> Vector<R> { std::array::from_fn(|i| motion.rotation[i][j].clone()) };
     let moments: [Vector<R>; 3] = std::array::from_fn(|j| cross(&motion.translation, &column(j)));
@@ -32,7 +32,7 @@ fn dual_rotation<R: Ring>(motion: &Motion<R>) -> [[Dual<R>; 3]; 3] {
     })
 }
 
-/// A loop over dual numbers, whose translations are put into its dual rotations.
+/// Returns a loop over dual numbers, with its translations in its dual rotations.
 pub(in crate::internal::derivation) fn dualised<R: Ring, const RHO: usize, const TAU: usize>(
     form: &LinkForm<R, RHO, TAU>,
 ) -> LinkForm<Dual<R>, RHO, TAU> {
@@ -48,7 +48,7 @@ pub(in crate::internal::derivation) fn dualised<R: Ring, const RHO: usize, const
     }
 }
 
-/// The rotation along whose axis each translation runs; `None` where one runs along none.
+/// Returns the rotation along whose axis each translation runs; `None` if one runs along none.
 pub(in crate::internal::derivation) fn axes<R: Ring, const RHO: usize, const TAU: usize>(form: &LinkForm<R, RHO, TAU>) -> Option<[usize; TAU]> {
     let axis = |slide: &Slide<R>| {
         let own = [R::zero(), R::zero(), R::one()];
@@ -60,7 +60,7 @@ pub(in crate::internal::derivation) fn axes<R: Ring, const RHO: usize, const TAU
     found.iter().all(Option::is_some).then(|| found.map(Option::unwrap_or_default))
 }
 
-/// Of a loop whose two translations run along the axes of one link, the link opposite to it.
+/// Returns, for a loop whose two translations run along the axes of one link, the link opposite to it.
 pub(in crate::internal::derivation) fn opposite_link<R: Ring>(form: &LinkForm<R, 4, 2>) -> Option<usize> {
     let [one, two] = axes(form)?;
     match (two + 4 - one) % 4 {
@@ -70,7 +70,7 @@ pub(in crate::internal::derivation) fn opposite_link<R: Ring>(form: &LinkForm<R,
     }
 }
 
-/// The spherical four-bar and its dual part, bilinear in the angles at both ends of a link.
+/// Returns the spherical four-bar and its dual part, bilinear in the angles at both ends of a link.
 pub(in crate::internal::derivation) fn pair_at<R: Ring>(links: &[Motion<R>; 4], base: usize) -> Equations<R> {
     let dual: [_; 4] = std::array::from_fn(|k| dual_rotation(&links[(base + 3 + k) % 4]));
     let form = four_bar(dual.each_ref());
@@ -85,7 +85,7 @@ fn eliminant<R: Ring>(equations: &Equations<R>) -> Univariate<R> {
 /// Two equations in the angles of two joints.
 struct DualPair<'s> {
     symbols: &'s Symbols,
-    /// The unknown that is kept, and the one that goes.
+    /// The unknown that is kept, and the one that is eliminated.
     unknowns: [usize; 2],
     equations: [HalfAngles<Rational>; 2],
 }
@@ -96,7 +96,7 @@ impl<'s> DualPair<'s> {
         Self { symbols, unknowns, equations: forms.map(|form| half_angles(unknowns, &form)) }
     }
 
-    /// In half-angle tangents, but for those that vanish.
+    /// Returns the equations in half-angle tangents, without those that vanish.
     fn listed(&self, axes: [&str; 2]) -> Vec<(String, Polynomial<Rational>)> {
         let names = [
             format!("spherical four-bar {}-{} n.n'", axes[0], axes[1]),
@@ -106,7 +106,7 @@ impl<'s> DualPair<'s> {
         names.into_iter().zip(equations).filter(|(_, equation)| !equation.is_zero()).collect()
     }
 
-    /// The elimination of the second unknown.
+    /// Describes the elimination of the second unknown.
     fn resultant_in_words(&self) -> String {
         let name = self.symbols.name(self.unknowns[1]);
         format!(
@@ -115,7 +115,7 @@ impl<'s> DualPair<'s> {
         )
     }
 
-    /// The polynomial, and how it is written over the names of the coefficients of both equations.
+    /// Returns the polynomial, and its form over the names of the coefficients of both equations.
     fn polynomial(&self, equations: &Equations<Symbol>) -> (Polynomial<Rational>, Option<OverNames>) {
         let kept = Symbols::variable(self.unknowns[0]);
         let list = eliminant(equations).coefficients().iter().map(expanded).collect();
@@ -135,7 +135,7 @@ impl<'s> DualPair<'s> {
     }
 }
 
-/// The resultant of two polynomials of degree 2 in a variable: `(p2 q0 - p0 q2)^2 - (p2 q1 - p1 q2) (p1 q0 - p0 q1)`.
+/// Returns the resultant of two polynomials of degree 2 in a variable: `(p2 q0 - p0 q2)^2 - (p2 q1 - p1 q2) (p1 q0 - p0 q1)`.
 fn resultant(p: &Polynomial<Rational>, q: &Polynomial<Rational>, variable: usize) -> Polynomial<Rational> {
     let parts = |p: &Polynomial<Rational>| -> [Polynomial<Rational>; 3] {
         let list = p.coefficients_in(variable);
@@ -146,18 +146,18 @@ fn resultant(p: &Polynomial<Rational>, q: &Polynomial<Rational>, variable: usize
     minor(2, 0).mul(&minor(2, 0)).sub(&minor(2, 1).mul(&minor(1, 0)))
 }
 
-/// A bilinear form in half-angle tangents.
+/// Returns a bilinear form in half-angle tangents.
 fn half_angles(unknowns: [usize; 2], form: &Form<Polynomial<Rational>>) -> HalfAngles<Rational> {
     let [a, b] = unknowns.map(|k| [Polynomial::one(), Polynomial::variable(3 * k), Polynomial::variable(3 * k + 1)]);
     let angles = unknowns.map(|k| (Pair { cos: 3 * k, sin: 3 * k + 1 }, 3 * k + 2));
     half_tangents(&(0..3).fold(Polynomial::zero(), |total, i| total.add(&a[i].mul(&sum(&form[i], &b)))), &angles)
 }
 
-/// What an elimination of two equations from f and its dual part shares.
+/// The common first step of eliminations from f and its dual part.
 const TRANSFERENCE: &str = "With alpha + eps a for alpha and theta + eps d for theta, eps^2 = 0, the dual part g of f says that the same \
                             two axes keep their moment (transference)";
 
-/// Two translations along the axes of one link, seen from the link opposite.
+/// Derives loops with two translations along the axes of one link, written for the link opposite.
 pub(super) fn neighbours(
     exact: &Exact,
     form: &LinkForm<Symbol, 4, 2>,
@@ -174,7 +174,7 @@ pub(super) fn neighbours(
     if polynomial.is_zero() {
         return Err(vanishing());
     }
-    // Of the numbers the second equation is got in another way: by the coplanarity of the translations, modulo f.
+    // For numbers the second equation comes from the coplanarity of the translations, modulo f.
     let bar = FourBar::new(&numbers, base).ok_or_else(vanishing)?;
     let kept = Symbols::variable(unknowns[0]);
     let number = Polynomial::from_univariate(kept, &eliminant(&bar.equations()));
@@ -207,14 +207,14 @@ pub(super) fn neighbours(
     })
 }
 
-/// The links of a loop of four revolutes.
+/// Returns the links of a loop of four revolutes.
 fn four_links<R: Ring>(chain: &Chain, parameters: &impl Parameters<R>) -> Result<[Motion<R>; 4]> {
     let cycle = chain.cycle(parameters).ok_or_else(no_image)?;
     let links: Vec<Motion<R>> = cycle.into_iter().map(|(_, link)| link).collect();
     links.try_into().map_err(|_| no_image())
 }
 
-/// The pair of equations of a loop of four revolutes, in the angle of the input, counted from 0, and the one behind it.
+/// Derives the pair of equations of a loop of four revolutes, in the angle of the input, counted from 0, and the next one.
 pub(super) fn four_revolutes(chain: &Chain, table: &Table<'_>, symbols: &Symbols, input: usize) -> Result<Outcome> {
     let (links, numbers) = (four_links(chain, table)?, four_links::<Rational>(chain, &Numbers)?);
     let (equations, plain) = (pair_at(&links, input), pair_at(&numbers, input));
@@ -234,7 +234,7 @@ pub(super) fn four_revolutes(chain: &Chain, table: &Table<'_>, symbols: &Symbols
         label(0),
         label(1)
     )];
-    // The powers of 1 + t^2 are those of the symbols, so that both can be compared.
+    // The powers of 1 + t^2 match those of the symbols, so that both can be compared.
     let mut compare = Vec::new();
     for (symbolic, number) in pair.equations.iter().zip([&plain.f, &plain.g]) {
         let number = half_angles(unknowns, &number.each_ref().map(|row| row.each_ref().map(constant)));
@@ -277,7 +277,7 @@ fn constant(number: &Rational) -> Polynomial<Rational> {
     Polynomial::constant(number.clone())
 }
 
-/// The three translations by the principle of transference: the dual part of the equation in the dual angle
+/// Derives loops with three translations by the principle of transference: the dual part of the equation in the dual angle
 /// `theta + eps d` is linear in d.
 pub(super) fn three_translations(
     outcome: &mut Outcome,

@@ -1,9 +1,9 @@
-//! Closure polynomials with up to three symbols, of every mechanism whose closure polynomial is derived from numbers: derived at
-//! many values of the symbols, and interpolated.
+//! Closure polynomials with up to three symbols, for every mechanism whose closure polynomial is derived from numbers. They are
+//! derived at many values of the symbols and interpolated.
 //!
-//! The closure polynomial at values y of the symbols is primitive over Z, hence known up to a factor that depends on y:
+//! The closure polynomial at values y of the symbols is primitive over Z, hence known up to a factor that depends on y.
 //! [`Shape`] finds degree and factors. The arithmetic is modulo 256 primes at once; the rational numbers are found from their
-//! residues. What comes out is compared with the closure polynomials at further values, which are drawn at run time.
+//! residues. The result is compared with the closure polynomials at further values, which are drawn at run time.
 
 use super::routes::Outcome;
 use super::setting::Setting;
@@ -25,20 +25,20 @@ use rug::{Integer, Rational};
 use std::collections::HashMap;
 use std::sync::Mutex;
 
-/// Samples are made for so many symbols at most: their number is a product with one factor for each.
+/// Maximum number of symbols: the number of samples is a product with one factor for each.
 pub(super) const MOST_SYMBOLS: usize = 3;
-/// Larger polynomials are refused: a program that reads them is better served by the numbers.
+/// Maximum number of terms: a program that reads larger polynomials is better served by the numbers.
 const MOST_TERMS: usize = 100_000;
-/// Degrees in a symbol beyond this are not looked for.
+/// Maximum degree in a symbol.
 const MOST_DEGREE: usize = 96;
-/// Values at which the result is compared with a derivation of its own.
+/// Number of values at which the result is compared with a separate derivation.
 const COMPARED: usize = 20;
-/// Values that are passed over, where the derivation takes another unknown or none.
+/// Number of values that may be skipped, because their derivation uses another unknown or fails.
 const PASSED_OVER: usize = 12;
-/// The first value that is put in: at 0 and at 1 links have length 0, and angles are right.
+/// The first value used: at 0 and at 1 links have length 0, and angles are right.
 const FIRST: usize = 2;
-/// Values that are compared are integers up to this, so that chance makes a wrong polynomial of degree d right at all of them with
-/// a probability below `(d / 2^20)^20`.
+/// Largest integer for comparisons: a wrong polynomial of degree d agrees by chance at all of them with a probability below
+/// `(d / 2^20)^20`.
 const LARGEST: u32 = 1 << 20;
 
 /// Residues modulo all primes at hand: enough for numerators and denominators of 2389 digits.
@@ -66,11 +66,11 @@ impl Source<'_> {
 /// The closure polynomials in one and the same unknown.
 struct Family<'s> {
     source: &'s Source<'s>,
-    /// The derivation that tells which unknown.
+    /// The derivation that determines the unknown.
     first: Derivation,
-    /// The number of coefficients.
+    /// Number of coefficients.
     length: usize,
-    /// What was derived already.
+    /// The values derived so far.
     known: Mutex<HashMap<Vec<Rational>, Option<Vec<Integer>>>>,
 }
 
@@ -90,7 +90,7 @@ impl<'s> Family<'s> {
         Ok(Self { source, first, length, known: Mutex::default() })
     }
 
-    /// The coefficients at values of the symbols, constant term first; `None` where they are those of another unknown.
+    /// Returns the coefficients at values of the symbols, constant term first; `None` if the derivation uses another unknown.
     fn coefficients(&self, values: &[Rational]) -> Option<Vec<Integer>> {
         let known = self.known.lock().ok().and_then(|known| known.get(values).cloned());
         known.unwrap_or_else(|| {
@@ -121,7 +121,7 @@ impl<'s> Family<'s> {
         coefficients.into_iter().map(|c| ManyResidues::from_rational(&Rational::from(c))).collect()
     }
 
-    /// The degree in one symbol, with numbers for the others.
+    /// Returns the degree in one symbol, with numbers for the others.
     fn degree(&self, symbol: usize) -> Option<usize> {
         let values: Vec<Rational> = (0..self.source.settings.len()).map(base).collect();
         let mut degree = 2;
@@ -140,8 +140,8 @@ impl<'s> Family<'s> {
         None
     }
 
-    /// All coefficients of the polynomial in the unknown and the first `level` symbols, those of the unknown outermost, at values
-    /// of the other symbols. Shapes that are not known yet are found and kept.
+    /// Returns all coefficients of the polynomial in the unknown and the first `level` symbols, those of the unknown outermost, at
+    /// values of the other symbols. Unknown shapes are determined and stored.
     fn grid(
         &self,
         level: usize,
@@ -186,7 +186,7 @@ impl<'s> Family<'s> {
     }
 }
 
-/// A number for a symbol while another one runs: one of those that are put in later, so that nothing is derived twice.
+/// Returns a number for a symbol while another one varies; it is one of those used later, so that nothing is derived twice.
 fn base(symbol: usize) -> Rational {
     Rational::from(FIRST + symbol)
 }
@@ -211,7 +211,7 @@ impl<F: Field> Samples<F> {
     }
 }
 
-/// The first so many values at which there is a vector.
+/// Returns the first `count` values at which there is a vector.
 fn samples<F: Field + Send>(count: usize, vector: impl Fn(&Rational) -> Option<Vec<F>> + Sync) -> Option<Samples<F>> {
     let mut found = Samples::default();
     let mut next = FIRST;
@@ -231,7 +231,7 @@ fn samples<F: Field + Send>(count: usize, vector: impl Fn(&Rational) -> Option<V
     Some(found)
 }
 
-/// The rational numbers of which these are the residues, up to a common factor; `None` where they are too long.
+/// Returns the rational numbers with these residues, up to a common factor; `None` if they are too long.
 fn numbers(residues: &[Wide]) -> Option<Vec<Rational>> {
     let pivot = residues.iter().rev().find(|x| !x.is_zero())?.inverse()?;
     let mut denominator = Rational::from(1);
@@ -241,7 +241,7 @@ fn numbers(residues: &[Wide]) -> Option<Vec<Rational>> {
             numbers.push(Rational::new());
             continue;
         }
-        // With the denominators of those before, most are integers, which are found at once.
+        // With the denominators of earlier numbers most are integers, which are found at once.
         let number = residue.mul(&pivot).mul(&Wide::from_rational(&denominator)?).rational()?;
         let own = number.denom().clone();
         numbers.push(number / &denominator);
@@ -250,7 +250,7 @@ fn numbers(residues: &[Wide]) -> Option<Vec<Rational>> {
     Some(numbers)
 }
 
-/// The polynomial over all variables: the unknown, and the symbols from `first`.
+/// Returns the polynomial over all variables: the unknown, and the symbols from `first`.
 fn polynomial(numbers: &[Rational], degrees: &[usize], unknown: usize, first: usize) -> Polynomial<Rational> {
     let variables = first + degrees.len();
     let terms = numbers.iter().enumerate().filter(|(_, c)| !c.is_zero()).map(|(place, c)| {
@@ -269,7 +269,7 @@ fn polynomial(numbers: &[Rational], degrees: &[usize], unknown: usize, first: us
 /// Derives one case with up to three symbols by interpolation: link parameters, the input, coordinates of the pose, legs.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for more symbols, for mechanisms without a closure polynomial, and where it would have more than
+/// [`Error::Unsupported`] for more symbols, for mechanisms without a closure polynomial, and if it would have more than
 /// 100,000 terms; [`Error::Invalid`] for an unknown symbol.
 pub(crate) fn derive_interpolated(entry: &Entry, case: &Case, wanted: &[String]) -> Result<Symbolic> {
     let all = Setting::all(entry, case);
@@ -322,7 +322,7 @@ pub(crate) fn derive_interpolated(entry: &Entry, case: &Case, wanted: &[String])
     let outcome = Outcome {
         equations: definition.map(|one| ("the variable".to_owned(), one.clone())).collect(),
         steps,
-        // Coefficients of hundreds of digits in names would be beyond f64.
+        // Coefficients of hundreds of digits, expanded over names, would exceed the range of f64.
         polynomial: Some((unknown, found.clone(), Some(Box::new(move |_| found)))),
         translations: Vec::new(),
         compare: Vec::new(),

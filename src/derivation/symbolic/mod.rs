@@ -32,11 +32,11 @@ use table::Table;
 /// A polynomial with symbols in its coefficients.
 #[derive(Clone, Debug)]
 pub struct Displayed {
-    /// What it is.
+    /// Its name.
     pub name: String,
-    /// Over unknowns and symbols.
+    /// The polynomial over unknowns and symbols.
     pub polynomial: Polynomial<Rational>,
-    /// The same over the unknowns and the names of sub-expressions.
+    /// The same polynomial over the unknowns and the names of sub-expressions.
     pub compact: Polynomial<Rational>,
 }
 
@@ -45,9 +45,9 @@ pub struct Displayed {
 pub struct Quotient {
     /// The variable.
     pub variable: usize,
-    /// Over unknowns and symbols.
+    /// The numerator over unknowns and symbols.
     pub numerator: Polynomial<Rational>,
-    /// Likewise.
+    /// The denominator over unknowns and symbols.
     pub denominator: Polynomial<Rational>,
 }
 
@@ -71,9 +71,9 @@ pub struct Symbolic {
     pub numbers: Vec<String>,
     /// The closure equations.
     pub equations: Vec<Displayed>,
-    /// How they lead to the polynomial.
+    /// The steps from the equations to the polynomial.
     pub steps: Vec<String>,
-    /// The closure polynomial; none where two equations in two unknowns are all there is.
+    /// The closure polynomial; `None` if the derivation ends with two equations in two unknowns.
     pub polynomial: Option<SymbolicPolynomial>,
     /// Named sub-expressions over the symbols.
     pub parts: Vec<(String, Polynomial<Rational>)>,
@@ -81,18 +81,18 @@ pub struct Symbolic {
     pub translations: Vec<Quotient>,
     /// The variables of the symbols with the numbers of the file.
     pub values: Vec<(usize, Rational)>,
-    /// With what the result was compared, as a clause: `at the numbers of the file equal to ...`.
+    /// The data with which the result was compared, as a clause: `at the numbers of the file equal to ...`.
     pub compared: String,
     /// Whether every step is an identity; if not, the probability of error is below 2^-40.
     pub proved: bool,
 }
 
-/// Derives one case with symbols: by [`derive_symbolic`] where an elimination works with symbols, else, for up to three symbols that
+/// Derives one case with symbols: by [`derive_symbolic`] if an elimination works with symbols, else, for up to three symbols that
 /// are named, by interpolation between derivations with numbers. The symbols are then link parameters, the input, the position
 /// `x`, `y`, `z` of the pose of an arm, or the lengths `leg1` to `leg6` of a platform.
 ///
 /// # Errors
-/// [`Error::Unsupported`] where the polynomial has too many terms, or no derivation with numbers exists; [`Error::Invalid`] for an
+/// [`Error::Unsupported`] if the polynomial has too many terms, or no derivation with numbers exists; [`Error::Invalid`] for an
 /// unknown parameter.
 pub fn derive_with_symbols(entry: &Entry, case: &Case, wanted: &[String]) -> Result<Symbolic> {
     let is_of_pose = |name: &String| setting::COORDINATES.contains(&name.as_str());
@@ -131,7 +131,7 @@ pub fn derive_symbolic(entry: &Entry, case: &Case, wanted: &[String]) -> Result<
     finished(&table, &symbols, outcome)
 }
 
-/// The numbers of a case: what symbols are compared with.
+/// The numeric derivation of a case, with which symbols are compared.
 enum Numeric {
     /// Two spherical joints.
     SsDyad(super::chain::Eliminated),
@@ -158,12 +158,12 @@ fn numeric(chain: &Chain, case: &Case) -> Result<(Symbols, Option<Numeric>)> {
     Ok((exact.symbols.clone(), Some(Numeric::Single(Box::new(exact), eliminated))))
 }
 
-/// The unknowns of a loop of four revolutes.
+/// Returns the unknowns of a loop of four revolutes.
 fn four_rotations(chain: &Chain) -> Symbols {
     Symbols::rotations(joint_labels(chain))
 }
 
-/// Compares with the numbers, and gives names to coefficients.
+/// Compares with the numbers, and names coefficients.
 fn finished(table: &Table<'_>, symbols: &Symbols, outcome: Outcome) -> Result<Symbolic> {
     let values: Vec<(usize, Polynomial<Rational>)> =
         table.values().into_iter().map(|(variable, value)| (variable, Polynomial::constant(value))).collect();
@@ -191,7 +191,7 @@ fn finished(table: &Table<'_>, symbols: &Symbols, outcome: Outcome) -> Result<Sy
     assembled(header, outcome)
 }
 
-/// What stands at the head of a derivation with symbols.
+/// The head of a derivation with symbols.
 struct Header {
     /// The names of the unknowns, three for each.
     unknowns: Vec<String>,
@@ -203,7 +203,7 @@ struct Header {
     proved: bool,
 }
 
-/// Gives names to coefficients.
+/// Names the coefficients.
 fn assembled(header: Header, outcome: Outcome) -> Result<Symbolic> {
     let unknowns = header.unknowns.len();
     let mut parts = Parts::new(unknowns + header.variables.len());
@@ -219,7 +219,7 @@ fn assembled(header: Header, outcome: Outcome) -> Result<Symbolic> {
         };
         (variable, Displayed { name: "closure polynomial".to_owned(), polynomial, compact })
     });
-    // Names of sub-expressions come first, so that they stand before the powers that they multiply.
+    // Names of sub-expressions come first, so that they precede the powers that they multiply.
     let count = parts.list.len();
     let all = unknowns + header.variables.len() + count;
     let moved = |polynomial: &Polynomial<Rational>| {

@@ -10,18 +10,18 @@ type Term = (Vec<u32>, Rational);
 
 /// Named sub-expressions: A, B, C and so on.
 pub(super) struct Parts {
-    /// The variable of the first of them.
+    /// The variable of the first sub-expression.
     first: usize,
     pub list: Vec<(String, Polynomial<Rational>)>,
 }
 
 impl Parts {
-    /// None yet; their variables begin with this one.
+    /// Creates an empty list whose variables begin with this one.
     pub fn new(first: usize) -> Self {
         Self { first, list: Vec::new() }
     }
 
-    /// A coefficient by its name, a new one if it is none of those before. Numbers and single terms stay what they are.
+    /// Returns a coefficient by its name, a new one if needed. Numbers and single terms stay as they are.
     pub fn name(&mut self, coefficient: &Polynomial<Rational>) -> Polynomial<Rational> {
         if coefficient.len() <= 1 {
             return coefficient.clone();
@@ -38,7 +38,7 @@ impl Parts {
         Polynomial::variable(self.first + at).scale(&factor)
     }
 
-    /// A polynomial whose first variables are unknowns, with names for its coefficients in them.
+    /// Names the coefficients of a polynomial whose first variables are unknowns.
     pub fn compact(&mut self, polynomial: &Polynomial<Rational>, unknowns: usize) -> Polynomial<Rational> {
         let mut collected: Vec<(Vec<u32>, Vec<Term>)> = Vec::new();
         // Terms with the same powers of the unknowns follow one another.

@@ -1,4 +1,4 @@
-//! The eliminations that are finite work with symbols.
+//! The eliminations that are feasible with symbols.
 
 use super::dual::{axes, dualised, neighbours, opposite_link, three_translations};
 use super::parts::Parts;
@@ -25,30 +25,30 @@ use crate::kinematics::link_form::LinkForm;
 use crate::mechanism::locked_variable;
 use rug::Rational;
 
-/// A polynomial over the names of sub-expressions, which it may give.
+/// A function that returns a polynomial over the names of sub-expressions and may add names.
 pub(super) type OverNames = Box<dyn FnOnce(&mut Parts) -> Polynomial<Rational>>;
 
-/// What a route hands over.
+/// The result of a route.
 pub(super) struct Outcome {
     /// Name and polynomial over unknowns and symbols.
     pub equations: Vec<(String, Polynomial<Rational>)>,
     pub steps: Vec<String>,
-    /// The variable left, the polynomial, and how its coefficients are named if not one by one.
+    /// The remaining variable, the polynomial, and the naming of its coefficients if not one by one.
     pub polynomial: Option<(usize, Polynomial<Rational>, Option<OverNames>)>,
     pub translations: Vec<Quotient>,
-    /// Results with symbols, and what they should become at the numbers of the file.
+    /// Results with symbols, and their expected values at the numbers of the file.
     pub compare: Vec<(Polynomial<Rational>, Polynomial<Rational>)>,
-    /// What may have been divided out of those: roots that belong to no solution at these numbers, but do at others.
+    /// Factors that may have been divided out: roots that belong to no solution at these numbers, but do at others.
     pub removed: Polynomial<Rational>,
     pub compared: String,
 }
 
-/// An element of the ring as a polynomial.
+/// Returns an element of the ring as a polynomial.
 pub(super) fn expanded(symbol: &Symbol) -> Polynomial<Rational> {
     symbol.polynomial().clone()
 }
 
-/// The polynomial in one unknown that coefficients in a ring of polynomials are.
+/// Returns the polynomial in one unknown with these coefficients in a ring of polynomials.
 pub(super) fn in_variable(variable: usize, polynomial: &Univariate<Polynomial<Rational>>) -> Polynomial<Rational> {
     Polynomial::from_coefficients_in(variable, polynomial.coefficients())
 }
@@ -68,7 +68,7 @@ pub(super) fn no_image() -> Error {
     Error::Unsupported("the geometry has no image in the ring of symbols".to_owned())
 }
 
-/// Any loop but that of four revolutes.
+/// Derives any loop except those of four revolutes.
 pub(super) fn route(
     chain: &Chain,
     case: &Case,
@@ -94,7 +94,7 @@ pub(super) fn route(
         if let Some(base) = opposite_link(&form) {
             return neighbours(exact, &form, base, symbols);
         }
-        // Symbols may turn a translation away from the axis along which it runs in the file.
+        // With symbols a translation may leave the axis along which it runs in the file.
         let is_opposite = axes(&form).is_some_and(|[one, two]| one.abs_diff(two) == 2);
         let opposite = OppositeAxes::of(&numbers, 0.0).filter(|_| is_opposite);
         let Some(axes) = opposite else { return Err(too_large(chain, case, exact)) };
@@ -107,14 +107,14 @@ pub(super) fn route(
     let unknown = form.rotations[(dropped + 2) % 3];
     let row = triangle_without(&form, dropped).equation;
     let mut outcome = one_row(symbols, unknown, Variable::Rotation, &row, eliminated)?;
-    // Each translation along the axis of its own rotation.
+    // Each translation runs along the axis of its own rotation.
     if axes(&form) == Some([0, 1, 2]) {
         three_translations(&mut outcome, symbols, &dualised(&form), dropped);
     }
     Ok(outcome)
 }
 
-/// One equation in one unknown.
+/// Derives one equation in one unknown.
 fn one_row(
     symbols: &Symbols,
     unknown: usize,
@@ -135,13 +135,13 @@ pub(super) fn sum(row: &[Polynomial<Rational>; 3], monomials: &[Polynomial<Ratio
     row.iter().zip(monomials).fold(Polynomial::zero(), |sum, (c, monomial)| sum.add(&c.mul(monomial)))
 }
 
-/// The closure polynomial of two equations with separated sides, without division.
+/// Returns the closure polynomial of two equations with separated sides, without division.
 fn closure<R: Ring>(equations: &Separated<R>, hidden: usize) -> Univariate<R> {
     let powers = powers(equations.kinds[hidden], &[1, 1, 0].map(R::from_integer));
     Univariate::new(quartic(&equations.conic(hidden, &equations.solved(1 - hidden)), &powers).to_vec())
 }
 
-/// Two equations with an unknown on either side.
+/// Derives two equations with an unknown on either side.
 fn two_rows(
     symbols: &Symbols,
     unknowns: [usize; 2],
@@ -154,7 +154,7 @@ fn two_rows(
                        file";
         return Err(Error::Unsupported(message.to_owned()));
     };
-    // All constants on the first side, so that each has one name.
+    // All constants are moved to the first side, so that each has one name.
     let rows = equations.rows.each_ref().map(|row| {
         let [mut left, mut right] = row.each_ref().map(|side| side.each_ref().map(expanded));
         left[0] = left[0].sub(&right[0]);
@@ -175,7 +175,7 @@ fn two_rows(
     finish(variable, &listed, &in_variable(variable, &polynomial), over_names, eliminated)
 }
 
-/// The primitive multiple with positive leading coefficient, and the factor.
+/// Returns the primitive multiple with positive leading coefficient, and the factor.
 pub(super) fn canonical(polynomial: &Polynomial<Rational>) -> (Polynomial<Rational>, Rational) {
     let primitive = primitive(polynomial);
     let factor = match (primitive.coefficients().first(), polynomial.coefficients().first()) {
@@ -185,7 +185,7 @@ pub(super) fn canonical(polynomial: &Polynomial<Rational>) -> (Polynomial<Ration
     (primitive, factor)
 }
 
-/// With the names and steps of the derivation from numbers, and its polynomial to compare with.
+/// Adds the names and steps of the derivation from numbers, and its polynomial to compare with.
 fn finish(
     variable: usize,
     equations: &[Polynomial<Rational>],

@@ -1,4 +1,4 @@
-//! The quantities of a file in whose place other numbers can be put.
+//! The quantities of a file that other numbers can replace.
 
 use super::table::{self, Value, shown};
 use crate::algebra::number::{Angle, HalfTangent, Number};
@@ -11,7 +11,7 @@ use rug::Rational;
 /// Coordinates of the position of a pose.
 pub(super) const COORDINATES: [&str; 3] = ["x", "y", "z"];
 
-/// Where a quantity stands.
+/// The position of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// A constant of a DH joint, counted from 0.
@@ -27,7 +27,7 @@ pub(crate) enum Place {
 /// A quantity of a mechanism or of a case, by one variable: a length, a coordinate, the half-angle tangent of an angle.
 #[derive(Clone, Debug)]
 pub(crate) struct Setting {
-    /// As it is asked for: `a1`, `alpha1`, `theta4`, `x`, `leg1`.
+    /// Its name in a request: `a1`, `alpha1`, `theta4`, `x`, `leg1`.
     pub name: String,
     /// The name of its variable: `a1`, `ta1`, `t4`, `x`, `leg1`.
     pub variable: String,
@@ -36,12 +36,12 @@ pub(crate) struct Setting {
     /// The quantity in the file, for a reader.
     pub text: String,
     pub place: Place,
-    /// An angle, of which the variable is the half-angle tangent, or a length.
+    /// The kind: an angle, whose variable is the half-angle tangent, or a length.
     pub kind: Variable,
 }
 
 impl Setting {
-    /// All quantities of a case.
+    /// Returns all quantities of a case.
     pub fn all(entry: &Entry, case: &Case) -> Vec<Self> {
         match &entry.design {
             Design::Arm(chain) | Design::Loop(chain) => {
@@ -52,10 +52,10 @@ impl Setting {
         }
     }
 
-    /// Those asked for, in the order in which they are asked for.
+    /// Returns those requested, in the order of the request.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a name that no quantity has, or that is asked for twice.
+    /// [`Error::Invalid`] for a name that no quantity has, or that is requested twice.
     pub fn named(all: &[Self], wanted: &[String]) -> Result<Vec<Self>> {
         if let Some(twice) = wanted.iter().enumerate().find(|(k, name)| wanted[..*k].contains(name)) {
             return Err(Error::Invalid(format!("found the symbol {} twice, expected each name once", twice.1)));
@@ -69,7 +69,7 @@ impl Setting {
         wanted.iter().map(one).collect()
     }
 
-    /// Puts a number in the place of the variable.
+    /// Replaces the value of the variable by a number.
     pub fn put(&self, entry: &mut Entry, case: &mut Case, value: &Rational) {
         let angle = || Angle::from_half_tangent(HalfTangent::Finite(value.clone()));
         let number = || Number::exact(value.clone());
@@ -112,7 +112,7 @@ impl Setting {
 fn of_links(chain: &Chain, case: &Case) -> Vec<Setting> {
     let joints = match &chain.geometry {
         Geometry::Dh(joints) | Geometry::ModifiedDh(joints) => joints.as_slice(),
-        // The coordinates of an axis are not independent of each other.
+        // The coordinates of an axis are not independent.
         Geometry::Screws { .. } => &[],
     };
     let one = |(place, name, letters, value): table::Entry| {

@@ -1,4 +1,4 @@
-//! How large a closure polynomial with symbols would be, for loops where that is too large.
+//! Estimates the size of a closure polynomial with symbols, for loops whose polynomial is too large.
 
 use super::table::{Table, Value};
 use crate::algebra::number::{Angle, Number};
@@ -18,10 +18,10 @@ use crate::kinematics::link_form::LinkForm;
 use crate::kinematics::motion::Motion;
 use crate::mechanism::locked_variable;
 
-/// Degrees in a parameter are found up to a sum of numerator and denominator a little below this number of samples.
+/// Number of samples. The sum of numerator and denominator degrees found in a parameter is a little below it.
 const SAMPLES: usize = 112;
 
-/// Values of the parameters that are symbols; all others are the numbers of the file.
+/// Values of the symbolic parameters; all others are the numbers of the file.
 struct Point<'t, 'c> {
     table: &'t Table<'c>,
     /// Half-angle tangents and lengths, in the order of the symbols.
@@ -58,7 +58,7 @@ impl Parameters<Mod> for Point<'_, '_> {
     }
 }
 
-/// The error that says how large the closure polynomial would be.
+/// Returns the error that states the size of the closure polynomial.
 pub(super) fn too_large(chain: &Chain, case: &Case, exact: &Exact) -> Error {
     let what = match general_degree(exact.closed.variables) {
         Some(degree) => format!("the closure polynomial of this loop, of degree {degree} in general,"),
@@ -76,7 +76,7 @@ pub(super) fn too_large(chain: &Chain, case: &Case, exact: &Exact) -> Error {
     ))
 }
 
-/// Degrees and a bound of the number of terms, in words.
+/// Returns the degrees and a bound of the number of terms, as text.
 fn size(chain: &Chain, case: &Case, exact: &Exact, table: &Table<'_>) -> Option<String> {
     let layout = Layout::of(chain, locked_variable(chain, case).ok()?).ok()?;
     let choice = Choice::of(exact)?;
@@ -117,7 +117,7 @@ fn size(chain: &Chain, case: &Case, exact: &Exact, table: &Table<'_>) -> Option<
     ))
 }
 
-/// The way to the polynomial that the numbers of the file ask for.
+/// The route to the polynomial that the numbers of the file require.
 enum Choice {
     Cut(crate::elimination::cut::Cut, crate::elimination::cut::Hidden),
     Link(usize, crate::elimination::cut::Hidden),
@@ -144,7 +144,7 @@ impl Choice {
     }
 }
 
-/// The degree of a polynomial's coefficients in a parameter, once they have no factor in common: from its values by
+/// Returns the degree of a polynomial's coefficients in a parameter, once they have no common factor: from its values by
 /// rational reconstruction of a quotient of two of them.
 fn degree(polynomial: impl Fn(Mod) -> Option<Univariate<Mod>>) -> Option<usize> {
     let mut points = Vec::new();
@@ -159,7 +159,7 @@ fn degree(polynomial: impl Fn(Mod) -> Option<Univariate<Mod>>) -> Option<usize> 
     for (x, _) in &points {
         product = product.mul(&Univariate::new(vec![x.neg(), Mod::one()]));
     }
-    // Euclid's algorithm: of all quotients with these values the one of least degree.
+    // Euclid's algorithm finds, of all quotients with these values, the one of least degree.
     let (mut upper, mut lower) =
         ((product, Univariate::zero()), (Univariate::interpolate(&points), Univariate::constant(Mod::one())));
     let size = |(numerator, denominator): &(Univariate<Mod>, Univariate<Mod>)| {

@@ -14,17 +14,17 @@ use rug::Rational;
 /// The ring of derivations with symbols: polynomials in lengths, cosines and sines.
 pub(super) type Symbol = Trigonometric<Rational>;
 
-/// What a parameter is in the file.
+/// The value of a parameter in the file.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
     Angle(Angle),
     Length(Number),
 }
 
-/// A parameter that is a symbol; an angle has two variables, cosine and sine.
+/// A symbolic parameter; an angle has two variables, cosine and sine.
 #[derive(Clone, Debug)]
 pub(super) struct Kept {
-    /// Counted from 0; none for the input.
+    /// Joint, counted from 0, and parameter; `None` for the input.
     pub place: Option<(usize, Parameter)>,
     pub name: String,
     pub variable: usize,
@@ -35,13 +35,13 @@ pub(super) struct Kept {
 pub(super) struct Table<'c> {
     case: &'c Case,
     pub symbols: Vec<Kept>,
-    /// The others, as `alpha3 = pi/2`, but for offsets of variables that are 0.
+    /// The other parameters, as `alpha3 = pi/2`, except offsets of variables that are 0.
     pub numbers: Vec<String>,
-    /// The names of the variables, the first one being that of `first`.
+    /// The names of the variables; the first one belongs to `first`.
     pub names: Vec<String>,
 }
 
-/// Right angles, 0 and pi: cosine and sine are 0, 1 or -1.
+/// Returns whether an angle is a multiple of a right angle: cosine and sine are 0, 1 or -1.
 fn is_right(angle: &Angle) -> bool {
     match angle.half_tangent() {
         HalfTangent::Infinite => true,
@@ -49,7 +49,7 @@ fn is_right(angle: &Angle) -> bool {
     }
 }
 
-/// A parameter's value for a reader.
+/// Returns a parameter's value for a reader.
 pub(super) fn shown(value: &Value) -> String {
     match value {
         Value::Length(length) => length.rational().to_string(),
@@ -64,7 +64,7 @@ pub(super) fn shown(value: &Value) -> String {
 }
 
 impl<'c> Table<'c> {
-    /// The parameters of a chain given by DH parameters: those `wanted`, else all but zeros and right angles, and the
+    /// Returns the parameters of a chain given by DH parameters: those `wanted`, else all but zeros and right angles, and the
     /// input. Their variables are numbered from `first`.
     pub fn of(chain: &Chain, case: &'c Case, wanted: &[String], first: usize, with_input: bool) -> Result<Self> {
         let (Geometry::Dh(joints) | Geometry::ModifiedDh(joints)) = &chain.geometry else {
@@ -121,7 +121,7 @@ impl<'c> Table<'c> {
         }
     }
 
-    /// What fills the gap: the input, or the inverse of a pose; nothing where neither is given.
+    /// Returns the closing transformation: the input, or the inverse of a pose; the identity if neither is given.
     pub fn closing(&self) -> Result<Motion<Symbol>> {
         if let Some(pose) = &self.case.pose {
             let image = pose.exact.inverse().map(Symbol::from_rational);
@@ -135,7 +135,7 @@ impl<'c> Table<'c> {
         motion.ok_or_else(|| Error::Invalid("the input has no image".to_owned()))
     }
 
-    /// Every variable with its value in the file.
+    /// Returns every variable with its value in the file.
     pub fn values(&self) -> Vec<(usize, Rational)> {
         let value = |symbol: &Kept| match &symbol.value {
             Value::Length(length) => vec![(symbol.variable, length.rational().clone())],
@@ -148,10 +148,10 @@ impl<'c> Table<'c> {
     }
 }
 
-/// A parameter in order: where it stands, its name, the names of its variables, its value.
+/// A parameter in order: its position, its name, the names of its variables, its value.
 pub(super) type Entry = (Option<(usize, Parameter)>, String, Vec<String>, Value);
 
-/// Every parameter that a loop has: link by link, then the input.
+/// Returns every parameter of a loop: link by link, then the input.
 pub(super) fn all(joints: &[Joint], input: Option<&Input>) -> Vec<Entry> {
     let mut list: Vec<Entry> = Vec::new();
     for (at, joint) in joints.iter().enumerate() {

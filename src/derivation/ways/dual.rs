@@ -17,7 +17,7 @@ use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
 
-/// The equations over dual numbers of a loop whose translations run along axes of its rotations.
+/// Derives, over dual numbers, a loop whose translations run along axes of its rotations.
 pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     let none = |why: &str| refusal(Way::Dual, why);
     if exact.spherical.is_some() {
@@ -41,7 +41,7 @@ pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     ))
 }
 
-/// Three cylindric joints: the dual spherical triangle.
+/// Derives three cylindrical joints: the dual spherical triangle.
 fn triangle(exact: &Exact, form: &LinkForm<Rational, 3, 3>, unknown: usize) -> Option<Found> {
     let dual = dualised(form);
     let dropped = (0..3).find(|dropped| form.rotations[(dropped + 2) % 3] == unknown)?;
@@ -79,7 +79,7 @@ fn triangle(exact: &Exact, form: &LinkForm<Rational, 3, 3>, unknown: usize) -> O
     Some(Found { equations, steps, matrix: Matrix { rows: 2, columns: 2, entries: 2, meaning }, eliminants: vec![eliminant] })
 }
 
-/// Two cylindric joints on one link: the dual spherical four-bar, seen from the link opposite.
+/// Derives two cylindrical joints on one link: the dual spherical four-bar, written for the link opposite.
 fn four_bar(exact: &Exact, form: &LinkForm<Rational, 4, 2>, base: usize, unknown: usize) -> Option<Found> {
     let equations = pair_at(&form.links, base);
     let unknowns = [0, 1].map(|k| form.rotations[(base + k) % 4]);

@@ -11,7 +11,7 @@ use crate::elimination::degree::general_degree;
 use crate::error::Result;
 use rug::Rational;
 
-/// The equations of the loop in half-angle tangents, and their resultants.
+/// Derives the equations of the loop in half-angle tangents, and their resultants.
 pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     let none = |why: &str| refusal(Way::HalfAngle, why);
     let is_cut = exact.spherical.is_none() && general_degree(exact.closed.variables) == Some(16);
@@ -59,7 +59,7 @@ pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     }
 }
 
-/// Four equations `e0 + x e1` linear in one tangent x: its elimination by minors, then resultants of two pairs of these.
+/// Eliminates one tangent x from four equations `e0 + x e1` by minors; then takes resultants of two pairs of these.
 fn four(
     exact: &Exact,
     equations: Vec<Equation>,

@@ -14,7 +14,7 @@ pub(super) struct PolynomialMatrix {
 }
 
 impl PolynomialMatrix {
-    /// The matrix of these entries, polynomials in one variable.
+    /// Creates the matrix of these entries, polynomials in one variable.
     pub fn of(rows: &[Vec<Univariate<Rational>>]) -> Self {
         let degree = rows.iter().flatten().filter_map(Univariate::degree).max().unwrap_or(0);
         let entry = |p: &Univariate<Rational>, power: usize| p.coefficients().get(power).cloned().unwrap_or_default();
@@ -37,7 +37,7 @@ impl PolynomialMatrix {
         self.powers.len().saturating_sub(1)
     }
 
-    /// Its rows mixed to as many as there are columns, by small whole numbers without special meaning.
+    /// Returns combinations of its rows, as many as it has columns, with small generic integer weights.
     pub fn mixed(&self, seed: i32) -> Self {
         let (rows, columns) = (self.rows(), self.columns());
         let weight = |i: usize, k: usize| {
@@ -46,7 +46,7 @@ impl PolynomialMatrix {
         };
         let mixed = |m: &Vec<Vec<Rational>>| {
             let entry = |i: usize, j: usize| {
-                // The first rows as they are, with some of the others.
+                // The first rows are kept, with some of the others added.
                 let others = (columns..rows).map(|k| &m[k][j] * weight(i, k));
                 others.fold(m[i][j].clone(), |sum, term| sum + term)
             };
@@ -55,10 +55,10 @@ impl PolynomialMatrix {
         Self { powers: self.powers.iter().map(mixed).collect() }
     }
 
-    /// The matrix of as many of its columns as are independent for a value of the variable in general position, the first ones or the
-    /// last ones: what makes the rank less makes all its minors vanish.
+    /// Returns the matrix of a maximal set of columns that are independent for a generic value of the variable, the first or
+    /// the last ones. If the rank is smaller than the number of columns, all minors vanish.
     pub fn independent(&self, is_last: bool) -> Option<Self> {
-        // Any number of the field serves that is unlikely to be special.
+        // Any element of the field that is unlikely to be special.
         let x = Mod::from_integer(7_654_321);
         let entry = |i: usize, j: usize| {
             self.powers.iter().rev().try_fold(Mod::zero(), |value, m| {
@@ -90,7 +90,7 @@ impl PolynomialMatrix {
     }
 }
 
-/// The Sylvester matrix of two polynomials in a variable, of polynomials in another one.
+/// Returns the Sylvester matrix of two polynomials in a variable, of polynomials in another one.
 pub(super) fn sylvester(
     f: &Polynomial<Rational>,
     g: &Polynomial<Rational>,

@@ -1,4 +1,4 @@
-//! One closure polynomial by several eliminations, each with equations and a matrix of its own: see docs/ways.md.
+//! One closure polynomial by several eliminations, each with its own equations and matrix: see docs/ways.md.
 
 mod dual;
 mod half_angle;
@@ -38,7 +38,7 @@ pub enum Way {
 }
 
 impl Way {
-    /// All of them by their names.
+    /// All ways with their names.
     pub const NAMED: [(&'static str, Self); 5] = [
         ("woernle-lee", Self::WoernleLee),
         ("half-angle", Self::HalfAngle),
@@ -47,7 +47,7 @@ impl Way {
         ("dual", Self::Dual),
     ];
 
-    /// The name on the command line.
+    /// Returns the name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         Self::NAMED.iter().find(|(_, way)| *way == self).map_or("", |(name, _)| name)
@@ -63,7 +63,7 @@ pub struct Matrix {
     pub columns: usize,
     /// The degree of its entries in the unknown that is kept.
     pub entries: usize,
-    /// What its rows and columns are.
+    /// The meaning of its rows and columns.
     pub meaning: String,
 }
 
@@ -76,22 +76,22 @@ pub struct ByWay {
     pub matrix: Matrix,
     /// The degree of the eliminant before false factors are divided out.
     pub before: usize,
-    /// What was divided out: roots that belong to no solution.
+    /// The factors divided out: roots that belong to no solution.
     pub divided: Vec<Removed>,
     /// The equations and steps of this way with the closure polynomial, which is that of `derive` over the rationals.
     pub derivation: Derivation,
 }
 
-/// What an elimination hands over.
+/// The result of an elimination.
 struct Found {
     equations: Vec<Equation>,
     steps: Vec<String>,
     matrix: Matrix,
-    /// Polynomials in the unknown that all have every solution for a root.
+    /// Polynomials in the unknown that all have every solution as a root.
     eliminants: Vec<Univariate<Rational>>,
 }
 
-/// Why a way does not apply.
+/// Returns the error for a way that does not apply.
 fn refusal(way: Way, why: &str) -> Error {
     Error::Unsupported(format!("--by {} does not apply: {why}", way.name()))
 }
@@ -99,7 +99,7 @@ fn refusal(way: Way, why: &str) -> Error {
 /// Derives the closure polynomial of an arm or a loop by one way, and compares it over the rationals with that of [`derive`].
 ///
 /// # Errors
-/// [`Error::Unsupported`] where the way does not apply to the mechanism, with the reason; [`Error::Invalid`] where both differ, which
+/// [`Error::Unsupported`] if the way does not apply to the mechanism, with the reason; [`Error::Invalid`] if both differ, which
 /// would be a fault of this program.
 pub fn derive_by(entry: &Entry, case: &Case, way: Way) -> Result<ByWay> {
     let (Design::Arm(chain) | Design::Loop(chain)) = &entry.design else {
@@ -114,7 +114,7 @@ pub fn derive_by(entry: &Entry, case: &Case, way: Way) -> Result<ByWay> {
     let unknown = known.ok_or_else(|| refusal(way, "the loop has no closure polynomial"))?;
     match found(&exact, unknown, way) {
         Err(Error::Unsupported(message)) => {
-            // Another unknown may serve, whose polynomial is derived then.
+            // Another unknown may be possible; its polynomial is then derived.
             let others = (0..6).filter(|other| *other != unknown);
             others
                 .into_iter()
@@ -129,7 +129,7 @@ pub fn derive_by(entry: &Entry, case: &Case, way: Way) -> Result<ByWay> {
     }
 }
 
-/// The derivation of another unknown.
+/// Derives another unknown.
 fn keeping(entry: &Entry, exact: &Exact, unknown: usize, own: &Derivation) -> Option<Derivation> {
     let eliminated = match general_degree(exact.closed.variables) {
         _ if exact.spherical.is_some() => None,
@@ -153,12 +153,12 @@ fn found(exact: &Exact, unknown: usize, way: Way) -> Result<Found> {
     }
 }
 
-/// The elimination of the solver.
+/// Applies the elimination of the solver.
 fn woernle_lee(exact: &Exact, unknown: usize) -> Result<Found> {
     let eliminated = chain::eliminate(exact)?;
     let none = || refusal(Way::WoernleLee, "every elimination vanishes identically");
     let (_, polynomial, _) = eliminated.polynomial.filter(|(own, _, _)| *own == unknown).ok_or_else(none)?;
-    // What is divided out there already belongs to the eliminant.
+    // The factors divided out there already belong to the eliminant.
     let whole = eliminated.removed.iter().fold(polynomial, |product, one| {
         let factor = one.factor.as_ref().and_then(|factor| factor.to_univariate(Symbols::variable(unknown)));
         factor.map_or(product.clone(), |factor| (0..one.multiplicity).fold(product, |p, _| {
@@ -176,7 +176,7 @@ fn woernle_lee(exact: &Exact, unknown: usize) -> Result<Found> {
     Ok(Found { equations: eliminated.equations, steps: eliminated.steps, matrix, eliminants: vec![whole] })
 }
 
-/// With the closure polynomial that is known: both must be equal once what is false is divided out.
+/// Compares with the known closure polynomial: both must be equal once false factors are divided out.
 fn compared(way: Way, unknown: usize, found: Found, own: Derivation) -> Result<ByWay> {
     let variable = Symbols::variable(unknown);
     let name = own.names.list()[variable].clone();

@@ -1,5 +1,5 @@
-//! Raghavan and Roth: of fourteen equations six are free of three unknowns; times 1 and a half-angle tangent they are twelve linear
-//! equations in the products of powers of two half-angle tangents. \[RaghavanRoth1993\]
+//! Raghavan and Roth: six of fourteen equations are free of three unknowns. Times 1 and a half-angle tangent they are twelve
+//! linear equations in the products of powers of two half-angle tangents. \[RaghavanRoth1993\]
 
 use super::matrix::PolynomialMatrix;
 use super::{Found, Matrix, Way, refusal};
@@ -18,7 +18,7 @@ use rug::Rational;
 /// Coefficients over (1, cos, sin) of unknowns 1, 2 and 3 of a cut, outermost first.
 type Trilinear = [[[Rational; 3]; 3]; 3];
 
-/// The matrix that keeps an unknown.
+/// Returns the matrix that keeps an unknown.
 pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     let none = |why: &str| refusal(Way::RaghavanRoth, why);
     if exact.spherical.is_some() {
@@ -68,7 +68,7 @@ pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     ];
     let meaning = format!("six equations times 1 and {0}, over the products of powers of {0} and {1}", name(0), name(1));
     let size = Matrix { rows: 12, columns: 12, entries: matrix.degree(), meaning };
-    // Of a loop that is read backwards the unknown counts the other way.
+    // In a loop that is read backwards the unknown has the opposite sign.
     let eliminant = if cut.reversed { mirrored(&determinant) } else { determinant };
     Ok(Found { equations: listed(exact, cut, &rows), steps, matrix: size, eliminants: vec![eliminant] })
 }
@@ -78,7 +78,7 @@ fn mirrored(p: &Univariate<Rational>) -> Univariate<Rational> {
     Univariate::new(p.coefficients().iter().enumerate().map(signed).collect())
 }
 
-/// The six equations free of unknowns 4 to 6 of a cut; `None` where it loses equations.
+/// Returns the six equations free of unknowns 4 to 6 of a cut; `None` if it loses equations.
 fn rows(exact: &Exact, cut: Cut) -> Option<[Trilinear; 6]> {
     let view = cut.of(&exact.closed);
     let form = half_angle_form(&view)?;
@@ -95,13 +95,13 @@ fn rows(exact: &Exact, cut: Cut) -> Option<[Trilinear; 6]> {
     }))
 }
 
-/// Coefficients over (1, cos, sin) as those over (1, t, t^2), times `1 + t^2`.
+/// Converts coefficients over (1, cos, sin) to those over (1, t, t^2), times `1 + t^2`.
 fn powers(row: &[Rational; 3]) -> [Rational; 3] {
     let [one, cos, sin] = row;
     [Rational::from(one + cos), Rational::from(sin * 2), Rational::from(one - cos)]
 }
 
-/// The twelve rows.
+/// Returns the twelve rows.
 fn matrix(rows: &[Trilinear; 6]) -> Vec<Vec<Univariate<Rational>>> {
     let mut matrix = Vec::new();
     for row in rows {

@@ -1,9 +1,9 @@
 //! Study's parameters: both sides of the loop as dual quaternions that are linear in tensor products of half-angle pairs.
 //!
-//! Three unknowns `c, d, e` of one side make eight products w, and their dual quaternion is `R w` with a constant matrix R of size 8. The
-//! other side, with the unknown x that is kept, is `L(x) v` with the four products v of `a, b`. So `w = R^-1 L(x) v`, and w is a tensor
-//! product exactly where the minors of its flattenings vanish: nine independent quadrics, one of which, Study's condition, holds on the
-//! other side as well. Eight equations of degree 2 in a, b and x are left.
+//! Three unknowns `c, d, e` of one side make eight products w, and their dual quaternion is `R w` with a constant matrix R of size 8.
+//! The other side, with the unknown x that is kept, is `L(x) v` with the four products v of `a, b`. So `w = R^-1 L(x) v`, and w is a
+//! tensor product if and only if the minors of its flattenings vanish. These are nine independent quadrics, one of which, Study's
+//! condition, also holds on the other side. Eight equations of degree 2 in a, b and x remain.
 
 use super::matrix::PolynomialMatrix;
 use super::{Found, Matrix, Way, refusal};
@@ -23,16 +23,16 @@ use rug::Rational;
 
 /// A quadric in `(1, a, b, a b)`: the coefficient of `a^i b^j` at `[i][j]`, by powers of x.
 type Quadric = [[Univariate<Rational>; 3]; 3];
-/// Mixtures of the equations: what both determinants have in common is the eliminant.
+/// Mixtures of the equations; the common factor of both determinants is the eliminant.
 const MIXTURES: [i32; 2] = [7919, 104_729];
 
-/// One way to put the unknowns on two sides: the first three in loop order, with the place of the one that is kept among them.
+/// A distribution of the unknowns over two sides: the first three in loop order, with the position of the kept one among them.
 struct Split {
     first: usize,
     hidden: usize,
 }
 
-/// The matrix that keeps an unknown.
+/// Returns the matrix that keeps an unknown.
 pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     let splits = (0..3).map(|hidden| Split { first: (unknown + 6 - hidden) % 6, hidden });
     let found = splits.into_iter().find_map(|split| {
@@ -95,19 +95,19 @@ pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     Ok(Found { equations: split.listed(exact, &quadrics), steps, matrix: size, eliminants: eliminants.to_vec() })
 }
 
-/// The polynomial of twice the number: a translation by d is 1 + (d/2) eps k.
+/// Returns `p(x/2)`: a translation by d is 1 + (d/2) eps k.
 fn halved(p: &Univariate<Rational>) -> Univariate<Rational> {
     let scaled = p.coefficients().iter().zip(0_u32..).map(|(c, k)| Rational::from(c >> k));
     Univariate::new(scaled.collect())
 }
 
 impl Split {
-    /// The places of the two unknowns of the first side that go.
+    /// Returns the positions of the two eliminated unknowns of the first side.
     fn others(&self) -> [usize; 2] {
         [[1, 2], [0, 2], [0, 1]][self.hidden]
     }
 
-    /// Eight independent quadrics; `None` where the products of the second side are dependent.
+    /// Returns eight independent quadrics; `None` if the products of the second side are dependent.
     fn quadrics(&self, exact: &Exact) -> Option<Vec<Quadric>> {
         let linkage = linkage(&exact.closed)?;
         let order: Vec<usize> = (0..6).map(|k| (self.first + k) % 6).collect();
@@ -169,13 +169,13 @@ impl Split {
     }
 }
 
-/// The loop as joint variables with a link behind each.
+/// Returns the loop as joint variables with a link behind each.
 fn linkage(closed: &ClosedLoop<Rational>) -> Option<Linkage<Rational>> {
     let motions = std::iter::once(Motion::identity()).chain(closed.constants.iter().cloned()).collect();
     Linkage::of_motions(closed.variables.to_vec(), motions)
 }
 
-/// The rows of the inverse of the matrix with these columns.
+/// Returns the rows of the inverse of the matrix with these columns.
 fn inverse(columns: &[[Rational; 8]]) -> Option<Vec<Vec<Rational>>> {
     let mut rows: Vec<Vec<Rational>> = (0..8)
         .map(|i| {
@@ -199,7 +199,7 @@ fn inverse(columns: &[[Rational; 8]]) -> Option<Vec<Vec<Rational>>> {
     Some(rows.into_iter().map(|row| row[8..].to_vec()).collect())
 }
 
-/// The 2 x 2 minors `w_i w_j - w_k w_l` of the flattenings of a tensor of size 2 x 2 x 2, indices read as three bits.
+/// Returns the 2 x 2 minors `w_i w_j - w_k w_l` of the flattenings of a 2 x 2 x 2 tensor, with indices read as three bits.
 fn minors() -> Vec<[usize; 4]> {
     let pairs: Vec<[usize; 2]> = (0..8).flat_map(|i| (i + 1..8).map(move |j| [i, j])).collect();
     let is_same = |p: &[usize; 2], q: &[usize; 2]| p[0] & p[1] == q[0] & q[1] && p[0] | p[1] == q[0] | q[1];
@@ -212,7 +212,7 @@ fn minors() -> Vec<[usize; 4]> {
     found
 }
 
-/// `p q - r s` of forms in `(1, a, b, a b)`.
+/// Returns `p q - r s` of forms in `(1, a, b, a b)`.
 fn quadric(one: [&[Univariate<Rational>; 4]; 2], other: [&[Univariate<Rational>; 4]; 2]) -> Quadric {
     let mut sum: Quadric = std::array::from_fn(|_| std::array::from_fn(|_| Univariate::zero()));
     for (pair, is_first) in [(one, true), (other, false)] {
@@ -229,7 +229,7 @@ fn quadric(one: [&[Univariate<Rational>; 4]; 2], other: [&[Univariate<Rational>;
 
 /// Returns the quadrics that are no combination of earlier ones, for a value of x.
 fn independent(all: Vec<Quadric>) -> Vec<Quadric> {
-    // Any number of the field serves that is unlikely to be special.
+    // Any element of the field that is unlikely to be special.
     let x = Mod::from_integer(1_234_567);
     let at = |quadric: &Quadric| -> Option<Vec<Mod>> {
         quadric.iter().flatten().map(|p| Some(p.map(Mod::from_rational)?.eval(&x))).collect()
@@ -248,7 +248,7 @@ fn independent(all: Vec<Quadric>) -> Vec<Quadric> {
     kept
 }
 
-/// The quadrics times 1 and a, over `a^i b^j` with i up to 3 and j up to 2.
+/// Returns the quadrics times 1 and a, over `a^i b^j` with i up to 3 and j up to 2.
 fn dialytic(quadrics: &[Quadric]) -> Vec<Vec<Univariate<Rational>>> {
     let row = |quadric: &Quadric, shift: usize| {
         let mut line = vec![Univariate::zero(); 12];
