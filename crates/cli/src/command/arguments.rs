@@ -77,7 +77,7 @@ pub struct NumberOptions {
 }
 
 impl NumberOptions {
-    /// As the reader wants them.
+    /// Returns the options of the reader.
     pub fn options(&self) -> Options {
         Options { digits: self.digits, ..Options::default() }
     }
@@ -106,7 +106,7 @@ pub struct ReadOptions {
 }
 
 impl ReadOptions {
-    /// As the reader wants them.
+    /// Returns the options of the reader.
     pub fn options(&self) -> Options {
         Options {
             digits: self.numbers.digits,
@@ -152,7 +152,7 @@ pub struct DemandOptions {
 }
 
 impl CaseOptions {
-    /// Which files are read: those without a case where the command line gives one.
+    /// Returns the chains that are accepted: those without a case if the command line gives one.
     pub fn chains(&self) -> Chains {
         let is_value = self.input.as_ref().is_some_and(|input| input.contains('='));
         let is_given = is_value || self.joints.is_some() || self.legs.is_some() || self.at.is_some();
@@ -257,7 +257,7 @@ pub struct SolveOptions {
     pub output: OutputOptions,
 }
 
-/// The languages of papers by their names.
+/// Returns the languages of papers by name.
 fn style() -> impl TypedValueParser<Value = Style> {
     PossibleValuesParser::new(Style::NAMED.map(|(name, _)| name)).map(|name| {
         let found = Style::NAMED.iter().find(|(known, _)| *known == name);
@@ -582,7 +582,7 @@ pub struct FactorOptions {
     pub output: OutputOptions,
 }
 
-/// Two numbers counted from 1, as counted from 0.
+/// Converts two numbers counted from 1 to numbers counted from 0.
 fn pair(text: &str) -> Result<(usize, usize), String> {
     let number = |text: &str| text.trim().parse::<usize>().ok()?.checked_sub(1);
     let numbers = text.split_once(',').and_then(|(i, j)| Some((number(i)?, number(j)?)));
@@ -719,7 +719,7 @@ pub struct ShowOptions {
     pub read: ReadOptions,
 }
 
-/// The formats that are written, by their names.
+/// Returns the formats that can be written, by name.
 fn target() -> impl TypedValueParser<Value = Target> {
     PossibleValuesParser::new(Target::NAMED.map(|(name, _)| name)).map(|name| {
         let found = Target::NAMED.iter().find(|(known, _)| *known == name);

@@ -37,14 +37,14 @@ pub fn run(options: &BenchOptions) -> Result<Exit, Fault> {
     }
 }
 
-/// A set by its name.
+/// A set of samples.
 #[derive(Clone, Copy)]
 pub(super) enum Family {
     Arms(Set),
     Platforms(PlatformSet),
 }
 
-/// The sets that a name stands for: one, or one for each residual chain.
+/// Returns the sets with this name: one, or one for each residual chain.
 pub(super) fn families(name: &str) -> Result<Vec<(&'static str, Family)>, Error> {
     let chains = |set: fn(usize) -> Set| (0..CHAINS.len()).map(|k| (CHAINS[k].0, Family::Arms(set(k)))).collect();
     match name {
@@ -111,7 +111,7 @@ fn measure_accuracy(options: &AccuracyOptions) -> Result<Exit, Fault> {
     Ok(if running() { exit } else { Exit::Interrupted })
 }
 
-/// Closure polynomials beside solutions: one line per family, then what differs.
+/// Compares closure polynomials with solutions: one line per family, then the differences.
 fn exact_table(rows: &[(&str, Counts)]) -> String {
     let header = ["chain", "polynomials", "solutions", "values", "differ", "neither", "mod p", "mean ms", "longest ms"];
     let mut table = Columns::new(&header, &["chain"]);
@@ -170,7 +170,7 @@ enum Mobile {
     Framework(Box<FrameworkFile>),
 }
 
-/// The mobile loops of up to six variables and the mobile frameworks that are asked for.
+/// Returns the requested mobile loops of up to six variables and mobile frameworks.
 fn mobile(options: &DisturbOptions) -> Result<Vec<(String, Mobile)>, Error> {
     let names = options.entry.as_ref().map_or_else(
         || {
@@ -298,7 +298,7 @@ fn stages_document(timings: &Timings) -> serde_json::Value {
     json!({ "stages": timings.rows.iter().map(row).collect::<Vec<_>>() })
 }
 
-/// Three numbers of a spread: median, what 99 % stay below, slowest.
+/// Returns three numbers of a spread: median, 99 % quantile, slowest.
 fn cells(spread: Option<&Spread>) -> [String; 3] {
     spread.map_or_else(Default::default, |s| [s.median, s.nearly_all, s.slowest].map(|time| format!("{time:.1}")))
 }

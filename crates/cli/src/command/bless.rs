@@ -25,7 +25,7 @@ pub fn run(paths: &[String], quiet: bool) -> std::result::Result<Exit, Fault> {
     Ok(exit)
 }
 
-/// Prints a table of what is derived from all files under these paths, in Markdown: names are relative to the first path.
+/// Prints a Markdown table of the derivations of all files under these paths, with names relative to the first path.
 pub fn table(paths: &[String]) -> std::result::Result<Exit, Fault> {
     print(HEAD)?;
     let root = paths.first().map_or_else(PathBuf::new, PathBuf::from);
@@ -39,7 +39,7 @@ pub fn table(paths: &[String]) -> std::result::Result<Exit, Fault> {
     Ok(Exit::Complete)
 }
 
-/// Writes the equations of one file, and says what was done.
+/// Writes the equations of one file, and returns a report.
 fn blessed(path: &Path) -> Result<String> {
     let fault = |path: &Path, message: String| Error::Io { path: path.display().to_string(), message };
     if path.extension().is_none_or(|extension| extension != "toml") {
@@ -71,7 +71,7 @@ fn write(target: &Path, text: &str) -> std::io::Result<()> {
     let beside: PathBuf = target.with_extension(format!("eqs.{}", std::process::id()));
     fs::write(&beside, text)?;
     fs::rename(&beside, target).inspect_err(|_| {
-        // The complaint about the renaming matters more than what is left behind.
+        // The error of the renaming matters more than a leftover file.
         let _ = fs::remove_file(&beside);
     })
 }

@@ -10,7 +10,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Certificates, written one a line as they come. The file is made with the first one.
+/// Writer of certificates, one per line as they are found. The file is created with the first one.
 pub struct Certificates {
     path: PathBuf,
     file: Option<BufWriter<File>>,
@@ -21,7 +21,7 @@ impl Certificates {
         Self { path: path.to_owned(), file: None }
     }
 
-    /// Writes the certificate of an answer, or says on stderr why there is none.
+    /// Writes the certificate of an answer, or reports on stderr why there is none.
     pub fn add(&mut self, entry: &Entry, number: usize, case: &Case, solution: &Solution) -> Result<(), Error> {
         match certificate(entry, number, case, solution) {
             Ok(value) => self.write(&format!("{value}\n")),
@@ -33,7 +33,7 @@ impl Certificates {
         }
     }
 
-    /// Writes the certificate of whether a loop moves, or says on stderr why there is none.
+    /// Writes the certificate of the mobility of a loop, or reports on stderr why there is none.
     pub fn add_motion(&mut self, entry: &Entry, answer: &Mobility) -> Result<(), Error> {
         match certificate_of_motion(entry, answer) {
             Ok(value) => self.write(&format!("{value}\n")),
@@ -53,7 +53,7 @@ impl Certificates {
         file.map_or(Ok(()), |file| file.write_all(line.as_bytes())).map_err(|error| failed(&self.path, &error))
     }
 
-    /// Writes what is left.
+    /// Flushes the file.
     pub fn close(&mut self) -> Result<(), Error> {
         let file = self.file.as_mut();
         file.map_or(Ok(()), Write::flush).map_err(|error| failed(&self.path, &error))

@@ -17,14 +17,14 @@ use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
 
-/// A file or built-in entry, and what became of its claims.
+/// A file or built-in entry, and the result for its claims.
 struct Checked {
     name: String,
     outcome: Result<Judgement, Error>,
     microseconds: f64,
 }
 
-/// Solves everything named and compares it with its claims.
+/// Solves every named mechanism and compares the results with its claims.
 pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
     let is_library = options.paths.is_empty();
     let names =
@@ -59,14 +59,14 @@ pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
     Ok(exit)
 }
 
-/// Whether the equations beside a file are those derived from it, if there are any.
+/// Checks whether the equations beside a file, if there are any, are those derived from it.
 fn page(name: &str, is_library: bool, any: &Any) -> Result<Option<Finding>, Error> {
     let Any::Entry(entry) = any else { return Ok(None) };
     let path = Path::new(name).with_extension("eqs");
     if is_library || !Path::new(name).is_file() {
         return Ok(builtin_page(name).map(|(file, text)| judged(entry, &file, text)));
     }
-    // A name without extension is no file with equations beside it, but itself.
+    // A name without extension would be its own equations file.
     if !path.is_file() || path == Path::new(name) {
         return Ok(None);
     }
@@ -76,7 +76,7 @@ fn page(name: &str, is_library: bool, any: &Any) -> Result<Option<Finding>, Erro
     Ok(Some(judged(entry, &file, &text)))
 }
 
-/// The mechanism files under these paths, in order; names of built-in entries pass as they are.
+/// Returns the mechanism files under these paths, in order; names of built-in entries are kept as they are.
 pub fn files(paths: &[String]) -> Result<Vec<String>, Error> {
     let mut files = Vec::new();
     for path in paths {
@@ -102,11 +102,11 @@ fn collect(folder: &Path, files: &mut Vec<String>) -> Result<(), Error> {
     }
     inside.sort();
     for path in inside {
-        // Links to folders may lead in circles.
+        // Links to folders may form cycles.
         if path.is_dir() && !path.is_symlink() {
             collect(&path, files)?;
         } else if path.is_file() && path.extension().is_some_and(|extension| extension == "toml") {
-            // Loops with symbols make no claims: they are questions. What cannot be read is told like any other file.
+            // Loops with symbols make no claims: they are questions. A file that cannot be read is reported like any other.
             let asks = std::fs::read_to_string(&path).is_ok_and(|text| is_ansatz(&text));
             if !asks {
                 files.push(path.display().to_string());

@@ -18,7 +18,7 @@ use looproot_algebra::drawn::seed_used;
 use std::io::Write;
 use std::time::Instant;
 
-/// Derives for which parameters a loop moves.
+/// Derives the conditions on the parameters for a loop to move.
 pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
     plant(options.seed);
     let ansatz = read(options)?;
@@ -32,7 +32,7 @@ pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
     let start = Instant::now();
     let theorem = derive();
     let derived = start.elapsed().as_secs_f64() * 1e6;
-    // Irrational numbers are taken as they are, where one field holds them all.
+    // Irrational numbers are kept exactly if one field holds them all.
     let chain = ansatz.chain.as_ref().filter(|_| ansatz.rounded);
     let decision = match chain.and_then(|chain| decide_over_field(&theorem, chain)) {
         Some(decision) => decision,
@@ -60,7 +60,7 @@ pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
     Ok(exit(&theorem, &ansatz, &decision))
 }
 
-/// `4R`, `5R`, `6R`, or what the file says.
+/// Reads `4R`, `5R`, `6R`, or a file.
 fn read(options: &ConditionsOptions) -> Result<Ansatz> {
     match options.mechanism.to_ascii_uppercase().as_str() {
         "4R" => Ok(Ansatz::general(4)),
@@ -70,7 +70,7 @@ fn read(options: &ConditionsOptions) -> Result<Ansatz> {
     }
 }
 
-/// Nothing that moves is an answer like no real solution.
+/// Returns the exit code; a proof that nothing moves counts like one that there is no real solution.
 fn exit(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Exit {
     if !proof(theorem, ansatz, decision).is_proved() {
         return Exit::NotProved;

@@ -11,12 +11,12 @@ use looproot::internal::report::document::complete_ansatz;
 use std::io::Write;
 use std::time::Duration;
 
-/// The seed of all random choices where none is given: the same question has the same answer.
+/// The default seed of all random choices, so that the same question has the same answer.
 const SEED: u64 = 1;
 
 /// Searches for conditions under which a loop moves.
 pub fn run(options: &ConditionsOptions, ansatz: &Ansatz) -> Result<Exit, Fault> {
-    // Seen on a terminal only.
+    // Visible on a terminal only.
     let progress = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
     progress.set_message("searching");
     progress.enable_steady_tick(Duration::from_millis(200));

@@ -1,4 +1,4 @@
-//! What the options of the command line ask of an arm beside its pose.
+//! The demands of the command line on an arm besides its pose.
 
 use super::arguments::DemandOptions;
 use looproot::internal::catalogue::entry::{Entry, Kind};
@@ -10,7 +10,7 @@ use looproot::internal::kinematics::task::{Demand, TASKS, Task};
 use looproot::internal::report::document;
 use looproot_algebra::number::{Angle, Number, Quantity};
 
-/// The task and the joints that are held.
+/// Returns the task and the locked joints.
 pub fn demand(options: &DemandOptions, entry: &Entry) -> Result<Demand, Error> {
     let given = [("--lock", !options.lock.is_empty()), ("--task", options.task.is_some())];
     if let (Some((name, _)), true) = (given.iter().find(|(_, is_given)| *is_given), entry.kind() != Kind::Arm) {
@@ -35,7 +35,7 @@ pub fn demand(options: &DemandOptions, entry: &Entry) -> Result<Demand, Error> {
     Ok(Demand { task, held })
 }
 
-/// A joint variable and the value at which it is held.
+/// Reads a joint variable and the value at which it is locked.
 fn locked(text: &str, entry: &Entry) -> Result<(usize, Held), Error> {
     let labels = document::labels(entry);
     let variables = entry.chain().map(Chain::variables).unwrap_or_default();

@@ -19,7 +19,7 @@ use rug::Rational;
 use serde_json::Value;
 use std::io::Write;
 
-/// Derives closure equations and closure polynomial of the case asked for, else of the first one.
+/// Derives closure equations and closure polynomial of the requested case, else of the first one.
 pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     if options.bless {
         return bless::run(&options.mechanisms, options.quiet);
@@ -35,7 +35,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         return super::transference::run(options, mechanism);
     }
     plant(options.seed);
-    // The points of an arm move without a pose.
+    // Points of an arm move without a pose.
     let chains = if options.trace.is_some() { Chains::Swept } else { options.asked.chains() };
     let read = Options { chains, ..options.read.options() };
     let mut entry = match load_solvable(mechanism, &read)? {
@@ -99,7 +99,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     Ok(exit)
 }
 
-/// The closure polynomial by one elimination.
+/// Derives the closure polynomial by one elimination.
 fn by(
     options: &DeriveOptions,
     mechanism: &str,
@@ -159,13 +159,13 @@ fn traced(options: &DeriveOptions, mechanism: &str, entry: &Entry, asked: &str) 
     Ok(if entry.rounded { Exit::NotProved } else { Exit::Complete })
 }
 
-/// A document with the keys of every document.
+/// Returns a document with the keys common to all documents.
 pub fn document(mut value: Value, entry: &Entry) -> String {
     complete(&mut value, entry);
     format!("{value}\n")
 }
 
-/// Without a polynomial nothing is proved; without a real root nothing is reached.
+/// Returns the exit code: without a polynomial nothing is proved; without a real root nothing is reached.
 fn exit(derivation: &Derivation) -> Exit {
     match &derivation.polynomial {
         None => Exit::NotProved,

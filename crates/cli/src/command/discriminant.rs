@@ -16,7 +16,7 @@ use looproot_algebra::number::{Angle, Number, Quantity};
 use std::io::Write;
 use std::sync::atomic::Ordering;
 
-/// The cells of one parameter, or of two.
+/// Prints the cells of one parameter, or of two.
 pub fn run(
     options: &DeriveOptions,
     mechanism: &str,
@@ -83,7 +83,7 @@ pub fn run(
     Ok(exit)
 }
 
-/// The range of the first parameter, radians or metres.
+/// Returns the range of the first parameter, radians or metres.
 fn range(options: &DeriveOptions, entry: &Entry, is_angle: bool) -> Result<Option<[f64; 2]>, Error> {
     let (Some(from), Some(to)) = (&options.from, &options.to) else { return Ok(None) };
     let end = |name: &str, text: &str| {
@@ -100,7 +100,7 @@ fn range(options: &DeriveOptions, entry: &Entry, is_angle: bool) -> Result<Optio
     Ok(Some([end("--from", from)?, end("--to", to)?]))
 }
 
-/// A bar on the terminal, hidden by itself where stderr is none.
+/// Returns a progress bar, which hides itself if stderr is no terminal.
 fn progress(options: &DeriveOptions) -> ProgressBar {
     let target = if options.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let progress = ProgressBar::with_draw_target(Some(options.columns as u64), target);

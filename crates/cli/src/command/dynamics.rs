@@ -11,10 +11,10 @@ use looproot::internal::report::dynamics::{Asked, result, text};
 use looproot::internal::report::linkage as report;
 use std::io::Write;
 
-/// Most rows of a motion.
+/// Maximum number of rows of a motion.
 const MOST_STEPS: usize = 100_000;
 
-/// Finds every assembly of the cases asked for, its equation of motion, and a motion from one of them.
+/// Finds every assembly of the requested cases, its equation of motion, and a motion from one of them.
 pub fn run(options: &DynamicsOptions) -> Result<Exit, Fault> {
     let file = match load_any(&options.mechanism, &options.read.options())? {
         Any::Linkage(file) => file,
@@ -56,7 +56,7 @@ pub fn run(options: &DynamicsOptions) -> Result<Exit, Fault> {
     Ok(exit)
 }
 
-/// The rates of the inputs, with commas between.
+/// Reads the rates of the inputs, separated by commas.
 fn rates(text: &str) -> Result<Vec<f64>, Error> {
     let one = |part: &str| {
         let found = part.trim().parse::<f64>().ok().filter(|x| x.is_finite());
@@ -68,7 +68,7 @@ fn rates(text: &str) -> Result<Vec<f64>, Error> {
     text.split(',').map(one).collect()
 }
 
-/// Mode, time and rows of the motion that is asked for.
+/// Returns mode, time and rows of the requested motion.
 fn motion(options: &DynamicsOptions) -> Result<Option<(usize, f64, usize)>, Error> {
     let Some(time) = options.time else { return Ok(None) };
     if !(time.is_finite() && time > 0.0) {

@@ -1,4 +1,4 @@
-//! What the program tells the shell.
+//! The exit codes and the reports on stderr.
 
 use looproot::internal::catalogue::FileKind;
 use looproot::internal::error::Error;
@@ -7,7 +7,7 @@ use looproot::internal::verdict::{Status, Verdict};
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
-/// The exit codes, from harmless to grave: of several answers the gravest counts.
+/// The exit codes, in order of gravity: of several answers the gravest counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Exit {
     /// Answered and proved.
@@ -16,15 +16,15 @@ pub enum Exit {
     Unreachable,
     /// Any other answer: incomplete, probable, of rounded data, or a self-motion.
     NotProved,
-    /// Beyond what is implemented.
+    /// A mechanism beyond what is implemented.
     Unsupported,
-    /// Usage or input.
+    /// An error of usage or input.
     Misuse,
     /// Ctrl-C.
     Interrupted,
 }
 
-/// What stopped a verb.
+/// The reason why a verb stopped.
 pub enum Fault {
     /// A fault of the input or the mechanism.
     Error(Error),
@@ -51,7 +51,7 @@ impl From<std::io::Error> for Fault {
 }
 
 impl Exit {
-    /// The code of an answer: what is not proved is never told as an answer without doubt.
+    /// Returns the code of an answer; an answer that is not proved never counts as certain.
     pub fn of(solution: &Solution) -> Self {
         Self::of_verdict(&solution.verdict)
     }
@@ -72,7 +72,7 @@ impl Exit {
         if error.exit_code() == 4 { Self::Unsupported } else { Self::Misuse }
     }
 
-    /// Reports what stopped a verb on stderr. A reader that went away (`looproot list | head`) is no fault.
+    /// Reports the fault of a verb on stderr. An output that was closed (`looproot list | head`) is no fault.
     pub fn from_fault(fault: &Fault) -> Self {
         match fault {
             Fault::Error(error) => {
@@ -101,19 +101,19 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Prints help, version or a complaint of the argument parser, whose own exit code for misuse means something else here.
+/// Prints help, version or an error of the argument parser, whose own exit code for misuse has another meaning here.
 pub fn misuse(message: &clap::Error) -> Exit {
-    // Nothing is left to do when not even this can be printed.
+    // If even this cannot be printed, nothing is left to do.
     let _ = message.print();
     if message.use_stderr() { Exit::Misuse } else { Exit::Complete }
 }
 
-/// What stops a verb at a file of a kind that it is not for.
+/// Returns the fault of a verb that does not accept files of this kind.
 pub fn unexpected(name: &str, kind: FileKind, expected: &str) -> Fault {
     Error::Invalid(format!("{name}: {}", kind.unexpected(expected))).into()
 }
 
-/// One line on stderr, which may be closed.
+/// Writes one line to stderr, which may be closed.
 pub fn complain(message: &str) {
     let _ = writeln!(std::io::stderr(), "error: {message}");
 }

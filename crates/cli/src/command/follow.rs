@@ -1,4 +1,4 @@
-//! Poses as a path: which solution of a row continues which one of the row before.
+//! Poses as a path: matches the solutions of each row with those of the row before.
 
 use looproot::internal::catalogue::entry::Entry;
 use looproot::internal::kinematics::chain::Chain;
@@ -11,9 +11,9 @@ use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// A joint that moves by more from a row to the next one jumps: half a radian is no step of a path.
+/// A joint that moves by more than this between successive rows jumps; half a radian is no step of a path.
 const JUMP: f64 = 0.5;
-/// Condition numbers beyond this are those of a singular configuration, as far as a controller is concerned.
+/// Condition numbers above this count as singular for a controller.
 const SINGULAR: f64 = 1e4;
 
 /// A solution that was followed from row to row.
@@ -21,7 +21,7 @@ struct Branch {
     /// The rows at which it begins and ends so far.
     rows: [usize; 2],
     q: Vec<f64>,
-    /// The largest move of a joint from a row to the next one: how far, which joint, and to which row.
+    /// The largest move of a joint between successive rows: its size, the joint, and the second row.
     largest: (f64, usize, usize),
 }
 
@@ -34,16 +34,16 @@ pub struct Follow {
     open: Vec<usize>,
 }
 
-/// What a row says of the path.
+/// The results of a row for the path.
 pub struct Row {
-    /// The branch of every mode, counted from 1; none of complex modes.
+    /// The branch of every mode, counted from 1; `None` for complex modes.
     pub branches: Vec<Option<usize>>,
-    /// What happens there.
+    /// The events at this row.
     pub events: Vec<Value>,
 }
 
 impl Row {
-    /// Adds the branches and what happens to a result.
+    /// Adds branches and events to a result.
     pub fn insert(&self, result: &mut Value, solution: &Solution, view: &View) {
         let shown = solution.modes.iter().zip(&self.branches).filter(|(mode, _)| view.shows(mode));
         for (index, (_, branch)) in shown.enumerate() {
@@ -114,7 +114,7 @@ impl Follow {
         row
     }
 
-    /// The largest move of a joint between two configurations, and which joint that is.
+    /// Returns the largest move of a joint between two configurations, and that joint.
     fn largest_move(&self, one: &[f64], other: &[f64]) -> (f64, usize) {
         let off = |(k, (a, b)): (usize, (&f64, &f64))| {
             let off = a - b;
@@ -125,7 +125,7 @@ impl Follow {
         moves.fold((0.0, 0), |best, own| if own.0 > best.0 { own } else { best })
     }
 
-    /// The branches at the end of the path.
+    /// Returns the branches at the end of the path as JSON.
     pub fn json(&self) -> Value {
         let branch = |(number, own): (usize, &Branch)| {
             let (move_by, joint, row) = own.largest;
@@ -139,7 +139,7 @@ impl Follow {
         (1..).zip(&self.branches).map(branch).collect()
     }
 
-    /// The same for a reader.
+    /// Returns the branches at the end of the path as text.
     pub fn text(&self) -> String {
         let mut text = String::new();
         for (number, own) in (1..).zip(&self.branches) {

@@ -1,13 +1,13 @@
 //! Examples at the end of the help of every verb.
 
-/// Of `solve`.
+/// Examples of `solve`.
 pub const SOLVE: &str = "\
 Examples:
   looproot solve robot.urdf --at \"0.3, 0.1, 0.4; 1, 0, 0, 0\"     every way to reach a pose
   looproot solve robot.urdf --poses poses.csv --jsonl             one answer a line, for as many poses as there are
   looproot solve iiwa.urdf --at \"...\" --lock joint_a3=\"10 deg\"   seven joints, one held";
 
-/// Of `derive`.
+/// Examples of `derive`.
 pub const DERIVE: &str = "\
 Examples:
   looproot derive puma560 --pose 1              the closure polynomial of a pose and its real roots
@@ -15,28 +15,28 @@ Examples:
   looproot derive general_7r --symbolic=a1      with one symbol, by interpolation
   looproot derive loop.toml --explain=latex     the derivation as a paper";
 
-/// Of `sweep`.
+/// Examples of `sweep`.
 pub const SWEEP: &str = "\
 Examples:
   looproot sweep loop.toml --from 0 --to \"360 deg\"             branches and limit positions
   looproot sweep bennett_a --from 0 --to \"360 deg\" --svg -o bennett.svg
   looproot sweep loop.toml --joint 2 --from 0 --to 1 --csv      one row for every branch and step";
 
-/// Of `mobility`.
+/// Examples of `mobility`.
 pub const MOBILITY: &str = "\
 Examples:
   looproot mobility bennett_a          does it move, and why
   looproot mobility loop.toml -q       the verdict only
   looproot mobility steffen --json     a framework, as a document";
 
-/// Of `factor`.
+/// Examples of `factor`.
 pub const FACTOR: &str = "\
 Examples:
   looproot factor motion/bennett               the factors and the loop they close
   looproot factor motion.toml --pair 1,6       the loop of these two factorisations
   looproot factor motion.toml --toml -o loop.toml";
 
-/// Of `synthesize`.
+/// Examples of `synthesize`.
 pub const SYNTHESIZE: &str = "\
 Examples:
   looproot synthesize burmester5_4real_a                        all dyads through five positions
@@ -44,40 +44,40 @@ Examples:
   looproot synthesize burmester4_a --svg -o curves.svg          circle points and centre points
   looproot synthesize seven_positions --near \"0, 3, 1\" --json  the nearest fixed point first, as a document";
 
-/// Of `conditions`.
+/// Examples of `conditions`.
 pub const CONDITIONS: &str = "\
 Examples:
   looproot conditions 4R                              all loops of four revolutes that move
   looproot conditions loop.toml --explain             with the derivation
   looproot conditions 4R --format sympy --family spherical";
 
-/// Of `motion`.
+/// Examples of `motion`.
 pub const MOTION: &str = "\
 Examples:
   looproot motion --from quaternion \"1, 2, 2, 4\" --json          every parametrisation, every branch
   looproot motion --from euler \"10 deg, 20 deg, 30 deg\" --axes zyz
   looproot motion --from motion \"1, 2, 3; 1, 0, 0, 1\" --dual    the screw, and dual angles";
 
-/// Of `instant`.
+/// Examples of `instant`.
 pub const INSTANT: &str = "\
 Examples:
   looproot instant linkage/coupler_instant --body coupler
   looproot instant linkage/coupler_instant --body rocker --against crank --json";
 
-/// Of `dynamics`.
+/// Examples of `dynamics`.
 pub const DYNAMICS: &str = "\
 Examples:
   looproot dynamics linkage/weighted_four_bar --rate 2 --forces
   looproot dynamics linkage/weighted_four_bar --time 3 --steps 30 --json";
 
-/// Of `list`.
+/// Examples of `list`.
 pub const LIST: &str = "\
 Examples:
   looproot list                  everything that is built in
   looproot list robots           the arms of makers by name
   looproot list --json";
 
-/// Of `verify`.
+/// Examples of `verify`.
 pub const VERIFY: &str = "\
 Exit codes: 0 every item holds, 2 one does not, 1 a certificate cannot be read.
 
@@ -86,28 +86,28 @@ Examples:
   looproot verify puma560.cert --file puma560       the certificate, and that it is about this file
   python3 verify/verify.py puma560.cert             the same by a checker that shares no code with this program";
 
-/// Of `show`.
+/// Examples of `show`.
 pub const SHOW: &str = "\
 Examples:
   looproot show robot.urdf            the axes as they were understood
   looproot show puma560 --source      the text of a built-in entry
   looproot show arm.toml --json";
 
-/// Of `convert`.
+/// Examples of `convert`.
 pub const CONVERT: &str = "\
 Examples:
   looproot convert robot.urdf --to toml -o robot.toml     screw axes in the home position
   looproot convert puma560 --to urdf -o puma.urdf         a robot description
   looproot convert kr6_r900 --to opw                      seven lengths as YAML";
 
-/// Of `check`.
+/// Examples of `check`.
 pub const CHECK: &str = "\
 Examples:
   looproot check                       the whole built-in library
   looproot check my/arms/              every file of a folder
   looproot check arm.toml --quiet      failures only";
 
-/// Of `completions`.
+/// Examples of `completions`.
 pub const COMPLETIONS: &str = "\
 Examples:
   looproot completions bash > /etc/bash_completion.d/looproot

@@ -11,7 +11,7 @@ use looproot::internal::report::instant::{Asked, result, text};
 use looproot::internal::report::linkage as report;
 use std::io::Write;
 
-/// Finds every assembly of the cases asked for, and how a body moves there.
+/// Finds every assembly of the requested cases, and the instantaneous motion of a body there.
 pub fn run(options: &InstantOptions) -> Result<Exit, Fault> {
     let file = match load_any(&options.mechanism, &options.read.options())? {
         Any::Linkage(file) => file,
@@ -52,7 +52,7 @@ pub fn run(options: &InstantOptions) -> Result<Exit, Fault> {
     Ok(exit)
 }
 
-/// A body by its name.
+/// Returns the index of a body by its name.
 fn named(file: &LinkageFile, name: &str) -> Result<usize, Error> {
     let found = file.linkage.bodies.iter().position(|body| body.name == name);
     found.ok_or_else(|| {
@@ -62,7 +62,7 @@ fn named(file: &LinkageFile, name: &str) -> Result<usize, Error> {
     })
 }
 
-/// The point of `BODY.P`, which must be one of the body asked for.
+/// Returns the point of `BODY.P`, which must belong to the requested body.
 fn point_of<'a>(file: &LinkageFile, body: usize, asked: &'a str) -> Result<&'a str, Error> {
     let own = &file.linkage.bodies[body];
     let found = asked.strip_prefix(own.name.as_str()).and_then(|rest| rest.strip_prefix('.'));

@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use std::io::Write;
 use std::sync::atomic::Ordering;
 
-/// Finds every assembly of every case, or of the one asked for.
+/// Finds every assembly of every case, or of the requested one.
 pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result<Exit, Fault> {
     refuse(options)?;
     let stop = stop_on_interrupt();
@@ -64,7 +64,7 @@ pub fn code(verdict: &Verdict) -> Exit {
     }
 }
 
-/// The options that linkages do not have.
+/// Refuses the options that linkages do not have.
 pub fn refuse(options: &SolveOptions) -> Result<(), Error> {
     let found = [
         (options.poses.is_some(), "--poses"),
@@ -80,7 +80,7 @@ pub fn refuse(options: &SolveOptions) -> Result<(), Error> {
     }
 }
 
-/// The file, with the one case of `--input JOINT=VALUE` where that is asked for.
+/// Returns the file, with the case of `--input JOINT=VALUE` instead of its own if that is given.
 pub fn posed<'f>(input: Option<&str>, file: &'f LinkageFile) -> Result<Cow<'f, LinkageFile>, Error> {
     match input {
         Some(text) if text.contains('=') => {
@@ -90,7 +90,7 @@ pub fn posed<'f>(input: Option<&str>, file: &'f LinkageFile) -> Result<Cow<'f, L
     }
 }
 
-/// The cases asked for: all, or the one of `--input`.
+/// Returns the requested cases: all, or the one of `--input`.
 pub fn wanted(input: Option<&str>, file: &LinkageFile) -> Result<std::ops::Range<usize>, Error> {
     let Some(asked) = input else { return Ok(0..file.cases.len()) };
     if asked.contains('=') {

@@ -12,7 +12,7 @@ use looproot::internal::report::linkage_derivation as report;
 use rug::Rational;
 use std::io::Write;
 
-/// Derives the closure polynomials of the case asked for, else of the first one, or the curve of a point.
+/// Derives the closure polynomials of the requested case, else of the first one, or the curve of a point.
 pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Result<Exit, Fault> {
     refuse(options)?;
     let file = &*posed(options.asked.input.as_deref(), file)?;
@@ -62,7 +62,7 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
     Ok(exit)
 }
 
-/// The bodies with a mass, their centres and masses.
+/// Returns the bodies with a mass, their centres and masses.
 fn masses(file: &LinkageFile) -> Result<Vec<(usize, Gaussian, Rational)>, Error> {
     let mut list = Vec::new();
     for (body, mass) in file.masses.bodies.iter().enumerate() {
@@ -76,7 +76,7 @@ fn masses(file: &LinkageFile) -> Result<Vec<(usize, Gaussian, Rational)>, Error>
     Ok(list)
 }
 
-/// A point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and where it is.
+/// Returns a point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and its position.
 pub fn point_of<'a>(file: &LinkageFile, asked: &'a str) -> Result<(usize, &'a str, Gaussian), Error> {
     let found = |what: String| Error::Invalid(format!("found --trace {asked}, {what}"));
     let bodies = &file.linkage.bodies;
@@ -93,7 +93,7 @@ pub fn point_of<'a>(file: &LinkageFile, asked: &'a str) -> Result<(usize, &'a st
     Ok((number, point, place))
 }
 
-/// The options that linkages do not have.
+/// Refuses the options that linkages do not have.
 pub fn refuse(options: &DeriveOptions) -> Result<(), Error> {
     let found = [
         (options.format.is_some(), "--format"),

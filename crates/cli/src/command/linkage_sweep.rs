@@ -55,7 +55,7 @@ pub fn run(
     Ok(Exit::NotProved)
 }
 
-/// The joint asked for, by name, or the first one that the file gives.
+/// Returns the requested joint, by name, or the first given one of the file.
 fn joint_of(options: &SweepOptions, file: &LinkageFile, given: &[Given]) -> Result<usize, Error> {
     let joints = &file.linkage.joints;
     let Some(name) = &options.joint else {
@@ -73,7 +73,7 @@ fn joint_of(options: &SweepOptions, file: &LinkageFile, given: &[Given]) -> Resu
     })
 }
 
-/// An end of the range; a number without a unit has that of the file.
+/// Reads an end of the range; a number without a unit has that of the file.
 fn end(name: &str, text: &str, file: &LinkageFile, joint: usize) -> Result<f64, Error> {
     let value = if file.linkage.joints[joint].is_prismatic() {
         Number::parse(text, Quantity::Length, &file.reading).map(|length| length.to_f64())

@@ -65,7 +65,7 @@ fn document(entries: &[(String, Any)]) -> String {
     format!("[\n{}\n]\n", lines.collect::<Vec<_>>().join(",\n"))
 }
 
-/// How many cases an entry has and what it claims of them.
+/// Adds the number of cases of an entry and its claims about them.
 fn count(line: &mut Value, entry: &Entry) {
     let cases = match entry.kind() {
         Kind::Arm => "poses",

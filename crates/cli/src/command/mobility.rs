@@ -66,7 +66,7 @@ fn of_framework(options: &MobilityOptions, file: &FrameworkFile) -> Result<Exit,
     })
 }
 
-/// Without a proof nothing is decided; that nothing moves is an answer like no real solution.
+/// Returns the exit code: without a proof nothing is decided; a proof of rigidity counts like one of no real solution.
 fn exit(answer: &Mobility) -> Exit {
     if !answer.proof.is_proved() {
         Exit::NotProved

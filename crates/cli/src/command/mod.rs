@@ -1,4 +1,4 @@
-//! One file per verb, and what they share.
+//! One file per verb, and their common parts.
 
 pub mod arguments;
 pub mod bench;

@@ -18,10 +18,10 @@ use std::io::Write;
 
 /// A matrix farther from a rotation than this is refused.
 const REFUSED: f64 = 1e-4;
-/// A matrix farther from a rotation than this is warned about: beyond rounding.
+/// A matrix farther from a rotation than this, beyond rounding, causes a warning.
 const NOTED: f64 = 1e-12;
 
-/// The words of `--from`.
+/// The values of `--from`.
 const KINDS: [&str; 10] =
     ["matrix", "quaternion", "euler", "bryan", "axis", "euler-vector", "rodrigues", "wiener", "cayley-klein", "motion"];
 
@@ -35,7 +35,7 @@ pub fn run(options: &MotionOptions) -> std::result::Result<Exit, Fault> {
     Ok(Exit::Complete)
 }
 
-/// The motion that was typed.
+/// Reads the motion that was typed.
 fn read(options: &MotionOptions) -> Result<Asked> {
     let order = Order::parse(&options.axes).ok_or_else(|| {
         let found = options.axes.chars().take(40).collect::<String>();
@@ -84,7 +84,7 @@ fn read(options: &MotionOptions) -> Result<Asked> {
     })
 }
 
-/// The numbers of the command line: parts, and numbers in each.
+/// The numbers of the command line, in parts.
 struct Typed<'a> {
     parts: Vec<Vec<&'a str>>,
 }
@@ -96,7 +96,7 @@ impl Typed<'_> {
         Error::Invalid(format!("found {} {what}, expected {expected}", counts.join(" and ")))
     }
 
-    /// Exactly `N` numbers, whatever the parts.
+    /// Returns exactly `N` numbers, of any parts.
     fn numbers<const N: usize>(&self, expected: &str) -> Result<[f64; N]> {
         let all: Vec<&str> = self.parts.iter().flatten().copied().collect();
         let all: [&str; N] = all.try_into().map_err(|_| self.wrong(expected))?;
@@ -114,7 +114,7 @@ impl Typed<'_> {
         Ok([turn(a)?, turn(b)?, turn(c)?])
     }
 
-    /// An axis of any length and an angle.
+    /// Reads an axis of any length and an angle.
     fn axis(&self) -> Result<Matrix<f64>> {
         let expected = "x, y, z; angle";
         let [axis, angle] = self.parts.as_slice() else { return Err(self.wrong(expected)) };
@@ -126,7 +126,7 @@ impl Typed<'_> {
         of_hub(Some(q))
     }
 
-    /// Sixteen numbers by rows, or a position and a quaternion.
+    /// Reads sixteen numbers by rows, or a position and a quaternion.
     fn motion(&self, warnings: &mut Vec<String>) -> Result<(Matrix<f64>, [f64; 3])> {
         let expected = "sixteen by rows, or x, y, z; w, x, y, z";
         if let [position, quaternion] = self.parts.as_slice()
@@ -166,13 +166,13 @@ fn of_quaternion([scalar, x, y, z]: [f64; 4]) -> Result<Matrix<f64>> {
     of_hub(Some(Quaternion { scalar, vector: [x, y, z] }))
 }
 
-/// The matrix of a quaternion of any norm but 0.
+/// Returns the matrix of a quaternion of nonzero norm.
 fn of_hub(q: Option<Quaternion<f64>>) -> Result<Matrix<f64>> {
     let found = q.and_then(|q| matrix(&q)).filter(|rows| rows.iter().flatten().all(|x| x.is_finite()));
     found.ok_or_else(|| Error::Invalid("found numbers of norm 0, expected those of a rotation".to_owned()))
 }
 
-/// The rotation nearest to a matrix, refused where it is far.
+/// Returns the rotation nearest to a matrix, which is refused if it is far from one.
 fn rotation_of(given: &Matrix<f64>, warnings: &mut Vec<String>) -> Result<Matrix<f64>> {
     let Some((rotation, defect)) = nearest(given) else {
         return Err(Error::Invalid("found a matrix that is not finite, expected a rotation".to_owned()));

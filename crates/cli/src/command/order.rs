@@ -1,4 +1,4 @@
-//! In which order solutions are listed, and by which whole turns.
+//! The order in which solutions are listed, and the full turns added to their angles.
 
 use super::arguments::SolveOptions;
 use looproot::internal::catalogue::entry::{Entry, Kind};
@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// What `--near` and `--turns` ask for.
+/// The requests of `--near` and `--turns`.
 pub struct Order {
     variables: Vec<Variable>,
     limits: Vec<[f64; 2]>,
@@ -22,7 +22,7 @@ pub struct Order {
 }
 
 impl Order {
-    /// As the command line has it.
+    /// Reads the options of the command line.
     pub fn of(options: &SolveOptions, entry: &Entry) -> Result<Self, Error> {
         let variables: Vec<Variable> =
             entry.chain().map(|chain| chain.variables().iter().map(|own| own.variable).collect()).unwrap_or_default();
@@ -34,7 +34,7 @@ impl Order {
         Ok(Self { variables, limits: entry.limits.clone(), near, turns: options.turns })
     }
 
-    /// The solution with its real modes sorted by their distance to the values of `--near`.
+    /// Returns the solution with its real modes sorted by their distance to the values of `--near`.
     pub fn sorted<'a>(&self, solution: &'a Solution) -> Cow<'a, Solution> {
         let Some(near) = &self.near else { return Cow::Borrowed(solution) };
         let mut sorted = solution.clone();
@@ -53,7 +53,7 @@ impl Order {
         Cow::Owned(sorted)
     }
 
-    /// The distance of two configurations; without limits whole turns do not count.
+    /// Returns the distance of two configurations; without limits full turns do not count.
     fn distance(&self, one: &[f64], other: &[f64]) -> f64 {
         let off = |(k, (a, b)): (usize, (&f64, &f64))| {
             let off = a - b;
@@ -74,7 +74,7 @@ impl Order {
         }
     }
 
-    /// The representatives for a reader.
+    /// Returns the representatives as text.
     pub fn turns_text(&self, solution: &Solution, view: &View) -> String {
         let mut text = String::new();
         if !self.turns || view.quiet {
@@ -95,7 +95,7 @@ impl Order {
     }
 }
 
-/// Joint values, separated by commas.
+/// Reads joint values, separated by commas.
 fn values(text: &str, variables: &[Variable], entry: &Entry) -> Result<Vec<f64>, Error> {
     let texts: Vec<&str> = text.split(',').map(str::trim).collect();
     if texts.len() != variables.len() {

@@ -1,4 +1,4 @@
-//! Where output goes, and what may be written there.
+//! The destination of output, and checks before writing there.
 
 use super::arguments::{Colour, OutputOptions};
 use super::exit::Fault;
@@ -11,16 +11,16 @@ use std::rc::Rc;
 
 /// Standard output or a file, and whether to colour it.
 pub struct Output {
-    /// Buffered: flush where a reader waits.
+    /// The buffered writer; it has to be flushed when a reader waits.
     pub writer: Box<dyn Write>,
-    /// Use colours.
+    /// Whether colours are used.
     pub colour: bool,
-    /// Someone watches it grow.
+    /// Whether a terminal shows the output as it grows.
     pub is_terminal: bool,
 }
 
 impl Output {
-    /// Opens the output. The file that is read is never written.
+    /// Opens the output. The input file is never overwritten.
     pub fn open(options: &OutputOptions, input: &str) -> Result<Self, Fault> {
         let is_terminal = options.output.is_none() && stdout().is_terminal();
         let writer: Box<dyn Write> = match &options.output {
@@ -45,17 +45,17 @@ impl Output {
     }
 }
 
-/// What is written here can be read afterwards.
+/// An output buffer that can be read afterwards.
 #[derive(Clone, Default)]
 pub struct Memory(Rc<RefCell<Vec<u8>>>);
 
 impl Memory {
-    /// An output that is kept.
+    /// Returns an output that writes to the buffer.
     pub fn output(&self) -> Output {
         Output { writer: Box::new(self.clone()), colour: false, is_terminal: false }
     }
 
-    /// What was written.
+    /// Returns the bytes written.
     pub fn take(&self) -> Vec<u8> {
         self.0.take()
     }
@@ -80,10 +80,10 @@ pub fn print(text: &str) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The threads to work with: `None` is all cores.
+/// Returns a thread pool; `None` stands for all cores.
 pub fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Fault> {
     let builder = rayon::ThreadPoolBuilder::new();
-    // Where no threads are to be had, as in a browser, the one there is does all the work.
+    // Without thread support, as in a browser, the current thread does all the work.
     let builder = if cfg!(target_family = "wasm") {
         builder.num_threads(1).use_current_thread()
     } else {

@@ -7,14 +7,14 @@ use looproot_algebra::number::Reading;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 
-/// Longest row, bytes: a pose of twelve numbers of sixty digits has less than a thousand.
+/// Maximum length of a row, bytes: a pose of twelve numbers of sixty digits has less than a thousand.
 const LONGEST: u64 = 1 << 16;
 
 /// A row of a table of poses.
 pub struct Row {
     /// Its line, from 1.
     pub line: usize,
-    /// Its text, or why there is none.
+    /// Its text, or the reason why there is none.
     text: Result<String, Error>,
 }
 
@@ -23,7 +23,7 @@ pub struct Rows<'a> {
     path: &'a str,
     input: Box<dyn BufRead + Send>,
     line: usize,
-    /// A row that was read to find out what the table is.
+    /// A row that was read to determine the form of the table.
     first: Option<Row>,
 }
 
@@ -84,7 +84,7 @@ impl Iterator for Rows<'_> {
 }
 
 impl Rows<'_> {
-    /// Reads on to the end of the line; false where the input cannot be read.
+    /// Reads on to the end of the line; returns `false` if the input cannot be read.
     fn skip_line(&mut self) -> bool {
         loop {
             let Ok(buffer) = self.input.fill_buf() else { return false };
@@ -102,7 +102,7 @@ impl Rows<'_> {
 }
 
 impl Row {
-    /// The pose of the row.
+    /// Returns the pose of the row.
     pub fn case(&self, reader: &PoseRows<'_>) -> Result<Case, Error> {
         reader.case(self.text.as_ref().map_err(Clone::clone)?, self.line)
     }

@@ -22,7 +22,7 @@ const ALL: &str = "general,structured,near-singular,badly-scaled,calibrated,robo
 /// Largest file that is read, bytes.
 const LARGEST: u64 = 1 << 30;
 
-/// What problems are drawn from: class, name in the id, and family; or a robot.
+/// The origin of problems: class, name in the id, and family; or a robot.
 enum Source {
     Family(String, &'static str, Family),
     Robot(String),
@@ -88,7 +88,7 @@ pub fn run(options: &ScoreOptions) -> Result<Exit, Fault> {
     let answers = Answers::read(&read(path)?).map_err(of_answers)?;
     let problems = match (&options.problems, &answers.problems) {
         (Some(problems), _) => problems.clone(),
-        // Named as seen from the answers.
+        // The name is relative to the file of answers.
         (None, Some(named)) => path.parent().map_or_else(|| PathBuf::from(named), |folder| folder.join(named)),
         (None, None) => {
             let message = format!("{}: found no `problems` in line 1, expected it or --problems FILE", path.display());

@@ -24,12 +24,12 @@ pub fn run(options: &ShowOptions) -> Result<Exit, Fault> {
     Ok(Exit::Complete)
 }
 
-/// The text of a file, else of a built-in entry.
+/// Returns the text of a file, else of a built-in entry.
 fn source(name: &str) -> Result<String, Error> {
     if let (false, Some(text)) = (Path::new(name).is_file(), builtin_text(name)) {
         return Ok(text.to_owned());
     }
-    // Reading it first gives the same errors as everywhere, for names, sizes and bytes.
+    // Reading it first gives the usual errors about names, sizes and bytes.
     if name == "-" {
         return Err(Error::Invalid("standard input is at hand already: --source wants a file or an entry".to_owned()));
     }

@@ -36,12 +36,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Finds every solution of every case, or of the one asked for, and prints them in the order of the file.
+/// Finds every solution of every case, or of the requested one, and prints them in the order of the file.
 pub fn run(options: &SolveOptions) -> Result<Exit, Fault> {
     run_to(options, || Output::open(&options.output, &options.mechanism))
 }
 
-/// The same, written where `open` says, which is asked once the mechanism is read.
+/// As [`run`], with output to `open`, which is called once the mechanism is read.
 pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Fault>) -> Result<Exit, Fault> {
     let chains = if options.poses.is_some() { Chains::Swept } else { options.asked.chains() };
     let read = Options { chains, ..options.read.options() };
@@ -83,7 +83,7 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
             let work = Work { options, entry: &entry, mechanism: &mechanism, reader };
             work.solve(jobs, total, &mut report)?
         }
-        // The document of a mechanism that cannot be solved says so, case by case.
+        // The document of a mechanism that cannot be solved reports that for each case.
         Err(error) if error.unsupported().is_some() && report.is_json() => {
             for index in wanted {
                 report.add(
@@ -101,7 +101,7 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
     Ok(exit)
 }
 
-/// Refuses `--poses` for what has no poses.
+/// Refuses `--poses` for mechanisms without poses.
 fn refuse_loop(entry: &Entry) -> Result<(), Error> {
     match entry.kind() {
         Kind::Loop => Err(Error::Invalid("found --poses for a loop, expected --input".to_owned())),
@@ -109,7 +109,7 @@ fn refuse_loop(entry: &Entry) -> Result<(), Error> {
     }
 }
 
-/// Something to solve.
+/// A problem to solve.
 enum Job {
     /// A case of the file, by its index.
     Listed(usize),
@@ -117,7 +117,7 @@ enum Job {
     Row(Row),
 }
 
-/// What every thread works with.
+/// The data that all threads share.
 struct Work<'a> {
     options: &'a SolveOptions,
     entry: &'a Entry,
@@ -125,7 +125,7 @@ struct Work<'a> {
     reader: Option<PoseRows<'a>>,
 }
 
-/// The stage on which the bodies are posed, where the scene is asked for.
+/// Returns the stage on which the bodies are posed, if the scene is requested.
 fn staged(options: &SolveOptions, entry: &Entry) -> Result<Option<Stage>, Error> {
     if options.scene && !options.json && !options.jsonl {
         return Err(Error::Invalid("found --scene alone, expected it with --json or --jsonl".to_owned()));
@@ -133,10 +133,10 @@ fn staged(options: &SolveOptions, entry: &Entry) -> Result<Option<Stage>, Error>
     Ok(Stage::of(entry).filter(|_| options.scene))
 }
 
-/// A solution, and where they are asked for the derivatives at each of its modes.
+/// A solution and, if requested, the derivatives at each of its modes.
 type Answer = (Solution, Option<Vec<Option<Derivatives>>>);
 
-/// What became of a job: its case and the answer, or what is wrong with the row.
+/// The result of a job: its case and the answer, or the error of the row.
 type Outcome<'a> = Result<(Cow<'a, Case>, Result<Answer, Error>), Error>;
 
 impl<'a> Work<'a> {
@@ -198,7 +198,7 @@ impl<'a> Work<'a> {
     }
 }
 
-/// Reports one job, and says what it means for the exit code.
+/// Reports one job, and returns its exit code.
 fn report_one(report: &mut Report<'_>, job: &Job, number: usize, outcome: Outcome<'_>) -> Result<Exit, Fault> {
     match (outcome, job) {
         (Err(error), Job::Row(row)) => {
@@ -219,13 +219,13 @@ fn report_one(report: &mut Report<'_>, job: &Job, number: usize, outcome: Outcom
     }
 }
 
-/// Raised by the first Ctrl-C, which lets what is done be printed; the second one ends the program at once.
+/// Returns a flag raised by the first Ctrl-C, so that finished results are printed; the second one ends the program at once.
 pub fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     #[cfg(not(target_family = "wasm"))]
     {
         let raised = Arc::clone(&stop);
-        // Without a handler Ctrl-C still ends the program, only less politely.
+        // Without a handler Ctrl-C still ends the program, though less cleanly.
         let _ = ctrlc::set_handler(move || {
             if raised.swap(true, Ordering::Relaxed) {
                 std::process::exit(130);
@@ -235,7 +235,7 @@ pub fn stop_on_interrupt() -> Arc<AtomicBool> {
     stop
 }
 
-/// The answer where there is no solver.
+/// Returns the answer for a mechanism without a solver.
 fn unsupported(error: &Error) -> Solution {
     let reason = error.unsupported().map_or_else(|| error.to_string(), str::to_owned);
     let status = Status::Unsupported;
@@ -284,9 +284,9 @@ struct Report<'a> {
     order: Order,
     follow: Option<Follow>,
     written: usize,
-    /// How many rows were no poses.
+    /// Number of rows that were no poses.
     refused: usize,
-    /// How many there are, where that is known beforehand.
+    /// Total number, if it is known beforehand.
     total: Option<usize>,
     tally: [usize; 5],
     start: Instant,
@@ -315,7 +315,7 @@ impl<'a> Report<'a> {
             quiet: options.quiet,
             colour: output.colour,
         };
-        // Hidden by itself where stderr is no terminal; a terminal that shows the results needs no bar.
+        // The bar hides itself if stderr is no terminal; a terminal that shows the results needs no bar.
         let target = if output.is_terminal || options.quiet || total.is_some_and(|total| total < 2) {
             ProgressDrawTarget::hidden()
         } else {
@@ -404,7 +404,7 @@ impl<'a> Report<'a> {
         Ok(())
     }
 
-    /// An element of the list of results.
+    /// Writes an element of the list of results.
     fn write_value(&mut self, value: &Value) -> Result<(), Fault> {
         let out = &mut self.output.writer;
         match self.form {
@@ -413,7 +413,7 @@ impl<'a> Report<'a> {
             }
             Form::Document => write!(out, ",\n  {value}")?,
             Form::Lines | Form::Text => {
-                // What holds for all lines stands in a first one.
+                // The first line holds the data common to all lines.
                 if let (Some(_), 0) = (&self.stage, self.written) {
                     writeln!(out, "{}", json::line_of_document(self.entry, &self.keys))?;
                 }
@@ -423,7 +423,7 @@ impl<'a> Report<'a> {
         Ok(())
     }
 
-    /// A row that is no pose.
+    /// Reports a row that is no pose.
     fn refuse(&mut self, number: usize, line: usize, error: &Error) -> Result<(), Fault> {
         let message = match error {
             Error::File { message, .. } => message.clone(),

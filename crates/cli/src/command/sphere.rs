@@ -16,7 +16,7 @@ use looproot_algebra::number::Angle;
 use std::borrow::Cow;
 use std::io::Write;
 
-/// The file, with the one case of `--input JOINT=VALUE` where that is asked for.
+/// Returns the file, with the case of `--input JOINT=VALUE` instead of its own if that is given.
 fn posed<'f>(input: Option<&str>, file: &'f SphereFile) -> Result<Cow<'f, SphereFile>, Error> {
     match input {
         Some(text) if text.contains('=') => {
@@ -26,7 +26,7 @@ fn posed<'f>(input: Option<&str>, file: &'f SphereFile) -> Result<Cow<'f, Sphere
     }
 }
 
-/// The cases asked for: all, or the one of `--input`.
+/// Returns the requested cases: all, or the one of `--input`.
 fn wanted(input: Option<&str>, file: &SphereFile) -> Result<std::ops::Range<usize>, Error> {
     let Some(asked) = input else { return Ok(0..file.cases.len()) };
     if asked.contains('=') {
@@ -44,7 +44,7 @@ fn wanted(input: Option<&str>, file: &SphereFile) -> Result<std::ops::Range<usiz
     }
 }
 
-/// Finds every assembly of every case, or of the one asked for.
+/// Finds every assembly of every case, or of the requested one.
 pub fn run(options: &SolveOptions, file: &SphereFile, output: Output) -> Result<Exit, Fault> {
     refuse(options)?;
     let mut output = output;
@@ -114,7 +114,7 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
     Ok(if file.exact { Exit::Complete } else { Exit::NotProved })
 }
 
-/// A point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and its direction.
+/// Returns a point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and its direction.
 pub fn point_of<'a>(file: &SphereFile, asked: &'a str) -> Result<(usize, &'a str, Direction), Error> {
     let bodies = &file.linkage.bodies;
     let found = asked.split_once('.').and_then(|(body, point)| {

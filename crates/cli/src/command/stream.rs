@@ -1,36 +1,36 @@
-//! Jobs done on several threads, their results taken in order: threads share the work without barriers, and few results wait.
+//! Runs jobs on several threads and takes their results in order: threads share the work without barriers, and few results wait.
 
 use rayon::ThreadPool;
 use std::collections::BTreeMap;
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Condvar, Mutex, PoisonError};
 
-/// Jobs that a thread takes at a time, at most: to take one costs a microsecond, a pose thirty.
+/// Maximum number of jobs that a thread takes at a time: taking one costs a microsecond, solving a pose thirty.
 const BATCH: usize = 16;
-/// The first batches are smaller: few jobs are shared evenly.
+/// The first batches are smaller, so that few jobs are shared evenly.
 const GROWTH: usize = 8;
-/// Batches that are begun ahead of the last one taken, by every thread: one slow pose does not stop the others, and memory stays
-/// flat.
+/// Number of batches per thread begun ahead of the last one taken: one slow pose does not stop the others, and memory use
+/// stays bounded.
 const AHEAD: usize = 64;
 
-/// What the threads share: the jobs that are left, and how far the results were taken.
+/// The data that the threads share: the remaining jobs, and the number of results taken.
 struct Shared<I> {
     jobs: I,
     taken: usize,
     begun: usize,
     reported: usize,
-    /// No more batches are begun.
+    /// Whether no more batches are begun.
     is_closed: bool,
 }
 
 /// A batch of jobs with their results, and its number.
 type Batch<J, R> = (usize, Vec<(J, R)>);
 
-/// Does all jobs on a pool, each by `work` with the memory of its thread, and hands the results to `take` in order, batch by
-/// batch. `take` says whether to go on.
+/// Does all jobs on a pool, each by `work` with the memory of its thread, and passes the results to `take` in order, batch by
+/// batch. `take` returns whether to go on.
 ///
 /// # Errors
-/// The first one of `take`, after which no more jobs are begun.
+/// The first error of `take`, after which no more jobs are begun.
 pub fn ordered<J: Send, R: Send, M, E: Send>(
     pool: &ThreadPool,
     jobs: impl Iterator<Item = J> + Send,
@@ -38,7 +38,7 @@ pub fn ordered<J: Send, R: Send, M, E: Send>(
     work: impl Fn(&mut M, &J) -> R + Sync,
     mut take: impl FnMut(Vec<(J, R)>) -> Result<bool, E>,
 ) -> Result<(), E> {
-    // Here one thread hands results to another one; where there is only one, as in a browser, it would wait for itself.
+    // One thread passes results to another one; a single thread, as in a browser, would wait for itself.
     if cfg!(target_family = "wasm") {
         return alone(jobs, memory, work, take);
     }
@@ -80,7 +80,7 @@ pub fn ordered<J: Send, R: Send, M, E: Send>(
     })
 }
 
-/// The same on this thread alone, job by job.
+/// As [`ordered`] on this thread alone, job by job.
 fn alone<J, R, M, E>(
     jobs: impl Iterator<Item = J>,
     memory: impl Fn() -> M,
@@ -97,7 +97,7 @@ fn alone<J, R, M, E>(
     Ok(())
 }
 
-/// One thread: takes batches until there are no more.
+/// Takes batches on one thread until there are no more.
 fn run<J, R>(
     shared: &Mutex<Shared<impl Iterator<Item = J>>>,
     moved: &Condvar,

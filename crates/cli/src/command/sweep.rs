@@ -29,10 +29,10 @@ pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
     run_to(options, || Output::open(&options.output, &options.mechanism))
 }
 
-/// The same, written where `open` says, which is asked once the mechanism is read.
+/// As [`run`], with output to `open`, which is called once the mechanism is read.
 pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Fault>) -> Result<Exit, Fault> {
     plant(options.seed);
-    // The input is that of the command line, where one is given.
+    // The input is that of the command line, if given.
     let chains = if options.joint.is_some() { Chains::Swept } else { Chains::Solved };
     let entry = match load_solvable(&options.mechanism, &Options { chains, ..options.read.options() })? {
         Any::Entry(entry) => *entry,
@@ -65,7 +65,7 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let target = if output.is_terminal || options.quiet {
         ProgressDrawTarget::hidden()
     } else {
-        // Hidden by itself where stderr is no terminal.
+        // The bar hides itself if stderr is no terminal.
         ProgressDrawTarget::stderr()
     };
     let progress = ProgressBar::with_draw_target(Some(options.steps as u64 + 1), target);
@@ -118,7 +118,7 @@ fn exit(found: &Sweep) -> Exit {
     }
 }
 
-/// The joint variable to sweep: the one asked for, or the input of the file.
+/// Returns the joint variable to sweep: the requested one, or the input of the file.
 fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, Error> {
     let Some(name) = &options.joint else {
         let input = entry.cases.first().and_then(|case| case.input.first());
@@ -155,7 +155,7 @@ fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, 
     Ok(Swept { joint, variable })
 }
 
-/// An end of the range; a number without a unit has that of the file.
+/// Reads an end of the range; a number without a unit has that of the file.
 fn end(name: &str, text: &str, swept: Swept, reading: &Reading) -> Result<f64, Error> {
     let value = match swept.variable {
         Variable::Rotation => Angle::parse(text, reading).map(|angle| angle.radians()),

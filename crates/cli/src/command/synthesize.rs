@@ -37,7 +37,7 @@ pub fn run(options: &SynthesizeOptions) -> Result<Exit, Fault> {
     Ok(exit(&answer))
 }
 
-/// Numbers with commas between.
+/// Reads numbers separated by commas.
 fn numbers(text: &str) -> Result<Vec<f64>, Error> {
     let one = |part: &str| {
         let number = part.trim().parse::<f64>().ok().filter(|x| x.is_finite());
@@ -48,7 +48,7 @@ fn numbers(text: &str) -> Result<Vec<f64>, Error> {
     text.split(',').map(one).collect()
 }
 
-/// Numbers of modes, counted from 1, as counted from 0.
+/// Converts numbers of modes counted from 1 to numbers counted from 0.
 fn numbered(text: &str) -> Result<Vec<usize>, Error> {
     let one = |part: &str| {
         let number = part.trim().parse::<usize>().ok().and_then(|number| number.checked_sub(1));

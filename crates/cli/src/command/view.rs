@@ -14,10 +14,10 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Documents larger than this are not read: a page of them could not be used.
+/// Maximum size of a document: a page of a larger one could not be used.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// Solves, sweeps or reads what is asked for, and draws it.
+/// Solves, sweeps or reads the requested mechanism, and draws the result.
 pub fn run(options: &ViewOptions) -> Result<Exit, Fault> {
     let begun = if options.live { view_live::begun(options) } else { None };
     let options = begun.as_ref().unwrap_or(options);
@@ -44,7 +44,7 @@ pub fn run(options: &ViewOptions) -> Result<Exit, Fault> {
     Ok(exit)
 }
 
-/// A document that was saved, or a fresh one.
+/// Returns a saved document, or a fresh one.
 fn document(options: &ViewOptions) -> Result<(Exit, Value), Fault> {
     let name = &options.solve.mechanism;
     if let Some(document) = saved(name)? {
@@ -70,7 +70,7 @@ fn document(options: &ViewOptions) -> Result<(Exit, Value), Fault> {
     Ok((exit, document))
 }
 
-/// A document in a file or on standard input.
+/// Reads a document from a file or standard input.
 fn saved(name: &str) -> Result<Option<Value>, Fault> {
     let read = |mut reader: Box<dyn Read>| {
         let mut text = String::new();
@@ -87,13 +87,13 @@ fn saved(name: &str) -> Result<Option<Value>, Fault> {
     if !is_json || !path.is_file() {
         return Ok(None);
     }
-    // What cannot be read as a document is left to the reader of mechanism files, whose messages name the place.
+    // A file that is no document is left to the reader of mechanism files, whose messages name the place.
     let file = std::fs::File::open(path).ok();
     let text = file.and_then(|file| read(Box::new(file.take(MOST_BYTES))).ok());
     Ok(text.and_then(|text| parse(&text)))
 }
 
-/// The exit code that belongs to the verdicts of a saved document.
+/// Returns the exit code that belongs to the verdicts of a saved document.
 fn exit_of(document: &Value) -> Exit {
     if is_scores(document) {
         return Exit::Complete;
@@ -135,13 +135,13 @@ fn sweep_options(options: &ViewOptions) -> SweepOptions {
     }
 }
 
-/// Whether a framework moves, where the file is one.
+/// Decides whether a framework moves, if the file is one.
 fn framework(options: &ViewOptions) -> Result<Option<(Exit, Value)>, Fault> {
-    /// As many steps as `looproot mobility` follows a motion by default.
+    /// Number of steps, the default of `looproot mobility`.
     const STEPS: usize = 60;
     let solve = &options.solve;
     let read = Options { chains: Chains::Any, ..solve.read.options() };
-    // What is wrong with a file of another kind is said by what reads it.
+    // Faults of a file of another kind are reported by its reader.
     let Ok(Any::Framework(file)) = load_any(&solve.mechanism, &read) else { return Ok(None) };
     let answer = file.mobility(STEPS)?;
     let exit = if answer.is_proved() { Exit::Complete } else { Exit::NotProved };
@@ -172,7 +172,7 @@ fn open(options: &ViewOptions, text: &str, document: &Value) -> Result<(), Fault
     Ok(())
 }
 
-/// A file of this page alone among the temporary ones.
+/// Returns the path of a temporary file for this page alone.
 fn temporary(document: &Value) -> PathBuf {
     let name = document["name"].as_str().unwrap_or("page");
     let safe: String = name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' }).collect();

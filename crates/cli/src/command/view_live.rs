@@ -10,12 +10,12 @@ use looproot::internal::view::Live;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// The name of a file whose own name would be taken for something else.
+/// The name for a file whose own name would be misread.
 const PLAIN: &str = "mechanism";
 
-/// The same options with something to begin with, where neither the command line nor the file asks: of several cases the first
-/// one; an arm without poses begins with the pose that it has with every joint value at 0.5 (radians or metres), a loop without
-/// input with its first joint there.
+/// Returns the same options with a default problem, if neither the command line nor the file gives one: the first of several
+/// cases; for an arm without poses the pose at joint values 0.5 (radians or metres); for a loop without input its first joint at
+/// that value.
 pub fn begun(options: &ViewOptions) -> Option<ViewOptions> {
     let asked = &options.solve.asked;
     if asked.pose.is_some()
@@ -28,7 +28,7 @@ pub fn begun(options: &ViewOptions) -> Option<ViewOptions> {
     }
     let mut read = options.solve.read.options();
     read.chains = Chains::Swept;
-    // What is wrong with the file is said by what solves it.
+    // Faults of the file are reported by its solver.
     let entry = load(&options.solve.mechanism, &read).ok()?;
     let mut begun = options.clone();
     let first = entry.cases.first();
@@ -51,7 +51,7 @@ pub fn begun(options: &ViewOptions) -> Option<ViewOptions> {
     Some(begun)
 }
 
-/// What a live page solves with: the command that it runs, the files of it, and the program.
+/// Returns the data with which a live page solves: the command that it runs, its files, and the program.
 pub fn live(options: &ViewOptions, document: &Value) -> Result<Live, Fault> {
     let solve = &options.solve;
     let mut live = Live { module: module()?, ..Live::default() };
@@ -71,7 +71,7 @@ pub fn live(options: &ViewOptions, document: &Value) -> Result<Live, Fault> {
     for (option, value) in values(solve) {
         add(&[&format!("{option}={value}")]);
     }
-    // The links of the chain, which the page need not look for again.
+    // The links of the chain, so that the page need not determine them again.
     for (option, key) in [("--base-link", "base_link"), ("--tip-link", "tip_link")] {
         if let Some(link) = document[key].as_str() {
             add(&[&format!("{option}={link}")]);
@@ -80,7 +80,7 @@ pub fn live(options: &ViewOptions, document: &Value) -> Result<Live, Fault> {
     Ok(live)
 }
 
-/// Options that have a value, as they were given.
+/// Returns the options that have a value, as they were given.
 fn values(solve: &SolveOptions) -> Vec<(&'static str, String)> {
     let mut found: Vec<(&str, String)> = solve.demand.lock.iter().map(|lock| ("--lock", lock.clone())).collect();
     let texts = [("--task", &solve.demand.task), ("--near", &solve.near), ("--tolerance", &solve.tolerance)];
@@ -90,7 +90,8 @@ fn values(solve: &SolveOptions) -> Vec<(&'static str, String)> {
     found
 }
 
-/// The name by which the page reads the mechanism: an entry of the library by its own, a file by its last part, with its text.
+/// Returns the name by which the page reads the mechanism: that of an entry of the library, or the last part of a file's name,
+/// whose text is embedded.
 fn embedded(live: &mut Live, mechanism: &str) -> Result<String, Fault> {
     let path = Path::new(mechanism);
     if !path.is_file() {
@@ -104,8 +105,8 @@ fn embedded(live: &mut Live, mechanism: &str) -> Result<String, Fault> {
     Ok(name)
 }
 
-/// The program as WebAssembly, where `web/build` and an installation put it: beside the folder of this program in `browser`, beside
-/// this program, or in `share/looproot`. In a browser there is none: the window around the page has it.
+/// Returns the program as WebAssembly from the places of `web/build` and an installation: beside the folder of this program in
+/// `browser`, beside this program, or in `share/looproot`. In a browser there is none: the window around the page has it.
 fn module() -> Result<Option<Vec<u8>>, Fault> {
     const NAME: &str = "looproot.wasm.gz";
     if cfg!(target_family = "wasm") {

@@ -16,12 +16,12 @@ use looproot::internal::view::map::{Map, Plane};
 use rayon::prelude::*;
 use rug::Rational;
 
-/// Points of the grid in a row and in a column.
+/// Number of grid points in a row and in a column.
 const SIDE: usize = 72;
-/// The same number for the first look, which finds how far the arm reaches.
+/// The same number for a first pass that finds the reach of the arm.
 const COARSE: usize = 20;
 
-/// The picture of the map.
+/// Returns the picture of the map.
 pub fn map(options: &ViewOptions, plane: &str) -> Result<String, Fault> {
     let plane = Plane::parse(plane).ok_or_else(|| {
         Error::Invalid(format!("found --map {plane}, expected two of the letters x, y and z, such as xz"))
@@ -43,13 +43,13 @@ pub fn map(options: &ViewOptions, plane: &str) -> Result<String, Fault> {
     Ok(Map { plane, range, side: SIDE, counts, at }.svg(&entry.title))
 }
 
-/// Everything that the links can reach.
+/// Returns the range of everything that the links can reach.
 fn whole(entry: &Entry, plane: Plane) -> [[f64; 2]; 2] {
     let (centre, size) = Stage::of(entry).map_or(([0.0; 3], 1.0), |stage| (stage.scene.centre, stage.scene.size));
     plane.axes.map(|axis| [centre[axis] - size, centre[axis] + size])
 }
 
-/// Counts solutions at places of a plane, with the orientation of a pose.
+/// Counts solutions at points of a plane, with the orientation of a pose.
 struct Surveyor {
     mechanism: Mechanism,
     pose: Placement,
@@ -57,7 +57,7 @@ struct Surveyor {
 }
 
 impl Surveyor {
-    /// The counts on a grid.
+    /// Returns the counts on a grid.
     fn counts(&self, range: [[f64; 2]; 2], side: usize) -> Vec<Option<usize>> {
         let memory = || (Workspace::default(), Assembly::default());
         let one = |(workspace, assembly): &mut (Workspace, Assembly), index: usize| {
@@ -76,7 +76,7 @@ impl Surveyor {
         Some(solution.modes.iter().filter(|mode| mode.real).count())
     }
 
-    /// The part of a range in which there are solutions, and some room.
+    /// Returns the part of a range that contains solutions, with a margin.
     fn reached(&self, wide: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
         let counts = self.counts(wide, COARSE);
         let found = || (0..counts.len()).filter(|index| counts[*index].is_some_and(|count| count > 0));

@@ -1,4 +1,4 @@
-//! Which case a verb is about.
+//! The case to which a verb applies.
 
 use super::arguments::CaseOptions;
 use looproot::internal::catalogue::entry::{Case, Design, Entry, Input, InputValue, Kind};
@@ -14,7 +14,7 @@ use looproot::internal::report::text::reading;
 use looproot_algebra::number::{Angle, Number, Quantity, Reading};
 use std::ops::Range;
 
-/// The cases asked for. A case given on the command line takes the place of those of the file; its numbers follow the units
+/// Returns the requested cases. A case given on the command line replaces those of the file; its numbers have the units
 /// of the file.
 pub fn wanted(options: &CaseOptions, mechanism: &str, entry: &mut Entry) -> Result<Range<usize>, Error> {
     refuse(options, entry.kind())?;
@@ -51,7 +51,7 @@ pub fn wanted(options: &CaseOptions, mechanism: &str, entry: &mut Entry) -> Resu
     }
 }
 
-/// What to type next where a mechanism has no pose.
+/// Returns a message that says what to type if a mechanism has no pose.
 fn nothing_to_solve(mechanism: &str, entry: &Entry) -> String {
     let labels = document::labels(entry);
     let zeros = vec!["0"; labels.len()].join(",");
@@ -70,7 +70,7 @@ fn nothing_to_solve(mechanism: &str, entry: &Entry) -> String {
     text
 }
 
-/// The same complaint with its place in the file, and with the mobility of the loop where the message does not name it.
+/// Adds to an error its place in the file, and the mobility of the loop if the message does not state it.
 pub fn in_place(error: Error, mechanism: &str, entry: &Entry) -> Error {
     let error = match (error, &entry.design) {
         (Error::Unsupported(message), Design::Loop(chain)) => {
@@ -84,7 +84,7 @@ pub fn in_place(error: Error, mechanism: &str, entry: &Entry) -> Error {
     error.at(mechanism, entry.cases.first().map_or(1, |case| case.line.max(1)))
 }
 
-/// Refuses what is no option for this kind of mechanism.
+/// Refuses options that do not apply to this kind of mechanism.
 fn refuse(options: &CaseOptions, kind: Kind) -> Result<(), Error> {
     let given = [
         ("--pose", options.pose.is_some()),
@@ -109,7 +109,7 @@ fn number_of(input: &str) -> Result<usize, Error> {
     input.trim().parse().map_err(|_| message())
 }
 
-/// A case that locks a joint at a value of the command line.
+/// Returns a case that locks a joint at a value of the command line.
 fn given(chain: &Chain, joint: &str, value: &str, reading: &Reading) -> Result<Case, Error> {
     let joint: usize = joint.trim().trim_start_matches('q').parse().map_err(|_| {
         Error::Invalid(format!("found --input {joint}={value}, expected the number of a joint before `=`"))
@@ -136,7 +136,7 @@ fn given(chain: &Chain, joint: &str, value: &str, reading: &Reading) -> Result<C
     Ok(Case::given(Input { joint, value }, 1))
 }
 
-/// A case that asks for the pose which these joint values reach.
+/// Returns a case with the pose that these joint values reach.
 fn reached(chain: &Chain, joints: &str, reading: &Reading) -> Result<Case, Error> {
     let variables = Layout::of(chain, None)?.variables;
     let texts: Vec<&str> = joints.split(',').map(str::trim).collect();
@@ -156,7 +156,7 @@ fn reached(chain: &Chain, joints: &str, reading: &Reading) -> Result<Case, Error
     Case::reached(chain, &values, 1).ok_or_else(|| Error::Invalid("the joints of --joints reach no pose".to_owned()))
 }
 
-/// The tolerance of `--tolerance`.
+/// Reads the value of `--tolerance`.
 pub fn tolerance(text: Option<&str>, entry: &Entry) -> Result<Option<Tolerance>, Error> {
     let Some(text) = text else { return Ok(None) };
     if entry.kind() != Kind::Arm {
@@ -181,7 +181,7 @@ fn numbers<const N: usize>(
     })
 }
 
-/// A case with legs of these lengths.
+/// Returns a case with legs of these lengths.
 fn of_lengths(text: &str, reading: &Reading) -> Result<Case, Error> {
     let lengths: [Number; 6] = numbers(text, Quantity::Length, "--legs", reading)?;
     if let Some(leg) = lengths.iter().position(|length| *length.rational() < 0) {

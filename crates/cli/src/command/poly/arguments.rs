@@ -64,13 +64,13 @@ pub struct WriteOptions {
 }
 
 impl WriteOptions {
-    /// The language asked for.
+    /// Returns the requested language.
     pub const fn language(&self) -> Format {
         if self.json { Format::Json } else { self.format }
     }
 }
 
-/// A language by its name.
+/// Returns the parser of a language name.
 pub fn format() -> impl TypedValueParser<Value = Format> {
     let find = |name: String| Format::NAMED.into_iter().find(|(known, _)| *known == name).map(|(_, format)| format);
     PossibleValuesParser::new(Format::NAMED.map(|(name, _)| name)).try_map(move |name| find(name).ok_or("no language"))

@@ -30,7 +30,7 @@ pub fn run(options: &DetOptions) -> Result<Exit, Fault> {
     Ok(Exit::Complete)
 }
 
-/// The determinant, the denominators of each row cleared first.
+/// Returns the determinant, with the denominators of each row cleared first.
 pub fn of_fractions(rows: &[Vec<Fraction>]) -> Fraction {
     let mut denominators = Vec::new();
     let cleared: Vec<Vec<Polynomial<Int>>> = rows

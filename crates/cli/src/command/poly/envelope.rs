@@ -10,11 +10,11 @@ use looproot_algebra::resultant::resultant;
 use looproot_algebra::ring::{Domain, Ring};
 use looproot_algebra::text::Fraction;
 
-/// The discriminant of a family of curves or surfaces by its parameter, in square-free factors by rising multiplicity: the
-/// envelope is among the simple ones, double points of members stand twice and their cusps three times.
+/// Prints the discriminant of a family of curves or surfaces by its parameter, in square-free factors by rising multiplicity.
+/// The envelope is among the simple ones; double points of members occur twice and their cusps three times.
 ///
-/// A factor of the family that holds the parameter alone, such as the `1 + t^2` of half-angle tangents, is left out first, and
-/// the factor of the discriminant that belongs to an infinite parameter at last.
+/// A factor of the family that contains the parameter alone, such as the `1 + t^2` of half-angle tangents, is removed first,
+/// and the factor of the discriminant that belongs to an infinite parameter last.
 pub fn run(options: &EnvelopeOptions) -> Result<Exit, Fault> {
     let arguments = &[options.family.as_str()];
     let ([family], names) = input::exactly::<1>(arguments, &options.read)?;

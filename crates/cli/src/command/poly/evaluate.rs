@@ -10,7 +10,7 @@ use looproot_algebra::text::{Expression, Format, Fraction, Names};
 use rug::Rational;
 use serde_json::json;
 
-/// Computes the value of a polynomial, or what remains of it where some variables have values.
+/// Computes the value of a polynomial, or the rest of it if some variables have values.
 pub fn run(options: &EvaluateOptions) -> Result<Exit, Fault> {
     let argument = &[options.polynomial.as_str()];
     let mut names = input::names(&options.read)?;
@@ -36,7 +36,7 @@ pub fn run(options: &EvaluateOptions) -> Result<Exit, Fault> {
     rest(&fraction, &values, &names, options)
 }
 
-/// The value of each variable that has one.
+/// Returns the value of each variable that has one.
 fn values(at: &[String], names: &Names) -> Result<Vec<Option<Rational>>, Error> {
     let mut values = vec![None; names.list().len()];
     for text in at {

@@ -34,7 +34,7 @@ pub fn square_free(options: &FactorFreeOptions) -> Result<Exit, Fault> {
     }
     let factors = f.numerator.square_free_decomposition();
     let rational = |p: &Polynomial<Int>| Fraction { numerator: p.clone(), denominator: Int::one() }.to_rational();
-    // The factors are primitive, so that the leading coefficients show the number in front of them.
+    // The factors are primitive, so the leading coefficients determine the number in front of them.
     let leading = |p: &Polynomial<Int>| p.coefficients().first().map_or_else(Int::zero, Clone::clone).to_integer();
     let powers = factors.iter().map(|(p, k)| (0..*k).map(|_| Rational::from(leading(p))).product::<Rational>());
     let product = powers.fold(Rational::from(f.denominator.to_integer()), |product, power| product * power);

@@ -1,4 +1,4 @@
-//! What stands on the command line for a polynomial: an expression, a file, standard input.
+//! Polynomials given on the command line: as an expression, a file, or standard input.
 
 use super::arguments::ReadOptions;
 use crate::command::exit::Fault;
@@ -8,20 +8,20 @@ use rug::Rational;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Files beyond this many bytes are refused.
+/// Maximum size of a file, bytes.
 const LARGEST: u64 = 1 << 30;
-/// Degrees beyond this are refused where coefficients are listed.
+/// Maximum degree of listed coefficients.
 const LARGEST_DEGREE: u32 = 100_000;
 
-/// A text and where it came from.
+/// A text and its origin.
 pub struct Source {
     pub text: String,
-    /// The name of the file; none for an expression on the command line.
+    /// The name of the file; `None` for an expression on the command line.
     pub path: Option<String>,
 }
 
 impl Source {
-    /// Reads the file that the argument names; else it is the text itself.
+    /// Reads the file that the argument names; otherwise the argument itself is the text.
     pub fn of(argument: &str) -> Result<Self, Error> {
         if argument == "-" {
             let text = bounded(std::io::stdin().lock(), argument)?;
@@ -29,7 +29,7 @@ impl Source {
         }
         let path = match argument.strip_prefix('@') {
             Some(path) => path,
-            // A variable may well have the name of a file; only what looks like a path is taken for one.
+            // A variable may have the name of a file, so only an argument that looks like a path is taken for one.
             None if argument.contains(['.', '/']) && Path::new(argument).is_file() => argument,
             None => return Ok(Self { text: argument.to_owned(), path: None }),
         };
@@ -41,17 +41,17 @@ impl Source {
         Ok(Self { text: bounded(file, path)?, path: Some(path.to_owned()) })
     }
 
-    /// Whether this is JSON, which no expression is: none begins with a brace.
+    /// Returns whether this is JSON, which no expression is: none begins with a brace.
     pub fn is_json(&self) -> bool {
         self.path.is_some() && self.text.trim_start().starts_with('{')
     }
 
-    /// The path to name in complaints about JSON.
+    /// Returns the path to name in errors about JSON.
     pub fn json_path(&self) -> &str {
         self.path.as_deref().unwrap_or("JSON")
     }
 
-    /// A fault of this text.
+    /// Returns the error for a fault of this text.
     pub fn fault(&self, fault: text::Fault) -> Error {
         let fault = match &self.path {
             Some(path) => fault.in_file(path),
@@ -84,7 +84,7 @@ fn bounded(reader: impl Read, path: &str) -> Result<String, Error> {
     })
 }
 
-/// The names that the command line gives, else none yet.
+/// Returns the names given on the command line, else none yet.
 pub fn names(options: &ReadOptions) -> Result<Names, Error> {
     match &options.vars {
         Some(names) => Ok(Names::given(names.iter().map(|name| name.trim()))?),
@@ -92,7 +92,7 @@ pub fn names(options: &ReadOptions) -> Result<Names, Error> {
     }
 }
 
-/// The polynomials of some arguments, as fractions, and the names of their variables.
+/// Returns the polynomials of some arguments, as fractions, and the names of their variables.
 pub fn polynomials(arguments: &[&str], options: &ReadOptions) -> Result<(Vec<Fraction>, Names), Error> {
     let mut names = names(options)?;
     let mut polynomials = Vec::new();
@@ -102,7 +102,7 @@ pub fn polynomials(arguments: &[&str], options: &ReadOptions) -> Result<(Vec<Fra
     Ok((polynomials, names))
 }
 
-/// Like [`polynomials`], where only this number of them makes sense.
+/// As [`polynomials`], for exactly this number of them.
 pub fn exactly<const N: usize>(arguments: &[&str], options: &ReadOptions) -> Result<([Fraction; N], Names), Fault> {
     let (polynomials, names) = polynomials(arguments, options)?;
     let found = polynomials.len();
@@ -111,7 +111,7 @@ pub fn exactly<const N: usize>(arguments: &[&str], options: &ReadOptions) -> Res
     Ok((polynomials.try_into().map_err(fault)?, names))
 }
 
-/// The algorithms behind most verbs work with lists of coefficients, which these degrees keep short.
+/// Limits degrees, because the algorithms of most verbs work with lists of coefficients.
 pub fn check_degrees(polynomials: &[Fraction]) -> Result<(), Error> {
     let largest = polynomials.iter().flat_map(|p| p.numerator.degrees()).max().unwrap_or(0);
     if largest > LARGEST_DEGREE {
@@ -120,12 +120,12 @@ pub fn check_degrees(polynomials: &[Fraction]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The files among the arguments, which no output may replace.
+/// Returns the files among the arguments, which no output may replace.
 pub fn files(arguments: &[&str]) -> Vec<PathBuf> {
     arguments.iter().map(|argument| PathBuf::from(argument.strip_prefix('@').unwrap_or(argument))).collect()
 }
 
-/// An exact number.
+/// Reads an exact number.
 pub fn number(text: &str) -> Result<Rational, Error> {
     let source = |fault: text::Fault| fault.in_text(text);
     let mut none = Names::given::<&str>([])?;

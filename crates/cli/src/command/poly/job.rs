@@ -1,7 +1,7 @@
 //! `looproot poly job`: the jobs by which algebra systems are compared, one JSON file each.
 //!
-//! What is timed begins with the texts of the job as JSON gives them, so that reading numbers and expressions and
-//! clearing denominators counts.
+//! The time starts with the texts of the job as given by JSON, so that it includes reading numbers and expressions and
+//! clearing denominators.
 
 use super::arguments::JobOptions;
 use super::determinant;
@@ -46,7 +46,7 @@ pub fn run(options: &JobOptions) -> Result<Exit, Fault> {
     Ok(Exit::Complete)
 }
 
-/// A job, its texts not read yet.
+/// A job whose texts are not read yet.
 enum Job<'j> {
     /// The determinant of a matrix of coefficient lists in one variable.
     PolyDet(Vec<Vec<Vec<&'j str>>>),
@@ -54,7 +54,7 @@ enum Job<'j> {
     Det(Vec<&'j str>, Vec<Vec<&'j str>>),
     /// Eliminates a variable from two expressions.
     Resultant(Vec<&'j str>, [&'j str; 2], &'j str),
-    /// An expression, divided by another one some times.
+    /// An expression, divided by another one a number of times.
     Expand(Vec<&'j str>, &'j str, Option<&'j str>, u64),
     /// The product of two expressions.
     Product(Vec<&'j str>, [&'j str; 2]),
@@ -64,7 +64,7 @@ enum Job<'j> {
     Roots(Vec<&'j str>, &'j str),
 }
 
-/// What a job is about, read.
+/// The data of a job as read.
 enum Input {
     /// The coefficient matrices, lowest degree first.
     Coefficients(Vec<Vec<Vec<Rational>>>),
@@ -118,7 +118,7 @@ impl<'j> Job<'j> {
         }
     }
 
-    /// Turns the texts into numbers and polynomials.
+    /// Reads the texts as numbers and polynomials.
     fn read(&self) -> Outcome<Input> {
         let polynomials = |variables: &[&str], texts: &[&str]| {
             let mut names = Names::given(variables)?;
@@ -202,7 +202,7 @@ impl Answer {
         }
     }
 
-    /// The value where the variables are the first primes.
+    /// Returns the value at the first primes for the variables.
     fn value(&self, variables: usize) -> Rational {
         let primes = (2_i64..).filter(|n| (2..*n).all(|d| n % d != 0));
         match self {
@@ -217,7 +217,7 @@ impl Answer {
     }
 }
 
-/// The exact quotient; the denominator of the divisor becomes a factor.
+/// Returns the exact quotient; the denominator of the divisor becomes a factor.
 fn divide(dividend: &Fraction, divisor: &Fraction) -> Outcome<Fraction> {
     let fault = || Error::Invalid("found a division with a remainder, expected an exact one".to_owned());
     let numerator = dividend.numerator.checked_div_exact(&divisor.numerator).ok_or_else(fault)?;

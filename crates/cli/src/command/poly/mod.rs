@@ -1,4 +1,4 @@
-//! `looproot poly`: the algebra itself.
+//! `looproot poly`: operations on polynomials.
 
 pub mod arguments;
 mod determinant;
@@ -16,7 +16,7 @@ mod timing;
 use super::exit::{Exit, Fault};
 use arguments::{PolyOptions, Task};
 
-/// Does what was asked of polynomials.
+/// Carries out the requested task.
 pub fn run(options: &PolyOptions) -> Result<Exit, Fault> {
     match &options.task {
         Task::Expand(options) => expand::run(options),

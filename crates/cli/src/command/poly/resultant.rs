@@ -27,7 +27,7 @@ pub fn run(options: &ResultantOptions) -> Result<Exit, Fault> {
     Ok(Exit::Complete)
 }
 
-/// `res(f/a, g/b) = res(f, g) / (a^deg g b^deg f)`
+/// Returns the resultant of fractions by `res(f/a, g/b) = res(f, g) / (a^deg g b^deg f)`.
 pub fn of_fractions(f: &Fraction, g: &Fraction, variable: usize) -> Fraction {
     let numerator = resultant(&f.numerator, &g.numerator, variable);
     let power = |f: &Fraction, exponent: u32| Int::from(f.denominator.to_integer().pow(exponent));

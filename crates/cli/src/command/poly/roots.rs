@@ -13,7 +13,7 @@ use looproot_algebra::univariate::Univariate;
 use rug::Rational;
 use serde_json::{Value, json};
 
-/// The degree up to which roots are counted a second time, by Sturm's theorem, which takes longer than isolating them.
+/// Maximum degree for a second count of the roots by Sturm's theorem, which takes longer than isolating them.
 const HIGHEST_STURM: usize = 200;
 
 /// Finds all real roots of a polynomial in one variable.
@@ -34,7 +34,7 @@ pub fn run(options: &RootsOptions) -> Result<Exit, Fault> {
     })
 }
 
-/// The polynomial in its only variable, and the name of that.
+/// Returns the polynomial in its only variable, and the name of the variable.
 fn univariate<'n>(f: &Fraction, names: &'n Names) -> Result<(Univariate<Rational>, &'n str), Error> {
     let degrees = f.numerator.degrees();
     let variables: Vec<usize> = (0..degrees.len()).filter(|&variable| degrees[variable] > 0).collect();
@@ -54,7 +54,7 @@ fn univariate<'n>(f: &Fraction, names: &'n Names) -> Result<(Univariate<Rational
     }
 }
 
-/// `3 distinct real roots of degree 5 in x, 4 with multiplicity; Sturm's theorem counts 3`
+/// Returns a text like `3 distinct real roots of degree 5 in x, 4 with multiplicity; Sturm's theorem counts 3`.
 fn verdict(roots: &[RealRoot], polynomial: &Univariate<Rational>, name: &str, sturm: Option<usize>) -> String {
     let degree = polynomial.degree().unwrap_or(0);
     let total: usize = roots.iter().map(RealRoot::multiplicity).sum();
@@ -96,7 +96,7 @@ fn table(roots: &mut [RealRoot], polynomial: &Univariate<Rational>, name: &str, 
 
 fn document(roots: &mut [RealRoot], polynomial: &Univariate<Rational>, name: &str, sturm: Option<usize>) -> String {
     let root = |root: &mut RealRoot| -> Value {
-        // Narrows the interval, too.
+        // This narrows the interval, too.
         let (value, exact) = (root.to_f64(), root.rational());
         let (lower, upper) = root.bounds();
         json!({

@@ -13,7 +13,7 @@ use rug::Rational;
 use std::io::Write;
 use std::path::PathBuf;
 
-/// Writes a finished text where it belongs, but into none of the files that were read.
+/// Writes a finished text to its destination, but into none of the files that were read.
 pub fn write(text: &str, output: Option<&PathBuf>, inputs: &[PathBuf]) -> Result<(), Fault> {
     let options = OutputOptions { output: output.cloned(), color: Colour::Never };
     let place = output.and_then(|output| output.canonicalize().ok());
@@ -25,7 +25,7 @@ pub fn write(text: &str, output: Option<&PathBuf>, inputs: &[PathBuf]) -> Result
     Ok(())
 }
 
-/// Polynomials in the language asked for; in our own with verdicts.
+/// Returns polynomials in the requested language; in our own with verdicts.
 pub fn polynomials(results: &[Fraction], names: &Names, format: Format) -> Result<String, Fault> {
     let polynomials: Vec<Polynomial<Rational>> = results.iter().map(Fraction::to_rational).collect();
     if format != Format::Text {
@@ -35,7 +35,7 @@ pub fn polynomials(results: &[Fraction], names: &Names, format: Format) -> Resul
         }
         return Ok(text);
     }
-    // Verdicts are comments, so that the output is input again.
+    // Verdicts are comments, so that the output can be read again.
     let mut text = String::new();
     if results.len() > 1 {
         let variables = names.list().join(", ");
@@ -48,12 +48,12 @@ pub fn polynomials(results: &[Fraction], names: &Names, format: Format) -> Resul
     Ok(text + &blocks.join(";\n\n") + "\n")
 }
 
-/// Writes polynomials in the language asked for.
+/// Writes polynomials in the requested language.
 pub fn results(results: &[Fraction], names: &Names, options: &WriteOptions, inputs: &[PathBuf]) -> Result<(), Fault> {
     write(&polynomials(results, names, options.language())?, options.output.as_ref(), inputs)
 }
 
-/// `degree 16 in x, 17 terms, content 1`
+/// Returns a text like `degree 16 in x, 17 terms, content 1`.
 pub fn verdict(result: &Fraction, names: &Names) -> String {
     let polynomial = &result.numerator;
     if polynomial.is_zero() {
@@ -72,7 +72,7 @@ pub fn verdict(result: &Fraction, names: &Names) -> String {
     format!("{degree}, {}, content {}", counted(polynomial.len(), "term"), content(result))
 }
 
-/// The positive number by which the polynomial is a multiple of one with integer coefficients without common factor.
+/// Returns the positive number by which the polynomial is a multiple of one with integer coefficients without common factor.
 fn content(result: &Fraction) -> Rational {
     let numerator = result.numerator.coefficients().iter().fold(Int::zero(), |gcd, c| gcd.gcd(c));
     Rational::from((numerator.to_integer(), result.denominator.to_integer()))
