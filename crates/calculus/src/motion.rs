@@ -9,7 +9,7 @@ pub type Vector<R> = [R; 3];
 /// A rigid motion `p -> rotation p + translation`.
 ///
 /// # Units
-/// `translation` in the unit of length of the mechanism.
+/// `translation` is in the unit of length of the mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion<R> {
     /// Rows of the rotation matrix.
@@ -35,14 +35,14 @@ pub fn cross<R: Ring>(x: &Vector<R>, y: &Vector<R>) -> Vector<R> {
 }
 
 impl<R: Ring> Motion<R> {
-    /// The motion that leaves everything where it is.
+    /// Returns the identity.
     #[must_use]
     pub fn identity() -> Self {
         let row = |k: usize| std::array::from_fn(|j| if j == k { R::one() } else { R::zero() });
         Self { rotation: std::array::from_fn(row), translation: std::array::from_fn(|_| R::zero()) }
     }
 
-    /// `Rz`: rotation about the z axis with the given cosine and sine.
+    /// Returns `Rz`, the rotation about the z axis with the given cosine and sine.
     #[must_use]
     pub fn rotation_z(cos: R, sin: R) -> Self {
         let mut m = Self::identity();
@@ -51,7 +51,7 @@ impl<R: Ring> Motion<R> {
         m
     }
 
-    /// `Rx`: rotation about the x axis with the given cosine and sine.
+    /// Returns `Rx`, the rotation about the x axis with the given cosine and sine.
     #[must_use]
     pub fn rotation_x(cos: R, sin: R) -> Self {
         let mut m = Self::identity();
@@ -60,8 +60,8 @@ impl<R: Ring> Motion<R> {
         m
     }
 
-    /// Roll about x, then pitch about y, then yaw about z, all about fixed axes: `Rz(yaw) Ry(pitch) Rx(roll)`. `None` for an
-    /// unlucky prime.
+    /// Returns the roll about x, then pitch about y, then yaw about z, all about fixed axes: `Rz(yaw) Ry(pitch) Rx(roll)`. `None`
+    /// for an unlucky prime.
     #[must_use]
     pub fn roll_pitch_yaw([roll, pitch, yaw]: &[Angle; 3]) -> Option<Self> {
         Some(Self::turned([R::cos_sin(roll)?, R::cos_sin(pitch)?, R::cos_sin(yaw)?]))
@@ -78,7 +78,7 @@ impl<R: Ring> Motion<R> {
         Self::rotation_z(yaw.0, yaw.1).then_after(&about_y).then_after(&about_x)
     }
 
-    /// `Tx(a) Rx(alpha)` with the given length, and cosine and sine of the twist.
+    /// Returns `Tx(a) Rx(alpha)` with the given length, and cosine and sine of the twist.
     #[must_use]
     pub fn link(a: R, (cos, sin): (R, R)) -> Self {
         Self { translation: [a, R::zero(), R::zero()], ..Self::rotation_x(cos, sin) }
@@ -90,13 +90,13 @@ impl<R: Ring> Motion<R> {
         Self { translation: vector, ..Self::identity() }
     }
 
-    /// `Tz`: translation along the z axis.
+    /// Returns `Tz`, the translation along the z axis.
     #[must_use]
     pub fn translation_z(d: R) -> Self {
         Self::translation([R::zero(), R::zero(), d])
     }
 
-    /// `rotation v`, for directions.
+    /// Returns `rotation v`, for directions.
     #[inline(always)]
     pub fn rotate(&self, v: &Vector<R>) -> Vector<R> {
         std::array::from_fn(|i| dot(&self.rotation[i], v))
@@ -109,7 +109,7 @@ impl<R: Ring> Motion<R> {
         std::array::from_fn(|i| rotated[i].add(&self.translation[i]))
     }
 
-    /// `self * other`: first `other`, then `self`.
+    /// Returns `self * other`, which applies `other` first.
     #[must_use]
     #[inline(always)]
     pub fn then_after(&self, other: &Self) -> Self {
@@ -134,7 +134,7 @@ impl<R: Ring> Motion<R> {
 }
 
 impl<R> Motion<R> {
-    /// The same motion over another ring; `None` as soon as one entry has no image.
+    /// Returns the same motion over another ring; `None` if an entry has no image.
     pub fn map<S>(&self, image: impl Fn(&R) -> Option<S>) -> Option<Motion<S>> {
         let vector = |v: &Vector<R>| -> Option<Vector<S>> { Some([image(&v[0])?, image(&v[1])?, image(&v[2])?]) };
         Some(Motion {
@@ -144,7 +144,7 @@ impl<R> Motion<R> {
     }
 }
 
-/// The link motion `Tx(a) Rx(alpha)` of the Denavit-Hartenberg forms. `None` for an unlucky prime.
+/// Returns the link motion `Tx(a) Rx(alpha)` of the Denavit-Hartenberg forms; `None` for an unlucky prime.
 #[must_use]
 pub fn link<R: Ring>(a: &looproot_algebra::number::Number, alpha: &Angle) -> Option<Motion<R>> {
     Some(Motion::link(R::from_number(a)?, R::cos_sin(alpha)?))

@@ -5,7 +5,7 @@ use crate::unit::Unit;
 use looproot_algebra::ring::Ring;
 use num_complex::Complex;
 
-/// A displacement of the plane, or one behind a reflection in the real axis.
+/// A displacement of the plane, possibly preceded by a reflection in the real axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Displacement<R> {
     /// The complex number of norm 1 of the rotation.
@@ -41,7 +41,7 @@ impl<R: Ring> Displacement<R> {
         Self { rotation, translation, is_reflected: false }
     }
 
-    /// The reflection in the line through a point with a direction of this angle, given by twice the angle.
+    /// Returns the reflection in the line through a point in the direction of this angle, given by twice the angle.
     #[must_use]
     pub fn mirror(point: &Complex<R>, twice: &Turn<R>) -> Self {
         let rotation = Complex { re: twice.cos.clone(), im: twice.sin.clone() };
@@ -56,7 +56,7 @@ impl<R: Ring> Displacement<R> {
         self.rotation.mul(&z).add(&self.translation)
     }
 
-    /// First `other`, then `self`.
+    /// Returns the displacement that applies `other` first, then `self`.
     ///
     /// # Example
     /// ```
@@ -84,7 +84,7 @@ impl<R: Ring> Displacement<R> {
         }
     }
 
-    /// The displacement back.
+    /// Returns the inverse displacement.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let rotation = if self.is_reflected { self.rotation.clone() } else { conjugate(&self.rotation) };
@@ -95,7 +95,7 @@ impl<R: Ring> Displacement<R> {
 }
 
 impl<R: Unit> Displacement<R> {
-    /// The point that stays; `None` of translations and reflections.
+    /// Returns the fixed point; `None` for translations and reflections.
     #[must_use]
     pub fn pole(&self) -> Option<Complex<R>> {
         if self.is_reflected {
@@ -113,7 +113,7 @@ impl<R: Unit> Displacement<R> {
     }
 }
 
-/// The poles of the displacements from position to position, for three positions: the pole triangle, P12, P23, P31.
+/// Returns the poles of the displacements between three positions: the pole triangle P12, P23, P31.
 ///
 /// # Source
 /// \[Wittenburg2016, 14.4\]

@@ -11,7 +11,7 @@ use looproot_algebra::{
 /// A quaternion `w + x i + y j + z k` over any ring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quaternion<R> {
-    /// The part without i, j, k.
+    /// The real part.
     pub scalar: R,
     /// The coefficients of i, j, k.
     pub vector: Vector<R>,
@@ -30,7 +30,7 @@ impl<R: Ring> Quaternion<R> {
         Self { scalar: R::one(), vector: std::array::from_fn(|_| R::zero()) }
     }
 
-    /// `self other`: as motions, first `other`, then `self`.
+    /// Returns `self other`, which as a motion applies `other` first.
     #[must_use]
     pub fn mul(&self, other: &Self) -> Self {
         let (v, w) = (&self.vector, &other.vector);
@@ -41,13 +41,13 @@ impl<R: Ring> Quaternion<R> {
         }
     }
 
-    /// The conjugate, which stands for the inverse rotation or motion.
+    /// Returns the conjugate, which represents the inverse rotation or motion.
     #[must_use]
     pub fn conjugate(&self) -> Self {
         Self { scalar: self.scalar.clone(), vector: std::array::from_fn(|i| self.vector[i].neg()) }
     }
 
-    /// `q q*`, a number of the ring.
+    /// Returns `q q*`, a number of the ring.
     #[must_use]
     pub fn norm(&self) -> R {
         self.scalar.mul(&self.scalar).add(&dot(&self.vector, &self.vector))
@@ -80,8 +80,8 @@ impl<R: Ring> DualQuaternion<R> {
         (std::array::from_fn(|i| part(i).value.clone()), std::array::from_fn(|i| part(i).epsilon.clone()))
     }
 
-    /// The rotation about the z axis by the angle whose half has the tangent `sin_half : cos_half`; any multiple of the
-    /// pair will do, so that the angle pi is no exception.
+    /// Returns the rotation about the z axis by the angle whose half has the tangent `sin_half : cos_half`. Any multiple of the
+    /// pair gives the same rotation, so that the angle pi is no exception.
     #[must_use]
     pub fn rotation_z(cos_half: R, sin_half: R) -> Self {
         let mut q = Self::identity();
@@ -99,14 +99,14 @@ impl<R: Ring> DualQuaternion<R> {
         q
     }
 
-    /// A translation, as `2 + eps t`: there are rings without a half.
+    /// Returns a translation, as `2 + eps t`, since some rings have no 1/2.
     #[must_use]
     pub fn translation(t: &Vector<R>) -> Self {
         let part = |c: &R| Dual { value: R::zero(), epsilon: c.clone() };
         Self { scalar: Dual::constant(R::from_integer(2)), vector: [part(&t[0]), part(&t[1]), part(&t[2])] }
     }
 
-    /// `x0 y0 + x1 y1 + x2 y2 + x3 y3`, zero on motions.
+    /// Returns `x0 y0 + x1 y1 + x2 y2 + x3 y3`, which is zero for motions.
     #[must_use]
     pub fn study_residual(&self) -> R {
         let (x, y) = self.study();
@@ -115,7 +115,7 @@ impl<R: Ring> DualQuaternion<R> {
 
     /// Rotation matrix and translation vector, both times the norm `x0^2 + ... + x3^2`, and that norm.
     ///
-    /// Off the Study quadric this is the motion of the point where the fibre `y + s x` meets the quadric.
+    /// Off the Study quadric this is the motion of the point in which the fibre `y + s x` meets the quadric.
     #[must_use]
     pub fn scaled_motion(&self) -> (Motion<R>, R) {
         let (x, y) = self.study();
@@ -126,7 +126,7 @@ impl<R: Ring> DualQuaternion<R> {
         (Motion { rotation: x.scaled_rotation(), translation }, x.norm())
     }
 
-    /// The image of a point in homogeneous coordinates: the norm times the image, and the norm.
+    /// Returns the image of a point in homogeneous coordinates: the norm times the image, and the norm.
     #[must_use]
     pub fn scaled_image(&self, p: &Vector<R>) -> (Vector<R>, R) {
         let (motion, norm) = self.scaled_motion();
@@ -135,7 +135,7 @@ impl<R: Ring> DualQuaternion<R> {
 }
 
 impl<F: Field> DualQuaternion<F> {
-    /// The motion; `None` when the norm vanishes.
+    /// Returns the motion; `None` if the norm vanishes.
     #[must_use]
     pub fn to_motion(&self) -> Option<Motion<F>> {
         let (scaled, norm) = self.scaled_motion();

@@ -3,22 +3,22 @@
 use crate::motion::{Motion, Vector, cross};
 use looproot_algebra::ring::Ring;
 
-/// Bodies that hang on one another: body k on an earlier body or on the ground.
+/// Bodies in a tree: body k is carried by an earlier body or by the ground.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tree {
     parents: Vec<Option<usize>>,
 }
 
 impl Tree {
-    /// The tree in which body k hangs on `parents[k]`, on the ground where that is `None`. `None` where a body hangs on a later
-    /// one or on itself.
+    /// Creates the tree in which `parents[k]` carries body k, or the ground if that is `None`. Returns `None` if a body is carried
+    /// by a later one or by itself.
     #[must_use]
     pub fn new(parents: Vec<Option<usize>>) -> Option<Self> {
         let in_order = parents.iter().enumerate().all(|(k, parent)| parent.is_none_or(|parent| parent < k));
         in_order.then_some(Self { parents })
     }
 
-    /// The path matrix: entry (i, k) says whether joint k lies between the ground and body i. Joint k is the one that carries
+    /// Returns the path matrix: entry (i, k) is whether joint k lies between the ground and body i. Joint k is the one that carries
     /// body k.
     ///
     /// # Example
@@ -41,8 +41,8 @@ impl Tree {
         rows
     }
 
-    /// The places of all bodies from those of each against the one that carries it, one body after the other. Over series this
-    /// gives velocities and accelerations. `None` for another number of joints than bodies.
+    /// Returns the positions of all bodies from that of each relative to the body that carries it, one body after the other. Over
+    /// series this gives velocities and accelerations. `None` if the numbers of joints and bodies differ.
     #[must_use]
     pub fn placed<R: Ring>(&self, joints: &[Motion<R>]) -> Option<Vec<Motion<R>>> {
         if joints.len() != self.parents.len() {
@@ -56,8 +56,8 @@ impl Tree {
         Some(places)
     }
 
-    /// Angular velocity of every body and velocity of its point at the origin, from the twists of the joints in axes fixed in
-    /// space, by the path matrix: one sum over the joints on the way. `None` for another number of joints than bodies.
+    /// Returns angular velocity of every body and velocity of its point at the origin, from the twists of the joints in axes fixed
+    /// in space, by the path matrix: one sum over the joints on the path. `None` if the numbers of joints and bodies differ.
     ///
     /// # Example
     /// ```
@@ -85,7 +85,7 @@ impl Tree {
 /// An angular velocity, and the velocity of the point at the origin.
 pub type Twist<R> = (Vector<R>, Vector<R>);
 
-/// The twist of a turning joint: its axis through a point, at a rate.
+/// Returns the twist of a revolute joint: its axis through a point, at a rate.
 #[must_use]
 pub fn turning<R: Ring>(point: &Vector<R>, axis: &Vector<R>, rate: &R) -> Twist<R> {
     let omega: Vector<R> = axis.each_ref().map(|c| c.mul(rate));

@@ -1,7 +1,7 @@
-//! What a ring must offer where a formula divides, takes a root or measures an angle.
+//! The operations of a ring for formulas that divide, take a root or measure an angle.
 //!
-//! Dual numbers and series have zero divisors and are no fields. Their elements with an invertible value are units, and that
-//! is all that the formulas of this crate need.
+//! Dual numbers and series have zero divisors and are no fields. Their elements with an invertible value are units, which
+//! suffices for the formulas of this crate.
 
 use looproot_algebra::dual::Dual;
 use looproot_algebra::enclosure::Enclosure;
@@ -11,22 +11,22 @@ use looproot_algebra::series::Series;
 use num_complex::Complex;
 use rug::{Integer, Rational};
 
-/// What is smaller than this share of 1 is a zero that has been rounded: some thousand units in the last place.
+/// A number below this share of 1 is a rounded zero: some thousand units in the last place.
 const ROUNDED_ZERO: f64 = 1e-12;
 
-/// A ring whose units are known.
+/// A ring with known units.
 pub trait Unit: Ring {
-    /// The inverse; `None` for what is no unit.
+    /// Returns the inverse; `None` if the element is no unit.
     #[must_use]
     fn reciprocal(&self) -> Option<Self>;
 
-    /// The absolute value of the part that decides whether this is a unit: larger ones divide better.
+    /// Returns the absolute value of the part that decides whether this is a unit; larger ones divide better.
     fn size(&self) -> f64;
 
-    /// Whether this stands for no unit: 0 in exact rings, a rounded zero beside 1 in inexact ones.
+    /// Returns whether this is no unit: 0 in exact rings, a rounded zero relative to 1 in inexact ones.
     fn is_small(&self) -> bool;
 
-    /// `self / other`; `None` where `other` is no unit.
+    /// Returns `self / other`; `None` if `other` is no unit.
     #[must_use]
     fn over(&self, other: &Self) -> Option<Self> {
         Some(self.mul(&other.reciprocal()?))
@@ -35,25 +35,25 @@ pub trait Unit: Ring {
 
 /// An ordered ring with some square roots.
 pub trait Root: Unit {
-    /// The square root that is not negative; `None` where the ring has none.
+    /// Returns the nonnegative square root; `None` if the ring has none.
     #[must_use]
     fn sqrt(&self) -> Option<Self>;
 
-    /// Whether the value is below 0.
+    /// Returns whether the value is below 0.
     fn is_negative(&self) -> bool;
 }
 
 /// A ring in which angles have cosines and sines, and points of the plane have angles.
 pub trait Analytic: Root {
-    /// Cosine and sine of an angle in radians.
+    /// Returns cosine and sine of an angle in radians.
     #[must_use]
     fn cos_sin_of(&self) -> (Self, Self);
 
-    /// The angle of the point `(x, y)` in (-pi, pi]; `None` at a point without one.
+    /// Returns the angle of the point `(x, y)` in (-pi, pi]; `None` at a point without one.
     #[must_use]
     fn atan2(y: &Self, x: &Self) -> Option<Self>;
 
-    /// An element with this value and no other part.
+    /// Returns an element with this value and no other part.
     #[must_use]
     fn from_value(value: f64) -> Self;
 }
@@ -84,7 +84,7 @@ impl Analytic for f64 {
         (self.cos(), self.sin())
     }
     fn atan2(y: &Self, x: &Self) -> Option<Self> {
-        // The sum with 0 takes -0 to 0, so that the angle of the negative axis is pi.
+        // Adding 0 turns -0 into 0, so that the angle of the negative axis is pi.
         (*x != 0.0 || *y != 0.0).then(|| f64::atan2(y + 0.0, *x))
     }
     fn from_value(value: f64) -> Self {
@@ -105,7 +105,7 @@ impl Unit for Rational {
 }
 
 impl Root for Rational {
-    /// The root of a square of a rational number, and of no other.
+    /// Returns the root of a square of a rational number, and of no other.
     fn sqrt(&self) -> Option<Self> {
         let root = |n: &Integer| n.is_perfect_square().then(|| n.clone().sqrt());
         Some(Rational::from((root(self.numer())?, root(self.denom())?)))
@@ -122,7 +122,7 @@ impl Unit for Enclosure {
     fn size(&self) -> f64 {
         self.middle().to_f64().abs()
     }
-    /// Whether it may be 0: what is not small is proved to be a unit.
+    /// Returns whether it may be 0; a number that is not small is proved to be a unit.
     fn is_small(&self) -> bool {
         self.holds_zero()
     }
@@ -153,18 +153,18 @@ impl<R: Root + Field> Unit for Complex<R> {
 }
 
 impl Root for Complex<f64> {
-    /// The principal root: its real part is not negative.
+    /// Returns the principal root, whose real part is not negative.
     fn sqrt(&self) -> Option<Self> {
         Some(Complex::sqrt(*self))
     }
-    /// Whether the real part is below 0: complex numbers have no order.
+    /// Returns whether the real part is below 0, as complex numbers have no order.
     fn is_negative(&self) -> bool {
         self.re < 0.0
     }
 }
 
 impl<R: Unit> Unit for Dual<R> {
-    /// `1/a - eps b/a^2`
+    /// Returns `1/a - eps b/a^2`.
     fn reciprocal(&self) -> Option<Self> {
         let value = self.value.reciprocal()?;
         let epsilon = self.epsilon.mul(&value).mul(&value).neg();
@@ -179,7 +179,7 @@ impl<R: Unit> Unit for Dual<R> {
 }
 
 impl<R: Root> Root for Dual<R> {
-    /// `sqrt(a) + eps b/(2 sqrt(a))`, and 0 of 0.
+    /// Returns `sqrt(a) + eps b/(2 sqrt(a))`, and 0 for 0.
     fn sqrt(&self) -> Option<Self> {
         if self.is_zero() {
             return Some(Self::zero());
@@ -198,7 +198,7 @@ impl<R: Analytic> Analytic for Dual<R> {
         let (cos, sin) = self.value.cos_sin_of();
         Self::angle(cos, sin, &self.epsilon)
     }
-    /// `atan2(y, x) + eps (x dy - y dx)/(x^2 + y^2)`
+    /// Returns `atan2(y, x) + eps (x dy - y dx)/(x^2 + y^2)`.
     fn atan2(y: &Self, x: &Self) -> Option<Self> {
         let square = x.value.mul(&x.value).add(&y.value.mul(&y.value));
         let turned = x.value.mul(&y.epsilon).sub(&y.value.mul(&x.epsilon));
@@ -210,7 +210,7 @@ impl<R: Analytic> Analytic for Dual<R> {
 }
 
 impl<R: Unit, const N: usize> Unit for Series<R, N> {
-    /// The series with `a_0 b_k = -sum_{j >= 1} a_j b_{k-j}`.
+    /// Returns the series with `a_0 b_k = -sum_{j >= 1} a_j b_{k-j}`.
     fn reciprocal(&self) -> Option<Self> {
         let first = self.coefficients[0].reciprocal()?;
         let mut inverse = Self::constant(first.clone());
@@ -232,7 +232,7 @@ impl<R: Unit, const N: usize> Unit for Series<R, N> {
 }
 
 impl<R: Root, const N: usize> Root for Series<R, N> {
-    /// The series with `2 s_0 s_k = a_k - sum_{0 < j < k} s_j s_{k-j}`, and 0 of 0.
+    /// Returns the series with `2 s_0 s_k = a_k - sum_{0 < j < k} s_j s_{k-j}`, and 0 for 0.
     fn sqrt(&self) -> Option<Self> {
         if self.is_zero() {
             return Some(Self::zero());
@@ -260,7 +260,7 @@ impl<R: Analytic, const N: usize> Analytic for Series<R, N> {
         let constant = (Self::constant(cos.clone()), Self::constant(sin.clone()));
         self.cos_sin_beyond(cos, sin).unwrap_or(constant)
     }
-    /// The integral of `(x y' - y x')/(x^2 + y^2)`.
+    /// Returns the integral of `(x y' - y x')/(x^2 + y^2)`.
     fn atan2(y: &Self, x: &Self) -> Option<Self> {
         let slope = |a: &Self| {
             let mut slope = Self::zero();
@@ -282,7 +282,7 @@ impl<R: Analytic, const N: usize> Analytic for Series<R, N> {
     }
 }
 
-/// A length: the root of the square of a vector.
+/// Returns the length of a vector, the root of its square.
 ///
 /// # Example
 /// ```
@@ -294,7 +294,7 @@ pub fn length<R: Root>(v: &[R; 3]) -> Option<R> {
     crate::motion::dot(v, v).sqrt()
 }
 
-/// The unit vector of a vector; `None` for a vector without direction, and where the ring lacks the root.
+/// Returns the unit vector of a vector; `None` for the zero vector, and if the ring lacks the root.
 #[must_use]
 pub fn direction<R: Root>(v: &[R; 3]) -> Option<[R; 3]> {
     let inverse = length(v)?.reciprocal()?;

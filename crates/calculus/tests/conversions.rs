@@ -26,7 +26,7 @@ fn fraction() -> impl Strategy<Value = (i32, i32)> {
     (-9..=9_i32, 1..=7_i32)
 }
 
-/// A quaternion of rationals that is not 0.
+/// Draws a nonzero quaternion of rationals.
 fn quaternion() -> impl Strategy<Value = [(i32, i32); 4]> {
     prop::array::uniform4(fraction()).prop_filter("zero", |q| q.iter().any(|(n, _)| *n != 0))
 }
@@ -55,7 +55,8 @@ fn near<R: Analytic>(a: &Matrix<R>, b: &Matrix<R>, parts: impl Fn(&R) -> Vec<f64
     entries.into_iter().all(|(x, y)| parts(x).iter().zip(parts(y)).all(|(x, y)| (x - y).abs() < 1e-6))
 }
 
-/// Every way from a rotation to a parametrisation and back, over a ring with angles. Which are critical is decided by `is_clear`.
+/// Tests every conversion from a rotation to a parametrisation and back, over a ring with angles. `is_clear` decides which places
+/// are critical.
 fn round_trips<R: Analytic>(q: &Quaternion<R>, parts: impl Fn(&R) -> Vec<f64> + Copy) -> Result<(), TestCaseError> {
     let rows = matrix(q).unwrap();
     let same = |found: &Quaternion<R>| near(&matrix(found).unwrap(), &rows, parts);
@@ -107,7 +108,7 @@ proptest! {
 
     #[test]
     fn dual_numbers_come_back(q in quaternion(), rate in prop::array::uniform4(fraction())) {
-        // Where a quaternion is a half turn or the identity, its dual parametrisations are critical.
+        // If a quaternion is a half turn or the identity, its dual parametrisations are critical.
         prop_assume!(q.iter().all(|(n, _)| *n != 0));
         round_trips(&dual(&q, &rate), |x| vec![x.value, x.epsilon])?;
     }

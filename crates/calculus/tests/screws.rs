@@ -49,7 +49,7 @@ proptest! {
         let normal = cross(&one.direction, &two.direction);
         prop_assume!(dot(&normal, &normal) != 0);
         let motion = halphen(&one, &two).to_motion().unwrap();
-        // The feet of the common perpendicular: a point of the first line goes to twice the way.
+        // The feet of the common perpendicular: a point of the first line moves by twice the distance.
         let (foot, other) = (one.foot(&two).unwrap(), two.foot(&one).unwrap());
         let image = motion.apply(&foot);
         for i in 0..3 {
@@ -95,7 +95,7 @@ proptest! {
     fn a_tree_moves_alike_by_recursion_and_by_its_path_matrix(slopes in prop::array::uniform3(-4..=4_i32)) {
         let tree = Tree::new(vec![None, Some(0), Some(0)]).unwrap();
         let rational = |n: i32| Rational::from(n);
-        // Joints about z, x and y at the ends of links, each turning at its own rate.
+        // Joints about z, x and y at the ends of links, each rotating at its own rate.
         let about = |axis: u8, slope: i32| -> Motion<Series<Rational, 3>> {
             let angle = Series { coefficients: [rational(0), rational(slope), rational(0)] };
             let (cos, sin) = angle.cos_sin_beyond(Rational::from((3, 5)), Rational::from((4, 5))).unwrap();
@@ -108,7 +108,7 @@ proptest! {
         };
         let joints: Vec<_> = (0..3).map(|k| about(k, slopes[usize::from(k)])).collect();
         let placed = tree.placed(&joints).unwrap();
-        // The axes of the joints in space, before each turns.
+        // The axes of the joints in space, before each rotates.
         let still = |m: &Motion<Series<Rational, 3>>| m.map(|s| Some(s.coefficients[0].clone())).unwrap();
         let unit = |k: usize| -> [Rational; 3] { std::array::from_fn(|i| rational(i32::from(i == k))) };
         let first = still(&placed[0]);

@@ -15,7 +15,7 @@ pub struct Pitched<R> {
 }
 
 impl<R: Ring> Pitched<R> {
-    /// Direction and moment of the screw: that of the axis and the pitch times the direction.
+    /// Returns direction and moment of the screw: the line of the axis, plus the pitch times the direction as moment.
     #[must_use]
     pub fn twist(&self) -> Line<R> {
         let Line { direction, moment } = &self.axis;
@@ -25,7 +25,7 @@ impl<R: Ring> Pitched<R> {
 }
 
 impl<R: Unit> Pitched<R> {
-    /// The screw of a twist; `None` of a translation.
+    /// Returns the screw of a twist; `None` for a translation.
     #[must_use]
     pub fn of_twist(twist: &Line<R>) -> Option<Self> {
         let pitch = dot(&twist.direction, &twist.moment).over(&dot(&twist.direction, &twist.direction))?;
@@ -33,7 +33,7 @@ impl<R: Unit> Pitched<R> {
     }
 }
 
-/// The principal screws of a cylindroid, perpendicular and concurrent, and the lines between.
+/// The principal screws of a cylindroid, perpendicular and concurrent, and the line between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cylindroid<R> {
     /// The larger and the smaller principal pitch.
@@ -42,14 +42,14 @@ pub struct Cylindroid<R> {
     pub directions: [Vector<R>; 2],
     /// The line that cuts all axes of the surface at right angles, with a unit direction.
     pub axis: Vector<R>,
-    /// Where the principal axes meet.
+    /// The point in which the principal axes meet.
     pub centre: Vector<R>,
     /// The length of the surface, the difference of the pitches.
     pub length: R,
 }
 
-/// The cylindroid of two screws; `None` where their axes are parallel and no such surface exists, where all pitches are one and
-/// every direction is principal, and where the ring lacks a root.
+/// Returns the cylindroid of two screws; `None` if their axes are parallel and no such surface exists, if all pitches are equal
+/// and every direction is principal, or if the ring lacks a root.
 ///
 /// With unit vectors x, y across the common perpendicular, `H = (moments)(directions)^-1` is a 2 x 2 matrix: the pitches are
 /// the eigenvalues of its symmetric part, and the height of the centre is half the difference of the other entries.
@@ -72,7 +72,7 @@ pub fn cylindroid<R: Root>(one: &Pitched<R>, two: &Pitched<R>) -> Option<Cylindr
     let x = crate::unit::direction(&one.axis.direction)?;
     let y = cross(&axis.direction, &x);
     let foot = one.axis.foot(&two.axis)?;
-    // Twists against the foot on the first axis, in the frame x, y, axis.
+    // Twists about the foot on the first axis, in the frame x, y, axis.
     let about = |screw: &Pitched<R>| {
         let twist = screw.twist();
         let shifted = cross(&foot, &twist.direction);

@@ -1,4 +1,4 @@
-//! Displacements of a body in space: screws, their products, and what they do to points and lines.
+//! Displacements of a body in space: screws, their products, and their action on points and lines.
 
 pub mod cylindroid;
 pub mod points;

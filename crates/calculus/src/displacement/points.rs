@@ -13,8 +13,8 @@ fn difference<R: Ring>(a: &Vector<R>, b: &Vector<R>) -> Vector<R> {
     std::array::from_fn(|i| a[i].sub(&b[i]))
 }
 
-/// The displacement of three points that are not in a line; `None` of points in a line. Where distances have changed, what is
-/// returned is no motion: ask [`crate::rotation::positions::is_rotation`].
+/// Returns the displacement of three points that are not in a line; `None` for points in a line. If distances have changed, the
+/// result is no motion; [`crate::rotation::positions::is_rotation`] tests that.
 ///
 /// # Example
 /// ```
@@ -39,7 +39,7 @@ pub fn of_three<R: Unit>(points: &[Moved<R>; 3]) -> Option<Motion<R>> {
     Some(Motion { rotation, translation })
 }
 
-/// Three of the points that are not in a line; `None` where all are.
+/// Returns three of the points that are not in a line; `None` if all are in a line.
 #[must_use]
 pub fn spread<R: Unit>(points: &[Vector<R>]) -> Option<[usize; 3]> {
     let first = points.first()?;
@@ -51,7 +51,7 @@ pub fn spread<R: Unit>(points: &[Vector<R>]) -> Option<[usize; 3]> {
     Some([0, second, third])
 }
 
-/// The displacement nearest to those of many points, in the sum of squares. `None` of points in a line.
+/// Returns the displacement nearest to those of many points, in the sum of squares; `None` for points in a line.
 ///
 /// # Source
 /// \[Kabsch1976\]
@@ -69,7 +69,7 @@ pub fn nearest(points: &[Moved<f64>]) -> Option<Motion<f64>> {
     Some(Motion { rotation, translation })
 }
 
-/// The largest distance between where a displacement takes the points and where they are.
+/// Returns the largest distance between the images of the points under a displacement and their given images.
 #[must_use]
 pub fn residual(points: &[Moved<f64>], motion: &Motion<f64>) -> f64 {
     let miss = |(p, q): &Moved<f64>| {

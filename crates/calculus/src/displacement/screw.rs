@@ -10,12 +10,12 @@ use crate::unit::{Analytic, Root, Unit, length};
 use looproot_algebra::dual::Dual;
 use looproot_algebra::ring::Ring;
 
-/// A finite screw: what a displacement does to the points of its axis, and about it.
+/// A finite screw: a rotation about an axis, and a translation along it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Screw<R> {
-    /// Unit direction of the axis; of a translation its own direction, and `None` of the identity.
+    /// Unit direction of the axis; for a translation its own direction, and `None` for the identity.
     pub direction: Option<Vector<R>>,
-    /// The point of the axis nearest the origin; `None` of a translation.
+    /// The point of the axis nearest the origin; `None` for a translation.
     pub point: Option<Vector<R>>,
     /// Half the angle, in [0, pi/2], by cosine and sine.
     pub half: Turn<R>,
@@ -24,7 +24,7 @@ pub struct Screw<R> {
 }
 
 impl<R: Root> Screw<R> {
-    /// The screw of a motion; at an angle of pi the first entry of the direction that is not zero is positive. `None` where
+    /// Returns the screw of a motion; at an angle of pi the first nonzero entry of the direction is positive. `None` if
     /// the ring lacks a root.
     ///
     /// # Example
@@ -61,7 +61,7 @@ impl<R: Root> Screw<R> {
         Some(Self { direction: Some(direction), point: Some(point), half: turn, translation })
     }
 
-    /// The axis; `None` of a translation.
+    /// Returns the axis; `None` for a translation.
     #[must_use]
     pub fn axis(&self) -> Option<Line<R>> {
         Some(Line::at(self.point.as_ref()?, self.direction.as_ref()?))
@@ -75,7 +75,7 @@ impl<R: Analytic> Screw<R> {
         self.half.angle().map(|half| half.add(&half))
     }
 
-    /// The translation over the angle; `None` of a translation.
+    /// Returns the translation over the angle; `None` for a translation.
     #[must_use]
     pub fn pitch(&self) -> Option<R> {
         self.point.as_ref()?;
@@ -83,7 +83,7 @@ impl<R: Analytic> Screw<R> {
     }
 }
 
-/// The motion with a unit axis, half an angle (as cosine and sine, up to a common factor) and a translation along the axis.
+/// Returns the motion with a unit axis, half an angle (as cosine and sine, up to a common factor) and a translation along the axis.
 ///
 /// # Example
 /// ```
@@ -106,8 +106,8 @@ pub fn motion<R: Unit>(axis: &Line<R>, cos_half: &R, sin_half: &R, translation: 
     Some(Motion { rotation, translation })
 }
 
-/// The dual quaternion of a screw: `cos(F/2) + l sin(F/2)` with the unit line l and the dual angle F, half of it given by dual
-/// cosine and sine. The same formula as for rotations.
+/// Returns the dual quaternion of a screw: `cos(F/2) + l sin(F/2)` with the unit line l and the dual angle F, half of which is
+/// given by dual cosine and sine. The formula is that of rotations.
 ///
 /// # Source
 /// \[Wittenburg2016, 3.10.5\]
@@ -116,14 +116,14 @@ pub fn dual_quaternion<R: Ring>(axis: &Line<R>, half: &Turn<Dual<R>>) -> DualQua
     crate::rotation::line::about(&axis.dual(), half)
 }
 
-/// The half turn about a line: the unit dual vector itself.
+/// Returns the half turn about a line: the unit dual vector itself.
 #[must_use]
 pub fn half_turn<R: Ring>(axis: &Line<R>) -> DualQuaternion<R> {
     Quaternion { scalar: Dual::zero(), vector: axis.dual() }
 }
 
-/// The displacement by half turns about two lines, first `first`: a screw about their common perpendicular, by twice their
-/// angle and twice their distance (Halphen).
+/// Returns the displacement by half turns about two lines, with `first` applied first: a screw about their common
+/// perpendicular, by twice their angle and twice their distance (Halphen).
 ///
 /// # Example
 /// ```
@@ -141,11 +141,11 @@ pub fn halphen<R: Ring>(first: &Line<R>, second: &Line<R>) -> DualQuaternion<R> 
     half_turn(second).mul(&half_turn(first))
 }
 
-/// The screw triangle of two screws: the three lines whose half turns, two by two, are the screws and their product. Given are
-/// the axes and their common perpendicular is computed; the other two lines cut an axis at right angles.
+/// Returns the screw triangle of two screws: the three lines whose half turns, two by two, are the screws and their product.
+/// The axes are given, and their common perpendicular is computed; the other two lines cut an axis at right angles.
 ///
-/// The first screw is the product of the half turns about the first line and the perpendicular, the second one of the
-/// perpendicular and the last line. `None` of parallel axes.
+/// The first screw is the product of the half turns about the first line and the perpendicular, the second one that of the
+/// perpendicular and the last line. `None` for parallel axes.
 ///
 /// # Source
 /// \[Wittenburg2016, 3.7\]
@@ -162,8 +162,8 @@ pub fn triangle<R: Root>(
     Some([Line::of_dual(&before.vector), middle, Line::of_dual(&after.vector)])
 }
 
-/// The line through the midpoint of a point and its image that is perpendicular to their chord and to the axis of the screw:
-/// it cuts the axis at a right angle (Roth). `None` where the chord is parallel to the axis.
+/// Returns the line through the midpoint of a point and its image that is perpendicular to their chord and to the axis of the
+/// screw; it cuts the axis at a right angle (Roth). `None` if the chord is parallel to the axis.
 ///
 /// # Example
 /// ```

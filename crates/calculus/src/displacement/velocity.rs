@@ -1,4 +1,4 @@
-//! Velocity and acceleration of a body in space: velocity screw, poles, what three points tell.
+//! Velocity and acceleration of a body in space: velocity screw, poles, and the motion of three points.
 
 use super::cylindroid::Pitched;
 use crate::line::pluecker::Line;
@@ -7,10 +7,10 @@ use crate::unit::Unit;
 use looproot_algebra::ring::Ring;
 use looproot_algebra::series::Series;
 
-/// The place of a point and its velocity.
+/// The position of a point and its velocity.
 pub type Moving<R> = (Vector<R>, Vector<R>);
 
-/// Velocity and acceleration of a body at an instant, of the point of the body at the origin of space.
+/// Velocity and acceleration of a body at an instant, for the point of the body at the origin of space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<R> {
     /// The angular velocity.
@@ -24,12 +24,12 @@ pub struct State<R> {
 }
 
 impl<R: Ring> State<R> {
-    /// The state of a motion over series in time.
+    /// Returns the state of a motion over series in time.
     #[must_use]
     pub fn of(motion: &Motion<Series<R, 3>>) -> Self {
         let part = |k: usize| motion.map(|s| Some(s.coefficients[k].clone()));
         let (Some(at), Some(rate), Some(half)) = (part(0), part(1), part(2)) else {
-            // The parts of a series are always there.
+            // A series always has these parts.
             return Self { omega: zero(), alpha: zero(), velocity: zero(), acceleration: zero() };
         };
         let twice = |r: &R| r.add(r);
@@ -41,7 +41,7 @@ impl<R: Ring> State<R> {
         let second = by(&half.rotation.each_ref().map(|row| row.each_ref().map(twice)));
         let square = crate::rotation::matrix::product(&skew, &skew);
         let alpha = [(2, 1), (0, 2), (1, 0)].map(|(i, j)| second[i][j].sub(&square[i][j]));
-        // The point of the body that is at the origin is at -t against the body's own origin.
+        // The point of the body that is at the origin is at -t relative to the body's own origin.
         let back: Vector<R> = at.translation.each_ref().map(R::neg);
         let accelerated = add(&cross(&alpha, &back), &cross(&omega, &cross(&omega, &back)));
         Self {
@@ -52,13 +52,13 @@ impl<R: Ring> State<R> {
         }
     }
 
-    /// The velocity of the point of the body that is at a place.
+    /// Returns the velocity of the point of the body at a position.
     #[must_use]
     pub fn velocity_at(&self, point: &Vector<R>) -> Vector<R> {
         add(&self.velocity, &cross(&self.omega, point))
     }
 
-    /// The acceleration of the point of the body that is at a place.
+    /// Returns the acceleration of the point of the body at a position.
     #[must_use]
     pub fn acceleration_at(&self, point: &Vector<R>) -> Vector<R> {
         let turning = add(&cross(&self.alpha, point), &cross(&self.omega, &cross(&self.omega, point)));
@@ -67,7 +67,7 @@ impl<R: Ring> State<R> {
 }
 
 impl<R: Unit> State<R> {
-    /// The velocity screw: axis and pitch. `None` in a translation.
+    /// Returns the velocity screw: axis and pitch; `None` for a translation.
     ///
     /// # Source
     /// \[Wittenburg2016, 9.3\]
@@ -76,7 +76,7 @@ impl<R: Unit> State<R> {
         Pitched::of_twist(&Line { direction: self.omega.clone(), moment: self.velocity.clone() })
     }
 
-    /// The point without acceleration; `None` where angular velocity and acceleration are parallel.
+    /// Returns the point without acceleration; `None` if angular velocity and acceleration are parallel.
     ///
     /// # Example
     /// ```
@@ -101,8 +101,8 @@ impl<R: Unit> State<R> {
     }
 }
 
-/// The angular velocity of a body from the velocities of three of its points, and the velocity of the point at the origin.
-/// `None` of points in a line.
+/// Returns the angular velocity of a body from the velocities of three of its points, and the velocity of the point at the
+/// origin; `None` for points in a line.
 ///
 /// # Example
 /// ```
@@ -142,7 +142,7 @@ fn add<R: Ring>(x: &Vector<R>, y: &Vector<R>) -> Vector<R> {
     std::array::from_fn(|i| x[i].add(&y[i]))
 }
 
-/// The solution of three linear equations with these columns.
+/// Returns the solution of three linear equations with these columns.
 fn solve<R: Unit>([a, b, c]: &[Vector<R>; 3], right: &Vector<R>) -> Option<Vector<R>> {
     let determinant = dot(a, &cross(b, c));
     if determinant.is_small() {

@@ -1,4 +1,4 @@
-//! The motion of a body in the plane near one position, by derivatives to the angle of the body.
+//! The motion of a body in the plane near one position, by derivatives with respect to the angle of the body.
 //!
 //! The body's point with the complex coordinate p is at `z = A(f) + p exp(i f)`. With `u = z - pole` the derivatives of every path
 //! follow from two complex numbers, `a_2 = A'' - i A'` and `a_3 = A''' + A'`: `z' = i u`, `z'' = a_2 - u`.
@@ -10,12 +10,12 @@ use num_complex::Complex;
 /// Pole and the numbers a_2, a_3 of a motion at one position.
 ///
 /// # Units
-/// All are lengths: derivatives are by the angle of the body.
+/// All are lengths: derivatives are taken by the angle of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant<R> {
     /// The point of the body without velocity.
     pub pole: Complex<R>,
-    /// `A'' - i A'`: from the pole to the inflection pole.
+    /// `A'' - i A'`, the vector from the pole to the inflection pole.
     pub second: Complex<R>,
     /// `A''' + A'`
     pub third: Complex<R>,
@@ -41,7 +41,7 @@ fn scaled<R: Ring>(z: &Complex<R>, factor: &R) -> Complex<R> {
 }
 
 impl<R: Ring> Instant<R> {
-    /// The instant of a body whose origin is at `A`, from A and its derivatives by the angle of the body.
+    /// Returns the instant of a body whose origin is at `A`, from A and its derivatives by the angle of the body.
     ///
     /// # Example
     /// ```
@@ -62,14 +62,14 @@ impl<R: Ring> Instant<R> {
         Self { pole: origin.add(&turned(first)), second: second.sub(&turned(first)), third: third.add(first) }
     }
 
-    /// The inflection pole: with the pole it spans the diameter of the inflection circle, whose points have no curvature.
+    /// Returns the inflection pole: with the pole it spans the diameter of the inflection circle, whose points have no curvature.
     #[must_use]
     pub fn inflection_pole(&self) -> Complex<R> {
         self.pole.add(&self.second)
     }
 
-    /// The points of the body whose first, second and third derivatives of the place by the angle vanish: the pole, the
-    /// inflection pole, and the third of them.
+    /// Returns the points of the body for which the first, second or third derivative of the position by the angle vanishes: the
+    /// pole, the inflection pole, and the third normal pole.
     ///
     /// # Source
     /// \[Wittenburg2016, 15.3.1\]: `z' = i u`, `z'' = a_2 - u`, `z''' = a_3 - i u`.
@@ -79,14 +79,14 @@ impl<R: Ring> Instant<R> {
         [self.pole.clone(), self.inflection_pole(), self.pole.add(&third)]
     }
 
-    /// `|u|^2 - Re(conj(u) a_2)`: zero on the inflection circle.
+    /// Returns `|u|^2 - Re(conj(u) a_2)`, which is zero on the inflection circle.
     #[must_use]
     pub fn inflection(&self, point: &Complex<R>) -> R {
         let u = point.sub(&self.pole);
         scalar(&u, &u).sub(&scalar(&u, &self.second))
     }
 
-    /// The form that vanishes on the cubic of stationary curvature:
+    /// Returns the form that vanishes on the cubic of stationary curvature:
     /// `Re(conj(u) a_3) |u|^2 + 3 (|u|^2 - Re(conj(u) a_2)) Im(conj(u) a_2)`.
     ///
     /// # Source
@@ -99,7 +99,7 @@ impl<R: Ring> Instant<R> {
         scalar(&u, &self.third).mul(&square).add(&R::from_integer(3).mul(&twisted))
     }
 
-    /// The same instant seen from the body: the motion of the frame against it.
+    /// Returns the same instant in the frame of the body: the motion of the fixed frame relative to it.
     ///
     /// # Source
     /// \[Wittenburg2016, 15.2.4\]: `a_2` changes its sign, `a_3` becomes `a_3 - 3 i a_2`, in axes of the frame.
@@ -109,7 +109,7 @@ impl<R: Ring> Instant<R> {
         Self { pole: self.pole.clone(), second: self.second.neg(), third: self.third.sub(&three) }
     }
 
-    /// Velocity and acceleration of the point at a place, for the angular velocity and acceleration of the body.
+    /// Returns velocity and acceleration of the point at a position, for the angular velocity and acceleration of the body.
     #[must_use]
     pub fn motion_at(&self, point: &Complex<R>, omega: &R, alpha: &R) -> [Complex<R>; 2] {
         let u = point.sub(&self.pole);
@@ -120,7 +120,7 @@ impl<R: Ring> Instant<R> {
 }
 
 impl<R: Unit> Instant<R> {
-    /// The centre of curvature of the path of a point; `None` on the inflection circle and at the pole.
+    /// Returns the centre of curvature of the path of a point; `None` on the inflection circle and at the pole.
     ///
     /// # Source
     /// The formula of Euler and Savary, \[Wittenburg2016, 15.3.3\].
@@ -128,7 +128,7 @@ impl<R: Unit> Instant<R> {
     pub fn centre(&self, point: &Complex<R>) -> Option<Complex<R>> {
         let u = point.sub(&self.pole);
         let (square, inflection) = (scalar(&u, &u), self.inflection(point));
-        // Smallness is against the square of the distance: the formula is homogeneous.
+        // Smallness is relative to the square of the distance: the formula is homogeneous.
         let share = inflection.over(&square)?;
         if share.is_small() {
             return None;
@@ -137,8 +137,8 @@ impl<R: Unit> Instant<R> {
         Some(self.pole.add(&scaled(&u, &factor)))
     }
 
-    /// Ball's point, where the inflection circle meets the cubic of stationary curvature outside of the pole; `None` where the
-    /// whole circle does.
+    /// Returns Ball's point, in which the inflection circle meets the cubic of stationary curvature outside of the pole; `None` if
+    /// the whole circle belongs to the cubic.
     ///
     /// # Source
     /// \[Wittenburg2016, 15.3.6\]: `u = i a_3 Re(conj(i a_3) a_2)/|a_3|^2`.
@@ -149,7 +149,7 @@ impl<R: Unit> Instant<R> {
         Some(self.pole.add(&scaled(&along, &share)))
     }
 
-    /// The point opposite to the pole on the circle of the points without tangential acceleration; `None` where the angular
+    /// Returns the point opposite to the pole on the circle of the points without tangential acceleration; `None` if the angular
     /// acceleration is 0 and the circle a line.
     ///
     /// # Source
@@ -160,7 +160,7 @@ impl<R: Unit> Instant<R> {
         Some(self.pole.add(&scaled(&turned(&self.second), &factor)))
     }
 
-    /// The point of the body without acceleration, for its angular velocity and acceleration; `None` at rest.
+    /// Returns the point of the body without acceleration, for its angular velocity and acceleration; `None` at rest.
     ///
     /// # Source
     /// \[Wittenburg2016, 15.2.2\]: `u = omega^2 a_2/(omega^2 - i alpha)`.
@@ -174,15 +174,15 @@ impl<R: Unit> Instant<R> {
 }
 
 impl<R: Root> Instant<R> {
-    /// The diameter of the inflection circle.
+    /// Returns the diameter of the inflection circle.
     #[must_use]
     pub fn inflection_diameter(&self) -> Option<R> {
         scalar(&self.second, &self.second).sqrt()
     }
 
-    /// The lengths m, n of the cubic of stationary curvature `1/r = 1/(m sin b) + 1/(n cos b)`, in polar coordinates r, b about
-    /// the pole, b from the pole tangent, the normal pointing to the inflection pole. `None` where one of them is infinite: the
-    /// cubic falls apart.
+    /// Returns the lengths m, n of the cubic of stationary curvature `1/r = 1/(m sin b) + 1/(n cos b)`, in polar coordinates r, b
+    /// about the pole, with b from the pole tangent and the normal pointing to the inflection pole. `None` if one of them is infinite,
+    /// so that the cubic is reducible.
     ///
     /// # Source
     /// \[Wittenburg2016, 15.3.5\]: with the diameter d of the inflection circle and the parts of a_3 along tangent and normal,
@@ -192,7 +192,7 @@ impl<R: Root> Instant<R> {
         let diameter = self.inflection_diameter()?;
         let inverse = diameter.reciprocal()?;
         let normal = scaled(&self.second, &inverse);
-        // The normal is the tangent turned by a right angle: t = -i n.
+        // The normal is the tangent rotated by a right angle: t = -i n.
         let tangent = Complex { re: normal.im.clone(), im: normal.re.neg() };
         let three = R::from_integer(3);
         let square = three.mul(&diameter).mul(&diameter);
@@ -200,8 +200,8 @@ impl<R: Root> Instant<R> {
         Some([square.over(&along)?, square.over(&scalar(&normal, &self.third))?])
     }
 
-    /// The curvatures of the fixed and of the moving centrode at the pole, positive to the left of the pole's way; `None` where
-    /// the pole stands still.
+    /// Returns the curvatures of the fixed and of the moving centrode at the pole, positive to the left of the pole's path; `None`
+    /// if the pole is at rest.
     ///
     /// # Example
     /// ```
@@ -224,7 +224,7 @@ impl<R: Root> Instant<R> {
     }
 }
 
-/// The curvature of a plane curve from its first two derivatives: `Im(conj(z') z'')/|z'|^3`, positive where it turns left.
+/// Returns the curvature of a plane curve from its first two derivatives: `Im(conj(z') z'')/|z'|^3`, positive for a left bend.
 ///
 /// # Example
 /// ```

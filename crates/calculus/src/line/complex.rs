@@ -9,20 +9,20 @@ use looproot_algebra::ring::{Field, Ring};
 /// A linear complex by its two vectors, up to a factor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Complex<R> {
-    /// The direction of its axis; zero where all velocities are the same.
+    /// The direction of its axis; zero if all velocities are the same.
     pub a: Vector<R>,
     /// The velocity of the point at the origin.
     pub b: Vector<R>,
 }
 
 impl<R: Ring> Complex<R> {
-    /// Zero for the lines of the complex.
+    /// Returns the product with a line, which is zero for the lines of the complex.
     #[must_use]
     pub fn product(&self, line: &Line<R>) -> R {
         dot(&self.a, &line.moment).add(&dot(&self.b, &line.direction))
     }
 
-    /// The normal of the null plane of a point, the plane of all lines of the complex through it.
+    /// Returns the normal of the null plane of a point, the plane of all lines of the complex through it.
     ///
     /// # Example
     /// ```
@@ -39,7 +39,7 @@ impl<R: Ring> Complex<R> {
         std::array::from_fn(|i| self.b[i].add(&turned[i]))
     }
 
-    /// The Klein form of two complexes; zero where they are in involution.
+    /// Returns the Klein form of two complexes; zero if they are in involution.
     #[must_use]
     pub fn with(&self, other: &Self) -> R {
         dot(&self.a, &other.b).add(&dot(&self.b, &other.a))
@@ -47,20 +47,20 @@ impl<R: Ring> Complex<R> {
 }
 
 impl<R: Unit> Complex<R> {
-    /// The pitch `a . b / a . a`; `None` where it is infinite.
+    /// Returns the pitch `a . b / a . a`; `None` if it is infinite.
     #[must_use]
     pub fn pitch(&self) -> Option<R> {
         dot(&self.a, &self.b).over(&dot(&self.a, &self.a))
     }
 
-    /// The point of the axis nearest the origin; `None` where there is no axis.
+    /// Returns the point of the axis nearest the origin; `None` if there is no axis.
     #[must_use]
     pub fn axis_point(&self) -> Option<Vector<R>> {
         let inverse = dot(&self.a, &self.a).reciprocal()?;
         Some(cross(&self.a, &self.b).map(|c| c.mul(&inverse)))
     }
 
-    /// The null point of the plane `n . x = c`: the point whose null plane it is. `None` of a plane parallel to the axis.
+    /// Returns the null point of the plane `n . x = c`, the point with that null plane; `None` for a plane parallel to the axis.
     ///
     /// # Example
     /// ```
@@ -79,7 +79,7 @@ impl<R: Unit> Complex<R> {
         Some(std::array::from_fn(|i| distance.mul(&self.a[i]).sub(&side[i]).mul(&inverse)))
     }
 
-    /// The reciprocal polar of a line: where the null planes of its points meet. `None` of a special complex.
+    /// Returns the reciprocal polar of a line, in which the null planes of its points meet; `None` for a special complex.
     ///
     /// # Example
     /// ```
@@ -100,7 +100,7 @@ impl<R: Unit> Complex<R> {
     }
 }
 
-/// A basis of the complexes that contain all of these lines: one complex for five independent lines.
+/// Returns a basis of the complexes that contain all of these lines: one complex for five independent lines.
 ///
 /// # Source
 /// \[Wittenburg2016, 2.7.4\]

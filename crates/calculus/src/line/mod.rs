@@ -1,6 +1,6 @@
 //! Lines in space by Pluecker vectors, linear complexes of lines, congruences and reguli.
 //!
-//! A line is its direction d and its moment m = p x d, or one dual vector d + eps m: the products of dual vectors are those of
+//! A line is its direction d and its moment m = p x d, or one dual vector d + eps m. The products of dual vectors are those of
 //! lines.
 
 pub mod complex;

@@ -1,26 +1,26 @@
 //! The lines of a linear system of complexes: transversals of given lines, directrices of a congruence.
 //!
-//! A line is a complex that is in involution with itself. In a pencil of complexes that is one quadratic equation.
+//! A line is a complex that is in involution with itself. In a pencil of complexes this is one quadratic equation.
 
 use super::complex::Complex;
 use super::pluecker::Line;
 use looproot_algebra::ring::Ring;
 
-/// The quadratic form `a . b` on a basis of a system of complexes, twice: a symmetric matrix whose entry (i, j) is the Klein
-/// form of two members.
+/// Returns twice the quadratic form `a . b` on a basis of a system of complexes: a symmetric matrix whose entry (i, j) is the
+/// Klein form of two members.
 #[must_use]
 pub fn klein_form<R: Ring>(basis: &[Complex<R>]) -> Vec<Vec<R>> {
     basis.iter().map(|one| basis.iter().map(|two| one.with(two)).collect()).collect()
 }
 
-/// The member `s one + t two` of a pencil, read as a line: the axis of rotation of a special complex.
+/// Returns the member `s one + t two` of a pencil as a line: the axis of rotation of a special complex.
 #[must_use]
 pub fn member<R: Ring>(one: &Complex<R>, two: &Complex<R>, s: &R, t: &R) -> Line<R> {
     let sum = |x: &[R; 3], y: &[R; 3]| std::array::from_fn(|i| x[i].mul(s).add(&y[i].mul(t)));
     Line { direction: sum(&one.a, &two.a), moment: sum(&one.b, &two.b) }
 }
 
-/// The coefficients of `s^2`, `2 s t` and `t^2` in twice the form `a . b` of the pencil.
+/// Returns the coefficients of `s^2`, `2 s t` and `t^2` in twice the form `a . b` of the pencil.
 ///
 /// # Example
 /// ```

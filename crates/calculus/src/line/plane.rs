@@ -10,7 +10,7 @@ use looproot_algebra::ring::Ring;
 /// The points with `normal . x = distance`.
 ///
 /// # Units
-/// `distance` in those of `normal` times a length.
+/// `distance` is in the unit of `normal` times a length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plane<R> {
     /// The normal, of any length.
@@ -20,7 +20,7 @@ pub struct Plane<R> {
 }
 
 impl<R: Ring> Plane<R> {
-    /// The plane through three points; its normal is 0 for points in a line.
+    /// Returns the plane through three points; its normal is 0 for points in a line.
     ///
     /// # Example
     /// ```
@@ -39,7 +39,7 @@ impl<R: Ring> Plane<R> {
         Self { normal, distance }
     }
 
-    /// The line that two planes share; its direction is 0 for parallel planes.
+    /// Returns the line that two planes share; its direction is 0 for parallel planes.
     #[must_use]
     pub fn meet(&self, other: &Self) -> Line<R> {
         Line::of_planes((&self.normal, &self.distance), (&other.normal, &other.distance))
@@ -47,14 +47,14 @@ impl<R: Ring> Plane<R> {
 }
 
 impl<R: Unit> Plane<R> {
-    /// The point of the plane nearest the origin; `None` of a plane without normal.
+    /// Returns the point of the plane nearest the origin; `None` for a plane without normal.
     #[must_use]
     pub fn foot(&self) -> Option<Vector<R>> {
         let share = self.distance.over(&dot(&self.normal, &self.normal))?;
         Some(self.normal.each_ref().map(|c| c.mul(&share)))
     }
 
-    /// The reflection in the plane, as a map with a matrix of determinant -1.
+    /// Returns the reflection in the plane, as a map with a matrix of determinant -1.
     ///
     /// # Example
     /// ```

@@ -8,7 +8,7 @@ use looproot_algebra::ring::Ring;
 /// A line: a direction of any length, and the moment `p x direction` of any of its points.
 ///
 /// # Units
-/// `moment` in those of `direction` times a length.
+/// `moment` is in the unit of `direction` times a length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line<R> {
     /// The direction.
@@ -68,7 +68,7 @@ impl<R: Ring> Line<R> {
         Self { direction: std::array::from_fn(|k| c[k].clone()), moment: std::array::from_fn(|k| c[k + 3].clone()) }
     }
 
-    /// `d1 . m2 + m1 . d2`, zero where two lines meet or are parallel.
+    /// Returns `d1 . m2 + m1 . d2`, which is zero if two lines meet or are parallel.
     #[must_use]
     pub fn product(&self, other: &Self) -> R {
         dot(&self.direction, &other.moment).add(&dot(&self.moment, &other.direction))
@@ -80,8 +80,8 @@ impl<R: Ring> Line<R> {
         std::array::from_fn(|k| Dual { value: self.direction[k].clone(), epsilon: self.moment[k].clone() })
     }
 
-    /// The line of a dual vector. Of a product of two lines it is their common perpendicular, with a moment that lacks the part
-    /// along the direction.
+    /// Returns the line of a dual vector. For a product of two lines it is their common perpendicular, with a moment that lacks the
+    /// part along the direction.
     #[must_use]
     pub fn of_dual(v: &Vector<Dual<R>>) -> Self {
         Self {
@@ -92,14 +92,14 @@ impl<R: Ring> Line<R> {
 }
 
 impl<R: Unit> Line<R> {
-    /// The point nearest the origin; `None` of a line without direction.
+    /// Returns the point nearest the origin; `None` for a line without direction.
     #[must_use]
     pub fn point(&self) -> Option<Vector<R>> {
         let inverse = dot(&self.direction, &self.direction).reciprocal()?;
         Some(cross(&self.direction, &self.moment).map(|c| c.mul(&inverse)))
     }
 
-    /// The line whose moment lacks what it has along the direction: the axis of a screw.
+    /// Returns the line with the component of the moment along the direction removed: the axis of a screw.
     #[must_use]
     pub fn straightened(&self) -> Option<Self> {
         let along = dot(&self.direction, &self.moment).over(&dot(&self.direction, &self.direction))?;
@@ -107,7 +107,7 @@ impl<R: Unit> Line<R> {
         Some(Self { direction: self.direction.clone(), moment })
     }
 
-    /// The common perpendicular of two lines that are not parallel, directed along `d1 x d2`.
+    /// Returns the common perpendicular of two lines that are not parallel, directed along `d1 x d2`.
     ///
     /// # Example
     /// ```
@@ -125,7 +125,7 @@ impl<R: Unit> Line<R> {
         Self::of_dual(&cross(&self.dual(), &other.dual())).straightened()
     }
 
-    /// The point at which a line meets this one, or the foot of the common perpendicular on this one.
+    /// Returns the point at which a line meets this one, or the foot of the common perpendicular on this one.
     #[must_use]
     pub fn foot(&self, other: &Self) -> Option<Vector<R>> {
         let normal = cross(&self.direction, &other.direction);
@@ -136,7 +136,7 @@ impl<R: Unit> Line<R> {
         Some(std::array::from_fn(|i| p[i].add(&self.direction[i].mul(&along))))
     }
 
-    /// The image of this line in the half turn about another one.
+    /// Returns the image of this line under the half turn about another one.
     ///
     /// # Source
     /// \[Wittenburg2016, 2.3\], as a product of dual vectors: `2 (l . v) l - v` for the unit line l.
@@ -150,7 +150,7 @@ impl<R: Unit> Line<R> {
 }
 
 impl<R: Root> Line<R> {
-    /// The same line with a direction of length 1.
+    /// Returns the same line with a direction of length 1.
     ///
     /// # Example
     /// ```

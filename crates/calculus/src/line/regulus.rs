@@ -5,10 +5,10 @@ use crate::motion::{Vector, dot};
 use crate::unit::Unit;
 use looproot_algebra::ring::Ring;
 
-/// The symmetric matrix of the quadric that carries three skew lines, in homogeneous coordinates (x, y, z, 1), up to a factor.
+/// Returns the symmetric matrix of the quadric through three skew lines, in homogeneous coordinates (x, y, z, 1), up to a factor.
 ///
-/// The plane of a point x and the first line cuts the second line in a point; x lies on the quadric where the third line is in
-/// one plane with the two points: `x^T W3 L2 W1 x = 0` with the skew matrices W of planes and L of points.
+/// The plane of a point x and the first line cuts the second line in a point. The point x lies on the quadric if the third line
+/// is in one plane with the two points: `x^T W3 L2 W1 x = 0` with the skew matrices W of planes and L of points.
 ///
 /// # Example
 /// ```
@@ -65,7 +65,7 @@ pub fn quadric<R: Ring>(lines: &[Line<R>; 3]) -> [[R; 4]; 4] {
     std::array::from_fn(|i| std::array::from_fn(|j| form[i][j].add(&form[j][i])))
 }
 
-/// The line of the other family through a point of the first of three skew lines: the one that meets all three. `None` where
+/// Returns the line of the other family through a point of the first of three skew lines, which meets all three; `None` if
 /// there is none.
 #[must_use]
 pub fn opposite<R: Unit>(lines: &[Line<R>; 3], point: &Vector<R>) -> Option<Line<R>> {

@@ -4,7 +4,7 @@ use super::pluecker::Line;
 use crate::motion::{Vector, cross, dot};
 use crate::unit::Unit;
 
-/// What a generator and its rate say of a ruled surface.
+/// The local shape of a ruled surface, from a generator and its rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generator<R> {
     /// The striction point, the foot of the common perpendicular with the next generator.
@@ -14,8 +14,8 @@ pub struct Generator<R> {
     pub distribution: R,
 }
 
-/// Striction point and distribution parameter of a generator with the rate `d', m'` of its Pluecker vectors; `None` where the
-/// direction stands still, as on cylinders.
+/// Returns striction point and distribution parameter of a generator with the rate `d', m'` of its Pluecker vectors; `None` if
+/// the direction is constant, as on cylinders.
 ///
 /// # Example
 /// ```
@@ -58,9 +58,9 @@ pub fn generator<R: Unit>(line: &Line<R>, rate: &Line<R>) -> Option<Generator<R>
     Some(Generator { striction, distribution })
 }
 
-/// The generator of the fixed and of the moving axode of a motion: the axis of its velocity screw, with its rate. Given are the
-/// velocity screw as `omega` and the velocity at the origin, and the rates of these two at places fixed in space. `None` in a
-/// translation, and where the axis keeps its direction.
+/// Returns the generator of the fixed and of the moving axode of a motion: the axis of its velocity screw, with its rate. The
+/// arguments are the velocity screw, as `omega` and the velocity at the origin, and the rates of these two at places fixed in space.
+/// `None` for a translation, and if the axis keeps its direction.
 ///
 /// Both axodes have the same striction point and distribution parameter: they touch along the axis, and one rolls and slides on
 /// the other.

@@ -1,6 +1,6 @@
 //! Calibration of a sensor: the motion X with `A X = X B` for pairs of motions.
 //!
-//! The axes of A are the images of those of B, which gives the rotation; the translation solves
+//! The axes of A are the images of those of B, which determines the rotation. The translation solves
 //! `(R_A - I) t = R t_B - t_A`.
 
 use super::matrix::{Matrix, apply, from_matrix};
@@ -55,8 +55,8 @@ pub fn translation<F: Field>(pairs: &[(Motion<F>, Motion<F>)], rotation: &Matrix
     Translation::One(found)
 }
 
-/// The motion X that fits many pairs best: the rotation nearest to the map of the Euler vectors, then the translation of least
-/// squares. `None` where the axes of the pairs are parallel, which leaves the rotation free.
+/// Returns the motion X that fits many pairs best: the rotation nearest to the map of the Euler vectors, then the least-squares
+/// translation. `None` if the axes of the pairs are parallel, which leaves the rotation free.
 #[must_use]
 pub fn nearest(pairs: &[(Motion<f64>, Motion<f64>)]) -> Option<Motion<f64>> {
     let vector = |motion: &Motion<f64>| Some(euler_vectors(&unit(&from_matrix(&motion.rotation))?)[0]);
@@ -72,7 +72,7 @@ pub fn nearest(pairs: &[(Motion<f64>, Motion<f64>)]) -> Option<Motion<f64>> {
         let (pair, i) = (&pairs[row / 3], row % 3);
         apply(&rotation, &pair.1.translation)[i] - pair.0.translation[i]
     });
-    // Singular values below this share of the largest belong to directions that the pairs leave free.
+    // Singular values below this part of the largest belong to directions that the pairs leave free.
     let found = left.svd(true, true).solve(&right, 1e-9).ok()?;
     Some(Motion { rotation, translation: [found[0], found[1], found[2]] })
 }

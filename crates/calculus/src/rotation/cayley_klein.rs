@@ -14,7 +14,7 @@ pub struct CayleyKlein<R> {
 }
 
 impl<R: Ring> CayleyKlein<R> {
-    /// The parameters of a quaternion. Those of the opposite quaternion belong to the same rotation.
+    /// Returns the parameters of a quaternion. Those of the opposite quaternion belong to the same rotation.
     #[must_use]
     pub fn of(q: &Quaternion<R>) -> Self {
         let [x, y, z] = q.vector.clone();
@@ -28,7 +28,7 @@ impl<R: Ring> CayleyKlein<R> {
         Quaternion { scalar: w, vector: [x, y, z] }
     }
 
-    /// The parameters of the rotation by `other` first, then by `self`: a product in SU(2).
+    /// Returns the parameters of the rotation by `other` first, then by `self`: a product in SU(2).
     ///
     /// # Example
     /// ```

@@ -1,7 +1,7 @@
 //! Rotation matrices with three prescribed elements: three quadrics in the quaternion, eight points of P^3 in general.
 //!
 //! The nine places fall into four patterns up to exchanges of rows, of columns, and of rows with columns. In three of them
-//! signed square roots give the other elements; in the fourth, three elements of one row, a circle is left over, or nothing.
+//! signed square roots give the other elements. In the fourth, three elements of one row, there is a circle of solutions or none.
 
 use super::matrix::{Matrix, matrix, transpose};
 use crate::motion::cross;
@@ -9,7 +9,7 @@ use crate::quaternion::Quaternion;
 use crate::unit::Unit;
 use looproot_algebra::ring::Ring;
 
-/// How three places lie to one another.
+/// The relative position of three places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
     /// No two in one row or column: the squares of the four quaternion parameters are linear in the elements.
@@ -27,7 +27,7 @@ pub enum Pattern {
 /// Standard places are the diagonal; (1,1), (1,2), (2,1); (1,1), (1,2), (3,3).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elements<R> {
-    /// How the places lie.
+    /// The pattern of the places.
     pub pattern: Pattern,
     /// The values in the standard form.
     pub values: [R; 3],
@@ -36,19 +36,19 @@ pub struct Elements<R> {
     columns: [usize; 3],
 }
 
-/// The sign of a permutation of three.
+/// Returns whether a permutation of three is odd.
 fn is_odd(p: [usize; 3]) -> bool {
     (p[0] > p[1]) ^ (p[0] > p[2]) ^ (p[1] > p[2])
 }
 
-/// The index that is none of two others.
+/// Returns the index that differs from two others.
 fn third(i: usize, j: usize) -> usize {
     3 - i - j
 }
 
 impl<R: Ring> Elements<R> {
-    /// Three different places, rows and columns counted from 0, with their values; `None` where two places are the same or a
-    /// place is none.
+    /// Takes three different places, rows and columns counted from 0, with their values; `None` if two places are the same or one
+    /// is invalid.
     #[must_use]
     pub fn of(places: [(usize, usize); 3], values: [R; 3]) -> Option<Self> {
         let distinct = places[0] != places[1] && places[0] != places[2] && places[1] != places[2];
@@ -85,14 +85,14 @@ impl<R: Ring> Elements<R> {
         Some(Self::standard(Pattern::Pair, values, transposed, rows, columns))
     }
 
-    /// An odd exchange of rows and columns changes the sign of the determinant, and so do three changed signs.
+    /// An odd permutation of rows and columns changes the sign of the determinant, and so do three changed signs.
     fn standard(pattern: Pattern, values: [R; 3], transposed: bool, rows: [usize; 3], columns: [usize; 3]) -> Self {
         let flip = is_odd(rows) != is_odd(columns);
         let values = if flip { values.map(|v| v.neg()) } else { values };
         Self { pattern, values, transposed, rows, columns }
     }
 
-    /// The same places over another ring; `None` as soon as a value has no image.
+    /// Returns the same places over another ring; `None` if a value has no image.
     pub fn map<S>(&self, image: impl Fn(&R) -> Option<S>) -> Option<Elements<S>> {
         let [a, b, c] = &self.values;
         let values = [image(a)?, image(b)?, image(c)?];
@@ -100,7 +100,7 @@ impl<R: Ring> Elements<R> {
         Some(Elements { pattern, values, transposed, rows, columns })
     }
 
-    /// What the squares of the unknown roots are: four times those of the quaternion parameters where the places are scattered,
+    /// Returns the squares of the unknown roots: four times those of the quaternion parameters if the places are scattered,
     /// else those of the two elements that complete a row and a column. Empty for three in a line.
     #[must_use]
     pub fn squares(&self) -> Vec<R> {
@@ -120,7 +120,7 @@ impl<R: Ring> Elements<R> {
         }
     }
 
-    /// What must not vanish for the roots to determine the matrix; 1 where they always do.
+    /// Returns a divisor that must not vanish for the roots to determine the matrix; 1 if they always do.
     #[must_use]
     pub fn divisor(&self) -> R {
         let [a, b, _] = &self.values;
@@ -133,7 +133,7 @@ impl<R: Ring> Elements<R> {
 }
 
 impl<R: Unit> Elements<R> {
-    /// The matrix that belongs to signed roots of [`Elements::squares`]; `None` where they do not determine one.
+    /// Returns the matrix that belongs to signed roots of [`Elements::squares`]; `None` if they do not determine one.
     ///
     /// # Example
     /// ```

@@ -1,6 +1,6 @@
-//! Euler angles of any order of axes: A = Ri(a) Rj(b) Rk(c), each about a coordinate axis of the body before it.
+//! Euler angles of any order of axes: A = Ri(a) Rj(b) Rk(c), each about a coordinate axis of the body as rotated before.
 //!
-//! `zxz` are Euler angles as \[Wittenburg2016, 1.3\] has them, `xyz` his Bryan angles.
+//! `zxz` are Euler angles as in \[Wittenburg2016, 1.3\], `xyz` his Bryan angles.
 
 use super::matrix::{Matrix, from_matrix, product};
 use super::turn::Turn;
@@ -23,7 +23,7 @@ pub enum Angles<R> {
     Family {
         /// The middle angle.
         middle: Turn<R>,
-        /// What the outer angles add up to, or differ by.
+        /// The sum or the difference of the outer angles.
         outer: Turn<R>,
         /// Whether it is the difference, the first less the third.
         is_difference: bool,
@@ -36,7 +36,7 @@ impl Order {
     /// Bryan angles, xyz.
     pub const BRYAN: Self = Self { axes: [0, 1, 2] };
 
-    /// An order by its letters, such as `zyz`; `None` of other words, and where neighbours are equal.
+    /// Reads an order by its letters, such as `zyz`; `None` for other words, and if neighbours are equal.
     #[must_use]
     pub fn parse(word: &str) -> Option<Self> {
         let letters: Vec<usize> = word.chars().map(|c| "xyz".find(c.to_ascii_lowercase())).collect::<Option<_>>()?;
@@ -50,7 +50,7 @@ impl Order {
         self.axes[0] == self.axes[2]
     }
 
-    /// The two axes, the one that is left, and whether they are in cyclic order.
+    /// Returns the first two axes, the remaining one, and whether they are in cyclic order.
     fn frame(self) -> (usize, usize, usize, bool) {
         let [i, j, _] = self.axes;
         (i, j, 3 - i - j, (i + 1) % 3 == j)
@@ -77,7 +77,7 @@ impl Order {
         from_matrix(&self.matrix(angles))
     }
 
-    /// All angles of a rotation; `None` where the ring lacks a root, as of most rational matrices.
+    /// Returns all angles of a rotation; `None` if the ring lacks a root, as for most rational matrices.
     ///
     /// # Source
     /// \[Wittenburg2016, 1.3 and 1.4\], for any order.
@@ -85,7 +85,7 @@ impl Order {
     pub fn angles<R: Root>(self, m: &Matrix<R>) -> Option<Angles<R>> {
         let (i, j, l, cyclic) = self.frame();
         let signed = |c: &R| if cyclic { c.clone() } else { c.neg() };
-        // Middle angle, and the two entries that its sine (its cosine) multiplies on either side.
+        // The middle angle, and the two entries that its sine (or its cosine) multiplies on either side.
         let (first, third) = if self.is_proper() {
             ([signed(&m[l][i]).neg(), m[j][i].clone()], [signed(&m[i][l]), m[i][j].clone()])
         } else {

@@ -7,8 +7,8 @@ use looproot_algebra::ring::Ring;
 
 use super::turn::Turn;
 
-/// The rotations that take the unit vector `before` to the unit vector `after`: `(cos f/2 + after sin f/2) m`, m the half turn
-/// about their bisector. The angle f is free. `None` for opposite vectors, where every m perpendicular to them will do.
+/// Returns the rotations that take the unit vector `before` to the unit vector `after`: `(cos f/2 + after sin f/2) m`, with m the
+/// half turn about their bisector and a free angle f. `None` for opposite vectors, for which m may be any perpendicular half turn.
 ///
 /// # Example
 /// ```

@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 /// Three rows of three direction cosines.
 pub type Matrix<R> = [[R; 3]; 3];
 
-/// The matrix of a quaternion of any norm; `None` where the norm is no unit.
+/// Returns the matrix of a quaternion of any norm; `None` if the norm is no unit.
 ///
 /// # Example
 /// ```
@@ -35,7 +35,7 @@ pub fn matrix<R: Unit>(q: &Quaternion<R>) -> Option<Matrix<R>> {
     ])
 }
 
-/// A quaternion of a rotation matrix, up to a factor: the longest of the four columns of the matrix of its products.
+/// Returns a quaternion of a rotation matrix, up to a factor: the longest of the four columns of the matrix of its products.
 ///
 /// # Example
 /// ```
@@ -69,7 +69,7 @@ pub fn from_matrix<R: Unit>(a: &Matrix<R>) -> Quaternion<R> {
     }
 }
 
-/// The product of two matrices: first `b`, then `a`.
+/// Returns the product of two matrices, which applies `b` first.
 #[must_use]
 pub fn product<R: Ring>(a: &Matrix<R>, b: &Matrix<R>) -> Matrix<R> {
     let columns = transpose(b);
@@ -94,8 +94,8 @@ pub fn determinant<R: Ring>(a: &Matrix<R>) -> R {
     dot(&a[0], &crate::motion::cross(&a[1], &a[2]))
 }
 
-/// The rotation nearest to a matrix, in the sum of squares of the entries, and the largest entry of the difference. `None` of
-/// a matrix that is not finite.
+/// Returns the rotation nearest to a matrix, in the sum of squares of the entries, and the largest entry of the difference.
+/// `None` for a matrix that is not finite.
 ///
 /// # Source
 /// The polar factor by singular values, \[Kabsch1976\].

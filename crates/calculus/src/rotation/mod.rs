@@ -1,7 +1,7 @@
 //! Rotations about a fixed point: ten parametrisations, with every branch and every critical place.
 //!
-//! The quaternion, up to a factor, is the hub: every parametrisation has a way to it and a way back. Where a parametrisation
-//! is critical, the way back says so with the family of values that belong to the rotation.
+//! The quaternion, up to a factor, is the hub: every parametrisation has a conversion to it and one back. At a critical place of
+//! a parametrisation, the conversion back returns the family of values that belong to the rotation.
 //!
 //! | parametrisation | functions | critical |
 //! |---|---|---|

@@ -7,8 +7,8 @@ use crate::quaternion::Quaternion;
 use crate::unit::{Analytic, Root, Unit};
 use looproot_algebra::ring::Ring;
 
-/// The linear map that takes two vectors to two others, and their product to the product of the others: the rotation, where
-/// lengths and the angle agree. `None` for parallel vectors.
+/// Returns the linear map that takes two vectors to two others, and their cross product to that of the others. It is the
+/// rotation if lengths and the angle agree. `None` for parallel vectors.
 ///
 /// # Example
 /// ```
@@ -38,8 +38,8 @@ pub fn taking<R: Unit>(before: &[Vector<R>; 2], after: &[Vector<R>; 2]) -> Optio
     }))
 }
 
-/// The rotation that takes the first vectors nearest to the second ones, in the sum of squares. `None` where the vectors span
-/// less than a plane.
+/// Returns the rotation that takes the first vectors nearest to the second ones, in the sum of squares; `None` if the vectors do
+/// not span a plane.
 ///
 /// # Source
 /// \[Kabsch1976\]
@@ -50,7 +50,7 @@ pub fn nearest_rotation(pairs: &[(Vector<f64>, Vector<f64>)]) -> Option<Matrix<f
     });
     let singular = nalgebra::Matrix3::from_fn(|i, j| product[i][j]).singular_values();
     let largest = singular.max();
-    // Two of three singular values must stand out of rounding.
+    // Two of the three singular values must exceed rounding.
     let clear = singular.iter().filter(|s| **s > 1e-12 * largest).count();
     if clear < 2 {
         return None;
@@ -58,8 +58,8 @@ pub fn nearest_rotation(pairs: &[(Vector<f64>, Vector<f64>)]) -> Option<Matrix<f
     nearest(&product).map(|(rotation, _)| rotation)
 }
 
-/// The axis of the rotation that takes a point of the body through three positions on one circle, and the plane of the circle:
-/// the normal of the plane of the three. `None` of points in a line.
+/// Returns the axis of the rotation that takes a point of the body through three positions on one circle: the normal of the
+/// plane of the three. It is 0 for points in a line.
 ///
 /// # Source
 /// \[Wittenburg2016, 1.15.6\]
@@ -69,7 +69,7 @@ pub fn circle_axis<R: Ring>(points: &[Vector<R>; 3]) -> Vector<R> {
     cross(&difference(1), &difference(2))
 }
 
-/// The reflection in the plane through the origin with this normal of any length, as a matrix of determinant -1.
+/// Returns the reflection in the plane through the origin with this normal of any length, as a matrix of determinant -1.
 ///
 /// # Example
 /// ```
@@ -93,14 +93,14 @@ pub fn reflection<R: Unit>(normal: &Vector<R>) -> Option<Matrix<R>> {
     }))
 }
 
-/// Whether a matrix keeps lengths and the sense of rotation, exactly.
+/// Returns whether a matrix keeps lengths and orientation, exactly.
 #[must_use]
 pub fn is_rotation<R: Ring>(a: &Matrix<R>) -> bool {
     let is_orthogonal = (0..3).all(|i| (0..3).all(|j| dot(&a[i], &a[j]) == if i == j { R::one() } else { R::zero() }));
     is_orthogonal && determinant(a) == R::one()
 }
 
-/// The rotation at the share `s` of the way from one position to another, at constant angular velocity about a fixed axis.
+/// Returns the rotation at the share `s` of the way from one position to another, at constant angular velocity about a fixed axis.
 ///
 /// # Example
 /// ```
@@ -122,8 +122,8 @@ pub fn between<R: Analytic>(from: &Quaternion<R>, to: &Quaternion<R>, s: &R) -> 
     Some(part.mul(&start))
 }
 
-/// The rotation that takes position i to position j, for three positions: the sides of the rotation triangle. The product of
-/// all three, in order, is the identity.
+/// Returns the rotations that take position i to position j, for three positions: the sides of the rotation triangle. The
+/// product of all three, in order, is the identity.
 ///
 /// # Example
 /// ```
@@ -142,7 +142,7 @@ pub fn triangle<R: Ring>(positions: &[Quaternion<R>; 3]) -> [Quaternion<R>; 3] {
     std::array::from_fn(|k| positions[(k + 1) % 3].mul(&positions[k].conjugate()))
 }
 
-/// The spherical triangle of three unit axes: the cosines of its sides. Half the angles of the rotations are its outer angles.
+/// Returns the cosines of the sides of the spherical triangle of three unit axes. Half the rotation angles are its outer angles.
 #[must_use]
 pub fn sides<R: Root>(axes: &[Vector<R>; 3]) -> [R; 3] {
     std::array::from_fn(|k| dot(&axes[(k + 1) % 3], &axes[(k + 2) % 3]))

@@ -1,7 +1,7 @@
-//! Kinematic differential equations: how the parameters of a rotation change with its angular velocity.
+//! Kinematic differential equations: the rates of the parameters of a rotation for its angular velocity.
 //!
 //! A rotation over dual numbers carries its rate; its angular velocity, in axes fixed in space, is twice the vector of
-//! `q' q*`. Each parametrisation has the equation that its way to the quaternion gives over dual numbers, so that there is no second
+//! `q' q*`. The equation of each parametrisation is its conversion to the quaternion over dual numbers, so that there is no second
 //! table of formulas.
 
 use crate::motion::{Vector, cross, dot};
@@ -9,8 +9,8 @@ use crate::quaternion::Quaternion;
 use crate::unit::{Root, Unit};
 use looproot_algebra::dual::Dual;
 
-/// The angular velocity of a quaternion of any norm that carries its rate, in axes fixed in space; `None` where the norm is no
-/// unit.
+/// Returns the angular velocity of a quaternion of any norm that carries its rate, in axes fixed in space; `None` if the norm
+/// is no unit.
 ///
 /// # Example
 /// ```
@@ -34,7 +34,7 @@ pub fn angular_velocity<R: Unit>(q: &Quaternion<Dual<R>>) -> Option<Vector<R>> {
     Some(rate.mul(&value.conjugate()).vector.map(|c| c.mul(&twice)))
 }
 
-/// The rate of a quaternion for an angular velocity in axes fixed in space: `q' = omega q / 2`. Its norm stays.
+/// Returns the rate of a quaternion for an angular velocity in axes fixed in space: `q' = omega q / 2`. Its norm is constant.
 #[must_use]
 pub fn quaternion_rate<R: Unit>(q: &Quaternion<R>, omega: &Vector<R>) -> Option<Quaternion<R>> {
     let half = R::from_integer(2).reciprocal()?;
@@ -42,8 +42,8 @@ pub fn quaternion_rate<R: Unit>(q: &Quaternion<R>, omega: &Vector<R>) -> Option<
     Some(Quaternion { scalar: turned.scalar.mul(&half), vector: turned.vector.map(|c| c.mul(&half)) })
 }
 
-/// The rates of `N` parameters that give an angular velocity, from the way of the parameters to the quaternion. `None` at the
-/// critical places of the parametrisation, where rates are infinite or free.
+/// Returns the rates of `N` parameters for an angular velocity, from the conversion of the parameters to the quaternion. `None` at
+/// the critical places of the parametrisation, at which rates are infinite or free.
 ///
 /// # Example
 /// ```
@@ -76,7 +76,7 @@ pub fn parameter_rates<R: Unit>(
     Some([triple(&b, &c), triple(&c, &a), triple(&a, &b)])
 }
 
-/// A quaternion brought back to norm 1 after a step of an integrator, to second order in what it is off, without a root:
+/// Corrects a quaternion to norm 1 after a step of an integrator, to second order in the error and without a root:
 /// `q (3 - q.q)/2`.
 ///
 /// # Example

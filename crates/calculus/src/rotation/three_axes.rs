@@ -1,7 +1,7 @@
 //! A rotation as three rotations about given axes: `R = Rot(n1, t1) Rot(n2, t2) Rot(n3, t3)`, axes fixed in space.
 //!
-//! The middle angle is that of one equation, `A cos t2 + B sin t2 = C`, from `n1 . R n3`; the outer ones follow from one vector
-//! each. Over the dual numbers the axes are lines and the rotations screws.
+//! The middle angle solves one equation, `A cos t2 + B sin t2 = C`, from `n1 . R n3`; each outer angle follows from one vector.
+//! Over the dual numbers the axes are lines and the rotations screws.
 
 use super::matrix::{Matrix, apply, matrix, product, transpose};
 use super::turn::Turn;
@@ -11,8 +11,8 @@ use looproot_algebra::ring::Ring;
 
 /// The equation of the middle angle, for axes of any length: `cos cos t2 + sin |n2| sin t2 = right`.
 ///
-/// `n1 . R n3 - (n1.n2)(n2.n3) = (n1.n3 - (n1.n2)(n2.n3)) cos t2 + n1.(n2 x n3) sin t2` for unit axes; here both sides are
-/// multiplied by the lengths of the outer axes and the square of that of the middle one, so that rational axes give rational
+/// `n1 . R n3 - (n1.n2)(n2.n3) = (n1.n3 - (n1.n2)(n2.n3)) cos t2 + n1.(n2 x n3) sin t2` for unit axes. Here both sides are
+/// multiplied by the lengths of the outer axes and the squared length of the middle one, so that rational axes give rational
 /// coefficients.
 ///
 /// # Source
@@ -23,7 +23,7 @@ pub struct Equation<R> {
     pub cos: R,
     /// The coefficient of the sine, divided by the length of the middle axis.
     pub sin: R,
-    /// The other side.
+    /// The right side.
     pub right: R,
     /// The square of the length of the middle axis.
     pub square: R,
@@ -44,22 +44,22 @@ impl<R: Ring> Equation<R> {
         }
     }
 
-    /// The square of the amplitude of the side with the angle.
+    /// Returns the square of the amplitude of the left side.
     #[must_use]
     pub fn amplitude_squared(&self) -> R {
         self.cos.mul(&self.cos).add(&self.square.mul(&self.sin).mul(&self.sin))
     }
 
-    /// The square of the amplitude less that of the other side: two real solutions where it is positive, a double one where it
-    /// is 0, none where it is negative.
+    /// Returns the square of the amplitude minus that of the right side: there are two real solutions if it is positive, a double
+    /// one if it is 0, none if it is negative.
     #[must_use]
     pub fn discriminant(&self) -> R {
         self.amplitude_squared().sub(&self.right.mul(&self.right))
     }
 }
 
-/// The angles about three unit axes: two triples, one where they coincide. `None` where the middle angle is not determined,
-/// where an outer axis and its image leave the outer angles free, and where the ring lacks the root of the discriminant.
+/// Returns the angles about three unit axes: two triples, or one if they coincide. `None` if the middle angle is not determined,
+/// if an outer axis and its image leave the outer angles free, or if the ring lacks the root of the discriminant.
 ///
 /// # Example
 /// ```
@@ -103,7 +103,7 @@ pub fn with_root<R: Unit>(
     let about_second = turned(n2, &second)?;
     let first = Turn::between(n1, &beside(n1, &apply(&about_second, n3)), &beside(n1, &apply(rotation, n3)))?;
     let rest = product(&transpose(&product(&turned(n1, &first)?, &about_second)), rotation);
-    // A vector perpendicular to the third axis, from the base vector that is farthest from it.
+    // A vector perpendicular to the third axis, from the base vector farthest from it.
     let least = (0..3).min_by(|i, j| n3[*i].size().total_cmp(&n3[*j].size()))?;
     let unit: Vector<R> = std::array::from_fn(|i| if i == least { R::one() } else { R::zero() });
     let across = beside(n3, &unit);

@@ -30,7 +30,7 @@ impl<R: Ring> Turn<R> {
         }
     }
 
-    /// The angle with the other sign.
+    /// Returns the negative angle.
     #[must_use]
     pub fn negated(&self) -> Self {
         Self { cos: self.cos.clone(), sin: self.sin.neg() }
@@ -38,7 +38,7 @@ impl<R: Ring> Turn<R> {
 }
 
 impl<R: Unit> Turn<R> {
-    /// The angle whose half has the tangent `sin_half : cos_half`; `None` where both are too small.
+    /// Returns the angle whose half has the tangent `sin_half : cos_half`; `None` if both are too small.
     ///
     /// # Example
     /// ```
@@ -55,8 +55,8 @@ impl<R: Unit> Turn<R> {
         Some(Self { cos: c.sub(&s).mul(&inverse), sin: product.add(&product).mul(&inverse) })
     }
 
-    /// The angle between two vectors perpendicular to a unit axis, from the first to the second, both of one length;
-    /// `None` where they have none.
+    /// Returns the angle between two vectors perpendicular to a unit axis, from the first to the second, both of one length;
+    /// `None` if they are zero.
     #[must_use]
     pub fn between(axis: &Vector<R>, first: &Vector<R>, second: &Vector<R>) -> Option<Self> {
         use crate::motion::{cross, dot};
@@ -64,8 +64,8 @@ impl<R: Unit> Turn<R> {
         Some(Self { cos: dot(first, second).mul(&inverse), sin: dot(axis, &cross(first, second)).mul(&inverse) })
     }
 
-    /// A quaternion of the rotation about a unit axis by this angle, up to a factor: `1 + cos + sin n`, and n at half a
-    /// turn.
+    /// Returns a quaternion of the rotation about a unit axis by this angle, up to a factor: `1 + cos + sin n`, and n for
+    /// the angle pi.
     #[must_use]
     pub fn about(&self, axis: &Vector<R>) -> Quaternion<R> {
         let one_plus = R::one().add(&self.cos);
@@ -83,7 +83,7 @@ impl<R: Analytic> Turn<R> {
         R::atan2(&self.sin, &self.cos)
     }
 
-    /// The point of an angle in radians.
+    /// Returns cosine and sine of an angle in radians.
     #[must_use]
     pub fn of_angle(angle: &R) -> Self {
         let (cos, sin) = angle.cos_sin_of();

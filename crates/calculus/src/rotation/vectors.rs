@@ -4,7 +4,7 @@ use crate::motion::Vector;
 use crate::quaternion::Quaternion;
 use crate::unit::{Analytic, Root, Unit, length};
 
-/// The quaternion of norm 1 whose first entry that is not zero is positive; `None` where the ring lacks the root.
+/// Returns the quaternion of norm 1 whose first nonzero entry is positive; `None` if the ring lacks the root.
 ///
 /// # Example
 /// ```
@@ -22,8 +22,8 @@ pub fn unit<R: Root>(q: &Quaternion<R>) -> Option<Quaternion<R>> {
     Some(Quaternion { scalar, vector: [x, y, z] })
 }
 
-/// Unit axis, and half the angle as cosine and sine, of a unit quaternion, the angle in [0, pi]; `None` at the identity,
-/// where every axis will do.
+/// Returns unit axis and half the angle, as cosine and sine, of a unit quaternion, with the angle in [0, pi]; `None` at the
+/// identity, where every axis is possible.
 fn axis_and_half<R: Root>(q: &Quaternion<R>) -> Option<(Vector<R>, R, R)> {
     let sine = length(&q.vector)?;
     if sine.is_small() {
@@ -33,7 +33,7 @@ fn axis_and_half<R: Root>(q: &Quaternion<R>) -> Option<(Vector<R>, R, R)> {
     Some((q.vector.each_ref().map(|c| c.mul(&inverse)), q.scalar.clone(), sine))
 }
 
-/// Unit axis and angle in [0, pi] of a unit quaternion as [`unit()`] gives it; `None` at the identity, where every axis will do.
+/// Returns unit axis and angle in [0, pi] of a unit quaternion as from [`unit()`]; `None` at the identity, which has any axis.
 #[must_use]
 pub fn axis_angle<R: Analytic>(q: &Quaternion<R>) -> Option<(Vector<R>, R)> {
     let (axis, cos, sin) = axis_and_half(q)?;
@@ -41,7 +41,7 @@ pub fn axis_angle<R: Analytic>(q: &Quaternion<R>) -> Option<(Vector<R>, R)> {
     Some((axis, half.add(&half)))
 }
 
-/// A quaternion of the rotation about an axis of any length; `None` of an axis without direction.
+/// Returns a quaternion of the rotation about an axis of any length; `None` for the zero vector.
 ///
 /// # Example
 /// ```
@@ -57,7 +57,7 @@ pub fn from_axis_angle<R: Analytic>(axis: &Vector<R>, angle: &R) -> Option<Quate
     Some(Quaternion { scalar: cos, vector: axis.map(|c| c.mul(&sin)) })
 }
 
-/// The Euler vectors `n angle` with an angle in [0, pi] of a unit quaternion as [`unit()`] gives it: one, and two at half a turn.
+/// Returns the Euler vectors `n angle`, angle in [0, pi], of a unit quaternion as from [`unit()`]: one, or two for the angle pi.
 #[must_use]
 pub fn euler_vectors<R: Analytic>(q: &Quaternion<R>) -> Vec<Vector<R>> {
     let Some((axis, angle)) = axis_angle(q) else { return vec![std::array::from_fn(|_| R::zero())] };
@@ -81,7 +81,7 @@ pub fn from_euler_vector<R: Analytic>(v: &Vector<R>) -> Option<Quaternion<R>> {
     from_axis_angle(v, &angle)
 }
 
-/// The Rodrigues vector `n tan(angle/2)`; `None` at half a turn, where it is infinite.
+/// Returns the Rodrigues vector `n tan(angle/2)`; `None` for the angle pi, where it is infinite.
 #[must_use]
 pub fn rodrigues<R: Unit>(q: &Quaternion<R>) -> Option<Vector<R>> {
     if q.scalar.is_small() {
@@ -97,8 +97,8 @@ pub fn from_rodrigues<R: Unit>(v: &Vector<R>) -> Quaternion<R> {
     Quaternion { scalar: R::one(), vector: v.clone() }
 }
 
-/// The Wiener vectors `n tan(angle/4)` of a unit quaternion: two, the second being the shadow of the first, and one at the
-/// identity, where the shadow is infinite.
+/// Returns the Wiener vectors `n tan(angle/4)` of a unit quaternion: two, the second being the shadow of the first, or one at
+/// the identity, where the shadow is infinite.
 ///
 /// # Example
 /// ```
