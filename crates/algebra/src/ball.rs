@@ -59,7 +59,7 @@ impl<const BITS: u32> Ball<BITS> {
         Self::rounded(&other.re, &other.im, other.radius.clone())
     }
 
-    /// The same ball, its radius enlarged by what rounding both parts of the midpoint to the nearest may have moved them.
+    /// Enlarges the radius by a bound on the rounding of both parts of the midpoint to the nearest.
     fn with_rounding(mut self) -> Self {
         let size = sum(magnitude(&self.re), &magnitude(&self.im));
         if !size.is_zero() {
@@ -68,7 +68,7 @@ impl<const BITS: u32> Ball<BITS> {
         self
     }
 
-    /// The same ball with a larger radius.
+    /// Returns the same ball with a larger radius.
     #[must_use]
     pub fn enlarged(mut self, by: &Float) -> Self {
         self.radius = sum(self.radius, &magnitude(by));
@@ -121,13 +121,13 @@ impl<const BITS: u32> Ball<BITS> {
         if rest.is_sign_negative() || rest.is_nan() { Float::new(RADIUS_BITS) } else { rest }
     }
 
-    /// Whether 0 may lie in the ball. A ball that overflowed contains everything.
+    /// Returns whether 0 may lie in the ball. A ball that overflowed contains everything.
     #[must_use]
     pub fn contains_zero(&self) -> bool {
         !(self.lower() > 0)
     }
 
-    /// Whether the two balls may have a number in common.
+    /// Returns whether the two balls may have a number in common.
     #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
         self.sub(other).contains_zero()
@@ -158,7 +158,7 @@ impl<const BITS: u32> Ball<BITS> {
         Some(self.mul(&other.inverse()?))
     }
 
-    /// The same ball in other precision.
+    /// Converts the ball to another precision.
     #[must_use]
     pub fn convert<const OTHER: u32>(&self) -> Ball<OTHER> {
         Ball::rounded(&self.re, &self.im, self.radius.clone())
@@ -205,7 +205,7 @@ impl<const BITS: u32> Ring for Ball<BITS> {
     }
 }
 
-/// Pivots are chosen by their least absolute value: a ball around 0 is none.
+/// Pivots are chosen by their least absolute value; a ball that contains 0 is no pivot.
 impl<const BITS: u32> Field for Ball<BITS> {
     fn inverse(&self) -> Option<Self> {
         Self::inverse(self)

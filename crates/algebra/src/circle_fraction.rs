@@ -17,7 +17,7 @@ fn circle() -> Univariate<Rational> {
     Univariate::new([1, 0, 1].map(Rational::from).to_vec())
 }
 
-/// Whether `1 + s^2` divides a polynomial: whether its value at the imaginary unit is zero.
+/// Returns whether `1 + s^2` divides a polynomial: whether its value at the imaginary unit is zero.
 fn is_divisible(polynomial: &Univariate<Rational>) -> bool {
     let mut value = [Rational::new(), Rational::new()];
     for (k, c) in polynomial.coefficients().iter().enumerate() {
@@ -108,8 +108,8 @@ impl Ring for CircleFraction {
     }
 }
 
-/// No field: only numbers times powers of `1 + s^2` have an inverse here, and algorithms that ask for another one are
-/// answered that there is none.
+/// This is no field: only numbers times powers of `1 + s^2` have an inverse here, and for any other element algorithms get
+/// `None`.
 impl Field for CircleFraction {
     fn inverse(&self) -> Option<Self> {
         let [c] = self.numerator.coefficients() else { return None };

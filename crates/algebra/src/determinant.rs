@@ -6,10 +6,10 @@ use super::univariate::Univariate;
 use rug::{Integer, Rational};
 use std::ops::Range;
 
-/// The determinant over a field, for square matrices of any storage; 0 only where a column has no nonzero pivot.
+/// Returns the determinant over a field, for square matrices of any storage; 0 only if a column has no nonzero pivot.
 ///
 /// # Panics
-/// When the matrix is not square.
+/// If the matrix is not square.
 #[must_use]
 pub fn determinant<F: Field, Row: AsRef<[F]>>(a: &[Row]) -> F {
     let mut rows: Vec<Vec<F>> = copy_square(a);
@@ -39,7 +39,7 @@ pub fn determinant<F: Field, Row: AsRef<[F]>>(a: &[Row]) -> F {
 /// The determinant without fractions, over any ring with exact division (Bareiss).
 ///
 /// # Panics
-/// When the matrix is not square.
+/// If the matrix is not square.
 ///
 /// # Source
 /// Bareiss 1968, Mathematics of Computation 22, 565-578.
@@ -63,7 +63,7 @@ pub fn bareiss<D: Domain, Row: AsRef<[D]>>(a: &[Row]) -> D {
     if odd { previous.neg() } else { previous }
 }
 
-/// The rows on the heap, seen to be as long as they are many.
+/// Copies the rows, checking that the matrix is square.
 fn copy_square<F: Clone, Row: AsRef<[F]>>(a: &[Row]) -> Vec<Vec<F>> {
     let rows: Vec<Vec<F>> = a.iter().map(|row| row.as_ref().to_vec()).collect();
     assert!(rows.iter().all(|row| row.len() == a.len()), "a determinant is of a square matrix");

@@ -1,4 +1,4 @@
-//! Discs of complex numbers, in as many bits as their centres have: what is computed with them is proved.
+//! Discs of complex numbers, in as many bits as their centres have; results computed with them are proved.
 
 use super::ring::Ring;
 use rug::{Float, Rational, float::Round};
@@ -29,7 +29,7 @@ where
     Float::with_val_round(RADIUS_BITS, value, Round::Up).0
 }
 
-/// The same rounded down.
+/// Rounds a radius down.
 fn down<T>(value: T) -> Float
 where
     Float: rug::ops::AssignRound<T, Round = Round, Ordering = std::cmp::Ordering>,
@@ -50,7 +50,7 @@ impl Disc {
         Self { re, im, radius: Float::new(RADIUS_BITS) }
     }
 
-    /// A rational number in so many bits.
+    /// Encloses a rational number in this many bits.
     #[must_use]
     pub fn of(q: &Rational, bits: u32) -> Self {
         Self::point(Float::with_val(bits, q), Float::new(bits)).rounded(1)
@@ -70,14 +70,14 @@ impl Disc {
         &self.radius
     }
 
-    /// The same with a larger radius.
+    /// Returns the same disc with a larger radius.
     #[must_use]
     pub fn widened(mut self, by: &Float) -> Self {
         self.radius = up(&self.radius + by);
         self
     }
 
-    /// Adds what so many roundings of the centre can have moved it, in units of the last place of both parts together.
+    /// Adds the effect of this many roundings of the centre, in units of the last place of both parts together.
     fn rounded(mut self, roundings: u32) -> Self {
         let unit = up(&self.centre_size() >> (self.bits() - 1));
         self.radius = up(&self.radius + up(unit * roundings));
@@ -93,11 +93,11 @@ impl Disc {
         up(&up(self.re.abs_ref()) + &up(self.im.abs_ref()))
     }
 
-    /// No more than the absolute value of the centre.
+    /// Returns a lower bound of the absolute value of the centre.
     fn centre_at_least(&self) -> Float {
         let (re, im) = (down(self.re.abs_ref()), down(self.im.abs_ref()));
         let (large, small) = if re < im { (im, re) } else { (re, im) };
-        // The other leg of the triangle counts in full only where it is as long.
+        // Both legs of the triangle are rounded down.
         let square = down(&down(&large * &large) + &down(&small * &small));
         Float::with_val_round(RADIUS_BITS, square.sqrt_ref(), Round::Down).0
     }
@@ -115,13 +115,13 @@ impl Disc {
         if low > 0 { low } else { Float::new(RADIUS_BITS) }
     }
 
-    /// Whether 0 is none of the numbers.
+    /// Returns whether 0 is outside the disc.
     #[must_use]
     pub fn is_not_zero(&self) -> bool {
         self.at_least() > 0
     }
 
-    /// The inverse; `None` where 0 may be among the numbers.
+    /// Returns the inverse; `None` if 0 may be in the disc.
     #[must_use]
     pub fn inverse(&self) -> Option<Self> {
         let least = self.at_least();
@@ -137,7 +137,7 @@ impl Disc {
         Some(Self { re, im, radius: error }.rounded(8))
     }
 
-    /// A square root, whose real part is not negative; `None` where the numbers are not far enough from 0.
+    /// Returns a square root with nonnegative real part; `None` if the disc is not far enough from 0.
     #[must_use]
     pub fn sqrt(&self) -> Option<Self> {
         let least = self.centre_at_least();
@@ -162,8 +162,8 @@ impl Disc {
         Some(Self { re, im, radius: error }.rounded(16))
     }
 
-    /// The angle whose cosine and sine are these, real or complex: `-i log(cos + i sin)` with a real part in (-pi, pi].
-    /// `None` where the discs are too large to tell.
+    /// Returns the angle with this cosine and sine, real or complex: `-i log(cos + i sin)` with a real part in (-pi, pi].
+    /// `None` if the discs are too large to determine it.
     #[must_use]
     pub fn angle(cos: &Self, sin: &Self) -> Option<Self> {
         let i = Self::point(Float::new(1), Float::with_val(1, 1));
@@ -246,7 +246,7 @@ mod tests {
         Disc::new(Float::with_val(100, re), Float::with_val(100, im), &Float::with_val(64, radius))
     }
 
-    /// How far a number is from the centre, over the radius.
+    /// Returns the distance of a number from the centre, over the radius.
     fn off(disc: &Disc, re: f64, im: f64) -> f64 {
         let (x, y) = (Float::with_val(100, &disc.re - re), Float::with_val(100, &disc.im - im));
         (Float::with_val(64, x.hypot_ref(&y)) / disc.radius()).to_f64()

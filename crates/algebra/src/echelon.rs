@@ -2,7 +2,7 @@
 
 use super::ring::Field;
 
-/// Pivots of an inexact field below this share of the largest one are zero: between rounding and what a design means.
+/// Pivots of an inexact field below this share of the largest one are zero: above rounding and below intended values.
 const NEGLIGIBLE: f64 = 1e-9;
 
 /// The reduced echelon form of a matrix, with every pivot 1 and alone in its column.
@@ -36,11 +36,11 @@ impl<F: Field> Echelon<F> {
         Self::among(rows, columns, columns)
     }
 
-    /// The same with pivots in the first `among` columns only: what stands behind them records the row operations, or holds
-    /// right sides. The rank is that of these columns, and rows without pivot are left out.
+    /// As [`Self::of`], with pivots in the first `among` columns only: the others record the row operations, or hold
+    /// right sides. The rank is that of the first columns, and rows without pivot are left out.
     ///
     /// # Panics
-    /// When a row has not as many entries as there are columns.
+    /// If a row has not as many entries as there are columns.
     #[must_use]
     pub fn among(mut rows: Vec<Vec<F>>, columns: usize, among: usize) -> Self {
         assert!(rows.iter().all(|row| row.len() == columns), "all rows are of one length");
@@ -62,7 +62,7 @@ impl<F: Field> Echelon<F> {
             for x in &mut rows[step] {
                 *x = x.mul(&inverse);
             }
-            // Rounding must not leave what the steps below rely on.
+            // Rounding must not change the entries on which the steps below rely.
             rows[step][column] = F::one();
             let pivot_row = rows[step].clone();
             for (i, row) in rows.iter_mut().enumerate() {
@@ -102,7 +102,7 @@ impl<F: Field> Echelon<F> {
         &self.pivots
     }
 
-    /// Which rows of the matrix are independent and span all others, in the order in which they gave the pivots.
+    /// Returns the rows of the matrix that are independent and span all others, in the order in which they gave the pivots.
     #[must_use]
     pub fn independent_rows(&self) -> &[usize] {
         &self.sources

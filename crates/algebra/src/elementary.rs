@@ -1,9 +1,9 @@
-//! Sine, cosine and exponential in f64 with proved error bounds: those of the standard library promise none.
+//! Sine, cosine and exponential in f64 with proved error bounds; those of the standard library have none.
 //!
-//! Arguments are reduced by a constant split in two: multiples of its head, of 33 bits, are exact, and so is what they
-//! leave of the argument. What remains is small enough for a Taylor polynomial. With the unit roundoff u = 2^-53:
+//! Arguments are reduced by a constant split in two: multiples of its head, of 33 bits, are exact, and so is the
+//! difference from the argument. The remainder is small enough for a Taylor polynomial. With the unit roundoff u = 2^-53,
 //! cosine and sine are off by at most 2 u, the exponential by 4 u times itself. (The remainders of the series are below
-//! 1e-19. The sum ends in one addition, off by u; what it adds is below 1/2 and off by a few parts u of less than 0.35.)
+//! 1e-19. The sum ends in one addition, off by u; its second term is below 1/2 and off by a few parts u of less than 0.35.)
 
 /// The first 33 bits of pi/2, and the rest.
 const QUARTER_TURN: (f64, f64) = (1.570_796_326_734_125_6, 6.077_100_506_506_192e-11);
@@ -63,7 +63,7 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     }
     let (head, tail) = (x - multiple * QUARTER_TURN.0, multiple * QUARTER_TURN.1);
     let r = head - tail;
-    // What the rounding of r has lost.
+    // The rounding error of r.
     let low = (head - r) - tail;
     let z = r * r;
     let sin = r + (low * (1.0 - 0.5 * z) - z * r * horner(&SINE, z));
@@ -79,7 +79,7 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     }
 }
 
-/// The exponential, off by at most 2^-51 of itself; infinite or 0 where that is no normal number.
+/// Returns the exponential, off by at most 2^-51 of itself; infinite or 0 if it is no normal number.
 #[must_use]
 #[inline]
 pub fn exp(x: f64) -> f64 {

@@ -1,7 +1,7 @@
-//! Real numbers enclosed: a float of many digits, and a power of two that bounds how far off it is.
+//! Real numbers enclosed by a float of many digits and a power of two that bounds its error.
 //!
-//! The irrational numbers of a file live in it, and whatever is computed of them before it is rounded once: what is
-//! proved of that number then holds for the number of the file. Bounds are powers of two: a sum of errors is bounded by
+//! The irrational numbers of a file are enclosed, and so are results computed from them until they are rounded once. A
+//! proof about such a number then holds for the number of the file. Bounds are powers of two: a sum of errors is bounded by
 //! the largest one times the next power of two above their number.
 
 use super::number::{Angle, Number};
@@ -43,7 +43,7 @@ fn total<const N: usize>(terms: [i32; N]) -> i32 {
     times(largest, if count < 2 { 0 } else { count.next_power_of_two().ilog2().cast_signed() })
 }
 
-/// A rounded result with the exponent of its error: half a unit in the last place, none where it is exact.
+/// Returns a rounded result with the exponent of its error: half a unit in the last place, or none if it is exact.
 fn rounded((result, ordering): (Float, Ordering)) -> (Float, i32) {
     let error = if ordering == Ordering::Equal { NONE } else { times(size(&result), -BITS.cast_signed() - 1) };
     (result, error)
@@ -80,7 +80,7 @@ impl Enclosure {
         Self::new(nearest!(Constant::Pi), [])
     }
 
-    /// The same numbers and all others at most `2^off` from one of them.
+    /// Returns the enclosure widened by `2^off`.
     #[must_use]
     pub fn widened(self, off: i32) -> Self {
         Self { off: total([self.off, off]), ..self }
@@ -104,14 +104,14 @@ impl Enclosure {
         size(&self.middle)
     }
 
-    /// Whether the number may be zero.
+    /// Returns whether the number may be zero.
     #[must_use]
     pub fn holds_zero(&self) -> bool {
         // |middle| is at least 2^(size - 1).
         self.middle.is_zero() || (self.off != NONE && self.size() <= self.off.saturating_add(1))
     }
 
-    /// The same numbers and perhaps some more around 0, if 0 is one of them.
+    /// Moves the middle to 0 if 0 is enclosed; otherwise returns the same enclosure.
     #[must_use]
     pub fn settled(self) -> Self {
         if !self.holds_zero() {
@@ -120,7 +120,7 @@ impl Enclosure {
         Self { off: total([self.off, self.size()]), middle: Float::new(BITS) }
     }
 
-    /// The middle over another ring, 0 where the number may be 0.
+    /// Returns the middle over another ring, 0 if the number may be 0.
     #[must_use]
     pub fn image<R: Ring>(&self) -> Option<R> {
         if self.holds_zero() { Some(R::zero()) } else { R::from_rational(&self.middle.to_rational()?) }
@@ -132,7 +132,7 @@ impl Enclosure {
         self.mul(&Self::of(q))
     }
 
-    /// `self / other`; `None` where the divisor may be too near to 0.
+    /// Returns `self / other`; `None` if the divisor may be too near to 0.
     #[must_use]
     pub fn over(&self, other: &Self) -> Option<Self> {
         let (below, off) = (size(&other.middle).checked_sub(1)?, other.off);
@@ -145,7 +145,7 @@ impl Enclosure {
         Some(Self::new(ratio, [times(self.off, 1 - below), of_divisor]))
     }
 
-    /// The square root; of what may be negative that of the middle, if it is none below 0.
+    /// Returns the square root; `None` if the number is negative. If it may be 0, the root is enclosed about 0.
     #[must_use]
     pub fn sqrt(&self) -> Option<Self> {
         if self.middle < 0 && !self.holds_zero() {
@@ -168,7 +168,7 @@ impl Enclosure {
         (Self::new(nearest!(self.middle.cos_ref()), [self.off]), Self::new(nearest!(self.middle.sin_ref()), [self.off]))
     }
 
-    /// The angle of the direction (other, self) in (-pi, pi]; `None` where that may be none.
+    /// Returns the angle of the direction (other, self) in (-pi, pi]; `None` if there may be none.
     #[must_use]
     pub fn atan2(&self, other: &Self) -> Option<Self> {
         let off = total([self.off, other.off]);
@@ -176,10 +176,10 @@ impl Enclosure {
         if off != NONE && off > reach.saturating_sub(2) {
             return None;
         }
-        // The segment between both points stays 2^(reach - 1) away from the origin, where angles change by no more than
-        // the way over the distance.
+        // The segment between both points stays 2^(reach - 1) away from the origin, so the angle changes by at most
+        // its length over that distance.
         let angle = nearest!(self.middle.atan2_ref(&other.middle));
-        // Where the direction may be on either side of that of -pi and pi, it is one of all angles.
+        // If the direction may be on either side of the cut at -pi and pi, every angle is possible.
         let is_cut = other.middle < 0 && self.holds_zero() && !self.is_zero();
         Some(Self::new(angle, [if is_cut { WHOLE_TURN } else { times(off, 1 - reach) }]))
     }
@@ -256,7 +256,7 @@ mod tests {
         Enclosure::of(&Rational::from((n, d)))
     }
 
-    /// Whether a number known to 4000 bits lies in the enclosure, and that is narrow.
+    /// Checks that a number known to 4000 bits lies in the enclosure, and that this is narrow.
     fn judge(found: &Enclosure, truth: &Float) {
         let away = Float::with_val(4000, truth - found.middle()).abs();
         let bound = Float::with_val(64, Float::i_exp(1, found.off().max(-1_000_000)));

@@ -1,4 +1,4 @@
-//! The one error of this crate: text or data that cannot be read, with what was found and what was expected.
+//! The one error of this crate, for text or data that cannot be read: it states what was found and what was expected.
 
 use thiserror::Error;
 
@@ -9,14 +9,14 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file says something that cannot be read: what was found and what was expected.
+    /// A part of a file cannot be read.
     #[error("{path}:{line}: {message}")]
     File {
         /// The file as it was named.
         path: String,
         /// Line of the fault, from 1.
         line: usize,
-        /// What was found and what was expected.
+        /// The text found and the text expected.
         message: String,
     },
     /// A file has another form than it should have, at no line in particular.
@@ -24,10 +24,10 @@ pub enum Error {
     Io {
         /// The file as it was named.
         path: String,
-        /// What was found and what was expected.
+        /// The text found and the text expected.
         message: String,
     },
-    /// A value that cannot be used: what was found and what was expected.
+    /// A value cannot be used: the text states what was found and what was expected.
     #[error("{0}")]
     Invalid(String),
 }

@@ -6,7 +6,7 @@
 //! factor  = { +|- } ( number | pi | ( sum ) | function ( sum [, sum] ) | (cos|sin|tan) ( sum [deg|rad] ) )
 //! ```
 //!
-//! The argument of cos, sin and tan is in radians where it has no unit, whatever plain angles of the file are.
+//! Without a unit the argument of cos, sin and tan is in radians, whatever the unit of plain angles in the file.
 
 use super::value::{Value, decimal};
 use rug::{Integer, Rational};
@@ -34,7 +34,7 @@ pub(super) struct Quantified {
     pub(super) unit: Option<Unit>,
 }
 
-/// Reads and evaluates an expression; the error says what was found.
+/// Reads and evaluates an expression; the error states what was found.
 pub(super) fn evaluate(text: &str) -> Result<Quantified, String> {
     if text.len() > LONGEST {
         return Err(format!("an expression of {} characters (at most {LONGEST} are read)", text.len()));

@@ -6,7 +6,7 @@ use super::ring::{Domain, Ring};
 /// A polynomial and the factors it had.
 #[derive(Clone, Debug)]
 pub struct Removal<R> {
-    /// What is left.
+    /// The remaining cofactor.
     pub rest: Polynomial<R>,
     /// Each of the given factors, and how often it divided.
     pub factors: Vec<(Polynomial<R>, u32)>,

@@ -1,4 +1,4 @@
-//! Exact angles: a direction of the rational plane, and the half-angle tangent where it is rational.
+//! Exact angles: a direction of the rational plane, and the half-angle tangent if it is rational.
 
 use rug::{Integer, Rational};
 
@@ -86,14 +86,14 @@ impl Direction {
         Some(result)
     }
 
-    /// The direction of half the angle taken in (-pi, pi], where it is rational.
+    /// Returns the direction of half the angle taken in (-pi, pi], if it is rational.
     pub(super) fn halved(&self) -> Option<Self> {
         let length = self.length()?;
         let x = Rational::from(&length + &self.x);
         if x.is_zero() { Self::new(x, Rational::from(1)) } else { Self::new(x, self.y.clone()) }
     }
 
-    /// Cosine and sine, where they are rational.
+    /// Returns cosine and sine, if they are rational.
     pub(super) fn cos_sin(&self) -> Option<(Rational, Rational)> {
         let length = self.length()?;
         Some((Rational::from(&self.x / &length), Rational::from(&self.y / &length)))
@@ -104,7 +104,7 @@ impl Direction {
         (!self.x.is_zero()).then(|| Rational::from(&self.y / &self.x))
     }
 
-    /// The tangent of half the angle, where it is rational.
+    /// Returns the tangent of half the angle, if it is rational.
     pub(super) fn half_tangent(&self) -> Option<HalfTangent> {
         let denominator = self.length()? + &self.x;
         if denominator.is_zero() {

@@ -8,7 +8,7 @@ use std::{cmp::Ordering, fmt};
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Int(Repr);
 
-/// Large never holds what fits Small, so that equality is structural.
+/// Large never holds a number that fits Small, so that equality is structural.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Repr {
     Small(i64),
@@ -74,17 +74,17 @@ impl Int {
     }
 }
 
-/// What is left of a large number after division by a word that is not zero, up to multiples of the word and the sign.
+/// Returns the remainder of a large number by a nonzero word, up to multiples of the word and the sign.
 #[cfg(all(target_pointer_width = "64", not(windows)))]
 fn rest(n: &Integer, word: u64) -> u64 {
     rug::integer::IntegerExt64::mod_u64(n, word)
 }
 
-/// The same where GMP divides by 32 bits, as in WebAssembly.
+/// The remainder if GMP divides by 32 bits, as in WebAssembly.
 #[cfg(not(all(target_pointer_width = "64", not(windows))))]
 use wide_rest as rest;
 
-/// The same by integers of any size.
+/// Returns the remainder with integers of any size.
 #[cfg(any(test, not(all(target_pointer_width = "64", not(windows)))))]
 fn wide_rest(n: &Integer, word: u64) -> u64 {
     Integer::from(n % word).abs().to_u64_wrapping()

@@ -60,7 +60,7 @@ struct Lifted {
 }
 
 impl Lifted {
-    /// Joins an image, of the same length, modulo a further prime; whether that changed anything.
+    /// Joins an image, of the same length, modulo a further prime. Returns whether that changed anything.
     fn join(&mut self, image: &[u64], modulus: &Modulus) -> bool {
         let inverse = modulus.inverse(modulus.reduce(&self.product));
         let mut changed = false;
@@ -106,10 +106,10 @@ impl Univariate<Integer> {
         }
     }
 
-    /// The quotient where the division leaves no remainder and no fraction.
+    /// Returns the quotient if the division leaves no remainder and no fraction.
     ///
     /// # Panics
-    /// When the divisor is zero.
+    /// If the divisor is zero.
     #[must_use]
     pub fn quotient(&self, divisor: &Self) -> Option<Self> {
         let (leading, lower) = divisor.coefficients().split_last().expect("the divisor is not zero");
@@ -191,7 +191,7 @@ impl Univariate<Integer> {
         unreachable!("only finitely many primes are unlucky")
     }
 
-    /// Whether the image modulo one prime proves that there is no multiple factor; `false` proves nothing.
+    /// Returns whether the image modulo one prime proves that there is no multiple factor; `false` proves nothing.
     fn is_clearly_square_free(&self) -> bool {
         let image = |modulus: Modulus| {
             let f = residues(self.coefficients(), &modulus);
@@ -203,8 +203,8 @@ impl Univariate<Integer> {
         [PRIME_62, PRIME_61].into_iter().any(|p| image(Modulus::new(p)))
     }
 
-    /// Whether the image modulo one prime proves that the remainders of Euclid's algorithm for the polynomial and its
-    /// derivative fall in degree by one each, down to a constant; `false` proves nothing.
+    /// Returns whether the image modulo one prime proves that the degrees of the remainders of Euclid's algorithm for the
+    /// polynomial and its derivative fall by one each, down to a constant; `false` proves nothing.
     pub(super) fn has_clearly_full_chain(&self) -> bool {
         let modulus = Modulus::new(PRIME_62);
         let mut a = residues(self.coefficients(), &modulus);

@@ -1,4 +1,4 @@
-//! Intervals of real numbers with f64 bounds rounded outward: what is computed in them is proved.
+//! Intervals of real numbers with f64 bounds rounded outward; results computed in them are proved.
 //!
 //! Each bound is the f64 next to the rounded result, unless an error-free transformation shows the result exact or
 //! already on the safe side; so integers and short binary fractions stay points. No rounding mode, no FMA.
@@ -25,7 +25,7 @@ fn sum_error(x: f64, y: f64, sum: f64) -> f64 {
     (x - x_part) + (y - y_part)
 }
 
-/// The exact rounding error of `product = x y` (Dekker); NaN where it could itself be inexact.
+/// Returns the exact rounding error of `product = x y` (Dekker); NaN if it might be inexact itself.
 #[inline(always)]
 fn product_error(x: f64, y: f64, product: f64) -> f64 {
     let split = |a: f64| {
@@ -63,7 +63,7 @@ fn product(x: f64, y: f64, round: impl Fn(f64, f64) -> f64) -> f64 {
     round(product, product_error(x, y, product))
 }
 
-/// Whether `1/x` is exact: `x` is a power of two whose inverse is normal, or infinite.
+/// Returns whether `1/x` is exact: `x` is a power of two whose inverse is normal, or infinite.
 fn has_exact_inverse(x: f64) -> bool {
     x.to_bits() & ((1 << 52) - 1) == 0 && (1.0 / x).is_normal() || x.is_infinite()
 }
@@ -145,13 +145,13 @@ impl Interval {
         if self.contains(0.0) { 0.0 } else { self.lo.abs().min(self.hi.abs()) }
     }
 
-    /// Whether `x` lies in the interval (NaN never does).
+    /// Returns whether `x` lies in the interval (NaN never does).
     #[must_use]
     pub fn contains(&self, x: f64) -> bool {
         self.lo <= x && x <= self.hi
     }
 
-    /// Whether every number of `self` lies strictly between the bounds of `other`.
+    /// Returns whether every number of `self` lies strictly between the bounds of `other`.
     #[must_use]
     pub fn is_interior_to(&self, other: &Self) -> bool {
         (other.lo < self.lo || other.lo == f64::NEG_INFINITY) && (self.hi < other.hi || other.hi == f64::INFINITY)
@@ -163,7 +163,7 @@ impl Interval {
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
-    /// The common numbers; `None` if there are none.
+    /// Returns the common numbers; `None` if there are none.
     #[must_use]
     pub fn intersection(&self, other: &Self) -> Option<Self> {
         let (lo, hi) = (self.lo.max(other.lo), self.hi.min(other.hi));

@@ -2,13 +2,13 @@
 
 use rug::{Integer, Rational, ops::RemRounding};
 
-/// The rational number of least height with the given residues, each with its prime; `None` where there is none with
+/// Returns the rational number of least height with the given residues, each with its prime; `None` if there is none with
 /// numerator and denominator up to the square root of half the product of the primes.
 ///
-/// Euclid's algorithm, stopped half-way.
+/// Euclid's algorithm is stopped half-way.
 ///
 /// # Panics
-/// When a prime occurs twice.
+/// If a prime occurs twice.
 #[must_use]
 pub fn rational(residues: &[(u64, u64)]) -> Option<Rational> {
     let (mut value, mut modulus) = (Integer::new(), Integer::from(1));

@@ -1,10 +1,10 @@
-//! How often a solution of quadratic equations counts, exactly.
+//! The exact multiplicity of a solution of quadratic equations.
 //!
 //! The functionals on polynomials that vanish on the ideal of the equations, and on a power of the maximal ideal of the
-//! point, form a space whose dimension is the multiplicity of the point, as far as it is isolated. The space is closed under
-//! `(h_i F)(f) = F(h_i f)`, h the coordinates about the point; it is computed step by step from the evaluation at the
-//! point alone, each functional known by its value at 1 and by the h_i F. Equations of degree 2 see no more of a functional
-//! than that. \[Mourrain1997\]
+//! point, form a space whose dimension is the multiplicity of the point, if it is isolated. The space is closed under
+//! `(h_i F)(f) = F(h_i f)`, with h the coordinates about the point. It is computed step by step from the evaluation at the
+//! point alone, each functional given by its value at 1 and by the h_i F. Equations of degree 2 depend on no more of a
+//! functional than that. \[Mourrain1997\]
 
 use super::ring::Field;
 
@@ -17,8 +17,8 @@ pub struct Quadric<F> {
     pub form: Vec<Vec<F>>,
 }
 
-/// The multiplicity of the point at which the equations are given, exact. `None` where it exceeds `most`, which an infinite
-/// one does (the point is not isolated then), or where an inverse is missing.
+/// Returns the exact multiplicity of the point at which the equations are given; `None` if it exceeds `most` (as it does if
+/// the point is not isolated), or if an inverse is missing.
 ///
 /// # Example
 /// ```
@@ -145,7 +145,7 @@ impl<F: Field> Echelon<F> {
         Self { width, rows: Vec::new() }
     }
 
-    /// Takes a row in; whether it was independent. `None` where an inverse is missing.
+    /// Adds a row. Returns whether it was independent; `None` if an inverse is missing.
     fn insert(&mut self, mut row: Vec<F>) -> Option<bool> {
         for (column, pivot_row) in &self.rows {
             subtract(&mut row, *column, pivot_row);

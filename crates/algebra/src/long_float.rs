@@ -1,4 +1,4 @@
-//! Floating-point numbers of 384 bits, or of 960, that are copied like machine numbers: for what 31 digits do not reach.
+//! Floating-point numbers of 384 or 960 bits that are copied like machine numbers, for problems beyond 31 digits.
 
 use super::ring::{Field, Ring};
 use rug::{Integer, Rational, integer::Order};
@@ -30,12 +30,12 @@ impl<const LIMBS: usize> LongNumber<LIMBS> {
     pub const BITS: u32 = 64 * LIMBS as u32;
     /// Bound on the relative error of one operation, with room for the last steps of an inverse.
     pub const UNIT_ROUNDOFF: f64 = power_of_half(Self::BITS - 4);
-    /// How often Newton's method doubles the digits of f64 until all are right.
+    /// Number of Newton steps, each of which doubles the digits of f64, until all are right.
     pub const DOUBLINGS: u32 = (Self::BITS / 53).ilog2() + 1;
 
     const ZERO: Self = Self { limbs: [0; LIMBS], exponent: 0, negative: false };
 
-    /// The nearest f64, or one beside it; 0 and infinity for what is too small or too large.
+    /// Returns the nearest f64 or a neighbour of it; 0 and infinity for numbers too small or too large.
     #[must_use]
     pub fn to_f64(self) -> f64 {
         let size = scaled(self.limbs[LIMBS - 1] as f64, self.exponent.saturating_sub(64));
@@ -120,13 +120,13 @@ const fn power_of_half(k: u32) -> f64 {
 
 /// `x 2^k`
 fn scaled(x: f64, k: i32) -> f64 {
-    // In two steps: the power alone may be out of range where the product is not.
+    // Two steps are needed: the power alone may be out of range where the product is not.
     let half = (k / 2).clamp(-1100, 1100);
     let rest = (k - k / 2).clamp(-1100, 1100);
     x * f64::from(half).exp2() * f64::from(rest).exp2()
 }
 
-/// A mantissa moved down by so many places.
+/// Returns a mantissa shifted down by this many places.
 #[expect(clippy::cast_possible_truncation, reason = "some words")]
 fn guarded<const LIMBS: usize>(limbs: &[u64; LIMBS], places: u32) -> Guarded<LIMBS> {
     if places > 64 * (LIMBS as u32 + 1) {

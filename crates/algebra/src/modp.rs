@@ -1,4 +1,4 @@
-//! Prime fields: the prime in the type for generic code, or as a value where a proof needs more primes than one.
+//! Prime fields: the prime is in the type for generic code, or a value for proofs with several primes.
 
 use super::ring::{Domain, Field, Ring};
 use rug::{Integer, Rational, ops::RemRounding};
@@ -121,7 +121,7 @@ impl Modulus {
     }
 }
 
-/// Whether an integer below `2^63` is prime: Miller-Rabin to the first twelve prime bases, a proof below `3.3e24`.
+/// Returns whether an integer below `2^63` is prime: Miller-Rabin to the first twelve prime bases, a proof below `3.3e24`.
 #[must_use]
 pub const fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];

@@ -3,9 +3,9 @@
 /// The largest exponent of a variable.
 pub const LARGEST_EXPONENT: u32 = (1 << 30) - 1;
 
-/// How exponents are packed: one field of equal width for each variable, the first variable in the highest field of the
+/// The packing of exponents: one field of equal width for each variable, the first variable in the highest field of the
 /// first word, so that comparing words compares lexicographically. The highest bit of each field stays 0: sums of
-/// monomials do not run over, and differences show there whether they are monomials.
+/// monomials do not overflow, and it shows whether differences are monomials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Packing {
     variables: usize,
@@ -102,7 +102,7 @@ impl Packing {
         }
     }
 
-    /// Whether a monomial has the same words in both packings, one of them perhaps with more variables.
+    /// Returns whether a monomial has the same words in both packings, one of which may have more variables.
     pub(super) const fn agrees(&self, other: &Self) -> bool {
         self.bits == other.bits && self.words() == other.words()
     }
@@ -121,7 +121,7 @@ impl Packing {
         packed
     }
 
-    /// Whether products of these monomials and those surely stay below the guard bits.
+    /// Returns whether products of these monomials and those surely stay below the guard bits.
     pub(super) fn holds_products(&self, a: &[u64], b: &[u64]) -> bool {
         let (words, guards) = (self.words(), self.guards());
         // The bitwise or of monomials is an upper bound in each field.

@@ -1,4 +1,4 @@
-//! Numbers and angles as a mechanism file gives them: exact where they can be, correctly rounded where not.
+//! Numbers and angles of a mechanism file: exact if possible, otherwise correctly rounded.
 
 use super::approximation::simplest_within;
 use super::enclosure::Enclosure;
@@ -16,10 +16,10 @@ pub use super::half_tangent::HalfTangent;
 const LARGEST: f64 = 1e150;
 /// Decimal digits to which irrational values are replaced by rationals for exact work, by default.
 pub const DIGITS: u32 = 15;
-/// Most digits that can be asked for; the working precision carries 77.
+/// Maximum number of digits that can be requested; the working precision has 77.
 pub const MOST_DIGITS: u32 = 60;
 
-/// What a number of a file measures, and hence which units may follow it.
+/// The quantity that a number of a file measures, which determines the admissible units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// A length: m, cm, mm.
@@ -28,7 +28,7 @@ pub enum Quantity {
     Ratio,
 }
 
-/// How numbers of a file are read.
+/// The interpretation of numbers in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// Metres per unit of a length given without one.
@@ -54,7 +54,7 @@ pub struct Number {
     exact: bool,
     float: f64,
     enclosed: Option<Box<Enclosure>>,
-    /// The number itself, where it is not rational but a closed form of it is known.
+    /// The number itself in closed form, if it is irrational and a closed form is known.
     closed: Option<Arc<Closed>>,
     written: Written,
 }
@@ -97,8 +97,8 @@ fn without_unit(text: &str) -> &str {
     cut.unwrap_or(text).trim_end()
 }
 
-/// An angle of a file, known twice: correctly rounded in f64, and as an exact rational half-angle tangent, beside which
-/// stand enclosures of cosine and sine where that is not the angle's own.
+/// An angle of a file in two forms: correctly rounded in f64, and as an exact rational half-angle tangent, with enclosures
+/// of cosine and sine if that is not the angle's own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Angle {
     radians: f64,
@@ -106,7 +106,7 @@ pub struct Angle {
     half_tangent: HalfTangent,
     exact: bool,
     enclosed: Option<Box<(Enclosure, Enclosure)>>,
-    /// Cosine and sine themselves, where the half-angle tangent is not rational but closed forms are known.
+    /// Cosine and sine themselves, if the half-angle tangent is irrational and closed forms are known.
     phase: Option<Arc<Phase>>,
     written: Written,
 }
@@ -125,7 +125,7 @@ impl Number {
         Self { rational, exact: true, float, enclosed: None, closed: None, written: Written::default() }
     }
 
-    /// A rational that stands for a nearby real number of which no more is known.
+    /// Returns a rational that represents a nearby real number of which no more is known.
     #[must_use]
     pub fn rounded(rational: Rational) -> Self {
         Self { exact: false, ..Self::exact(rational) }
@@ -193,7 +193,7 @@ impl Number {
         }
     }
 
-    /// The number as an expression that is read as this very number, lengths in metres; `None` where none is known.
+    /// Returns the number as an expression that reads as exactly this number, lengths in metres; `None` if none is known.
     #[must_use]
     pub fn text(&self) -> Option<String> {
         if self.exact { Some(rational_text(&self.rational)) } else { self.written.text() }
@@ -218,10 +218,10 @@ impl Number {
     /// Reads the text of a number: an integer, a decimal or an expression, with or without a unit.
     ///
     /// # Units
-    /// Lengths come out in metres.
+    /// Lengths are returned in metres.
     ///
     /// # Errors
-    /// [`Error::Invalid`] saying what was found instead of a number, a wrong unit, or a size beyond 1e150.
+    /// [`Error::Invalid`] if the text is no number, has a wrong unit, or exceeds 1e150; it states what was found.
     ///
     /// # Example
     /// ```
@@ -261,14 +261,14 @@ impl Number {
         &self.rational
     }
 
-    /// The number itself as a rational or in closed form, by cosines of parts of a turn and square roots; `None` where
-    /// nothing but an approximation is known.
+    /// Returns the number itself as a rational or in closed form, by cosines of parts of a turn and square roots; `None` if
+    /// only an approximation is known.
     #[must_use]
     pub fn closed(&self) -> Option<Closed> {
         if self.exact { Some(Closed::rational(self.rational.clone())) } else { self.closed.as_deref().cloned() }
     }
 
-    /// Whether `rational` is the value itself and not an approximation.
+    /// Returns whether `rational` is the value itself and not an approximation.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         self.exact
@@ -280,7 +280,7 @@ impl Number {
         self.float
     }
 
-    /// An enclosure of the value, where the rational is not the value itself.
+    /// Returns an enclosure of the value, if the rational is not the value itself.
     #[must_use]
     pub fn enclosed(&self) -> Option<&Enclosure> {
         self.enclosed.as_deref()
@@ -323,11 +323,11 @@ impl Angle {
     /// Reads the text of an angle: an expression, with or without a unit.
     ///
     /// # Units
-    /// Without a unit radians, or degrees where `reading` says so; `pi` and inverse functions are radians already
+    /// Without a unit radians, or degrees if `reading` says so; `pi` and inverse functions are in radians already
     /// and then need their unit written.
     ///
     /// # Errors
-    /// [`Error::Invalid`] saying what was found instead of an angle.
+    /// [`Error::Invalid`], stating what was found instead of an angle.
     ///
     /// # Example
     /// ```
@@ -365,7 +365,7 @@ impl Angle {
     /// Reads the half-angle tangent of an angle: a rational number or `inf`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] saying what was found instead.
+    /// [`Error::Invalid`], stating what was found instead.
     pub fn parse_half_tangent(text: &str, reading: &Reading) -> Result<Self> {
         if text.trim() == "inf" {
             return Ok(Self::from_half_tangent(HalfTangent::Infinite));
@@ -391,8 +391,8 @@ impl Angle {
         let radians = &Float::with_val(BITS, enclosed.middle());
         let tolerance = relative(digits + 1);
         let tangent = Float::with_val(BITS, radians / 2_u32).tan();
-        // An error of d in the half-angle tangent t turns the angle by 2 d / (1 + t^2). Small angles are rounded in parts of
-        // themselves: a twist of 1e-17 is none of 0.
+        // An error of d in the half-angle tangent t changes the angle by 2 d / (1 + t^2). Small angles are rounded relative to
+        // themselves: a twist of 1e-17 is not 0.
         let distance_from_pi = Float::with_val(BITS, 2 / &tangent).abs();
         let half_tangent = if tangent.is_infinite() || distance_from_pi < tolerance {
             HalfTangent::Infinite
@@ -414,7 +414,7 @@ impl Angle {
         }
     }
 
-    /// The angle modulo a whole turn as an expression in radians, or with its unit; `None` where none is known.
+    /// Returns the angle modulo a full turn as an expression in radians, or with its unit; `None` if none is known.
     #[must_use]
     pub fn text(&self) -> Option<String> {
         if !self.exact {
@@ -448,13 +448,13 @@ impl Angle {
         &self.half_tangent
     }
 
-    /// Enclosures of cosine and sine, where the half-angle tangent is not the angle's own.
+    /// Returns enclosures of cosine and sine, if the half-angle tangent is not the angle's own.
     #[must_use]
     pub fn enclosed(&self) -> Option<&(Enclosure, Enclosure)> {
         self.enclosed.as_deref()
     }
 
-    /// Cosine and sine themselves as rationals or in closed form; `None` where nothing but an approximation is known.
+    /// Returns cosine and sine themselves as rationals or in closed form; `None` if only an approximation is known.
     #[must_use]
     pub fn phase(&self) -> Option<Phase> {
         if self.exact {
@@ -464,14 +464,14 @@ impl Angle {
         self.phase.as_deref().cloned()
     }
 
-    /// Whether the half-angle tangent is the angle's own and not an approximation.
+    /// Returns whether the half-angle tangent is the angle's own and not an approximation.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         self.exact
     }
 }
 
-/// A rational as a decimal where it is a short one, else as a fraction.
+/// Returns a rational as a decimal if it is a short one, else as a fraction.
 fn rational_text(q: &Rational) -> String {
     let mut scaled = q.clone();
     for places in 0..=LONGEST_DECIMAL {
@@ -490,7 +490,7 @@ fn rational_text(q: &Rational) -> String {
     q.to_string()
 }
 
-/// Most places behind the point of a decimal.
+/// Maximum number of decimal places.
 const LONGEST_DECIMAL: usize = 24;
 
 /// Cosine and sine from the tangent of half the angle.
@@ -557,7 +557,7 @@ mod tests {
         assert!((ratio("2*cos((30 + 10) deg)").to_f64() - 1.532_088_886_237_956).abs() < 1e-15);
         assert!(!ratio("2*cos(pi/7)").is_exact());
         assert_eq!(angle("asin(sin(90 deg))"), angle("pi/2"));
-        // Of radians, whatever plain angles are.
+        // The argument is in radians, whatever the unit of plain angles.
         let degrees = Reading { degrees: true, ..Reading::default() };
         let length = Number::parse("3*sin(40)", Quantity::Length, &degrees).unwrap();
         assert!((length.to_f64() - 3.0 * 40.0_f64.sin()).abs() < 1e-15);

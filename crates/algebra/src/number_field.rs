@@ -1,8 +1,8 @@
 //! Algebraic numbers: polynomials modulo a square-free polynomial, by dynamic evaluation.
 //!
-//! The modulus need not be irreducible. Where an element turns out to be zero at some of its roots and not at others, the
-//! field remembers the factor that tells them apart: what was computed is then void, and is done again over each factor.
-//! What was computed without such a meeting holds at every root alike.
+//! The modulus need not be irreducible. If an element turns out to be zero at some of its roots and not at others, the
+//! field remembers the factor that separates them. The computation is then void, and is repeated over each factor.
+//! Results of a computation without such an element hold at every root alike.
 
 use super::ring::{Domain, Field, Ring};
 use super::univariate::Univariate;
@@ -112,7 +112,7 @@ impl NumberField {
 }
 
 impl Algebraic {
-    /// The same in lowest terms.
+    /// Reduces to lowest terms.
     fn reduced(mut self) -> Self {
         while self.numerator.last().is_some_and(|c| *c == 0) {
             self.numerator.pop();
@@ -185,7 +185,7 @@ impl Algebraic {
         Self { numerator, denominator: Integer::from(&self.denominator * &other.denominator), field }
     }
 
-    /// The same number at the roots of another polynomial, a factor of that of its own field.
+    /// Returns the same number at the roots of another polynomial, a factor of that of its own field.
     #[must_use]
     pub fn over(&self, field: &Arc<NumberField>) -> Self {
         let Some(own) = &self.field else { return self.clone() };
@@ -246,7 +246,7 @@ impl Algebraic {
         coefficients
     }
 
-    /// The value where t has this value.
+    /// Returns the value for this value of t.
     #[must_use]
     pub fn at(&self, t: &Float) -> Float {
         let bits = t.prec();
@@ -300,7 +300,7 @@ impl Domain for Algebraic {
 }
 
 impl Field for Algebraic {
-    /// `None` for zero, and for what is zero at some roots only: then the field knows a factor.
+    /// Returns `None` for zero, and for an element that is zero at some roots only, which gives the field a factor.
     fn inverse(&self) -> Option<Self> {
         if let Some(q) = self.rational() {
             let inverse = Self::from_rational(&q.inverse()?)?;

@@ -1,16 +1,16 @@
-//! Interpolation of vectors that are known up to a factor at every point: what a primitive polynomial is at a value of a
+//! Interpolation of vectors that are known up to a factor at every point, as the values of a primitive polynomial at values of a
 //! parameter.
 //!
-//! Let the vector `F(y)` have entries of degree `D`, and let `v_j = F(y_j) / s_j` be known at `N = D + 1 + k` points, the factors
-//! `s_j` unknown. Divided differences of order `N - 1` of `y^e F` vanish for `e < k`, so that
-//! `sum_j w_j y_j^e v_j s_j = 0` with `w_j = 1 / prod_(i != j) (y_j - y_i)`: linear equations for the factors, as many for every `e`
-//! as the vector has entries.
+//! Let the vector `F(y)` have entries of degree `D`, and let `v_j = F(y_j) / s_j` be known at `N = D + 1 + k` points, with
+//! unknown factors `s_j`. Divided differences of order `N - 1` of `y^e F` vanish for `e < k`, so that
+//! `sum_j w_j y_j^e v_j s_j = 0` with `w_j = 1 / prod_(i != j) (y_j - y_i)`. These are linear equations for the factors, as many
+//! for every `e` as the vector has entries.
 
 use super::echelon::Echelon;
 use super::ring::Field;
 use super::univariate::Univariate;
 
-/// Equations beyond the number of unknowns that must hold as well: chance meets so many modulo a prime with a probability below
+/// Number of redundant equations that must hold as well; modulo a prime they do so by chance with a probability below
 /// `2^-400`.
 const SPARE: usize = 8;
 
@@ -24,21 +24,21 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// The least number of points that leaves nothing open for entries of this degree in vectors of so many entries; vectors of one
-    /// entry are all alike up to a factor.
+    /// Returns the least number of points that determines vectors of `entries` entries of this degree; vectors of one entry are all
+    /// equal up to a factor.
     ///
     /// # Panics
-    /// When there is only one entry.
+    /// If there is only one entry.
     #[must_use]
     pub fn points(degree: usize, entries: usize) -> usize {
         // k powers with `k entries >= N + SPARE`, N = degree + 1 + k.
         degree + 1 + (degree + 1 + SPARE).div_ceil(entries - 1)
     }
 
-    /// The shape of the vectors at these points; `None` where the points are too few for it.
+    /// Returns the shape of the vectors at these points; `None` if the points are too few for it.
     ///
     /// # Panics
-    /// When the vectors are of different lengths, or have only one entry.
+    /// If the vectors are of different lengths, or have only one entry.
     #[must_use]
     pub fn of<F: Field>(points: &[F], vectors: &[Vec<F>]) -> Option<Self> {
         let entries = vectors.first()?.len();
@@ -59,10 +59,10 @@ impl Shape {
         (found.rank() + 1 == points.len()).then_some(Self { degree, equations: independent })
     }
 
-    /// The entries as polynomials, up to a common factor; `None` where the vectors are not of this shape.
+    /// Returns the entries as polynomials, up to a common factor; `None` if the vectors are not of this shape.
     ///
     /// # Panics
-    /// When the vectors are of different lengths.
+    /// If the vectors are of different lengths.
     #[must_use]
     pub fn interpolate<F: Field>(&self, points: &[F], vectors: &[Vec<F>]) -> Option<Vec<Univariate<F>>> {
         let moments = moments(points)?;
@@ -85,7 +85,7 @@ impl Shape {
     }
 }
 
-/// The points with `w_j y_j^e` for e = 0, 1, ... made when asked for: here `w_j` and `y_j`.
+/// Returns the points with `w_j y_j^e` for e = 0, 1, ... as computed on demand; here `w_j` and `y_j`.
 fn moments<F: Field>(points: &[F]) -> Option<Vec<(F, F)>> {
     let weight = |j: usize| {
         let others = points.iter().enumerate().filter(|(i, _)| *i != j);

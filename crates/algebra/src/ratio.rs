@@ -1,6 +1,6 @@
 //! The second implementation of the rationals, which shares no code with the first: the oracle of the tests.
 //!
-//! There is none for `Ratio<i128>`, whose products overflow: they would have to fail, and ring operations cannot.
+//! There is none for `Ratio<i128>`, whose products overflow: ring operations cannot report a failure.
 
 use super::ring::{Domain, Field, Ring};
 use num_bigint::BigInt;
@@ -8,7 +8,7 @@ use num_rational::Ratio;
 use num_traits::{One, Zero};
 use rug::{Integer, Rational, integer::Order};
 
-/// The same integer in the other library, carried over digit by digit.
+/// Converts an integer to the other library, digit by digit.
 fn big_int(n: &Integer) -> BigInt {
     let digits: Vec<u32> = n.to_digits(Order::Lsf);
     let magnitude = BigInt::from(num_bigint::BigUint::new(digits));

@@ -2,7 +2,7 @@
 
 use super::ring::Field;
 
-/// The row operations that reduce a matrix, and what they found.
+/// The row operations that reduce a matrix, and their result.
 ///
 /// `transform * matrix` has the unit row `e_(columns[i])` as row i below `rank`, and zero rows from there on: the first
 /// rows of `transform` solve, the last ones annihilate.
@@ -10,7 +10,7 @@ use super::ring::Field;
 pub struct Reduction<F, const R: usize, const C: usize> {
     /// The product of all row operations.
     pub transform: [[F; R]; R],
-    /// Which column each pivot row solves for.
+    /// The column for which each pivot row solves.
     pub columns: [usize; C],
     /// Number of pivots.
     pub rank: usize,

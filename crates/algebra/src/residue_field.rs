@@ -1,5 +1,5 @@
-//! The integers modulo a prime that is chosen for a number field: modulo it the polynomial of the field has a root, so that
-//! every element whose denominator the prime does not divide has a residue. What is not 0 there is not 0 in the field.
+//! The integers modulo a prime chosen for a number field such that the polynomial of the field has a root. Then every element
+//! whose denominator the prime does not divide has a residue. An element with nonzero residue is not 0 in the field.
 
 use super::drawn;
 use super::modp::{Modulus, is_prime};
@@ -71,7 +71,7 @@ impl Field for Residue {
     const PIVOT_ZERO: f64 = 0.0;
 }
 
-/// Where the element that generates a field goes: its residue modulo the prime of this thread.
+/// The image of the generating element of a field: its residue modulo the prime of this thread.
 #[derive(Clone, Copy, Debug)]
 pub struct Reduction(Residue);
 
@@ -96,15 +96,15 @@ impl Reduction {
         None
     }
 
-    /// The residue of an element; `None` where the prime divides its denominator.
+    /// Returns the residue of an element; `None` if the prime divides its denominator.
     #[must_use]
     pub fn residue(self, x: &Algebraic) -> Option<Residue> {
         Some(x.polynomial().map(Residue::from_rational)?.eval(&self.0))
     }
 }
 
-/// A prime over which a field falls apart into places of degree 1: the element that generates the field has as many residues as
-/// conjugates. What is 0 at all of them is the prime times an integer of the field, if it is an integer.
+/// A prime over which a field splits into places of degree 1: the generating element has as many residues as conjugates.
+/// An integer of the field that is 0 at all of them is the prime times an integer of the field.
 #[derive(Clone, Debug)]
 pub struct Places {
     modulus: Modulus,
@@ -167,8 +167,8 @@ impl Places {
 }
 
 impl Residue {
-    /// An element modulo the prime of this thread, as a polynomial in the element that generates the field; `None` where the prime
-    /// divides its denominator.
+    /// Returns an element modulo the prime of this thread, as a polynomial in the generating element of the field; `None` if the
+    /// prime divides its denominator.
     #[must_use]
     pub fn reduced(x: &Algebraic) -> Option<Univariate<Self>> {
         let (numerator, denominator) = x.parts();
@@ -183,7 +183,7 @@ impl Residue {
     }
 }
 
-/// A residue whose powers return to 1 after so many and no fewer steps, the prime less 1 being a multiple of that.
+/// Returns a residue of this multiplicative order; the prime minus 1 must be a multiple of the order.
 fn root_of_unity(modulus: &Modulus, order: u64) -> u64 {
     let one = modulus.enter(1);
     let factors = (2..=order).filter(|q| order.is_multiple_of(*q) && is_prime(*q));
@@ -200,7 +200,7 @@ fn root(f: &Univariate<Residue>) -> Option<Residue> {
     let mut rest = f.gcd(&power(&Univariate::x(), p, f).add(&minus_x));
     let mut shift = Residue::zero();
     while rest.degree()? > 1 {
-        // Of the roots x those for which x + shift is a square.
+        // Of the roots x keep those for which x + shift is a square.
         shift = shift.add(&Residue::one());
         let base = Univariate::new(vec![shift, Residue::one()]);
         let squares = rest.gcd(&power(&base, (p - 1) / 2, &rest).sub(&Univariate::one()));

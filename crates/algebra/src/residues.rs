@@ -21,8 +21,8 @@ static MODULI: LazyLock<[Modulus; AT_HAND]> = LazyLock::new(|| {
 /// Residues modulo the 64 largest primes below `2^62`.
 pub type Residues = ManyResidues<MOST>;
 
-/// Residues modulo the N largest primes below `2^62`, at most 256 of them. As a field it gives up, without an inverse, where a
-/// number is 0 modulo some of the primes only, which chance does not bring about.
+/// Residues modulo the N largest primes below `2^62`, at most 256 of them. As a field it returns no inverse for a
+/// number that is 0 modulo some of the primes only, which does not happen by chance.
 ///
 /// # Example
 /// ```

@@ -31,9 +31,9 @@ pub trait Ring: Clone + PartialEq + Debug {
     /// `-self`.
     #[must_use]
     fn neg(&self) -> Self;
-    /// Whether this is the zero of the ring, exactly.
+    /// Returns whether this is the zero of the ring, exactly.
     fn is_zero(&self) -> bool;
-    /// The image of a rational number; `None` where the denominator is not invertible (an unlucky prime).
+    /// Returns the image of a rational number; `None` if the denominator is not invertible (an unlucky prime).
     fn from_rational(q: &Rational) -> Option<Self>;
 
     /// The image of a small integer.
@@ -86,11 +86,11 @@ pub trait Ring: Clone + PartialEq + Debug {
         Self::from_rational(q)
     }
 
-    /// Whether elements enclose what rationals only stand for.
+    /// Whether elements enclose numbers that rationals only approximate.
     const ENCLOSES: bool = false;
 
-    /// Digits in base 2 of a ring of floating-point numbers; none in all other rings. What is derived from the data of a
-    /// mechanism is computed exactly, or enclosed, and rounded to them once.
+    /// Number of binary digits of a ring of floating-point numbers; `None` in all other rings. Quantities derived from the data of
+    /// a mechanism are computed exactly, or enclosed, and rounded to these digits once.
     const DIGITS: Option<u32> = None;
 }
 
@@ -115,14 +115,14 @@ pub fn exact_cos_sin(angle: &Angle) -> (Rational, Rational) {
 /// exact_algorithm(1.0_f64);
 /// ```
 pub trait Domain: Ring {
-    /// `self / other`; `None` where `other` is zero or the division leaves a remainder.
+    /// Returns `self / other`; `None` if `other` is zero or the division leaves a remainder.
     #[must_use]
     fn checked_div_exact(&self, other: &Self) -> Option<Self>;
 
-    /// `self / other` where the division is known to leave no remainder; types may save themselves the test.
+    /// Returns `self / other` for a division known to leave no remainder; types may omit the test.
     ///
     /// # Panics
-    /// When `other` is zero, and unless the type saves the test, when there is a remainder.
+    /// If `other` is zero, or if there is a remainder, unless the type omits the test.
     #[must_use]
     fn div_exact(&self, other: &Self) -> Self {
         self.checked_div_exact(other).expect("the division leaves no remainder")
@@ -135,8 +135,8 @@ pub trait Field: Ring {
     #[must_use]
     fn inverse(&self) -> Option<Self>;
 
-    /// How good a pivot this is: the absolute value in inexact fields, 1 for every nonzero element of an exact one.
-    /// One elimination code thereby pivots for stability in f64 and takes any nonzero entry exactly.
+    /// Returns the quality of a pivot: the absolute value in inexact fields, 1 for every nonzero element of an exact one.
+    /// One elimination code thereby pivots for stability in f64 and takes any nonzero entry in exact fields.
     fn pivot_size(&self) -> f64;
 
     /// Pivots of this relative size or below are zero: 0 in exact fields, a rounding level in inexact ones.
@@ -152,7 +152,7 @@ pub trait Field: Ring {
         }
     }
 
-    /// Makes rows orthonormal where that improves conditioning; leaves them alone in exact fields (the default).
+    /// Makes rows orthonormal if that improves conditioning; leaves them unchanged in exact fields (the default).
     fn orthonormalise<const N: usize>(_rows: &mut [[Self; N]]) {}
 }
 

@@ -74,11 +74,11 @@ fn negative_remainder(a: &Rounded, b: &Rounded, places: u32) -> Option<Rounded> 
     Some(Rounded { coefficients: remainder.collect(), error: (error >> places) + &a.error + 2_u32 })
 }
 
-/// The changes between the leading signs of the chain at minus and at plus infinity; `None` where the precision does
+/// Returns the changes between the leading signs of the chain at minus and at plus infinity; `None` if the precision does
 /// not suffice.
 fn count_in(p: &Univariate<Integer>, bits: u32) -> Option<usize> {
     let rounded = |p: &Univariate<Integer>| {
-        // Short coefficients are exact, and become long for what is computed with them to have room.
+        // Short coefficients are exact, and are lengthened to leave room for the computation.
         let coefficients = p.coefficients().iter().map(|c| Integer::from(c << bits)).collect();
         let mut rounded = Rounded { coefficients, error: Integer::new() };
         rounded.shorten(bits);
@@ -112,8 +112,8 @@ fn balanced(p: &Univariate<Integer>) -> Univariate<Integer> {
     Univariate::new(p.coefficients().iter().enumerate().map(|(i, c)| Integer::from(c << places(i))).collect())
 }
 
-/// The number of real roots of a polynomial, if its chain falls in degree by one each time; `None` where that is not
-/// clear, also for multiple roots.
+/// Returns the number of real roots of a polynomial whose chain falls in degree by one each time; `None` if that is not
+/// certain, also for multiple roots.
 pub(super) fn count_by_leading_signs(p: &Univariate<Integer>) -> Option<usize> {
     if !p.has_clearly_full_chain() {
         return None;

@@ -6,7 +6,7 @@ use rug::Rational;
 
 /// A power series in `eps` modulo `eps^N` over any ring; `N` is at least 1.
 ///
-/// The k-th derivative of what it expands is `k!` times coefficient k.
+/// The k-th derivative of the expanded function is `k!` times coefficient k.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Series<R, const N: usize> {
     /// Coefficient k belongs to `eps^k`.
@@ -22,8 +22,8 @@ impl<R: Ring, const N: usize> Series<R, N> {
         series
     }
 
-    /// Cosine and sine of an angle series whose constant coefficient has this cosine and sine; the constant coefficient
-    /// itself is not looked at. `None` where some number below `N` has no inverse in the ring.
+    /// Returns cosine and sine of an angle series whose constant coefficient has this cosine and sine; the constant coefficient
+    /// itself is ignored. `None` if some number below `N` has no inverse in the ring.
     ///
     /// `k C_k = -sum_j j a_j S_{k-j}` and `k S_k = sum_j j a_j C_{k-j}`, from `C' = -a' S` and `S' = a' C`.
     ///

@@ -6,7 +6,7 @@ use super::univariate::Univariate;
 use rug::{Integer, Rational, ops::Pow};
 use std::{cmp::Ordering, mem};
 
-/// Where signs of polynomials are asked for.
+/// A place at which signs of polynomials are evaluated.
 #[derive(Clone, Copy, Debug)]
 pub enum Place<'a> {
     /// Left of all roots.

@@ -1,4 +1,4 @@
-//! Sums of cosines of rational parts of a turn times square roots of rationals: what files write as `cos(40 deg)` or
+//! Sums of cosines of rational parts of a turn times square roots of rationals: numbers that files write as `cos(40 deg)` or
 //! `sqrt(2)/2`, before a field is known that holds all of them.
 
 use rug::{Complete, Integer, Rational};
@@ -12,7 +12,7 @@ const LONGEST: u32 = 512;
 const TRIAL: u32 = 200;
 
 /// A sum of rational multiples of `cos(2 pi turn) sqrt(radicand)`, the turn from 0 to below 1/4 and the radicand positive.
-/// Different sums may be of one value: a field tells, [`super::real_field::RealField`].
+/// Different sums may have the same value, which [`super::real_field::RealField`] decides.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Surd {
     terms: BTreeMap<(Rational, Integer), Rational>,
@@ -21,7 +21,7 @@ pub struct Surd {
 /// A quotient of two sums.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Closed {
-    /// What is divided.
+    /// The dividend.
     pub numerator: Surd,
     /// By what. Its value is not 0.
     pub denominator: Surd,
@@ -87,7 +87,7 @@ impl Surd {
         self.terms.iter().map(|((turn, radicand), factor)| (turn, radicand, factor))
     }
 
-    /// The sum as a rational, where it is written as one.
+    /// Returns the sum as a rational, if it is written as one.
     fn as_rational(&self) -> Option<Rational> {
         let mut terms = self.terms();
         match (terms.next(), terms.next()) {
@@ -97,7 +97,7 @@ impl Surd {
         }
     }
 
-    /// Whether the sum is empty.
+    /// Returns whether the sum is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.terms.is_empty()
@@ -180,7 +180,7 @@ impl Closed {
         Self::rational(Rational::from(n))
     }
 
-    /// The number as a rational, where it is written as one.
+    /// Returns the number as a rational, if it is written as one.
     #[must_use]
     pub fn as_rational(&self) -> Option<Rational> {
         Some(self.numerator.as_rational()? / self.denominator.as_rational().filter(|q| !q.is_zero())?)

@@ -227,10 +227,10 @@ impl<F: Field + Domain> Univariate<F> {
         }
     }
 
-    /// How often `factor` divides, and what is left; for instance the `(1 + x^2)^k` of a half-angle substitution.
+    /// Returns how often `factor` divides, and the quotient; for instance for the `(1 + x^2)^k` of a half-angle substitution.
     ///
     /// # Panics
-    /// When the polynomial is zero, or the factor constant.
+    /// If the polynomial is zero, or the factor constant.
     #[must_use]
     pub fn remove_factor(&self, factor: &Self) -> (usize, Self) {
         assert!(!self.is_zero(), "every factor divides zero without end");

@@ -6,11 +6,11 @@ use super::ring::Ring;
 use super::surd::{Closed, Phase, Surd, phase_of_sum, phase_of_turn};
 use rug::{Float, Integer, Rational, float::Constant, ops::Pow};
 
-/// Bits of what is told of an irrational value beside its enclosure: far more than any result keeps.
+/// Precision in bits of the approximation of an irrational value beside its enclosure: far more than any result keeps.
 pub(super) const BITS: u32 = 256;
 /// Numerators and denominators beyond this many bits are refused.
 const LONGEST: u32 = 20_000;
-/// Largest multiple of an angle followed in closed form, where its cosine is no rational.
+/// Largest multiple of an angle followed in closed form if its cosine is irrational.
 const SMALL: i32 = 8;
 /// Largest multiple of an angle followed exactly.
 const MULTIPLE: i32 = 256;
@@ -25,9 +25,9 @@ pub(super) struct Value {
     turns: Option<Rational>,
     /// The direction of the value as an angle.
     direction: Option<Direction>,
-    /// The value in closed form, where it is no rational.
+    /// The value in closed form, if it is irrational.
     closed: Option<Closed>,
-    /// Cosine and sine of the value as an angle in closed form, where neither turns nor direction tell.
+    /// Cosine and sine of the value as an angle in closed form, if neither turns nor direction determine them.
     phase: Option<Phase>,
     /// Whether the value came from pi or an inverse function: an angle in radians.
     pub(super) radians: bool,
@@ -58,12 +58,12 @@ impl Value {
         Float::with_val(BITS, self.real.middle())
     }
 
-    /// The value in closed form, where it is known.
+    /// Returns the value in closed form, if it is known.
     pub(super) fn closed(&self) -> Option<Closed> {
         self.rational.clone().map(Closed::rational).or_else(|| self.closed.clone())
     }
 
-    /// Cosine and sine of the value taken as an angle, in closed form where they are known.
+    /// Returns cosine and sine of the value taken as an angle, in closed form if they are known.
     pub(super) fn phase(&self) -> Option<Phase> {
         if let Some(turns) = &self.turns {
             return Some(phase_of_turn(&Rational::from(turns / 2)));
@@ -88,7 +88,7 @@ impl Value {
         (0..count.abs()).try_fold(phase_of_turn(&Rational::new()), |sum, _| phase_of_sum(&sum, &one))
     }
 
-    /// The exact half-angle tangent of the value taken as an angle, where it is rational.
+    /// Returns the exact half-angle tangent of the value taken as an angle, if it is rational.
     pub(super) fn half_tangent(&self) -> Option<HalfTangent> {
         self.direction.as_ref()?.half_tangent()
     }
@@ -113,7 +113,7 @@ impl Value {
         if let (Some(x), Some(y)) = (&self.turns, &other.turns) {
             return Self::from_turns(Rational::from(x + y), radians);
         }
-        // What cannot be told from 0 is 0.
+        // A sum that cannot be distinguished from 0 is 0.
         let real = self.real.add(&other.real).settled();
         let direction = self.direction.as_ref().zip(other.direction.as_ref()).and_then(|(x, y)| x.plus(y));
         let closed = self.closed().zip(other.closed()).and_then(|(x, y)| x.add(&y));
@@ -158,7 +158,7 @@ impl Value {
             let multiple = direction.times(numerator)?;
             match factor.denom().to_u32()? {
                 1 => Some(multiple),
-                // Half an angle is half the one in (-pi, pi] only if that is what is halved.
+                // Halving the multiple is right only if the value is in (-pi, pi].
                 2 if Float::with_val(BITS, real.middle() * 2).abs() <= half_turn => multiple.halved(),
                 _ => None,
             }
@@ -192,7 +192,7 @@ impl Value {
         Ok(Self::inexact(self.real.sqrt().ok_or_else(negative)?, false).in_closed_form(closed))
     }
 
-    /// Cosine and sine, exact where rational.
+    /// Returns cosine and sine, exact if rational.
     fn cos_sin(&self) -> (Self, Self) {
         if let Some((cos, sin)) = self.direction.as_ref().and_then(Direction::cos_sin) {
             return (Self::from_rational(cos), Self::from_rational(sin));
@@ -291,7 +291,7 @@ impl Value {
     }
 }
 
-/// `sqrt(1 - x^2)`, where it is rational.
+/// Returns `sqrt(1 - x^2)`, if it is rational.
 fn complement(x: &Rational) -> Option<Rational> {
     square_root(&(1 - Rational::from(x.square_ref())))
 }

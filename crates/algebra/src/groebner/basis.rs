@@ -22,7 +22,7 @@ struct Pair {
 /// A basis in the making.
 struct Making {
     elements: Vec<Polynomial>,
-    /// Whether the leading monomial of an element is a multiple of that of a later one: it is of use for pairs only.
+    /// Whether the leading monomial of an element is a multiple of that of a later one; such an element serves in pairs only.
     is_old: Vec<bool>,
     pairs: Vec<Pair>,
     /// Products of words that may still be made.
@@ -30,11 +30,11 @@ struct Making {
 }
 
 impl Basis {
-    /// The basis of the ideal of these equations in so many variables; `None` where that takes more products of words than
-    /// `effort`, or monomials of a degree above 127.
+    /// Returns the basis of the ideal of these equations in `variables` variables; `None` if that takes more products of words
+    /// than `effort`, or monomials of a degree above 127.
     ///
     /// # Panics
-    /// When there are too many variables.
+    /// If there are too many variables.
     ///
     /// # Source
     /// Gebauer and Möller 1988, On an installation of Buchberger's algorithm, J. Symbolic Computation 6.
@@ -55,9 +55,9 @@ impl Basis {
         making.finished(variables)
     }
 
-    /// The dimension of the set of solutions, complex ones included; `None` for the empty set.
+    /// Returns the dimension of the set of solutions, complex ones included; `None` for the empty set.
     ///
-    /// It is the largest number of variables of which no leading monomial is a product.
+    /// It is the largest number of variables in which no leading monomial is a product.
     #[must_use]
     pub fn dimension(&self) -> Option<usize> {
         let supports: Vec<u32> = self.elements.iter().map(|p| support(p.leading())).collect();
@@ -88,7 +88,7 @@ impl Making {
         Some(self.pairs.swap_remove(least))
     }
 
-    /// What is left of two elements when their leading terms cancel.
+    /// Returns the combination of two elements in which their leading terms cancel.
     fn difference(&self, pair: Pair) -> Option<Work> {
         let (p, q) = (&self.elements[pair.first], &self.elements[pair.second]);
         let common = Integer::from(p.coefficient().gcd_ref(q.coefficient()));
@@ -103,7 +103,7 @@ impl Making {
         Some(work)
     }
 
-    /// Reduces a polynomial, and makes what is left of it an element; `None` where a degree is too large.
+    /// Reduces a polynomial, and adds the remainder as an element; `None` if a degree is too large.
     fn admit(&mut self, work: Work) -> Option<()> {
         let mut effort = self.effort;
         let rest = remainder(work, &self.reducers(), &mut Integer::from(1), &mut effort)?;
@@ -118,7 +118,7 @@ impl Making {
         Some(())
     }
 
-    /// The pairs of a new element, but for those of which others make sure; old ones of which it makes sure are left out.
+    /// Adds the pairs of a new element that others do not make redundant, and drops old pairs that it makes redundant.
     fn update_pairs(&mut self, leading: Monomial) -> Option<()> {
         let second = self.elements.len();
         let multiple = |k: usize| self.elements[k].leading().common_multiple(leading);

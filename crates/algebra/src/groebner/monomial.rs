@@ -6,7 +6,7 @@ pub const MOST_VARIABLES: usize = 15;
 /// The largest exponent, and the largest degree.
 const LARGEST: u128 = 127;
 
-/// A monomial: its degree in the highest byte, below it what each exponent leaves of 127, that of the last variable first.
+/// A monomial: its degree in the highest byte, below it 127 minus each exponent, that of the last variable first.
 /// Larger words are larger monomials by degree, then reverse lexicographically.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Monomial(u128);
@@ -16,7 +16,7 @@ const ONE: u128 = repeated(LARGEST);
 /// The highest bit of each byte.
 const GUARDS: u128 = repeated(128);
 
-/// The same value in each byte but the highest.
+/// Returns a word with the same value in each byte but the highest.
 const fn repeated(byte: u128) -> u128 {
     let (mut word, mut k) = (0, 0);
     while k < MOST_VARIABLES {
@@ -26,7 +26,7 @@ const fn repeated(byte: u128) -> u128 {
     word
 }
 
-/// Where the byte of a variable begins: the last variables stand highest.
+/// Returns the position of the byte of a variable: the last variables are highest.
 const fn shift(variable: usize) -> usize {
     8 * variable
 }
@@ -52,12 +52,12 @@ impl Monomial {
         (LARGEST - ((self.0 >> shift(k)) & 255)) as usize
     }
 
-    /// The product; `None` where its degree is too large for the word.
+    /// Returns the product; `None` if its degree is too large for the word.
     pub fn times(self, other: Self) -> Option<Self> {
         (self.degree() + other.degree() <= LARGEST as usize).then_some(Self(self.0 + (other.0 - ONE)))
     }
 
-    /// Whether this monomial divides another one.
+    /// Returns whether this monomial divides another one.
     pub const fn divides(self, other: Self) -> bool {
         let low = (1 << 120) - 1;
         (((self.0 & low) | GUARDS) - (other.0 & low)) & GUARDS == GUARDS
@@ -68,7 +68,7 @@ impl Monomial {
         Self(self.0 - divisor.0 + ONE)
     }
 
-    /// The least common multiple; `None` where its degree is too large for the word.
+    /// Returns the least common multiple; `None` if its degree is too large for the word.
     pub fn common_multiple(self, other: Self) -> Option<Self> {
         let mut product = Some(Self::one());
         for k in 0..MOST_VARIABLES {
@@ -79,7 +79,7 @@ impl Monomial {
         product
     }
 
-    /// Whether no variable is in both.
+    /// Returns whether no variable occurs in both.
     pub fn is_coprime_to(self, other: Self) -> bool {
         (0..MOST_VARIABLES).all(|k| self.exponent(k) == 0 || other.exponent(k) == 0)
     }

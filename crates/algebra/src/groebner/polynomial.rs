@@ -19,10 +19,10 @@ impl Equation {
         Self { terms: BTreeMap::from([(Monomial::variable(k), Rational::from(1))]) }
     }
 
-    /// The value where the unknowns have these values.
+    /// Returns the value for these values of the unknowns.
     ///
     /// # Panics
-    /// Where an unknown has none.
+    /// If an unknown has no value.
     #[must_use]
     pub fn evaluate<R: Ring>(&self, values: &[R]) -> R {
         let mut sum = R::zero();
@@ -148,12 +148,12 @@ impl Polynomial {
     }
 }
 
-/// Words that two numbers have together: what their product costs.
+/// Returns the cost of a product of two numbers, in words.
 fn words(x: &Integer, y: &Integer) -> u64 {
     1 + u64::from(x.significant_bits() + y.significant_bits()) / 64
 }
 
-/// `work -= factor monomial polynomial`, but for the leading term; `None` where a degree is too large.
+/// Computes `work -= factor monomial polynomial` without the leading term; `None` if a degree is too large.
 fn subtract(work: &mut Work, factor: &Integer, monomial: Monomial, polynomial: &Polynomial) -> Option<()> {
     for (m, c) in &polynomial.terms[1..] {
         *work.entry(m.times(monomial)?).or_default() -= Integer::from(c * factor);
@@ -161,9 +161,9 @@ fn subtract(work: &mut Work, factor: &Integer, monomial: Monomial, polynomial: &
     Some(())
 }
 
-/// The remainder of a sum of terms by polynomials: no monomial of it is a multiple of a leading one. `scale` receives the
-/// factor by which everything was multiplied. `None` where a degree is too large, and where this takes more products of
-/// words than `effort` has, of which it takes what it needs.
+/// Returns the remainder of a sum of terms by polynomials: no monomial of it is a multiple of a leading one. `scale` receives
+/// the factor by which everything was multiplied. `None` if a degree is too large, or if this takes more products of words
+/// than `effort` has; those used are subtracted from it.
 pub(super) fn remainder(mut work: Work, by: &[&Polynomial], scale: &mut Integer, effort: &mut u64) -> Option<Work> {
     let mut rest = Work::new();
     while let Some((monomial, mut c)) = work.pop_last() {

@@ -1,5 +1,5 @@
-//! Quotient rings of finite dimension: how many solutions there are, which of them coincide, and what values polynomials
-//! have there.
+//! Quotient rings of finite dimension: the number of solutions, their multiplicities, and the values of polynomials
+//! at them.
 
 use super::basis::Basis;
 use super::monomial::Monomial;
@@ -19,7 +19,7 @@ pub struct FiniteRing {
     basis: Basis,
     standard: Vec<Monomial>,
     places: HashMap<Monomial, usize>,
-    /// Of each standard monomial, the trace of the multiplication with it.
+    /// The trace of the multiplication by each standard monomial.
     traces: Vec<Rational>,
     /// The sum, over the numbers of the solutions with multiplicity, that the standard monomials have there: the matrix of
     /// traces of their products.
@@ -30,7 +30,7 @@ pub struct FiniteRing {
 type Element = Vec<Rational>;
 
 impl FiniteRing {
-    /// The ring of a basis; `None` where the zeros are not finitely many, or more than 64.
+    /// Returns the ring of a basis; `None` if there are infinitely many zeros, or more than 64.
     #[must_use]
     pub fn of(basis: &Basis) -> Option<Self> {
         let standard = standard_monomials(basis)?;

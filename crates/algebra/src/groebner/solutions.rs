@@ -18,9 +18,9 @@ const TRIES: i32 = 40;
 pub struct Values {
     /// The polynomial whose roots are the values of the linear form: square-free, primitive integers.
     pub polynomial: Univariate<Rational>,
-    /// How many solutions coincide at each of its roots.
+    /// The number of solutions that coincide at each of its roots.
     pub multiplicity: usize,
-    /// The inverse of the denominator of all values, modulo the polynomial, once it is asked for; `None` where there is none.
+    /// The inverse of the denominator of all values, modulo the polynomial, computed on first use; `None` if there is none.
     inverse: OnceLock<Option<Univariate<Rational>>>,
 }
 
@@ -39,8 +39,8 @@ pub struct Solutions {
 }
 
 impl Solutions {
-    /// The solutions of a system with this ring in so many variables; `None` where no linear form was found that separates
-    /// them.
+    /// Returns the solutions of a system with this ring in `variables` variables; `None` if no linear form was found that
+    /// separates them.
     ///
     /// # Source
     /// Rouillier 1999, Solving zero-dimensional systems through the rational univariate representation, AAECC 9.
@@ -67,7 +67,7 @@ impl Solutions {
         let horner = horner(whole);
         let mut found = Self { ring, powers, horner, denominator: Univariate::zero(), parts: Vec::new() };
         found.denominator = found.numerator(&Equation::one())?;
-        // Most have simple roots only: a decomposition would find that out by a slower way.
+        // Most polynomials have simple roots only, which this test finds faster than a decomposition.
         let parts = if whole.degree() == characteristic.degree() {
             vec![(whole.clone(), 1)]
         } else {
@@ -79,7 +79,7 @@ impl Solutions {
         Some(found)
     }
 
-    /// The sum over all solutions of the values of a polynomial there, each times what the other roots make of u.
+    /// Returns the sum over all solutions of the value of a polynomial, each times the product of u minus the other roots.
     fn numerator(&self, equation: &Equation) -> Option<Univariate<Rational>> {
         let traces = self.ring.traces_with(&self.ring.element(equation)?);
         let count = self.horner.len();
@@ -128,7 +128,7 @@ fn horner(polynomial: &Univariate<Rational>) -> Vec<Univariate<Rational>> {
     (0..degree).map(part).collect()
 }
 
-/// The inverse of a polynomial modulo another one; `None` where they have a common root.
+/// Returns the inverse of a polynomial modulo another one; `None` if they have a common root.
 #[must_use]
 pub fn inverse_modulo(
     polynomial: &Univariate<Rational>,

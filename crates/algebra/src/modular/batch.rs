@@ -89,7 +89,7 @@ impl<E: Copy> Batch<E> {
         self.entries[(first + i) * self.stride + j] = value;
     }
 
-    /// Computes the determinants; where one is wrong because a pivot was 0 modulo one prime only, that is returned.
+    /// Computes the determinants. If one is wrong because a pivot was 0 modulo one prime only, that is returned.
     ///
     /// # Source
     /// Crout's form of Gaussian elimination; the inverses of all pivots of a step from one inversion by Montgomery's
@@ -229,7 +229,7 @@ impl<E: Copy> Batch<E> {
     }
 }
 
-/// Whether some lane is 0.
+/// Returns whether some lane is 0.
 #[inline(always)]
 fn any_zero<L: Lanes>(lanes: L, a: L::Element, width: usize) -> bool {
     let mut residues = [0; MOST_LANES];

@@ -17,7 +17,7 @@ pub(super) struct Norms {
 }
 
 impl Norms {
-    /// The norms of so many polynomials, given their coefficients each with the index of its polynomial.
+    /// Computes the norms of `count` polynomials, given their coefficients each with the index of its polynomial.
     pub(super) fn new<'a>(count: usize, coefficients: impl Iterator<Item = (usize, &'a Integer)> + Clone) -> Self {
         let exponent = coefficients.clone().map(|(_, c)| c.significant_bits()).max().unwrap_or(0);
         let mut sums = vec![0.0; count];

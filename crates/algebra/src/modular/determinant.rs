@@ -9,17 +9,17 @@ use super::terms::{Terms, descending};
 use pulp::Arch;
 use rug::Integer;
 
-/// The determinant of a matrix of polynomials in several variables.
+/// Returns the determinant of a matrix of polynomials in several variables.
 ///
-/// Exact and proved, from as many values modulo as many primes as bounds on its degree and coefficients ask for. `None`
-/// where that takes too much memory, for more than a few million values.
+/// It is exact and proved, from as many values modulo as many primes as bounds on its degree and coefficients require. `None`
+/// if that takes too much memory, for more than a few million values.
 ///
 /// # Shape
 /// The matrix is square; entries and determinant have the given number of variables. No two terms of an entry have the
 /// same exponents.
 ///
 /// # Panics
-/// When the shape is wrong.
+/// If the shape is wrong.
 #[must_use]
 pub fn determinant(matrix: &[Vec<Terms>], variables: usize) -> Option<Terms> {
     determinant_on(Arch::new(), matrix, variables)
@@ -88,7 +88,7 @@ pub(super) fn univariate_determinant_on(arch: Arch, size: usize, entries: &[Vec<
     Problem { form: Form::Matrix(size), plan, coefficients, lattice, bits }.solve(arch)
 }
 
-/// The binary logarithm of a bound on the coefficients of the determinant; `None` where a row or a column is zero.
+/// Returns the binary logarithm of a bound on the coefficients of the determinant; `None` if a row or a column is zero.
 fn bits<'a>(size: usize, coefficients: impl Iterator<Item = (usize, &'a Integer)> + Clone) -> Option<f64> {
     let norms = Norms::new(size * size, coefficients);
     let rows: f64 = (0..size).map(|i| norms.bits((0..size).map(|j| i * size + j))).sum();

@@ -22,7 +22,7 @@ pub trait Lanes: Copy {
     fn zero(self) -> Self::Element;
     /// One.
     fn one(self) -> Self::Element;
-    /// The same small number in every lane.
+    /// Returns the same small number in every lane.
     fn digit(self, digit: u32) -> Self::Element;
     /// One number per lane, of absolute value less than half the prime.
     fn load(self, residues: &[i64]) -> Self::Element;
@@ -36,7 +36,7 @@ pub trait Lanes: Copy {
     fn mul(self, a: Self::Element, b: Self::Element) -> Self::Element;
     /// `a b + c`
     fn mul_add(self, a: Self::Element, b: Self::Element, c: Self::Element) -> Self::Element;
-    /// `1/a`, or 0 where `a` is 0.
+    /// Returns `1/a`, or 0 if `a` is 0.
     fn inverse(self, a: Self::Element) -> Self::Element;
     /// A sum that is reduced later, with its first term.
     fn sum(self, start: Self::Element) -> Self::Sum;
@@ -51,7 +51,7 @@ pub trait Lanes: Copy {
 /// Residues are integers of absolute value at most `0.56 p`. A product is `h + l`, h rounded and l its exact rounding
 /// error by FMA. With q the rounded `h / p`, `h - q p` is an integer below p in absolute value, hence exact.
 ///
-/// A sum of products is kept in two parts: the high one next to the constant `1.5 * 2^101`, where numbers are multiples
+/// A sum of products is kept in two parts: the high one near the constant `1.5 * 2^101`, where numbers are multiples
 /// of `2^49`, the low one taking up the rounding errors, each at most `2^48` and found exactly. With 12 products of at
 /// most `0.314 p^2` the high part stays within `2^100` of the constant, the low one below `2^52`, and the quotient by p
 /// below `2^51`, where adding and subtracting `1.5 * 2^52` rounds to integers.
@@ -78,7 +78,7 @@ const ROUND: f64 = 1.5 * (1_u64 << 52) as f64;
 const COARSE: f64 = ROUND * (1_u64 << PRIME_BITS) as f64;
 
 impl<'a, S: Simd> Floats<'a, S> {
-    /// The lanes of these primes, of which there are as many as lanes; `bits` is filled for the inversion.
+    /// Creates one lane for each of these primes; `bits` is filled for the inversion.
     #[inline(always)]
     pub fn new(simd: S, primes: &[u64], bits: &'a mut Vec<S::f64s>) -> Self {
         let low = low_bits(primes);
@@ -220,7 +220,7 @@ impl<S: Simd> Lanes for Floats<'_, S> {
     }
 }
 
-/// One lane, in Montgomery form: where the machine has no fused multiply-add, and to check the floats.
+/// One lane, in Montgomery form, for machines without fused multiply-add and to check the floats.
 impl Lanes for Modulus {
     type Element = u64;
     type Sum = u64;

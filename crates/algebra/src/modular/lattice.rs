@@ -23,7 +23,7 @@ impl Lattice {
         count_points(degrees, total, most)?;
         let (mut points, mut count, mut lines) = (Vec::new(), 0, vec![Vec::new(); parameters]);
         let (mut point, mut sum) = (vec![0_u32; parameters], 0);
-        // By parameter a: where the points with the current coordinates from a on begin, the index of the point one step
+        // By parameter a: the start of the points with the current coordinates from a on, the index of the point one step
         // back along the axis, and the lines through earlier points.
         let (mut start, mut back) = (vec![0; parameters], vec![0; parameters]);
         let mut line_of: Vec<Vec<usize>> = vec![Vec::new(); parameters];

@@ -1,8 +1,8 @@
 //! Determinants and resultants of polynomials with numeric coefficients, from their images modulo many primes.
 //!
-//! Polynomials are evaluated at integer points modulo primes, determinants of numbers are found there, interpolated, and
-//! the coefficients put together by Chinese remainders. The arithmetic is that of f64 with a fused multiply-add, primes
-//! side by side in the lanes of vector registers, or where the machine is seen at run time to have none that of Montgomery.
+//! Polynomials are evaluated at integer points modulo primes. Determinants of numbers are computed there and interpolated, and
+//! the coefficients are combined by Chinese remainders. The arithmetic is that of f64 with a fused multiply-add, with primes
+//! side by side in the lanes of vector registers, or Montgomery's if the machine turns out at run time to have none.
 
 mod batch;
 mod bound;

@@ -5,7 +5,7 @@ use crate::modp::is_prime;
 /// Every prime used here lies below `2^PRIME_BITS`, and close to it.
 pub const PRIME_BITS: u32 = 49;
 
-/// How far the largest primes lie below `2^PRIME_BITS`; finding them takes longer than a small determinant.
+/// Distances of the largest primes below `2^PRIME_BITS`; finding them takes longer than a small determinant.
 const DISTANCES: [u16; 64] = [
     81, 111, 123, 139, 181, 201, 213, 265, 283, 339, 441, 445, 475, 519, 565, 571, 579, 585, 703, 741, 753, 759, 789,
     805, 855, 909, 939, 943, 969, 1009, 1015, 1083, 1123, 1131, 1165, 1173, 1215, 1245, 1281, 1323, 1399, 1405, 1441,

@@ -19,7 +19,7 @@ pub(super) fn most_points(bits: f64, parameters: usize) -> usize {
     MOST_VALUES / usize::max(count_beyond(bits), 4 * parameters)
 }
 
-/// Which matrix has the determinant in question.
+/// The form of the matrix whose determinant is sought.
 #[derive(Clone, Copy)]
 pub(super) enum Form {
     /// The matrix of this size whose entries the polynomials are, each with the index of its place.
@@ -69,7 +69,7 @@ impl Form {
                 let mut coefficients = vec![zero; m + n + 2];
                 values.at(lanes, points, &mut coefficients);
                 let (f, g) = coefficients.split_at(m + 1);
-                // Row n - i holds F g x^(m - n) - G f, where F and G are made of the i highest terms of f and g, divided
+                // Row n - i holds F g x^(m - n) - G f, where F and G consist of the i highest terms of f and g, divided
                 // by x^(m + 1 - i); so the row of i + 1 follows from that of i by Horner's rule.
                 for i in 0..n {
                     let mut negative = zero;
@@ -146,7 +146,7 @@ impl WithSimd for Images<'_> {
 const BATCH_BYTES: usize = 1 << 19;
 
 impl Images<'_> {
-    /// The coefficients modulo the primes of these lanes, the first of which has the index `first`.
+    /// Computes the coefficients modulo the primes of these lanes, the first of which has the index `first`.
     #[inline(always)]
     fn image<L: Lanes>(&mut self, lanes: L, first: usize, primes: &[u64]) {
         let (form, lattice) = (self.problem.form, &self.problem.lattice);

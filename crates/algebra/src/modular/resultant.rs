@@ -10,11 +10,11 @@ use pulp::Arch;
 /// The degree beyond which a matrix of that size is not to be written down.
 const HIGHEST_DEGREE: u32 = 1 << 10;
 
-/// The resultant of two polynomials with respect to one of their variables: the determinant of the Sylvester matrix.
+/// Returns the resultant of two polynomials with respect to one of their variables: the determinant of the Sylvester matrix.
 ///
-/// Exact and proved, from as many values modulo as many primes as bounds on its degree and coefficients ask for. With
+/// It is exact and proved, from as many values modulo as many primes as bounds on its degree and coefficients require. With
 /// degrees m of f and n of g it has the sign for which `Res(f, g) = a^n prod g(x_i)`, the `x_i` being the roots of f and
-/// a its leading coefficient, so `Res(f, c) = c^m`. It is zero if f or g is. `None` where that takes too much memory: for
+/// a its leading coefficient, so `Res(f, c) = c^m`. It is zero if f or g is. `None` if that takes too much memory: for
 /// degrees above 1024, or for more than a few million values.
 ///
 /// # Shape
@@ -22,7 +22,7 @@ const HIGHEST_DEGREE: u32 = 1 << 10;
 /// eliminated. No two terms of a polynomial have the same exponents.
 ///
 /// # Panics
-/// When the shape is wrong.
+/// If the shape is wrong.
 ///
 /// # Source
 /// Diaz-Toca, Gonzalez-Vega 2004, Various new expressions for subresultants and their applications (the hybrid Bezout
@@ -76,7 +76,7 @@ pub(super) fn resultant_on(arch: Arch, f: &Terms, g: &Terms, variables: usize, v
     let total = bound(&|e| e.iter().enumerate().filter(|&(k, _)| k != variable).map(|(_, &x)| i64::from(x)).sum());
     let lattice = Lattice::new(&degrees, total, most_points(bits, parameters.len()))?;
 
-    // Where the bound is 0, the resultant is the same at 0.
+    // If the bound is 0, the resultant is the same at 0.
     let kept = |e: &[u32]| (0..variables).all(|k| e[k] == 0 || k == variable || parameters.contains(&k));
     let terms = descending(terms.filter(|(_, e, _)| kept(e)), &parameters);
     let problem = Problem {

@@ -3,8 +3,8 @@
 use super::batch::SIDE;
 use super::lanes::Lanes;
 
-/// How terms collapse when one parameter gets a value: runs of terms that agree in all other exponents, highest
-/// exponent first, each run summed by Horner's rule.
+/// The collapse of terms when one parameter gets a value: runs of terms that agree in all other exponents, highest
+/// exponent first, each summed by Horner's rule.
 struct Step {
     /// By term: how far the exponent falls to the next term of the run, or from the last term to 0.
     gaps: Vec<u32>,
@@ -16,7 +16,7 @@ struct Step {
 pub(super) struct Plan {
     /// The substitution of each parameter, that of the last one being done first.
     steps: Vec<Step>,
-    /// Which polynomial each of the remaining values belongs to.
+    /// The polynomial to which each of the remaining values belongs.
     slots: Vec<usize>,
 }
 
@@ -77,8 +77,8 @@ impl<'a, E: Copy> Values<'a, E> {
         Self { plan, left, point }
     }
 
-    /// The values at four points, found fast where only first coordinates differ, among these points and from those
-    /// before; zero polynomials are left as they are.
+    /// Computes the values at four points; this is fast if they and those before differ in first coordinates only. Zero
+    /// polynomials are left unchanged.
     #[inline(always)]
     pub(super) fn at<L: Lanes<Element = E>>(&mut self, lanes: L, points: [&[u32]; SIDE], values: &mut [[E; SIDE]]) {
         let Some(last) = self.plan.steps.first() else {

@@ -13,7 +13,7 @@ pub(super) trait Accumulator<C>: Clone {
     fn empty() -> Self;
     /// Adds a product.
     fn add(&mut self, a: &C, b: &C);
-    /// Whether the sum is zero.
+    /// Returns whether the sum is zero.
     fn vanishes(&self) -> bool;
 }
 
@@ -59,10 +59,10 @@ impl<R: Ring> Accumulator<R> for R {
     }
 }
 
-/// How the exponents of the last variables are numbered: the cells of a box.
+/// The numbering of the exponents of the last variables: the cells of a box.
 pub(super) struct Grid {
     packing: Packing,
-    /// How many variables come before those of the box.
+    /// Number of variables before those of the box.
     leading: usize,
     /// The distance in cells between exponents of each variable of the box.
     strides: Vec<usize>,
@@ -71,7 +71,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// The largest box with at most so many cells, for exponents up to the given degrees.
+    /// Returns the largest box with at most `most` cells, for exponents up to the given degrees.
     pub(super) fn new(packing: Packing, degrees: &[u32], most: usize) -> Self {
         let (mut leading, mut cells, mut strides) = (degrees.len(), 1, Vec::new());
         while leading > 0 {
@@ -116,7 +116,7 @@ impl Grid {
         self.packing.words()
     }
 
-    /// How many variables come before those of the box.
+    /// Returns the number of variables before those of the box.
     pub(super) const fn leading(&self) -> usize {
         self.leading
     }
@@ -126,7 +126,7 @@ impl Grid {
 pub(super) struct Blocks<'a, K, C> {
     /// The monomial of each block in the leading variables.
     pub(super) keys: Vec<K>,
-    /// Where each block starts, and the number of terms.
+    /// The start of each block, and the number of terms.
     starts: Vec<usize>,
     /// The cell of each term.
     pub(super) cells: Vec<usize>,
@@ -175,7 +175,7 @@ impl<K, C> Blocks<'_, K, C> {
 /// The sums of products that fall into the cells of a box.
 struct Collector<A> {
     sums: Vec<A>,
-    /// A bit for each cell that was hit, where they are marked.
+    /// A bit for each cell that was hit, if they are marked.
     marks: Vec<u64>,
 }
 
@@ -202,8 +202,8 @@ impl<A> Collector<A> {
     }
 }
 
-/// The monomials of the product, decreasing; its coefficients go one by one to `take`, which is not generic so that the
-/// code for machine words exists once for all rings. With `MARKED`, cells are found again by marks, which pays where most stay empty.
+/// Returns the monomials of the product, decreasing; its coefficients are passed one by one to `take`, which is not generic so
+/// that the code for machine words exists once for all rings. With `MARKED`, cells are found by marks, which pays if most are empty.
 pub(super) fn product<K: Key, C, A: Accumulator<C>, const MARKED: bool>(
     grid: &Grid,
     left: &Blocks<K, C>,

@@ -8,13 +8,13 @@ use crate::modular::{self, Terms};
 use crate::univariate::Univariate;
 
 impl Polynomial<Int> {
-    /// The determinant of a square matrix of polynomials.
+    /// Returns the determinant of a square matrix of polynomials.
     ///
-    /// From its values modulo primes where there is at most one variable, or a few in polynomials that are not small;
-    /// by minors or without fractions where there are many symbols.
+    /// It is computed from values modulo primes if there is at most one variable, or a few in polynomials that are not small;
+    /// by minors or without fractions if there are many symbols.
     ///
     /// # Panics
-    /// When the matrix is not square, or an exponent becomes larger than
+    /// If the matrix is not square, or an exponent becomes larger than
     /// [`LARGEST_EXPONENT`](crate::monomial::LARGEST_EXPONENT).
     ///
     /// # Example

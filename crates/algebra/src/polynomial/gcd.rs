@@ -37,7 +37,7 @@ impl Polynomial<Int> {
         self.degrees().into_iter().enumerate().filter(|(_, degree)| *degree > 0).map(|(variable, _)| variable).collect()
     }
 
-    /// Of two primitive polynomials with positive leading coefficients, not divisible by variables.
+    /// Returns the gcd of two primitive polynomials with positive leading coefficients, not divisible by variables.
     fn gcd_of_primitives(&self, other: &Self) -> Self {
         if self.len() == 1 || other.len() == 1 {
             return Self::one();
@@ -156,7 +156,7 @@ impl Lifted {
         lifted
     }
 
-    /// Adds an image modulo a new prime (Chinese remainders), and says whether it changed nothing.
+    /// Adds an image modulo a new prime (Chinese remainders), and returns whether it changed nothing.
     fn extend(&mut self, image: &Image) -> bool {
         let modulus = &image.modulus();
         let p = modulus.prime();

@@ -8,7 +8,7 @@ use crate::int::Int;
 use crate::modp::Modulus;
 use std::cmp::{Ordering, Reverse};
 
-/// How the exponents of the variables that occur are packed into one integer, each field as wide as it must be.
+/// The packing of the exponents of the occurring variables into one integer, each field as wide as needed.
 pub(super) struct Layout {
     /// The variables, that of the highest degree first: the last algorithm in line, Euclid's, is for that one.
     variables: Vec<usize>,
@@ -17,7 +17,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// A layout for two polynomials and what divides them; `None` if there is no room.
+    /// Returns a layout for two polynomials and their divisors; `None` if there is no room.
     pub(super) fn new(a: &Polynomial<Int>, b: &Polynomial<Int>) -> Option<Self> {
         let (a_degrees, b_degrees) = (a.degrees(), b.degrees());
         let of = |degrees: &[u32], variable: usize| degrees.get(variable).copied().unwrap_or(0);
@@ -185,7 +185,7 @@ impl Images<'_> {
         self.terms(&gcd, last)
     }
 
-    /// Newton's step: adds the value `factor image` at x, and says whether it was foreseen.
+    /// Applies Newton's step: adds the value `factor image` at x, and returns whether it was predicted.
     fn extend(&self, interpolant: &mut Interpolant, image: &[(u128, u64)], factor: u64, x: u64) -> bool {
         let m = &self.modulus;
         let scale = m.inverse(self.value(&interpolant.vanishing, x));
@@ -269,7 +269,7 @@ impl Images<'_> {
         content
     }
 
-    /// The terms where the last variable has a value.
+    /// Returns the terms for a value of the last variable.
     fn at(&self, groups: &Groups, x: u64) -> Vec<(u128, u64)> {
         let terms = groups.iter().map(|(monomial, c)| (*monomial, self.value(c, x)));
         terms.filter(|term| term.1 != 0).collect()

@@ -43,10 +43,10 @@ pub struct Polynomial<R> {
     coefficients: Vec<R>,
 }
 
-/// How large a result may become, known before it is computed.
+/// A bound on the size of a result, known before it is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
-    /// At most so many terms.
+    /// Maximum number of terms.
     pub terms: u64,
     /// The largest exponent of a variable; above [`super::monomial::LARGEST_EXPONENT`] the computation would panic.
     pub largest_exponent: u64,

@@ -1,4 +1,4 @@
-//! Powers, by the multinomial theorem where its terms hardly meet, else by repeated squaring.
+//! Powers, by the multinomial theorem if its terms seldom coincide, else by repeated squaring.
 
 use super::{Polynomial, Size};
 use crate::monomial::{LARGEST_EXPONENT, Packing};
@@ -22,7 +22,7 @@ fn choices(n: u64, k: u64) -> u64 {
 }
 
 impl<R: Ring> Polynomial<R> {
-    /// How large a power may become.
+    /// Returns a bound on the size of a power.
     #[must_use]
     pub fn power_size(&self, exponent: u32) -> Size {
         let (len, exponent) = (self.len() as u64, u64::from(exponent));
@@ -51,7 +51,7 @@ impl<R: Ring> Polynomial<R> {
                     "an exponent of {}, above {LARGEST_EXPONENT}",
                     size.largest_exponent
                 );
-                // Where there is no room for all combinations, many of them meet.
+                // If there is no room for all combinations, many of them coincide.
                 if len <= FEW && combinations <= size.terms {
                     self.multinomial_power(exponent)
                 } else {

@@ -6,7 +6,7 @@ use super::{Polynomial, Size};
 use crate::monomial::Packing;
 use crate::ring::Ring;
 
-/// Up to so many products of terms are sorted.
+/// Maximum number of products of terms that are sorted.
 const FEW: usize = 1024;
 /// Cells of a box: their sums stay in the first-level cache, or nearly so.
 pub(super) const CELLS: usize = 1 << 12;
@@ -27,7 +27,7 @@ pub(super) fn bound(a: &[i64], b: &[i64]) -> u128 {
 }
 
 impl<R: Ring> Polynomial<R> {
-    /// How large the product may become.
+    /// Returns a bound on the size of the product.
     #[must_use]
     pub fn product_size(&self, other: &Self) -> Size {
         if self.is_zero() || other.is_zero() {
@@ -159,7 +159,7 @@ fn collect_by<K: Key, C, A: Accumulator<C>>(
 ) -> Vec<u64> {
     let left = Blocks::<K, C>::new(grid, left, a);
     let right = Blocks::<K, C>::new(grid, right, b);
-    // How many boxes there will be at most, and how full they are then.
+    // The maximum number of boxes, and how full they are then.
     let volume = |degrees: &[u32]| degrees.iter().fold(1.0, |cells, &degree| cells * (f64::from(degree) + 1.0));
     let (outer, inner) = degrees.split_at(grid.leading());
     let boxes = volume(outer).min(left.len() as f64 * right.len() as f64);

@@ -12,7 +12,7 @@ use crate::monomial::Packing;
 use crate::ring::{Domain, Ring};
 use std::ops::Range;
 
-/// Boxes pay from so many terms in an average block.
+/// Number of terms in an average block from which on boxes pay.
 const FEW: usize = 4;
 
 /// A coefficient or a sum left the machine words.
@@ -21,7 +21,7 @@ struct Overflow;
 /// The terms of a quotient, if there is one.
 type Terms<C> = Option<(Vec<u64>, Vec<C>)>;
 
-/// What division does with coefficients.
+/// The operations of division on coefficients.
 trait Coefficient: Clone {
     /// Sums of products.
     type Sum: Clone;
@@ -29,7 +29,7 @@ trait Coefficient: Clone {
     fn empty() -> Self::Sum;
     /// `sum - a b`
     fn subtract(sum: &mut Self::Sum, a: &Self, b: &Self) -> Result<(), Overflow>;
-    /// Whether the sum is zero.
+    /// Returns whether the sum is zero.
     fn vanishes(sum: &Self::Sum) -> bool;
     /// The exact quotient by a coefficient, `None` if there is a remainder.
     fn divide(sum: &Self::Sum, divisor: &Self) -> Result<Option<Self>, Overflow>;
@@ -256,7 +256,7 @@ impl<C: Coefficient> Division<'_, C> {
         }
     }
 
-    /// Long division of what is on the bench by the first block of the divisor; `None` if there is a remainder.
+    /// Divides the terms on the bench by the first block of the divisor; `None` if there is a remainder.
     fn divide_box<K: Key>(
         &self,
         grid: &Grid,

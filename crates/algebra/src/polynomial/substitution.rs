@@ -14,7 +14,7 @@ fn powers<R: Ring>(x: &R, exponent: u32) -> Vec<R> {
 }
 
 impl<R: Ring> Polynomial<R> {
-    /// The value where each variable has the given one; variables beyond them are 0.
+    /// Returns the value for the given values of the variables; further variables are 0.
     #[must_use]
     pub fn evaluate(&self, values: &[R]) -> R {
         let zero = R::zero();
@@ -63,7 +63,7 @@ impl<R: Ring> Polynomial<R> {
         parts.iter().rev().fold(Self::zero(), |sum, part| sum.mul(replacement).add(&part.substitute_all(others)))
     }
 
-    /// The polynomial where a variable has a value.
+    /// Returns the polynomial for a value of one variable.
     fn at(&self, variable: usize, value: &R) -> Self {
         if variable >= self.variables() {
             return self.clone();

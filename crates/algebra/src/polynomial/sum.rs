@@ -5,7 +5,7 @@ use crate::ring::Ring;
 use std::cmp::Ordering;
 
 impl<R: Ring> Polynomial<R> {
-    /// The sum or difference: `lone` is what becomes of a term of `other` alone, `both` of two with the same monomial.
+    /// Returns the sum or difference: `lone` maps a term of `other` alone, `both` two with the same monomial.
     pub(super) fn merge(&self, other: &Self, lone: impl Fn(&R) -> R, both: impl Fn(&R, &R) -> R) -> Self {
         if other.is_zero() {
             return self.clone();

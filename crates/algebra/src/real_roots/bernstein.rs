@@ -86,7 +86,7 @@ impl Source {
         i64::try_from(self.degree()).expect("degrees are small")
     }
 
-    /// How many bits rounding and binomial sums may spoil, see [`Source::expand_to`].
+    /// Returns the number of bits that rounding and binomial sums may spoil, see [`Source::expand_to`].
     fn spoilt(&self) -> i64 {
         self.weight_bits + self.degree_bits() + self.count_bits + 4
     }
@@ -175,15 +175,15 @@ impl Source {
         powers
     }
 
-    /// The Bernstein coefficients on a cell right of 0, the largest of at least `wanted` bits. Starts with the
-    /// precision `bits` and leaves there what would have done.
+    /// Returns the Bernstein coefficients on a cell right of 0, the largest of at least `wanted` bits. Starts with the
+    /// precision `bits` and stores there the one that would have sufficed.
     pub(super) fn expand_long(&self, cell: &Cell, wanted: i64, bits: &mut i64) -> Vec<Integer> {
         let spoilt = self.spoilt();
         loop {
             *bits = (*bits).max(1 - spoilt);
             let b = self.expand_to(cell, *bits);
             let largest = b.iter().map(length).max().unwrap_or(0);
-            // What is all error says nothing of how much is missing: twice the precision of the terms is tried.
+            // A result that is all error does not show how much is missing, so twice the precision of the terms is tried.
             *bits += if largest > 2 { wanted - largest } else { *bits + spoilt };
             if largest >= wanted {
                 return b;
@@ -253,18 +253,18 @@ impl Expansion {
         (least, plus.max(minus).max(0))
     }
 
-    /// Whether the largest coefficient has that many bits more than the error.
+    /// Returns whether the largest coefficient has that many bits more than the error.
     fn stands_out(&self, bits: u32) -> bool {
         self.coefficients.iter().any(|b| b.exceeds(self.error, bits))
     }
 
-    /// Whether enough bits are left for another halving to be of use.
+    /// Returns whether enough bits are left for another halving to be useful.
     pub(super) fn is_precise(&self) -> bool {
         self.stands_out(12)
     }
 
-    /// Where about in the cell its only root is, from 0 to 1, the polynomial having the given sign left of it; `None`
-    /// when floats cannot say.
+    /// Returns the approximate position in the cell of its only root, from 0 to 1, if the polynomial has the given sign left
+    /// of it; `None` if floats cannot determine it.
     pub(super) fn guess_root(&self, left: i8) -> Option<f64> {
         let n = self.coefficients.len() - 1;
         let scale = self.coefficients.iter().map(|b| b.to_f64().abs()).fold(0.0, f64::max);
@@ -350,7 +350,7 @@ mod tests {
                 let cell = Cell::new(Integer::from(numerator), exponent);
                 let exact = exactly(&source, &cell);
                 let depth = length(&cell.numerator);
-                // Of the scaling of `expand_to` all but `spoilt` is left.
+                // Of the scaling of `expand_to` all but `spoilt` remains.
                 for bits in [1 - source.spoilt(), -100, 60, 300].map(|bits| bits.max(1 - source.spoilt())) {
                     let unit = bits - source.reach(cell.exponent + depth);
                     for (found, exact) in source.expand_to(&cell, bits).iter().zip(&exact) {

@@ -39,8 +39,8 @@ pub(super) fn reach(coefficients: &[Integer], k: i64) -> i64 {
     terms.map(|(i, c)| length(c) + k * i).max().unwrap_or(0)
 }
 
-/// The value at `numerator 2^exponent`, right to `wanted` bits at least; computed with the precision `bits` and more if
-/// that is too little, which then is left there.
+/// Returns the value at `numerator 2^exponent`, right to at least `wanted` bits. It starts with the precision `bits`, and if
+/// that is too little, stores there the larger one used.
 pub(super) fn value_at(
     coefficients: &[Integer],
     numerator: &Integer,

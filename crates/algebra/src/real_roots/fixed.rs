@@ -73,7 +73,7 @@ impl Wide {
         self.hi as f64 * (2.0 * HALF) + self.lo as f64
     }
 
-    /// Whether the absolute value exceeds `2^bits error`, `bits` at most 64.
+    /// Returns whether the absolute value exceeds `2^bits error`, `bits` at most 64.
     pub(super) fn exceeds(self, error: u64, bits: u32) -> bool {
         let size = if self.hi < 0 { self.negate() } else { self };
         size.hi > 0 || size.lo > u128::from(error) << bits

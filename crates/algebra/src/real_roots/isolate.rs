@@ -21,16 +21,16 @@ const GUESS_BITS: u32 = 48;
 /// The bits that a Newton step is computed with beyond those of the leap.
 const LEAP_GUARD: i64 = 64;
 
-/// Where about in its cell a root probably is.
+/// The probable position of a root in its cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guess {
     /// From 0 at the left end to 1 at the right.
     pub(super) y: f64,
-    /// How many bits of that are to be relied upon.
+    /// Number of its bits that are reliable.
     pub(super) bits: u32,
 }
 
-/// Where one root is.
+/// The place of one root.
 #[derive(Clone, Debug)]
 pub(super) enum Place {
     /// Exactly at `numerator 2^exponent`.
@@ -69,8 +69,8 @@ fn positive_roots(source: &Source) -> Vec<Place> {
     search.places
 }
 
-/// A power of two above all positive roots (`2 max |c_i/c_n|^(1/(n-i))` over the c_i of the other sign, Kioustelidis
-/// 1986, "Bounds for positive roots of polynomials"); `None` when there are none.
+/// Returns a power of two above all positive roots (`2 max |c_i/c_n|^(1/(n-i))` over the c_i of the other sign, Kioustelidis
+/// 1986, "Bounds for positive roots of polynomials"); `None` if there are none.
 fn bound(source: &Source) -> Option<i64> {
     let n = source.degree();
     let leading = &source.coefficients[n];
@@ -132,7 +132,7 @@ struct Node {
     cluster: Cluster,
 }
 
-/// How long a number of sign changes has stayed the same.
+/// The number of steps for which a number of sign changes has stayed the same.
 #[derive(Clone, Copy)]
 struct Cluster {
     changes: i32,
@@ -142,13 +142,13 @@ struct Cluster {
     leap: u32,
 }
 
-/// What is still to be done, from left to right.
+/// A remaining task, in order from left to right.
 enum Task {
     Search(Node),
     Report(Place),
 }
 
-/// What Descartes' rule says of a node.
+/// The result of Descartes' rule for a node.
 enum Verdict {
     Empty,
     /// One root, the polynomial having this sign left of it.
@@ -180,7 +180,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The certain sign at `numerator 2^exponent`, from an approximate value where that is enough.
+    /// Returns the certain sign at `numerator 2^exponent`, from an approximate value if that is enough.
     fn sign(&mut self, value: Wide, error: u64, numerator: &Integer, exponent: i64) -> i8 {
         match value.sign_beyond(error) {
             0 => {

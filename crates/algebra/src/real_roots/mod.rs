@@ -37,13 +37,13 @@ pub struct RealRoot {
 }
 
 impl RealRoot {
-    /// How often the root counts as a root of the polynomial it was asked of.
+    /// Returns the multiplicity of the root in the polynomial that was given.
     #[must_use]
     pub fn multiplicity(&self) -> usize {
         self.multiplicity
     }
 
-    /// The root itself where it was met: a dyadic number on the way of the bisection. Other roots may be rational too.
+    /// Returns the exact root if the bisection hit it, as a dyadic number. Other roots may be rational too.
     #[must_use]
     pub fn exact(&self) -> Option<Rational> {
         match &self.place {
@@ -52,7 +52,7 @@ impl RealRoot {
         }
     }
 
-    /// The closed interval that holds the root; its ends are equal where the root is known exactly.
+    /// Returns the closed interval that holds the root; its ends are equal if the root is known exactly.
     #[must_use]
     pub fn bounds(&self) -> (Rational, Rational) {
         match &self.place {
@@ -78,7 +78,7 @@ fn separate(roots: &mut [RealRoot]) {
                 bits *= 2;
             }
         }
-        // Intervals of different square-free factors overlap in any way: what they shrink to may change the order.
+        // Intervals of different square-free factors may overlap; narrowing them may change the order.
         if !touched {
             return;
         }

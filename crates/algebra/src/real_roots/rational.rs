@@ -1,4 +1,4 @@
-//! Rational roots, told apart from irrational ones.
+//! Separates rational roots from irrational ones.
 
 use super::RealRoot;
 use rug::{Integer, Rational};

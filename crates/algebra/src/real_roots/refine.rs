@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 const SIGNIFICAND: i64 = 53;
 const FINEST: i64 = -1074;
 
-/// The precision in which values are tried first, and the bits that are wanted beyond those of two secant steps.
+/// The initial precision of values, and the bits required beyond those of two secant steps.
 const VALUE_PRECISION: i64 = 64;
 const VALUE_GUARD: i64 = 8;
 
@@ -42,7 +42,7 @@ fn nearest(numerator: &Integer, exponent: i64) -> f64 {
     if numerator.is_negative() { -value } else { value }
 }
 
-/// `2^exponent x` where that is an f64.
+/// Returns `2^exponent x` if that is an f64.
 fn power_of_two(x: f64, exponent: i64) -> f64 {
     let exponent = i32::try_from(exponent).expect("within the range of an f64");
     let half = exponent / 2;
@@ -58,7 +58,7 @@ fn exactly(x: f64) -> Rational {
 }
 
 impl RealRoot {
-    /// How the root compares with a number: `Less` when it is less.
+    /// Compares the root with a number: `Less` if the root is less.
     #[must_use]
     pub fn compare(&self, x: &Rational) -> Ordering {
         match &self.place {
@@ -74,7 +74,7 @@ impl RealRoot {
         }
     }
 
-    /// Whether the closed intervals of two roots have a point in common.
+    /// Returns whether the closed intervals of two roots have a point in common.
     pub(super) fn touches(&self, other: &Self) -> bool {
         let ((lo, hi), (other_lo, other_hi)) = (self.bounds(), other.bounds());
         lo <= other_hi && other_lo <= hi
@@ -129,7 +129,7 @@ impl RealRoot {
             let exponent = cell.exponent - i64::from(bits);
             let start = Integer::from(&cell.numerator << bits);
             let mut inspect = |index: &Integer| {
-                // The ends of the cell may be other roots; the signs inside are what counts, and values are known.
+                // The ends of the cell may be other roots; the signs inside matter, and values are known.
                 let known = ends.as_ref().filter(|_| *index == 0 || *index == parts);
                 let value = match known {
                     Some((from, to)) => {
@@ -197,7 +197,7 @@ impl RealRoot {
         }
     }
 
-    /// The tightest pair of f64 that encloses the root: neighbours, or twice the root where it is an f64; an infinite
+    /// Returns the tightest pair of f64 that encloses the root: neighbours, or twice the root if it is an f64; an infinite
     /// end beyond the range.
     pub fn enclosure(&mut self) -> (f64, f64) {
         let value = self.to_f64();
@@ -227,7 +227,7 @@ impl Guess {
     }
 }
 
-/// Which of `2^bits` parts the secant through the values at the ends meets, rounded to the nearest corner.
+/// Returns which of `2^bits` parts the secant through the values at the ends meets, rounded to the nearest corner.
 fn secant(from: &Value, to: &Value, bits: u32) -> Integer {
     let unit = from.unit.min(to.unit);
     let (from, to) = (shifted(&from.mantissa, from.unit - unit), shifted(&to.mantissa, to.unit - unit));

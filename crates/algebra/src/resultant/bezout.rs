@@ -29,7 +29,7 @@ pub fn matrix<R: Ring>(f: &[R], g: &[R]) -> Vec<Vec<R>> {
     assert!(!g.is_empty() && g.len() <= f.len(), "the polynomial of higher degree comes first");
     let (m, n) = (f.len() - 1, g.len() - 1);
     let low = m - n;
-    // f_i g_j - f_j g_i, where g has been multiplied by x^(m-n); `None` for zero.
+    // f_i g_j - f_j g_i for g times x^(m-n); `None` for zero.
     let bracket = |i: usize, j: usize| -> Option<R> {
         let product =
             |i: usize, j: usize| (j >= low && !f[i].is_zero() && !g[j - low].is_zero()).then(|| f[i].mul(&g[j - low]));
@@ -76,21 +76,21 @@ pub fn matrix<R: Ring>(f: &[R], g: &[R]) -> Vec<Vec<R>> {
     rows
 }
 
-/// A resultant and the first subresultant, which is what leads back to the common root.
+/// A resultant and the first subresultant, which leads back to the common root.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expansion<R> {
     /// The resultant.
     pub resultant: R,
     /// A polynomial of degree 1 or less that vanishes at the common root of two that have just one: the first
-    /// subresultant up to sign, or the polynomial of degree 1 if one of the two is; zero where one is constant.
+    /// subresultant up to sign, or the polynomial of degree 1 if one of the two is; zero if one is constant.
     pub linear: Univariate<R>,
 }
 
-/// The resultant and the first subresultant by the minors of the hybrid Bezout matrix, without division: for degrees up
-/// to about 5, and coefficients with symbols in them. Right for constants, 0 where a polynomial is zero.
+/// Returns the resultant and the first subresultant by the minors of the hybrid Bezout matrix, without division, for degrees
+/// up to about 5 and coefficients with symbols in them. It is right for constants, and 0 if a polynomial is zero.
 ///
 /// # Panics
-/// When a degree is above 20.
+/// If a degree is above 20.
 #[must_use]
 pub fn expansion<R: Ring>(f: &Univariate<R>, g: &Univariate<R>) -> Expansion<R> {
     let (Some(m), Some(n)) = (f.degree(), g.degree()) else {

@@ -4,11 +4,11 @@ use super::bezout;
 use super::linear::{reduce, reduce_up_to};
 use crate::ring::Field;
 
-/// The greatest common divisor of two polynomials of given degrees over any field, f64 and complex ones among them.
+/// Returns the greatest common divisor of two polynomials of given degrees over any field, including f64 and complex ones.
 ///
-/// Its coefficients, constant term first; k zeros at the end, which are only there if both polynomials have them, stand
-/// for a common root at infinity of multiplicity k. `[d0, d1]` is the common root `-d0/d1`; `[1]` says that there is
-/// none. Empty where both polynomials are zero.
+/// The result holds its coefficients, constant term first. k zeros at the end, which occur only if both polynomials have them,
+/// represent a common root at infinity of multiplicity k. `[d0, d1]` is the common root `-d0/d1`; `[1]` means that there is
+/// none. It is empty if both polynomials are zero.
 ///
 /// It is found from the null space of the Bezout matrix of the two scaled to a largest coefficient of 1: pivots not above
 /// `tolerance` count as zero. In exact fields that is 0; in inexact ones about the relative error of the coefficients.

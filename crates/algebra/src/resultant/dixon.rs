@@ -41,14 +41,14 @@ pub struct Dixon<R> {
 pub struct MaximalMinor<R> {
     /// The square matrix.
     pub entries: Vec<Vec<R>>,
-    /// A monomial whose column depends on no others, or whose row does: then the determinant vanishes at all values of
-    /// the parameters with a common root at which this monomial does not vanish; for `[0, 0]`, with any common root. Every
-    /// irreducible factor of the resultant divides the determinant, then; other factors are extraneous: often leading
-    /// coefficients, or what the determinants of other minors do not have. Without a witness nothing is known.
+    /// A monomial whose column, or whose row, depends on no others. Then the determinant vanishes at all values of
+    /// the parameters with a common root at which this monomial does not vanish; for `[0, 0]`, with any common root. Then every
+    /// irreducible factor of the resultant divides the determinant. Other factors are extraneous: often leading
+    /// coefficients, or factors that the determinants of other minors lack. Without a witness nothing is known.
     pub witness: Option<Monomial>,
 }
 
-/// What is left of three polynomials after two variables have been eliminated.
+/// The result of eliminating two variables from three polynomials.
 #[derive(Clone, Debug)]
 pub struct DixonEliminant {
     /// The Dixon matrix, which gives the common root back, see [`Dixon::common_root_at`].
@@ -167,8 +167,8 @@ impl<R: Ring> Dixon<R> {
         self.entries.iter().map(|row| row.iter().map(&image).collect()).collect()
     }
 
-    /// The rows and columns of a maximal minor that does not vanish where `image` takes the parameters: values in a
-    /// field, best at random modulo a large prime; `None` if a coefficient has no image.
+    /// Returns the rows and columns of a maximal minor that does not vanish at the values `image` of the parameters in a
+    /// field, preferably random ones modulo a large prime; `None` if a coefficient has no image.
     pub fn maximal_minor<F: Field>(&self, image: impl Fn(&R) -> Option<F>) -> Option<MaximalMinor<R>> {
         let matrix = self.at(image)?;
         let reduced = reduce(&matrix, self.columns.len(), 0.0);
@@ -186,8 +186,8 @@ impl<R: Ring> Dixon<R> {
         Some(MaximalMinor { entries: rows.iter().map(row).collect(), witness: candidates.into_iter().flatten().min() })
     }
 
-    /// The common root `x = p/q`, `y = r/s` as `[[p, q], [r, s]]` where `image` takes the parameters: values at which the
-    /// three have one common root.
+    /// Returns the common root `x = p/q`, `y = r/s` as `[[p, q], [r, s]]` at the values `image` of the parameters, at which the
+    /// three polynomials must have one common root.
     ///
     /// A zero q or s is a root at infinity. `None` if the rank of the matrix is not by one less than its size there
     /// (several common roots, none, or a matrix whose determinant vanishes identically), or a coefficient has no image.
@@ -244,7 +244,7 @@ fn combinations(support: &[Monomial]) -> BTreeMap<(Monomial, Monomial), BTreeMap
     entries
 }
 
-/// The determinants of three columns of coefficients, each found when it is first asked for.
+/// The determinants of three columns of coefficients, each computed on first use.
 struct Brackets<'a, R> {
     coefficients: &'a [[Option<R>; 3]],
     known: BTreeMap<Triple, Option<R>>,

@@ -11,12 +11,12 @@ use crate::ring::{Domain, Field, Ring};
 use crate::univariate::Univariate;
 use std::borrow::Cow;
 
-/// The resultant of two polynomials with respect to a variable, with the sign of the Sylvester determinant.
+/// Returns the resultant of two polynomials with respect to a variable, with the sign of the Sylvester determinant.
 ///
 /// `Res(f, c) = c^m` for c free of the variable, and 0 if either polynomial is zero.
 ///
 /// # Panics
-/// When an exponent becomes larger than [`LARGEST_EXPONENT`](crate::monomial::LARGEST_EXPONENT).
+/// If an exponent becomes larger than [`LARGEST_EXPONENT`](crate::monomial::LARGEST_EXPONENT).
 ///
 /// # Example
 /// ```
@@ -39,7 +39,7 @@ pub fn resultant(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> P
     if factor == Int::one() { resultant } else { resultant.scale(&factor) }
 }
 
-/// The resultant from its values modulo primes; `None` where that takes too much memory.
+/// Returns the resultant from its values modulo primes; `None` if that takes too much memory.
 fn by_values(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> Option<Polynomial<Int>> {
     let variables = f.variables().max(g.variables()).max(variable + 1);
     let resultant = modular::resultant(&Terms::of(f, variables), &Terms::of(g, variables), variables, variable);
@@ -59,12 +59,12 @@ fn without_content(f: &Polynomial<Int>) -> (Int, Cow<'_, Polynomial<Int>>) {
 /// The result of eliminating a variable from two polynomials.
 #[derive(Clone, Debug)]
 pub struct Eliminant<R> {
-    /// The resultant, with the sign of the Sylvester determinant: it vanishes where the two have a common root, or both
+    /// The resultant, with the sign of the Sylvester determinant: it vanishes if the two have a common root, or both
     /// lose their leading coefficients.
     pub resultant: Polynomial<R>,
     /// A polynomial in the eliminated variable that vanishes at the common root, mostly `s1 x + s0`, the first
-    /// subresultant up to factors free of x: then `x = -s0/s1` wherever s1 does not vanish. Two polynomials in `x^k` have
-    /// `s1 x^k + s0` here. Zero, where there is no such polynomial.
+    /// subresultant up to factors free of x; then `x = -s0/s1` wherever s1 does not vanish. Two polynomials in `x^k` have
+    /// `s1 x^k + s0` here. It is zero if there is no such polynomial.
     pub lift: Univariate<Polynomial<R>>,
     f: Univariate<Polynomial<R>>,
     g: Univariate<Polynomial<R>>,
@@ -99,8 +99,8 @@ pub fn eliminate<D: Domain>(f: &Polynomial<D>, g: &Polynomial<D>, variable: usiz
 }
 
 impl<R: Ring> Eliminant<R> {
-    /// The greatest common divisor of the two polynomials where the variables have the given values (that of the
-    /// eliminated one is not looked at), see [`common_divisor`]; `None` if a coefficient has no image.
+    /// Returns the greatest common divisor of the two polynomials at the given values of the variables (that of the
+    /// eliminated one is ignored), see [`common_divisor`]; `None` if a coefficient has no image.
     pub fn common_divisor_at<F: Field>(
         &self,
         image: impl Fn(&R) -> Option<F>,

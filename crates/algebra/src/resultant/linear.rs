@@ -19,7 +19,7 @@ pub(super) fn reduce<F: Field>(matrix: &[Vec<F>], columns: usize, tolerance: f64
     reduce_up_to(matrix, columns, columns, tolerance)
 }
 
-/// The same, for a matrix whose rank is known not to be above `rank`: what is left then is rounding.
+/// Reduces a matrix whose rank is known not to exceed `rank`: any further pivot would be rounding.
 pub(super) fn reduce_up_to<F: Field>(matrix: &[Vec<F>], columns: usize, rank: usize, tolerance: f64) -> Reduced<F> {
     assert!(matrix.iter().all(|row| row.len() == columns), "the rows of a matrix are of one length");
     let mut rows = matrix.to_vec();

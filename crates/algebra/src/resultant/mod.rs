@@ -1,4 +1,4 @@
-//! Resultants: one variable out of two polynomials, two out of three, and the way back to what was eliminated.
+//! Resultants: one variable out of two polynomials, two out of three, and the way back to the eliminated ones.
 
 pub mod bezout;
 mod common_divisor;
@@ -12,7 +12,7 @@ pub mod sylvester;
 pub use common_divisor::common_divisor;
 pub use eliminant::{Eliminant, eliminate, resultant};
 
-/// Whether a sign changes.
+/// Returns whether a sign changes.
 const fn odd(n: usize) -> bool {
     n % 2 == 1
 }

@@ -1,4 +1,4 @@
-//! The choice of the route to a resultant of polynomials in several variables, and what can be taken out before.
+//! The choice of the route to a resultant of polynomials in several variables, and the factors removed first.
 
 use super::bezout::{self, Expansion};
 use super::subresultant;
@@ -8,7 +8,7 @@ use crate::polynomial::Polynomial;
 use crate::ring::{Domain, Ring};
 use crate::univariate::Univariate;
 
-/// The resultant and what leads back to the eliminated variable.
+/// Returns the resultant and the polynomial that leads back to the eliminated variable.
 ///
 /// Polynomials in `x^k` have the k-th power of the resultant of those in x.
 pub(super) fn expansion<D: Domain>(
@@ -49,7 +49,7 @@ fn without_monomials<D: Domain>(
         let powers = exponents.into_iter().map(|e| e.saturating_mul(power)).collect();
         Polynomial::from_terms([(powers, D::one())])
     };
-    // Where one of these vanishes so does a whole polynomial, and the lift must not say more than it knows.
+    // If one of these vanishes, so does a whole polynomial, and the lift must not claim more than it shows.
     let once = |exponents: &[u32]| monomial(exponents.iter().map(|&e| e.min(1)).collect(), 1);
     let linear = expansion.linear.scale(&once(&exponents_f).mul(&once(&exponents_g)));
     let factor = monomial(exponents_f, degree(g)).mul(&monomial(exponents_g, degree(f)));
@@ -88,8 +88,8 @@ const fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-/// Whether the resultant is sooner had from its values modulo primes than from the polynomials as they are: with
-/// numbers for coefficients, no parameter or a few, and polynomials that are nearly dense or of low degree.
+/// Returns whether the resultant is found faster from its values modulo primes than from the polynomials as they are: with
+/// numbers for coefficients, at most a few parameters, and polynomials that are nearly dense or of low degree.
 pub(super) fn is_numeric(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> bool {
     let (m, n) = (f.degree(variable), g.degree(variable));
     if m.min(n) < 2 || m.max(n) < 3 {
@@ -109,14 +109,14 @@ pub(super) fn is_numeric(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usi
     }
 }
 
-/// Whether a polynomial has a quarter of the terms that its total degree allows in that many variables.
+/// Returns whether a polynomial has a quarter of the terms that its total degree allows in that many variables.
 fn is_dense(f: &Polynomial<Int>, variables: usize) -> bool {
     let degree = f.total_degree().unwrap_or(0);
     let all = (1..=variables as u64).fold(1_u64, |all, k| all.saturating_mul(degree + k) / k);
     4 * f.len() as u64 >= all
 }
 
-/// How a resultant is found.
+/// The route to a resultant.
 enum Route {
     /// Two quadratics whose first and last coefficients have more terms than their sums and differences.
     HalfAngles,
@@ -126,10 +126,10 @@ enum Route {
     Chain,
 }
 
-/// The one place where the route is chosen, by degrees, numbers of parameters and numbers of terms.
+/// Chooses the route, here alone, by degrees, numbers of parameters and numbers of terms.
 ///
-/// Minors never divide, and with many symbols their terms hardly cancel: there they are faster by orders of magnitude.
-/// With one or two parameters all polynomials are dense, and pseudo-division wins where it is cheap: for degrees far
+/// Minors never divide, and with many symbols their terms hardly cancel, so that they are faster by orders of magnitude.
+/// With one or two parameters all polynomials are dense, and pseudo-division wins if it is cheap: for degrees far
 /// apart, and for high ones.
 fn route<D: Domain>(f: &Univariate<Polynomial<D>>, g: &Univariate<Polynomial<D>>) -> Route {
     let (Some(m), Some(n)) = (f.degree(), g.degree()) else { return Route::Minors };
@@ -168,8 +168,8 @@ fn by_route<D: Domain>(f: &Univariate<Polynomial<D>>, g: &Univariate<Polynomial<
     }
 }
 
-/// The resultant of two quadratics that come from half-angle tangents, `(C - A) t^2 + 2 B t + (C + A)` from
-/// `A cos + B sin + C`, as a sum of three squares of what has few terms:
+/// Returns the resultant of two quadratics that come from half-angle tangents, `(C - A) t^2 + 2 B t + (C + A)` from
+/// `A cos + B sin + C`, as a sum of three squares of polynomials with few terms:
 ///
 /// `4 Res = (q p' - p q')^2 + (p b' - b p')^2 - (q b' - b q')^2`, p and q the sum and the difference of the outer
 /// coefficients, b the middle one.

@@ -1,15 +1,15 @@
-//! The chain of subresultants by pseudo-division: resultants over any ring with exact division, and what leads back to
+//! The chain of subresultants by pseudo-division: resultants over any ring with exact division, and the way back to
 //! the eliminated variable.
 
 use super::odd;
 use crate::ring::{Domain, Ring};
 use crate::univariate::Univariate;
 
-/// The subresultants `S_0, ..., S_(k-1)` of two polynomials of degrees m and n, k the smaller one.
+/// Returns the subresultants `S_0, ..., S_(k-1)` of two polynomials of degrees m and n, k the smaller one.
 ///
 /// `S_j` is the polynomial of degree j or less whose coefficient of `x^i` is the determinant of the rows
 /// `x^(n-j-1) f, ..., f, x^(m-j-1) g, ..., g` in the columns of `x^(m+n-j-1), ..., x^(j+1), x^i`. `S_0` is the resultant
-/// (unless k is 0); where it vanishes, and the coefficient of x in `S_1` does not, `S_1` has the common root; and so on:
+/// (unless k is 0). If it vanishes, and the coefficient of x in `S_1` does not, `S_1` has the common root; and so on:
 /// the first one that does not vanish is a greatest common divisor over the fractions.
 ///
 /// # Source
@@ -43,7 +43,7 @@ pub fn chain<D: Domain>(f: &Univariate<D>, g: &Univariate<D>) -> Vec<Univariate<
     subresultants
 }
 
-/// The resultant as the last of the chain of subresultants, right also for constants: `Res(f, c) = c^m`; 0 where a
+/// Returns the resultant as the last of the chain of subresultants, right also for constants: `Res(f, c) = c^m`; 0 if a
 /// polynomial is zero.
 #[must_use]
 pub fn resultant<D: Domain>(f: &Univariate<D>, g: &Univariate<D>) -> D {
@@ -100,7 +100,7 @@ fn lowered<D: Domain>(b: &Univariate<D>, scale: &D, gap: usize) -> Univariate<D>
 fn next<D: Domain>(a: &Univariate<D>, b: &Univariate<D>, regular: &Univariate<D>, scale: &D) -> Univariate<D> {
     let (d, e) = (a.coefficients().len() - 1, b.coefficients().len() - 1);
     let (leading_a, leading_b, leading_regular) = (leading(a), leading(b), leading(regular));
-    // h is what x^j is modulo b, times the leading coefficient of the regular one, for j = e, e + 1, ...; below e a
+    // h is x^j modulo b, times the leading coefficient of the regular one, for j = e, e + 1, ...; below e it is a
     // multiple of a power of x.
     let mut h: Vec<D> = regular.coefficients()[..e].iter().map(Ring::neg).collect();
     let top = coefficient(a, e);

@@ -47,10 +47,10 @@ fn write_terms(text: &mut String, polynomial: &Polynomial<Rational>, count: usiz
     text.push(']');
 }
 
-/// Reads what [`write_json`] writes. The names of the document are looked up in (or collected into) the given ones.
+/// Reads the output of [`write_json`]. The names of the document are looked up in (or collected into) the given ones.
 ///
 /// # Errors
-/// [`Error::File`] for what is no JSON, [`Error::Invalid`] for what has another form: what was found and expected.
+/// [`Error::File`] if the text is no JSON, [`Error::Invalid`] if it has another form; both state what was found and expected.
 pub fn read_json(text: &str, path: &str, names: &mut Names) -> Result<Vec<Polynomial<Rational>>, Error> {
     let document: Value = serde_json::from_str(text).map_err(|fault| Error::File {
         path: path.to_owned(),

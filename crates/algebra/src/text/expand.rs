@@ -1,4 +1,4 @@
-//! Multiplying out, with a look ahead: what would not fit is refused before it is begun.
+//! Multiplies out, with a bound computed first: results that would not fit are refused before the work begins.
 
 use super::expression::Node;
 use super::fault::{Fault, Place};
@@ -167,7 +167,7 @@ struct Size {
     terms: f64,
     degrees: Vec<u64>,
     total_degree: u64,
-    /// Of the sum of the absolute values of the coefficients.
+    /// Bits of the sum of the absolute values of the coefficients.
     bits: f64,
 }
 
@@ -218,7 +218,7 @@ impl Size {
         .bounded()
     }
 
-    /// Refuses what is too large, `work` being the number of products of machine words.
+    /// Refuses results that are too large, `work` being the number of products of machine words.
     fn check(&self, work: f64, place: Place) -> Result<(), Fault> {
         let refuse = |message: String| Err(Fault::new(place, message));
         if self.degrees.iter().any(|&d| d > u64::from(LARGEST_EXPONENT)) {

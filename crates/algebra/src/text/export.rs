@@ -35,7 +35,7 @@ pub(super) fn file(format: Format, polynomials: &[Polynomial<Rational>], names: 
             let ideal: Vec<String> = (1..=lines.len()).map(|index| format!("f{index}")).collect();
             format!("ring looproot = 0, ({list}), dp;\n{}ideal equations = {};\n", polys.concat(), ideal.join(", "))
         }
-        // The promotion makes numbers polynomials where all of them are numbers.
+        // The promotion makes numbers polynomials if all entries are numbers.
         Format::Macaulay2 => format!(
             "looproot = QQ[{list}];\nequations = ideal promote(matrix {{{{\n  {}\n}}}}, looproot);\n",
             lines.join(",\n  ")
@@ -59,7 +59,7 @@ pub(super) fn file(format: Format, polynomials: &[Polynomial<Rational>], names: 
     remark(format, renamed.changes()) + &body
 }
 
-/// The comment on changed names; empty where none is or the language has no comments.
+/// Returns the comment on changed names; empty if there are none or the language has no comments.
 fn remark(format: Format, changes: &[(String, String)]) -> String {
     if changes.is_empty() {
         return String::new();

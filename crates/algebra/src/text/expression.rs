@@ -1,4 +1,4 @@
-//! What a text says, as a tree.
+//! The syntax tree of a text.
 
 use super::fault::{Fault, Place};
 use super::fraction::Fraction;
@@ -44,15 +44,15 @@ impl Expression {
     /// Reads one polynomial.
     ///
     /// # Errors
-    /// What was found, what was expected, and where.
+    /// The text found, the text expected, and the place.
     pub fn parse(text: &str, names: &mut Names) -> Result<Self, Fault> {
         parser::one(text, names).map(Self)
     }
 
-    /// Reads polynomials with `;` between them, and perhaps behind the last one.
+    /// Reads polynomials with `;` between them, and optionally behind the last one.
     ///
     /// # Errors
-    /// What was found, what was expected, and where.
+    /// The text found, the text expected, and the place.
     pub fn parse_all(text: &str, names: &mut Names) -> Result<Vec<Self>, Fault> {
         Ok(parser::all(text, names)?.into_iter().map(Self).collect())
     }
@@ -60,16 +60,16 @@ impl Expression {
     /// Reads the rows of a matrix: `[[a, b], [c, d]]`, `[a, b; c, d]`, or the latter without brackets.
     ///
     /// # Errors
-    /// What was found, what was expected, and where.
+    /// The text found, the text expected, and the place.
     pub fn parse_matrix(text: &str, names: &mut Names) -> Result<Vec<Vec<Self>>, Fault> {
         let rows = parser::matrix(text, names)?;
         Ok(rows.into_iter().map(|row| row.into_iter().map(Self).collect()).collect())
     }
 
-    /// The polynomial, multiplied out, in lowest terms.
+    /// Returns the polynomial, multiplied out, in lowest terms.
     ///
     /// # Errors
-    /// Where an exponent becomes too large, or the result would (by an estimate made before multiplying).
+    /// If an exponent becomes too large, or the result would (by an estimate made before multiplying).
     pub fn expand(&self) -> Result<Fraction, Fault> {
         let growth = self.0.growth(&[]);
         if growth > LARGEST_NUMBER {
@@ -81,23 +81,23 @@ impl Expression {
         self.0.expand().map(Fraction::reduced)
     }
 
-    /// The value where each variable has the given one, without multiplying out; `None` where a number has no image in
+    /// Returns the value for the given values of the variables, without multiplying out; `None` if a number has no image in
     /// the ring.
     ///
     /// # Panics
-    /// When a variable has no value.
+    /// If a variable has no value.
     #[must_use]
     pub fn evaluate<R: Ring>(&self, values: &[R]) -> Option<R> {
         self.0.evaluate(values)
     }
 
-    /// The exact value at rational numbers.
+    /// Returns the exact value at rational numbers.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where it might have too many digits.
+    /// [`Error::Invalid`] if it might have too many digits.
     ///
     /// # Panics
-    /// When a variable has no value.
+    /// If a variable has no value.
     pub fn value(&self, values: &[Rational]) -> Result<Rational, Error> {
         let bits =
             |q: &Rational| u64::from(q.numer().significant_bits().max(1)) + u64::from(q.denom().significant_bits());
@@ -111,7 +111,7 @@ impl Expression {
 }
 
 impl Node {
-    /// Where it begins.
+    /// Returns the place at which it begins.
     const fn place(&self) -> Place {
         match self {
             Self::Terms(place, _) | Self::Sum(place, ..) | Self::Product(place, _) | Self::Power(place, ..) => *place,

@@ -1,4 +1,4 @@
-//! What is wrong with a text, and where.
+//! A fault of a text, with its place.
 
 use crate::error::Error;
 
@@ -11,12 +11,12 @@ pub struct Place {
     pub column: usize,
 }
 
-/// What was found and what was expected, and where.
+/// A message that states what was found and what was expected, with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Where.
+    /// The place in the text.
     pub place: Place,
-    /// What.
+    /// The message.
     pub message: String,
 }
 

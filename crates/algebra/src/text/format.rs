@@ -72,14 +72,14 @@ impl Format {
         export::comment(self, text)
     }
 
-    /// Some polynomials as a file that the program reads; for LaTeX one that a document includes. Changed names are
-    /// listed in a comment where the language has comments.
+    /// Returns some polynomials as a file that the program reads; for LaTeX as one that a document includes. Changed names are
+    /// listed in a comment if the language has comments.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where the language has no way to say this: an empty system, or one without variables.
+    /// [`Error::Invalid`] if the language cannot express this: an empty system, or one without variables.
     ///
     /// # Panics
-    /// When a polynomial has more variables than there are names.
+    /// If a polynomial has more variables than there are names.
     pub fn system(self, polynomials: &[Polynomial<Rational>], names: &Names) -> Result<String> {
         if matches!(self, Self::Text | Self::Json | Self::Latex) {
             return Ok(match self {

@@ -5,7 +5,7 @@ use crate::polynomial::Polynomial;
 use crate::ring::{Domain, Ring};
 use rug::{Integer, Rational};
 
-/// `numerator / denominator`: what texts with rational numbers are read into, and what integer algorithms work on.
+/// `numerator / denominator`: the form of texts with rational numbers once read, and the input of integer algorithms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fraction {
     /// The polynomial times the denominator.

@@ -27,7 +27,7 @@ const RESEMBLANCE: f64 = 0.6;
 #[derive(Clone, Debug, Default)]
 pub struct Names {
     list: Vec<String>,
-    /// Where each name stands, as soon as there are more than a few.
+    /// The index of each name, once there are more than a few.
     table: HashMap<String, usize>,
     complete: bool,
 }
@@ -39,10 +39,10 @@ impl Names {
         Self::default()
     }
 
-    /// These names and no others.
+    /// Takes these names and no others.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for what is no name, for a name that appears twice, and for too many names.
+    /// [`Error::Invalid`] for an invalid name, for a name that appears twice, and for too many names.
     pub fn given<S: AsRef<str>>(list: impl IntoIterator<Item = S>) -> Result<Self, Error> {
         let mut names = Self::default();
         for name in list {
@@ -87,7 +87,7 @@ impl Names {
         self.index(name).ok_or_else(|| Error::Invalid(self.unknown(name)))
     }
 
-    /// The number of the variable with this name, which is added where names are collected.
+    /// Returns the number of the variable with this name, which is added if names are collected.
     pub(super) fn look_up(&mut self, name: &str) -> Result<usize, String> {
         match self.index(name) {
             Some(index) => Ok(index),

@@ -1,4 +1,4 @@
-//! How the languages write numbers, products and powers.
+//! The notation of numbers, products and powers in each language.
 
 use super::format::Format;
 use crate::polynomial::Polynomial;

@@ -93,7 +93,7 @@ struct Parser<'t, 'n> {
     power_bits: u64,
 }
 
-/// What a term is multiplied from.
+/// A factor of a term.
 enum Factor {
     /// Numerator and denominator.
     Number(Int, Int),
@@ -116,7 +116,7 @@ impl<'t, 'n> Parser<'t, 'n> {
     }
 
     fn sum(&mut self) -> Result<Node, Fault> {
-        // Most texts are one long sum, of terms of some ten bytes; parentheses are short.
+        // Most texts are one long sum of terms of about ten bytes; parentheses are short.
         let expected = if self.depth == 0 { self.scanner.remaining() / 8 } else { 0 };
         let (mut terms, mut others) = (Terms::with_capacity(expected.min(MOST_EXPECTED)), Vec::new());
         self.scanner.peek();
@@ -318,7 +318,7 @@ fn too_large(place: Place) -> Fault {
     Fault::new(place, format!("found an exponent above {LARGEST_EXPONENT}"))
 }
 
-/// What a division by this factor multiplies with.
+/// Returns the factor by which a division by this one multiplies.
 fn inverse(factor: &Factor, place: Place) -> Result<Factor, Fault> {
     let (n, d) = match factor {
         Factor::Number(n, d) => (n.clone(), d.clone()),

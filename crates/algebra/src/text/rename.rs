@@ -1,4 +1,4 @@
-//! Names that mean something else in another language, and what to call those variables there.
+//! Replaces names that have another meaning in a language.
 
 use super::format::Format;
 use super::names::Names;
@@ -53,7 +53,7 @@ fn spelt(format: Format, name: &str) -> String {
     if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("v{name}") }
 }
 
-/// Whether the language takes the name as it is and means nothing else by it.
+/// Returns whether the language accepts the name and has no other meaning for it.
 fn is_free(format: Format, name: &str) -> bool {
     let is = |words: &str| words.split(' ').any(|word| word == name);
     let spelling = spelt(format, name) == name;
@@ -73,12 +73,12 @@ fn is_free(format: Format, name: &str) -> bool {
     }
 }
 
-/// Whether the name has several letters and nothing else.
+/// Returns whether the name consists of several letters only.
 fn is_word(name: &str) -> bool {
     name.len() > 1 && name.bytes().all(|c| c.is_ascii_alphabetic())
 }
 
-/// Whether the name is a letter with a number, as the files call their polynomials.
+/// Returns whether the name is a letter with a number, as files name their polynomials.
 fn is_numbered(name: &str, letter: &str) -> bool {
     name.strip_prefix(letter).is_some_and(|number| !number.is_empty() && number.bytes().all(|c| c.is_ascii_digit()))
 }

@@ -1,4 +1,4 @@
-//! The letters of a text: spaces, numbers, names, and where they stand.
+//! The lexical elements of a text: spaces, numbers, names, and their places.
 
 use super::fault::{Fault, Place, shortened};
 use crate::error::Error;
@@ -72,7 +72,7 @@ impl<'t> Scanner<'t> {
         found
     }
 
-    /// What comes next, as a complaint quotes it.
+    /// Returns the next element as quoted in an error.
     pub(super) fn found(&mut self) -> String {
         if self.peek() == 0 {
             return "the end".to_owned();
@@ -163,10 +163,10 @@ fn integer(digits: &str) -> Int {
     Int::from(Integer::parse(digits).map(Integer::from).unwrap_or_default())
 }
 
-/// A number written as digits, perhaps with a sign, a point, a power of ten, and a divisor: `-22/7`, `0.1`, `1e-3`.
+/// Reads a number in digits, optionally with a sign, a point, a power of ten, and a divisor: `-22/7`, `0.1`, `1e-3`.
 ///
 /// # Errors
-/// [`Error::Invalid`] with what was found.
+/// [`Error::Invalid`], stating what was found.
 pub fn read_number(text: &str) -> Result<Rational, Error> {
     let fault = |fault: Fault| fault.in_text(text);
     let mut scanner = Scanner::new(text);

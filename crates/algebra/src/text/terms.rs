@@ -10,7 +10,7 @@ use rug::{Integer, Rational};
 /// Sums that would take more memory than this, in bytes, are refused.
 pub(super) const LARGEST_SIZE: u64 = 2 << 30;
 
-/// So are texts and results with more terms than this.
+/// Texts and results with more terms than this are refused, too.
 pub(super) const MOST_TERMS: usize = 20_000_000;
 
 /// The least common multiple of two positive numbers.
@@ -33,7 +33,7 @@ type Powers = [(u32, u32)];
 #[derive(Clone, Debug, Default)]
 pub(super) struct Terms {
     numerators: Vec<Int>,
-    /// Where each term's powers end.
+    /// The end of each term's powers.
     ends: Vec<usize>,
     /// Variable and exponent; no variable twice in a term.
     powers: Vec<(u32, u32)>,
@@ -61,12 +61,12 @@ impl Terms {
         self.numerators.len()
     }
 
-    /// Where the powers of the term begin that is being read.
+    /// Returns the start of the powers of the term being read.
     fn start(&self) -> usize {
         self.ends.last().copied().unwrap_or(0)
     }
 
-    /// Multiplies the term that is being read; `None` where the exponent becomes too large.
+    /// Multiplies the term being read; `None` if the exponent becomes too large.
     #[inline]
     pub(super) fn multiply(&mut self, variable: u32, exponent: u32) -> Option<()> {
         let start = self.start();
@@ -130,7 +130,7 @@ impl Terms {
         }
     }
 
-    /// The same sum, as one term if it is one of numbers.
+    /// Returns the same sum, as one term if it is a sum of numbers.
     pub(super) fn folded(self) -> Self {
         if self.len() < 2 || !self.powers.is_empty() {
             return self;
@@ -149,10 +149,10 @@ impl Terms {
         self.powers.iter().map(|(_, exponent)| u64::from(*exponent)).max().unwrap_or(0)
     }
 
-    /// The sum of terms, collected and sorted once.
+    /// Returns the sum of terms, collected and sorted once.
     ///
     /// # Errors
-    /// What would not fit the memory, in words.
+    /// A message about a result that would not fit the memory.
     pub(super) fn expand(&self) -> Result<Fraction, String> {
         let variables = self.variables();
         let mut denominator = Int::one();
@@ -183,7 +183,7 @@ impl Terms {
         Ok(Fraction { numerator: Polynomial::from_lists(variables, &exponents, numerators), denominator })
     }
 
-    /// Refuses what would not fit the memory.
+    /// Refuses results that would not fit the memory.
     fn check_size(&self, variables: usize, denominator: &Int) -> Result<(), String> {
         let size = (self.len() as u64).saturating_mul(4 * variables as u64 + 16 + bits(denominator) / 8);
         if size <= LARGEST_SIZE {
@@ -196,10 +196,10 @@ impl Terms {
         ))
     }
 
-    /// The value of the sum where each variable has the given one; `None` where a number has no image in the ring.
+    /// Returns the value of the sum for the given values of the variables; `None` if a number has no image in the ring.
     ///
     /// # Panics
-    /// When a variable has no value.
+    /// If a variable has no value.
     pub(super) fn evaluate<R: Ring>(&self, values: &[R]) -> Option<R> {
         let mut sum = R::zero();
         for term in 0..self.len() {

@@ -4,30 +4,30 @@ use super::{Pair, reduce};
 use crate::polynomial::Polynomial;
 use crate::ring::{Field, Ring};
 
-/// What is left of two equations `A c + B s + C = 0`, `A' c + B' s + C' = 0` in the cosine c and the sine s of an angle.
+/// The result for two equations `A c + B s + C = 0`, `A' c + B' s + C' = 0` in the cosine c and the sine s of an angle.
 #[derive(Clone, Debug)]
 pub struct AngleElimination<R> {
-    /// `N1^2 + N2^2 - N3^2`, which vanishes exactly where the equations have a common solution on the circle
-    /// `c^2 + s^2 = 1`, its points at infinity included.
+    /// `N1^2 + N2^2 - N3^2`, which vanishes if and only if the equations have a common solution on the circle
+    /// `c^2 + s^2 = 1`, including its points at infinity.
     pub equation: Polynomial<R>,
     /// `N1 = B C' - B' C`
     pub cos: Polynomial<R>,
     /// `N2 = C A' - C' A`
     pub sin: Polynomial<R>,
-    /// `N3 = A B' - A' B`: where it does not vanish, c and s are `N1/N3` and `N2/N3`. Where all three vanish the two
-    /// equations are one, and have two solutions.
+    /// `N3 = A B' - A' B`: if it does not vanish, c and s are `N1/N3` and `N2/N3`. If all three vanish, the two
+    /// equations are the same, and have two solutions.
     pub denominator: Polynomial<R>,
 }
 
 /// Eliminates an angle from two polynomials linear in its cosine and sine: Cramer's rule, and `cos^2 + sin^2 = 1`.
 ///
-/// Four times the equation is, up to sign, the resultant of the two half-angle forms: no power of `1 + t^2` comes in.
+/// Four times the equation is, up to sign, the resultant of the two half-angle forms, without any power of `1 + t^2`.
 ///
 /// `None` if one of the polynomials, in normal form, is not linear. The `others` are angles whose cosines and sines are
-/// in the coefficients; what results is in normal form with respect to them.
+/// in the coefficients; the result is in normal form with respect to them.
 ///
 /// # Panics
-/// When a variable is in two of the angles.
+/// If a variable is in two of the angles.
 ///
 /// # Source
 /// \[Wittenburg2016\]
@@ -78,7 +78,7 @@ fn linear_parts<R: Ring>(f: &Polynomial<R>, angle: Pair) -> Option<[Polynomial<R
 }
 
 impl<R: Ring> AngleElimination<R> {
-    /// Cosine and sine where the other variables have the given values; `None` where the denominator vanishes, or a
+    /// Returns cosine and sine for the given values of the other variables; `None` if the denominator vanishes, or a
     /// coefficient has no image.
     pub fn cos_sin_at<F: Field>(&self, image: impl Fn(&R) -> Option<F>, values: &[F]) -> Option<(F, F)> {
         let at = |f: &Polynomial<R>| f.map(&image).map(|f| f.evaluate(values));
