@@ -256,7 +256,7 @@ impl Roots<4, 2> for OfOppositeAxes<'_> {
 
 type Quad = Complex<DoubleDouble>;
 
-/// All unknowns from two angles of a spherical four-bar, improved by Newton's method on its two equations in
+/// Returns all unknowns from two angles of a spherical four-bar, improved by Newton's method on its two equations in
 /// double-double arithmetic.
 fn refined(form: &LinkForm<f64, 4, 2>, base: usize, angles: [Complex<f64>; 2]) -> Option<Six<Complex<f64>>> {
     let form = form.map(|x| Some(Quad { re: DoubleDouble::from(*x), im: DoubleDouble::zero() }))?;

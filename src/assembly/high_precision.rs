@@ -82,7 +82,7 @@ pub fn by_ring<R: Extended>(exact: &ClosedLoop<R>, plan: &coordinate_ring::Plan)
     modes(exact, None, &candidates.unwrap_or_default())
 }
 
-/// A loop over complex numbers.
+/// Returns a loop over complex numbers.
 fn complex<R: Extended>(closed: &ClosedLoop<R>) -> ClosedLoop<Complex<R>> {
     let lift = |motion: &Motion<R>| Motion {
         rotation: motion.rotation.map(|row| row.map(Complex::from_real)),
@@ -101,7 +101,7 @@ fn upper_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<Complex<R>
     Some(roots.collect())
 }
 
-/// The monomials of a variable at a root: (1, cos, sin) of an angle counted from the offset, (1, d, d^2) of a distance.
+/// Returns the monomials of a variable at a root: (1, cos, sin) of an angle counted from the offset, (1, d, d^2) of a distance.
 /// `None` at a half tangent of +-i.
 fn monomials<R: Extended>(variable: Variable, root: &Complex<R>) -> Option<[Complex<R>; 3]> {
     let powers = powers::<R>(variable, &separated::offset());
@@ -111,12 +111,12 @@ fn monomials<R: Extended>(variable: Variable, root: &Complex<R>) -> Option<[Comp
     Some([Complex::one(), first.mul(&inverse), second.mul(&inverse)])
 }
 
-/// `row . monomials`
+/// Returns `row . monomials`.
 fn weighted<R: Extended>(row: &[R; 3], monomials: &[Complex<R>; 3]) -> Complex<R> {
     row.iter().zip(monomials).fold(Complex::zero(), |sum, (c, m)| sum.add(&m.times(*c)))
 }
 
-/// Both sides of two separated equations at their solutions.
+/// Returns both sides of two separated equations at their solutions.
 fn both_sides<R: Extended>(equations: &Separated<R>) -> Option<Vec<[[Complex<R>; 3]; 2]>> {
     let Plan::Together { hidden, other } = equations.plan(R::PIVOT_ZERO) else { return None };
     let polynomial = separated::closure_polynomial(equations, hidden, &other);
@@ -128,7 +128,7 @@ fn both_sides<R: Extended>(equations: &Separated<R>) -> Option<Vec<[[Complex<R>;
     Some(sides.collect())
 }
 
-/// The rotations of a loop in link form, and its translations.
+/// Returns the rotations of a loop in link form, and its translations.
 fn in_link_form<R: Extended, const RHO: usize, const TAU: usize>(
     form: &LinkForm<Complex<R>, RHO, TAU>,
     rotations: &[(Complex<R>, Complex<R>); RHO],
@@ -257,7 +257,7 @@ fn one_cut<R: Extended>(closed: &ClosedLoop<R>, cut: Cut, hidden: Hidden) -> Opt
 /// share its value.
 const WEIGHTS: [i32; 10] = [3, -5, 7, 11, -13, 17, 19, -23, 29, 31];
 
-/// The solutions by the eigenvectors of a product in the ring of the loop.
+/// Returns the solutions by the eigenvectors of a product in the ring of the loop.
 fn eigenvectors<R: Extended>(ring: &CoordinateRing<R>) -> Option<Vec<Pairs<R>>> {
     let (first, closed) = ring.view();
     let (one, unknowns) = ring.unknowns();

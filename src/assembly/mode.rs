@@ -141,7 +141,7 @@ pub fn are_apart(variables: &[Variable; 6], one: &Mode, two: &Mode) -> bool {
     (0..6).any(apart)
 }
 
-/// An angle in (-pi, pi].
+/// Reduces an angle to (-pi, pi].
 #[must_use]
 pub fn wrapped(angle: f64) -> f64 {
     // A smaller angle is its own remainder.
@@ -154,13 +154,13 @@ pub fn wrapped(angle: f64) -> f64 {
     x
 }
 
-/// The largest difference of two unknowns, angles modulo 2 pi.
+/// Returns the largest difference of two unknowns, angles modulo 2 pi.
 #[must_use]
 pub fn distance(variables: &[Variable; 6], a: &Six<Complex<f64>>, b: &Six<Complex<f64>>) -> f64 {
     (0..6).map(|k| difference(variables[k], a[k] - b[k])).fold(0.0, f64::max)
 }
 
-/// The size of a difference, of angles modulo 2 pi.
+/// Returns the size of a difference, of angles modulo 2 pi.
 fn difference(variable: Variable, z: Complex<f64>) -> f64 {
     let re = if variable == Variable::Rotation { wrapped(z.re) } else { z.re };
     re.abs().max(z.im.abs())

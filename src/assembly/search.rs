@@ -203,7 +203,7 @@ impl Search<'_> {
         self.roots == Roots::All && proved >= FEWEST_OF_SPECIAL && proved >= most()
     }
 
-    /// The number of proved solutions.
+    /// Returns the number of proved solutions.
     pub(super) fn proved(&self) -> usize {
         self.assembly.modes.iter().filter(|m| m.certificate.is_some()).count()
     }

@@ -87,7 +87,7 @@ fn length(motion: &Motion<f64>) -> f64 {
     motion.translation.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// The motion with lengths over a power of two.
+/// Returns the motion with lengths over a power of two.
 fn scaled(motion: &Motion<f64>, scale: f64) -> Motion<f64> {
     Motion { translation: motion.translation.map(|x| x / scale), ..motion.clone() }
 }
@@ -165,7 +165,7 @@ impl Solver {
         self.structural_rank
     }
 
-    /// The triples of neighbouring axes that are parallel or meet in a point.
+    /// Returns the triples of neighbouring axes that are parallel or meet in a point.
     #[must_use]
     pub fn axis_triples(&self) -> &[AxisTriple] {
         &self.axis_triples

@@ -118,7 +118,7 @@ fn proof_in<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>, spherical: u
     Some(Proof { radius: certificate.radius * enlarged, condition })
 }
 
-/// `a b^-1` for rotations.
+/// Returns `a b^-1` for rotations.
 fn product_with_inverse<S: Scalar>(a: &Rotation<S>, b: &Rotation<f64>) -> Rotation<S> {
     matrix_product(a, &transposed(&b.map(|row| row.map(S::from_f64))))
 }
@@ -136,7 +136,7 @@ fn place<S: Copy>(unknowns: &mut Six<S>, spherical: usize, angles: [S; 3]) {
     }
 }
 
-/// The inverse of a rotation.
+/// Returns the inverse of a rotation.
 pub(super) fn transposed<S: Scalar>(r: &Rotation<S>) -> Rotation<S> {
     std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]))
 }
@@ -146,7 +146,7 @@ pub(super) fn quarter() -> Rotation<f64> {
     [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
 }
 
-/// The rotation of a spherical joint.
+/// Returns the rotation of a spherical joint.
 pub(super) fn spherical_rotation<S: Scalar>(angles: [S; 3]) -> Rotation<S> {
     let about_z = |q: S| {
         let mut m: Motion<S> = Motion::identity();

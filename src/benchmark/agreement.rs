@@ -120,7 +120,7 @@ impl Agreements {
     }
 }
 
-/// The distinct values of an unknown.
+/// Returns the distinct values of an unknown.
 fn distinct((index, kind): (usize, Variable), modes: &[FullMode]) -> Vec<Complex<f64>> {
     let apart = |a: Complex<f64>, b: Complex<f64>| match kind {
         Variable::Rotation => wrapped(a.re - b.re).hypot(a.im - b.im),

@@ -119,7 +119,7 @@ impl Set {
         if matches!(self, Self::General | Self::Chain(_)) { 1e-6 } else { 1e-5 }
     }
 
-    /// The joints of a chain of this set.
+    /// Returns the joints of a chain of this set.
     pub(super) fn joints(self) -> Vec<JointKind> {
         let (Self::Chain(index) | Self::SpecialChain(index)) = self else { return vec![JointKind::Revolute; 6] };
         let letters = CHAINS[index].0;
@@ -227,7 +227,7 @@ fn draw(set: Set, data: Data, seed: u64, index: u64) -> Result<Sample> {
     }
 }
 
-/// The pose that an arm reaches.
+/// Returns the pose that an arm reaches.
 fn reached(data: Data, chain: &Chain, variables: &[Variable; 6], planted: &[f64; 6]) -> Result<Option<Placement>> {
     if data == Data::Floats {
         let pose = chain.forward::<f64>(&motions(variables, planted));
@@ -251,7 +251,7 @@ pub(super) fn matrix(pose: &Motion<f64>) -> [[Number; 4]; 4] {
     })
 }
 
-/// The motions of joint variables.
+/// Returns the motions of joint variables.
 #[must_use]
 pub fn motions(variables: &[Variable; 6], values: &[f64; 6]) -> [Motion<f64>; 6] {
     std::array::from_fn(|k| match variables[k] {
@@ -303,7 +303,7 @@ fn joint(set: Set, data: Data, kind: JointKind, random: &mut ChaCha8Rng) -> Join
     Joint { kind, a: data.number(a), alpha, d, theta0, pitch: None }
 }
 
-/// The Jacobian at a configuration, as the twists of the axes in the base frame.
+/// Returns the Jacobian at a configuration, as the twists of the axes in the base frame.
 fn jacobian(open: &OpenLoop<f64>, q: &[f64; 6]) -> Matrix6<f64> {
     let here = closure(&open.close(&Motion::identity()), q);
     Matrix6::from_fn(|i, j| here.jacobian[i][j])
@@ -314,7 +314,7 @@ fn regularity(open: &OpenLoop<f64>, q: &[f64; 6]) -> f64 {
     values.min() / values.max()
 }
 
-/// A singular configuration, by bisection of the determinant along joint 3, else 4, else 5; and the index of that joint.
+/// Returns a singular configuration, by bisection of the determinant along joint 3, else 4, else 5; and the index of that joint.
 fn singular_near(open: &OpenLoop<f64>, start: [f64; 6]) -> Option<([f64; 6], usize)> {
     for joint in 2..5 {
         let at = |value: f64| {

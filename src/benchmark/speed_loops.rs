@@ -187,7 +187,7 @@ impl Row {
     }
 }
 
-/// A random loop of a set, with poses that it reaches.
+/// Returns a random loop of a set, with poses that it reaches.
 fn random_job(set: Set, seed: u64, number: u64) -> Result<Job> {
     let drawn = sample(set, seed, number)?;
     let layout = Layout::of(&drawn.chain, None)?;
@@ -227,7 +227,7 @@ fn library_jobs() -> Result<Vec<(String, Job)>> {
     Ok(jobs)
 }
 
-/// A number of three decimals.
+/// Returns a number of three decimals.
 fn three_decimals(random: &mut ChaCha8Rng) -> Rational {
     let numerator = random.random_range(1..1000) * if random.random_bool(0.5) { 1 } else { -1 };
     Rational::from((numerator, 1000))

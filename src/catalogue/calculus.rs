@@ -52,7 +52,7 @@ pub struct Claims {
 }
 
 impl CalculusFile {
-    /// The kind of the file.
+    /// Returns the kind of the file.
     #[must_use]
     pub fn kind(&self) -> FileKind {
         match self.question {

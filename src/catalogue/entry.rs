@@ -257,7 +257,7 @@ pub struct Labels {
 }
 
 impl Entry {
-    /// Arm, loop or platform.
+    /// Returns the kind: arm, loop or platform.
     #[must_use]
     pub fn kind(&self) -> Kind {
         match self.design {
@@ -267,7 +267,7 @@ impl Entry {
         }
     }
 
-    /// The joints of an arm or a loop.
+    /// Returns the joints of an arm or a loop.
     #[must_use]
     pub fn chain(&self) -> Option<&Chain> {
         match &self.design {

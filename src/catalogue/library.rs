@@ -43,20 +43,20 @@ fn is_calculus(name: &str) -> bool {
     CALCULUS.iter().any(|folder| name.starts_with(folder))
 }
 
-/// The names of all built-in entries, such as `arm/puma560`, in order.
+/// Returns the names of all built-in entries, such as `arm/puma560`, in order.
 #[must_use]
 pub fn builtin_names() -> Vec<String> {
     let is_entry = |name: &String| !name.starts_with(CONDITIONS) && !is_moving(name) && !is_calculus(name);
     all_names().into_iter().filter(is_entry).collect()
 }
 
-/// The names of all built-in loops with symbols, such as `conditions/bennett`, in order.
+/// Returns the names of all built-in loops with symbols, such as `conditions/bennett`, in order.
 #[must_use]
 pub fn ansatz_names() -> Vec<String> {
     all_names().into_iter().filter(|name| name.starts_with(CONDITIONS)).collect()
 }
 
-/// The names of everything in the library, such as `motion/bennett`, in order.
+/// Returns the names of everything in the library, such as `motion/bennett`, in order.
 #[must_use]
 pub fn all_names() -> Vec<String> {
     let mut names = Vec::new();

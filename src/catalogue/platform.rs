@@ -16,7 +16,7 @@ const ON_A_LINE: f64 = 1e-12;
 /// Maximum deviation from 1 of the norm of a claimed quaternion.
 const NORM: f64 = 1e-3;
 
-/// The points of a platform, and the legs if the `[mechanism]` gives them.
+/// Reads the points of a platform, and the legs if the `[mechanism]` gives them.
 pub(super) fn platform(scope: &Scope<'_>, node: &Node) -> Result<(Platform<Number>, Option<Case>)> {
     let table = scope.table(node, "the [mechanism] of a platform", &KEYS)?;
     let base = points(scope, scope.need(&table, "base")?, "base")?;

@@ -11,7 +11,7 @@ use serde_json::Value;
 const ENTRIES: [&str; 11] =
     ["crx10ia", "iiwa14", "jaco_j2n6", "kr5", "kr6_r900", "puma560", "ur10", "ur10e", "ur3e", "ur5", "ur5e"];
 
-/// The robots of the file, each a mechanism file with a name.
+/// Returns the robots of the file, each a mechanism file with a name.
 fn all() -> Vec<Value> {
     let text = library::file("robots.json").unwrap_or("[]");
     serde_json::from_str(text).unwrap_or_default()
@@ -21,7 +21,7 @@ fn name(robot: &Value) -> &str {
     robot["name"].as_str().unwrap_or_default()
 }
 
-/// The names of all robots, in order.
+/// Returns the names of all robots, in order.
 #[must_use]
 pub fn robot_names() -> Vec<String> {
     let entries = ENTRIES.iter().map(|name| (*name).to_owned());

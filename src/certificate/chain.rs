@@ -97,12 +97,12 @@ impl ChainClosure {
     }
 }
 
-/// The motions of all unknowns with the links behind them.
+/// Returns the motions of all unknowns with the links behind them.
 fn motions<S: Enclosing>(point: &Point<S>, links: &[Motion<S>; 6]) -> [Motion<S>; 6] {
     std::array::from_fn(|k| moved(&links[k], point, k))
 }
 
-/// A link behind the motion of an unknown.
+/// Returns a link behind the motion of an unknown.
 fn moved<S: Enclosing>(link: &Motion<S>, point: &Point<S>, k: usize) -> Motion<S> {
     let mut motion = link.clone();
     match &point.turns[k] {
@@ -169,14 +169,14 @@ impl Closure<6> for ChainClosure {
         std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i].clone()))
     }
 
-    /// A symmetric rotation is the identity, of trace 3, or a half-turn, of trace -1.
+    /// Tests the trace: a symmetric rotation is the identity, of trace 3, or a half-turn, of trace -1.
     fn is_solution<S: Enclosing>(&self, point: &Point<S>) -> bool {
         let rotation = self.product(point).rotation;
         let trace = rotation[0][0].add(&rotation[1][1]).add(&rotation[2][2]);
         trace.add(&S::one()).at_least() > 0.0
     }
 
-    /// Angles are compared modulo 2 pi, and a spherical joint has two triples of angles for every rotation.
+    /// Compares angles modulo 2 pi; a spherical joint has two triples of angles for every rotation.
     fn are_apart(&self, one: &Ball, other: &Ball) -> bool {
         let mut forms = vec![[0; 6]];
         for &at in &self.spherical {

@@ -161,7 +161,7 @@ fn primitive(direction: &[Rational; 3]) -> [Integer; 3] {
     whole.map(|x| if common > 1 { x.div_exact(&common) } else { x })
 }
 
-/// The rows of a motion.
+/// Returns the rows of a motion.
 fn matrix(placed: &Placement, what: &str) -> Result<Value, String> {
     let rows: [[String; 4]; 3] = match (&placed.given, placed.rows()) {
         // A checker computes the nearest rotation by itself.

@@ -77,7 +77,7 @@ pub(super) fn mobility(
     Ok(found)
 }
 
-/// The loop of a file, without any input.
+/// Returns the loop of a file, without any input.
 fn rational_loop(entry: &Entry) -> Result<Loop, Fault> {
     let no = || refused("proof: only loops of at most 6 unknowns with rational constants and without spherical joints are covered");
     let Design::Loop(chain) = &entry.design else { return no() };
@@ -295,7 +295,7 @@ fn near_place(variable: Variable, x: f64) -> Option<Place> {
     }
 }
 
-/// A joint of seven held near a configuration, and the ball around it.
+/// Returns a joint of seven held near a configuration, and the ball around it.
 fn held_regular(entry: &Entry, q: &[f64]) -> Option<(Value, Vec<Ball>)> {
     let Design::Loop(chain) = &entry.design else { return None };
     let named = JointVariable::of(&chain.joint_kinds());

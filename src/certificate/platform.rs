@@ -22,7 +22,7 @@ pub struct PlatformClosure {
 }
 
 impl PlatformClosure {
-    /// The equations of a case.
+    /// Returns the equations of a case.
     pub(super) fn of(platform: &Platform<Number>, case: &Case) -> Result<Self, Fault> {
         let Some(squares) = &case.legs_squared else { return refused("closure: no legs") };
         let known = |x: &Number| Enclosure::from_number(x).unwrap_or_else(Enclosure::zero);
@@ -38,12 +38,12 @@ impl PlatformClosure {
     }
 }
 
-/// Twice a number.
+/// Returns twice a number.
 fn twice<S: Ring>(x: &S) -> S {
     x.add(x)
 }
 
-/// The rotation matrix of a quaternion of norm 1.
+/// Returns the rotation matrix of a quaternion of norm 1.
 fn rotation<S: Ring>([w, i, j, k]: [&S; 4]) -> [[S; 3]; 3] {
     let (ww, ii, jj, kk) = (w.mul(w), i.mul(i), j.mul(j), k.mul(k));
     let both = |a: &S, b: &S, c: S| twice(&a.mul(b).add(&c));
@@ -55,7 +55,7 @@ fn rotation<S: Ring>([w, i, j, k]: [&S; 4]) -> [[S; 3]; 3] {
     ]
 }
 
-/// Half the derivatives of the rotation matrix.
+/// Returns half the derivatives of the rotation matrix.
 fn slopes<S: Ring>([w, i, j, k]: [&S; 4]) -> [[[S; 3]; 3]; 4] {
     let (p, m) = (|x: &S| x.clone(), |x: &S| x.neg());
     [
@@ -70,7 +70,7 @@ fn turned<S: Ring>(matrix: &[[S; 3]; 3], v: &[S; 3]) -> [S; 3] {
     std::array::from_fn(|i| dot(&matrix[i], v))
 }
 
-/// The quaternion and the position.
+/// Returns the quaternion and the position.
 fn parts<S: Ring>(point: &Point<S>) -> ([&S; 4], [S; 3]) {
     (std::array::from_fn(|k| &point.x[k]), std::array::from_fn(|k| point.x[4 + k].clone()))
 }

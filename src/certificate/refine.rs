@@ -108,7 +108,7 @@ fn rounded(x: &Rational, decimals: u32) -> Rational {
 }
 
 impl ChainClosure {
-    /// The unknowns among all joint variables.
+    /// Returns the unknowns among all joint variables.
     #[must_use]
     pub fn unknowns(&self, q: &[Complex<f64>]) -> Vec<Complex<f64>> {
         q.iter().enumerate().filter(|(at, _)| Some(*at) != self.given).map(|(_, x)| *x).collect()

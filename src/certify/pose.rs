@@ -164,7 +164,7 @@ pub fn is_complex(v: &Eight<Complex<f64>>, radius: f64) -> bool {
     })
 }
 
-/// The largest coordinate of the rotation.
+/// Returns the largest coordinate of the rotation.
 fn largest(v: &Eight<Complex<f64>>) -> usize {
     (1..4).fold(0, |best, k| if v[k].norm_sqr() > v[best].norm_sqr() { k } else { best })
 }

@@ -105,7 +105,7 @@ impl<R: Extended> Approach<'_, R> {
         }
     }
 
-    /// The unknowns in f64.
+    /// Returns the unknowns in f64.
     fn unknowns(&self) -> Six<Complex<f64>> {
         std::array::from_fn(|j| {
             let z = narrowed(self.state[j]);
@@ -316,7 +316,7 @@ pub fn refined_certificate_of(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f
     None
 }
 
-/// Cosine and sine over their norm, which is nearly 1.
+/// Returns cosine and sine over their norm, which is nearly 1.
 fn on_circle(cos: DoubleDouble, sin: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     // 1/sqrt(1 + e) = 1 - e/2 + 3 e^2/8; the remainder is less than the rounding that the proof allows for.
     let off = cos.mul(&cos).add(&sin.mul(&sin)).sub(&DoubleDouble::one());
@@ -460,7 +460,7 @@ fn imaginary<R: Extended>(variable: Variable, state: Complex<R>) -> f64 {
     }
 }
 
-/// The rigid motion nearest to a stored one: two steps of Newton's iteration for the polar factor.
+/// Returns the rigid motion nearest to a stored one: two steps of Newton's iteration for the polar factor.
 fn rigid(stored: &Motion<f64>) -> Motion<DoubleDouble> {
     let mut rotation = stored.rotation.map(|row| row.map(DoubleDouble::from));
     for _ in 0..2 {

@@ -16,7 +16,7 @@ pub(super) struct Joints<'a> {
 }
 
 impl<'a> Joints<'a> {
-    /// The joints of a chain.
+    /// Returns the joints of a chain.
     pub(super) fn of(chain: &'a Chain) -> Result<Self> {
         Ok(Self { chain, variables: Layout::of(chain, None)?.variables })
     }
@@ -73,7 +73,7 @@ impl<'a> Joints<'a> {
     }
 }
 
-/// The motion of one joint variable.
+/// Returns the motion of one joint variable.
 fn joint_motion(value: f64, variable: Variable) -> Motion<f64> {
     match variable {
         Variable::Rotation => Motion::rotation_z(value.cos(), value.sin()),
@@ -81,7 +81,7 @@ fn joint_motion(value: f64, variable: Variable) -> Motion<f64> {
     }
 }
 
-/// The sum of all constant lengths of a chain.
+/// Returns the sum of all constant lengths of a chain.
 fn reach(chain: &Chain) -> f64 {
     let length = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let ends = length(&chain.base.float.translation) + length(&chain.tool.float.translation);

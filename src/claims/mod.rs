@@ -95,7 +95,7 @@ impl Judgement {
         (of_sort.clone().filter(|finding| finding.holds).count(), of_sort.count())
     }
 
-    /// The claims that do not hold.
+    /// Returns the claims that do not hold.
     pub fn failures(&self) -> impl Iterator<Item = &Finding> {
         self.findings.iter().filter(|finding| !finding.holds)
     }

@@ -15,7 +15,7 @@ pub(super) struct Poses {
 }
 
 impl Poses {
-    /// The poses of a platform.
+    /// Returns the poses of a platform.
     pub(super) fn of(platform: &Platform<Number>) -> Self {
         let rounded = |points: &[[Number; 3]; 6]| points.each_ref().map(|p| p.each_ref().map(Number::to_f64));
         let platform = Platform { base: rounded(&platform.base), plate: rounded(&platform.plate) };

@@ -58,7 +58,7 @@ pub(super) fn sphere(file: &SphereFile) -> Result<Judgement> {
     Ok(judgement)
 }
 
-/// The distance of the nearest real assembly: the largest difference of a claimed number.
+/// Returns the distance of the nearest real assembly: the largest difference of a claimed number.
 fn nearest(answer: &SphereAnswer, claim: &SphereClaim) -> Option<f64> {
     let real = answer.modes.iter().filter(|mode| mode.real);
     real.map(|mode| distance(mode, claim)).min_by(f64::total_cmp)

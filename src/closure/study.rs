@@ -19,7 +19,7 @@ pub type Four<R> = [R; 4];
 /// A 4 x 4 matrix, or the quadratic form of a symmetric one.
 pub type Form<R> = [[R; 4]; 4];
 
-/// The matrix of the product `v x` with a pure quaternion v on the left.
+/// Returns the matrix of the product `v x` with a pure quaternion v on the left.
 #[must_use]
 pub fn left<R: Ring>(v: &Vector<R>) -> Form<R> {
     let [a, b, c] = v;
@@ -32,7 +32,7 @@ pub fn left<R: Ring>(v: &Vector<R>) -> Form<R> {
     ]
 }
 
-/// The matrix of the product `x v` with a pure quaternion v on the right.
+/// Returns the matrix of the product `x v` with a pure quaternion v on the right.
 #[must_use]
 pub fn right<R: Ring>(v: &Vector<R>) -> Form<R> {
     let [a, b, c] = v;
@@ -45,7 +45,7 @@ pub fn right<R: Ring>(v: &Vector<R>) -> Form<R> {
     ]
 }
 
-/// The skew matrix M of a leg, `M x = x b - a x`.
+/// Returns the skew matrix M of a leg, `M x = x b - a x`.
 #[must_use]
 pub fn leg_matrix<R: Ring>(base: &Vector<R>, plate: &Vector<R>) -> Form<R> {
     let (left, right) = (left(base), right(plate));
@@ -70,26 +70,26 @@ pub struct Leg<C> {
 }
 
 impl<C: Ring> Leg<C> {
-    /// The leg between two points.
+    /// Returns the leg between two points.
     #[must_use]
     pub fn new(base: &Vector<C>, plate: &Vector<C>, square: C) -> Self {
         Self { matrix: leg_matrix(base, plate), square }
     }
 
-    /// `w = y + M x`, the vector of the leg times x.
+    /// Returns `w = y + M x`, the vector of the leg times x.
     #[inline(always)]
     pub fn vector<R: Ring>(&self, x: &Four<R>, y: &Four<R>, times: impl Fn(&R, &C) -> R + Copy) -> Four<R> {
         std::array::from_fn(|i| y[i].add(&self.row(i, x, times)))
     }
 
-    /// The leg quadric `w.w - L^2 N`.
+    /// Returns the leg quadric `w.w - L^2 N`.
     #[inline(always)]
     pub fn quadric<R: Ring>(&self, x: &Four<R>, y: &Four<R>, times: impl Fn(&R, &C) -> R + Copy) -> R {
         let w = self.vector(x, y, times);
         scalar(&w, &w).sub(&times(&scalar(x, x), &self.square))
     }
 
-    /// Half the derivative of the leg quadric by x, `-M w - L^2 x` (M is skew); half the one by y is w.
+    /// Returns half the derivative of the leg quadric by x, `-M w - L^2 x` (M is skew); half the one by y is w.
     #[inline(always)]
     pub fn half_slope<R: Ring>(&self, w: &Four<R>, x: &Four<R>, times: impl Fn(&R, &C) -> R + Copy) -> Four<R> {
         std::array::from_fn(|i| self.row(i, w, times).add(&times(&x[i], &self.square)).neg())
@@ -113,7 +113,7 @@ pub struct LinearLegs<R> {
     pub forms: [Form<R>; 6],
 }
 
-/// The legs of a platform as linear equations.
+/// Returns the legs of a platform as linear equations.
 #[must_use]
 pub fn linear_legs<R: Ring>(platform: &Platform<R>) -> LinearLegs<R> {
     let twice = |x: &R| x.add(x);

@@ -23,7 +23,7 @@ pub const TURNING_Y: [usize; 4] = [2, 5, 10, 13];
 /// The 15 coordinates of a line with a marked point.
 pub type MarkedLine<R> = [R; SIZE];
 
-/// The z axis with its origin marked.
+/// Returns the z axis with its origin marked.
 #[must_use]
 pub fn z_axis<R: Ring>() -> MarkedLine<R> {
     std::array::from_fn(|i| if i == 0 || i == 3 { R::one() } else { R::zero() })

@@ -25,7 +25,7 @@ const ORDER: usize = 18;
 struct Local(Series<Image, ORDER>);
 
 impl Local {
-    /// `start + slope eps`
+    /// Returns `start + slope eps`.
     fn line(start: Image, slope: Image) -> Self {
         let mut series = Series::constant(start);
         series.coefficients[1] = slope;

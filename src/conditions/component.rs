@@ -91,7 +91,7 @@ impl Coefficients {
         self.is_product(&found).then_some(found)
     }
 
-    /// `high w^2 + M w + low` with `w = x y`, or `w = y/x` if turned.
+    /// Returns `high w^2 + M w + low` with `w = x y`, or `w = y/x` if turned.
     fn isogram(&self, high: &Poly, low: &Poly, turned: bool) -> Option<Vec<Component>> {
         let fold = |variable: usize, infinite: bool| Component::Fold { variable, infinite };
         // w = 0 and w = inf are two folds each.

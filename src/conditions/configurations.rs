@@ -56,7 +56,7 @@ impl Configurations {
     }
 }
 
-/// The link motion `Tz(d) Rx(alpha) Tx(a)`.
+/// Returns the link motion `Tz(d) Rx(alpha) Tx(a)`.
 #[must_use]
 pub fn link_motion<R: Ring>(link: &Link<R>) -> Motion<R> {
     let mut motion = Motion::rotation_x(link.cos.clone(), link.sin.clone());

@@ -215,7 +215,7 @@ fn same_axis<F: Ring>(directions: &Directions<F>, lengths: &[F], i: usize, j: us
     parallel(&directions.translation(&between))
 }
 
-/// The reduced echelon basis of the space that vectors span.
+/// Returns the reduced echelon basis of the space that vectors span.
 pub(super) fn canonical<F: Field>(mut vectors: Vec<Vec<F>>) -> Vec<Vec<F>> {
     let columns = vectors.first().map_or(0, Vec::len);
     let mut rank = 0;
@@ -239,7 +239,7 @@ pub(super) fn canonical<F: Field>(mut vectors: Vec<Vec<F>>) -> Vec<Vec<F>> {
     vectors
 }
 
-/// The curves of all ties and all constants K of the field of P elements other than 0.
+/// Returns the curves of all ties and all constants K of the field of P elements other than 0.
 ///
 /// # Panics
 /// Unless there are five joints.
@@ -270,7 +270,7 @@ fn character_is_constant<const P: u64>(links: &[Link<ModP<P>>], tie: Tie, consta
 /// The primes for the search for rational constants.
 const LIFTED_FROM: [u64; 3] = [479, 491, 499];
 
-/// The curves over the rationals, with rational constants K of height up to some thousands.
+/// Returns the curves over the rationals, with rational constants K of height up to some thousands.
 ///
 /// K is found modulo three primes and lifted, and the result is checked exactly, so every returned curve is one.
 /// Twists are given by half-angle tangents.

@@ -64,7 +64,7 @@ fn t(k: usize) -> Poly {
     Poly::variable(Variables::twist(k))
 }
 
-/// `1 + t_k^2`
+/// Returns `1 + t_k^2`.
 fn circle(k: usize) -> Poly {
     t(k).mul(&t(k)).add(&Poly::one())
 }

@@ -129,7 +129,7 @@ struct Axes {
 }
 
 impl Axes {
-    /// `z_i . z_j`
+    /// Returns `z_i . z_j`.
     fn cosine(&self, i: usize, j: usize) -> Symbol {
         let (i, j) = (i.min(j), i.max(j));
         match (i, j) {
@@ -140,7 +140,7 @@ impl Axes {
         }
     }
 
-    /// `(z_i x z_j) . z_k`
+    /// Returns `(z_i x z_j) . z_k`.
     fn triple(&self, i: usize, j: usize, k: usize) -> Symbol {
         let mut axes = [i, j, k];
         axes.sort_unstable();
@@ -152,7 +152,7 @@ impl Axes {
         if inversions % 2 == 1 { variable.neg() } else { variable }
     }
 
-    /// `(z_i x z_j) . (z_k x z_l)`
+    /// Returns `(z_i x z_j) . (z_k x z_l)`.
     fn quadruple(&self, i: usize, j: usize, k: usize, l: usize) -> Symbol {
         self.cosine(i, k).mul(&self.cosine(j, l)).sub(&self.cosine(i, l).mul(&self.cosine(j, k)))
     }

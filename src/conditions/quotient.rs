@@ -14,19 +14,19 @@ pub struct Quotient {
 }
 
 impl Quotient {
-    /// A variable.
+    /// Returns a variable.
     #[must_use]
     pub fn variable(variable: usize) -> Self {
         Self::from(Polynomial::variable(variable))
     }
 
-    /// The numerator.
+    /// Returns the numerator.
     #[must_use]
     pub const fn numerator(&self) -> &Polynomial<Int> {
         &self.numerator
     }
 
-    /// The denominator.
+    /// Returns the denominator.
     #[must_use]
     pub const fn denominator(&self) -> &Polynomial<Int> {
         &self.denominator

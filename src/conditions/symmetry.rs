@@ -27,7 +27,7 @@ pub struct Involution {
     pub links: Vec<usize>,
 }
 
-/// The involutions of a loop up to renumbering of its joints.
+/// Returns the involutions of a loop up to renumbering of its joints.
 #[must_use]
 pub fn involutions(joints: usize) -> Vec<Involution> {
     let n = joints;

@@ -121,7 +121,7 @@ fn eliminate_by(exact: &Exact, chosen: Option<(usize, Hidden)>) -> Option<Elimin
     Some(eliminated)
 }
 
-/// `1 + x^2`
+/// Returns `1 + x^2`.
 fn circle<F: Field>() -> Univariate<F> {
     Univariate::new(vec![F::one(), F::zero(), F::one()])
 }

@@ -117,13 +117,13 @@ impl ClosurePolynomial {
         Ok(Self { variable, coefficients, removed, at_pi, factors, roots })
     }
 
-    /// The degree.
+    /// Returns the degree.
     #[must_use]
     pub fn degree(&self) -> usize {
         self.coefficients.degree().unwrap_or(0)
     }
 
-    /// The number of distinct complex roots.
+    /// Returns the number of distinct complex roots.
     #[must_use]
     pub fn distinct(&self) -> usize {
         self.factors.iter().map(|(degree, _)| degree).sum()

@@ -28,7 +28,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The degree of the surface.
+    /// Returns the degree of the surface.
     #[must_use]
     pub fn degree(&self) -> u64 {
         self.polynomial.total_degree().unwrap_or(0)

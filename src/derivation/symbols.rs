@@ -51,7 +51,7 @@ impl Symbols {
         self.kinds.len()
     }
 
-    /// The names of all variables.
+    /// Returns the names of all variables.
     pub fn names(&self) -> Result<Names> {
         Ok(Names::given(self.list())?)
     }

@@ -110,19 +110,19 @@ impl Variables {
     /// The tangent of half the angle of joint 4.
     pub const Y: usize = 13;
 
-    /// The tangent of half the twist of link k, counted from 0.
+    /// Returns the tangent of half the twist of link k, counted from 0.
     #[must_use]
     pub const fn twist(k: usize) -> usize {
         k
     }
 
-    /// The length of link k, counted from 0.
+    /// Returns the length of link k, counted from 0.
     #[must_use]
     pub const fn length(k: usize) -> usize {
         4 + k
     }
 
-    /// The offset of joint k, counted from 0.
+    /// Returns the offset of joint k, counted from 0.
     #[must_use]
     pub const fn offset(k: usize) -> usize {
         8 + k

@@ -39,7 +39,7 @@ pub struct Answer {
     pub warnings: Vec<String>,
 }
 
-/// A finite number without the sign of zero.
+/// Returns a finite number without the sign of zero.
 #[must_use]
 pub fn number(x: f64) -> Value {
     if x.is_finite() { json!(x + 0.0) } else { Value::Null }
@@ -65,7 +65,7 @@ pub struct Rounding {
 }
 
 impl Rounding {
-    /// The nearest f64.
+    /// Returns the nearest f64, and records its distance.
     pub fn number(&mut self, enclosure: &Enclosure) -> f64 {
         if enclosure.holds_zero() {
             self.radius = self.radius.max(power_of_two(enclosure.off().max(enclosure.size())));
@@ -78,18 +78,18 @@ impl Rounding {
         rounded
     }
 
-    /// The nearest numbers.
+    /// Returns the nearest vector in f64, and records its distance.
     pub fn vector<const N: usize>(&mut self, vector: &[Enclosure; N]) -> [f64; N] {
         vector.each_ref().map(|c| self.number(c))
     }
 
-    /// The nearest matrix.
+    /// Returns the nearest matrix in f64, and records its distance.
     pub fn matrix<const N: usize, const M: usize>(&mut self, matrix: &[[Enclosure; N]; M]) -> [[f64; N]; M] {
         matrix.each_ref().map(|row| self.vector(row))
     }
 }
 
-/// `2^k`, 0 for exact numbers.
+/// Returns `2^k`, 0 for exact numbers.
 fn power_of_two(k: i32) -> f64 {
     if k == i32::MIN { 0.0 } else { 2.0_f64.powi(k.max(-1000)) }
 }
@@ -108,7 +108,7 @@ pub fn insert_motion(values: &mut Map<String, Value>, motion: &Motion<f64>) {
     values.insert("matrix".into(), homogeneous(motion));
 }
 
-/// The 4 x 4 matrix of a motion.
+/// Returns the 4 x 4 matrix of a motion.
 #[must_use]
 pub fn homogeneous(motion: &Motion<f64>) -> Value {
     let row = |i: usize| {
@@ -195,7 +195,7 @@ impl Named {
         self.values.insert(name.to_owned(), value);
     }
 
-    /// The numbers as one value.
+    /// Returns the numbers as one value.
     #[must_use]
     pub fn into_value(self) -> Value {
         Value::Object(self.values)

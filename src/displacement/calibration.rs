@@ -160,7 +160,7 @@ fn one_pair((a, b): &Pair, pair: &Turning) -> Answer {
     Answer::family(2, sample(a, b), reason)
 }
 
-/// A motion that fits one pair.
+/// Returns a motion that fits one pair.
 fn sample(a: &Motion<Rational>, b: &Motion<Rational>) -> Option<Value> {
     let (a, b) = (float(a), float(b));
     let axis = |m: &Motion<f64>| direction(&euler_vectors(&unit(&from_matrix(&m.rotation))?)[0]);
@@ -190,7 +190,7 @@ fn one_translation((a, b): &Pair) -> Answer {
     Answer::family(dimension, None, "A and B have no rotation: they leave the translation of X free")
 }
 
-/// The motion that fits best.
+/// Returns the motion that fits best.
 fn nearest_fit(pairs: &[Pair], reason: &str) -> Answer {
     let pairs: Vec<(Motion<f64>, Motion<f64>)> = pairs.iter().map(|(a, b)| (float(a), float(b))).collect();
     let mode = nearest(&pairs).map(|x| {

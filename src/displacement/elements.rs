@@ -161,7 +161,7 @@ fn null_quaternions(places: [(usize, usize); 3]) -> Vec<Mode> {
     modes
 }
 
-/// The quaternion of norm 0 with a matrix of products of rank 1.
+/// Returns the quaternion of norm 0 with a matrix of products of rank 1.
 fn null_quaternion(m: &Matrix<Complex<f64>>) -> Value {
     let trace = m[0][0] + m[1][1] + m[2][2];
     // w^2 = trace/4 with norm 0, and x^2 = (2 m00 - trace)/4.
@@ -204,7 +204,7 @@ fn of_a_line(places: [(usize, usize); 3], values: &[Rational; 3]) -> Answer {
     )
 }
 
-/// A rotation matrix with a row or a column given, as a sample.
+/// Returns a rotation matrix with a row or a column given, as a sample.
 fn with_line(place: (usize, usize), is_row: bool, line: &[f64; 3]) -> Option<Value> {
     use looproot_calculus::motion::cross;
     let least = (0..3).min_by(|i, j| line[*i].abs().total_cmp(&line[*j].abs()))?;

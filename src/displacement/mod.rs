@@ -18,7 +18,7 @@ use crate::catalogue::displacement::Displacement;
 use crate::error::Result;
 pub use answer::{Answer, Mode};
 
-/// The answers to a question, one for each of its problems.
+/// Returns the answers to a question, one for each of its problems.
 ///
 /// # Errors
 /// [`crate::error::Error::Unsupported`] for several pairs of a calibration with parallel axes.

@@ -35,7 +35,7 @@ pub(super) fn rounded(motion: &Motion<Enclosure>) -> (Motion<f64>, f64) {
     (Motion { rotation, translation: rounding.vector(&motion.translation) }, rounding.radius)
 }
 
-/// The motion of a screw, enclosed.
+/// Returns the motion of a screw, enclosed.
 pub(super) fn one(screw: &GivenScrew) -> Option<Motion<Enclosure>> {
     let enclosed = |v: &[rug::Rational; 3]| v.each_ref().map(Enclosure::of);
     let axis = Line { direction: enclosed(&screw.axis.direction), moment: enclosed(&screw.axis.moment) }.unit()?;

@@ -62,7 +62,7 @@ fn sample(axes: &[Vector<Rational>; 3], rotation: &Matrix<Rational>) -> Option<[
     (second.abs() < 1e-6).then_some([found[0].angle()?, 0.0, found[2].angle()?])
 }
 
-/// A unit vector perpendicular to one.
+/// Returns a unit vector perpendicular to one.
 fn across(n: &[f64; 3]) -> [f64; 3] {
     let least = (0..3).min_by(|i, j| n[*i].abs().total_cmp(&n[*j].abs())).unwrap_or(0);
     let unit: [f64; 3] = std::array::from_fn(|i| f64::from(u8::from(i == least)));
@@ -102,7 +102,7 @@ fn with_amplitude(axes: &[Vector<Rational>; 3], rotation: &Matrix<Rational>, equ
     }
 }
 
-/// Angles of the family at a critical place, the last one 0.
+/// Returns angles of the family at a critical place, the last one 0.
 fn family_sample(
     axes: &[Vector<Rational>; 3],
     rotation: &Matrix<Rational>,

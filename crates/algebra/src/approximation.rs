@@ -2,7 +2,7 @@
 
 use rug::{Float, Integer, Rational};
 
-/// The rational of smallest denominator within `tolerance` of `value`, by continued fractions of both ends.
+/// Returns the rational of smallest denominator within `tolerance` of `value`, by continued fractions of both ends.
 ///
 /// # Panics
 /// When `value` or `tolerance` is not finite, or `tolerance` is negative.
@@ -16,7 +16,7 @@ pub fn simplest_within(value: &Float, tolerance: &Float) -> Rational {
     simplest_between(low, high)
 }
 
-/// The rational of smallest denominator in `[low, high]`.
+/// Returns the rational of smallest denominator in `[low, high]`.
 #[must_use]
 pub fn simplest_between(low: Rational, high: Rational) -> Rational {
     if low <= 0 && high >= 0 {

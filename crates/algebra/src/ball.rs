@@ -20,12 +20,12 @@ pub struct Ball<const BITS: u32> {
     radius: Float,
 }
 
-/// `x` rounded up to a radius.
+/// Returns `x` rounded up to a radius.
 fn up(x: &Float) -> Float {
     Float::with_val_round(RADIUS_BITS, x, Round::Up).0
 }
 
-/// An upper bound of `|x|`.
+/// Returns an upper bound of `|x|`.
 fn magnitude(x: &Float) -> Float {
     up(&x.as_abs())
 }
@@ -41,19 +41,19 @@ fn product(mut x: Float, y: &Float) -> Float {
 }
 
 impl<const BITS: u32> Ball<BITS> {
-    /// The ball of one point.
+    /// Returns the ball of one point.
     #[must_use]
     pub fn point(re: &Float, im: &Float) -> Self {
         Self::rounded(re, im, Float::new(RADIUS_BITS))
     }
 
-    /// The ball around a midpoint, which is rounded, with a radius that is enlarged by that.
+    /// Returns the ball around a midpoint, which is rounded, with a radius that is enlarged by that.
     fn rounded(re: &Float, im: &Float, radius: Float) -> Self {
         let (re, im) = (Float::with_val(BITS, re), Float::with_val(BITS, im));
         Self { re, im, radius }.with_rounding()
     }
 
-    /// The ball of another precision, its midpoint rounded to this one.
+    /// Returns the ball of another precision, its midpoint rounded to this one.
     #[must_use]
     pub fn of_precision<const OTHER: u32>(other: &Ball<OTHER>) -> Self {
         Self::rounded(&other.re, &other.im, other.radius.clone())
@@ -87,31 +87,31 @@ impl<const BITS: u32> Ball<BITS> {
         &self.im
     }
 
-    /// The radius.
+    /// Returns the radius.
     #[must_use]
     pub fn radius(&self) -> &Float {
         &self.radius
     }
 
-    /// The midpoint alone.
+    /// Returns the midpoint alone.
     #[must_use]
     pub fn midpoint(&self) -> Self {
         Self { radius: Float::new(RADIUS_BITS), ..self.clone() }
     }
 
-    /// The complex conjugate.
+    /// Returns the complex conjugate.
     #[must_use]
     pub fn conjugate(&self) -> Self {
         Self { im: -self.im.clone(), ..self.clone() }
     }
 
-    /// An upper bound of the absolute value of every number in the ball.
+    /// Returns an upper bound of the absolute value of every number in the ball.
     #[must_use]
     pub fn upper(&self) -> Float {
         sum(sum(magnitude(&self.re), &magnitude(&self.im)), &self.radius)
     }
 
-    /// A lower bound of the absolute value of every number in the ball, 0 if it contains 0.
+    /// Returns a lower bound of the absolute value of every number in the ball, 0 if it contains 0.
     #[must_use]
     pub fn lower(&self) -> Float {
         let part = |x: &Float| Float::with_val_round(RADIUS_BITS, &*x.as_abs(), Round::Down).0;
@@ -133,7 +133,7 @@ impl<const BITS: u32> Ball<BITS> {
         self.sub(other).contains_zero()
     }
 
-    /// The inverse; `None` if the ball contains 0.
+    /// Returns the inverse; `None` if the ball contains 0.
     #[must_use]
     pub fn inverse(&self) -> Option<Self> {
         let lower = self.lower();
@@ -152,7 +152,7 @@ impl<const BITS: u32> Ball<BITS> {
         Some(inverse.with_rounding())
     }
 
-    /// `self / other`; `None` if the divisor contains 0.
+    /// Returns `self / other`; `None` if the divisor contains 0.
     #[must_use]
     pub fn over(&self, other: &Self) -> Option<Self> {
         Some(self.mul(&other.inverse()?))

@@ -12,7 +12,7 @@ pub struct CircleFraction {
     power: u32,
 }
 
-/// `1 + s^2`
+/// Returns `1 + s^2`.
 fn circle() -> Univariate<Rational> {
     Univariate::new([1, 0, 1].map(Rational::from).to_vec())
 }
@@ -42,32 +42,32 @@ impl CircleFraction {
         Self { numerator, power }
     }
 
-    /// A polynomial in s.
+    /// Returns a polynomial in s.
     #[must_use]
     pub fn polynomial(numerator: Univariate<Rational>) -> Self {
         Self { numerator, power: 0 }
     }
 
-    /// The variable s.
+    /// Returns the variable s.
     #[must_use]
     pub fn variable() -> Self {
         Self::polynomial(Univariate::x())
     }
 
-    /// Cosine and sine of the angle.
+    /// Returns cosine and sine of the angle.
     #[must_use]
     pub fn cosine_and_sine() -> (Self, Self) {
         let over = |numerator: [i32; 3]| Self::new(Univariate::new(numerator.map(Rational::from).to_vec()), 1);
         (over([1, 0, -1]), over([0, 2, 0]))
     }
 
-    /// The power of `1 + s^2` in the denominator.
+    /// Returns the power of `1 + s^2` in the denominator.
     #[must_use]
     pub fn power(&self) -> u32 {
         self.power
     }
 
-    /// The product with `(1 + s^2)^power`, for a power not below that of the denominator.
+    /// Returns the product with `(1 + s^2)^power`, for a power not below that of the denominator.
     #[must_use]
     pub fn over(&self, power: u32) -> Univariate<Rational> {
         (self.power..power).fold(self.numerator.clone(), |product, _| product.mul(&circle()))

@@ -36,7 +36,7 @@ pub fn determinant<F: Field, Row: AsRef<[F]>>(a: &[Row]) -> F {
     determinant
 }
 
-/// The determinant without fractions, over any ring with exact division (Bareiss).
+/// Returns the determinant without fractions, over any ring with exact division (Bareiss).
 ///
 /// # Panics
 /// If the matrix is not square.
@@ -70,7 +70,7 @@ fn copy_square<F: Clone, Row: AsRef<[F]>>(a: &[Row]) -> Vec<Vec<F>> {
     rows
 }
 
-/// `det(A0 + A1 x + ... + Ad x^d)` from its values at as many points as its degree may need, over an exact field.
+/// Returns `det(A0 + A1 x + ... + Ad x^d)` from its values at as many points as its degree may need, over an exact field.
 ///
 /// # Example
 /// ```
@@ -109,7 +109,7 @@ where
     Univariate::interpolate(&(0..=degree_bound(size, &degrees)).map(value).collect::<Vec<_>>())
 }
 
-/// `det(A0 + A1 x + ... + Ad x^d)` over the rationals, from its images modulo many primes.
+/// Returns `det(A0 + A1 x + ... + Ad x^d)` over the rationals, from its images modulo many primes.
 ///
 /// Exact and proved: with denominators and common factors of rows and columns taken out, the coefficients of the
 /// determinant are integers of absolute value at most `prod_i sqrt(sum_j (sum_k |a_ijk|)^2)`, by Hadamard's inequality
@@ -135,7 +135,7 @@ where
     Univariate::new(determinant.into_iter().map(|c| Rational::from((c, denominator.clone()))).collect())
 }
 
-/// The coefficients of the determinant of a matrix of polynomials in one variable, constant terms first, the entries row
+/// Returns the coefficients of the determinant of a matrix of polynomials in one variable, constant terms first, the entries row
 /// by row; zeros may stand at the end.
 pub(super) fn of_entries(size: usize, mut entries: Vec<Vec<Integer>>) -> Vec<Integer> {
     let mut content = Integer::from(1);
@@ -152,7 +152,7 @@ pub(super) fn of_entries(size: usize, mut entries: Vec<Vec<Integer>>) -> Vec<Int
     determinant
 }
 
-/// The size of the matrices, and row by row the entries of the matrix polynomial, each by its coefficients.
+/// Returns the size of the matrices, and row by row the entries of the matrix polynomial, each by its coefficients.
 fn entries<'a, M: AsRef<[Row]>, Row: AsRef<[R]> + 'a, R>(coefficients: &'a [M]) -> (usize, Vec<Vec<&'a R>>) {
     let size = coefficients.first().map_or(0, |a| a.as_ref().len());
     let mut entries: Vec<Vec<&R>> = (0..size * size).map(|_| Vec::with_capacity(coefficients.len())).collect();
@@ -168,7 +168,7 @@ fn entries<'a, M: AsRef<[Row]>, Row: AsRef<[R]> + 'a, R>(coefficients: &'a [M]) 
     (size, entries)
 }
 
-/// The entries with integers for coefficients, and the denominator by which the determinant was thereby multiplied.
+/// Returns the entries with integers for coefficients, and the denominator by which the determinant was thereby multiplied.
 fn without_denominators(size: usize, entries: &[Vec<&Rational>]) -> (Vec<Vec<Integer>>, Integer) {
     let mut denominator = Integer::from(1);
     let mut integers: Vec<Vec<Integer>> = Vec::with_capacity(entries.len());

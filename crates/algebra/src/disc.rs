@@ -21,7 +21,7 @@ pub struct Disc {
     radius: Float,
 }
 
-/// A radius, rounded up.
+/// Returns a radius, rounded up.
 fn up<T>(value: T) -> Float
 where
     Float: rug::ops::AssignRound<T, Round = Round, Ordering = std::cmp::Ordering>,
@@ -38,13 +38,13 @@ where
 }
 
 impl Disc {
-    /// The disc about a point.
+    /// Returns the disc about a point.
     #[must_use]
     pub fn new(re: Float, im: Float, radius: &Float) -> Self {
         Self { re, im, radius: up(radius.abs_ref()) }
     }
 
-    /// A point.
+    /// Returns a point.
     #[must_use]
     pub fn point(re: Float, im: Float) -> Self {
         Self { re, im, radius: Float::new(RADIUS_BITS) }
@@ -56,7 +56,7 @@ impl Disc {
         Self::point(Float::with_val(bits, q), Float::new(bits)).rounded(1)
     }
 
-    /// All real numbers between two rational ones.
+    /// Returns all real numbers between two rational ones.
     #[must_use]
     pub fn between(low: &Rational, high: &Rational, bits: u32) -> Self {
         let middle = Self::of(&(Rational::from(low + high) / 2), bits);
@@ -64,7 +64,7 @@ impl Disc {
         middle.widened(&half)
     }
 
-    /// The radius.
+    /// Returns the radius.
     #[must_use]
     pub fn radius(&self) -> &Float {
         &self.radius
@@ -102,13 +102,13 @@ impl Disc {
         Float::with_val_round(RADIUS_BITS, square.sqrt_ref(), Round::Down).0
     }
 
-    /// An upper bound of all absolute values.
+    /// Returns an upper bound of all absolute values.
     #[must_use]
     pub fn at_most(&self) -> Float {
         up(&self.centre_size() + &self.radius)
     }
 
-    /// A lower bound of all absolute values, not below 0.
+    /// Returns a lower bound of all absolute values, not below 0.
     #[must_use]
     pub fn at_least(&self) -> Float {
         let low = down(&self.centre_at_least() - &self.radius);
@@ -186,7 +186,7 @@ impl Disc {
         Some(Self { re: angle.0, im: angle.1, radius: error }.rounded(4).widened(&rounding))
     }
 
-    /// The values of a polynomial with rational coefficients.
+    /// Returns the values of a polynomial with rational coefficients.
     #[must_use]
     pub fn evaluate(&self, coefficients: &[Rational]) -> Self {
         let bits = self.bits();

@@ -11,7 +11,7 @@ pub struct DoubleDouble {
     low: f64,
 }
 
-/// The sum and its rounding error, exactly.
+/// Returns the sum and its rounding error, exactly.
 #[inline(always)]
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -26,7 +26,7 @@ fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, b - (sum - a))
 }
 
-/// The two halves of the digits of a number.
+/// Returns the two halves of the digits of a number.
 #[inline(always)]
 fn halves(a: f64) -> (f64, f64) {
     let shifted = 134_217_729.0 * a;
@@ -34,7 +34,7 @@ fn halves(a: f64) -> (f64, f64) {
     (high, a - high)
 }
 
-/// The product and its rounding error, exactly (below 1e300).
+/// Returns the product and its rounding error, exactly (below 1e300).
 #[inline(always)]
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
@@ -46,7 +46,7 @@ impl DoubleDouble {
     /// Bound on the relative error of one operation.
     pub const UNIT_ROUNDOFF: f64 = 1.0 / (1_u64 << 50) as f64 / (1_u64 << 50) as f64;
 
-    /// The nearest f64.
+    /// Returns the nearest f64.
     #[must_use]
     pub fn to_f64(self) -> f64 {
         self.high

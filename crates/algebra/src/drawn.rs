@@ -48,19 +48,19 @@ pub fn plant(seed: u64) -> bool {
     DRAW.set(Draw::with(seed)).is_ok()
 }
 
-/// The seed of the prime of this run.
+/// Returns the seed of the prime of this run.
 #[must_use]
 pub fn seed() -> u64 {
     draw().seed
 }
 
-/// The seed of the prime of this run, if it was drawn.
+/// Returns the seed of the prime of this run, if it was drawn.
 #[must_use]
 pub fn seed_used() -> Option<u64> {
     DRAW.get().map(|draw| draw.seed)
 }
 
-/// The prime of this run, between `2^61` and `2^62` and congruent to 3 modulo 4.
+/// Returns the prime of this run, between `2^61` and `2^62` and congruent to 3 modulo 4.
 #[must_use]
 pub fn prime() -> u64 {
     draw().modulus.prime()
@@ -71,13 +71,13 @@ pub fn prime() -> u64 {
 pub struct Drawn(u64);
 
 impl Drawn {
-    /// The residue of an integer.
+    /// Returns the residue of an integer.
     #[must_use]
     pub fn new(n: u64) -> Self {
         Self(draw().modulus.enter(n))
     }
 
-    /// The least nonnegative integer of this residue.
+    /// Returns the least nonnegative integer of this residue.
     #[must_use]
     pub fn value(self) -> u64 {
         draw().modulus.leave(self.0)

@@ -28,19 +28,19 @@ pub struct Dual<R> {
 }
 
 impl<R: Ring> Dual<R> {
-    /// A constant: its derivative is 0.
+    /// Returns a constant: its derivative is 0.
     #[must_use]
     pub fn constant(value: R) -> Self {
         Self { value, epsilon: R::zero() }
     }
 
-    /// The variable of differentiation at the given value: its derivative is 1.
+    /// Returns the variable of differentiation at the given value: its derivative is 1.
     #[must_use]
     pub fn variable(value: R) -> Self {
         Self { value, epsilon: R::one() }
     }
 
-    /// Cosine and sine of the dual angle `theta + eps d`: `(cos - eps d sin, sin + eps d cos)`.
+    /// Returns cosine and sine of the dual angle `theta + eps d`: `(cos - eps d sin, sin + eps d cos)`.
     ///
     /// By the principle of transference, the equations of a spherical mechanism in these are those of the spatial
     /// one whose axes are `d` apart.
@@ -52,7 +52,7 @@ impl<R: Ring> Dual<R> {
 }
 
 impl<F: Field> Dual<F> {
-    /// `1/a - eps b/a^2`; `None` when the value has no inverse.
+    /// Returns `1/a - eps b/a^2`; `None` when the value has no inverse.
     #[must_use]
     pub fn inverse(&self) -> Option<Self> {
         let value = self.value.inverse()?;

@@ -84,19 +84,19 @@ impl<F: Field> Echelon<F> {
         Self { rows, pivots, sources, columns }
     }
 
-    /// The number of independent rows.
+    /// Returns the number of independent rows.
     #[must_use]
     pub fn rank(&self) -> usize {
         self.pivots.len()
     }
 
-    /// The rows of the echelon form: a basis of the space that the rows of the matrix span.
+    /// Returns the rows of the echelon form: a basis of the space that the rows of the matrix span.
     #[must_use]
     pub fn rows(&self) -> &[Vec<F>] {
         &self.rows
     }
 
-    /// The column of the pivot of each row.
+    /// Returns the column of the pivot of each row.
     #[must_use]
     pub fn pivots(&self) -> &[usize] {
         &self.pivots
@@ -108,13 +108,13 @@ impl<F: Field> Echelon<F> {
         &self.sources
     }
 
-    /// The columns without pivot.
+    /// Returns the columns without pivot.
     #[must_use]
     pub fn free_columns(&self) -> Vec<usize> {
         (0..self.columns).filter(|column| !self.pivots.contains(column)).collect()
     }
 
-    /// A basis of the vectors that every row annihilates: one for each column without pivot, in which it has the entry 1 and
+    /// Returns a basis of the vectors that every row annihilates: one for each column without pivot, in which it has the entry 1 and
     /// the other such columns 0.
     #[must_use]
     pub fn null_space(&self) -> Vec<Vec<F>> {
@@ -130,7 +130,7 @@ impl<F: Field> Echelon<F> {
     }
 }
 
-/// The largest entry in the rows and the first columns that have no pivot yet, with its place; `None` if all are zero.
+/// Returns the largest entry in the rows and the first columns that have no pivot yet, with its place; `None` if all are zero.
 fn best_pivot<F: Field>(rows: &[Vec<F>], step: usize, pivots: &[usize], columns: usize) -> Option<(f64, usize, usize)> {
     let mut used = vec![false; columns];
     for &pivot in pivots {

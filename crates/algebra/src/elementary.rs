@@ -14,13 +14,13 @@ const MOST_MULTIPLES: f64 = 1_048_576.0;
 /// Exponents of two of normal numbers are at most this.
 const LARGEST_EXPONENT: f64 = 1022.0;
 
-/// `sum c_k x^k`, the highest coefficient last.
+/// Returns `sum c_k x^k`, the highest coefficient last.
 #[inline(always)]
 fn horner<const N: usize>(coefficients: &[f64; N], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
-/// `(-1)^k / (2 k + first)!` of consecutive k.
+/// Returns `(-1)^k / (2 k + first)!` of consecutive k.
 const fn alternating<const N: usize>(first: usize) -> [f64; N] {
     let mut terms = [0.0; N];
     let mut k = 0;
@@ -94,7 +94,7 @@ pub fn exp(x: f64) -> f64 {
     reduced * power
 }
 
-/// The hyperbolic sine of a number below 1/4 in size, off by at most 2^-51 of itself.
+/// Returns the hyperbolic sine of a number below 1/4 in size, off by at most 2^-51 of itself.
 #[must_use]
 #[inline]
 pub fn small_sinh(x: f64) -> f64 {

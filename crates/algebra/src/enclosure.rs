@@ -26,17 +26,17 @@ pub struct Enclosure {
     off: i32,
 }
 
-/// The least power of two above a number, as an exponent.
+/// Returns the least power of two above a number, as an exponent.
 fn size(x: &Float) -> i32 {
     x.get_exp().unwrap_or(NONE)
 }
 
-/// The exponent of a product of powers of two.
+/// Returns the exponent of a product of powers of two.
 fn times(one: i32, two: i32) -> i32 {
     if one == NONE || two == NONE { NONE } else { one.saturating_add(two) }
 }
 
-/// An exponent no smaller than that of a sum of powers of two.
+/// Returns an exponent no smaller than that of a sum of powers of two.
 fn total<const N: usize>(terms: [i32; N]) -> i32 {
     let largest = terms.into_iter().fold(NONE, i32::max);
     let count = terms.into_iter().filter(|term| *term != NONE).count();
@@ -57,18 +57,18 @@ macro_rules! nearest {
 }
 
 impl Enclosure {
-    /// A rounded result that was off by these powers of two before.
+    /// Returns an enclosure of a rounded result with these errors, as powers of two.
     fn new<const N: usize>((middle, rounding): (Float, i32), errors: [i32; N]) -> Self {
         Self { middle, off: total([total(errors), rounding]) }
     }
 
-    /// The rational itself.
+    /// Returns the rational itself.
     #[must_use]
     pub fn of(q: &Rational) -> Self {
         Self::new(nearest!(q), [])
     }
 
-    /// A float itself.
+    /// Returns a float itself.
     #[must_use]
     pub fn of_float(x: &Float) -> Self {
         Self::new(nearest!(x), [])
@@ -86,19 +86,19 @@ impl Enclosure {
         Self { off: total([self.off, off]), ..self }
     }
 
-    /// The middle.
+    /// Returns the middle.
     #[must_use]
     pub fn middle(&self) -> &Float {
         &self.middle
     }
 
-    /// The exponent k of a bound `2^k` of how far the number is from the middle.
+    /// Returns the exponent k of a bound `2^k` of the distance of the number from the middle.
     #[must_use]
     pub fn off(&self) -> i32 {
         self.off
     }
 
-    /// The exponent k of a bound `2^k` of the size of the middle; the least there is of zero.
+    /// Returns the exponent k of a bound `2^k` of the size of the middle; the least there is of zero.
     #[must_use]
     pub fn size(&self) -> i32 {
         size(&self.middle)
@@ -126,7 +126,7 @@ impl Enclosure {
         if self.holds_zero() { Some(R::zero()) } else { R::from_rational(&self.middle.to_rational()?) }
     }
 
-    /// `self q`.
+    /// Returns `self q`.
     #[must_use]
     pub fn scaled(&self, q: &Rational) -> Self {
         self.mul(&Self::of(q))
@@ -162,7 +162,7 @@ impl Enclosure {
         Some(Self::new(root, [times(self.off, -below)]))
     }
 
-    /// Cosine and sine of an angle in radians: neither changes faster than the angle.
+    /// Returns cosine and sine of an angle in radians: neither changes faster than the angle.
     #[must_use]
     pub fn cos_sin_of(&self) -> (Self, Self) {
         (Self::new(nearest!(self.middle.cos_ref()), [self.off]), Self::new(nearest!(self.middle.sin_ref()), [self.off]))
@@ -184,19 +184,19 @@ impl Enclosure {
         Some(Self::new(angle, [if is_cut { WHOLE_TURN } else { times(off, 1 - reach) }]))
     }
 
-    /// The arc cosine, as the angle of (x, sqrt(1 - x^2)); `None` outside [-1, 1].
+    /// Returns the arc cosine, as the angle of (x, sqrt(1 - x^2)); `None` outside [-1, 1].
     #[must_use]
     pub fn acos(&self) -> Option<Self> {
         self.complement()?.atan2(self)
     }
 
-    /// The arc sine; `None` outside [-1, 1].
+    /// Returns the arc sine; `None` outside [-1, 1].
     #[must_use]
     pub fn asin(&self) -> Option<Self> {
         self.atan2(&self.complement()?)
     }
 
-    /// `sqrt(1 - x^2)`
+    /// Returns `sqrt(1 - x^2)`.
     fn complement(&self) -> Option<Self> {
         Self::one().sub(self).mul(&Self::one().add(self)).sqrt()
     }

@@ -55,7 +55,7 @@ pub(super) fn evaluate(text: &str) -> Result<Quantified, String> {
     Ok(Quantified { value, unit })
 }
 
-/// The text, cut to a readable length.
+/// Returns the text, cut to a readable length.
 pub(super) fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 {
         return text.to_owned();
@@ -78,7 +78,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// The sum, and how many terms it has.
+    /// Reads a sum, and counts its terms.
     fn sum(&mut self) -> Result<(Value, usize), String> {
         let mut value = self.term()?;
         let mut terms = 1;
@@ -157,7 +157,7 @@ impl<'a> Reader<'a> {
         self.inside()
     }
 
-    /// The argument of a function of an angle, in radians.
+    /// Reads the argument of a function of an angle, in radians.
     fn angle(&mut self, function: &str) -> Result<Value, String> {
         if !self.symbol('(') {
             return Err(without_argument(function));
@@ -193,7 +193,7 @@ impl<'a> Reader<'a> {
         y.atan2(&x)
     }
 
-    /// The rest of a parenthesis.
+    /// Reads the rest of a parenthesis.
     fn inside(&mut self) -> Result<Value, String> {
         self.enter()?;
         let (value, _) = self.sum()?;

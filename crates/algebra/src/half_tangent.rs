@@ -22,7 +22,7 @@ pub(super) struct Direction {
 }
 
 impl Direction {
-    /// The direction of a nonzero vector; `None` for the zero vector or overlong coordinates.
+    /// Returns the direction of a nonzero vector; `None` for the zero vector or overlong coordinates.
     pub(super) fn new(x: Rational, y: Rational) -> Option<Self> {
         if x.is_zero() && y.is_zero() {
             return None;
@@ -36,12 +36,12 @@ impl Direction {
         short.then_some(Self { x, y })
     }
 
-    /// The coordinates of a vector in this direction.
+    /// Returns the coordinates of a vector in this direction.
     pub(super) fn coordinates(&self) -> (&Rational, &Rational) {
         (&self.x, &self.y)
     }
 
-    /// The direction of `turns * pi`, rational for multiples of a quarter of pi.
+    /// Returns the direction of `turns * pi`, rational for multiples of a quarter of pi.
     pub(super) fn of_turns(turns: &Rational) -> Option<Self> {
         let quarters = Rational::from(turns * 4);
         if !quarters.is_integer() {
@@ -60,7 +60,7 @@ impl Direction {
         Self::new(Rational::from(x), Rational::from(y))
     }
 
-    /// The direction of the sum of two angles.
+    /// Returns the direction of the sum of two angles.
     pub(super) fn plus(&self, other: &Self) -> Option<Self> {
         Self::new(
             Rational::from(&self.x * &other.x) - Rational::from(&self.y * &other.y),
@@ -68,12 +68,12 @@ impl Direction {
         )
     }
 
-    /// The direction of the opposite angle.
+    /// Returns the direction of the opposite angle.
     pub(super) fn opposite(&self) -> Self {
         Self { x: self.x.clone(), y: Rational::from(-&self.y) }
     }
 
-    /// The direction of `n` times the angle.
+    /// Returns the direction of `n` times the angle.
     pub(super) fn times(&self, n: i32) -> Option<Self> {
         let base = if n < 0 { self.opposite() } else { self.clone() };
         let mut result = Self { x: Rational::from(1), y: Rational::new() };
@@ -99,7 +99,7 @@ impl Direction {
         Some((Rational::from(&self.x / &length), Rational::from(&self.y / &length)))
     }
 
-    /// The tangent; `None` at a right angle.
+    /// Returns the tangent; `None` at a right angle.
     pub(super) fn tangent(&self) -> Option<Rational> {
         (!self.x.is_zero()).then(|| Rational::from(&self.y / &self.x))
     }
@@ -118,7 +118,7 @@ impl Direction {
     }
 }
 
-/// The square root of a rational that is the square of one.
+/// Returns the square root of a rational that is the square of one.
 pub(super) fn square_root(square: &Rational) -> Option<Rational> {
     let root = |n: &Integer| n.is_perfect_square().then(|| n.clone().sqrt());
     Some(Rational::from((root(square.numer())?, root(square.denom())?)))

@@ -16,7 +16,7 @@ enum Repr {
 }
 
 impl Int {
-    /// The number as an i64, if it fits.
+    /// Returns the number as an i64, if it fits.
     #[must_use]
     #[inline(always)]
     pub fn to_i64(&self) -> Option<i64> {
@@ -26,7 +26,7 @@ impl Int {
         }
     }
 
-    /// The number as a big integer.
+    /// Returns the number as a big integer.
     #[must_use]
     pub fn to_integer(&self) -> Integer {
         match &self.0 {
@@ -44,7 +44,7 @@ impl Int {
         }
     }
 
-    /// The greatest common divisor, never negative; zero only of two zeros.
+    /// Returns the greatest common divisor, never negative; zero only of two zeros.
     #[must_use]
     pub fn gcd(&self, other: &Self) -> Self {
         match (&self.0, &other.0) {
@@ -57,7 +57,7 @@ impl Int {
         }
     }
 
-    /// The nearest f64.
+    /// Returns the nearest f64.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "the conversion rounds to nearest")]
     pub fn to_f64(&self) -> f64 {
@@ -67,7 +67,7 @@ impl Int {
         }
     }
 
-    /// The absolute value.
+    /// Returns the absolute value.
     #[must_use]
     pub fn abs(&self) -> Self {
         if self.sign() == Ordering::Less { self.neg() } else { self.clone() }

@@ -6,7 +6,7 @@ use super::univariate::Univariate;
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
 
-/// The residues of an integer polynomial, constant term first; empty when all vanish.
+/// Returns the residues of an integer polynomial, constant term first; empty when all vanish.
 fn residues(coefficients: &[Integer], modulus: &Modulus) -> Vec<u64> {
     trimmed(coefficients.iter().map(|c| modulus.reduce(c)).collect())
 }
@@ -17,7 +17,7 @@ fn trimmed(mut residues: Vec<u64>) -> Vec<u64> {
     residues
 }
 
-/// The derivative of residues.
+/// Returns the derivative of residues.
 fn slope(residues: &[u64], modulus: &Modulus) -> Vec<u64> {
     let (one, mut index) = (modulus.enter(1), 0);
     let term = |&r: &u64| {
@@ -44,7 +44,7 @@ fn reduce(a: &mut Vec<u64>, b: &[u64], modulus: &Modulus) {
     }
 }
 
-/// A greatest common divisor of residues, not normalised.
+/// Returns a greatest common divisor of residues, not normalised.
 fn common_divisor(mut a: Vec<u64>, mut b: Vec<u64>, modulus: &Modulus) -> Vec<u64> {
     while !b.is_empty() {
         reduce(&mut a, &b, modulus);
@@ -80,7 +80,7 @@ impl Lifted {
 }
 
 impl Univariate<Integer> {
-    /// The greatest common divisor of the coefficients, positive; 0 for the zero polynomial.
+    /// Returns the greatest common divisor of the coefficients, positive; 0 for the zero polynomial.
     #[must_use]
     pub fn content(&self) -> Integer {
         let mut content = Integer::new();
@@ -93,7 +93,7 @@ impl Univariate<Integer> {
         content
     }
 
-    /// The polynomial divided by its content, with positive leading coefficient.
+    /// Returns the polynomial divided by its content, with positive leading coefficient.
     #[must_use]
     pub fn primitive_part(&self) -> Self {
         let mut content = self.content();
@@ -131,7 +131,7 @@ impl Univariate<Integer> {
         rest.iter().all(|c| *c == 0).then(|| Self::new(quotient))
     }
 
-    /// The greatest common divisor with positive leading coefficient, contents included; zero only of two zeros.
+    /// Returns the greatest common divisor with positive leading coefficient, contents included; zero only of two zeros.
     ///
     /// # Source
     /// Images modulo primes, joined by remainders; a candidate that divides both polynomials and has the degree of an
@@ -220,7 +220,7 @@ impl Univariate<Integer> {
         a.len() == 1
     }
 
-    /// The sign of the value at a rational number.
+    /// Returns the sign of the value at a rational number.
     #[must_use]
     pub fn sign_at(&self, x: &Rational) -> Ordering {
         let mut power = Integer::from(1);
@@ -233,7 +233,7 @@ impl Univariate<Integer> {
         value.cmp0()
     }
 
-    /// The product of the distinct irreducible factors, primitive with positive leading coefficient.
+    /// Returns the product of the distinct irreducible factors, primitive with positive leading coefficient.
     ///
     /// # Panics
     /// When the polynomial is zero.
@@ -247,12 +247,12 @@ impl Univariate<Integer> {
         primitive.divided(&primitive.gcd(&primitive.derivative())).primitive_part()
     }
 
-    /// The exact quotient by a primitive divisor.
+    /// Returns the exact quotient by a primitive divisor.
     fn divided(&self, divisor: &Self) -> Self {
         self.quotient(divisor).expect("a primitive divisor over the rationals divides over the integers")
     }
 
-    /// The square-free factors that are not constant, primitive with positive leading coefficient, each with its
+    /// Returns the square-free factors that are not constant, primitive with positive leading coefficient, each with its
     /// multiplicity, by increasing multiplicity; the product of their powers is the primitive part.
     ///
     /// # Panics

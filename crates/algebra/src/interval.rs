@@ -17,7 +17,7 @@ pub struct Interval {
     hi: f64,
 }
 
-/// The exact rounding error of `sum = x + y` (Knuth's `TwoSum`); NaN when that overflowed.
+/// Returns the exact rounding error of `sum = x + y` (Knuth's `TwoSum`); NaN when that overflowed.
 #[inline(always)]
 fn sum_error(x: f64, y: f64, sum: f64) -> f64 {
     let y_part = sum - x;
@@ -41,19 +41,19 @@ fn product_error(x: f64, y: f64, product: f64) -> f64 {
     ((x_head * y_head - product) + x_head * y_tail + x_tail * y_head) + x_tail * y_tail
 }
 
-/// A lower bound of `rounded + error`; next below when the error is unknown.
+/// Returns a lower bound of `rounded + error`; next below when the error is unknown.
 #[inline(always)]
 fn down(rounded: f64, error: f64) -> f64 {
     if error >= 0.0 { rounded } else { rounded.next_down() }
 }
 
-/// An upper bound of `rounded + error`; next above when the error is unknown.
+/// Returns an upper bound of `rounded + error`; next above when the error is unknown.
 #[inline(always)]
 fn up(rounded: f64, error: f64) -> f64 {
     if error <= 0.0 { rounded } else { rounded.next_up() }
 }
 
-/// A bound of `x y`, by the given rounding. Zero times an unknown (infinite) bound is zero.
+/// Returns a bound of `x y`, by the given rounding. Zero times an unknown (infinite) bound is zero.
 #[inline(always)]
 fn product(x: f64, y: f64, round: impl Fn(f64, f64) -> f64) -> f64 {
     if x == 0.0 || y == 0.0 {
@@ -72,7 +72,7 @@ impl Interval {
     /// All real numbers: nothing is known.
     pub const ENTIRE: Self = Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY };
 
-    /// The interval from `lo` to `hi`; all reals when a bound is NaN.
+    /// Returns the interval from `lo` to `hi`; all reals when a bound is NaN.
     ///
     /// # Panics
     /// When `lo > hi`.
@@ -85,38 +85,38 @@ impl Interval {
         Self { lo, hi }
     }
 
-    /// The point `x`; all reals when `x` is not finite.
+    /// Returns the point `x`; all reals when `x` is not finite.
     #[must_use]
     pub fn from_f64(x: f64) -> Self {
         if x.is_finite() { Self { lo: x, hi: x } } else { Self::ENTIRE }
     }
 
-    /// All numbers at most `radius` from `mid`.
+    /// Returns all numbers at most `radius` from `mid`.
     #[must_use]
     pub fn around(mid: f64, radius: f64) -> Self {
         Self::from_f64(mid).add(&Self::new(-radius.abs(), radius.abs()))
     }
 
-    /// The f64 neighbours of a correctly rounded number, which enclose it.
+    /// Returns the f64 neighbours of a correctly rounded number, which enclose it.
     fn about(x: f64) -> Self {
         Self::new(x.next_down(), x.next_up())
     }
 
-    /// The lower bound.
+    /// Returns the lower bound.
     #[must_use]
     #[inline(always)]
     pub fn lo(&self) -> f64 {
         self.lo
     }
 
-    /// The upper bound.
+    /// Returns the upper bound.
     #[must_use]
     #[inline(always)]
     pub fn hi(&self) -> f64 {
         self.hi
     }
 
-    /// A number inside, the middle up to rounding; finite always.
+    /// Returns a number inside, the middle up to rounding; finite always.
     #[must_use]
     pub fn mid(&self) -> f64 {
         match (self.lo.is_finite(), self.hi.is_finite()) {
@@ -127,19 +127,19 @@ impl Interval {
         }
     }
 
-    /// A distance from `mid` that no number of the interval exceeds.
+    /// Returns a distance from `mid` that no number of the interval exceeds.
     #[must_use]
     pub fn radius(&self) -> f64 {
         self.sub(&Self::from_f64(self.mid())).magnitude()
     }
 
-    /// The largest absolute value.
+    /// Returns the largest absolute value.
     #[must_use]
     pub fn magnitude(&self) -> f64 {
         self.lo.abs().max(self.hi.abs())
     }
 
-    /// The smallest absolute value.
+    /// Returns the smallest absolute value.
     #[must_use]
     pub fn mignitude(&self) -> f64 {
         if self.contains(0.0) { 0.0 } else { self.lo.abs().min(self.hi.abs()) }
@@ -157,7 +157,7 @@ impl Interval {
         (other.lo < self.lo || other.lo == f64::NEG_INFINITY) && (self.hi < other.hi || other.hi == f64::INFINITY)
     }
 
-    /// The smallest interval that holds both.
+    /// Returns the smallest interval that holds both.
     #[must_use]
     pub fn hull(&self, other: &Self) -> Self {
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
@@ -170,14 +170,14 @@ impl Interval {
         (lo <= hi).then_some(Self { lo, hi })
     }
 
-    /// `x^2`, never negative.
+    /// Returns `x^2`, never negative.
     #[must_use]
     pub fn square(&self) -> Self {
         let (small, large) = (self.mignitude(), self.magnitude());
         Self { lo: product(small, small, down).max(0.0), hi: product(large, large, up) }
     }
 
-    /// `1/x`; `None` when 0 lies inside.
+    /// Returns `1/x`; `None` when 0 lies inside.
     #[must_use]
     pub fn inverse(&self) -> Option<Self> {
         let bound = |x: f64, round: fn(f64) -> f64| {
@@ -186,7 +186,7 @@ impl Interval {
         (!self.contains(0.0)).then(|| Self { lo: bound(self.hi, f64::next_down), hi: bound(self.lo, f64::next_up) })
     }
 
-    /// The square root; `None` when some number of the interval has none.
+    /// Returns the square root; `None` when some number of the interval has none.
     #[must_use]
     pub fn sqrt(&self) -> Option<Self> {
         let bound = |x: f64, round: fn(f64) -> f64| {

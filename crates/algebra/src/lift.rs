@@ -31,7 +31,7 @@ pub fn rational(residues: &[(u64, u64)]) -> Option<Rational> {
     fits.then(|| Rational::from((smaller, factor)))
 }
 
-/// The vector of least height with the given residues, one list for each prime; `None` as soon as one entry has none.
+/// Returns the vector of least height with the given residues, one list for each prime; `None` as soon as one entry has none.
 ///
 /// # Panics
 /// When a prime occurs twice or the lists are not of one length.

@@ -104,7 +104,7 @@ impl<F: Field> Functionals<F> {
         Some(())
     }
 
-    /// `F(equation) = 0`, in the coefficients of the `h_i F`.
+    /// Returns the equation `F(equation) = 0` in the coefficients of the `h_i F`.
     fn vanishing(&self, equation: &Quadric<F>) -> Vec<F> {
         let (n, d) = (self.unknowns, self.dimension());
         let mut row = vec![F::zero(); n * d];
@@ -119,7 +119,7 @@ impl<F: Field> Functionals<F> {
         row
     }
 
-    /// `h_j (h_i F) = h_i (h_j F)`.
+    /// Returns the equations `h_j (h_i F) = h_i (h_j F)`.
     fn commuting(&self, i: usize, j: usize) -> Vec<Vec<F>> {
         let (n, d) = (self.unknowns, self.dimension());
         let condition = |l: usize| {
@@ -164,7 +164,7 @@ impl<F: Field> Echelon<F> {
         Some(true)
     }
 
-    /// A basis of the vectors that all rows annihilate.
+    /// Returns a basis of the vectors that all rows annihilate.
     fn kernel(&self) -> Vec<Vec<F>> {
         let is_pivot = |column: usize| self.rows.iter().any(|(pivot, _)| *pivot == column);
         let vector = |free: usize| {

@@ -42,19 +42,19 @@ impl<const LIMBS: usize> LongNumber<LIMBS> {
         if self.negative { -size } else { size }
     }
 
-    /// The least k with `|self| < 2^k`; of zero the least there is.
+    /// Returns the least k with `|self| < 2^k`; of zero the least there is.
     #[must_use]
     pub fn exponent(self) -> i32 {
         if self.is_zero() { i32::MIN } else { self.exponent }
     }
 
-    /// `self 2^k`, exactly.
+    /// Returns `self 2^k`, exactly.
     #[must_use]
     pub fn shifted(self, k: i32) -> Self {
         if self.is_zero() { self } else { Self { exponent: self.exponent + k, ..self } }
     }
 
-    /// The sum of two numbers of one sign, the first one not the smaller in exponent.
+    /// Returns the sum of two numbers of one sign, the first one not the smaller in exponent.
     fn plus(&self, other: &Self) -> Self {
         let b = guarded(&other.limbs, self.exponent.abs_diff(other.exponent));
         let mut limbs = [0; LIMBS];
@@ -75,7 +75,7 @@ impl<const LIMBS: usize> LongNumber<LIMBS> {
         Self { limbs, exponent, negative: self.negative }
     }
 
-    /// The difference of the absolute values, with the sign of the first; that one is not the smaller in exponent.
+    /// Returns the difference of the absolute values, with the sign of the first; that one is not the smaller in exponent.
     fn minus(&self, other: &Self) -> Self {
         let (mut a, mut b) = (guarded(&self.limbs, 0), guarded(&other.limbs, self.exponent.abs_diff(other.exponent)));
         let mut negative = self.negative;
@@ -108,7 +108,7 @@ impl<const LIMBS: usize> LongNumber<LIMBS> {
     }
 }
 
-/// `2^-k`
+/// Returns `2^-k`.
 const fn power_of_half(k: u32) -> f64 {
     let (mut value, mut left) = (1.0, k);
     while left > 0 {
@@ -118,7 +118,7 @@ const fn power_of_half(k: u32) -> f64 {
     value
 }
 
-/// `x 2^k`
+/// Returns `x 2^k`.
 fn scaled(x: f64, k: i32) -> f64 {
     // Two steps are needed: the power alone may be out of range where the product is not.
     let half = (k / 2).clamp(-1100, 1100);
@@ -142,7 +142,7 @@ fn guarded<const LIMBS: usize>(limbs: &[u64; LIMBS], places: u32) -> Guarded<LIM
 }
 
 impl<const LIMBS: usize> From<f64> for LongNumber<LIMBS> {
-    /// The number itself.
+    /// Returns the number itself.
     ///
     /// # Panics
     /// For NaN and infinities, which no number here is.
@@ -241,7 +241,7 @@ impl<const LIMBS: usize> Ring for LongNumber<LIMBS> {
     }
 }
 
-/// The lower half.
+/// Returns the lower half.
 fn low_word(x: u128) -> u64 {
     u64::try_from(x & u128::from(u64::MAX)).unwrap_or(0)
 }

@@ -4,7 +4,7 @@ use crate::determinant::bareiss;
 use crate::polynomial::Polynomial;
 use crate::ring::{Domain, Ring};
 
-/// The determinant of a matrix of polynomials: by minors if it is small, or not large and with symbols in it, else
+/// Returns the determinant of a matrix of polynomials: by minors if it is small, or not large and with symbols in it, else
 /// without fractions.
 pub(super) fn determinant<D: Domain>(rows: &[Vec<Polynomial<D>>]) -> Polynomial<D> {
     let most = if parameters(rows.iter().flatten()) <= 2 { 4 } else { 8 };
@@ -14,7 +14,7 @@ pub(super) fn determinant<D: Domain>(rows: &[Vec<Polynomial<D>>]) -> Polynomial<
     }
 }
 
-/// The number of variables that occur.
+/// Returns the number of variables that occur.
 pub(super) fn parameters<'a, R: Ring + 'a>(polynomials: impl Iterator<Item = &'a Polynomial<R>>) -> usize {
     let mut occurs: Vec<bool> = Vec::new();
     for polynomial in polynomials {
@@ -26,7 +26,7 @@ pub(super) fn parameters<'a, R: Ring + 'a>(polynomials: impl Iterator<Item = &'a
     occurs.into_iter().filter(|&occurs| occurs).count()
 }
 
-/// The maximal minors of a matrix with one row less than columns: entry c is the minor without column c.
+/// Returns the maximal minors of a matrix with one row less than columns: entry c is the minor without column c.
 ///
 /// Expands along the rows, from the last one up, and keeps the minor of every set of columns: `m 2^(m-1)` products.
 ///
@@ -48,13 +48,13 @@ pub(super) fn maximal_minors<R: Ring>(rows: &[Vec<R>], columns: usize) -> Vec<R>
     (0..columns).map(|c| minors[all & !(1 << c)].take().unwrap_or_else(R::zero)).collect()
 }
 
-/// The determinant with one more row on top, from the maximal minors below it.
+/// Returns the determinant with one more row on top, from the maximal minors below it.
 pub(super) fn expand<R: Ring>(top: &[R], minors: &[R]) -> R {
     let set = (1 << top.len()) - 1;
     expansion(top, set, |c| Some(&minors[c]).filter(|minor| !minor.is_zero())).unwrap_or_else(R::zero)
 }
 
-/// The alternating sum of the entries in the columns of a set times the minors without these; `None` for zero.
+/// Returns the alternating sum of the entries in the columns of a set times the minors without these; `None` for zero.
 fn expansion<'a, R: Ring + 'a>(row: &[R], set: usize, minor: impl Fn(usize) -> Option<&'a R>) -> Option<R> {
     let (mut sum, mut odd): (Option<R>, bool) = (None, false);
     for (c, x) in row.iter().enumerate() {

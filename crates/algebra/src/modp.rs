@@ -20,7 +20,7 @@ pub struct Modulus {
 }
 
 impl Modulus {
-    /// The arithmetic modulo `p`. Primality is the caller's promise; only `inverse` relies on it.
+    /// Creates the arithmetic modulo `p`. Primality is the caller's promise; only `inverse` relies on it.
     ///
     /// # Panics
     /// When `p` is even, 1, or not below `2^63`.
@@ -39,13 +39,13 @@ impl Modulus {
         Self { p, negative_inverse: inverse.wrapping_neg(), square: (r * r % p as u128) as u64 }
     }
 
-    /// The prime.
+    /// Returns the prime.
     #[must_use]
     pub const fn prime(&self) -> u64 {
         self.p
     }
 
-    /// `a + b`
+    /// Returns `a + b`.
     #[must_use]
     #[inline(always)]
     pub const fn add(&self, a: u64, b: u64) -> u64 {
@@ -53,21 +53,21 @@ impl Modulus {
         if sum >= self.p { sum - self.p } else { sum }
     }
 
-    /// `a - b`
+    /// Returns `a - b`.
     #[must_use]
     #[inline(always)]
     pub const fn sub(&self, a: u64, b: u64) -> u64 {
         if a >= b { a - b } else { a + self.p - b }
     }
 
-    /// `a b`
+    /// Returns `a b`.
     #[must_use]
     #[inline(always)]
     pub const fn mul(&self, a: u64, b: u64) -> u64 {
         self.fold(a as u128 * b as u128)
     }
 
-    /// The residue `sum / 2^64` of a number below `p 2^64`: of a sum of products of residues, the residue of the sum.
+    /// Returns the residue `sum / 2^64` of a number below `p 2^64`: of a sum of products of residues, the residue of the sum.
     #[must_use]
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "the low word, and a quotient below 2p")]
@@ -78,19 +78,19 @@ impl Modulus {
         if reduced >= self.p { reduced - self.p } else { reduced }
     }
 
-    /// The Montgomery form of an integer.
+    /// Returns the Montgomery form of an integer.
     #[must_use]
     pub const fn enter(&self, a: u64) -> u64 {
         self.mul(a % self.p, self.square)
     }
 
-    /// The least nonnegative integer of a residue.
+    /// Returns the least nonnegative integer of a residue.
     #[must_use]
     pub const fn leave(&self, a: u64) -> u64 {
         self.mul(a, 1)
     }
 
-    /// The residue of a big integer.
+    /// Returns the residue of a big integer.
     ///
     /// # Panics
     /// Never: a remainder modulo a u64 fits a u64.
@@ -100,7 +100,7 @@ impl Modulus {
         self.enter(remainder.to_u64().expect("a remainder modulo a u64 fits a u64"))
     }
 
-    /// `a^exponent`
+    /// Returns `a^exponent`.
     #[must_use]
     pub const fn pow(&self, a: u64, exponent: u64) -> u64 {
         let (mut power, mut result, mut rest) = (a, self.enter(1), exponent);
@@ -114,7 +114,7 @@ impl Modulus {
         result
     }
 
-    /// `1/a` by Fermat's little theorem; 0 for 0.
+    /// Returns `1/a` by Fermat's little theorem; 0 for 0.
     #[must_use]
     pub const fn inverse(&self, a: u64) -> u64 {
         self.pow(a, self.p - 2)
@@ -156,7 +156,7 @@ pub const fn is_prime(n: u64) -> bool {
     true
 }
 
-/// The primes below `2^62`, largest first: as many distinct moduli as a proof asks for.
+/// Returns the primes below `2^62`, largest first: as many distinct moduli as a proof asks for.
 pub fn primes() -> impl Iterator<Item = Modulus> {
     (0..=PRIME_62).rev().step_by(2).filter(|&p| is_prime(p)).map(Modulus::new)
 }
@@ -176,13 +176,13 @@ impl<const P: u64> ModP<P> {
         Modulus::new(P)
     };
 
-    /// The residue of an integer.
+    /// Returns the residue of an integer.
     #[must_use]
     pub fn new(n: u64) -> Self {
         Self(Self::MODULUS.enter(n))
     }
 
-    /// The least nonnegative integer of this residue.
+    /// Returns the least nonnegative integer of this residue.
     #[must_use]
     pub fn value(self) -> u64 {
         Self::MODULUS.leave(self.0)

@@ -27,13 +27,13 @@ impl Packing {
         Self { variables, bits: needed.max(2).max(roomy.min(16)).min(32) }
     }
 
-    /// The number of variables.
+    /// Returns the number of variables.
     #[must_use]
     pub const fn variables(&self) -> usize {
         self.variables
     }
 
-    /// The largest exponent that fits.
+    /// Returns the largest exponent that fits.
     #[must_use]
     pub const fn largest(&self) -> u32 {
         (1 << (self.bits - 1)) - 1
@@ -50,7 +50,7 @@ impl Packing {
         if self.variables == 0 { 1 } else { self.variables.div_ceil(self.per_word()) }
     }
 
-    /// The word of a variable's field, and the place of its lowest bit there.
+    /// Returns the word of a variable's field, and the place of its lowest bit there.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "a word has at most 32 fields")]
     pub const fn place(&self, variable: usize) -> (usize, u32) {
@@ -58,14 +58,14 @@ impl Packing {
         (variable / per_word, 64 - self.bits * ((variable % per_word) as u32 + 1))
     }
 
-    /// The exponent in a field of a word.
+    /// Returns the exponent in a field of a word.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "a field has at most 32 bits")]
     pub(super) const fn field(&self, word: u64, shift: u32) -> u32 {
         ((word >> shift) & ((1 << self.bits) - 1)) as u32
     }
 
-    /// A word with the guard bits of all fields.
+    /// Returns a word with the guard bits of all fields.
     #[must_use]
     pub const fn guards(&self) -> u64 {
         let (mut mask, mut field) = (0, 0);
@@ -76,7 +76,7 @@ impl Packing {
         mask
     }
 
-    /// The exponent of a variable; 0 for variables beyond the packed ones.
+    /// Returns the exponent of a variable; 0 for variables beyond the packed ones.
     #[must_use]
     #[inline(always)]
     pub const fn exponent(&self, monomial: &[u64], variable: usize) -> u32 {
@@ -129,7 +129,7 @@ impl Packing {
         (0..words).all(|word| (outline(a, word) + outline(b, word)) & guards == 0)
     }
 
-    /// The mask of one word that keeps the fields of the first `count` variables.
+    /// Returns the mask of one word that keeps the fields of the first `count` variables.
     #[expect(clippy::cast_possible_truncation, reason = "a word has at most 32 fields")]
     pub(super) fn leading(&self, word: usize, count: usize) -> u64 {
         let fields = count.saturating_sub(word * self.per_word()).min(self.per_word());
@@ -137,7 +137,7 @@ impl Packing {
         if kept == 0 { 0 } else { u64::MAX << (64 - kept) }
     }
 
-    /// The exponents of a monomial, one for each variable.
+    /// Returns the exponents of a monomial, one for each variable.
     #[must_use]
     pub fn unpack(&self, monomial: &[u64]) -> Vec<u32> {
         (0..self.variables).map(|variable| self.exponent(monomial, variable)).collect()

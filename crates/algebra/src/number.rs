@@ -90,7 +90,7 @@ impl Written {
     }
 }
 
-/// An expression without the unit behind it.
+/// Returns an expression without the unit behind it.
 fn without_unit(text: &str) -> &str {
     let text = text.trim();
     let cut = ["mm", "cm", "m"].iter().find_map(|unit| text.strip_suffix(unit));
@@ -111,14 +111,14 @@ pub struct Angle {
     written: Written,
 }
 
-/// The f64 nearest to a rational (rug's own `to_f64` truncates).
+/// Returns the f64 nearest to a rational (rug's own `to_f64` truncates).
 #[must_use]
 pub fn nearest_f64(q: &Rational) -> f64 {
     Float::with_val(53, q).to_f64()
 }
 
 impl Number {
-    /// A number given exactly.
+    /// Returns a number given exactly.
     #[must_use]
     pub fn exact(rational: Rational) -> Self {
         let float = nearest_f64(&rational);
@@ -131,7 +131,7 @@ impl Number {
         Self { exact: false, ..Self::exact(rational) }
     }
 
-    /// A rational that stands for a nearby real number.
+    /// Returns a rational that represents a nearby real number.
     #[must_use]
     pub fn standing_for(rational: Rational, real: Enclosure) -> Self {
         let float = if real.holds_zero() { 0.0 } else { real.middle().to_f64() };
@@ -145,7 +145,7 @@ impl Number {
         }
     }
 
-    /// A number in closed form: a rational near to it and an enclosure stand beside that.
+    /// Returns a number in closed form, with a rational near it and an enclosure.
     #[must_use]
     pub fn in_closed_form(rational: Rational, real: Enclosure, closed: Closed) -> Self {
         match closed.as_rational() {
@@ -154,7 +154,7 @@ impl Number {
         }
     }
 
-    /// The simplest rational within `10^-digits` (relative) of a float.
+    /// Returns the simplest rational within `10^-digits` (relative) of a float.
     ///
     /// # Panics
     /// When `float` is not finite.
@@ -163,7 +163,7 @@ impl Number {
         simplest_within(float, &(relative(digits) * float.clone().abs()))
     }
 
-    /// The square, as exact as the number is.
+    /// Returns the square, as exact as the number is.
     #[must_use]
     pub fn squared(&self) -> Self {
         let square = Rational::from(self.rational.square_ref());
@@ -177,7 +177,7 @@ impl Number {
         }
     }
 
-    /// The number times a rational one, as exact as it is.
+    /// Returns the number times a rational one, as exact as it is.
     #[must_use]
     pub fn scaled(&self, factor: &Rational) -> Self {
         let product = Rational::from(&self.rational * factor);
@@ -199,13 +199,13 @@ impl Number {
         if self.exact { Some(rational_text(&self.rational)) } else { self.written.text() }
     }
 
-    /// The number 0.
+    /// Returns the number 0.
     #[must_use]
     pub fn zero() -> Self {
         Self::exact(Rational::new())
     }
 
-    /// A float, taken as the exact binary fraction it is.
+    /// Takes a float as the exact binary fraction it is.
     ///
     /// # Panics
     /// When `float` is NaN or infinite.
@@ -255,7 +255,7 @@ impl Number {
         })
     }
 
-    /// The exact value, or the rational taken in its place.
+    /// Returns the exact value, or the rational taken in its place.
     #[must_use]
     pub fn rational(&self) -> &Rational {
         &self.rational
@@ -274,7 +274,7 @@ impl Number {
         self.exact
     }
 
-    /// The value, correctly rounded.
+    /// Returns the value, correctly rounded.
     #[must_use]
     pub fn to_f64(&self) -> f64 {
         self.float
@@ -288,13 +288,13 @@ impl Number {
 }
 
 impl Angle {
-    /// The angle 0.
+    /// Returns the angle 0.
     #[must_use]
     pub fn zero() -> Self {
         Self::from_half_tangent(HalfTangent::Finite(Rational::new()))
     }
 
-    /// The angle in (-pi, pi] with this half-angle tangent.
+    /// Returns the angle in (-pi, pi] with this half-angle tangent.
     #[must_use]
     pub fn from_half_tangent(half_tangent: HalfTangent) -> Self {
         let (radians, cos_sin) = match &half_tangent {
@@ -310,7 +310,7 @@ impl Angle {
         Self { radians, cos_sin, half_tangent, exact: true, enclosed: None, phase: None, written: Written::default() }
     }
 
-    /// The angle that a float is, radians; its half-angle tangent rounded to 15 digits.
+    /// Returns the angle of a float in radians, its half-angle tangent rounded to 15 digits.
     ///
     /// # Panics
     /// When `radians` is NaN or infinite.
@@ -386,7 +386,7 @@ impl Angle {
         Ok(Self { exact, enclosed, phase, ..Self::from_half_tangent(HalfTangent::Finite(number.rational)) })
     }
 
-    /// An angle without a known rational half-angle tangent.
+    /// Returns an angle without a known rational half-angle tangent.
     fn rounded(enclosed: &Enclosure, digits: u32) -> Self {
         let radians = &Float::with_val(BITS, enclosed.middle());
         let tolerance = relative(digits + 1);
@@ -430,19 +430,19 @@ impl Angle {
         })
     }
 
-    /// The angle, correctly rounded, as given (not reduced modulo 2 pi). Radians.
+    /// Returns the angle, correctly rounded, as given (not reduced modulo 2 pi). Radians.
     #[must_use]
     pub fn radians(&self) -> f64 {
         self.radians
     }
 
-    /// Cosine and sine, correctly rounded (a right angle has cosine exactly 0).
+    /// Returns cosine and sine, correctly rounded (a right angle has cosine exactly 0).
     #[must_use]
     pub fn cos_sin_f64(&self) -> (f64, f64) {
         self.cos_sin
     }
 
-    /// The exact half-angle tangent, or the rational one taken in its place.
+    /// Returns the exact half-angle tangent, or the rational one taken in its place.
     #[must_use]
     pub fn half_tangent(&self) -> &HalfTangent {
         &self.half_tangent
@@ -493,14 +493,14 @@ fn rational_text(q: &Rational) -> String {
 /// Maximum number of decimal places.
 const LONGEST_DECIMAL: usize = 24;
 
-/// Cosine and sine from the tangent of half the angle.
+/// Returns cosine and sine from the tangent of half the angle.
 fn from_tangent(t: &Enclosure) -> Option<(Enclosure, Enclosure)> {
     let (one, square) = (Enclosure::one(), t.mul(t));
     let length = one.add(&square);
     Some((one.sub(&square).over(&length)?, t.add(t).over(&length)?))
 }
 
-/// `10^-digits`
+/// Returns `10^-digits`.
 fn relative(digits: u32) -> Float {
     Float::with_val(BITS, 10).pow(-f64::from(digits.min(MOST_DIGITS)))
 }

@@ -31,7 +31,7 @@ pub struct Algebraic {
 }
 
 impl NumberField {
-    /// The field of a root t of a square-free polynomial.
+    /// Returns the field of a root t of a square-free polynomial.
     ///
     /// # Panics
     /// When the polynomial is constant.
@@ -65,7 +65,7 @@ impl NumberField {
         Arc::new(Self { modulus: integers, leading, split: OnceLock::new() })
     }
 
-    /// The root t.
+    /// Returns the root t.
     #[must_use]
     pub fn root(self: &Arc<Self>) -> Algebraic {
         let numerator = if self.modulus.len() == 2 {
@@ -76,7 +76,7 @@ impl NumberField {
         Algebraic { numerator, denominator: self.leading.clone(), field: Some(self.clone()) }.reduced()
     }
 
-    /// A proper factor of the polynomial of t that was met: all results since are void.
+    /// Returns a proper factor of the polynomial of t, if one was found: all results since are void.
     #[must_use]
     pub fn split(&self) -> Option<&Univariate<Rational>> {
         self.split.get()
@@ -143,12 +143,12 @@ impl Algebraic {
         self
     }
 
-    /// The field of two operands.
+    /// Returns the field of two operands.
     fn field_with(&self, other: &Self) -> Option<Arc<NumberField>> {
         self.field.as_ref().or(other.field.as_ref()).cloned()
     }
 
-    /// `self + sign other`.
+    /// Returns `self + sign other`.
     fn combined(&self, other: &Self, plus: bool) -> Self {
         let common = Integer::from(self.denominator.gcd_ref(&other.denominator));
         let own = Integer::from(other.denominator.div_exact_ref(&common));
@@ -167,7 +167,7 @@ impl Algebraic {
         Self { numerator, denominator, field: self.field_with(other) }.reduced()
     }
 
-    /// The product, not in lowest terms.
+    /// Returns the product, not in lowest terms.
     fn product(&self, other: &Self) -> Self {
         let field = self.field_with(other);
         if self.numerator.is_empty() || other.numerator.is_empty() {
@@ -201,7 +201,7 @@ impl Algebraic {
         Self { numerator: vec![n.clone()], denominator: Integer::from(1), field: None }.reduced()
     }
 
-    /// The number as a polynomial in t.
+    /// Returns the number as a polynomial in t.
     #[must_use]
     pub fn polynomial(&self) -> Univariate<Rational> {
         let mut power = Rational::from((Integer::from(1), self.denominator.clone()));
@@ -222,7 +222,7 @@ impl Algebraic {
         (&self.numerator, &self.denominator)
     }
 
-    /// The value as a rational number, if it is one.
+    /// Returns the value as a rational number, if it is one.
     #[must_use]
     pub fn rational(&self) -> Option<Rational> {
         match self.numerator.as_slice() {
@@ -232,7 +232,7 @@ impl Algebraic {
         }
     }
 
-    /// The coefficients of the powers of t.
+    /// Returns the coefficients of the powers of t.
     #[must_use]
     pub fn coefficients(&self) -> Vec<Rational> {
         let one = Integer::from(1);

@@ -94,7 +94,7 @@ fn moments<F: Field>(points: &[F]) -> Option<Vec<(F, F)>> {
     (0..points.len()).map(|j| Some((weight(j)?, points[j].clone()))).collect()
 }
 
-/// `w_j y_j^e v_j[m]` for every point j
+/// Returns `w_j y_j^e v_j[m]` for every point j.
 fn equation<F: Field>(moments: &[(F, F)], vectors: &[Vec<F>], e: usize, m: usize) -> Vec<F> {
     let power = |y: &F| (0..e).fold(F::one(), |power, _| power.mul(y));
     moments.iter().zip(vectors).map(|((w, y), v)| w.mul(&power(y)).mul(&v[m])).collect()
@@ -109,7 +109,7 @@ mod tests {
         numbers.iter().map(|&n| Rational::from(n)).collect()
     }
 
-    /// `(1 + y^2, 3 y, y^2 - 4, 7)` up to a factor that differs from point to point.
+    /// Returns `(1 + y^2, 3 y, y^2 - 4, 7)` up to a factor that differs from point to point.
     fn sample(count: i64) -> (Vec<Rational>, Vec<Vec<Rational>>) {
         let points: Vec<i64> = (2..2 + count).collect();
         let vector = |y: &i64| {

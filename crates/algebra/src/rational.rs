@@ -63,7 +63,7 @@ impl Field for Rational {
     }
 }
 
-/// The positive number that turns these, not all zero, into integers without common factor; 1 if all are zero.
+/// Returns the positive number that turns these, not all zero, into integers without common factor; 1 if all are zero.
 pub(super) fn primitive_scale(numbers: &[Rational]) -> Rational {
     let (mut content, mut denominator) = (Integer::new(), Integer::from(1));
     for q in numbers {

@@ -40,7 +40,7 @@ pub struct RealField {
 }
 
 impl RealField {
-    /// The smallest such field that holds these numbers; `None` if its degree is above [`MOST`].
+    /// Returns the smallest such field that holds these numbers; `None` if its degree is above [`MOST`].
     ///
     /// # Example
     /// ```
@@ -78,7 +78,7 @@ impl RealField {
         Self::of(order, &adjoined)
     }
 
-    /// The field of these generators, which are independent.
+    /// Returns the field of these generators, which are independent.
     fn of(order: u32, adjoined: &[Integer]) -> Option<Self> {
         let mut conjugates = conjugate_cosines(order);
         let mut polynomial = cosine_polynomial(order);
@@ -128,31 +128,31 @@ impl RealField {
         Some(Self { order, roots, cosines, summands, polynomial, conjugates })
     }
 
-    /// The degree over the rationals.
+    /// Returns the degree over the rationals.
     #[must_use]
     pub fn degree(&self) -> usize {
         self.polynomial.degree().unwrap_or(1)
     }
 
-    /// Every turn in the field is a multiple of this part of a full one.
+    /// Returns the order: every turn in the field is a multiple of this part of a full one.
     #[must_use]
     pub fn order(&self) -> u32 {
         self.order
     }
 
-    /// The polynomial of the element that generates the field, irreducible.
+    /// Returns the polynomial of the element that generates the field, irreducible.
     #[must_use]
     pub fn polynomial(&self) -> &Univariate<Rational> {
         &self.polynomial
     }
 
-    /// The multipliers and radicands in the element that generates the field, `2 cos(2 pi/order) + m_1 sqrt(r_1) + ...`.
+    /// Returns the multipliers and radicands in the element that generates the field, `2 cos(2 pi/order) + m_1 sqrt(r_1) + ...`.
     #[must_use]
     pub fn summands(&self) -> &[(Integer, Integer)] {
         &self.summands
     }
 
-    /// The value of the element that generates the field, enclosed.
+    /// Returns the value of the element that generates the field, enclosed.
     #[must_use]
     pub fn enclosed(&self) -> Option<Enclosure> {
         let turn = Enclosure::pi().scaled(&Rational::from((2, self.order)));
@@ -163,18 +163,18 @@ impl RealField {
         })
     }
 
-    /// The multiples of the part `1/order` of a turn whose cosines are the conjugates of that of the part itself, 1 first.
+    /// Returns the multiples of the part `1/order` of a turn whose cosines are the conjugates of that of the part itself, 1 first.
     pub fn units(&self) -> impl Iterator<Item = u32> {
         units(self.order.max(2))
     }
 
-    /// The conjugates of that element, its own value first, in many bits: all real and different.
+    /// Returns the conjugates of that element, its own value first, in many bits: all real and different.
     #[must_use]
     pub fn conjugates(&self) -> &[Float] {
         &self.conjugates
     }
 
-    /// An element of the field in closed form, unless that is too long.
+    /// Returns an element of the field in closed form, unless that is too long.
     #[must_use]
     pub fn closed(&self, number: &Algebraic) -> Option<Closed> {
         let mut generator = Closed::from(Surd::cosine(&Rational::from((1, self.order)))).mul(&Closed::from_small(2))?;
@@ -186,7 +186,7 @@ impl RealField {
         number.coefficients().iter().rev().try_fold(Closed::from_small(0), horner)
     }
 
-    /// A number as an element of the field; `None` if it lies in another one, or is a quotient by 0.
+    /// Returns a number as an element of the field; `None` if it lies in another one, or is a quotient by 0.
     #[must_use]
     pub fn element(&self, number: &Closed) -> Option<Algebraic> {
         let numerator = self.sum(&number.numerator)?;
@@ -208,7 +208,7 @@ impl RealField {
         Some(total)
     }
 
-    /// `2 cos(2 pi k/order)`.
+    /// Returns `2 cos(2 pi k/order)`.
     fn cosine(&self, k: &Integer) -> Option<Algebraic> {
         let k = k.mod_u(self.order) as usize;
         self.cosines.get(k.min(self.order as usize - k)).cloned()
@@ -232,7 +232,7 @@ impl RealField {
         Some(root.mul(&Algebraic::from_rational(&factor)?))
     }
 
-    /// The square root of a positive fundamental discriminant f that divides the order: the sum of `(f/a) cos(2 pi a/f)`.
+    /// Returns the square root of a positive fundamental discriminant f that divides the order: the sum of `(f/a) cos(2 pi a/f)`.
     fn gauss_sum(&self, f: u32) -> Option<Algebraic> {
         let mut sum = Algebraic::zero();
         for a in 1..f {
@@ -257,7 +257,7 @@ fn relation(order: u32, known: &[Integer], radicand: &Integer) -> Option<(Vec<us
     })
 }
 
-/// The discriminant of the field of the square root of a positive integer, if it divides the order; 1 for a square.
+/// Returns the discriminant of the field of the square root of a positive integer, if it divides the order; 1 for a square.
 fn discriminant(order: u32, mut n: Integer) -> Option<u32> {
     // Primes that do not divide the order have to occur in squares.
     let mut part = 1_u32;
@@ -277,12 +277,12 @@ fn discriminant(order: u32, mut n: Integer) -> Option<u32> {
     order.is_multiple_of(discriminant).then_some(discriminant)
 }
 
-/// The degree of `cos(2 pi/order)`.
+/// Returns the degree of `cos(2 pi/order)`.
 fn degree_of_cosine(order: u32) -> usize {
     units(order).count().max(1)
 }
 
-/// The residues that stand for the conjugates of `cos(2 pi/order)`, 1 first.
+/// Returns the residues that stand for the conjugates of `cos(2 pi/order)`, 1 first.
 fn units(order: u32) -> impl Iterator<Item = u32> {
     (1..=order / 2).filter(move |k| Integer::from(*k).gcd_u(order) == 1)
 }
@@ -293,7 +293,7 @@ fn conjugate_cosines(order: u32) -> Vec<Float> {
     if order <= 2 { vec![cosine(1)] } else { units(order).map(cosine).collect() }
 }
 
-/// The least distance of two of these numbers, infinite for one alone.
+/// Returns the least distance of two of these numbers, infinite for one alone.
 fn least_distance(numbers: &[Float]) -> Float {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(Float::total_cmp);
@@ -301,7 +301,7 @@ fn least_distance(numbers: &[Float]) -> Float {
     distances.min_by(Float::total_cmp).unwrap_or_else(|| Float::with_val(BITS, f64::INFINITY))
 }
 
-/// The minimal polynomial of `2 cos(2 pi/n)`.
+/// Returns the minimal polynomial of `2 cos(2 pi/n)`.
 fn cosine_polynomial(n: u32) -> Univariate<Rational> {
     let linear = |root: i32| Univariate::new(vec![Rational::from(-root), Rational::from(1)]);
     match n {

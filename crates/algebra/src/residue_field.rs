@@ -153,13 +153,13 @@ impl Places {
         MODULUS.set(self.modulus);
     }
 
-    /// The prime.
+    /// Returns the prime.
     #[must_use]
     pub fn prime(&self) -> u64 {
         self.modulus.prime()
     }
 
-    /// The residues of the element that generates the field.
+    /// Returns the residues of the element that generates the field.
     #[must_use]
     pub fn generators(&self) -> &[Residue] {
         &self.generators
@@ -176,7 +176,7 @@ impl Residue {
         Some(Univariate::new(numerator.iter().map(|c| Self(modulus().reduce(c)).mul(&scale)).collect()))
     }
 
-    /// The least nonnegative integer of the residue.
+    /// Returns the least nonnegative integer of the residue.
     #[must_use]
     pub fn value(self) -> u64 {
         modulus().leave(self.0)
@@ -193,7 +193,7 @@ fn root_of_unity(modulus: &Modulus, order: u64) -> u64 {
     candidates.take(TRIALS).find(is_primitive).unwrap_or(one)
 }
 
-/// A root of a polynomial modulo the prime.
+/// Returns a root of a polynomial modulo the prime.
 fn root(f: &Univariate<Residue>) -> Option<Residue> {
     let p = modulus().prime();
     let minus_x = Univariate::x().neg();
@@ -214,7 +214,7 @@ fn root(f: &Univariate<Residue>) -> Option<Residue> {
     }
 }
 
-/// A power modulo a polynomial.
+/// Returns a power modulo a polynomial.
 fn power(base: &Univariate<Residue>, exponent: u64, f: &Univariate<Residue>) -> Univariate<Residue> {
     let mut result = Univariate::one();
     for bit in (0..u64::BITS - exponent.leading_zeros()).rev() {

@@ -36,7 +36,7 @@ pub type Residues = ManyResidues<MOST>;
 pub struct ManyResidues<const N: usize>([u64; N]);
 
 impl<const N: usize> ManyResidues<N> {
-    /// The residues modulo the first `M` of the primes.
+    /// Returns the residues modulo the first `M` of the primes.
     ///
     /// # Panics
     /// When `M` exceeds N.
@@ -45,7 +45,7 @@ impl<const N: usize> ManyResidues<N> {
         ManyResidues(std::array::from_fn(|k| self.0[k]))
     }
 
-    /// The rational number of least height with these residues, if numerator and denominator are below the square root of
+    /// Returns the rational number of least height with these residues, if numerator and denominator are below the square root of
     /// half the product of the primes, `2^1983` for 64 of them.
     #[must_use]
     pub fn rational(&self) -> Option<Rational> {

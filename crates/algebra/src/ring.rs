@@ -13,22 +13,22 @@ use std::fmt::Debug;
 ///
 /// `is_zero` is structural, never a tolerance.
 pub trait Ring: Clone + PartialEq + Debug {
-    /// The neutral element of addition.
+    /// Returns the neutral element of addition.
     #[must_use]
     fn zero() -> Self;
-    /// The neutral element of multiplication.
+    /// Returns the neutral element of multiplication.
     #[must_use]
     fn one() -> Self;
-    /// `self + other`.
+    /// Returns `self + other`.
     #[must_use]
     fn add(&self, other: &Self) -> Self;
-    /// `self - other`.
+    /// Returns `self - other`.
     #[must_use]
     fn sub(&self, other: &Self) -> Self;
-    /// `self * other`.
+    /// Returns `self * other`.
     #[must_use]
     fn mul(&self, other: &Self) -> Self;
-    /// `-self`.
+    /// Returns `-self`.
     #[must_use]
     fn neg(&self) -> Self;
     /// Returns whether this is the zero of the ring, exactly.
@@ -36,7 +36,7 @@ pub trait Ring: Clone + PartialEq + Debug {
     /// Returns the image of a rational number; `None` if the denominator is not invertible (an unlucky prime).
     fn from_rational(q: &Rational) -> Option<Self>;
 
-    /// The image of a small integer.
+    /// Returns the image of a small integer.
     ///
     /// # Panics
     /// Never: integers have an image in every ring.
@@ -50,13 +50,13 @@ pub trait Ring: Clone + PartialEq + Debug {
         *self = self.add(&a.mul(b));
     }
 
-    /// The integer that an element of a ring of integers is, if it fits an i128: sums of many products then run in machine
+    /// Returns the integer that an element of a ring of integers is, if it fits an i128: sums of many products then run in machine
     /// words. `None` in all other rings.
     fn to_wide(&self) -> Option<i128> {
         None
     }
 
-    /// The image of a sum of products of machine words, and of any other integer of this size.
+    /// Returns the image of a sum of products of machine words, and of any other integer of this size.
     ///
     /// # Panics
     /// Never: integers have an image in every ring.
@@ -65,7 +65,7 @@ pub trait Ring: Clone + PartialEq + Debug {
         Self::from_rational(&Rational::from(n)).expect("integers map into every ring")
     }
 
-    /// Cosine and sine of an angle, see [`exact_cos_sin`].
+    /// Returns cosine and sine of an angle, see [`exact_cos_sin`].
     /// Inexact rings override this with the correctly rounded values. `None` for an unlucky prime.
     #[must_use]
     fn cos_sin(angle: &Angle) -> Option<(Self, Self)> {
@@ -73,13 +73,13 @@ pub trait Ring: Clone + PartialEq + Debug {
         Some((Self::from_rational(&cos)?, Self::from_rational(&sin)?))
     }
 
-    /// The image of a number of a mechanism file. `None` for an unlucky prime.
+    /// Returns the image of a number of a mechanism file. `None` for an unlucky prime.
     #[must_use]
     fn from_number(number: &super::number::Number) -> Option<Self> {
         Self::from_rational(number.rational())
     }
 
-    /// The image of a number that a rational stands for, and that an enclosure holds unless the rational is exact.
+    /// Returns the image of a number that a rational stands for, and that an enclosure holds unless the rational is exact.
     /// `None` for an unlucky prime.
     #[must_use]
     fn from_known(q: &Rational, _known: Option<&Enclosure>) -> Option<Self> {
@@ -94,7 +94,7 @@ pub trait Ring: Clone + PartialEq + Debug {
     const DIGITS: Option<u32> = None;
 }
 
-/// `((1 - t^2)/(1 + t^2), 2t/(1 + t^2))`, cosine and sine of an angle from its rational half-angle tangent t.
+/// Returns `((1 - t^2)/(1 + t^2), 2t/(1 + t^2))`, cosine and sine of an angle from its rational half-angle tangent t.
 #[must_use]
 pub fn exact_cos_sin(angle: &Angle) -> (Rational, Rational) {
     match angle.half_tangent() {
@@ -131,7 +131,7 @@ pub trait Domain: Ring {
 
 /// A ring in which every element but zero has an inverse.
 pub trait Field: Ring {
-    /// The inverse; `None` for zero.
+    /// Returns the inverse; `None` for zero.
     #[must_use]
     fn inverse(&self) -> Option<Self>;
 

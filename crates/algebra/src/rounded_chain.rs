@@ -33,7 +33,7 @@ impl Rounded {
         }
     }
 
-    /// The sign of the leading coefficient, if it is certain.
+    /// Returns the sign of the leading coefficient, if it is certain.
     fn leading_sign(&self) -> Option<Ordering> {
         let leading = self.coefficients.last()?;
         leading.cmp_abs(&self.error).is_gt().then(|| leading.cmp0())
@@ -99,7 +99,7 @@ fn count_in(p: &Univariate<Integer>, bits: u32) -> Option<usize> {
     usize::try_from(count).ok()
 }
 
-/// The polynomial at `2^k x`, times a power of two, k such that the first and last coefficient are of about one size:
+/// Returns the polynomial at `2^k x`, times a power of two, k such that the first and last coefficient are of about one size:
 /// then no coefficients are lost in the common error of all.
 fn balanced(p: &Univariate<Integer>) -> Univariate<Integer> {
     let length = |c: &Integer| i64::from(c.significant_bits());

@@ -14,7 +14,7 @@ pub struct Series<R, const N: usize> {
 }
 
 impl<R: Ring, const N: usize> Series<R, N> {
-    /// A constant: all other coefficients are 0.
+    /// Returns a constant: all other coefficients are 0.
     #[must_use]
     pub fn constant(value: R) -> Self {
         let mut series = Self { coefficients: std::array::from_fn(|_| R::zero()) };

@@ -24,7 +24,7 @@ pub struct SturmChain {
 }
 
 impl SturmChain {
-    /// The chain of a polynomial, by subresultant remainders.
+    /// Returns the chain of a polynomial, by subresultant remainders.
     ///
     /// # Panics
     /// When the polynomial is zero.
@@ -70,13 +70,13 @@ impl SturmChain {
         Self { members }
     }
 
-    /// The number of distinct real roots.
+    /// Returns the number of distinct real roots.
     #[must_use]
     pub fn count(&self) -> usize {
         self.count_between(Place::MinusInfinity, Place::PlusInfinity)
     }
 
-    /// The number of distinct real roots in the half-open interval `(from, to]`.
+    /// Returns the number of distinct real roots in the half-open interval `(from, to]`.
     ///
     /// # Panics
     /// When `to` is left of `from`, by Sturm's theorem only if there are roots between.
@@ -103,7 +103,7 @@ fn sign_at(p: &Univariate<Integer>, place: Place) -> Ordering {
 }
 
 impl Univariate<Integer> {
-    /// The number of distinct real roots, by Sturm's theorem.
+    /// Returns the number of distinct real roots, by Sturm's theorem.
     ///
     /// # Panics
     /// When the polynomial is zero.
@@ -118,13 +118,13 @@ impl Univariate<Integer> {
 }
 
 impl Univariate<Rational> {
-    /// The coefficients of the primitive multiple: integers without common factor, the last one positive.
+    /// Returns the coefficients of the primitive multiple: integers without common factor, the last one positive.
     #[must_use]
     pub fn primitive_integers(&self) -> Vec<Integer> {
         self.clone().normalise().coefficients().iter().map(|c| c.numer().clone()).collect()
     }
 
-    /// The number of distinct real roots, by Sturm's theorem.
+    /// Returns the number of distinct real roots, by Sturm's theorem.
     ///
     /// # Panics
     /// When the polynomial is zero.

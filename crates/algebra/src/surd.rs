@@ -28,13 +28,13 @@ pub struct Closed {
 }
 
 impl Surd {
-    /// A rational number.
+    /// Returns a rational number.
     #[must_use]
     pub fn rational(q: Rational) -> Self {
         Self::term(Rational::new(), Integer::from(1), q)
     }
 
-    /// `factor cos(2 pi turn) sqrt(radicand)` for a turn in its range.
+    /// Returns `factor cos(2 pi turn) sqrt(radicand)` for a turn in its range.
     fn term(turn: Rational, radicand: Integer, factor: Rational) -> Self {
         let mut terms = BTreeMap::new();
         if factor != 0 {
@@ -43,7 +43,7 @@ impl Surd {
         Self { terms }
     }
 
-    /// `cos(2 pi turn)`.
+    /// Returns `cos(2 pi turn)`.
     #[must_use]
     pub fn cosine(turn: &Rational) -> Self {
         let (turn, sign) = reduced(turn.clone());
@@ -57,7 +57,7 @@ impl Surd {
         Self::term(turn, Integer::from(1), Rational::from(sign))
     }
 
-    /// The square root of a rational number that is not negative; `None` for a very long one.
+    /// Returns the square root of a rational number that is not negative; `None` for a very long one.
     #[must_use]
     pub fn square_root(q: &Rational) -> Option<Self> {
         let mut radicand = Integer::from(q.numer() * q.denom());
@@ -82,7 +82,7 @@ impl Surd {
         Some(Self::term(Rational::new(), radicand, root))
     }
 
-    /// The terms: turn, radicand, factor.
+    /// Returns the terms: turn, radicand, factor.
     pub fn terms(&self) -> impl Iterator<Item = (&Rational, &Integer, &Rational)> {
         self.terms.iter().map(|((turn, radicand), factor)| (turn, radicand, factor))
     }
@@ -151,7 +151,7 @@ impl Surd {
     }
 }
 
-/// The turn from 0 to 1/4 whose cosine is up to the sign that of this one.
+/// Returns the turn from 0 to 1/4 with the same cosine up to sign, and the sign.
 fn reduced(turn: Rational) -> (Rational, i32) {
     let floor = Rational::from(turn.floor_ref());
     let mut turn = turn - floor;
@@ -168,13 +168,13 @@ impl From<Surd> for Closed {
 }
 
 impl Closed {
-    /// A rational number.
+    /// Returns a rational number.
     #[must_use]
     pub fn rational(q: Rational) -> Self {
         Surd::rational(q).into()
     }
 
-    /// An integer.
+    /// Returns an integer.
     #[must_use]
     pub fn from_small(n: i32) -> Self {
         Self::rational(Rational::from(n))
@@ -186,7 +186,7 @@ impl Closed {
         Some(self.numerator.as_rational()? / self.denominator.as_rational().filter(|q| !q.is_zero())?)
     }
 
-    /// The sum, unless it becomes too long.
+    /// Returns the sum, unless it becomes too long.
     #[must_use]
     pub fn add(&self, other: &Self) -> Option<Self> {
         if self.denominator == other.denominator {
@@ -199,7 +199,7 @@ impl Closed {
         Some(Self { numerator, denominator: self.denominator.mul(&other.denominator)? })
     }
 
-    /// The product, unless it becomes too long.
+    /// Returns the product, unless it becomes too long.
     #[must_use]
     pub fn mul(&self, other: &Self) -> Option<Self> {
         Some(Self {
@@ -208,13 +208,13 @@ impl Closed {
         })
     }
 
-    /// The negative number.
+    /// Returns the negative number.
     #[must_use]
     pub fn neg(&self) -> Self {
         Self { numerator: self.numerator.neg(), denominator: self.denominator.clone() }
     }
 
-    /// The quotient by a number that is known not to be 0.
+    /// Returns the quotient by a number that is known not to be 0.
     #[must_use]
     pub fn div(&self, other: &Self) -> Option<Self> {
         if other.numerator.is_empty() {
@@ -227,14 +227,14 @@ impl Closed {
 /// Cosine and sine of an angle in closed form.
 pub type Phase = (Closed, Closed);
 
-/// Cosine and sine of `2 pi turn`.
+/// Returns cosine and sine of `2 pi turn`.
 #[must_use]
 pub fn phase_of_turn(turn: &Rational) -> Phase {
     let quarter = Rational::from((1, 4)) - turn;
     (Surd::cosine(turn).into(), Surd::cosine(&quarter).into())
 }
 
-/// Cosine and sine of the sum of two angles.
+/// Returns cosine and sine of the sum of two angles.
 #[must_use]
 pub fn phase_of_sum((c, s): &Phase, (d, t): &Phase) -> Option<Phase> {
     Some((c.mul(d)?.add(&s.mul(t)?.neg())?, s.mul(d)?.add(&c.mul(t)?)?))

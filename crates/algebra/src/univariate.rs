@@ -22,7 +22,7 @@ pub struct Univariate<R> {
 }
 
 impl<R: Ring> Univariate<R> {
-    /// The polynomial with the given coefficients, constant term first; zeros at the end are dropped.
+    /// Returns the polynomial with the given coefficients, constant term first; zeros at the end are dropped.
     #[must_use]
     pub fn new(mut coefficients: Vec<R>) -> Self {
         while coefficients.last().is_some_and(Ring::is_zero) {
@@ -31,37 +31,37 @@ impl<R: Ring> Univariate<R> {
         Self { coefficients }
     }
 
-    /// A constant.
+    /// Returns a constant.
     #[must_use]
     pub fn constant(c: R) -> Self {
         Self::new(vec![c])
     }
 
-    /// The variable.
+    /// Returns the variable.
     #[must_use]
     pub fn x() -> Self {
         Self::new(vec![R::zero(), R::one()])
     }
 
-    /// The coefficients, constant term first, none for the zero polynomial.
+    /// Returns the coefficients, constant term first, none for the zero polynomial.
     #[must_use]
     pub fn coefficients(&self) -> &[R] {
         &self.coefficients
     }
 
-    /// The degree; `None` for the zero polynomial.
+    /// Returns the degree; `None` for the zero polynomial.
     #[must_use]
     pub fn degree(&self) -> Option<usize> {
         self.coefficients.len().checked_sub(1)
     }
 
-    /// The value at `x`, by Horner's rule.
+    /// Returns the value at `x`, by Horner's rule.
     #[must_use]
     pub fn eval(&self, x: &R) -> R {
         self.coefficients.iter().rev().fold(R::zero(), |value, c| value.mul(x).add(c))
     }
 
-    /// The derivative.
+    /// Returns the derivative.
     ///
     /// # Panics
     /// When the degree does not fit an i32.
@@ -71,13 +71,13 @@ impl<R: Ring> Univariate<R> {
         Self::new(self.coefficients.iter().enumerate().skip(1).map(term).collect())
     }
 
-    /// The product with a number.
+    /// Returns the product with a number.
     #[must_use]
     pub fn scale(&self, factor: &R) -> Self {
         Self::new(self.coefficients.iter().map(|c| c.mul(factor)).collect())
     }
 
-    /// The polynomial over another ring; `None` as soon as one coefficient has no image.
+    /// Returns the polynomial over another ring; `None` as soon as one coefficient has no image.
     pub fn map<S: Ring>(&self, image: impl Fn(&R) -> Option<S>) -> Option<Univariate<S>> {
         self.coefficients.iter().map(image).collect::<Option<_>>().map(Univariate::new)
     }
@@ -89,7 +89,7 @@ impl<R: Ring> Univariate<R> {
         }
     }
 
-    /// The remainder of `l^s self` by `divisor`, l the leading coefficient of the divisor, and s.
+    /// Returns the remainder of `l^s self` by `divisor`, l the leading coefficient of the divisor, and s.
     ///
     /// # Panics
     /// When the divisor is zero.
@@ -132,7 +132,7 @@ impl<F: Field> Univariate<F> {
         (Self::new(quotient), Self::new(rest))
     }
 
-    /// The polynomial of least degree through the given points (abscissa, value), by Newton's divided differences.
+    /// Returns the polynomial of least degree through the given points (abscissa, value), by Newton's divided differences.
     ///
     /// # Panics
     /// When two abscissae are equal.
@@ -154,14 +154,14 @@ impl<F: Field> Univariate<F> {
 }
 
 impl<F: Field + Domain> Univariate<F> {
-    /// The multiple chosen to stand for all: monic, or over the rationals primitive with positive leading coefficient.
+    /// Returns the normalised multiple: monic, or over the rationals primitive with positive leading coefficient.
     #[must_use]
     pub fn normalise(mut self) -> Self {
         F::normalise(&mut self.coefficients);
         self
     }
 
-    /// The greatest common divisor, normalised; zero only of two zeros.
+    /// Returns the greatest common divisor, normalised; zero only of two zeros.
     #[must_use]
     pub fn gcd(&self, other: &Self) -> Self {
         let (mut a, mut b) = (self.clone().normalise(), other.clone().normalise());
@@ -171,7 +171,7 @@ impl<F: Field + Domain> Univariate<F> {
         a
     }
 
-    /// The product of the distinct irreducible factors, normalised.
+    /// Returns the product of the distinct irreducible factors, normalised.
     ///
     /// Right in characteristic 0 and in characteristics above the degree; so is the decomposition.
     ///
@@ -182,7 +182,7 @@ impl<F: Field + Domain> Univariate<F> {
         self.div_exact(&self.gcd(&self.derivative())).normalise()
     }
 
-    /// The square-free factors that are not constant, normalised, each with its multiplicity, by increasing
+    /// Returns the square-free factors that are not constant, normalised, each with its multiplicity, by increasing
     /// multiplicity; the product of their powers is a multiple of the polynomial by a number.
     ///
     /// # Panics
@@ -209,7 +209,7 @@ impl<F: Field + Domain> Univariate<F> {
         factors
     }
 
-    /// The largest factor all of whose roots are roots of another polynomial, with their whole multiplicity here.
+    /// Returns the largest factor all of whose roots are roots of another polynomial, with their whole multiplicity here.
     ///
     /// # Panics
     /// When the polynomial is zero.

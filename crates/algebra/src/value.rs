@@ -42,7 +42,7 @@ impl Value {
         Self { rational: Some(rational), ..Self::inexact(real, false) }
     }
 
-    /// `turns * pi`
+    /// Returns `turns * pi`.
     pub(super) fn from_turns(turns: Rational, radians: bool) -> Self {
         let rational = turns.is_zero().then(Rational::new);
         let real = Enclosure::pi().scaled(&turns);
@@ -53,7 +53,7 @@ impl Value {
         Self { real, rational: None, turns: None, direction: None, closed: None, phase: None, radians }
     }
 
-    /// The value, to far more digits than any result keeps.
+    /// Returns the value, to far more digits than any result keeps.
     pub(super) fn float(&self) -> Float {
         Float::with_val(BITS, self.real.middle())
     }
@@ -80,7 +80,7 @@ impl Value {
         Self { closed, ..self }
     }
 
-    /// The phase of a small whole multiple.
+    /// Returns the phase of a small whole multiple.
     fn multiple(&self, factor: &Rational) -> Option<Phase> {
         let count = Some(factor).filter(|factor| factor.is_integer())?.numer().to_i32().filter(|n| n.abs() <= SMALL)?;
         let (cos, sin) = self.phase()?;
@@ -93,7 +93,7 @@ impl Value {
         self.direction.as_ref()?.half_tangent()
     }
 
-    /// The value, if it is neither infinite, undefined nor overlong.
+    /// Returns the value, if it is neither infinite, undefined nor overlong.
     pub(super) fn checked(self) -> Result<Self, String> {
         let long = |q: &Rational| q.numer().significant_bits().max(q.denom().significant_bits()) > LONGEST;
         if self.rational.as_ref().is_some_and(long) || self.turns.as_ref().is_some_and(long) {
@@ -265,7 +265,7 @@ impl Value {
         Ok(Self { direction, phase, ..Self::inexact(angle, true) })
     }
 
-    /// The angle of the direction (x, y); `atan(y)` is `atan2(y, 1)`.
+    /// Returns the angle of the direction (x, y); `atan(y)` is `atan2(y, 1)`.
     pub(super) fn atan2(&self, x: &Self) -> Result<Self, String> {
         let real = self.real.atan2(&x.real).ok_or_else(|| "atan2(0, 0)".to_owned())?;
         let direction = self.rational.clone().zip(x.rational.clone()).and_then(|(y, x)| Direction::new(x, y));
@@ -296,7 +296,7 @@ fn complement(x: &Rational) -> Option<Rational> {
     square_root(&(1 - Rational::from(x.square_ref())))
 }
 
-/// The decimal `digits * 10^exponent`.
+/// Returns the decimal `digits * 10^exponent`.
 pub(super) fn decimal(digits: Integer, exponent: i32) -> Rational {
     let power = Integer::from(10).pow(exponent.unsigned_abs());
     if exponent < 0 { Rational::from((digits, power)) } else { Rational::from(digits * power) }

@@ -24,7 +24,7 @@ fn rows() -> Matrix<f64> {
     matrix(&rotation()).unwrap()
 }
 
-/// The angles of the first branch, in radians.
+/// Returns the angles of the first branch, in radians.
 fn angles(order: Order, rows: &Matrix<f64>) -> Option<[f64; 3]> {
     match order.angles(rows)? {
         Angles::Two([first, _]) => {

@@ -18,13 +18,13 @@ pub struct Motion<R> {
     pub translation: Vector<R>,
 }
 
-/// `x . y`
+/// Returns `x . y`.
 #[inline(always)]
 pub fn dot<R: Ring>(x: &Vector<R>, y: &Vector<R>) -> R {
     x[0].mul(&y[0]).add(&x[1].mul(&y[1])).add(&x[2].mul(&y[2]))
 }
 
-/// `x x y`
+/// Returns `x x y`.
 #[inline(always)]
 pub fn cross<R: Ring>(x: &Vector<R>, y: &Vector<R>) -> Vector<R> {
     [
@@ -84,7 +84,7 @@ impl<R: Ring> Motion<R> {
         Self { translation: [a, R::zero(), R::zero()], ..Self::rotation_x(cos, sin) }
     }
 
-    /// A pure translation.
+    /// Returns a pure translation.
     #[must_use]
     pub fn translation(vector: Vector<R>) -> Self {
         Self { translation: vector, ..Self::identity() }
@@ -102,7 +102,7 @@ impl<R: Ring> Motion<R> {
         std::array::from_fn(|i| dot(&self.rotation[i], v))
     }
 
-    /// The image of a point.
+    /// Returns the image of a point.
     #[inline(always)]
     pub fn apply(&self, p: &Vector<R>) -> Vector<R> {
         let rotated = self.rotate(p);
@@ -121,7 +121,7 @@ impl<R: Ring> Motion<R> {
         }
     }
 
-    /// The inverse motion, by the transpose of the rotation.
+    /// Returns the inverse motion, by the transpose of the rotation.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let transposed = Self {

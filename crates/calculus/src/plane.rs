@@ -21,19 +21,19 @@ fn conjugate<R: Ring>(z: &Complex<R>) -> Complex<R> {
 }
 
 impl<R: Ring> Displacement<R> {
-    /// The identity.
+    /// Returns the identity.
     #[must_use]
     pub fn identity() -> Self {
         Self::translation(Complex::zero())
     }
 
-    /// A translation.
+    /// Returns a translation.
     #[must_use]
     pub fn translation(translation: Complex<R>) -> Self {
         Self { rotation: Complex::one(), translation, is_reflected: false }
     }
 
-    /// The rotation about a point.
+    /// Returns the rotation about a point.
     #[must_use]
     pub fn about(point: &Complex<R>, turn: &Turn<R>) -> Self {
         let rotation = Complex { re: turn.cos.clone(), im: turn.sin.clone() };
@@ -49,7 +49,7 @@ impl<R: Ring> Displacement<R> {
         Self { rotation, translation, is_reflected: true }
     }
 
-    /// The image of a point.
+    /// Returns the image of a point.
     #[must_use]
     pub fn apply(&self, z: &Complex<R>) -> Complex<R> {
         let z = if self.is_reflected { conjugate(z) } else { z.clone() };

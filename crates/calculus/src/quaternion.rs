@@ -24,7 +24,7 @@ pub struct Quaternion<R> {
 pub type DualQuaternion<R> = Quaternion<Dual<R>>;
 
 impl<R: Ring> Quaternion<R> {
-    /// The quaternion 1.
+    /// Returns the quaternion 1.
     #[must_use]
     pub fn identity() -> Self {
         Self { scalar: R::one(), vector: std::array::from_fn(|_| R::zero()) }
@@ -53,7 +53,7 @@ impl<R: Ring> Quaternion<R> {
         self.scalar.mul(&self.scalar).add(&dot(&self.vector, &self.vector))
     }
 
-    /// The rotation matrix times the norm.
+    /// Returns the rotation matrix times the norm.
     #[must_use]
     pub fn scaled_rotation(&self) -> [[R; 3]; 3] {
         let column = |j: usize| {
@@ -66,7 +66,7 @@ impl<R: Ring> Quaternion<R> {
 }
 
 impl<R: Ring> DualQuaternion<R> {
-    /// The dual quaternion with Study's parameters `x` and `y`, scalar parts first.
+    /// Returns the dual quaternion with Study's parameters `x` and `y`, scalar parts first.
     #[must_use]
     pub fn from_study(x: &[R; 4], y: &[R; 4]) -> Self {
         let dual = |i: usize| Dual { value: x[i].clone(), epsilon: y[i].clone() };
@@ -90,7 +90,7 @@ impl<R: Ring> DualQuaternion<R> {
         q
     }
 
-    /// The rotation about the x axis by the angle whose half has the tangent `sin_half : cos_half`.
+    /// Returns the rotation about the x axis by the angle whose half has the tangent `sin_half : cos_half`.
     #[must_use]
     pub fn rotation_x(cos_half: R, sin_half: R) -> Self {
         let mut q = Self::identity();

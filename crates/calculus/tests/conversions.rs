@@ -49,7 +49,7 @@ fn dual(q: &[(i32, i32); 4], rate: &[(i32, i32); 4]) -> Quaternion<Dual<f64>> {
     }
 }
 
-/// Whether entries agree to rounding.
+/// Returns whether entries agree to rounding.
 fn near<R: Analytic>(a: &Matrix<R>, b: &Matrix<R>, parts: impl Fn(&R) -> Vec<f64>) -> bool {
     let entries = a.iter().flatten().zip(b.iter().flatten());
     entries.into_iter().all(|(x, y)| parts(x).iter().zip(parts(y)).all(|(x, y)| (x - y).abs() < 1e-6))

@@ -52,7 +52,7 @@ impl Positions {
         }
     }
 
-    /// The positions at a rotation: solutions p of `(R M - E)^T p = v` and `p.p = s`, moved from the points o and c.
+    /// Returns the positions at a rotation: solutions p of `(R M - E)^T p = v` and `p.p = s`, moved from the points o and c.
     fn at(&self, z: &Four<Long>) -> Option<Vec<Vector<Long>>> {
         let unit = scalar(z, z).inverse()?;
         let [scalar, x, y, w] = *z;
@@ -76,7 +76,7 @@ fn difference(p: &Vector<Long>, q: &Vector<Long>) -> Vector<Long> {
     std::array::from_fn(|k| p[k].sub(&q[k]))
 }
 
-/// The solution of three linear equations.
+/// Returns the solution of three linear equations.
 fn one(rows: &[Vector<Long>], v: &[Long]) -> Option<Vector<Long>> {
     let [a, b, c] = rows else { return None };
     let products = [cross(b, c), cross(c, a), cross(a, b)];
@@ -85,7 +85,7 @@ fn one(rows: &[Vector<Long>], v: &[Long]) -> Option<Vector<Long>> {
     Some(std::array::from_fn(|k| sum(k).mul(&scale)))
 }
 
-/// The two solutions of two linear equations, the most independent of those given, that have the square s.
+/// Returns the two solutions of two linear equations, the most independent of those given, that have the square s.
 fn two(rows: &[Vector<Long>], v: &[Long], s: &Long) -> Option<Vec<Vector<Long>>> {
     let pairs = (1..rows.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
     let normal = |(i, j): (usize, usize)| cross(&rows[i], &rows[j]);

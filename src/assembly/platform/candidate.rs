@@ -16,7 +16,7 @@ pub struct Candidates<S> {
     pub count: usize,
 }
 
-/// `z^T form z`
+/// Returns `z^T form z`.
 fn quadratic<S: Scalar>(form: &Form<f64>, products: &[S; 10]) -> S {
     let mut sum = S::zero();
     let mut k = 0;
@@ -30,12 +30,12 @@ fn quadratic<S: Scalar>(form: &Form<f64>, products: &[S; 10]) -> S {
     sum
 }
 
-/// `p x` (or `x p`) for a pure quaternion p.
+/// Returns `p x` (or `x p`) for a pure quaternion p.
 fn product<S: Scalar>(matrix: &Form<S>, x: &Four<S>) -> Four<S> {
     std::array::from_fn(|i| scalar(&matrix[i], x))
 }
 
-/// `p x - x q` from `u = (s, p, q)`.
+/// Returns `p x - x q` from `u = (s, p, q)`.
 fn mismatch<S: Scalar>(u: &[S; 7], x: &Four<S>) -> Four<S> {
     let (before, behind) = (product(&left(&[u[1], u[2], u[3]]), x), product(&right(&[u[4], u[5], u[6]]), x));
     std::array::from_fn(|i| before[i].sub(&behind[i]))
@@ -45,7 +45,7 @@ fn dot<S: Scalar>(a: &Four<S>, b: &Four<S>) -> S {
     (0..4).fold(S::zero(), |sum, i| sum.add(&a[i].conjugate().mul(&b[i])))
 }
 
-/// The poses of a rotation x: the unknowns tau from `sum_a tau_a (n_pa x - x n_qa) = x q0 - p0 x` by least squares; where
+/// Returns the poses of a rotation x: the unknowns tau from `sum_a tau_a (n_pa x - x n_qa) = x q0 - p0 x` by least squares; where
 /// these leave one direction open, also from `p.p + q.q = 2 N s` along it.
 pub fn candidates<S: Scalar>(setting: &Setting<f64>, x: &Four<S>) -> Candidates<S> {
     let norm = scalar(x, x);

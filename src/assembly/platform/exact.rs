@@ -70,7 +70,7 @@ fn value(number: &Algebraic, root: &Long) -> Option<Long> {
     (slope * size < MOST_MAGNIFIED).then_some(sum)
 }
 
-/// The modes of conjugate poses.
+/// Returns the modes of conjugate poses.
 pub fn exact_modes(poses: &ExactPoses, frame: &Frame) -> Option<Vec<Found>> {
     let mode = |(root, real): (Long, bool)| {
         let [w, i, j, k] = poses.quaternion.each_ref().map(|c| value(c, &root));

@@ -44,7 +44,7 @@ pub fn starts<const LIMBS: usize>(
     })
 }
 
-/// The simple eigenvalues of a real matrix that are real, nearly so, or above the real axis.
+/// Returns the simple eigenvalues of a real matrix that are real, nearly so, or above the real axis.
 pub fn upper_roots<const LIMBS: usize>(hessenberg: &Hessenberg<LongNumber<LIMBS>>) -> Vec<Long<LIMBS>> {
     let mut roots = polynomial_roots(&hessenberg.characteristic()).unwrap_or_default();
     roots.retain(|root| root.im.to_f64() > -NEARLY_REAL * root.re.to_f64().abs());
@@ -69,7 +69,7 @@ fn spread(point: usize, coordinate: usize) -> Rational {
     Rational::from_f64(2.0 * ((point + 1) as f64 * root).fract() - 1.0).unwrap_or_default()
 }
 
-/// `sum_i w_i z_i` as a matrix: row k is its product with basis element k.
+/// Returns `sum_i w_i z_i` as a matrix: row k is its product with basis element k.
 pub fn combined<const LIMBS: usize, Row: AsRef<[LongNumber<LIMBS>]>>(
     products: &[Vec<Row>; 3],
 ) -> Vec<Vec<LongNumber<LIMBS>>> {

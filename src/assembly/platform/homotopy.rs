@@ -126,7 +126,7 @@ impl Homotopy<'_> {
         here
     }
 
-    /// The velocity of a solution at a place of a path.
+    /// Returns the velocity of a solution at a place of a path.
     fn velocity(&self, [tau, speed]: [Complex<f64>; 2], v: &Point, patch: &Point) -> Option<Point> {
         let here = self.at(tau, v, patch);
         let velocity = solve_one(&here.jacobian, &here.drift)?;
@@ -211,14 +211,14 @@ impl Homotopy<'_> {
         self.regular_end(&near, END).unwrap_or_else(|| self.singular_end(&near))
     }
 
-    /// The end of a path that runs straight into a regular solution from s.
+    /// Returns the end of a path that runs straight into a regular solution from s.
     fn regular_end(&self, near: &Point, s: f64) -> Option<End> {
         let v = self.follow(|s| self.arc(s), near, s, 0.0, LAST_STEPS)?;
         let [n, x] = sizes(&v);
         (x > FAR).then_some(if n < REGULAR_NULL { End::Null } else { End::Regular(v) })
     }
 
-    /// The end of a path by Cauchy's formula: the mean over a circle of tau, walked until the path closes.
+    /// Returns the end of a path by Cauchy's formula: the mean over a circle of tau, walked until the path closes.
     fn singular_end(&self, near: &Point) -> End {
         let (mut v, mut s) = (*near, END);
         for circle in 0..CIRCLES {
@@ -243,7 +243,7 @@ impl Homotopy<'_> {
         End::Lost
     }
 
-    /// The mean of a solution over a circle through `tau`, walked until it closes.
+    /// Returns the mean of a solution over a circle through `tau`, walked until it closes.
     fn mean(&self, start: &Point, tau: Complex<f64>) -> Option<Point> {
         let patch = start.map(|z| z.conj());
         let begin = on_patch(start, &patch)?;
@@ -271,7 +271,7 @@ impl Homotopy<'_> {
     }
 }
 
-/// `|N|` over `|x|^2`, and `|x|`.
+/// Returns `|N|` over `|x|^2`, and `|x|`.
 fn sizes(v: &Point) -> [f64; 2] {
     let (x, _) = parts(v);
     let length = hermitian(&x);

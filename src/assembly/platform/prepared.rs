@@ -79,7 +79,7 @@ impl Chart {
         Self { directions, setting, turn, size, shift }
     }
 
-    /// The setting with legs of these squared lengths, in the unit of the platform given to `new`.
+    /// Returns the setting with legs of these squared lengths, in the unit of the platform given to `new`.
     pub fn with_legs(&self, squares: &[f64; 6]) -> Setting<f64> {
         let local = squares.map(|s| s / (self.size * self.size));
         self.setting.with_legs(&Reals, &self.directions, &local)
@@ -96,7 +96,7 @@ impl Chart {
     }
 }
 
-/// The mean of six points.
+/// Returns the mean of six points.
 pub fn centroid(points: &[Vector<f64>; 6]) -> Vector<f64> {
     std::array::from_fn(|k| points.iter().map(|p| p[k]).sum::<f64>() / 6.0)
 }
@@ -284,7 +284,7 @@ impl Frame {
     }
 }
 
-/// `x.x`
+/// Returns `x.x`.
 pub fn norm<S: Ring>(study: &[S; 8]) -> S {
     let [a, b, c, d, ..] = study;
     let x = [a.clone(), b.clone(), c.clone(), d.clone()];

@@ -15,13 +15,13 @@ pub struct Distances {
     plate: [[f64; 6]; 6],
 }
 
-/// The square root of an exact number.
+/// Returns the square root of an exact number.
 fn root(square: &Rational) -> f64 {
     nearest_f64(square).sqrt()
 }
 
 impl Distances {
-    /// The distances of a platform.
+    /// Returns the distances of a platform.
     #[must_use]
     pub fn new(platform: &Platform<Rational>) -> Self {
         let distance = |p: &Vector<Rational>, q: &Vector<Rational>| {

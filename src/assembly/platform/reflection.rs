@@ -30,7 +30,7 @@ pub struct Reflection {
     unit: f64,
 }
 
-/// The plane of six points, if there is exactly one.
+/// Returns the plane of six points, if there is exactly one.
 fn plane(points: &[Vector<f64>; 6], unit: f64) -> Option<Plane> {
     let centre = centroid(points);
     let local = points.map(|p| -> Vector<f64> { std::array::from_fn(|k| p[k] - centre[k]) });

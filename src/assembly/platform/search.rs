@@ -465,12 +465,12 @@ pub fn tell(found: &[Found], frame: &Frame, assembly: &mut PlatformAssembly) {
 /// A generous bound on the rounding error of coordinates of a point of hermitian norm 1 in f64.
 pub const ROUNDED: f64 = 1e-15;
 
-/// Whether a polished solution may belong to a family with `N = 0`.
+/// Returns whether a polished solution may belong to a family with `N = 0`.
 pub fn near_null(polished: &PolishedPose<Complex<f64>>) -> bool {
     norm(&polished.study).norm() < DOUBTFUL && polished.step > NULL * DOUBTFUL
 }
 
-/// The largest coordinate of the rotation.
+/// Returns the largest coordinate of the rotation.
 fn largest<S: Number>(v: &Eight<S>) -> S {
     v[1..4].iter().fold(v[0], |best, z| if z.square_size() > best.square_size() { *z } else { best })
 }
@@ -510,7 +510,7 @@ fn rotation<S: Scalar>(
     size.is_finite().then(|| z.map(|x| x.times(1.0 / size)))
 }
 
-/// Three real points near a nearly real one: to both sides of it, and its real part.
+/// Returns three real points near a nearly real one: to both sides of it, and its real part.
 pub fn real_parts(v: &Eight<Complex<f64>>) -> [Eight<f64>; 3] {
     let best = (1..4).fold(0, |best, k| if v[k].norm_sqr() > v[best].norm_sqr() { k } else { best });
     let phase = v[best].conj() / v[best].norm();

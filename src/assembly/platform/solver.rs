@@ -100,7 +100,7 @@ impl PlatformSolver {
         Self { platform, frame, charts, reflection, triangle, affine }
     }
 
-    /// The geometry as given.
+    /// Returns the geometry as given.
     #[must_use]
     pub fn platform(&self) -> &Platform<f64> {
         &self.platform

@@ -59,7 +59,7 @@ pub struct TriangleRoute {
 }
 
 impl TriangleRoute {
-    /// The route, if legs of the platform meet in pairs.
+    /// Returns the route, if legs of the platform meet in pairs.
     pub fn of(platform: &Platform<f64>) -> Option<Self> {
         pairs(platform).map(|pairs| Self { pairs })
     }
@@ -148,7 +148,7 @@ struct Corners {
 }
 
 impl Corners {
-    /// The points of a triangle; `None` for three of a line.
+    /// Returns the points of a triangle; `None` for three of a line.
     fn new([a, b, c]: &[Vector<f64>; 3]) -> Option<Self> {
         let difference = |p: &Vector<f64>| -> Vector<f64> { std::array::from_fn(|k| p[k] - a[k]) };
         let (b, c) = (difference(b), difference(c));

@@ -76,7 +76,7 @@ fn one(job: PlatformJob, index: u64, (workspace, assembly): &mut Memory) -> Resu
     Ok(counts)
 }
 
-/// The exact number of poses.
+/// Returns the exact number of poses.
 fn expected(drawn: &PlatformSample) -> Option<usize> {
     let exact = |x: &f64| Rational::from_f64(*x);
     let squares = drawn.entry.cases[0].legs_squared.as_ref()?.each_ref().map(|square| square.rational().clone());
@@ -96,7 +96,7 @@ fn size(platform: &Platform<f64>) -> f64 {
     platform.base.iter().chain(&platform.plate).flatten().map(|x| x.abs()).fold(0.0, f64::max)
 }
 
-/// The pose of a real mode.
+/// Returns the pose of a real mode.
 fn pose(mode: &FullMode) -> Motion<f64> {
     let q: [f64; 7] = std::array::from_fn(|k| mode.q[k].re);
     let quaternion = Quaternion { scalar: q[0], vector: [q[1], q[2], q[3]] };
@@ -104,7 +104,7 @@ fn pose(mode: &FullMode) -> Motion<f64> {
     Motion { rotation: quaternion.scaled_rotation().map(|row| row.map(|x| x / norm)), translation: [q[4], q[5], q[6]] }
 }
 
-/// The largest difference of two poses.
+/// Returns the largest difference of two poses.
 fn apart(one: &Motion<f64>, two: &Motion<f64>, size: f64) -> f64 {
     let mut largest = 0.0_f64;
     for i in 0..3 {

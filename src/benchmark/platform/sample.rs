@@ -85,7 +85,7 @@ pub struct PlatformSample {
 
 type Points = [[f64; 3]; 6];
 
-/// A multiple of 2^-20.
+/// Rounds to a multiple of 2^-20.
 fn grid(x: f64) -> f64 {
     (x * 1_048_576.0).round() / 1_048_576.0
 }
@@ -98,7 +98,7 @@ fn flattened(points: Points) -> Points {
     points.map(|[x, y, _]| [x, y, 0.0])
 }
 
-/// The corners of a hexagon with alternating sides: all permutations of three numbers, in cyclic order.
+/// Returns the corners of a hexagon with alternating sides: all permutations of three numbers, in cyclic order.
 fn hexagon(random: &mut ChaCha8Rng) -> Points {
     let [a, b, c] = std::array::from_fn(|_| grid(random.random_range(-1.0..1.0)));
     [[a, b, c], [b, a, c], [c, a, b], [c, b, a], [b, c, a], [a, c, b]]
@@ -186,7 +186,7 @@ pub fn sample(set: PlatformSet, seed: u64, index: u64) -> Result<PlatformSample>
     }
 }
 
-/// The exact pose of an integer quaternion and a position; `None` for the quaternion 0.
+/// Returns the exact pose of an integer quaternion and a position; `None` for the quaternion 0.
 fn placement(quaternion: [i32; 4], position: [f64; 3]) -> Option<Placement> {
     use crate::kinematics::dual_quaternion::Quaternion;
     let [w, x, y, z] = quaternion.map(Rational::from);

@@ -67,7 +67,7 @@ pub fn of_robot(name: &str, seed: u64, index: u64) -> Result<Option<Drawn>> {
     answered("robots", format!("{name}-{seed}-{index}"), &entry).map(Some)
 }
 
-/// The motion of a joint variable.
+/// Returns the motion of a joint variable.
 fn moved(variable: Variable, value: f64) -> Motion<f64> {
     match variable {
         Variable::Rotation => Motion::rotation_z(value.cos(), value.sin()),
@@ -95,7 +95,7 @@ fn answered(class: &str, id: String, entry: &Entry) -> Result<Drawn> {
     }))
 }
 
-/// The real solutions without the given joint variable.
+/// Returns the real solutions without the given joint variable.
 fn truths(solution: &Solution, given: Option<usize>) -> Vec<Truth> {
     let real = solution.modes.iter().filter(|mode| mode.real && !mode.near);
     let unknowns = |q: &[Complex<f64>]| {

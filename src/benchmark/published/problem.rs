@@ -90,7 +90,7 @@ pub fn hash<'a>(lines: impl IntoIterator<Item = &'a str>) -> String {
     format!("{:016x}", bytes.fold(0xcbf2_9ce4_8422_2325, step))
 }
 
-/// The first line of a file of problems.
+/// Returns the first line of a file of problems.
 #[must_use]
 pub fn header(sets: &str, seed: u64, lines: &[String]) -> Value {
     json!({
@@ -137,7 +137,7 @@ pub(super) fn wrong(line: usize, what: &str, expected: &str) -> Error {
     Error::Invalid(format!("line {line}: found {what} that is not {expected}"))
 }
 
-/// The finite numbers of a list.
+/// Reads the finite numbers of a list.
 pub(super) fn numbers(line: usize, value: &Value, what: &str) -> Result<Vec<f64>> {
     let finite = |value: &Value| value.as_f64().filter(|x| x.is_finite());
     let list: Option<Vec<f64>> = value.as_array().and_then(|list| list.iter().map(finite).collect());
@@ -259,7 +259,7 @@ impl Problem {
         Ok(Self { id, class, body, truth, complex })
     }
 
-    /// A line of a file of problems.
+    /// Returns a line of a file of problems.
     #[must_use]
     pub fn json(&self) -> Value {
         let truth = |own: &Truth| {

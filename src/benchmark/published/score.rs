@@ -88,7 +88,7 @@ pub fn score(problems: &[Problem], answers: &[Option<Answer>]) -> Score {
     score
 }
 
-/// The power of ten below the condition number of a true solution.
+/// Returns the power of ten below the condition number of a true solution.
 fn decade(truth: &Truth) -> i32 {
     if truth.multiplicity > 1 || !truth.condition.is_finite() {
         return MULTIPLE;
@@ -243,7 +243,7 @@ fn longest(legs: &[f64; 6]) -> f64 {
     legs.iter().copied().fold(f64::MIN_POSITIVE, f64::max)
 }
 
-/// The rotation of a quaternion of norm 1.
+/// Returns the rotation of a quaternion of norm 1.
 fn rotation([w, x, y, z]: &[f64; 4]) -> [[f64; 3]; 3] {
     [
         [w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
@@ -252,7 +252,7 @@ fn rotation([w, x, y, z]: &[f64; 4]) -> [[f64; 3]; 3] {
     ]
 }
 
-/// The angle of the rotation from one to the other.
+/// Returns the angle of the rotation from one to the other.
 fn angle_between(one: &[[f64; 3]; 3], two: &[[f64; 3]; 3]) -> f64 {
     let off = |i: usize, j: usize| (0..3).map(|k| one[i][k] * two[j][k]).sum::<f64>();
     let skew = [off(2, 1) - off(1, 2), off(0, 2) - off(2, 0), off(1, 0) - off(0, 1)];
@@ -268,7 +268,7 @@ fn size(axes: &[Axis], home: &Motion<f64>) -> f64 {
 }
 
 impl Axis {
-    /// A motion behind the rotation about this axis, or the translation along it.
+    /// Returns a motion behind the rotation about this axis, or the translation along it.
     fn moved(&self, x: f64, behind: &Motion<f64>) -> Motion<f64> {
         let u = self.direction;
         if self.variable == Variable::Translation {

@@ -32,7 +32,7 @@ pub struct Symbols {
 }
 
 impl Symbols {
-    /// These symbols.
+    /// Creates these symbols.
     ///
     /// # Errors
     /// [`Error::Invalid`] for an invalid name, for a name with two meanings, and for too many names.
@@ -49,31 +49,31 @@ impl Symbols {
         Ok(Self { angles, lengths, names })
     }
 
-    /// The names of all variables: `cos_alpha`, `sin_alpha`, `tan_half_alpha` of every angle, then the lengths.
+    /// Returns the names of all variables: `cos_alpha`, `sin_alpha`, `tan_half_alpha` of every angle, then the lengths.
     #[must_use]
     pub const fn names(&self) -> &Names {
         &self.names
     }
 
-    /// The variable that is the cosine of an angle.
+    /// Returns the variable that is the cosine of an angle.
     #[must_use]
     pub const fn cos(angle: usize) -> usize {
         3 * angle
     }
 
-    /// The variable that is the sine of an angle.
+    /// Returns the variable that is the sine of an angle.
     #[must_use]
     pub const fn sin(angle: usize) -> usize {
         3 * angle + 1
     }
 
-    /// The variable that is the tangent of half an angle.
+    /// Returns the variable that is the tangent of half an angle.
     #[must_use]
     pub const fn tan_half(angle: usize) -> usize {
         3 * angle + 2
     }
 
-    /// The variable of a length.
+    /// Returns the variable of a length.
     #[must_use]
     pub fn length(&self, length: usize) -> usize {
         3 * self.angles.len() + length
@@ -205,7 +205,7 @@ impl Ansatz {
         }
     }
 
-    /// The angles, by number, to which no relation gives a value.
+    /// Returns the angles, by number, to which no relation gives a value.
     #[must_use]
     pub fn free_angles(&self) -> &[usize] {
         &self.free_angles
@@ -225,20 +225,20 @@ impl Ansatz {
         !self.solved.is_empty()
     }
 
-    /// The twist of the link behind a joint in terms of the free angles.
+    /// Returns the twist of the link behind a joint in terms of the free angles.
     #[must_use]
     pub fn twist(&self, joint: usize) -> Twist {
         self.joints[joint].alpha.in_terms_of(&self.angles)
     }
 
-    /// The names of the symbols for which conditions are sought, lengths first.
+    /// Returns the names of the symbols for which conditions are sought, lengths first.
     #[must_use]
     pub fn unknown_names(&self) -> Vec<&str> {
         let lengths = self.unknown.iter().map(|&k| self.symbols.lengths[k].as_str());
         lengths.chain(self.unknown_angles.iter().map(|&k| self.symbols.angles[k].as_str())).collect()
     }
 
-    /// Every angle in terms of the free ones.
+    /// Returns every angle in terms of the free ones.
     #[must_use]
     pub fn angles(&self) -> &[Twist] {
         &self.angles
@@ -265,7 +265,7 @@ impl Twist {
         self.multiples.iter().all(|&k| k == 0)
     }
 
-    /// A sum of multiples of angles.
+    /// Returns a sum of multiples of angles.
     #[must_use]
     pub fn sum<'a>(terms: impl IntoIterator<Item = (i32, &'a Self)>, angles: usize) -> Self {
         let mut sum = Self { multiples: vec![0; angles], constant: (Rational::from(1), Rational::new()) };

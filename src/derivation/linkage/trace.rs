@@ -41,7 +41,7 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// The degree in both coordinates.
+    /// Returns the degree in both coordinates.
     #[must_use]
     pub fn degree(&self) -> u64 {
         self.polynomial.total_degree().unwrap_or(0)

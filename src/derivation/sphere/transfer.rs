@@ -63,7 +63,7 @@ fn number(q: &Rational) -> Plane {
     Plane::constant(q.clone())
 }
 
-/// `1 + t^2`
+/// Returns `1 + t^2`.
 fn circle(variable: usize) -> Plane {
     let t = Plane::variable(variable);
     t.mul(&t).add(&Ring::one())

@@ -22,17 +22,17 @@ impl PolynomialMatrix {
         Self { powers: (0..=degree).map(power).collect() }
     }
 
-    /// The number of rows.
+    /// Returns the number of rows.
     pub fn rows(&self) -> usize {
         self.powers.first().map_or(0, Vec::len)
     }
 
-    /// The number of columns.
+    /// Returns the number of columns.
     pub fn columns(&self) -> usize {
         self.powers.first().and_then(|m| m.first()).map_or(0, Vec::len)
     }
 
-    /// The degree of its entries.
+    /// Returns the degree of its entries.
     pub fn degree(&self) -> usize {
         self.powers.len().saturating_sub(1)
     }

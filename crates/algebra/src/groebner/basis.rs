@@ -65,24 +65,24 @@ impl Basis {
         (0..1_u32 << self.variables).filter(is_free).map(|set| set.count_ones() as usize).max()
     }
 
-    /// The elements in the order of their leading monomials.
+    /// Returns the elements in the order of their leading monomials.
     pub(super) fn by_size(&self) -> Vec<&Polynomial> {
         self.elements.iter().collect()
     }
 }
 
-/// The variables of a monomial, a bit for each.
+/// Returns the variables of a monomial, a bit for each.
 fn support(monomial: Monomial) -> u32 {
     (0..MOST_VARIABLES).filter(|k| monomial.exponent(*k) > 0).map(|k| 1 << k).sum()
 }
 
 impl Making {
-    /// The elements by which everything is reduced.
+    /// Returns the elements by which everything is reduced.
     fn reducers(&self) -> Vec<&Polynomial> {
         self.elements.iter().zip(&self.is_old).filter(|(_, old)| !**old).map(|(p, _)| p).collect()
     }
 
-    /// The pair whose cancelled monomial is least.
+    /// Returns the pair whose cancelled monomial is least.
     fn next(&mut self) -> Option<Pair> {
         let least = (0..self.pairs.len()).min_by_key(|k| self.pairs[*k].multiple)?;
         Some(self.pairs.swap_remove(least))
@@ -145,7 +145,7 @@ impl Making {
         Some(())
     }
 
-    /// The reduced basis.
+    /// Returns the reduced basis.
     fn finished(self, variables: usize) -> Option<Basis> {
         let mut effort = self.effort;
         let mut minimal: Vec<Polynomial> =

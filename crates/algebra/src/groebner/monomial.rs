@@ -32,22 +32,22 @@ const fn shift(variable: usize) -> usize {
 }
 
 impl Monomial {
-    /// The monomial 1.
+    /// Returns the monomial 1.
     pub const fn one() -> Self {
         Self(ONE)
     }
 
-    /// One variable.
+    /// Returns one variable.
     pub const fn variable(k: usize) -> Self {
         Self(ONE - (1 << shift(k)) + (1 << 120))
     }
 
-    /// The total degree.
+    /// Returns the total degree.
     pub const fn degree(self) -> usize {
         (self.0 >> 120) as usize
     }
 
-    /// The exponent of a variable.
+    /// Returns the exponent of a variable.
     pub const fn exponent(self, k: usize) -> usize {
         (LARGEST - ((self.0 >> shift(k)) & 255)) as usize
     }
@@ -63,7 +63,7 @@ impl Monomial {
         (((self.0 & low) | GUARDS) - (other.0 & low)) & GUARDS == GUARDS
     }
 
-    /// `self / divisor` for a divisor.
+    /// Returns `self / divisor` for a divisor.
     pub const fn over(self, divisor: Self) -> Self {
         Self(self.0 - divisor.0 + ONE)
     }

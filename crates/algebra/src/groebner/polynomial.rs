@@ -13,7 +13,7 @@ pub struct Equation {
 }
 
 impl Equation {
-    /// The variable of this number, below [`super::MOST_VARIABLES`].
+    /// Returns the variable of this number, below [`super::MOST_VARIABLES`].
     #[must_use]
     pub fn variable(k: usize) -> Self {
         Self { terms: BTreeMap::from([(Monomial::variable(k), Rational::from(1))]) }
@@ -38,12 +38,12 @@ impl Equation {
         sum
     }
 
-    /// One monomial.
+    /// Returns one monomial.
     pub(super) fn monomial(monomial: Monomial) -> Self {
         Self { terms: BTreeMap::from([(monomial, Rational::from(1))]) }
     }
 
-    /// The terms.
+    /// Returns the terms.
     pub(super) fn terms(&self) -> &BTreeMap<Monomial, Rational> {
         &self.terms
     }
@@ -106,7 +106,7 @@ pub(super) struct Polynomial {
 pub(super) type Work = BTreeMap<Monomial, Integer>;
 
 impl Polynomial {
-    /// The primitive multiple of an equation; `None` for zero.
+    /// Returns the primitive multiple of an equation; `None` for zero.
     pub fn of(equation: &Equation) -> Option<Self> {
         let mut denominator = Integer::from(1);
         for c in equation.terms.values() {
@@ -116,7 +116,7 @@ impl Polynomial {
         Self::primitive(equation.terms.iter().map(|(m, c)| (*m, whole(c))).collect())
     }
 
-    /// The primitive multiple of a sum of terms; `None` for zero.
+    /// Returns the primitive multiple of a sum of terms; `None` for zero.
     pub fn primitive(work: Work) -> Option<Self> {
         let mut terms: Vec<(Monomial, Integer)> = work.into_iter().rev().filter(|(_, c)| *c != 0).collect();
         let mut content = terms.first()?.1.clone();
@@ -137,7 +137,7 @@ impl Polynomial {
         Some(Self { terms })
     }
 
-    /// The largest monomial.
+    /// Returns the largest monomial.
     pub fn leading(&self) -> Monomial {
         self.terms[0].0
     }

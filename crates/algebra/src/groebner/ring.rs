@@ -40,19 +40,19 @@ impl FiniteRing {
         Some(ring)
     }
 
-    /// The dimension: the number of solutions, complex ones included, with multiplicity.
+    /// Returns the dimension: the number of solutions, complex ones included, with multiplicity.
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.standard.len()
     }
 
-    /// The number of distinct solutions: the rank of the matrix of traces (Hermite).
+    /// Returns the number of distinct solutions: the rank of the matrix of traces (Hermite).
     #[must_use]
     pub fn distinct(&self) -> usize {
         rank(self.products.clone())
     }
 
-    /// The element that a polynomial stands for; `None` for degrees above 127.
+    /// Returns the element represented by a polynomial; `None` for degrees above 127.
     #[must_use]
     pub fn element(&self, equation: &Equation) -> Option<Element> {
         let mut denominator = Integer::from(1);
@@ -72,17 +72,17 @@ impl FiniteRing {
         Some(element)
     }
 
-    /// The trace of the multiplication with an element.
+    /// Returns the trace of the multiplication with an element.
     pub(super) fn trace(&self, element: &Element) -> Rational {
         dot(element, &self.traces)
     }
 
-    /// The traces of the products of an element with all standard monomials.
+    /// Returns the traces of the products of an element with all standard monomials.
     pub(super) fn traces_with(&self, element: &Element) -> Element {
         self.products.iter().map(|row| dot(element, row)).collect()
     }
 
-    /// The matrix of the multiplication with a linear form: its columns are the products with the standard monomials.
+    /// Returns the matrix of the multiplication with a linear form: its columns are the products with the standard monomials.
     pub(super) fn multiplication(&self, form: &Equation) -> Option<Vec<Element>> {
         let column = |m: &Monomial| self.element(&form.mul(&Equation::monomial(*m)));
         self.standard.iter().map(column).collect()
@@ -115,7 +115,7 @@ impl FiniteRing {
         Some(())
     }
 
-    /// The characteristic polynomial of the multiplication with a linear form, by the sums of the powers of its roots, and
+    /// Returns the characteristic polynomial of the multiplication with a linear form, by the sums of the powers of its roots, and
     /// the powers of the form.
     pub(super) fn characteristic(&self, form: &Equation) -> Option<(Univariate<Rational>, Vec<Element>)> {
         let table = self.multiplication(form)?;
@@ -136,7 +136,7 @@ impl FiniteRing {
     }
 }
 
-/// The monomials that are no multiples of leading ones; `None` for infinitely many, and for more than 64.
+/// Returns the monomials that are no multiples of leading ones; `None` for infinitely many, and for more than 64.
 fn standard_monomials(basis: &Basis) -> Option<Vec<Monomial>> {
     let leading: Vec<Monomial> = basis.elements.iter().map(Polynomial::leading).collect();
     let is_standard = |m: &Monomial| !leading.iter().any(|l| l.divides(*m));
@@ -163,7 +163,7 @@ fn dot(x: &[Rational], y: &[Rational]) -> Rational {
     products.fold(Rational::new(), |sum, (x, y)| sum + Rational::from(x * y))
 }
 
-/// The combination of columns with these coefficients.
+/// Returns the combination of columns with these coefficients.
 fn applied(columns: &[Element], coefficients: &Element) -> Element {
     let mut sum = vec![Rational::new(); columns.len()];
     for (column, c) in columns.iter().zip(coefficients).filter(|(_, c)| **c != 0) {
@@ -174,7 +174,7 @@ fn applied(columns: &[Element], coefficients: &Element) -> Element {
     sum
 }
 
-/// The rank of a matrix.
+/// Returns the rank of a matrix.
 fn rank(mut rows: Vec<Element>) -> usize {
     let (width, mut rank) = (rows.first().map_or(0, Vec::len), 0);
     for column in 0..width {

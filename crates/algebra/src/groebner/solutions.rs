@@ -91,7 +91,7 @@ impl Solutions {
         Some(sum)
     }
 
-    /// The value of a polynomial as a polynomial in u, at the solutions of one part; `None` for degrees above 127.
+    /// Returns the value of a polynomial as a polynomial in u, at the solutions of one part; `None` for degrees above 127.
     #[must_use]
     pub fn value(&self, part: &Values, equation: &Equation) -> Option<Univariate<Rational>> {
         let inverse = part.inverse.get_or_init(|| inverse_modulo(&self.denominator, &part.polynomial));
@@ -99,7 +99,7 @@ impl Solutions {
         Some(numerator.mul(inverse.as_ref()?).div_rem(&part.polynomial).1)
     }
 
-    /// The value of a polynomial as the quotient of two polynomials in u, numerator first: it holds at all solutions, and the
+    /// Returns the value of a polynomial as the quotient of two polynomials in u, numerator first: it holds at all solutions, and the
     /// denominator is 0 at none. Numbers are far smaller than those of [`Self::value`]. `None` for degrees above 127.
     #[must_use]
     pub fn quotient(&self, equation: &Equation) -> Option<[Univariate<Rational>; 2]> {
@@ -107,7 +107,7 @@ impl Solutions {
     }
 }
 
-/// The linear form of this number: small coefficients first.
+/// Returns the linear form of this number: small coefficients first.
 fn linear_form(variables: usize, number: i32) -> Equation {
     let (step, start) = (number + 1, number / 2 + 1);
     let coefficient = |k: usize| {
@@ -119,7 +119,7 @@ fn linear_form(variables: usize, number: i32) -> Equation {
     (0..variables).fold(Equation::zero(), |sum, k| sum.add(&term(k)))
 }
 
-/// `H_j`, the first j + 1 coefficients of a monic polynomial from the highest on, as a polynomial of degree j.
+/// Returns `H_j`, the first j + 1 coefficients of a monic polynomial from the highest on, as a polynomial of degree j.
 fn horner(polynomial: &Univariate<Rational>) -> Vec<Univariate<Rational>> {
     let Some(leading) = polynomial.coefficients().last() else { return Vec::new() };
     let degree = polynomial.degree().unwrap_or(0);

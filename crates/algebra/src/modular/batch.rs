@@ -10,7 +10,7 @@ const fn stride(size: usize) -> usize {
     size | 1
 }
 
-/// The place of an entry, given its index row by row, among those of its group.
+/// Returns the place of an entry, given its index row by row, among those of its group.
 pub(super) const fn place(size: usize, index: usize) -> usize {
     index / size * stride(size) + index % size
 }
@@ -42,7 +42,7 @@ impl<E: Copy> Batch<E> {
         Self { size, stride, groups, entries, products: vec![none; groups], determinants: vec![none; groups] }
     }
 
-    /// The entries of the matrices of a group, each at the place of its index.
+    /// Returns the entries of the matrices of a group, each at the place of its index.
     #[inline(always)]
     pub(super) fn group_mut(&mut self, group: usize) -> &mut [[E; SIDE]] {
         let length = self.size * self.stride;

@@ -32,7 +32,7 @@ impl Norms {
         Self { exponent, sums }
     }
 
-    /// The binary logarithm of an upper bound on the Euclidean norm of a row of polynomials, given their indices.
+    /// Returns the binary logarithm of an upper bound on the Euclidean norm of a row of polynomials, given their indices.
     pub(super) fn bits(&self, row: impl Iterator<Item = usize>) -> f64 {
         let square: f64 = row.map(|k| self.sums[k] * self.sums[k]).sum();
         // Truncated mantissas, rounded sums and the logarithm together err by far less than the last summand.

@@ -22,7 +22,7 @@ impl Chinese {
         Self { product, cofactors, reciprocals }
     }
 
-    /// The integer, given the `s_i`, if it is less than a quarter of the product of the primes in absolute value.
+    /// Returns the integer, given the `s_i`, if it is less than a quarter of the product of the primes in absolute value.
     ///
     /// That margin keeps the sum of the quotients, in floating point, far from values that would round the wrong way.
     #[expect(clippy::cast_possible_truncation, reason = "no larger than the number of primes")]

@@ -60,7 +60,7 @@ pub(super) fn determinant_on(arch: Arch, matrix: &[Vec<Terms>], variables: usize
     Some(problem.lattice.terms(coefficients, variables, &parameters))
 }
 
-/// The coefficients of the determinant of a matrix of polynomials in one variable, constant term first; some of the
+/// Returns the coefficients of the determinant of a matrix of polynomials in one variable, constant term first; some of the
 /// highest may be zero.
 ///
 /// # Shape

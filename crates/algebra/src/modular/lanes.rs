@@ -20,27 +20,27 @@ pub trait Lanes: Copy {
 
     /// Zero.
     fn zero(self) -> Self::Element;
-    /// One.
+    /// Returns 1 in every lane.
     fn one(self) -> Self::Element;
     /// Returns the same small number in every lane.
     fn digit(self, digit: u32) -> Self::Element;
-    /// One number per lane, of absolute value less than half the prime.
+    /// Loads one number per lane, of absolute value less than half the prime.
     fn load(self, residues: &[i64]) -> Self::Element;
     /// The residues of least absolute value, or nearly so, one per lane.
     fn store(self, a: Self::Element, residues: &mut [i64]);
-    /// The sum modulo the primes.
+    /// Returns the sum modulo the primes.
     fn add(self, a: Self::Element, b: Self::Element) -> Self::Element;
-    /// The difference modulo the primes.
+    /// Returns the difference modulo the primes.
     fn sub(self, a: Self::Element, b: Self::Element) -> Self::Element;
-    /// The product modulo the primes.
+    /// Returns the product modulo the primes.
     fn mul(self, a: Self::Element, b: Self::Element) -> Self::Element;
-    /// `a b + c`
+    /// Returns `a b + c`.
     fn mul_add(self, a: Self::Element, b: Self::Element, c: Self::Element) -> Self::Element;
     /// Returns `1/a`, or 0 if `a` is 0.
     fn inverse(self, a: Self::Element) -> Self::Element;
-    /// A sum that is reduced later, with its first term.
+    /// Starts a sum that is reduced later, with its first term.
     fn sum(self, start: Self::Element) -> Self::Sum;
-    /// `sum - a b`
+    /// Returns `sum - a b`.
     fn subtract_product(self, sum: Self::Sum, a: Self::Element, b: Self::Element) -> Self::Sum;
     /// Reduces a sum modulo the primes.
     fn reduce(self, sum: Self::Sum) -> Self::Element;
@@ -66,7 +66,7 @@ pub struct Floats<'a, S: Simd> {
     bits: &'a [S::f64s],
 }
 
-/// The bits in which the numbers `p - 2` may differ: the rest above them are ones.
+/// Returns the bits in which the numbers `p - 2` may differ: the rest above them are ones.
 pub(super) fn low_bits(primes: &[u64]) -> u32 {
     let most = primes.iter().map(|&p| (1 << PRIME_BITS) - 1 - (p - 2)).max().unwrap_or(0);
     u64::BITS - most.leading_zeros()
@@ -98,14 +98,14 @@ impl<'a, S: Simd> Floats<'a, S> {
         Self { simd, prime, reciprocal: simd.div_f64s(simd.splat_f64s(1.0), prime), ones: PRIME_BITS - low, bits }
     }
 
-    /// The lanes of these primes and their rounded reciprocals, for everything but inversion.
+    /// Returns the lanes of these primes and their rounded reciprocals, for everything but inversion.
     #[inline(always)]
     pub fn of(simd: S, primes: &[f64], reciprocals: &[f64]) -> Self {
         let (prime, reciprocal) = (simd.partial_load_f64s(primes), simd.partial_load_f64s(reciprocals));
         Self { simd, prime, reciprocal, ones: 0, bits: &[] }
     }
 
-    /// `round(a / p)`, for quotients below `2^51`.
+    /// Returns `round(a / p)`, for quotients below `2^51`.
     #[inline(always)]
     fn quotient(self, a: S::f64s) -> S::f64s {
         let simd = self.simd;
@@ -113,7 +113,7 @@ impl<'a, S: Simd> Floats<'a, S> {
         simd.sub_f64s(simd.mul_add_f64s(a, self.reciprocal, round), round)
     }
 
-    /// The residue of an integer below `2^53`.
+    /// Returns the residue of an integer below `2^53`.
     #[inline(always)]
     fn remainder(self, a: S::f64s) -> S::f64s {
         self.simd.negate_mul_add_f64s(self.quotient(a), self.prime, a)

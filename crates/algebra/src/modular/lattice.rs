@@ -17,7 +17,7 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice within these degrees, one per parameter, and a total degree; `None` if it has more than `most` points.
+    /// Returns the lattice within these degrees, one per parameter, and a total degree; `None` if it has more than `most` points.
     pub(super) fn new(degrees: &[usize], total: usize, most: usize) -> Option<Self> {
         let parameters = degrees.len();
         count_points(degrees, total, most)?;
@@ -66,12 +66,12 @@ impl Lattice {
         Some(Self { parameters, points, count, lines, longest })
     }
 
-    /// The number of points, and of coefficients.
+    /// Returns the number of points, and of coefficients.
     pub(super) fn count(&self) -> usize {
         self.count
     }
 
-    /// A point, or the exponents of a coefficient.
+    /// Returns a point, or the exponents of a coefficient.
     pub(super) fn point(&self, index: usize) -> &[u32] {
         &self.points[index * self.parameters..][..self.parameters]
     }
@@ -118,7 +118,7 @@ impl Lattice {
     }
 }
 
-/// The number of points, if it is not beyond `most`.
+/// Returns the number of points, if it is not beyond `most`.
 fn count_points(degrees: &[usize], total: usize, most: usize) -> Option<usize> {
     let highest = degrees.iter().fold(0, |sum: usize, &degree| sum.saturating_add(degree)).min(total);
     // There are as many points on the way to one with the highest sum.
@@ -153,7 +153,7 @@ fn gather<E: Copy>(values: &[E], line: &[usize], on_line: &mut [E]) {
     }
 }
 
-/// `1/k!` for k below the count.
+/// Returns `1/k!` for k below the count.
 #[inline(always)]
 fn inverse_factorials<L: Lanes>(lanes: L, count: usize) -> Vec<L::Element> {
     let (mut factorial, mut k) = (lanes.one(), lanes.zero());

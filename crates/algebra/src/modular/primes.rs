@@ -33,7 +33,7 @@ pub(super) fn count_beyond(bits: f64) -> usize {
     (bits / f64::from(PRIME_BITS)) as usize + 2
 }
 
-/// The primes below `2^PRIME_BITS`, largest first.
+/// Returns the primes below `2^PRIME_BITS`, largest first.
 pub fn largest_primes() -> impl Iterator<Item = u64> {
     let top = 1 << PRIME_BITS;
     let tabled = DISTANCES.iter().map(move |&distance| top - u64::from(distance));

@@ -14,7 +14,7 @@ use rug::Integer;
 /// The number of values, each modulo one prime, beyond which a determinant is not to be found from its values.
 const MOST_VALUES: usize = 1 << 24;
 
-/// The number of points at which determinants with coefficients up to `2^bits` may be evaluated.
+/// Returns the number of points at which determinants with coefficients up to `2^bits` may be evaluated.
 pub(super) fn most_points(bits: f64, parameters: usize) -> usize {
     MOST_VALUES / usize::max(count_beyond(bits), 4 * parameters)
 }
@@ -99,7 +99,7 @@ impl Form {
 }
 
 impl Problem<'_> {
-    /// The coefficients of the determinant, in the order of the lattice.
+    /// Returns the coefficients of the determinant, in the order of the lattice.
     pub(super) fn solve(&self, arch: Arch) -> Vec<Integer> {
         // Twice the bound for the sign, and twice that for the margin of the Chinese remainders.
         let primes = primes_beyond(self.bits + 2.0);
@@ -209,7 +209,7 @@ impl Images<'_> {
     }
 }
 
-/// The residues of an integer.
+/// Returns the residues of an integer.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "the parts of a limb")]
 fn residue<L: Lanes>(lanes: L, base: L::Element, integer: &Integer) -> L::Element {
@@ -227,7 +227,7 @@ fn residue<L: Lanes>(lanes: L, base: L::Element, integer: &Integer) -> L::Elemen
     if integer.is_negative() { lanes.sub(lanes.zero(), value) } else { value }
 }
 
-/// The product of all primes but the one of the lane, in each lane.
+/// Returns the product of all primes but the one of the lane, in each lane.
 #[inline(always)]
 fn cofactor<L: Lanes>(lanes: L, all: &[u64], primes: &[u64]) -> L::Element {
     let mut product = lanes.one();
@@ -241,7 +241,7 @@ fn cofactor<L: Lanes>(lanes: L, all: &[u64], primes: &[u64]) -> L::Element {
     product
 }
 
-/// The determinant modulo a prime, with a search for pivots.
+/// Returns the determinant modulo a prime, with a search for pivots.
 fn determinant_modulo(prime: u64, rows: &[Vec<i64>]) -> i64 {
     let modulus = Modulus::new(prime);
     let mut rows: Vec<Vec<u64>> =

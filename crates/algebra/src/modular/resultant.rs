@@ -95,7 +95,7 @@ pub(super) fn resultant_on(arch: Arch, f: &Terms, g: &Terms, variables: usize, v
     Some(problem.lattice.terms(coefficients, variables, &parameters))
 }
 
-/// A bound on the degree of the resultant in some parameters, from the highest degrees of the coefficients of f, then g.
+/// Returns a bound on the degree of the resultant in some parameters, from the highest degrees of the coefficients of f, then g.
 ///
 /// With weight w for the variable, no term of f is above some degree F, and none of g above some G; then every term of
 /// the Sylvester determinant is at most of degree `n F + m G - w m n`.

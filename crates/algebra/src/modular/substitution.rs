@@ -21,7 +21,7 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// The plan for terms in descending order of their keys: the index of the polynomial, then its exponents.
+    /// Returns the plan for terms in descending order of their keys: the index of the polynomial, then its exponents.
     ///
     /// `exponents` holds as many numbers per term as there are parameters.
     pub(super) fn new(slots: &[usize], exponents: &[u32], parameters: usize) -> Self {

@@ -15,7 +15,7 @@ pub struct Terms {
 }
 
 impl Terms {
-    /// The terms of a polynomial that has no more than the given number of variables.
+    /// Returns the terms of a polynomial that has no more than the given number of variables.
     pub(crate) fn of(polynomial: &Polynomial<Int>, variables: usize) -> Self {
         let exponents = |term| (0..variables).map(move |variable| polynomial.exponent(term, variable));
         Self {
@@ -24,13 +24,13 @@ impl Terms {
         }
     }
 
-    /// The polynomial with these terms.
+    /// Returns the polynomial with these terms.
     pub(crate) fn polynomial(self, variables: usize) -> Polynomial<Int> {
         let coefficients = self.coefficients.into_iter().map(Int::from).collect();
         Polynomial::from_lists(variables, &self.exponents, coefficients)
     }
 
-    /// The terms that are not zero, with their exponents.
+    /// Returns the terms that are not zero, with their exponents.
     ///
     /// # Panics
     /// When the numbers of exponents and coefficients do not fit the number of variables.
@@ -66,7 +66,7 @@ pub(super) fn descending<'a>(
 }
 
 impl Lattice {
-    /// The polynomial with these coefficients, its parameters being those of the given variables.
+    /// Returns the polynomial with these coefficients, its parameters being those of the given variables.
     pub(super) fn terms(&self, coefficients: Vec<Integer>, variables: usize, parameters: &[usize]) -> Terms {
         let mut terms = Terms::default();
         for (k, c) in coefficients.into_iter().enumerate() {

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// The sum of products of coefficients.
 pub(super) trait Accumulator<C>: Clone {
-    /// The empty sum.
+    /// Returns the empty sum.
     fn empty() -> Self;
     /// Adds a product.
     fn add(&mut self, a: &C, b: &C);
@@ -99,19 +99,19 @@ impl Grid {
         Self { packing, leading, strides, monomials }
     }
 
-    /// The number of cells.
+    /// Returns the number of cells.
     pub(super) fn cells(&self) -> usize {
         self.monomials.len() / self.packing.words()
     }
 
-    /// The monomial of a cell.
+    /// Returns the monomial of a cell.
     #[inline(always)]
     pub(super) fn monomial(&self, cell: usize) -> &[u64] {
         let words = self.packing.words();
         &self.monomials[cell * words..(cell + 1) * words]
     }
 
-    /// The words of a monomial.
+    /// Returns the words of a monomial.
     pub(super) const fn words(&self) -> usize {
         self.packing.words()
     }
@@ -135,7 +135,7 @@ pub(super) struct Blocks<'a, K, C> {
 }
 
 impl<'a, K: Key, C> Blocks<'a, K, C> {
-    /// The blocks of sorted terms.
+    /// Returns the blocks of sorted terms.
     pub(super) fn new(grid: &Grid, monomials: &[u64], coefficients: &'a [C]) -> Self {
         let packing = grid.packing;
         let masks: Vec<u64> = (0..packing.words()).map(|word| packing.leading(word, grid.leading)).collect();
@@ -161,12 +161,12 @@ impl<'a, K: Key, C> Blocks<'a, K, C> {
 }
 
 impl<K, C> Blocks<'_, K, C> {
-    /// The number of blocks.
+    /// Returns the number of blocks.
     pub(super) fn len(&self) -> usize {
         self.keys.len()
     }
 
-    /// The terms of a block.
+    /// Returns the terms of a block.
     pub(super) fn block(&self, number: usize) -> Range<usize> {
         self.starts[number]..self.starts[number + 1]
     }

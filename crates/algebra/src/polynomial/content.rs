@@ -7,7 +7,7 @@ use rug::{Integer, Rational};
 use std::cmp::Ordering;
 
 impl Polynomial<Int> {
-    /// The greatest common divisor of the coefficients, never negative; zero only of the zero polynomial.
+    /// Returns the greatest common divisor of the coefficients, never negative; zero only of the zero polynomial.
     #[must_use]
     pub fn content(&self) -> Int {
         let mut content = Int::zero();
@@ -20,7 +20,7 @@ impl Polynomial<Int> {
         content
     }
 
-    /// The polynomial divided by its content, its leading coefficient positive.
+    /// Returns the polynomial divided by its content, its leading coefficient positive.
     #[must_use]
     pub fn primitive_part(&self) -> Self {
         let Some(leading) = self.coefficients.first() else { return Self::zero() };
@@ -33,7 +33,7 @@ impl Polynomial<Int> {
         Self { packing: self.packing, monomials: self.monomials.clone(), coefficients }
     }
 
-    /// The greatest common divisor of the coefficients of the powers of a variable, leading coefficient positive.
+    /// Returns the greatest common divisor of the coefficients of the powers of a variable, leading coefficient positive.
     #[must_use]
     pub fn content_in(&self, variable: usize) -> Self {
         let mut parts = self.coefficients_in(variable);
@@ -49,7 +49,7 @@ impl Polynomial<Int> {
         content
     }
 
-    /// The largest monomial that divides all terms, as a polynomial; 1 for the zero polynomial.
+    /// Returns the largest monomial that divides all terms, as a polynomial; 1 for the zero polynomial.
     pub(super) fn monomial_content(&self) -> Self {
         // From the last term on, which as a rule is free of the variable already.
         let lowest = |variable| {
@@ -67,7 +67,7 @@ impl Polynomial<Int> {
 }
 
 impl Polynomial<Rational> {
-    /// The primitive polynomial with integer coefficients, its leading coefficient positive, and the factor by which this
+    /// Returns the primitive polynomial with integer coefficients, its leading coefficient positive, and the factor by which this
     /// one is a multiple of it; zero and 1 for the zero polynomial.
     ///
     /// # Panics
@@ -92,7 +92,7 @@ impl Polynomial<Rational> {
         (primitive, Rational::from((content, denominator)))
     }
 
-    /// The greatest common divisor, primitive over the integers with positive leading coefficient; zero only of two zeros.
+    /// Returns the greatest common divisor, primitive over the integers with positive leading coefficient; zero only of two zeros.
     #[must_use]
     pub fn gcd(&self, other: &Self) -> Polynomial<Int> {
         self.primitive().0.gcd(&other.primitive().0)

@@ -12,7 +12,7 @@ use rug::Integer;
 use std::cmp::Ordering;
 
 impl Polynomial<Int> {
-    /// The greatest common divisor, its leading coefficient positive; zero only of two zeros.
+    /// Returns the greatest common divisor, its leading coefficient positive; zero only of two zeros.
     ///
     /// Images modulo primes only propose it: division proves that it divides both, and its leading monomial that nothing
     /// larger does.
@@ -32,7 +32,7 @@ impl Polynomial<Int> {
         gcd.mul(&Self::from_terms(terms))
     }
 
-    /// The variables that occur.
+    /// Returns the variables that occur.
     fn support(&self) -> Vec<usize> {
         self.degrees().into_iter().enumerate().filter(|(_, degree)| *degree > 0).map(|(variable, _)| variable).collect()
     }
@@ -56,7 +56,7 @@ impl Polynomial<Int> {
             .map_or_else(|| self.euclidean_gcd(other, own[0]), |layout| self.modular_gcd(other, &layout))
     }
 
-    /// The other polynomial is free of the variable: a common divisor divides all coefficients of its powers.
+    /// Returns the gcd with a polynomial free of the variable: a common divisor divides all coefficients of its powers.
     fn gcd_with_content(&self, variable: usize, other: &Self) -> Self {
         let mut parts = self.coefficients_in(variable);
         parts.retain(|part| !part.is_zero());
@@ -120,7 +120,7 @@ impl Polynomial<Int> {
         gcd.primitive_part()
     }
 
-    /// A remainder of a multiple of this polynomial by a coefficient in the other variables.
+    /// Returns a remainder of a multiple of this polynomial by a coefficient in the other variables.
     fn pseudo_remainder(&self, divisor: &Self, variable: usize) -> Self {
         let divisor = divisor.coefficients_in(variable);
         let mut rest = self.coefficients_in(variable);

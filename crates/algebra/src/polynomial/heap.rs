@@ -5,13 +5,13 @@
 
 /// Packed monomials as heap keys.
 pub(super) trait Key: Clone + Ord {
-    /// The fields of a monomial that the masks keep.
+    /// Returns the fields of a monomial that the masks keep.
     fn read(words: &[u64], masks: &[u64]) -> Self;
-    /// The product of two monomials.
+    /// Returns the product of two monomials.
     fn times(&self, other: &Self) -> Self;
-    /// The quotient by a monomial that divides this one.
+    /// Returns the quotient by a monomial that divides this one.
     fn over(&self, other: &Self) -> Self;
-    /// The words of the monomial.
+    /// Returns the words of the monomial.
     fn words(&self) -> &[u64];
 }
 
@@ -79,12 +79,12 @@ pub(super) struct Heap<K> {
 }
 
 impl<K: Key> Heap<K> {
-    /// An empty heap for rows with numbers below `rows`.
+    /// Returns an empty heap for rows with numbers below `rows`.
     pub(super) fn new(rows: usize) -> Self {
         Self { entries: Vec::new(), next: vec![NONE; rows] }
     }
 
-    /// The largest monomial.
+    /// Returns the largest monomial.
     #[inline(always)]
     pub(super) fn peek(&self) -> Option<&K> {
         self.entries.first().map(|(key, _)| key)

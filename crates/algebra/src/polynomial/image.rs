@@ -38,20 +38,20 @@ impl Layout {
         self.variables.iter().zip(&self.shifts).map(field).sum()
     }
 
-    /// The coefficient of the highest monomial in this order.
+    /// Returns the coefficient of the highest monomial in this order.
     pub(super) fn leading_coefficient<'a>(&self, polynomial: &'a Polynomial<Int>) -> &'a Int {
         let leading = (0..polynomial.len()).max_by_key(|&term| self.monomial(polynomial, term));
         &polynomial.coefficients()[leading.expect("the polynomial is not zero")]
     }
 
-    /// The exponent of the variable at this place of the order.
+    /// Returns the exponent of the variable at this place of the order.
     fn exponent(&self, monomial: u128, place: usize) -> usize {
         let above = place.checked_sub(1).map_or(u128::BITS, |before| self.shifts[before]);
         let field = (monomial >> self.shifts[place]) & (u128::MAX >> (u128::BITS - (above - self.shifts[place])));
         usize::try_from(field).expect("exponents fit")
     }
 
-    /// The sum of terms.
+    /// Returns the sum of terms.
     pub(super) fn polynomial(&self, terms: impl Iterator<Item = (u128, Int)>) -> Polynomial<Int> {
         let unpacked = |(monomial, c): (u128, Int)| {
             let mut exponents = vec![0; self.variables.iter().max().map_or(0, |last| last + 1)];
@@ -75,7 +75,7 @@ pub(super) struct Image {
 type Dense = Vec<u64>;
 
 impl Image {
-    /// The image of a polynomial.
+    /// Returns the image of a polynomial.
     pub(super) fn new(polynomial: &Polynomial<Int>, layout: &Layout, modulus: Modulus) -> Self {
         let residue = |c: &Int| match c.to_i64() {
             Some(n) if n < 0 => modulus.sub(0, modulus.enter(n.unsigned_abs())),
@@ -97,7 +97,7 @@ impl Image {
         &self.terms
     }
 
-    /// The highest monomial.
+    /// Returns the highest monomial.
     pub(super) fn leading_monomial(&self) -> u128 {
         self.terms[0].0
     }
@@ -106,13 +106,13 @@ impl Image {
         self.leading_monomial() == 0
     }
 
-    /// The product with a residue other than 0.
+    /// Returns the product with a residue other than 0.
     pub(super) fn scaled(&self, factor: u64) -> Self {
         let terms = self.terms.iter().map(|&(monomial, c)| (monomial, self.modulus.mul(c, factor))).collect();
         Self { modulus: self.modulus, terms }
     }
 
-    /// A common divisor that is monic, with overwhelming probability the greatest: that it divides is left to be proved.
+    /// Returns a monic common divisor, with overwhelming probability the greatest; that it divides remains to be proved.
     /// Neither polynomial is zero, and their leading coefficients must be those of the polynomials they are images of.
     pub(super) fn gcd(&self, other: &Self, layout: &Layout) -> Self {
         Images { layout, modulus: self.modulus }.gcd(&self.terms, &other.terms, layout.variables.len()).into_image(self)
@@ -138,7 +138,7 @@ struct Images<'a> {
 type Groups = Vec<(u128, Dense)>;
 
 impl Images<'_> {
-    /// The monic greatest common divisor of polynomials in the first `count` variables.
+    /// Returns the monic greatest common divisor of polynomials in the first `count` variables.
     fn gcd(&self, a: &[(u128, u64)], b: &[(u128, u64)], count: usize) -> Terms {
         let m = &self.modulus;
         let last = count - 1;
@@ -240,7 +240,7 @@ impl Images<'_> {
         groups
     }
 
-    /// The terms of the monic multiple.
+    /// Returns the terms of the monic multiple.
     fn terms(&self, groups: &[(u128, Dense)], last: usize) -> Terms {
         let leading = groups.first().and_then(|(_, c)| c.last()).copied().unwrap_or(0);
         let inverse = self.modulus.inverse(leading);
@@ -324,7 +324,7 @@ impl Images<'_> {
         }
     }
 
-    /// The monic greatest common divisor; zero, without coefficients, only of two zeros.
+    /// Returns the monic greatest common divisor; zero, without coefficients, only of two zeros.
     fn univariate_gcd(&self, mut a: Dense, mut b: Dense) -> Dense {
         while !b.is_empty() {
             if b.len() == 1 {

@@ -53,14 +53,14 @@ pub struct Size {
 }
 
 impl<R: Ring> Polynomial<R> {
-    /// A constant.
+    /// Returns a constant.
     #[must_use]
     pub fn constant(c: R) -> Self {
         let (monomials, coefficients) = if c.is_zero() { (Vec::new(), Vec::new()) } else { (vec![0], vec![c]) };
         Self { packing: Packing::new(0, 0), monomials, coefficients }
     }
 
-    /// A variable.
+    /// Returns a variable.
     #[must_use]
     pub fn variable(variable: usize) -> Self {
         let packing = Packing::new(variable + 1, 1);
@@ -70,7 +70,7 @@ impl<R: Ring> Polynomial<R> {
         Self { packing, monomials, coefficients: vec![R::one()] }
     }
 
-    /// The sum of terms in any order, each given by the exponents of the first variables and its coefficient.
+    /// Returns the sum of terms in any order, each given by the exponents of the first variables and its coefficient.
     ///
     /// # Panics
     /// When an exponent is above [`super::monomial::LARGEST_EXPONENT`].
@@ -103,7 +103,7 @@ impl<R: Ring> Polynomial<R> {
         Self::from_unsorted(packing, monomials, coefficients)
     }
 
-    /// The sum of packed terms in any order.
+    /// Returns the sum of packed terms in any order.
     fn from_unsorted(packing: Packing, monomials: Vec<u64>, coefficients: Vec<R>) -> Self {
         let words = packing.words();
         let decreasing = if words == 1 {
@@ -153,7 +153,7 @@ impl<R: Ring> Polynomial<R> {
         }
     }
 
-    /// The sum of packed terms of decreasing monomials; zeros are dropped.
+    /// Returns the sum of packed terms of decreasing monomials; zeros are dropped.
     fn from_sorted(packing: Packing, mut monomials: Vec<u64>, mut coefficients: Vec<R>) -> Self {
         if coefficients.iter().any(Ring::is_zero) {
             let words = packing.words();
@@ -170,7 +170,7 @@ impl<R: Ring> Polynomial<R> {
         Self { packing, monomials, coefficients }
     }
 
-    /// The terms, the lexicographically highest first: the exponents of all [`Self::variables`], and the coefficient.
+    /// Returns the terms, the lexicographically highest first: the exponents of all [`Self::variables`], and the coefficient.
     #[must_use]
     pub fn terms(&self) -> impl ExactSizeIterator<Item = (Vec<u32>, &R)> + DoubleEndedIterator {
         (0..self.len()).map(|i| (self.packing.unpack(self.monomial(i)), &self.coefficients[i]))
@@ -181,7 +181,7 @@ impl<R: Ring> Polynomial<R> {
         &self.monomials[i * words..(i + 1) * words]
     }
 
-    /// The exponent of a variable in the term with the given number.
+    /// Returns the exponent of a variable in the term with the given number.
     ///
     /// # Panics
     /// When there is no such term.
@@ -190,26 +190,26 @@ impl<R: Ring> Polynomial<R> {
         self.packing.exponent(self.monomial(term), variable)
     }
 
-    /// The coefficients, in the order of the terms.
+    /// Returns the coefficients, in the order of the terms.
     #[must_use]
     pub fn coefficients(&self) -> &[R] {
         &self.coefficients
     }
 
-    /// The number of terms.
+    /// Returns the number of terms.
     #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "a polynomial without terms is zero")]
     pub fn len(&self) -> usize {
         self.coefficients.len()
     }
 
-    /// One more than the highest variable that may occur.
+    /// Returns one more than the highest variable that may occur.
     #[must_use]
     pub const fn variables(&self) -> usize {
         self.packing.variables()
     }
 
-    /// The degree in one variable; 0 for the zero polynomial.
+    /// Returns the degree in one variable; 0 for the zero polynomial.
     #[must_use]
     pub fn degree(&self, variable: usize) -> u32 {
         if variable >= self.variables() {
@@ -227,7 +227,7 @@ impl<R: Ring> Polynomial<R> {
         }
     }
 
-    /// The degrees in all [`Self::variables`].
+    /// Returns the degrees in all [`Self::variables`].
     #[must_use]
     pub fn degrees(&self) -> Vec<u32> {
         // The bitwise or shows which variables occur at all, mostly few of them.
@@ -242,14 +242,14 @@ impl<R: Ring> Polynomial<R> {
         (0..self.variables()).map(degree).collect()
     }
 
-    /// The total degree; `None` for the zero polynomial.
+    /// Returns the total degree; `None` for the zero polynomial.
     #[must_use]
     pub fn total_degree(&self) -> Option<u64> {
         let total = |i| (0..self.variables()).map(|variable| u64::from(self.exponent(i, variable))).sum();
         (0..self.len()).map(total).max()
     }
 
-    /// The number, if no variable occurs; `Some(zero)` for the zero polynomial.
+    /// Returns the number, if no variable occurs; `Some(zero)` for the zero polynomial.
     #[must_use]
     pub fn to_constant(&self) -> Option<R> {
         match self.coefficients.as_slice() {
@@ -259,14 +259,14 @@ impl<R: Ring> Polynomial<R> {
         }
     }
 
-    /// The product with a number.
+    /// Returns the product with a number.
     #[must_use]
     pub fn scale(&self, factor: &R) -> Self {
         let coefficients = self.coefficients.iter().map(|c| c.mul(factor)).collect();
         Self::from_sorted(self.packing, self.monomials.clone(), coefficients)
     }
 
-    /// The derivative with respect to a variable.
+    /// Returns the derivative with respect to a variable.
     ///
     /// # Panics
     /// Never: exponents fit an i32.
@@ -290,13 +290,13 @@ impl<R: Ring> Polynomial<R> {
         Self::from_sorted(self.packing, monomials, coefficients)
     }
 
-    /// The polynomial over another ring; `None` as soon as one coefficient has no image.
+    /// Returns the polynomial over another ring; `None` as soon as one coefficient has no image.
     pub fn map<S: Ring>(&self, image: impl Fn(&R) -> Option<S>) -> Option<Polynomial<S>> {
         let coefficients = self.coefficients.iter().map(image).collect::<Option<_>>()?;
         Some(Polynomial::from_sorted(self.packing, self.monomials.clone(), coefficients))
     }
 
-    /// The polynomial in one variable; `None` if another one occurs.
+    /// Returns the polynomial in one variable; `None` if another one occurs.
     #[must_use]
     pub fn to_univariate(&self, variable: usize) -> Option<Univariate<R>> {
         let mut coefficients = Vec::new();
@@ -311,7 +311,7 @@ impl<R: Ring> Polynomial<R> {
         Some(Univariate::new(coefficients))
     }
 
-    /// The polynomial in several variables that one in one variable is.
+    /// Converts a polynomial in one variable to one in several.
     ///
     /// # Panics
     /// When the degree is above [`super::monomial::LARGEST_EXPONENT`].
@@ -327,12 +327,12 @@ impl<R: Ring> Polynomial<R> {
         Self::from_sorted(packing, monomials, polynomial.coefficients().iter().rev().cloned().collect())
     }
 
-    /// The largest exponent of any variable.
+    /// Returns the largest exponent of any variable.
     fn largest_exponent(&self) -> u32 {
         self.degrees().into_iter().max().unwrap_or(0)
     }
 
-    /// A packing that holds both.
+    /// Returns a packing that holds both.
     fn joint_packing(&self, other: &Self) -> Packing {
         if self.packing == other.packing {
             return self.packing;
@@ -348,7 +348,7 @@ impl<R: Ring> Polynomial<R> {
         Packing::new(wide.variables(), largest.max(wide.largest_exponent()))
     }
 
-    /// The monomials in another packing, which holds them.
+    /// Returns the monomials in another packing, which holds them.
     fn packed_as(&self, packing: Packing) -> Cow<'_, [u64]> {
         if self.packing.agrees(&packing) {
             Cow::Borrowed(&self.monomials)

@@ -9,7 +9,7 @@ use std::cell::OnceCell;
 /// The multinomial theorem is for sums of few terms.
 const FEW: usize = 32;
 
-/// The number of ways to choose, at most `u64::MAX`.
+/// Returns the number of ways to choose, at most `u64::MAX`.
 fn choices(n: u64, k: u64) -> u64 {
     let mut choices = 1_u128;
     for i in 0..u128::from(k.min(n - k)) {
@@ -32,7 +32,7 @@ impl<R: Ring> Polynomial<R> {
         Size { terms, largest_exponent: degrees.max().unwrap_or(0) }
     }
 
-    /// The power; `x^0` is 1, for x = 0 too.
+    /// Returns the power; `x^0` is 1, for x = 0 too.
     ///
     /// # Panics
     /// When an exponent grows above [`LARGEST_EXPONENT`]; see [`Self::power_size`].
@@ -133,7 +133,7 @@ impl<R: Ring> Base<'_, R> {
     }
 }
 
-/// A row of Pascal's triangle.
+/// Returns a row of Pascal's triangle.
 fn binomials<R: Ring>(n: u32) -> Vec<R> {
     let mut row = Vec::with_capacity(n as usize + 1);
     let mut binomial = Integer::from(1);

@@ -11,12 +11,12 @@ const FEW: usize = 1024;
 /// Cells of a box: their sums stay in the first-level cache, or nearly so.
 pub(super) const CELLS: usize = 1 << 12;
 
-/// The coefficients as machine words, if all are such.
+/// Returns the coefficients as machine words, if all are such.
 pub(super) fn to_words<R: Ring>(coefficients: &[R]) -> Option<Vec<i64>> {
     coefficients.iter().map(|c| i64::try_from(c.to_wide()?).ok()).collect()
 }
 
-/// A bound of the absolute values of the coefficients of the product, and of all sums on the way there.
+/// Returns a bound of the absolute values of the coefficients of the product, and of all sums on the way there.
 pub(super) fn bound(a: &[i64], b: &[i64]) -> u128 {
     let norms = |words: &[i64]| {
         let sizes = || words.iter().map(|n| u128::from(n.unsigned_abs()));
@@ -42,7 +42,7 @@ impl<R: Ring> Polynomial<R> {
         Size { terms: pairs.min(cells), largest_exponent: degrees.max().unwrap_or(0) }
     }
 
-    /// The product; neither polynomial is copied unless their packing differs.
+    /// Returns the product; neither polynomial is copied unless their packing differs.
     pub(super) fn product(&self, other: &Self) -> Self {
         let (left, right) = if self.len() <= other.len() { (self, other) } else { (other, self) };
         if left.is_zero() {
@@ -59,7 +59,7 @@ impl<R: Ring> Polynomial<R> {
         left.collected_product(right, packing, &a, &b)
     }
 
-    /// A packing with room for the product.
+    /// Returns a packing with room for the product.
     fn product_packing(&self, other: &Self) -> Packing {
         let joint = self.joint_packing(other);
         if self.packing == other.packing && joint.holds_products(&self.monomials, &other.monomials) {
@@ -72,7 +72,7 @@ impl<R: Ring> Polynomial<R> {
         Packing::new(joint.variables(), u32::try_from(largest).unwrap_or(u32::MAX))
     }
 
-    /// The product with one term.
+    /// Returns the product with one term.
     fn shifted(&self, packing: Packing, own: &[u64], monomial: &[u64], c: &R) -> Self {
         let monomials = if let [word] = monomial {
             own.iter().map(|own| own + word).collect()
@@ -135,7 +135,7 @@ impl<R: Ring> Polynomial<R> {
     }
 }
 
-/// The product of terms by heap and box: the monomials, and by `take` the coefficients.
+/// Returns the product of terms by heap and box: the monomials, and by `take` the coefficients.
 fn collect<C, A: Accumulator<C>>(
     grid: &Grid,
     degrees: &[u32],
@@ -191,7 +191,7 @@ mod tests {
         Poly::from_terms((0..terms).map(|_| term()))
     }
 
-    /// The product by one branch: so large a box at most, marked or not.
+    /// Returns the product by one branch: with a box of at most this size, marked or not.
     fn branch<K: Key, C, A: Accumulator<C>>(
         (f, a): (&Poly, &[C]),
         (g, b): (&Poly, &[C]),

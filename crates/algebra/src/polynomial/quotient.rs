@@ -25,13 +25,13 @@ type Terms<C> = Option<(Vec<u64>, Vec<C>)>;
 trait Coefficient: Clone {
     /// Sums of products.
     type Sum: Clone;
-    /// The empty sum.
+    /// Returns the empty sum.
     fn empty() -> Self::Sum;
-    /// `sum - a b`
+    /// Returns `sum - a b`.
     fn subtract(sum: &mut Self::Sum, a: &Self, b: &Self) -> Result<(), Overflow>;
     /// Returns whether the sum is zero.
     fn vanishes(sum: &Self::Sum) -> bool;
-    /// The exact quotient by a coefficient, `None` if there is a remainder.
+    /// Returns the exact quotient by a coefficient, `None` if there is a remainder.
     fn divide(sum: &Self::Sum, divisor: &Self) -> Result<Option<Self>, Overflow>;
 }
 
@@ -100,7 +100,7 @@ fn divide_monomial(guards: u64, monomial: &mut [u64], divisor: &[u64]) -> bool {
 }
 
 impl<D: Domain> Polynomial<D> {
-    /// The exact quotient; `None` if there is a remainder or the divisor is zero.
+    /// Returns the exact quotient; `None` if there is a remainder or the divisor is zero.
     pub(super) fn quotient(&self, divisor: &Self) -> Option<Self> {
         if divisor.is_zero() {
             return None;
@@ -145,7 +145,7 @@ impl<D: Domain> Polynomial<D> {
         Some(Self { packing, monomials, coefficients })
     }
 
-    /// The exact quotient by one term, which keeps the order of the terms.
+    /// Returns the exact quotient by one term, which keeps the order of the terms.
     fn quotient_by_term(&self, packing: Packing, own: &[u64], monomial: &[u64], c: &D) -> Option<Self> {
         let (guards, mut monomials) = (packing.guards(), own.to_vec());
         let divides = |own: &mut [u64]| divide_monomial(guards, own, monomial);
@@ -169,7 +169,7 @@ struct Division<'a, C: Coefficient> {
 }
 
 impl<C: Coefficient> Division<'_, C> {
-    /// The terms of the quotient, `None` if there is a remainder.
+    /// Returns the terms of the quotient, `None` if there is a remainder.
     fn run(&self) -> Result<Terms<C>, Overflow> {
         match self.packing.words() {
             1 => self.run_by::<u64>(),

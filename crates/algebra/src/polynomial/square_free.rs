@@ -5,7 +5,7 @@ use crate::int::Int;
 use crate::ring::{Domain, Ring};
 
 impl Polynomial<Int> {
-    /// The square-free factors that are not constant, primitive with positive leading coefficients, each with its
+    /// Returns the square-free factors that are not constant, primitive with positive leading coefficients, each with its
     /// multiplicity, by increasing multiplicity; the product of their powers is the primitive part.
     ///
     /// Factors of one multiplicity are not separated further.
@@ -54,7 +54,7 @@ impl Polynomial<Int> {
         factors
     }
 
-    /// The product of the distinct irreducible factors that are not constant, its leading coefficient positive.
+    /// Returns the product of the distinct irreducible factors that are not constant, its leading coefficient positive.
     ///
     /// # Panics
     /// When the polynomial is zero.

@@ -4,7 +4,7 @@ use super::Polynomial;
 use crate::monomial::Packing;
 use crate::ring::Ring;
 
-/// `1, x, x^2, ...` up to the given exponent.
+/// Returns `1, x, x^2, ...` up to the given exponent.
 fn powers<R: Ring>(x: &R, exponent: u32) -> Vec<R> {
     let mut powers = vec![R::one()];
     for k in 0..exponent as usize {
@@ -40,7 +40,7 @@ impl<R: Ring> Polynomial<R> {
         sum
     }
 
-    /// The polynomial with a variable replaced by another polynomial (a number: by a constant one).
+    /// Returns the polynomial with a variable replaced by another polynomial (a number: by a constant one).
     #[must_use]
     pub fn substitute(&self, variable: usize, replacement: &Self) -> Self {
         if let Some(value) = replacement.to_constant() {
@@ -50,7 +50,7 @@ impl<R: Ring> Polynomial<R> {
         parts.iter().rev().fold(Self::zero(), |sum, part| sum.mul(replacement).add(part))
     }
 
-    /// The polynomial with several variables replaced at once: replaced variables may occur in the replacements.
+    /// Returns the polynomial with several variables replaced at once: replaced variables may occur in the replacements.
     #[must_use]
     pub fn substitute_all(&self, replacements: &[(usize, Self)]) -> Self {
         let Some(((variable, replacement), others)) = replacements.split_first() else {
@@ -81,7 +81,7 @@ impl<R: Ring> Polynomial<R> {
         Self::from_unsorted(self.packing, monomials, coefficients)
     }
 
-    /// The coefficients of the powers of a variable, lowest first, free of that variable; none for zero.
+    /// Returns the coefficients of the powers of a variable, lowest first, free of that variable; none for zero.
     #[must_use]
     pub fn coefficients_in(&self, variable: usize) -> Vec<Self> {
         if self.is_zero() {
@@ -105,7 +105,7 @@ impl<R: Ring> Polynomial<R> {
         parts
     }
 
-    /// The sum of `coefficients[k] x^k` for the variable x, lowest first.
+    /// Returns the sum of `coefficients[k] x^k` for the variable x, lowest first.
     ///
     /// # Panics
     /// When an exponent grows above [`crate::monomial::LARGEST_EXPONENT`].

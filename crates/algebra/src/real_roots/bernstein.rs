@@ -63,7 +63,7 @@ impl Source {
         }
     }
 
-    /// The polynomial at `-x`.
+    /// Returns the polynomial at `-x`.
     pub(super) fn mirrored(&self) -> Self {
         let odd = |i: usize| i % 2 == 1;
         let negated = |(i, c): (usize, &Integer)| if odd(i) { Integer::from(-c) } else { c.clone() };
@@ -81,7 +81,7 @@ impl Source {
         self.coefficients.len() - 1
     }
 
-    /// The degree as an exponent of two.
+    /// Returns the degree as an exponent of two.
     fn degree_bits(&self) -> i64 {
         i64::try_from(self.degree()).expect("degrees are small")
     }
@@ -91,13 +91,13 @@ impl Source {
         self.weight_bits + self.degree_bits() + self.count_bits + 4
     }
 
-    /// The length of the largest of the numbers `c_i 2^(k i)`.
+    /// Returns the length of the largest of the numbers `c_i 2^(k i)`.
     fn reach(&self, k: i64) -> i64 {
         let terms = (0_i64..).zip(&self.lengths).filter_map(|(i, length)| length.map(|length| length + k * i));
         terms.max().unwrap_or(0)
     }
 
-    /// The expansion on `(0, 2^k)` in 256 bits.
+    /// Returns the expansion on `(0, 2^k)` in 256 bits.
     fn expand_wide(&self, k: i64) -> Expansion {
         // |sum_i C(j,i) l/C(n,i) c_i 2^(k i)| <= l (n + 1) 2^reach, for every partial sum too.
         let shift = WIDE_BITS - self.reach(k) - self.weight_bits - self.count_bits;
@@ -115,7 +115,7 @@ impl Source {
         Expansion { coefficients: b, error: FRESH_ERROR }
     }
 
-    /// The Bernstein coefficients on a cell right of 0, wrong by less than `FRESH_ERROR` whatever the degree, such that the
+    /// Returns the Bernstein coefficients on a cell right of 0, wrong by less than `FRESH_ERROR` whatever the degree, such that the
     /// largest `c_i x^i` on the cell has `bits` bits. The weights of binomials lengthen the coefficients by more than the
     /// degree in bits, so that `bits` may be negative; it must be above `-spoilt`.
     fn expand_to(&self, cell: &Cell, bits: i64) -> Vec<Integer> {
@@ -161,7 +161,7 @@ impl Source {
         b
     }
 
-    /// The powers of `t = numerator/2^length`, each with the number of its binary places.
+    /// Returns the powers of `t = numerator/2^length`, each with the number of its binary places.
     fn powers(&self, cell: &Cell, places: i64) -> Vec<(Integer, u32)> {
         let depth = u32::try_from(length(&cell.numerator)).expect("cells have millions of bits at most");
         let places = u32::try_from(places).expect("precisions are of millions of bits at most");
@@ -192,7 +192,7 @@ impl Source {
         }
     }
 
-    /// The expansion on a cell right of 0, precise whatever it takes.
+    /// Returns the expansion on a cell right of 0, precise whatever it takes.
     pub(super) fn expand(&self, cell: &Cell, bits: &mut i64) -> Expansion {
         if cell.numerator == 0 && self.degree_bits() <= WIDE_BITS / 2 {
             let expansion = self.expand_wide(cell.exponent);
@@ -225,7 +225,7 @@ impl Expansion {
         Self { coefficients: left, error: self.error }
     }
 
-    /// The least and the largest number of sign changes, the first and last sign being known better.
+    /// Returns the least and the largest number of sign changes, the first and last sign being known better.
     pub(super) fn sign_changes(&self, first: i8, last: i8) -> (i32, i32) {
         let n = self.coefficients.len() - 1;
         let (mut least, mut before) = (0, 0);
@@ -301,7 +301,7 @@ impl Expansion {
         y.is_finite().then_some(y)
     }
 
-    /// The first sign that is certain.
+    /// Returns the first sign that is certain.
     pub(super) fn first_sign(&self) -> i8 {
         self.coefficients.iter().map(|b| b.sign_beyond(self.error)).find(|&sign| sign != 0).unwrap_or(0)
     }
@@ -313,7 +313,7 @@ mod tests {
     use crate::real_roots::cell::dyadic;
     use rug::Rational;
 
-    /// `l b_j` on a cell for `p(x) = sum c_i x^i`, exactly: `sum_i C(j,i) w_i q_i` with `q(y) = p(x_0 + w y)`.
+    /// Returns `l b_j` on a cell for `p(x) = sum c_i x^i`, exactly: `sum_i C(j,i) w_i q_i` with `q(y) = p(x_0 + w y)`.
     fn exactly(source: &Source, cell: &Cell) -> Vec<Rational> {
         let (start, width) = (cell.lo(), cell.hi() - cell.lo());
         let mut q: Vec<Rational> = source.coefficients.iter().map(Rational::from).collect();

@@ -14,12 +14,12 @@ impl Cell {
         Self { numerator, exponent }
     }
 
-    /// The part at `index` of `2^bits` equal ones.
+    /// Returns the part at `index` of `2^bits` equal ones.
     pub(super) fn part(&self, index: &Integer, bits: u32) -> Self {
         Self::new(Integer::from(&self.numerator << bits) + index, self.exponent - i64::from(bits))
     }
 
-    /// The right end, as a numerator over the same power of two.
+    /// Returns the right end, as a numerator over the same power of two.
     pub(super) fn end(&self) -> Integer {
         Integer::from(&self.numerator + 1_u32)
     }
@@ -32,13 +32,13 @@ impl Cell {
         dyadic(&self.end(), self.exponent)
     }
 
-    /// The cell of the negatives.
+    /// Returns the cell of the negatives.
     pub(super) fn mirrored(&self) -> Self {
         Self::new(-self.end(), self.exponent)
     }
 }
 
-/// `numerator 2^exponent`
+/// Returns `numerator 2^exponent`.
 pub(super) fn dyadic(numerator: &Integer, exponent: i64) -> Rational {
     let bits = u32::try_from(exponent.unsigned_abs()).expect("exponents are of the size of the coefficients' lengths");
     if exponent < 0 { Rational::from(numerator) >> bits } else { Rational::from(numerator) << bits }

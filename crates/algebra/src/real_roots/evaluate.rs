@@ -13,18 +13,18 @@ pub(super) struct Value {
 /// The length from which on exact values are avoided.
 const WORTH_ROUNDING: i64 = 512;
 
-/// The length in bits, as a signed number.
+/// Returns the length in bits, as a signed number.
 pub(super) fn length(n: &Integer) -> i64 {
     i64::from(n.significant_bits())
 }
 
-/// `floor(2^shift n)`, the result being of a size that can be held.
+/// Returns `floor(2^shift n)`, the result being of a size that can be held.
 pub(super) fn shifted(n: &Integer, shift: i64) -> Integer {
     let size = u32::try_from(shift.unsigned_abs()).unwrap_or(u32::MAX);
     if shift < 0 { Integer::from(n >> size) } else { Integer::from(n << size) }
 }
 
-/// The sign as a number.
+/// Returns the sign as a number.
 pub(super) fn sign(n: &Integer) -> i8 {
     match n.cmp0() {
         Ordering::Less => -1,
@@ -33,7 +33,7 @@ pub(super) fn sign(n: &Integer) -> i8 {
     }
 }
 
-/// The largest length of the numbers `c_i 2^(k i)`.
+/// Returns the largest length of the numbers `c_i 2^(k i)`.
 pub(super) fn reach(coefficients: &[Integer], k: i64) -> i64 {
     let terms = (0_i64..).zip(coefficients).filter(|(_, c)| **c != 0);
     terms.map(|(i, c)| length(c) + k * i).max().unwrap_or(0)

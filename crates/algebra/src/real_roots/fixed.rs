@@ -12,7 +12,7 @@ pub(super) struct Wide {
 impl Wide {
     pub(super) const ZERO: Self = Self { hi: 0, lo: 0 };
 
-    /// The number, which must have at most 255 bits.
+    /// Returns the number, which must have at most 255 bits.
     pub(super) fn new(n: &Integer) -> Self {
         debug_assert!(n.significant_bits() < 256, "the number fits 256 bits with its sign");
         let mut digits = [0_u128; 2];
@@ -32,7 +32,7 @@ impl Wide {
         Self { hi: self.hi.wrapping_add(other.hi).wrapping_add(i128::from(carry)), lo }
     }
 
-    /// `floor(2^shift self)`
+    /// Returns `floor(2^shift self)`.
     #[inline(always)]
     pub(super) fn shift(self, shift: i64) -> Self {
         let size = shift.unsigned_abs();
@@ -57,7 +57,7 @@ impl Wide {
         *self = Self { hi: hi >> 1, lo: lo >> 1 | hi.cast_unsigned() << 127 };
     }
 
-    /// The sign of every number within `error` of this one; 0 when they differ.
+    /// Returns the sign of every number within `error` of this one; 0 when they differ.
     #[inline(always)]
     pub(super) fn sign_beyond(self, error: u64) -> i8 {
         let error = u128::from(error);
@@ -67,7 +67,7 @@ impl Wide {
         i8::from(above) - i8::from(below)
     }
 
-    /// A float near the number.
+    /// Returns a float near the number.
     pub(super) fn to_f64(self) -> f64 {
         const HALF: f64 = 1_u128.rotate_right(1) as f64;
         self.hi as f64 * (2.0 * HALF) + self.lo as f64

@@ -40,7 +40,7 @@ pub(super) enum Place {
 }
 
 impl Place {
-    /// The place of the root of `p(-x)` that belongs to this root of `p(x)`.
+    /// Returns the place of the root of `p(-x)` that belongs to this root of `p(x)`.
     fn mirrored(self) -> Self {
         match self {
             Self::At(numerator, exponent) => Self::At(-numerator, exponent),
@@ -51,7 +51,7 @@ impl Place {
     }
 }
 
-/// The places of all real roots of a square-free polynomial that does not vanish at 0, from left to right.
+/// Returns the places of all real roots of a square-free polynomial that does not vanish at 0, from left to right.
 pub(super) fn isolate(coefficients: Vec<Integer>) -> Vec<Place> {
     let source = Source::new(coefficients);
     let negative = positive_roots(&source.mirrored());
@@ -60,7 +60,7 @@ pub(super) fn isolate(coefficients: Vec<Integer>) -> Vec<Place> {
     places
 }
 
-/// The places of the positive roots.
+/// Returns the places of the positive roots.
 fn positive_roots(source: &Source) -> Vec<Place> {
     let mut search = Search { source, places: Vec::new(), bits: FIRST_PRECISION, value_bits: FIRST_PRECISION };
     if let Some(k) = bound(source).and_then(|k| skip_empty(source, k)) {
@@ -83,7 +83,7 @@ fn bound(source: &Source) -> Option<i64> {
     powers.max()
 }
 
-/// The index of a term that at `2^k` is larger than all others together.
+/// Returns the index of a term that at `2^k` is larger than all others together.
 fn dominant(source: &Source, k: i64) -> Option<usize> {
     let margin = length(&Integer::from(source.degree() + 1)) + 1;
     let (mut best, mut second) = ((i64::MIN, 0), i64::MIN);
@@ -99,7 +99,7 @@ fn dominant(source: &Source, k: i64) -> Option<usize> {
     (second == i64::MIN || best.0 - second > margin).then_some(best.1)
 }
 
-/// The least power of two, from `2^k` down, below which roots may be; `None` when no root is in `(0, 2^k)`.
+/// Returns the least power of two, from `2^k` down, below which roots may be; `None` when no root is in `(0, 2^k)`.
 ///
 /// A term that dominates at two places dominates between them, because all terms are straight lines in logarithms.
 fn skip_empty(source: &Source, k: i64) -> Option<i64> {
@@ -199,7 +199,7 @@ impl Search<'_> {
         Node { cell, expansion, signs: (first, last), cluster }
     }
 
-    /// The node `(0, 2^k)`.
+    /// Returns the node `(0, 2^k)`.
     fn start(&mut self, k: i64) -> Node {
         self.node(Cell::new(Integer::new(), k), Cluster { changes: 0, halvings: 0, leap: FIRST_LEAP })
     }
@@ -265,7 +265,7 @@ impl Search<'_> {
         stack.push(Task::Search(Node { cell: left_cell, expansion: left, signs, cluster: node.cluster }));
     }
 
-    /// The far smaller cell to which Newton's step for an m-fold root leads from either end, if it has all m changes.
+    /// Returns the far smaller cell to which Newton's step for an m-fold root leads from either end, if it has all m changes.
     fn leap(&mut self, node: &Node) -> Option<Node> {
         let Cluster { changes, leap, .. } = node.cluster;
         let b = self.source.expand_long(&node.cell, i64::from(leap) + LEAP_GUARD, &mut self.bits);

@@ -86,7 +86,7 @@ fn separate(roots: &mut [RealRoot]) {
 }
 
 impl Univariate<Integer> {
-    /// The distinct real roots from left to right, each with its multiplicity and a closed interval of its own that
+    /// Returns the distinct real roots from left to right, each with its multiplicity and a closed interval of its own that
     /// meets no other; none for a constant.
     ///
     /// # Panics
@@ -116,7 +116,7 @@ impl Univariate<Integer> {
 }
 
 impl Univariate<Rational> {
-    /// The real roots, as for integer coefficients.
+    /// Returns the real roots, as for integer coefficients.
     ///
     /// # Panics
     /// When the polynomial is zero.

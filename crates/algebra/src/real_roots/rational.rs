@@ -5,7 +5,7 @@ use rug::{Integer, Rational};
 use std::cmp::Ordering;
 
 impl RealRoot {
-    /// The root itself, if it is rational. Shrinks the interval for that.
+    /// Returns the root itself, if it is rational. Shrinks the interval for that.
     ///
     /// The denominator of a rational root divides the leading coefficient l, and two fractions with such denominators
     /// are no less than `1/l^2` apart: a narrower interval has at most one, and that is its simplest fraction.
@@ -23,7 +23,7 @@ impl RealRoot {
     }
 }
 
-/// The fraction of least denominator strictly between two numbers, the first below the second.
+/// Returns the fraction of least denominator strictly between two numbers, the first below the second.
 fn simplest(lo: Rational, hi: Rational) -> Rational {
     if hi.cmp0() != Ordering::Greater {
         return -simplest(-hi, -lo);

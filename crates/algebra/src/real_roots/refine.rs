@@ -15,7 +15,7 @@ const FINEST: i64 = -1074;
 const VALUE_PRECISION: i64 = 64;
 const VALUE_GUARD: i64 = 8;
 
-/// The f64 nearest to `numerator 2^exponent`, ties to even; infinite beyond the range.
+/// Returns the f64 nearest to `numerator 2^exponent`, ties to even; infinite beyond the range.
 fn nearest(numerator: &Integer, exponent: i64) -> f64 {
     let place = (exponent + length(numerator) - SIGNIFICAND).max(FINEST);
     let dropped = place - exponent;
@@ -49,7 +49,7 @@ fn power_of_two(x: f64, exponent: i64) -> f64 {
     x * 2.0_f64.powi(half) * 2.0_f64.powi(exponent - half)
 }
 
-/// An f64 as a rational, the infinite ones as the next power of two.
+/// Returns an f64 as a rational, the infinite ones as the next power of two.
 fn exactly(x: f64) -> Rational {
     Rational::from_f64(x).unwrap_or_else(|| {
         let end = Rational::from(1) << 1024_u32;
@@ -172,7 +172,7 @@ impl RealRoot {
         self.place = Place::Within(cell, left, known);
     }
 
-    /// The root rounded to the nearest f64, ties to even; infinite beyond the range. Shrinks the interval for that.
+    /// Returns the root rounded to the nearest f64, ties to even; infinite beyond the range. Shrinks the interval for that.
     pub fn to_f64(&mut self) -> f64 {
         loop {
             let cell = match &self.place {
@@ -213,14 +213,14 @@ impl RealRoot {
 }
 
 impl Guess {
-    /// The nearest corner among those of `2^bits` parts, at most as many bits as are relied upon.
+    /// Returns the nearest corner among those of `2^bits` parts, at most as many bits as are relied upon.
     fn corner(self, bits: u32) -> Integer {
         let parts = Integer::from(1) << bits;
         let nearest = Integer::from_f64((self.y * parts.to_f64()).round()).unwrap_or_default();
         nearest.max(Integer::new()).min(parts)
     }
 
-    /// The guess within the part at `index` of `2^bits`, if any bits are left.
+    /// Returns the guess within the part at `index` of `2^bits`, if any bits are left.
     fn within(self, index: &Integer, bits: u32) -> Option<Self> {
         let y = self.y * (Integer::from(1) << bits).to_f64() - index.to_f64();
         (bits < self.bits).then(|| Self { y: y.clamp(0.0, 1.0), bits: self.bits - bits })

@@ -6,7 +6,7 @@ use crate::minors::{expand, maximal_minors};
 use crate::ring::Ring;
 use crate::univariate::Univariate;
 
-/// The hybrid Bezout matrix of two polynomials of degrees `m >= n`: its determinant is the resultant, sign and powers
+/// Returns the hybrid Bezout matrix of two polynomials of degrees `m >= n`: its determinant is the resultant, sign and powers
 /// of leading coefficients included, and the vector `(x^(m-1), ..., x, 1)` of a common root is in its null space.
 ///
 /// The first n rows are the polynomials
@@ -114,7 +114,7 @@ pub fn expansion<R: Ring>(f: &Univariate<R>, g: &Univariate<R>) -> Expansion<R> 
     }
 }
 
-/// `b1^m f(-b0/b1)`, by Horner's rule; its sign is that of `Res(b1 x + b0, f)`, turned if m is odd.
+/// Returns `b1^m f(-b0/b1)`, by Horner's rule; its sign is that of `Res(b1 x + b0, f)`, turned if m is odd.
 fn at_root<R: Ring>(f: &[R], b0: &R, b1: &R) -> R {
     let (Some((top, rest)), root) = (f.split_last(), b0.neg()) else { return R::zero() };
     let (mut value, mut scale) = (top.clone(), R::one());

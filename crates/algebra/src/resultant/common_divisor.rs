@@ -24,7 +24,7 @@ pub fn common_divisor<F: Field>(f: &[F], g: &[F], tolerance: f64) -> Vec<F> {
     divisor
 }
 
-/// The common divisor of two polynomials other than zero, the one of higher degree first.
+/// Returns the common divisor of two polynomials other than zero, the one of higher degree first.
 fn from_null_space<F: Field>(f: Vec<F>, g: &[F], tolerance: f64) -> Vec<F> {
     let m = f.len() - 1;
     let null_space = reduce(&bezout::matrix(&f, g), m, tolerance).null_space();
@@ -41,7 +41,7 @@ fn from_null_space<F: Field>(f: Vec<F>, g: &[F], tolerance: f64) -> Vec<F> {
     divisor
 }
 
-/// The coefficients divided by the largest one; `None` if all are zero.
+/// Returns the coefficients divided by the largest one; `None` if all are zero.
 fn to_unit_size<F: Field>(f: &[F]) -> Option<Vec<F>> {
     let larger = |best: &F, c: &F| c.pivot_size() > best.pivot_size();
     let largest = f.iter().fold(F::zero(), |best, c| if larger(&best, c) { c.clone() } else { best });

@@ -86,7 +86,7 @@ pub fn eliminate(f: [&Polynomial<Int>; 3], variables: [usize; 2]) -> DixonElimin
     DixonEliminant { matrix, determinant, witness: minor.and_then(|minor| minor.witness) }
 }
 
-/// A polynomial as one in two of its variables with coefficients that are polynomials in the others.
+/// Returns a polynomial as one in two of its variables with coefficients that are polynomials in the others.
 ///
 /// # Panics
 /// When the two variables are the same.
@@ -104,7 +104,7 @@ pub fn collect<R: Ring>(f: &Polynomial<R>, [x, y]: [usize; 2]) -> Polynomial<Pol
 /// Three different monomials, by their numbers, increasing: the columns of a determinant of coefficients.
 type Triple = [usize; 3];
 
-/// The order of three numbers, and whether the permutation that sorts them is odd.
+/// Returns the order of three numbers, and whether the permutation that sorts them is odd.
 fn sorted([mut i, mut j, mut k]: Triple) -> (Triple, bool) {
     let mut odd = false;
     let mut order = |a: &mut usize, b: &mut usize| {
@@ -120,7 +120,7 @@ fn sorted([mut i, mut j, mut k]: Triple) -> (Triple, bool) {
 }
 
 impl<R: Ring> Dixon<R> {
-    /// The Dixon matrix of three polynomials in the variables 0 and 1, parameters being in the coefficients, see
+    /// Returns the Dixon matrix of three polynomials in the variables 0 and 1, parameters being in the coefficients, see
     /// [`collect`].
     ///
     /// # Panics
@@ -223,7 +223,7 @@ impl<R: Ring> Dixon<R> {
     }
 }
 
-/// The entries of the Dixon matrix as integer combinations of the determinants of three columns of coefficients: by
+/// Returns the entries of the Dixon matrix as integer combinations of the determinants of three columns of coefficients: by
 /// divided differences, first in y and then in x, the rows of the determinant become
 /// `sum_k x^k u^(a-1-k) y^b`, `u^a sum_k y^k v^(b-1-k)`, `u^a v^b` for the monomial `x^a y^b`.
 fn combinations(support: &[Monomial]) -> BTreeMap<(Monomial, Monomial), BTreeMap<Triple, i32>> {
@@ -256,7 +256,7 @@ impl<'a, R: Ring> Brackets<'a, R> {
         Self { coefficients, known: BTreeMap::new(), minors: BTreeMap::new() }
     }
 
-    /// The determinant; `None` for zero.
+    /// Returns the determinant; `None` for zero.
     fn get(&mut self, triple: Triple) -> Option<&R> {
         let Self { coefficients, known, minors } = self;
         let expand = || {
@@ -272,7 +272,7 @@ impl<'a, R: Ring> Brackets<'a, R> {
     }
 }
 
-/// The vector product of two columns of coefficients.
+/// Returns the vector product of two columns of coefficients.
 fn cross<R: Ring>(a: &[Option<R>; 3], b: &[Option<R>; 3]) -> [Option<R>; 3] {
     let product = |i: usize, j: usize| Some(a[i].as_ref()?.mul(b[j].as_ref()?));
     [(1, 2), (2, 0), (0, 1)].map(|(i, j)| match (product(i, j), product(j, i)) {

@@ -46,7 +46,7 @@ fn by_values(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> Optio
     resultant.map(|terms| terms.polynomial(variables))
 }
 
-/// The greatest common divisor of the coefficients, and the polynomial without it.
+/// Returns the greatest common divisor of the coefficients, and the polynomial without it.
 fn without_content(f: &Polynomial<Int>) -> (Int, Cow<'_, Polynomial<Int>>) {
     let content = f.content();
     if content == Int::one() || content.is_zero() {

@@ -56,7 +56,7 @@ pub(super) fn reduce_up_to<F: Field>(matrix: &[Vec<F>], columns: usize, rank: us
 }
 
 impl<F: Field> Reduced<F> {
-    /// A basis of the vectors that the matrix sends to zero.
+    /// Returns a basis of the vectors that the matrix sends to zero.
     pub(super) fn null_space(&self) -> Vec<Vec<F>> {
         let is_free = |column: &usize| self.pivots.iter().all(|(_, used)| used != column);
         let vector = |free: usize| {

@@ -56,7 +56,7 @@ fn without_monomials<D: Domain>(
     Expansion { resultant: expansion.resultant.mul(&factor), linear }
 }
 
-/// The exponents of the monomial that divides all coefficients.
+/// Returns the exponents of the monomial that divides all coefficients.
 fn common_exponents<D: Domain>(f: &Univariate<Polynomial<D>>) -> Vec<u32> {
     let mut common: Option<Vec<u32>> = None;
     for (exponents, _) in f.coefficients().iter().flat_map(Polynomial::terms) {
@@ -72,7 +72,7 @@ fn common_exponents<D: Domain>(f: &Univariate<Polynomial<D>>) -> Vec<u32> {
     common.unwrap_or_default()
 }
 
-/// The polynomial with a monomial divided out of its coefficients.
+/// Returns the polynomial with a monomial divided out of its coefficients.
 fn divided<D: Domain>(f: &Univariate<Polynomial<D>>, common: &[u32]) -> Univariate<Polynomial<D>> {
     let term = |(mut exponents, c): (Vec<u32>, &D)| {
         for (e, &by) in exponents.iter_mut().zip(common) {

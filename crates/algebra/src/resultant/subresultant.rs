@@ -63,7 +63,7 @@ fn coefficient<R: Ring>(f: &Univariate<R>, k: usize) -> R {
     f.coefficients().get(k).cloned().unwrap_or_else(R::zero)
 }
 
-/// The power, by repeated squaring.
+/// Returns the power, by repeated squaring.
 pub(super) fn power<R: Ring>(x: &R, exponent: usize) -> R {
     if exponent <= 1 {
         return if exponent == 0 { R::one() } else { x.clone() };
@@ -73,7 +73,7 @@ pub(super) fn power<R: Ring>(x: &R, exponent: usize) -> R {
     if odd(exponent) { square.mul(x) } else { square }
 }
 
-/// The remainder of `(-l)^(m-n+1) f` by g, l the leading coefficient of g: with this sign the subresultant `S_(n-1)`.
+/// Returns the remainder of `(-l)^(m-n+1) f` by g, l the leading coefficient of g: with this sign the subresultant `S_(n-1)`.
 fn signed_pseudo_remainder<D: Domain>(f: &Univariate<D>, g: &Univariate<D>) -> Univariate<D> {
     let steps = f.coefficients().len() - g.coefficients().len() + 1;
     let (remainder, taken) = f.pseudo_remainder(g);
@@ -81,7 +81,7 @@ fn signed_pseudo_remainder<D: Domain>(f: &Univariate<D>, g: &Univariate<D>) -> U
     remainder.scale(&if odd(steps) { factor.neg() } else { factor })
 }
 
-/// `b l^gap / scale^gap`, l the leading coefficient of b: the regular subresultant of the same degree, by powers
+/// Returns `b l^gap / scale^gap`, l the leading coefficient of b: the regular subresultant of the same degree, by powers
 /// that are kept small on the way (Lazard's improvement).
 fn lowered<D: Domain>(b: &Univariate<D>, scale: &D, gap: usize) -> Univariate<D> {
     let x = leading(b);
@@ -95,7 +95,7 @@ fn lowered<D: Domain>(b: &Univariate<D>, scale: &D, gap: usize) -> Univariate<D>
     Univariate::new(b.coefficients().iter().map(|c| c.mul(&factor).div_exact(scale)).collect())
 }
 
-/// The subresultant `S_(e-1)` after a of degree d, `b = S_(d-1)` of degree e and the regular one of that degree, with
+/// Returns the subresultant `S_(e-1)` after a of degree d, `b = S_(d-1)` of degree e and the regular one of that degree, with
 /// divisions as early as they are exact.
 fn next<D: Domain>(a: &Univariate<D>, b: &Univariate<D>, regular: &Univariate<D>, scale: &D) -> Univariate<D> {
     let (d, e) = (a.coefficients().len() - 1, b.coefficients().len() - 1);
@@ -126,7 +126,7 @@ fn next<D: Domain>(a: &Univariate<D>, b: &Univariate<D>, regular: &Univariate<D>
     Univariate::new((0..e).map(term).collect())
 }
 
-/// `x h` less the multiple of b that takes off the power that b has as its highest.
+/// Returns `x h` less the multiple of b that takes off the power that b has as its highest.
 fn shifted<D: Domain>(h: &[D], b: &Univariate<D>, multiple: impl Fn(&D, &D) -> D) -> Vec<D> {
     let carry = &h[h.len() - 1];
     let term = |j: usize| {

@@ -4,7 +4,7 @@ use crate::determinant::bareiss;
 use crate::ring::{Domain, Ring};
 use crate::univariate::Univariate;
 
-/// The Sylvester matrix of two polynomials: the rows `x^(n-1) f, ..., f, x^(m-1) g, ..., g`, the highest power of x in
+/// Returns the Sylvester matrix of two polynomials: the rows `x^(n-1) f, ..., f, x^(m-1) g, ..., g`, the highest power of x in
 /// the first column.
 ///
 /// # Shape
@@ -26,7 +26,7 @@ pub fn matrix<R: Ring>(f: &[R], g: &[R]) -> Vec<Vec<R>> {
     (0..n).rev().map(|shift| row(f, shift)).chain((0..m).rev().map(|shift| row(g, shift))).collect()
 }
 
-/// The resultant as the determinant of the Sylvester matrix, without fractions.
+/// Returns the resultant as the determinant of the Sylvester matrix, without fractions.
 ///
 /// The slow one that the others are compared with. As everywhere here, `Res(f, c) = c^m` for a constant c other than
 /// zero, and the resultant with the zero polynomial is 0, `Res(0, c)` among them.

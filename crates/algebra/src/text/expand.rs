@@ -33,7 +33,7 @@ impl Expanded {
 }
 
 impl Node {
-    /// The polynomial, multiplied out.
+    /// Returns the polynomial, multiplied out.
     pub(super) fn expand(&self) -> Result<Fraction, Fault> {
         Ok(self.expanded()?.fraction)
     }
@@ -187,7 +187,7 @@ impl Size {
         (self.bits / 64.0).max(1.0)
     }
 
-    /// The terms that fit the degrees.
+    /// Returns the terms that fit the degrees.
     fn bounded(mut self) -> Self {
         let cells: f64 = self.degrees.iter().map(|&d| d as f64 + 1.0).product();
         let variables = self.degrees.iter().filter(|&&d| d > 0).count();

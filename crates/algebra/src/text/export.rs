@@ -10,7 +10,7 @@ use rug::Rational;
 /// Terms in a line of LaTeX.
 const LATEX_LINE: usize = 6;
 
-/// The file of a system that is not empty.
+/// Returns the file of a system that is not empty.
 pub(super) fn file(format: Format, polynomials: &[Polynomial<Rational>], names: &Names) -> String {
     let renamed = Renamed::new(format, names);
     let variables = renamed.list();
@@ -68,7 +68,7 @@ fn remark(format: Format, changes: &[(String, String)]) -> String {
     comment(format, &format!("renamed: {}", changes.join(", "))).map_or_else(String::new, |line| line + "\n")
 }
 
-/// A line of comment; `None` for languages without comments.
+/// Returns a line of comment; `None` for languages without comments.
 pub(super) fn comment(format: Format, text: &str) -> Option<String> {
     let (open, close) = match format {
         Format::Text | Format::Sympy | Format::Maple | Format::Julia => ("# ", ""),
@@ -83,7 +83,7 @@ pub(super) fn comment(format: Format, text: &str) -> Option<String> {
     Some(format!("{open}{text}{close}"))
 }
 
-/// The polynomials in the lines of an `align*`.
+/// Returns the polynomials in the lines of an `align*`.
 pub(super) fn latex_lines(polynomials: &[Polynomial<Rational>], names: &Names) -> String {
     let mut blocks = Vec::new();
     for (index, polynomial) in polynomials.iter().enumerate() {

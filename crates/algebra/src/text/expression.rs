@@ -131,7 +131,7 @@ impl Node {
         }
     }
 
-    /// A bound of the size of the value, see [`Terms::growth`].
+    /// Returns a bound of the size of the value, see [`Terms::growth`].
     fn growth(&self, sizes: &[u64]) -> u64 {
         match self {
             Self::Terms(_, terms) => terms.growth(sizes),

@@ -25,14 +25,14 @@ impl Fault {
         Self { place, message }
     }
 
-    /// The fault of a file.
+    /// Returns the fault of a file.
     #[must_use]
     pub fn in_file(self, path: &str) -> Error {
         let message = format!("column {}: {}", self.place.column, self.message);
         Error::File { path: path.to_owned(), line: self.place.line, message }
     }
 
-    /// The fault of a text that stands in no file, such as an argument of a command line.
+    /// Returns the fault of a text that stands in no file, such as an argument of a command line.
     #[must_use]
     pub fn in_text(self, text: &str) -> Error {
         let Place { line, column } = self.place;
@@ -42,7 +42,7 @@ impl Fault {
     }
 }
 
-/// The text, cut to a readable length.
+/// Returns the text, cut to a readable length.
 pub(super) fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 {
         return text.to_owned();

@@ -52,7 +52,7 @@ impl Format {
         ("julia", Self::Julia),
     ];
 
-    /// One polynomial as an expression of the language, in lexicographic order. Names that mean something else there
+    /// Returns one polynomial as an expression of the language, in lexicographic order. Names that mean something else there
     /// are changed, always to the same ones for the same list of names.
     ///
     /// # Panics
@@ -66,7 +66,7 @@ impl Format {
         }
     }
 
-    /// A line of comment; `None` for languages without comments.
+    /// Returns a line of comment; `None` for languages without comments.
     #[must_use]
     pub fn comment(self, text: &str) -> Option<String> {
         export::comment(self, text)

@@ -33,7 +33,7 @@ impl Fraction {
         Self { numerator: numerator.unwrap_or_else(Polynomial::zero), denominator: self.denominator.div_exact(&common) }
     }
 
-    /// The polynomial itself.
+    /// Returns the polynomial itself.
     #[must_use]
     pub fn to_rational(&self) -> Polynomial<Rational> {
         let denominator = self.denominator.to_integer();
@@ -41,7 +41,7 @@ impl Fraction {
         self.numerator.map(image).unwrap_or_else(Polynomial::zero)
     }
 
-    /// The polynomial over its common denominator, in lowest terms.
+    /// Returns the polynomial over its common denominator, in lowest terms.
     #[must_use]
     pub fn from_rational(polynomial: &Polynomial<Rational>) -> Self {
         let mut denominator = Integer::from(1);

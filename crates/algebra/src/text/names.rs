@@ -63,13 +63,13 @@ impl Names {
         Ok(names)
     }
 
-    /// The names, in order.
+    /// Returns the names, in order.
     #[must_use]
     pub fn list(&self) -> &[String] {
         &self.list
     }
 
-    /// The number of the variable with this name.
+    /// Returns the number of the variable with this name.
     #[must_use]
     pub fn index(&self, name: &str) -> Option<usize> {
         if self.table.is_empty() {
@@ -124,7 +124,7 @@ impl Names {
     }
 }
 
-/// A letter or underscore, then letters, digits, underscores, and primes at the end.
+/// Returns whether a text is a letter or underscore, then letters, digits, underscores, and primes at the end.
 fn is_name(text: &str) -> bool {
     let body = text.trim_end_matches('\'');
     body.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')

@@ -26,7 +26,7 @@ impl Notation {
     }
 }
 
-/// The polynomial in one line, in a language that writes `*` for products.
+/// Returns the polynomial in one line, in a language that writes `*` for products.
 pub(super) fn plain<S: AsRef<str>>(format: Format, polynomial: &Polynomial<Rational>, names: &[S]) -> String {
     let notation = Notation::of(format);
     let mut text = String::new();
@@ -75,7 +75,7 @@ fn write_number(text: &mut String, number: &impl std::fmt::Display) {
     let _ = write!(text, "{number}");
 }
 
-/// The terms in LaTeX, each with its sign.
+/// Returns the terms in LaTeX, each with its sign.
 pub(super) fn latex(polynomial: &Polynomial<Rational>, names: &[String]) -> Vec<String> {
     let mut typeset: Vec<String> = names.iter().map(|name| latex_name(name)).collect();
     for variable in 0..names.len() {
@@ -119,7 +119,7 @@ const GREEK: [&str; 25] = [
     "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega", "Gamma", "Delta",
 ];
 
-/// `x_{12}` for x12 and x_12, Greek letters by their names, other words upright.
+/// Returns `x_{12}` for x12 and x_12, Greek letters by their names, other words upright.
 fn latex_name(name: &str) -> String {
     let body = name.trim_end_matches('\'');
     let primes = &name[body.len()..];

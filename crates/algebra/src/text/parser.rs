@@ -138,7 +138,7 @@ impl<'t, 'n> Parser<'t, 'n> {
         })
     }
 
-    /// A product, added to the plain terms or else to the others.
+    /// Reads a product, and adds it to the plain terms or else to the others.
     fn term(&mut self, negative: bool, terms: &mut Terms, others: &mut Vec<Node>) -> Result<(), Fault> {
         let (mut numerator, mut denominator) = (Int::from(if negative { -1_i64 } else { 1 }), Int::one());
         let mut factors = Vec::new();
@@ -258,7 +258,7 @@ impl<'t, 'n> Parser<'t, 'n> {
         Ok(node)
     }
 
-    /// A whole number, perhaps in parentheses.
+    /// Reads a whole number, optionally in parentheses.
     fn exponent(&mut self) -> Result<u32, Fault> {
         const EXPECTED: &str = "a whole number as exponent, not negative";
         let open = self.scanner.eat(b'(');

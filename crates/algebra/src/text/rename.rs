@@ -39,7 +39,7 @@ impl Renamed {
     }
 }
 
-/// The name in the letters that the language has.
+/// Returns the name in the letters that the language has.
 fn spelt(format: Format, name: &str) -> String {
     let name = name.replace('\'', "p");
     let name = match format {

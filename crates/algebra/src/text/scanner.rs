@@ -35,7 +35,7 @@ impl<'t> Scanner<'t> {
         Fault::new(self.place(), message)
     }
 
-    /// The next byte, spaces and comments (`#` to the end of the line) passed over; 0 at the end.
+    /// Returns the next byte after spaces and comments (`#` to the end of the line); 0 at the end.
     #[inline]
     pub(super) fn peek(&mut self) -> u8 {
         let bytes = self.text.as_bytes();
@@ -56,7 +56,7 @@ impl<'t> Scanner<'t> {
         }
     }
 
-    /// The byte behind the one that [`Self::peek`] gave.
+    /// Returns the byte behind the one that [`Self::peek`] returned.
     pub(super) fn second(&self) -> u8 {
         self.text.as_bytes().get(self.at + 1).copied().unwrap_or(0)
     }
@@ -83,7 +83,7 @@ impl<'t> Scanner<'t> {
         format!("`{}`", shortened(&rest[..end]).escape_debug())
     }
 
-    /// The name that begins here; the caller has seen its first letter.
+    /// Reads the name that begins here; the caller has seen its first letter.
     #[inline]
     pub(super) fn name(&mut self) -> &'t str {
         let bytes = self.text.as_bytes();
@@ -148,13 +148,13 @@ impl<'t> Scanner<'t> {
         Ok((Int::from(numerator), Int::from(denominator)))
     }
 
-    /// The whole number that begins here, if it fits a u64.
+    /// Reads the whole number that begins here, if it fits a u64.
     pub(super) fn small(&mut self) -> Option<u64> {
         self.digits().parse().ok()
     }
 }
 
-/// The value of decimal digits.
+/// Returns the value of decimal digits.
 #[inline]
 fn integer(digits: &str) -> Int {
     if digits.len() <= 18 {

@@ -13,12 +13,12 @@ pub(super) const LARGEST_SIZE: u64 = 2 << 30;
 /// Texts and results with more terms than this are refused, too.
 pub(super) const MOST_TERMS: usize = 20_000_000;
 
-/// The least common multiple of two positive numbers.
+/// Returns the least common multiple of two positive numbers.
 pub(super) fn common_multiple(a: &Int, b: &Int) -> Int {
     if a == b { a.clone() } else { a.mul(&b.div_exact(&a.gcd(b))) }
 }
 
-/// The number of bits of a number, at least 1.
+/// Returns the number of bits of a number, at least 1.
 pub(super) fn bits(n: &Int) -> u64 {
     match n.to_i64() {
         Some(n) => u64::from((64 - n.unsigned_abs().leading_zeros()).max(1)),
@@ -95,7 +95,7 @@ impl Terms {
         self.ends.push(self.powers.len());
     }
 
-    /// The term that is being read, taken out.
+    /// Takes out the term that is being read.
     pub(super) fn split_term(&mut self, numerator: Int, denominator: Int) -> Self {
         let mut term = Self { powers: self.powers.split_off(self.start()), ..Self::default() };
         term.finish_term(numerator, denominator);
@@ -118,7 +118,7 @@ impl Terms {
         &self.powers[start..self.ends[term]]
     }
 
-    /// The only term, or none for zero: numerator, denominator and powers.
+    /// Returns the only term, or none for zero: numerator, denominator and powers.
     pub(super) fn single(&self) -> Option<(Int, Int, &Powers)> {
         match self.len() {
             0 => Some((Int::zero(), Int::one(), &[])),
@@ -140,7 +140,7 @@ impl Terms {
         Self::constant(Int::from(numerator), Int::from(denominator))
     }
 
-    /// One more than the highest variable.
+    /// Returns one more than the highest variable.
     fn variables(&self) -> usize {
         self.powers.iter().map(|(variable, _)| *variable as usize + 1).max().unwrap_or(0)
     }
@@ -212,7 +212,7 @@ impl Terms {
         Some(sum)
     }
 
-    /// A bound of the bits of the value, each variable having the given number of them.
+    /// Returns a bound of the bits of the value, each variable having the given number of them.
     pub(super) fn growth(&self, sizes: &[u64]) -> u64 {
         let mut degrees = vec![0; self.variables()];
         for &(variable, exponent) in &self.powers {
@@ -227,7 +227,7 @@ impl Terms {
     }
 }
 
-/// The power, by repeated squaring.
+/// Returns the power, by repeated squaring.
 pub(super) fn power<R: Ring>(base: &R, exponent: u32) -> R {
     let (mut result, mut square, mut rest) = (None, base.clone(), exponent);
     while rest > 0 {

@@ -61,7 +61,7 @@ pub fn eliminate_angle<R: Ring>(
     Some(AngleElimination { equation: reduce(&equation, others), cos, sin, denominator })
 }
 
-/// The coefficients of cosine, sine and 1.
+/// Returns the coefficients of cosine, sine and 1.
 fn linear_parts<R: Ring>(f: &Polynomial<R>, angle: Pair) -> Option<[Polynomial<R>; 3]> {
     let mut parts = [const { Vec::new() }; 3];
     for (mut exponents, c) in f.terms() {

@@ -48,7 +48,7 @@ pub fn half_tangents<R: Ring>(f: &Polynomial<R>, substitutions: &[(Pair, usize)]
     HalfAngles { polynomial, powers }
 }
 
-/// The substitution for one angle in a polynomial in normal form.
+/// Returns the substitution for one angle in a polynomial in normal form.
 ///
 /// Least is the degree in cosine and sine together: at `t = i` the terms of that degree k, `p c^k + q c^(k-1) s`, become
 /// `2^k (p + i q)`, and the others vanish.
@@ -71,7 +71,7 @@ fn substitute<R: Ring>(f: &Polynomial<R>, pair: Pair, tangent: usize) -> (Polyno
     (Polynomial::from_coefficients_in(tangent, &sum), k)
 }
 
-/// The coefficients of `(1 - t^2)^a (2t)^b (1 + t^2)^rest`.
+/// Returns the coefficients of `(1 - t^2)^a (2t)^b (1 + t^2)^rest`.
 fn weights<R: Ring>(a: usize, b: usize, rest: usize) -> Vec<R> {
     let mut weights = vec![R::one()];
     let mut multiply = |low: i32, high: i32, shift: usize| {

@@ -19,7 +19,7 @@ pub struct Pair {
     pub sin: usize,
 }
 
-/// The normal form modulo `cos^2 + sin^2 = 1` for each of the pairs: of degree 1 or less in every sine.
+/// Returns the normal form modulo `cos^2 + sin^2 = 1` for each of the pairs: of degree 1 or less in every sine.
 ///
 /// Two polynomials have the same one exactly if they are the same function of the angles (over rings without zero
 /// divisors in which 2 is not 0).
@@ -80,7 +80,7 @@ pub struct Trigonometric<R> {
 }
 
 impl<R: Ring> Trigonometric<R> {
-    /// The normal form of a polynomial.
+    /// Returns the normal form of a polynomial.
     ///
     /// # Panics
     /// When a variable is in two of the pairs, or twice in one.
@@ -92,31 +92,31 @@ impl<R: Ring> Trigonometric<R> {
         Self { polynomial: reduce(polynomial, &pairs), pairs }
     }
 
-    /// The cosine of an angle.
+    /// Returns the cosine of an angle.
     #[must_use]
     pub fn cos(angle: Pair) -> Self {
         Self { polynomial: Polynomial::variable(angle.cos), pairs: vec![angle] }
     }
 
-    /// The sine of an angle.
+    /// Returns the sine of an angle.
     #[must_use]
     pub fn sin(angle: Pair) -> Self {
         Self { polynomial: Polynomial::variable(angle.sin), pairs: vec![angle] }
     }
 
-    /// The polynomial, of degree 1 or less in every sine.
+    /// Returns the polynomial, of degree 1 or less in every sine.
     #[must_use]
     pub const fn polynomial(&self) -> &Polynomial<R> {
         &self.polynomial
     }
 
-    /// The angles that have come in.
+    /// Returns the angles that have come in.
     #[must_use]
     pub fn pairs(&self) -> &[Pair] {
         &self.pairs
     }
 
-    /// The angles of both.
+    /// Returns the angles of both.
     fn union(&self, other: &Self) -> Vec<Pair> {
         let mut pairs = self.pairs.clone();
         if self.pairs != other.pairs {
@@ -127,7 +127,7 @@ impl<R: Ring> Trigonometric<R> {
         pairs
     }
 
-    /// A result over the angles of both.
+    /// Returns a result over the angles of both.
     fn combined(&self, other: &Self, polynomial: &Polynomial<R>) -> Self {
         let pairs = self.union(other);
         Self { polynomial: reduce(polynomial, &pairs), pairs }

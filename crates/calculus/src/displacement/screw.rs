@@ -69,7 +69,7 @@ impl<R: Root> Screw<R> {
 }
 
 impl<R: Analytic> Screw<R> {
-    /// The angle in [0, pi].
+    /// Returns the angle in [0, pi].
     #[must_use]
     pub fn angle(&self) -> Option<R> {
         self.half.angle().map(|half| half.add(&half))

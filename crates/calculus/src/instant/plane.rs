@@ -21,17 +21,17 @@ pub struct Instant<R> {
     pub third: Complex<R>,
 }
 
-/// `i z`
+/// Returns `i z`.
 fn turned<R: Ring>(z: &Complex<R>) -> Complex<R> {
     Complex { re: z.im.neg(), im: z.re.clone() }
 }
 
-/// `Re(conj(a) b)`
+/// Returns `Re(conj(a) b)`.
 fn scalar<R: Ring>(a: &Complex<R>, b: &Complex<R>) -> R {
     a.re.mul(&b.re).add(&a.im.mul(&b.im))
 }
 
-/// `Im(conj(a) b)`
+/// Returns `Im(conj(a) b)`.
 fn area<R: Ring>(a: &Complex<R>, b: &Complex<R>) -> R {
     a.re.mul(&b.im).sub(&a.im.mul(&b.re))
 }

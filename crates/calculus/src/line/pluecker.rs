@@ -18,13 +18,13 @@ pub struct Line<R> {
 }
 
 impl<R: Ring> Line<R> {
-    /// The line through a point.
+    /// Returns the line through a point.
     #[must_use]
     pub fn at(point: &Vector<R>, direction: &Vector<R>) -> Self {
         Self { direction: direction.clone(), moment: cross(point, direction) }
     }
 
-    /// The line through two points.
+    /// Returns the line through two points.
     ///
     /// # Example
     /// ```
@@ -37,7 +37,7 @@ impl<R: Ring> Line<R> {
         Self::at(first, &std::array::from_fn(|i| second[i].sub(&first[i])))
     }
 
-    /// The line of two planes `n . x = c`.
+    /// Returns the line of two planes `n . x = c`.
     ///
     /// # Example
     /// ```
@@ -56,13 +56,13 @@ impl<R: Ring> Line<R> {
         Self { direction: cross(n1, n2), moment }
     }
 
-    /// The six coordinates, direction first.
+    /// Returns the six coordinates, direction first.
     #[must_use]
     pub fn coordinates(&self) -> [R; 6] {
         std::array::from_fn(|k| if k < 3 { self.direction[k].clone() } else { self.moment[k - 3].clone() })
     }
 
-    /// The line with six coordinates, direction first.
+    /// Returns the line with six coordinates, direction first.
     #[must_use]
     pub fn from_coordinates(c: &[R; 6]) -> Self {
         Self { direction: std::array::from_fn(|k| c[k].clone()), moment: std::array::from_fn(|k| c[k + 3].clone()) }
@@ -74,7 +74,7 @@ impl<R: Ring> Line<R> {
         dot(&self.direction, &other.moment).add(&dot(&self.moment, &other.direction))
     }
 
-    /// The line as one vector of dual numbers.
+    /// Returns the line as one vector of dual numbers.
     #[must_use]
     pub fn dual(&self) -> Vector<Dual<R>> {
         std::array::from_fn(|k| Dual { value: self.direction[k].clone(), epsilon: self.moment[k].clone() })

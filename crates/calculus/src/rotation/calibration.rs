@@ -22,7 +22,7 @@ pub enum Translation<F> {
     None,
 }
 
-/// The translation of X, given its rotation.
+/// Returns the translation of X, given its rotation.
 ///
 /// # Source
 /// \[Wittenburg2016, 1.15.10\]
@@ -77,7 +77,7 @@ pub fn nearest(pairs: &[(Motion<f64>, Motion<f64>)]) -> Option<Motion<f64>> {
     Some(Motion { rotation, translation: [found[0], found[1], found[2]] })
 }
 
-/// The largest entry of `A X - X B` over all pairs.
+/// Returns the largest entry of `A X - X B` over all pairs.
 #[must_use]
 pub fn residual(pairs: &[(Motion<f64>, Motion<f64>)], x: &Motion<f64>) -> f64 {
     let mut largest = 0.0_f64;

@@ -21,7 +21,7 @@ impl<R: Ring> CayleyKlein<R> {
         Self { alpha: [q.scalar.clone(), z], beta: [y, x] }
     }
 
-    /// The quaternion of the parameters.
+    /// Returns the quaternion of the parameters.
     #[must_use]
     pub fn quaternion(&self) -> Quaternion<R> {
         let ([w, z], [y, x]) = (self.alpha.clone(), self.beta.clone());

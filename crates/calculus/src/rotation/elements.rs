@@ -177,7 +177,7 @@ impl<R: Unit> Elements<R> {
     }
 }
 
-/// The matrix with these first rows.
+/// Returns the matrix with these first rows.
 fn completed<R: Ring>(first: [R; 3], second: [R; 3]) -> Matrix<R> {
     let last = cross(&first, &second);
     [first, second, last]

@@ -44,7 +44,7 @@ impl Order {
         (axes[0] != axes[1] && axes[1] != axes[2]).then_some(Self { axes })
     }
 
-    /// Whether first and third axis are the same.
+    /// Returns whether first and third axis are the same.
     #[must_use]
     pub fn is_proper(self) -> bool {
         self.axes[0] == self.axes[2]
@@ -56,7 +56,7 @@ impl Order {
         (i, j, 3 - i - j, (i + 1) % 3 == j)
     }
 
-    /// The rotation by three angles.
+    /// Returns the rotation by three angles.
     ///
     /// # Example
     /// ```
@@ -71,7 +71,7 @@ impl Order {
         product(&product(&a, &b), &c)
     }
 
-    /// A quaternion of the rotation by three angles, up to a factor.
+    /// Returns a quaternion of the rotation by three angles, up to a factor.
     #[must_use]
     pub fn quaternion<R: Root>(self, angles: &[Turn<R>; 3]) -> Quaternion<R> {
         from_matrix(&self.matrix(angles))
@@ -121,7 +121,7 @@ impl Order {
     }
 }
 
-/// The rotation about a coordinate axis.
+/// Returns the rotation about a coordinate axis.
 fn about_axis<R: Ring>(axis: usize, turn: &Turn<R>) -> Matrix<R> {
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut m: Matrix<R> = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { R::one() } else { R::zero() }));

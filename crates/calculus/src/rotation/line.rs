@@ -33,7 +33,7 @@ pub fn taking<R: Root>(before: &Vector<R>, after: &Vector<R>, half: &Turn<R>) ->
     Some(about(after, half).mul(&Quaternion { scalar: R::zero(), vector: bisector }))
 }
 
-/// The quaternion of a rotation about a unit axis, from half its angle.
+/// Returns the quaternion of a rotation about a unit axis, from half its angle.
 #[must_use]
 pub fn about<R: Ring>(axis: &Vector<R>, half: &Turn<R>) -> Quaternion<R> {
     Quaternion { scalar: half.cos.clone(), vector: axis.each_ref().map(|c| c.mul(&half.sin)) }

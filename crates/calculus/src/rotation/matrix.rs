@@ -76,19 +76,19 @@ pub fn product<R: Ring>(a: &Matrix<R>, b: &Matrix<R>) -> Matrix<R> {
     std::array::from_fn(|i| std::array::from_fn(|j| dot(&a[i], &columns[j])))
 }
 
-/// The transposed matrix, which is the inverse of a rotation.
+/// Returns the transposed matrix, which is the inverse of a rotation.
 #[must_use]
 pub fn transpose<R: Ring>(a: &Matrix<R>) -> Matrix<R> {
     std::array::from_fn(|i| std::array::from_fn(|j| a[j][i].clone()))
 }
 
-/// The image of a vector.
+/// Returns the image of a vector.
 #[must_use]
 pub fn apply<R: Ring>(a: &Matrix<R>, v: &Vector<R>) -> Vector<R> {
     a.each_ref().map(|row| dot(row, v))
 }
 
-/// The determinant.
+/// Returns the determinant.
 #[must_use]
 pub fn determinant<R: Ring>(a: &Matrix<R>) -> R {
     dot(&a[0], &crate::motion::cross(&a[1], &a[2]))

@@ -30,7 +30,7 @@ pub struct Equation<R> {
 }
 
 impl<R: Ring> Equation<R> {
-    /// The equation for three axes and a rotation.
+    /// Returns the equation for three axes and a rotation.
     #[must_use]
     pub fn of(axes: &[Vector<R>; 3], rotation: &Matrix<R>) -> Self {
         let [n1, n2, n3] = axes;
@@ -85,7 +85,7 @@ pub fn angles<R: Root>(axes: &[Vector<R>; 3], rotation: &Matrix<R>) -> Option<Ve
     Some(vec![plus, with_root(axes, rotation, &equation, &root.neg())?])
 }
 
-/// The angles that belong to a root of the discriminant.
+/// Returns the angles that belong to a root of the discriminant.
 #[must_use]
 pub fn with_root<R: Unit>(
     axes: &[Vector<R>; 3],
@@ -111,13 +111,13 @@ pub fn with_root<R: Unit>(
     Some([first, second, third])
 }
 
-/// The rotation about a unit axis.
+/// Returns the rotation about a unit axis.
 #[must_use]
 pub fn turned<R: Unit>(axis: &Vector<R>, turn: &Turn<R>) -> Option<Matrix<R>> {
     matrix(&turn.about(axis))
 }
 
-/// The part of a vector perpendicular to a unit axis.
+/// Returns the part of a vector perpendicular to a unit axis.
 fn beside<R: Ring>(axis: &Vector<R>, v: &Vector<R>) -> Vector<R> {
     let along = dot(axis, v);
     std::array::from_fn(|i| v[i].sub(&axis[i].mul(&along)))

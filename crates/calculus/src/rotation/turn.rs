@@ -15,13 +15,13 @@ pub struct Turn<R> {
 }
 
 impl<R: Ring> Turn<R> {
-    /// The angle 0.
+    /// Returns the angle 0.
     #[must_use]
     pub fn zero() -> Self {
         Self { cos: R::one(), sin: R::zero() }
     }
 
-    /// The sum of two angles.
+    /// Returns the sum of two angles.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         Self {
@@ -77,7 +77,7 @@ impl<R: Unit> Turn<R> {
 }
 
 impl<R: Analytic> Turn<R> {
-    /// The angle in radians, in (-pi, pi].
+    /// Returns the angle in radians, in (-pi, pi].
     #[must_use]
     pub fn angle(&self) -> Option<R> {
         R::atan2(&self.sin, &self.cos)

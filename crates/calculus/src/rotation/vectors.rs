@@ -69,7 +69,7 @@ pub fn euler_vectors<R: Analytic>(q: &Quaternion<R>) -> Vec<Vector<R>> {
     vec![vector]
 }
 
-/// The quaternion of an Euler vector, the exponential of half of it.
+/// Returns the quaternion of an Euler vector, the exponential of half of it.
 #[must_use]
 pub fn from_euler_vector<R: Analytic>(v: &Vector<R>) -> Option<Quaternion<R>> {
     let angle = length(v)?;
@@ -91,7 +91,7 @@ pub fn rodrigues<R: Unit>(q: &Quaternion<R>) -> Option<Vector<R>> {
     Some(q.vector.each_ref().map(|c| c.mul(&inverse)))
 }
 
-/// A quaternion of a Rodrigues vector, up to a factor.
+/// Returns a quaternion of a Rodrigues vector, up to a factor.
 #[must_use]
 pub fn from_rodrigues<R: Unit>(v: &Vector<R>) -> Quaternion<R> {
     Quaternion { scalar: R::one(), vector: v.clone() }
@@ -119,7 +119,7 @@ pub fn wiener<R: Unit>(q: &Quaternion<R>) -> Vec<Vector<R>> {
     near.into_iter().chain(shadow).collect()
 }
 
-/// A quaternion of a Wiener vector, up to a factor: `1 - v.v + 2 v`.
+/// Returns a quaternion of a Wiener vector, up to a factor: `1 - v.v + 2 v`.
 #[must_use]
 pub fn from_wiener<R: Unit>(v: &Vector<R>) -> Quaternion<R> {
     let square = crate::motion::dot(v, v);

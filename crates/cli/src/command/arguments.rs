@@ -488,7 +488,7 @@ pub struct ConditionsOptions {
     pub output: OutputOptions,
 }
 
-/// A number of steps.
+/// Reads a number of steps.
 fn steps(text: &str) -> Result<usize, String> {
     const MOST: usize = 100_000;
     match text.trim().parse() {

@@ -56,7 +56,7 @@ impl Exit {
         Self::of_verdict(&solution.verdict)
     }
 
-    /// The exit code of a verdict.
+    /// Returns the exit code of a verdict.
     pub fn of_verdict(verdict: &Verdict) -> Self {
         let is_proved = verdict.proof.is_proved();
         match verdict.status {
@@ -67,7 +67,7 @@ impl Exit {
         }
     }
 
-    /// The code of an error.
+    /// Returns the code of an error.
     pub fn of_error(error: &Error) -> Self {
         if error.exit_code() == 4 { Self::Unsupported } else { Self::Misuse }
     }

@@ -54,7 +54,7 @@ impl Row {
 }
 
 impl Follow {
-    /// A path without rows.
+    /// Returns a path without rows.
     pub fn of(entry: &Entry) -> Self {
         let variables = entry.chain().map(Chain::variables).unwrap_or_default();
         let variables = variables.iter().map(|own| own.variable).collect();

@@ -54,7 +54,7 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
     Ok(exit)
 }
 
-/// The exit code of a verdict.
+/// Returns the exit code of a verdict.
 pub fn code(verdict: &Verdict) -> Exit {
     match (verdict.status, verdict.proof) {
         (Status::Complete, Proof::Proved) => Exit::Complete,
