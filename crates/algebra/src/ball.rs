@@ -1,4 +1,4 @@
-//! Complex ball arithmetic: a number is known to lie within a radius of a midpoint, whatever is computed with it.
+//! Complex ball arithmetic: a number is enclosed by a midpoint and a radius.
 //!
 //! Every operation rounds its midpoint correctly to `BITS` bits and adds the bound of that rounding to the radius, which
 //! is itself rounded up. A ball that does not contain 0 proves that a number is not 0. \[Johansson2017\]
@@ -9,7 +9,7 @@ use rug::float::Round;
 use rug::ops::{AddAssignRound, DivAssignRound, MulAssignRound};
 use rug::{Float, Rational};
 
-/// Bits of a radius: its own digits matter little.
+/// Precision of a radius in bits; its own digits matter little.
 const RADIUS_BITS: u32 = 32;
 
 /// All complex numbers within `radius` of a midpoint of `BITS` bits.
@@ -140,7 +140,7 @@ impl<const BITS: u32> Ball<BITS> {
         if !(lower > 0) {
             return None;
         }
-        // 1/m = conj(m)/|m|^2; half of the bits again keep the error of the two roundings below one.
+        // 1/m = conj(m)/|m|^2; 32 more bits keep the error of the two roundings below one unit.
         let precision = BITS + 32;
         let square = Float::with_val(precision, &self.re * &self.re + &self.im * &self.im);
         let (re, im) = (Float::with_val(precision, &self.re / &square), Float::with_val(precision, &self.im / &square));

@@ -3,15 +3,15 @@
 use super::ring::Ring;
 use rug::{Float, Rational, float::Round};
 
-/// Bits of a radius: it is rounded up always.
+/// Precision of a radius in bits; a radius is always rounded up.
 const RADIUS_BITS: u32 = 64;
 
-/// Bits of a rational number for which none are named.
+/// Default precision of a rational number in bits.
 const DEFAULT_BITS: u32 = 512;
 
 /// All complex numbers no farther from a centre than a radius.
 ///
-/// Comparison is of centres and radii.
+/// Comparison is by centre and radius.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Disc {
     /// Real part of the centre.
@@ -88,7 +88,7 @@ impl Disc {
         self.re.prec().max(self.im.prec())
     }
 
-    /// No less than the absolute value of the centre, and at most the square root of 2 times it.
+    /// Returns an upper bound of the absolute value of the centre, at most sqrt(2) times it.
     fn centre_size(&self) -> Float {
         up(&up(self.re.abs_ref()) + &up(self.im.abs_ref()))
     }
@@ -146,7 +146,7 @@ impl Disc {
         }
         let bits = self.bits() + 16;
         let size = Float::with_val(bits, self.re.hypot_ref(&self.im));
-        // The larger part first: it suffers no cancellation, and the other one is a quotient.
+        // The larger part comes first: it suffers no cancellation, and the other one is a quotient.
         let half = |x: Float| (x / 2_u32).sqrt();
         let (re, im) = if self.re >= 0 {
             let re = half(Float::with_val(bits, &size + &self.re));
@@ -169,7 +169,7 @@ impl Disc {
         let i = Self::point(Float::new(1), Float::with_val(1, 1));
         let turned = sin.mul(&i);
         let (plus, minus) = (cos.add(&turned), cos.sub(&turned));
-        // Both say it, as their product is 1: the larger one has the better digits.
+        // Both expressions are valid, as their product is 1; the larger one has the better digits.
         let (z, flip) = if plus.centre_at_least() >= minus.centre_at_least() { (plus, false) } else { (minus, true) };
         let least = z.centre_at_least();
         if up(&z.radius * 2_u32) > least || least == 0 {

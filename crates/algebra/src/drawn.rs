@@ -1,4 +1,4 @@
-//! The integers modulo a prime that is drawn when the program first needs one: data cannot be made to vanish modulo it.
+//! The integers modulo a prime that is drawn when the program first needs one, so that no data can be made to vanish modulo it.
 
 use super::modp::{Modulus, is_prime};
 use super::ring::{Domain, Field, Ring};

@@ -42,8 +42,8 @@ impl<R: Ring> Dual<R> {
 
     /// Returns cosine and sine of the dual angle `theta + eps d`: `(cos - eps d sin, sin + eps d cos)`.
     ///
-    /// By the principle of transference, the equations of a spherical mechanism in these are those of the spatial
-    /// one whose axes are `d` apart.
+    /// With such angles the equations of a spherical mechanism are those of the spatial one whose axes are `d` apart, by the
+    /// principle of transference.
     #[must_use]
     pub fn angle(cos: R, sin: R, d: &R) -> (Self, Self) {
         let (minus_d_sin, d_cos) = (d.mul(&sin).neg(), d.mul(&cos));

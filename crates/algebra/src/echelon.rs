@@ -30,7 +30,7 @@ impl<F: Field> Echelon<F> {
     /// in exact ones.
     ///
     /// # Panics
-    /// When a row has not as many entries as there are columns.
+    /// If the length of a row is not the number of columns.
     #[must_use]
     pub fn of(rows: Vec<Vec<F>>, columns: usize) -> Self {
         Self::among(rows, columns, columns)
@@ -40,7 +40,7 @@ impl<F: Field> Echelon<F> {
     /// right sides. The rank is that of the first columns, and rows without pivot are left out.
     ///
     /// # Panics
-    /// If a row has not as many entries as there are columns.
+    /// If the length of a row is not the number of columns.
     #[must_use]
     pub fn among(mut rows: Vec<Vec<F>>, columns: usize, among: usize) -> Self {
         assert!(rows.iter().all(|row| row.len() == columns), "all rows are of one length");

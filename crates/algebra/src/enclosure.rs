@@ -9,10 +9,10 @@ use super::ring::{Ring, exact_cos_sin};
 use rug::{Float, Rational, float::Constant, float::Round};
 use std::cmp::Ordering;
 
-/// Digits in base 2: those of the longest numbers of proofs, 960, and as many again as a chain of motions with a base
-/// 1e150 away loses, 500.
+/// Precision in bits: 960 for the longest numbers of proofs, and 500 that a chain of motions with a base 1e150 away
+/// loses.
 pub const BITS: u32 = 1536;
-/// A whole turn is shorter than this power of two.
+/// An exponent of two above a full turn.
 const WHOLE_TURN: i32 = 3;
 /// The exponent of the error of exact numbers, and of the size of zero.
 const NONE: i32 = i32::MIN;

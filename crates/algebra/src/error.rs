@@ -5,7 +5,7 @@ use thiserror::Error;
 /// Shorthand for a result with this crate's [`enum@Error`].
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// Why something could not be read.
+/// The reason why text or data could not be read.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
@@ -19,7 +19,7 @@ pub enum Error {
         /// The text found and the text expected.
         message: String,
     },
-    /// A file has another form than it should have, at no line in particular.
+    /// A file has the wrong form, at no line in particular.
     #[error("{path}: {message}")]
     Io {
         /// The file as it was named.

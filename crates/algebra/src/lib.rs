@@ -1,4 +1,5 @@
-//! Exact and generic arithmetic: polynomials, resultants, determinants, real roots, number fields, balls, series. It knows nothing of mechanisms.
+//! Exact and generic arithmetic: polynomials, resultants, determinants, real roots, number fields, balls, series. It knows
+//! nothing of mechanisms.
 
 pub mod approximation;
 pub mod ball;

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 pub use super::half_tangent::HalfTangent;
 
-/// Sizes beyond this (and, but for zero, below its inverse) are taken for mistakes: their squares leave f64.
+/// Sizes beyond this, and nonzero ones below its inverse, are taken for mistakes: their squares leave the range of f64.
 const LARGEST: f64 = 1e150;
 /// Decimal digits to which irrational values are replaced by rationals for exact work, by default.
 pub const DIGITS: u32 = 15;

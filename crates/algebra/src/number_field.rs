@@ -16,7 +16,7 @@ pub struct NumberField {
     modulus: Vec<Integer>,
     /// The leading coefficient of the primitive integer polynomial that t is a root of.
     leading: Integer,
-    /// A proper factor of the modulus that was met.
+    /// A proper factor of the modulus, once one is found.
     split: OnceLock<Univariate<Rational>>,
 }
 
@@ -25,7 +25,7 @@ pub struct NumberField {
 pub struct Algebraic {
     /// Coefficients of the powers of `leading * t`, the last one not zero; without common factor with the denominator.
     numerator: Vec<Integer>,
-    /// Positive.
+    /// The denominator, which is positive.
     denominator: Integer,
     field: Option<Arc<NumberField>>,
 }

@@ -12,7 +12,7 @@ use rand_chacha::ChaCha8Rng;
 use rug::{Integer, Rational};
 use std::cell::Cell;
 
-/// Primes tried: half of those at hand have each of the square roots, and there are five of them at most.
+/// Number of primes tried: half of those at hand have each of the square roots, of which there are at most five.
 const TRIALS: usize = 4000;
 
 thread_local! {

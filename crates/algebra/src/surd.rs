@@ -23,7 +23,7 @@ pub struct Surd {
 pub struct Closed {
     /// The dividend.
     pub numerator: Surd,
-    /// By what. Its value is not 0.
+    /// The divisor, whose value is not 0.
     pub denominator: Surd,
 }
 

@@ -112,7 +112,7 @@ impl<R: Ring> Univariate<R> {
 }
 
 impl<F: Field> Univariate<F> {
-    /// Quotient and remainder.
+    /// Returns quotient and remainder.
     ///
     /// # Panics
     /// When the divisor is zero.

@@ -1,4 +1,4 @@
-//! Values of expressions: enclosed always, and beside that whatever is known exactly.
+//! Values of expressions: always an enclosure, and exact forms if they are known.
 
 use super::enclosure::Enclosure;
 use super::half_tangent::{Direction, HalfTangent, square_root};

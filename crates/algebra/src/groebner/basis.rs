@@ -19,13 +19,13 @@ struct Pair {
     multiple: Monomial,
 }
 
-/// A basis in the making.
+/// A basis under construction.
 struct Making {
     elements: Vec<Polynomial>,
     /// Whether the leading monomial of an element is a multiple of that of a later one; such an element serves in pairs only.
     is_old: Vec<bool>,
     pairs: Vec<Pair>,
-    /// Products of words that may still be made.
+    /// Number of products of words that may still be made.
     effort: u64,
 }
 

@@ -102,7 +102,7 @@ pub(super) struct Polynomial {
     pub terms: Vec<(Monomial, Integer)>,
 }
 
-/// A polynomial on its way to its normal form: the largest monomial is at hand.
+/// A polynomial being reduced to its normal form, with the largest monomial at hand.
 pub(super) type Work = BTreeMap<Monomial, Integer>;
 
 impl Polynomial {
@@ -142,7 +142,7 @@ impl Polynomial {
         self.terms[0].0
     }
 
-    /// Its coefficient.
+    /// Returns the coefficient of the largest monomial.
     pub fn coefficient(&self) -> &Integer {
         &self.terms[0].1
     }

@@ -9,7 +9,7 @@ use crate::univariate::Univariate;
 use rug::{Integer, Rational};
 use std::collections::HashMap;
 
-/// More standard monomials than any small system of kinematics has.
+/// Maximum number of standard monomials, above that of any small system of kinematics.
 const MOST: usize = 64;
 
 /// The ring of polynomials modulo an ideal with finitely many zeros; an element is its coefficients over the standard
@@ -21,8 +21,8 @@ pub struct FiniteRing {
     places: HashMap<Monomial, usize>,
     /// The trace of the multiplication by each standard monomial.
     traces: Vec<Rational>,
-    /// The sum, over the numbers of the solutions with multiplicity, that the standard monomials have there: the matrix of
-    /// traces of their products.
+    /// The matrix of traces of the products of standard monomials: sums of their values over the solutions, with
+    /// multiplicity.
     products: Vec<Vec<Rational>>,
 }
 
@@ -62,7 +62,7 @@ impl FiniteRing {
         let whole = |c: &Rational| Integer::from(denominator.div_exact_ref(c.denom())) * c.numer();
         let work: Work = equation.terms().iter().map(|(m, c)| (*m, whole(c))).collect();
         let mut scale = denominator.clone();
-        // Normal forms of small monomials: no more than the basis itself took.
+        // The normal forms of small monomials take no more work than the basis itself.
         let mut effort = u64::MAX;
         let rest = remainder(work, &self.basis.by_size(), &mut scale, &mut effort)?;
         let mut element = vec![Rational::new(); self.standard.len()];

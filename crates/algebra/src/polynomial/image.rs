@@ -289,7 +289,7 @@ impl Images<'_> {
         product
     }
 
-    /// Quotient and remainder.
+    /// Returns quotient and remainder.
     fn divide(&self, a: &[u64], b: &[u64]) -> (Dense, Dense) {
         let m = &self.modulus;
         let mut rest = a.to_vec();
@@ -307,7 +307,7 @@ impl Images<'_> {
         (quotient, rest)
     }
 
-    /// Leaves the remainder of a multiple: products in the place of an inverse, which costs more than a hundred of them.
+    /// Computes the remainder of a multiple: products replace an inverse, which costs more than a hundred of them.
     fn reduce(&self, a: &mut Dense, b: &[u64]) {
         let m = &self.modulus;
         let Some((&leading, lower)) = b.split_last() else { return };

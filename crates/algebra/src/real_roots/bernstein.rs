@@ -2,7 +2,7 @@
 //!
 //! On `[0, 1]` a polynomial of degree n is `sum b_j C(n,j) x^j (1-x)^(n-j)`. By Descartes' rule the sign changes of
 //! the `b_j` exceed the number of roots inside by an even number; halving the interval takes averages only, so errors
-//! do not grow. All coefficients here carry a common positive factor that nobody needs.
+//! do not grow. All coefficients here carry a common positive factor, which is never removed.
 
 use super::cell::Cell;
 use super::evaluate::{length, shifted};

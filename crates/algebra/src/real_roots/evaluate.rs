@@ -71,7 +71,7 @@ pub(super) fn value_at(
         if missing <= 0 {
             return Value { mantissa: value, unit: -shift };
         }
-        // A value that is all error does not say how much is missing.
+        // A value that is all error does not show how much is missing.
         *bits += if length(&value) > error { missing + 8 } else { missing + *bits };
     }
     let step = exponent.min(0);

@@ -1,9 +1,9 @@
 //! Isolation of the real roots of a square-free integer polynomial by Descartes' rule on dyadic cells.
 //!
-//! Cells are halved until the sign changes of the Bernstein coefficients say none or one. When averages have eaten
-//! their bits, they are computed afresh from the polynomial, in as many bits as it takes. A cluster of m roots keeps
-//! m sign changes while its cell shrinks; a Newton step for an m-fold root then guesses a far smaller cell, which is
-//! taken if it has all m (Sagraloff and Mehlhorn 2016, "Computing real roots of real polynomials").
+//! Cells are halved until the Bernstein coefficients have at most one sign change. When averaging has used up their bits,
+//! they are recomputed from the polynomial, in as many bits as needed. A cluster of m roots keeps m sign changes while its
+//! cell shrinks; a Newton step for an m-fold root then predicts a far smaller cell, which is accepted if it has all m
+//! (Sagraloff and Mehlhorn 2016, "Computing real roots of real polynomials").
 
 use super::bernstein::{Expansion, Source};
 use super::cell::Cell;

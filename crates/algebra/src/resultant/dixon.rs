@@ -1,4 +1,4 @@
-//! Two variables out of three polynomials at once, by Dixon's form of Cayley's construction.
+//! Eliminates two variables from three polynomials at once, by Dixon's form of Cayley's construction.
 
 use super::linear::reduce;
 use crate::int::Int;

@@ -1,4 +1,4 @@
-//! A variable out of two polynomials in several, and the way back.
+//! Eliminates a variable from two polynomials in several, and recovers it.
 
 use super::bezout::Expansion;
 use super::common_divisor::common_divisor;

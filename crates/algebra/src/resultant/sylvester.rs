@@ -28,8 +28,8 @@ pub fn matrix<R: Ring>(f: &[R], g: &[R]) -> Vec<Vec<R>> {
 
 /// Returns the resultant as the determinant of the Sylvester matrix, without fractions.
 ///
-/// The slow one that the others are compared with. As everywhere here, `Res(f, c) = c^m` for a constant c other than
-/// zero, and the resultant with the zero polynomial is 0, `Res(0, c)` among them.
+/// This is the slow reference for the other routes. As everywhere here, `Res(f, c) = c^m` for a constant c other than
+/// zero, and the resultant with the zero polynomial is 0, including `Res(0, c)`.
 #[must_use]
 pub fn resultant<D: Domain>(f: &Univariate<D>, g: &Univariate<D>) -> D {
     if f.is_zero() || g.is_zero() {

@@ -144,8 +144,8 @@ fn raise(base: &Expanded, exponent: u32, place: Place) -> Result<Expanded, Fault
     Ok(Expanded { fraction, largest_exponent })
 }
 
-/// In how many ways `k` things can be chosen of `n`, with repetition, `binomial(n + k - 1, k)`: terms of a power, and
-/// monomials of degree `k`.
+/// Returns the number of ways to choose `k` of `n` things with repetition, `binomial(n + k - 1, k)`: the number of terms of
+/// a power, and of monomials of degree `k`.
 fn multisets(n: f64, k: f64) -> f64 {
     if n < 1.0 {
         return 0.0;

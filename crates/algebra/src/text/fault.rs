@@ -5,9 +5,9 @@ use crate::error::Error;
 /// A place in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// From 1.
+    /// The line, from 1.
     pub line: usize,
-    /// From 1, in bytes.
+    /// The column, from 1, in bytes.
     pub column: usize,
 }
 

@@ -37,7 +37,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// All of them by their names.
+    /// All languages by name.
     pub const NAMED: [(&'static str, Self); 11] = [
         ("text", Self::Text),
         ("json", Self::Json),

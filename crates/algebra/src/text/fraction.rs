@@ -10,7 +10,7 @@ use rug::{Integer, Rational};
 pub struct Fraction {
     /// The polynomial times the denominator.
     pub numerator: Polynomial<Int>,
-    /// Positive.
+    /// The denominator, which is positive.
     pub denominator: Int,
 }
 

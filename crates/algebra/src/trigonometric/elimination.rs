@@ -1,4 +1,4 @@
-//! An angle out of two equations that are linear in its cosine and sine.
+//! Eliminates an angle from two equations that are linear in its cosine and sine.
 
 use super::{Pair, reduce};
 use crate::polynomial::Polynomial;

@@ -110,7 +110,7 @@ impl<R: Ring> Trigonometric<R> {
         &self.polynomial
     }
 
-    /// Returns the angles that have come in.
+    /// Returns the angles that occur.
     #[must_use]
     pub fn pairs(&self) -> &[Pair] {
         &self.pairs
