@@ -75,7 +75,7 @@ pub struct Job {
 /// `false`, the arms not begun are left out of the counts.
 ///
 /// # Errors
-/// Those of the derivation of a closure polynomial; otherwise none in practice, see [`sample`].
+/// As the derivation of a closure polynomial; otherwise none in practice, see [`sample`].
 pub fn run(job: Job, running: impl Fn() -> bool + Sync, tick: impl Fn() + Sync) -> Result<Counts> {
     over_all(job.count, running, tick, |index, memory| one(job, index, memory))
 }

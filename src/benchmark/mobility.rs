@@ -35,9 +35,9 @@ pub struct Tally {
     pub asked: usize,
     /// Number of loops for which `solve` reports a complete list of configurations.
     pub solved: usize,
-    /// Those of them whose number of configurations is confirmed by an exact count.
+    /// Number of these loops whose number of configurations is confirmed by an exact count.
     pub counted: usize,
-    /// Those of them that an exact count contradicts, by the numbers of their draws.
+    /// The draws of these loops that an exact count contradicts, by number.
     pub miscounted: Vec<u64>,
     /// Configurations of all solved loops, complex and real.
     pub configurations: (usize, usize),

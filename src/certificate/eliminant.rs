@@ -39,7 +39,7 @@ const SOMEWHERE: (i32, i32) = (17, 5);
 pub(super) struct Choice {
     /// The unknown from which the loop is read, from 0.
     pub first: usize,
-    /// Which of the first three unknowns is hidden, from 0.
+    /// The hidden unknown among the first three, from 0.
     pub hidden: usize,
     /// The half-angle tangent of the angle from which a hidden angle is counted.
     pub shift: Rational,

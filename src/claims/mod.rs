@@ -27,7 +27,7 @@ pub enum Sort {
     Real,
     /// The dimension of the solution set.
     Dimension,
-    /// How a loop moves: dimension and screw rank.
+    /// The motion of a loop: dimension and screw rank.
     Mobility,
     /// A listed solution closes the loop.
     Closes,

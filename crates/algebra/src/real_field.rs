@@ -31,7 +31,7 @@ pub struct RealField {
     roots: Vec<(Integer, Algebraic)>,
     /// `2 cos(2 pi k/order)` for k from 0 to a half turn.
     cosines: Vec<Algebraic>,
-    /// That element minus `2 cos(2 pi/order)`, as multiples of the square roots: multipliers and radicands.
+    /// The generating element minus `2 cos(2 pi/order)`, as multiples of the square roots: multipliers and radicands.
     summands: Vec<(Integer, Integer)>,
     /// The polynomial of the element that generates the field.
     polynomial: Univariate<Rational>,

@@ -24,7 +24,7 @@ impl Chinese {
 
     /// Returns the integer, given the `s_i`, if it is less than a quarter of the product of the primes in absolute value.
     ///
-    /// That margin keeps the sum of the quotients, in floating point, far from values that would round the wrong way.
+    /// The margin keeps the sum of the quotients, in floating point, far from values that would round the wrong way.
     #[expect(clippy::cast_possible_truncation, reason = "no larger than the number of primes")]
     pub(super) fn combine(&self, shares: &[i64]) -> Integer {
         let mut sum = Integer::with_capacity(self.product.significant_bits() as usize + 64);
