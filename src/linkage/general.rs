@@ -8,21 +8,20 @@ use super::pencil::{Parameter, Pencil};
 use super::polynomial::{ClosurePolynomial, closure_polynomial, turned};
 use super::quadratic::Root;
 use super::state::Number;
+use crate::algebra::determinant::determinant;
 use crate::algebra::modp::ModP;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::exact::{Isolated, isolated_roots};
 use crate::kinematics::linkage::Gaussian;
+use crate::solve::hessenberg::Hessenberg;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 
 /// Rotations of the hidden class tried to keep the half turn from being a root.
 const TURNS: u32 = 8;
-/// Pairs of classes at rest and hidden whose determinants are compared, for matrices of at most `SMALL` rows.
+/// Pairs of classes at rest and hidden whose determinants are compared: all of a group of nine bodies.
 const PAIRS: usize = 40;
-/// And for larger ones, where each takes a tenth of a second.
-const LARGE_PAIRS: usize = 6;
-const SMALL: usize = 24;
 /// Choices whose polynomials are asked for until every root of one of them is a solution.
 const TRIES: usize = 3;
 
@@ -151,7 +150,7 @@ fn ranked(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize)> {
     pencils.sort_by_key(|(_, _, pencil)| pencil.sets.len());
     let mut ranked: Vec<(usize, usize, usize)> = Vec::new();
     for (rest, hidden, pencil) in &pencils {
-        if ranked.len() >= if pencil.sets.len() > SMALL { LARGE_PAIRS } else { PAIRS } {
+        if ranked.len() >= PAIRS {
             break;
         }
         if let Some(degree) = torus_degree(pencil) {
@@ -179,41 +178,85 @@ pub fn residue(z: &Gaussian) -> Option<Residue> {
 /// modulo the prime; `None` where it vanishes.
 #[must_use]
 pub fn torus_degree(pencil: &Pencil<Residue>) -> Option<usize> {
+    let polynomial = linear_determinant(pencil).or_else(|| interpolated_determinant(pencil))?;
+    let lowest = polynomial.coefficients().iter().position(|c| !c.is_zero())?;
+    Some(polynomial.degree()? - lowest)
+}
+
+/// Values of x at which a matrix that is singular for none or few of them is tried.
+const SHIFTS: u64 = 4;
+
+/// The determinant up to a factor where no row depends on both x and 1/x: those with 1/x are multiplied by x, and with
+/// M(x) = M(s) + (x - s) M' it is a multiple of the characteristic polynomial of M(s)^-1 M', reversed.
+fn linear_determinant(pencil: &Pencil<Residue>) -> Option<Univariate<Residue>> {
+    let size = pencil.sets.len();
+    let mut constant = vec![vec![Residue::zero(); size]; size];
+    let mut slope = constant.clone();
+    for (k, row) in pencil.rows.iter().enumerate() {
+        let [by, inverse] = &row.by[0];
+        let (rest, first) =
+            if inverse.is_zero() { (&mut constant, &mut slope) } else { (&mut slope, &mut constant) };
+        if !inverse.is_zero() && !by.is_zero() {
+            return None;
+        }
+        first[k][k] = by.add(inverse);
+        rest[k][k] = row.constant;
+        for (column, factor) in &row.others {
+            rest[k][*column] = *factor;
+        }
+    }
+    let (start, quotient) = (2..2 + SHIFTS).find_map(|k| {
+        let start = Residue::new(k);
+        let at = |i: usize, j: usize| constant[i][j].add(&start.mul(&slope[i][j]));
+        let matrix = (0..size).map(|i| (0..size).map(|j| at(i, j)).collect()).collect();
+        Some((start, quotient(matrix, slope.clone())?))
+    })?;
+    // det(1 + y N) has the coefficients of det(z - N) from the other end, with changing signs.
+    let characteristic = Hessenberg::of(quotient).characteristic();
+    let reversed = characteristic.coefficients().iter().rev().enumerate();
+    let coefficients = reversed.map(|(k, c)| if k % 2 == 1 { c.neg() } else { *c }).collect();
+    let step = Univariate::new(vec![start.neg(), Residue::one()]);
+    let shifted: Univariate<Residue> = Univariate::new(coefficients);
+    Some(shifted.coefficients().iter().rev().fold(Univariate::zero(), |sum, c| {
+        sum.mul(&step).add(&Univariate::constant(*c))
+    }))
+}
+
+/// `A^-1 B`; `None` where A is singular.
+fn quotient(mut a: Vec<Vec<Residue>>, mut b: Vec<Vec<Residue>>) -> Option<Vec<Vec<Residue>>> {
+    let size = a.len();
+    for k in 0..size {
+        let row = (k..size).find(|i| !a[*i][k].is_zero())?;
+        a.swap(row, k);
+        b.swap(row, k);
+        let inverse = a[k][k].inverse()?;
+        for x in a[k].iter_mut().chain(b[k].iter_mut()) {
+            *x = x.mul(&inverse);
+        }
+        let (pivot, right) = (a[k].clone(), b[k].clone());
+        for i in (0..size).filter(|i| *i != k) {
+            let factor = a[i][k];
+            if factor.is_zero() {
+                continue;
+            }
+            for (x, y) in a[i].iter_mut().zip(&pivot).skip(k).chain(b[i].iter_mut().zip(&right)) {
+                *x = x.sub(&factor.mul(y));
+            }
+        }
+    }
+    Some(b)
+}
+
+/// The determinant times a power of x from its values.
+fn interpolated_determinant(pencil: &Pencil<Residue>) -> Option<Univariate<Residue>> {
     let size = pencil.sets.len();
     let points = (1..=2 * size as u64 + 1).map(|k| {
         let x = Residue::new(k);
         let inverse = x.inverse()?;
         let power = (0..size).fold(Residue::one(), |power, _| power.mul(&x));
-        Some((x, determinant(pencil.at(&[[x, inverse]])).mul(&power)))
+        Some((x, determinant(&pencil.at(&[[x, inverse]])).mul(&power)))
     });
-    let polynomial = Univariate::interpolate(&points.collect::<Option<Vec<_>>>()?);
-    let lowest = polynomial.coefficients().iter().position(|c| !c.is_zero())?;
-    Some(polynomial.degree()? - lowest)
-}
-
-fn determinant(mut matrix: Vec<Vec<Residue>>) -> Residue {
-    let size = matrix.len();
-    let mut product = Residue::one();
-    for k in 0..size {
-        let Some(row) = (k..size).find(|i| !matrix[*i][k].is_zero()) else { return Residue::zero() };
-        if row != k {
-            matrix.swap(row, k);
-            product = product.neg();
-        }
-        product = product.mul(&matrix[k][k]);
-        let Some(inverse) = matrix[k][k].inverse() else { return Residue::zero() };
-        let pivot = matrix[k].clone();
-        for other in &mut matrix[k + 1..] {
-            if other[k].is_zero() {
-                continue;
-            }
-            let factor = other[k].mul(&inverse);
-            for (x, y) in other[k..].iter_mut().zip(&pivot[k..]) {
-                *x = x.sub(&factor.mul(y));
-            }
-        }
-    }
-    product
+    Some(Univariate::interpolate(&points.collect::<Option<Vec<_>>>()?))
 }
 
 /// The polynomial of a choice, its hidden class turned until the half turn is no root.

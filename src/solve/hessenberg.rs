@@ -1,7 +1,7 @@
 //! Eigenvalues and eigenvectors in multiprecision arithmetic: a matrix in upper Hessenberg form, and its characteristic polynomial.
 
 use super::scalar::{Extended, Number};
-use crate::algebra::ring::Ring;
+use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
 use num_complex::Complex;
 
@@ -13,7 +13,7 @@ pub struct Hessenberg<R> {
     steps: Vec<(usize, Vec<R>)>,
 }
 
-impl<R: Extended> Hessenberg<R> {
+impl<R: Field + Copy> Hessenberg<R> {
     /// The form of a square matrix.
     #[must_use]
     pub fn of(mut matrix: Vec<Vec<R>>) -> Self {
@@ -66,6 +66,9 @@ impl<R: Extended> Hessenberg<R> {
         leading.pop().unwrap_or_else(Univariate::zero)
     }
 
+}
+
+impl<R: Extended> Hessenberg<R> {
     /// The eigenvector of the matrix itself at an eigenvalue; `None` where it is not unique.
     #[must_use]
     pub fn vector(&self, value: &Complex<R>) -> Option<Vec<Complex<R>>> {
