@@ -66,6 +66,12 @@ function corners(pose) {
   return found;
 }
 
+/** The paths of the points that are traced, along a track. */
+function pathsOf(track) {
+  if (!track || track.frames.length < 2) return [];
+  return (data.scene?.traces || []).map(({ body, at }) => track.frames.map((frame) => placed(frame, body, at)));
+}
+
 function bounds(list) {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
@@ -79,22 +85,32 @@ function bounds(list) {
   return { centre, radius: Math.max(Math.hypot(...low.map((x, k) => high[k] - x)) / 2, 1e-9), low };
 }
 
+const TRACE = '#b0253a';
+
 // ---- the flat figure: without WebGL, and on paper ----------------------------------------------------------------------
 
 const PALETTE = ['#3f4652', '#2f6fb0', '#1f9e89', '#d0782a', '#8a5fb0', '#c14f63', '#6b8e23', '#3b8ea5', '#b58b1a', '#7a6a5a'];
 const tint = (body) => (body === 0 ? PALETTE[0] : PALETTE[1 + ((body - 1) % (PALETTE.length - 1))]);
 
+// Where the eye stands: in front, right and above; straight above what is flat.
 const EYE = [0.62, -0.92, 0.46];
+
+/** The directions of the first view: to the eye, to the right, and up. */
+function sight() {
+  if (data.scene?.flat) return { eye: new Vector3(0, 0, 1), right: new Vector3(1, 0, 0), up: new Vector3(0, 1, 0) };
+  const eye = new Vector3(...EYE).normalize();
+  const right = new Vector3(-eye.y, eye.x, 0).normalize();
+  return { eye, right, up: eye.clone().cross(right) };
+}
 
 function drawFlat(pose) {
   const svg = $('#flat');
   if (!svg || !pose) return;
   // As the camera first stands: right, and down.
-  const eye = new Vector3(...EYE).normalize();
-  const right = new Vector3(-eye.y, eye.x, 0).normalize();
-  const up = eye.clone().cross(right);
+  const { right, up } = sight();
   const flat = ([x, y, z]) => [right.x * x + right.y * y, -(up.x * x + up.y * y + up.z * z)];
-  const points = corners(pose).map(flat);
+  const paths = pathsOf(tracks[state.track]);
+  const points = [...corners(pose), ...paths.flat()].map(flat);
   const xs = points.map((p) => p[0]);
   const ys = points.map((p) => p[1]);
   const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
@@ -106,8 +122,13 @@ function drawFlat(pose) {
   const parts = [];
   const line = (list, colour, width) => parts.push(
     `<polyline points="${list.map(at).join(' ')}" fill="none" stroke="${colour}" stroke-width="${width}" stroke-linecap="round" stroke-linejoin="round"/>`);
+  paths.forEach((path) => line(path, TRACE, 1.6));
   data.scene.bodies.forEach((body, index) => {
     for (const part of body.parts) {
+      if (part.kind === 'support') {
+        const [x, y] = at(placed(pose, index, part.at)).split(',').map(Number);
+        parts.push(`<path d="M${x} ${y}l-8 13h16z M${x - 12} ${y + 13}h24" fill="#9aa3ae" stroke="#3f4652" stroke-width="1.4"/>`);
+      }
       if (part.kind === 'hull') {
         for (const t of part.triangles) {
           const list = t.map((k) => at(placed(pose, index, part.points[k]))).join(' ');
@@ -188,7 +209,9 @@ function shapes(body, unit) {
     if (part.kind === 'link') {
       part.points.forEach((p, k) => {
         const key = p.map((x) => x.toFixed(7)).join();
-        if (!near.has(key)) made.link.push(ballAt(p, unit * 1.02));
+        // An arc has no corners between its ends.
+        const isEnd = part.points.length < 8 || k === 0 || k === part.points.length - 1;
+        if (isEnd && !near.has(key)) made.link.push(ballAt(p, unit * 1.02));
         near.add(key);
         if (k > 0) made.link.push(rod(part.points[k - 1], p, unit));
       });
@@ -204,6 +227,12 @@ function shapes(body, unit) {
         box.translate(...part.at);
         made.joint.push(box);
       } else made.joint.push(along(part.at, part.axis, (part.type === 'C' ? 7.6 : 4.8) * unit, 1.8 * unit));
+    } else if (part.kind === 'support') {
+      const foot = new CylinderGeometry(0.4 * unit, 3.4 * unit, 4.4 * unit, 4);
+      foot.translate(part.at[0], part.at[1] - 2.2 * unit, part.at[2]);
+      const plate = new BoxGeometry(8.4 * unit, 0.8 * unit, 4.8 * unit);
+      plate.translate(part.at[0], part.at[1] - 4.6 * unit, part.at[2]);
+      made.link.push(foot, plate);
     } else if (part.kind === 'hull') {
       made.hull.push(hullGeometry(part));
       part.points.forEach((p) => made.joint.push(ballAt(p, 1.25 * unit)));
@@ -239,7 +268,7 @@ function figure(parts, unit, ghost) {
     };
     add(part.link, tint(index));
     add(part.joint, '#232a35');
-    add(part.hull, index === 0 ? '#56606e' : '#2f6fb0', 0.42);
+    add(part.hull, index === 0 ? '#56606e' : data.scene.flat ? tint(index) : '#2f6fb0', 0.42);
     if (!ghost) part.axes.forEach((geometry, k) => add(geometry, ['#d1495b', '#3a9d5d', '#2f6fb0'][k]));
     if (!data.scene.bodies[index].parts.length) add(stage.vertex, '#232a35');
     group.add(body);
@@ -286,9 +315,10 @@ function open3d() {
   renderer.shadowMap.type = PCFShadowMap;
   const scene = new Scene();
   const camera = new PerspectiveCamera(32, 1, 0.01, 100);
-  camera.up.set(0, 0, 1);
+  camera.up.set(0, data.scene.flat ? 1 : 0, data.scene.flat ? 0 : 1);
   const controls = new OrbitControls(camera, canvas);
   controls.addEventListener('change', draw);
+  controls.addEventListener('start', () => { stage.touched = true; });
   scene.add(new AmbientLight('#ffffff', 0.75), new HemisphereLight('#ffffff', '#b9c0cc', 1.1));
   const sun = new DirectionalLight('#ffffff', 1.9);
   sun.castShadow = true;
@@ -333,7 +363,7 @@ function fit() {
   stage.fitted = list.map((track) => track.name).join();
   const seen = list.flatMap(thinned);
   const { centre, radius, low } = bounds(seen);
-  const { scene, camera, controls, sun } = stage;
+  const { scene, camera, sun } = stage;
   stage.centre = new Vector3(...centre);
   // Links keep their thickness unless what is seen is of quite another size.
   if (!stage.main || radius > 1.7 * stage.radius || radius < stage.radius / 1.7) build(radius);
@@ -357,12 +387,20 @@ function fit() {
   Object.assign(sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * radius, far: 7 * radius });
   sun.shadow.camera.updateProjectionMatrix();
   sun.shadow.normalBias = 0.02 * radius;
+  stage.standing = null;
   resize();
-  const points = seen.flatMap(corners);
+  const points = [...seen.flatMap(corners), ...list.slice(0, CELLS).flatMap((track) => pathsOf(track).flat())];
   stage.standing = (aspect) => standing(points, stage.centre, camera.fov, aspect);
+  stage.touched = false;
+  stand();
+}
+
+/** Stands the camera where the figures just fit into the frame. */
+function stand() {
+  const { camera, controls, radius } = stage;
   const { target, distance } = stage.standing(camera.aspect);
   controls.target.copy(target);
-  camera.position.copy(target).add(new Vector3(...EYE).normalize().multiplyScalar(distance));
+  camera.position.copy(target).add(sight().eye.multiplyScalar(distance));
   camera.near = distance / 100;
   camera.far = distance + 40 * radius;
   camera.updateProjectionMatrix();
@@ -376,9 +414,7 @@ function fit() {
  * slope of the frame: two bounds for each of x and y, linear in the distance.
  */
 function standing(points, centre, fov, aspect) {
-  const eye = new Vector3(...EYE).normalize();
-  const right = new Vector3(-eye.y, eye.x, 0).normalize();
-  const up = eye.clone().cross(right);
+  const { eye, right, up } = sight();
   // Room for the thickness of links and for labels.
   const slope = 0.86 * Math.tan((fov * Math.PI) / 360);
   const slopes = [slope * aspect, slope];
@@ -449,7 +485,35 @@ function refresh() {
       pose(ghost.figure, own);
     });
   }
+  trace(tracks[state.track]);
   draw();
+}
+
+/** The paths of the traced points along a track, and where they are now. */
+function trace(track) {
+  if (stage.traced !== track) {
+    if (stage.paths) stage.scene.remove(stage.paths);
+    stage.traced = track;
+    stage.paths = new Group();
+    for (const path of pathsOf(track)) {
+      if (track.closed) path.push(path[0]);
+      const pieces = path.slice(1).map((p, k) => [path[k], p]).filter(([a, b]) => Math.hypot(...a.map((x, i) => x - b[i])) > 1e-9);
+      if (!pieces.length) continue;
+      const tube = mergeGeometries(pieces.map(([a, b]) => plain(rod(a, b, 0.42 * stage.unit, 6))));
+      stage.paths.add(new Mesh(tube, material(TRACE)));
+    }
+    stage.marks = (data.scene.traces || []).map(() => {
+      const mark = new Mesh(new SphereGeometry(1.5 * stage.unit, 18, 14), material(TRACE));
+      stage.paths.add(mark);
+      return mark;
+    });
+    stage.scene.add(stage.paths);
+  }
+  const frame = track && frameOf(track);
+  (data.scene.traces || []).forEach(({ body, at }, k) => {
+    stage.marks[k].visible = Boolean(frame);
+    if (frame) stage.marks[k].position.set(...placed(frame, body, at));
+  });
 }
 
 let wanted = false;
@@ -512,7 +576,7 @@ function label(labels, width, height) {
   if (frame) {
     data.scene.bodies.forEach((body, index) => {
       const joints = body.parts.filter((part) => part.kind === 'joint');
-      joints.forEach((part) => list.push([part.joint, placed(frame, index, part.at), part.axis, index]));
+      joints.forEach((part) => list.push([part.label ?? part.joint, placed(frame, index, part.at), part.axis, index]));
       if (!body.parts.length) list.push([body.name, placed(frame, index, [0, 0, 0])]);
     });
   }
@@ -543,7 +607,8 @@ function resize() {
   renderer.setSize(width, height, false);
   camera.aspect = width / height;
   camera.updateProjectionMatrix();
-  draw();
+  // The frame takes its shape while the page is laid out; who has turned the figure keeps his view.
+  if (stage.standing && !stage.touched && !state.grid) stand(); else draw();
 }
 
 /** A click that is no drag chooses the ghost under it. */

@@ -99,7 +99,7 @@ pub fn result(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Lin
     let families = answer.families.iter().map(|family| {
         let labels: Vec<&str> = family.joints.iter().map(|joint| linkage.joints[*joint].name.as_str()).collect();
         let numbers: Vec<usize> = family.joints.iter().map(|joint| joint + 1).collect();
-        json!({ "dimension": family.dimension, "joints": numbers, "labels": labels, "sample": places(linkage, &family.sample) })
+        json!({ "dimension": family.dimension, "joints": numbers, "labels": labels, "distance": 0, "sample": places(linkage, &family.sample), "samples": [] })
     });
     json!({
         "case": index,
@@ -143,6 +143,7 @@ fn places(linkage: &Linkage, mode: &LinkageMode) -> Map<String, Value> {
         bodies.insert(body.name.clone(), json!({ "angle": value(angle, mode.real), "position": position }));
     }
     let mut object = Map::new();
+    object.insert("q".into(), joints.values().cloned().collect());
     object.insert("joints".into(), Value::Object(joints));
     object.insert("bodies".into(), Value::Object(bodies));
     object

@@ -5,7 +5,7 @@ use super::json::number;
 use super::linkage::joint_variables;
 use super::model;
 use super::number::{counted, short};
-use super::picture::{COLOURS, escaped};
+use super::picture::{COLOURS, Frame, Graph, escaped, graphs_svg};
 use super::table::{Columns, paragraph};
 use crate::catalogue::LinkageFile;
 use crate::kinematics::linkage::Gaussian;
@@ -264,6 +264,54 @@ pub fn json(asked: Asked<'_>, sweep: &LinkageSweep) -> Value {
         "standing": [],
         "inputs": inputs.collect::<Vec<_>>(),
     })
+}
+
+/// Every joint against the input, one panel each.
+#[must_use]
+pub fn joints_svg(file: &LinkageFile, sweep: &LinkageSweep) -> String {
+    let joints = &file.linkage.joints;
+    let is_turn = |joint: usize| !joints[joint].is_prismatic();
+    let unit = |joint: usize| if is_turn(joint) { "deg" } else { "m" };
+    let shown = |joint: usize, x: f64| if is_turn(joint) { x.to_degrees() } else { x };
+    let graph = |joint: usize| {
+        let point = |input: f64, mode: &LinkageMode| {
+            [shown(sweep.joint, input), mode.joints[joint].map_or(f64::NAN, |value| shown(joint, value.re))]
+        };
+        let line = |branch: &LinkageBranch| {
+            let limit = |end: &End| match end {
+                End::Limit(limit) => Some(point(sweep.limits[*limit].input, &sweep.limits[*limit].mode)),
+                _ => None,
+            };
+            let turns = branch.rows.iter().map(|row| row.turn).max().unwrap_or(0);
+            let points = |turn: usize| {
+                let rows = branch.rows.iter().filter(|row| row.turn == turn);
+                let rows = rows.map(|row| {
+                    let sample = &sweep.samples[row.step];
+                    point(sample.input, &sample.modes[row.mode])
+                });
+                let first = if turn == 0 { limit(&branch.begin) } else { None };
+                let last = if turn == turns { limit(&branch.end) } else { None };
+                first.into_iter().chain(rows).chain(last).collect()
+            };
+            (branch.circuit, (0..=turns).map(points).collect())
+        };
+        let circuit = |branches: &[usize]| branches.first().map_or(1, |branch| sweep.branches[*branch].circuit);
+        Graph {
+            label: format!("{} [{}]", joints[joint].name, unit(joint)),
+            is_turn: is_turn(joint),
+            lines: sweep.branches.iter().map(line).collect(),
+            dots: sweep.limits.iter().map(|limit| (point(limit.input, &limit.mode), circuit(&limit.branches))).collect(),
+        }
+    };
+    let others = (0..joints.len()).filter(|joint| *joint != sweep.joint && !joints[*joint].is_gear());
+    let frame = Frame {
+        title: &file.heading.title,
+        verdict: &verdict(sweep),
+        input: &format!("{} [{}]", joints[sweep.joint].name, unit(sweep.joint)),
+        is_turn: is_turn(sweep.joint),
+        range: [sweep.range.from, sweep.range.to].map(|x| shown(sweep.joint, x)),
+    };
+    graphs_svg(&frame, &others.map(graph).collect::<Vec<_>>())
 }
 
 /// Width and height of the picture, in pixels.

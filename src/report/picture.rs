@@ -4,7 +4,7 @@ use super::sweep::{Swept, input_name, verdict};
 use super::text::variables;
 use crate::catalogue::entry::Entry;
 use crate::kinematics::closed_loop::Variable;
-use crate::sweep::{Branch, End, Row, Sweep};
+use crate::sweep::{Branch, End, Limit, Row, Sweep};
 use std::fmt::Write;
 
 /// Width and height of the plane of a panel, in pixels.
@@ -18,17 +18,57 @@ pub const COLOURS: [&str; 7] = ["#4477aa", "#cc3311", "#228833", "#aa3377", "#99
 /// Translations outside this many times the middle half of all are cut off: they run to infinity.
 const WHISKER: f64 = 4.0;
 
+/// A variable against the input: degrees or metres.
+#[derive(Clone, Debug)]
+pub struct Graph {
+    /// Its name with the unit.
+    pub label: String,
+    /// Whether it is an angle.
+    pub is_turn: bool,
+    /// The circuit of every branch, and the points of each of its turns.
+    pub lines: Vec<(usize, Vec<Vec<[f64; 2]>>)>,
+    /// The limit positions, each with its circuit.
+    pub dots: Vec<([f64; 2], usize)>,
+}
+
+/// What stands around the graphs.
+#[derive(Clone, Debug)]
+pub struct Frame<'a> {
+    /// The title.
+    pub title: &'a str,
+    /// The verdict.
+    pub verdict: &'a str,
+    /// The input with its unit.
+    pub input: &'a str,
+    /// Whether the input is an angle.
+    pub is_turn: bool,
+    /// The range of the input.
+    pub range: [f64; 2],
+}
+
 /// The picture, an SVG document: angles in degrees, lengths in metres, limit positions as dots.
 #[must_use]
 pub fn svg(entry: &Entry, swept: Swept, sweep: &Sweep) -> String {
     let names = entry.chain().map(variables).unwrap_or_default();
     let (input, unit) = input_name(entry, swept);
-    let panels: Vec<Panel> = (0..names.len())
-        .filter(|index| names[*index].0 != input)
-        .map(|index| Panel::of(sweep, swept, index, names[index].1))
-        .collect();
-    let columns = panels.len().clamp(1, 3);
-    let rows = panels.len().div_ceil(columns);
+    let others = (0..names.len()).filter(|index| names[*index].0 != input);
+    let graphs: Vec<Graph> = others.map(|index| graph(sweep, swept, index, &names[index])).collect();
+    let range = [sweep.range.from, sweep.range.to].map(|x| shown(x, swept.variable));
+    let frame = Frame {
+        title: &entry.title,
+        verdict: &verdict(sweep),
+        input: &format!("{input} [{unit}]"),
+        is_turn: swept.variable == Variable::Rotation,
+        range,
+    };
+    graphs_svg(&frame, &graphs)
+}
+
+/// The graphs side by side, three in a row.
+#[must_use]
+pub fn graphs_svg(frame: &Frame<'_>, graphs: &[Graph]) -> String {
+    let columns = graphs.len().clamp(1, 3);
+    let rows = graphs.len().div_ceil(columns);
     let [cell_width, cell_height] = [MARGIN[0] + PANEL[0] + MARGIN[2], MARGIN[1] + PANEL[1] + MARGIN[3]];
     let (width, height) = (cell_width * columns as f64, HEAD + cell_height * rows as f64);
     let mut text = format!(
@@ -37,19 +77,50 @@ pub fn svg(entry: &Entry, swept: Swept, sweep: &Sweep) -> String {
          <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n\
          <text x=\"16\" y=\"26\" font-size=\"17\" font-weight=\"bold\">{}</text>\n\
          <text x=\"16\" y=\"46\" fill=\"#444\">{}; one colour for each circuit, dots are limit positions</text>\n",
-        escaped(&entry.title),
-        escaped(&verdict(sweep)),
+        escaped(frame.title),
+        escaped(frame.verdict),
     );
-    let labelled: Vec<String> = names.iter().filter(|(name, _)| *name != input).map(labelled).collect();
-    for (index, (panel, label)) in panels.iter().zip(&labelled).enumerate() {
+    for (index, graph) in graphs.iter().enumerate() {
         let (column, row) = (index % columns, index / columns);
         let at = [cell_width * column as f64 + MARGIN[0], HEAD + cell_height * row as f64 + MARGIN[1]];
         let _ = writeln!(text, "<g transform=\"translate({:.0} {:.0})\">", at[0], at[1]);
-        panel.draw(&mut text, label, &format!("{input} [{unit}]"));
+        Panel::of(graph, frame).draw(&mut text, &graph.label, frame.input);
         text.push_str("</g>\n");
     }
     text.push_str("</svg>\n");
     text
+}
+
+/// One joint variable of a loop against the input.
+fn graph(sweep: &Sweep, swept: Swept, index: usize, name: &(String, Variable)) -> Graph {
+    let (input, variable) = (|x: f64| shown(x, swept.variable), name.1);
+    let at = |limit: &Limit| [input(limit.input), shown(limit.q[index], variable)];
+    let line = |branch: &Branch| {
+        let limit = |end: &End| match end {
+            End::Limit(limit) => Some(at(&sweep.limits[*limit])),
+            _ => None,
+        };
+        // The turns of a branch that runs on over a full turn lie over each other.
+        let turns = branch.rows.iter().map(|row| row.turn).max().unwrap_or(0);
+        let points = |turn: usize| {
+            let rows = branch.rows.iter().filter(|row| row.turn == turn);
+            let point = |row: &Row| {
+                let sample = &sweep.samples[row.step];
+                [input(sample.input), shown(sample.modes[row.mode][index], variable)]
+            };
+            let first = if turn == 0 { limit(&branch.begin) } else { None };
+            let last = if turn == turns { limit(&branch.end) } else { None };
+            first.into_iter().chain(rows.map(point)).chain(last).collect()
+        };
+        (branch.circuit, (0..=turns).map(points).collect())
+    };
+    let circuit = |limit: &Limit| limit.branches.first().map_or(1, |branch| sweep.branches[*branch].circuit);
+    Graph {
+        label: labelled(name),
+        is_turn: variable == Variable::Rotation,
+        lines: sweep.branches.iter().map(line).collect(),
+        dots: sweep.limits.iter().map(|limit| (at(limit), circuit(limit))).collect(),
+    }
 }
 
 fn labelled((name, variable): &(String, Variable)) -> String {
@@ -82,44 +153,19 @@ struct Panel {
 }
 
 impl Panel {
-    fn of(sweep: &Sweep, swept: Swept, index: usize, variable: Variable) -> Self {
-        let input = |x: f64| shown(x, swept.variable);
-        let mut x = [input(sweep.range.from), input(sweep.range.to)];
+    fn of(graph: &Graph, frame: &Frame<'_>) -> Self {
+        let mut x = frame.range;
         x.sort_by(f64::total_cmp);
-        let colour = |branch: &Branch| COLOURS[(branch.circuit.max(1) - 1) % COLOURS.len()];
-        let mut lines = Vec::new();
-        for branch in &sweep.branches {
-            let limit = |end: &End| match end {
-                End::Limit(limit) => {
-                    let limit = &sweep.limits[*limit];
-                    Some([input(limit.input), shown(limit.q[index], variable)])
-                }
-                _ => None,
-            };
-            // The turns of a branch that runs on over a full turn lie over each other.
-            let turns = branch.rows.iter().map(|row| row.turn).max().unwrap_or(0);
-            let mut pieces: Vec<Vec<[f64; 2]>> = Vec::new();
-            for turn in 0..=turns {
-                let rows = branch.rows.iter().filter(|row| row.turn == turn);
-                let point = |row: &Row| {
-                    let sample = &sweep.samples[row.step];
-                    [input(sample.input), shown(sample.modes[row.mode][index], variable)]
-                };
-                let first = if turn == 0 { limit(&branch.begin) } else { None };
-                let last = if turn == turns { limit(&branch.end) } else { None };
-                let points = first.into_iter().chain(rows.map(point)).chain(last);
-                pieces.extend(unbroken(points, variable));
-            }
-            lines.push(Line { colour: colour(branch), pieces });
-        }
-        let dots = sweep.limits.iter().map(|limit| {
-            let own = limit.branches.first().map_or(COLOURS[0], |branch| colour(&sweep.branches[*branch]));
-            ([input(limit.input), shown(limit.q[index], variable)], own)
-        });
-        let is_turn = [swept.variable == Variable::Rotation, variable == Variable::Rotation];
-        let dots: Vec<([f64; 2], &'static str)> = dots.collect();
-        let y = if is_turn[1] { [-180.0, 180.0] } else { extent(&lines, &dots) };
-        Self { x, y, is_turn, lines, dots }
+        let colour = |circuit: usize| COLOURS[(circuit.max(1) - 1) % COLOURS.len()];
+        let line = |(circuit, turns): &(usize, Vec<Vec<[f64; 2]>>)| {
+            let pieces = turns.iter().flat_map(|points| unbroken(points.iter().copied(), graph.is_turn)).collect();
+            Line { colour: colour(*circuit), pieces }
+        };
+        let lines: Vec<Line> = graph.lines.iter().map(line).collect();
+        let dots: Vec<([f64; 2], &'static str)> =
+            graph.dots.iter().map(|(dot, circuit)| (*dot, colour(*circuit))).collect();
+        let y = if graph.is_turn { [-180.0, 180.0] } else { extent(&lines, &dots) };
+        Self { x, y, is_turn: [frame.is_turn, graph.is_turn], lines, dots }
     }
 
     /// Where a point lies on the plane of the panel.
@@ -188,12 +234,12 @@ impl Panel {
 }
 
 /// The points in pieces between which an angle passes 180 degrees; each piece runs on to the edge.
-fn unbroken(points: impl Iterator<Item = [f64; 2]>, variable: Variable) -> Vec<Vec<[f64; 2]>> {
+fn unbroken(points: impl Iterator<Item = [f64; 2]>, is_turn: bool) -> Vec<Vec<[f64; 2]>> {
     let mut pieces: Vec<Vec<[f64; 2]>> = Vec::new();
     for point in points {
         let last = pieces.last().and_then(|piece| piece.last()).copied();
         match (last, pieces.last_mut()) {
-            (Some(last), Some(piece)) if variable == Variable::Rotation && (point[1] - last[1]).abs() > 180.0 => {
+            (Some(last), Some(piece)) if is_turn && (point[1] - last[1]).abs() > 180.0 => {
                 let turn = if point[1] > last[1] { -360.0 } else { 360.0 };
                 piece.push([point[0], point[1] + turn]);
                 pieces.push(vec![[last[0], last[1] - turn], point]);

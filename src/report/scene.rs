@@ -1,7 +1,7 @@
 //! Scenes as JSON, and the poses of the bodies beside every configuration of a document.
 
 use super::json::number;
-use crate::scene::{Part, Point, Scene, Stage};
+use crate::scene::{Part, Point, Scene, Stage, Trace};
 use serde_json::{Value, json};
 
 /// The scene of a mechanism.
@@ -15,12 +15,20 @@ pub fn json(scene: &Scene) -> Value {
         let end = |(body, at): &(usize, Point)| json!([body, numbers(at)]);
         json!({ "kind": connection.kind.word(), "from": end(&connection.from), "to": end(&connection.to) })
     });
-    json!({
+    let mut object = json!({
         "bodies": bodies.collect::<Vec<_>>(),
         "connections": connections.collect::<Vec<_>>(),
         "centre": numbers(&scene.centre),
         "size": number(scene.size),
-    })
+    });
+    if scene.is_flat {
+        object["flat"] = json!(true);
+    }
+    if !scene.traces.is_empty() {
+        let trace = |trace: &Trace| json!({ "name": trace.name, "body": trace.body, "at": numbers(&trace.at) });
+        object["traces"] = scene.traces.iter().map(trace).collect();
+    }
+    object
 }
 
 fn numbers(list: &[f64]) -> Value {
@@ -30,9 +38,16 @@ fn numbers(list: &[f64]) -> Value {
 fn part(part: &Part) -> Value {
     let points = |points: &[Point]| points.iter().map(|p| numbers(p)).collect::<Value>();
     match part {
-        Part::Joint { joint, kind, at, axis } => json!({
-            "kind": "joint", "joint": joint, "type": kind.letter(), "at": numbers(at), "axis": numbers(axis),
-        }),
+        Part::Joint { joint, kind, at, axis, label } => {
+            let mut object = json!({
+                "kind": "joint", "joint": joint, "type": kind.letter(), "at": numbers(at), "axis": numbers(axis),
+            });
+            if let Some(label) = label {
+                object["label"] = json!(label);
+            }
+            object
+        }
+        Part::Support { at } => json!({ "kind": "support", "at": numbers(at) }),
         Part::Link { points: corners } => json!({ "kind": "link", "points": points(corners) }),
         Part::Frame { pose } => json!({ "kind": "frame", "pose": numbers(pose) }),
         Part::Hull { points: corners, triangles } => {

@@ -92,6 +92,7 @@ fn mode(file: &SphereFile, id: usize, mode: &SphereMode) -> Value {
     let linkage = &file.linkage;
     let joints = linkage.joints.iter().zip(&mode.joints);
     let joints: Map<String, Value> = joints.map(|(joint, z)| (joint.name.clone(), value(z, mode.real))).collect();
+    let q: Value = joints.values().cloned().collect();
     let bodies = linkage.bodies.iter().enumerate().map(|(k, body)| {
         let q = mode.quaternion(k).map_or(Value::Null, |q| q.iter().map(|z| value(z, mode.real)).collect());
         (body.name.clone(), json!({ "quaternion": q }))
@@ -100,6 +101,7 @@ fn mode(file: &SphereFile, id: usize, mode: &SphereMode) -> Value {
     json!({
         "id": id,
         "real": mode.real,
+        "q": q,
         "joints": joints,
         "bodies": bodies,
         "multiplicity": mode.multiplicity,

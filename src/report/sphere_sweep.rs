@@ -4,6 +4,7 @@ use super::document::units;
 use super::json::number;
 use super::model;
 use super::number::{counted, short};
+use super::picture::{Frame, Graph, graphs_svg};
 use super::sphere::joint_variables;
 use super::table::{Columns, paragraph};
 use crate::catalogue::SphereFile;
@@ -111,6 +112,31 @@ pub fn json(file: &SphereFile, traced: Option<&Traced>, found: &SphereSweep) -> 
         "standing": [],
         "inputs": inputs.collect::<Vec<_>>(),
     })
+}
+
+/// Every joint against the input, one panel each.
+#[must_use]
+pub fn svg(file: &SphereFile, found: &SphereSweep) -> String {
+    let joints = &file.linkage.joints;
+    let graph = |joint: usize| {
+        let point = |node: &SphereNode| {
+            let input = found.inputs.get(node.step).map_or(f64::NAN, |(input, _)| *input);
+            [input, node.mode.joints[joint].re].map(f64::to_degrees)
+        };
+        let line = |(circuit, branch): (usize, &Vec<SphereNode>)| (circuit, vec![branch.iter().map(point).collect()]);
+        let label = format!("{} [deg]", joints[joint].name);
+        Graph { label, is_turn: true, lines: (1..).zip(&found.branches).map(line).collect(), dots: Vec::new() }
+    };
+    let range = [found.inputs.first(), found.inputs.last()];
+    let frame = Frame {
+        title: &file.heading.title,
+        verdict: &verdict(found),
+        input: &format!("{} [deg]", joints[found.joint].name),
+        is_turn: true,
+        range: range.map(|end| end.map_or(0.0, |(input, _)| input.to_degrees())),
+    };
+    let others = (0..joints.len()).filter(|joint| *joint != found.joint);
+    graphs_svg(&frame, &others.map(graph).collect::<Vec<_>>())
 }
 
 /// The branches as rows of numbers, degrees and directions.

@@ -89,7 +89,7 @@ impl Drawing<'_> {
     /// The marker of a joint in the body before it.
     fn mark(&mut self, body: usize, joint: usize, at: Point) {
         let kind = self.poser.kinds[joint];
-        let part = Part::Joint { joint: joint + 1, kind, at, axis: axis(self.poser.before(joint)) };
+        let part = Part::Joint { joint: joint + 1, kind, at, axis: axis(self.poser.before(joint)), label: None };
         self.bodies[body].parts.push(part);
     }
 
@@ -174,7 +174,7 @@ pub(super) fn open(chain: &Chain, links: Option<&[String; 2]>) -> Option<(Scene,
         }
     }
     let Drawing { bodies, connections, size, .. } = drawing;
-    let scene = Scene { bodies, connections, centre: base, size };
+    let scene = Scene { bodies, connections, centre: base, size, ..Scene::default() };
     Some((scene, Poser::Chain(poser)))
 }
 
@@ -202,6 +202,6 @@ pub(super) fn closed(chain: &Chain) -> Option<(Scene, Poser)> {
     let seat = drawing.seat(0, &poser.before(count).then_after(first));
     drawing.link(count - 1, &marker, &seat, (0, &last));
     let Drawing { bodies, connections, size, .. } = drawing;
-    let scene = Scene { bodies, connections, centre, size: size / 2.0 };
+    let scene = Scene { bodies, connections, centre, size: size / 2.0, ..Scene::default() };
     Some((scene, Poser::Chain(poser)))
 }

@@ -18,5 +18,6 @@ pub(super) fn scene(names: &[String], vertices: &[Point], bars: &[[usize; 2]]) -
         connections: bars.iter().filter(|[a, b]| a.max(b) < &names.len()).map(bar).collect(),
         centre,
         size: if size > 0.0 { size } else { 1.0 },
+        ..Scene::default()
     }
 }

@@ -7,6 +7,7 @@ mod chain;
 mod framework;
 mod hull;
 mod lines;
+pub mod linkage;
 mod platform;
 mod pose;
 
@@ -31,6 +32,21 @@ pub struct Scene {
     pub centre: Point,
     /// How far from there it reaches, roughly.
     pub size: f64,
+    /// Points whose paths are drawn.
+    pub traces: Vec<Trace>,
+    /// Whether all of it lies in the plane z = 0, and is looked at from above.
+    pub is_flat: bool,
+}
+
+/// A point of a body whose path is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace {
+    /// Its name, `BODY.POINT`.
+    pub name: String,
+    /// The body.
+    pub body: usize,
+    /// Where it is in the frame of the body.
+    pub at: Point,
 }
 
 /// One rigid body.
@@ -55,6 +71,13 @@ pub enum Part {
         at: Point,
         /// The direction of its axis.
         axis: Point,
+        /// Its name, where it has one.
+        label: Option<String>,
+    },
+    /// A bearing of the ground.
+    Support {
+        /// Where it stands.
+        at: Point,
     },
     /// A bent rod.
     Link {
@@ -124,6 +147,8 @@ enum Poser {
     Platform,
     /// Every body is a point.
     Points(usize),
+    /// Bodies joined by pins and slides.
+    Tree(linkage::TreePoser),
 }
 
 impl Stage {
@@ -150,7 +175,14 @@ impl Stage {
         Self { scene: framework::scene(names, vertices, bars), poser: Poser::Points(names.len()) }
     }
 
-    /// Where the bodies are: of a chain at these joint variables, of a platform at the quaternion `w, x, y, z` and the
+    /// The stage of a linkage; `None` where a body is not joined to the ground.
+    #[must_use]
+    pub fn of_linkage(figure: &linkage::Figure) -> Option<Self> {
+        let (scene, poser) = linkage::scene(figure)?;
+        Some(Self { scene, poser })
+    }
+
+    /// Where the bodies are: of a chain or a linkage at these joint variables, of a platform at the quaternion `w, x, y, z` and the
     /// position of its plate, of a framework at the coordinates of its vertices one behind the other. `None` for a list of
     /// another length, and for numbers that are not finite.
     #[must_use]
@@ -160,6 +192,7 @@ impl Stage {
         }
         match &self.poser {
             Poser::Chain(poser) => poser.poses(q),
+            Poser::Tree(poser) => poser.poses(q),
             Poser::Platform => Some(vec![pose::IDENTITY, q.try_into().ok()?]),
             Poser::Points(count) => {
                 let point = |p: &[f64]| [1.0, 0.0, 0.0, 0.0, p[0], p[1], p[2]];

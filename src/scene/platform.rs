@@ -22,5 +22,6 @@ pub(super) fn scene(geometry: &Platform<Number>) -> Scene {
         connections: (0..6).map(leg).collect(),
         centre,
         size: if size > 0.0 { size } else { 1.0 },
+        ..Scene::default()
     }
 }

@@ -43,6 +43,8 @@ pub(super) fn controls(document: &Value) -> Result<Value, Error> {
     } else if let (Some(joint), Some(distance)) = (asked["joint"].as_u64(), asked["distance"].as_f64()) {
         let range = [distance - size, distance + size];
         (format!("--input={joint}={{0}} m"), vec![length(&format!("d{joint}"), distance, range)])
+    } else if let Some(joints) = asked["joints"].as_object().filter(|joints| !joints.is_empty()) {
+        given(document, joints, size)
     } else {
         return Err(nothing(document));
     };
@@ -52,6 +54,25 @@ pub(super) fn controls(document: &Value) -> Result<Value, Error> {
 fn nothing(document: &Value) -> Error {
     let kind = document["kind"].as_str().unwrap_or("document");
     Error::Invalid(format!("found a {kind} without a single pose, input or set of legs, expected one for a live page"))
+}
+
+/// The joints of a linkage that were given, each with its value.
+fn given(document: &Value, joints: &serde_json::Map<String, Value>, size: f64) -> (String, Vec<Value>) {
+    let is_distance = |name: &str| {
+        list(document, "joint_variables").iter().any(|own| own["name"] == name && own["kind"] == "distance")
+    };
+    let (mut asked, mut controls) = (Vec::new(), Vec::new());
+    for (place, (name, value)) in joints.iter().enumerate() {
+        let value = value.as_f64().unwrap_or(0.0);
+        let slides = is_distance(name);
+        asked.push(format!("{name}={{{place}}} {}", if slides { "m" } else { "deg" }));
+        controls.push(if slides {
+            length(name, value, [value - size, value + size])
+        } else {
+            turn(name, value.to_degrees())
+        });
+    }
+    (format!("--input={}", asked.join(", ")), controls)
 }
 
 /// A matrix row by row.

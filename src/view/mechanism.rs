@@ -4,6 +4,7 @@ use crate::algebra::number::{Angle, Number};
 use crate::catalogue::entry::Design;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use crate::kinematics::platform::Platform;
+use crate::scene::linkage::{Figure, Hinge, Outline, planar_frame, spherical_frame};
 use crate::scene::{Point, Stage};
 use serde_json::Value;
 
@@ -14,6 +15,7 @@ pub(super) fn stage(document: &Value) -> Option<Stage> {
     let links = links.map(|(base, tip)| [base.to_owned(), tip.to_owned()]);
     match mechanism["kind"].as_str()? {
         "framework" => framework(mechanism),
+        "linkage" => Stage::of_linkage(&linkage(document)?),
         "platform" => Stage::of_design(&Design::Platform(Box::new(platform(mechanism)?)), None),
         "arm" => Stage::of_design(&Design::Arm(chain(mechanism)?), links.as_ref()),
         "loop" => Stage::of_design(&Design::Loop(chain(mechanism)?), None),
@@ -37,6 +39,61 @@ fn angle(value: &Value) -> Option<Angle> {
 fn three<T>(value: &Value, part: impl Fn(&Value) -> Option<T>) -> Option<[T; 3]> {
     let list: Option<Vec<T>> = value.as_array()?.iter().map(part).collect();
     list?.try_into().ok()
+}
+
+fn pair(value: &Value) -> Option<[f64; 2]> {
+    value.as_array()?.iter().map(real).collect::<Option<Vec<f64>>>()?.try_into().ok()
+}
+
+/// The bodies and joints of a linkage, in the plane or on the sphere.
+fn linkage(document: &Value) -> Option<Figure> {
+    let mechanism = &document["mechanism"];
+    let on_sphere = mechanism["space"] == "sphere";
+    let fields = mechanism["bodies"].as_object()?;
+    let direction = |v: [f64; 3]| {
+        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        v.map(|x| x / length)
+    };
+    let point = |value: &Value| -> Option<Point> {
+        if on_sphere { three(value, real).map(direction) } else { pair(value).map(|[x, y]| [x, y, 0.0]) }
+    };
+    let body = |name: &str| fields.keys().position(|own| own == name);
+    let outline = |(name, points): (&String, &Value)| {
+        let points = points.as_object()?.values().map(point).collect::<Option<_>>()?;
+        Some(Outline { name: name.clone(), points })
+    };
+    let mut bodies: Vec<Outline> = fields.iter().map(outline).collect::<Option<_>>()?;
+    let mut joints = Vec::new();
+    for (number, joint) in (1..).zip(mechanism["joints"].as_array()?) {
+        // Gears have no value, and bodies do not hang on them.
+        let Some(kind) = JointKind::from_letter(joint["type"].as_str()?) else { continue };
+        let name = |side: usize| body(joint["of"][side].as_str()?);
+        let of = [name(0)?, name(1)?];
+        let frame = |side: usize| {
+            let at = &joint["at"][side];
+            if on_sphere {
+                spherical_frame(&three(at, real)?, &three(&joint["zero"][side], real)?)
+            } else {
+                Some(planar_frame(pair(at)?, if joint["along"].is_null() { None } else { Some(pair(&joint["along"][side])?) }))
+            }
+        };
+        for side in 0..2 {
+            bodies[of[side]].points.push(point(&joint["at"][side])?);
+        }
+        let frames = [frame(0)?, frame(1)?];
+        joints.push(Hinge { name: joint["name"].as_str()?.to_owned(), number, kind, of, frames });
+    }
+    let trace = |name: &Value| {
+        let name = name.as_str()?;
+        let (of, at) = name.split_once('.')?;
+        Some((name.to_owned(), body(of)?, point(&fields[of][at])?))
+    };
+    // The point that a sweep followed, or those of the file.
+    let asked = document["branches"][0]["rows"][0]["points"].as_object();
+    let asked: Vec<Value> = asked.map_or(Vec::new(), |points| points.keys().map(|name| Value::from(name.as_str())).collect());
+    let named = mechanism["traces"].as_array().map_or(&[][..], Vec::as_slice);
+    let traces = if asked.is_empty() { named } else { &asked }.iter().filter_map(trace).collect();
+    Some(Figure { bodies, joints, ground: body(mechanism["ground"].as_str()?)?, on_sphere, traces })
 }
 
 fn placement(value: &Value) -> Option<Placement> {

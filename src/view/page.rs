@@ -144,6 +144,7 @@ fn header(text: &mut String, document: &Value, headlines: &[Headline]) {
     let word = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let kind = match (word(&mechanism["type"]), word(&document["kind"])) {
         (kinds, kind) if kinds.is_empty() => kind,
+        (size, kind) if kind == "linkage" => format!("{kind}, {size}"),
         (kinds, kind) => format!("{kinds} {kind}"),
     };
     let title = document["title"].as_str().unwrap_or("untitled");

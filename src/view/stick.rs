@@ -15,6 +15,10 @@ const CELL: [f64; 2] = [236.0, 210.0];
 const CAPTION: f64 = 24.0;
 /// Room about a drawing, both sides together.
 const EDGE: f64 = 36.0;
+/// Links of more points are arcs.
+const ARC: usize = 8;
+/// The paths of points.
+const TRACE: &str = "#b0253a";
 /// One colour for each body in turn, the ground first; told apart by the colour-blind.
 const COLOURS: [&str; 10] =
     ["#3f4652", "#2f6fb0", "#1f9e89", "#d0782a", "#8a5fb0", "#c14f63", "#6b8e23", "#3b8ea5", "#b58b1a", "#7a6a5a"];
@@ -53,10 +57,14 @@ struct Drawing {
     /// What must lie within the picture.
     corners: Vec<[f64; 2]>,
     size: f64,
+    is_flat: bool,
 }
 
-/// A point as the eye sees it: right, down, and how near.
-fn seen(p: &Point) -> ([f64; 2], f64) {
+/// A point as the eye sees it: right, down, and how near. What is flat is seen from above.
+fn seen(p: &Point, is_flat: bool) -> ([f64; 2], f64) {
+    if is_flat {
+        return ([p[0], -p[1]], p[2]);
+    }
     let norm = EYE.iter().map(|x| x * x).sum::<f64>().sqrt();
     let eye = EYE.map(|x| x / norm);
     let across = (eye[0] * eye[0] + eye[1] * eye[1]).sqrt();
@@ -68,8 +76,9 @@ fn seen(p: &Point) -> ([f64; 2], f64) {
 }
 
 impl Drawing {
-    fn of(scene: &Value, poses: &[Pose]) -> Self {
-        let mut drawing = Self { strokes: Vec::new(), corners: Vec::new(), size: 0.0 };
+    fn of(scene: &Value, poses: &[Pose], paths: &[Vec<Pose>]) -> Self {
+        let is_flat = scene["flat"] == true;
+        let mut drawing = Self { strokes: Vec::new(), corners: Vec::new(), size: 0.0, is_flat };
         let bodies = || list(scene, "bodies").iter().zip(poses).enumerate();
         let mut all: Vec<Point> = Vec::new();
         for (_, (body, pose)) in bodies() {
@@ -80,12 +89,20 @@ impl Drawing {
                 all.push(apply(pose, &[0.0; 3]));
             }
         }
-        drawing.corners = all.iter().map(|p| seen(p).0).collect();
+        let traces: Vec<Vec<Point>> = list(scene, "traces").iter().filter_map(|trace| path(trace, paths)).collect();
+        all.extend(traces.iter().flatten());
+        drawing.corners = all.iter().map(|p| seen(p, is_flat).0).collect();
         let extent = |k: usize| {
             let values = || drawing.corners.iter().map(|p| p[k]);
             values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
         };
         drawing.size = extent(0).max(extent(1)).max(1e-9);
+        for trace in &traces {
+            drawing.line(trace, TRACE, 1.6, false);
+            if let Some(last) = drawing.strokes.last_mut() {
+                last.depth = f64::INFINITY;
+            }
+        }
         for (index, (body, pose)) in bodies() {
             for part in list(body, "parts") {
                 drawing.part(index, part, pose);
@@ -112,7 +129,7 @@ impl Drawing {
     }
 
     fn line(&mut self, points: &[Point], colour: &'static str, width: f64, has_edge: bool) {
-        let flat: Vec<([f64; 2], f64)> = points.iter().map(seen).collect();
+        let flat: Vec<([f64; 2], f64)> = points.iter().map(|p| seen(p, self.is_flat)).collect();
         let depth = flat.iter().map(|(_, depth)| depth).sum::<f64>() / flat.len().max(1) as f64;
         let points = flat.into_iter().map(|(p, _)| p).collect();
         self.strokes.push(Stroke { points, depth, colour, width, is_face: false, has_edge, dash: false });
@@ -121,22 +138,41 @@ impl Drawing {
     fn part(&mut self, body: usize, part: &Value, pose: &Pose) {
         let points: Vec<Point> = list(part, "points").iter().filter_map(point).map(|p| apply(pose, &p)).collect();
         match part["kind"].as_str() {
+            // The pieces of an arc are one line, so that their edges do not cut it.
+            Some("link") if points.len() > ARC => self.line(&points, colour(body), 4.4, true),
             Some("link") => points.windows(2).for_each(|piece| self.line(piece, colour(body), 4.4, true)),
             Some("hull") => {
                 for triangle in list(part, "triangles") {
                     let corner =
                         |k: usize| usize::try_from(triangle[k].as_u64()?).ok().and_then(|k| points.get(k)).copied();
                     let corners: Vec<Point> = (0..3).filter_map(corner).collect();
-                    self.line(&corners, if body == 0 { "#6b7685" } else { COLOURS[1] }, 0.7, false);
+                    let tint = if self.is_flat { colour(body) } else { COLOURS[1] };
+                    self.line(&corners, if body == 0 { "#6b7685" } else { tint }, 0.7, false);
                     if let Some(last) = self.strokes.last_mut() {
                         last.is_face = true;
+                        // The links of other bodies pass before it.
+                        last.depth -= if self.is_flat { 1.0 } else { 0.0 };
                     }
                 }
             }
             Some("joint") => self.joint(part, pose),
+            Some("support") => self.support(part, pose),
             Some("frame") => self.frame(part, pose),
             _ => {}
         }
+    }
+
+    /// A bearing of the ground: a triangle below its pin.
+    fn support(&mut self, part: &Value, pose: &Pose) {
+        let Some(at) = point(&part["at"]) else { return };
+        let corner = |x: f64, y: f64| apply(pose, &[at[0] + x * self.size, at[1] + y * self.size, at[2]]);
+        let foot = [corner(0.0, 0.0), corner(-0.05, -0.085), corner(0.05, -0.085)];
+        let line = [corner(-0.08, -0.085), corner(0.08, -0.085)];
+        self.line(&foot, COLOURS[0], 0.7, false);
+        if let Some(last) = self.strokes.last_mut() {
+            last.is_face = true;
+        }
+        self.line(&line, COLOURS[0], 2.2, false);
     }
 
     /// A joint as a drum along its axis, or as a spherical joint.
@@ -174,6 +210,24 @@ impl Drawing {
             self.line(&[origin, apply(pose, &apply(&own, &tip))], colour, 2.0, false);
         }
     }
+}
+
+/// The path of a point along the configurations of a track.
+fn path(trace: &Value, frames: &[Vec<Pose>]) -> Option<Vec<Point>> {
+    let (body, at) = (usize::try_from(trace["body"].as_u64()?).ok()?, point(&trace["at"])?);
+    (frames.len() > 1).then(|| frames.iter().filter_map(|poses| Some(apply(poses.get(body)?, &at))).collect())
+}
+
+/// The configurations of a track, where the paths of points are drawn.
+fn frames(scene: &Value, track: &Track<'_>) -> Vec<Vec<Pose>> {
+    if list(scene, "traces").is_empty() {
+        return Vec::new();
+    }
+    let mut frames: Vec<Vec<Pose>> = track.frames.iter().filter_map(|frame| poses(frame)).collect();
+    if track.source["ends"]["kind"] == "closed" {
+        frames.extend(frames.first().cloned());
+    }
+    frames
 }
 
 /// How points of drawings become points of a picture.
@@ -247,10 +301,10 @@ fn drawn<'a>(track: &Track<'a>) -> Option<&'a Value> {
 
 /// The drawing of the first track, without a frame around it.
 pub(super) fn first(document: &Value, tracks: &[Track<'_>], size: [f64; 2]) -> String {
-    let poses = tracks.iter().find_map(|track| poses(drawn(track)?));
+    let found = tracks.iter().find_map(|track| Some((poses(drawn(track)?)?, frames(&document["scene"], track))));
     let mut text = String::new();
-    if let Some(poses) = poses {
-        let drawing = Drawing::of(&document["scene"], &poses);
+    if let Some((poses, frames)) = found {
+        let drawing = Drawing::of(&document["scene"], &poses, &frames);
         write(&mut text, &drawing, &Fit::of(&drawing.corners, size), 1.0);
     }
     text
@@ -263,7 +317,9 @@ pub fn figures(document: &Value) -> String {
     let posed: Vec<(&Track<'_>, Vec<Pose>)> =
         tracks.iter().filter_map(|track| Some((track, poses(drawn(track)?)?))).collect();
     let shown = &posed[..posed.len().min(MOST)];
-    let drawings: Vec<Drawing> = shown.iter().map(|(_, poses)| Drawing::of(&document["scene"], poses)).collect();
+    let scene = &document["scene"];
+    let drawings: Vec<Drawing> =
+        shown.iter().map(|(track, poses)| Drawing::of(scene, poses, &frames(scene, track))).collect();
     // Few in a row fill the width of a page.
     let columns = (1..=8).find(|c| c * c >= drawings.len()).unwrap_or(8);
     let rows = drawings.len().div_ceil(columns).max(1);

@@ -103,7 +103,9 @@ fn of_modes(document: &Value, listed: &[(usize, &Track<'_>)]) -> String {
         let unit = |variable: &Value| if variable["kind"] == "distance" { "m" } else { "\u{b0}" };
         heads.extend(variables.iter().map(|v| format!("{} [{}]", v["name"].as_str().unwrap_or_default(), unit(v))));
     }
-    heads.push("condition".to_owned());
+    // Linkages have none.
+    let has_condition = has("condition", |value| !value.is_null()) || document["kind"] != "linkage";
+    heads.extend(has_condition.then(|| "condition".to_owned()));
     heads.extend(has_limits.then(|| "limits".to_owned()));
     heads.extend(is_multiple.then(|| "times".to_owned()));
     let row = |(index, track): &(usize, &Track<'_>)| {
@@ -139,7 +141,7 @@ fn of_modes(document: &Value, listed: &[(usize, &Track<'_>)]) -> String {
             });
             cells.extend(values);
         }
-        cells.push(condition(&mode["condition"]));
+        cells.extend(has_condition.then(|| condition(&mode["condition"])));
         if has_limits {
             let word =
                 mode["within_limits"].as_bool().map_or("", |is_within| if is_within { "within" } else { "outside" });
@@ -170,7 +172,7 @@ fn condition(value: &Value) -> Cell {
 pub(super) fn case_noun(document: &Value) -> &'static str {
     match document["kind"].as_str() {
         Some("arm") => "pose",
-        Some("loop") => "input",
+        Some("loop" | "linkage") => "input",
         _ => "legs",
     }
 }

@@ -69,6 +69,7 @@ pub(super) fn solved(kind: &str, verdict: &Value) -> Headline {
         "unreachable" => match kind {
             "arm" => "No real solution: this pose cannot be reached".to_owned(),
             "loop" => "No real solution: the loop cannot be assembled at this input".to_owned(),
+            "linkage" => "No real solution: the linkage cannot be assembled with these inputs".to_owned(),
             _ => "No real solution: no pose has legs of these lengths".to_owned(),
         },
         "self-motion" => {
@@ -110,6 +111,7 @@ pub(super) fn swept(document: &Value) -> Headline {
     let verdict = &document["verdict"];
     let (branches, limits) = (count(&verdict["branches"]), count(&verdict["limits"]));
     let text = match branches {
+        0 if document["kind"] == "linkage" => "The linkage closes at none of the inputs".to_owned(),
         0 => "The loop closes at none of the inputs".to_owned(),
         1 => format!("1 branch, {}", counted(limits, "limit position")),
         n => format!("{n} branches, {}", counted(limits, "limit position")),

@@ -115,6 +115,9 @@ fn the_document_follows_its_schema() {
             &["solve", "platform/circle", "--json"],
             &["solve", "general_7r", "--json", "--scene"],
             &["solve", "dietmaier_40real", "--json", "--scene"],
+            &["solve", "linkage/3prr", "--json", "--complex", "--scene"],
+            &["solve", "linkage/peaucellier", "--json"],
+            &["solve", "linkage/spherical_watt", "--json", "--complex", "--scene"],
             &["solve", "crcrr_2_angle", "--json", "--complex", "--derivatives"],
         ],
     );

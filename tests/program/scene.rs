@@ -130,6 +130,47 @@ fn a_sweep_poses_every_row_and_limit_position() {
 }
 
 #[test]
+fn the_bodies_of_linkages_meet_at_their_joints() {
+    for name in ["jansen", "slider_crank_piston", "3prr", "whitworth", "spherical_3rrr"] {
+        let document = json(&run(&["solve", &format!("linkage/{name}"), "--json", "--scene"]));
+        let bodies: Vec<&str> =
+            document["scene"]["bodies"].as_array().unwrap().iter().map(|body| body["name"].as_str().unwrap()).collect();
+        assert_eq!(bodies[0], document["mechanism"]["ground"], "{name}: the ground stands first");
+        let modes = document["results"][0]["modes"].as_array().unwrap();
+        assert!(!modes.is_empty(), "{name}");
+        for mode in modes {
+            let poses = poses(mode);
+            let of = |body: &Value| poses[bodies.iter().position(|own| body == own).unwrap()];
+            for joint in document["mechanism"]["joints"].as_array().unwrap() {
+                let end = |side: usize| {
+                    let at: Vec<f64> =
+                        joint["at"][side].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+                    apply(&of(&joint["of"][side]), &[at[0], at[1], at.get(2).copied().unwrap_or(0.0)])
+                };
+                if joint["type"] == "R" {
+                    near(end(0), end(1), name);
+                }
+            }
+            for (body, own) in bodies.iter().zip(&poses) {
+                let listed = &mode["bodies"][body];
+                if let Some(angle) = listed["angle"].as_f64() {
+                    assert!((own[0] - (angle / 2.0).cos().abs()).abs() < 1e-9, "{name}: {body}");
+                    near(
+                        [own[4], own[5], own[6]],
+                        [numbers::<2>(&listed["position"]), [0.0; 2]].concat()[..3].try_into().unwrap(),
+                        name,
+                    );
+                } else {
+                    let q: [f64; 4] = numbers(&listed["quaternion"]);
+                    let along: f64 = (0..4).map(|k| q[k] * own[k]).sum();
+                    assert!((along.abs() - 1.0).abs() < 1e-9, "{name}: {body}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn scenes_are_json_only() {
     let output = Command::new(env!("CARGO_BIN_EXE_looproot")).args(["solve", "puma560", "--scene"]).output().unwrap();
     assert_eq!(output.status.code(), Some(1));

@@ -36,7 +36,8 @@ fn rows(page: &str) -> usize {
 
 #[test]
 fn a_page_stands_by_itself_and_lists_every_mode() {
-    for (name, code) in [("general_16real", 0), ("dietmaier_40real", 0), ("crcrr_2_angle", 0)] {
+    let names = ["general_16real", "dietmaier_40real", "crcrr_2_angle", "linkage/jansen", "linkage/spherical_3rrr"];
+    for (name, code) in names.map(|name| (name, 0)) {
         let (found, page) = run(&["view", name]);
         assert_eq!(found, code, "{name}");
         assert!(page.len() < 1_000_000, "{name}: {} bytes", page.len());
@@ -105,9 +106,25 @@ fn a_sweep_has_a_slider_a_path_for_every_branch_and_a_circle_for_every_limit() {
 }
 
 #[test]
+fn a_sweep_of_a_linkage_draws_the_curve_of_the_point_that_is_traced() {
+    let range = ["--from", "-pi", "--to", "pi", "--steps", "24"];
+    let name = "linkage/coupler_curve_symmetric";
+    let (_, page) = run(&[&["view", name, "--sweep"], &range[..]].concat());
+    assert!(page.contains("\"traces\":[{\"name\":\"coupler.P\""), "the point of the file");
+    assert_eq!(rows(&page), 2);
+    assert!(page.contains("\"flat\":true"));
+    let (_, other) = run(&[&["view", name, "--sweep", "--trace", "coupler.C"], &range[..]].concat());
+    assert!(other.contains("\"traces\":[{\"name\":\"coupler.C\""), "the point asked for");
+    let (_, figures) = run(&[&["view", name, "--sweep", "--svg"], &range[..]].concat());
+    assert!(figures.starts_with("<svg") && figures.contains("branch 2"));
+    let (_, panels) = run(&[&["sweep", name, "--svg"], &range[..]].concat());
+    assert!(["A [deg]", "B [deg]", "C [deg]", "D [deg]"].iter().all(|label| panels.contains(label)));
+}
+
+#[test]
 fn a_saved_result_is_drawn_without_its_file() {
-    for name in ["general_12real", "dietmaier_40real", "crcrr_2_angle"] {
-        let path = folder().join(format!("{name}.json"));
+    for name in ["general_12real", "dietmaier_40real", "crcrr_2_angle", "linkage/3prr", "linkage/spherical_watt"] {
+        let path = folder().join(format!("{}.json", name.replace('/', "-")));
         let (code, document) = run(&["solve", name, "--json", "--seed", "1"]);
         fs::write(&path, document).unwrap();
         let (saved_code, saved) = run(&["view", path.to_str().unwrap()]);

@@ -1,6 +1,7 @@
 //! Linkages in normalised form.
 
 use super::{labels, origin};
+use crate::algebra::ring::Ring;
 use crate::catalogue::LinkageFile;
 use crate::kinematics::linkage::{Gaussian, Pair};
 use crate::linkage::assembly::groups_of;
@@ -103,12 +104,29 @@ pub fn json(file: &LinkageFile) -> Value {
     }
     let joints = linkage.joints.iter().map(|joint| {
         let of = joint.of.map(|body| linkage.bodies[body].name.clone());
-        json!({ "name": joint.name, "type": letter(&joint.pair), "of": of, "at": joint.at.each_ref().map(pair) })
+        let at = joint.at.each_ref().map(pair);
+        let mut object = json!({ "name": joint.name, "type": letter(&joint.pair), "of": of, "at": at });
+        match &joint.pair {
+            Pair::Revolute => {}
+            Pair::Prismatic { turn, along, .. } => {
+                // The same direction in the second body.
+                let back = along.mul(&Gaussian { re: turn.re.clone(), im: -turn.im.clone() });
+                object["along"] = json!([pair(along), pair(&back)]);
+            }
+            Pair::Gear { carrier, ratio, phase } => {
+                object["carrier"] = json!(linkage.bodies[*carrier].name);
+                object["ratio"] = number(ratio.to_f64());
+                object["phase"] = number(phase.im.to_f64().atan2(phase.re.to_f64()));
+            }
+        }
+        object
     });
     object.insert("space".into(), json!("plane"));
     object.insert("ground".into(), json!(linkage.bodies[linkage.ground].name));
     object.insert("joints".into(), joints.collect());
     object.insert("bodies".into(), Value::Object(bodies));
+    let traces = file.traces.iter().map(|trace| format!("{}.{}", linkage.bodies[trace.body].name, trace.point.0));
+    object.insert("traces".into(), traces.collect());
     object.insert("grashof".into(), grashof_json(planar(linkage)));
     object.insert("exact".into(), json!(file.exact));
     Value::Object(object)

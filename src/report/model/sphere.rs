@@ -76,6 +76,8 @@ pub fn json(file: &SphereFile) -> Value {
     object.insert("ground".into(), json!(linkage.bodies[linkage.ground].name));
     object.insert("joints".into(), joints.collect());
     object.insert("bodies".into(), Value::Object(bodies));
+    let traces = file.traces.iter().map(|trace| format!("{}.{}", linkage.bodies[trace.body].name, trace.point));
+    object.insert("traces".into(), traces.collect());
     object.insert("grashof".into(), grashof_json(spherical(linkage)));
     object.insert("exact".into(), json!(file.exact));
     Value::Object(object)

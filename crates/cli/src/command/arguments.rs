@@ -380,7 +380,7 @@ pub struct SweepOptions {
     /// CSV: one row for every branch and step, radians and metres
     #[arg(long, conflicts_with_all = ["json", "svg"])]
     pub csv: bool,
-    /// A picture: every joint variable against the input; of a linkage the curve of the point of --trace
+    /// A picture: every joint variable against the input, or of a planar linkage the curve of the point of --trace
     #[arg(long, conflicts_with = "json")]
     pub svg: bool,
     /// Linkages: the place of a point of a body at every step
@@ -421,7 +421,7 @@ pub struct SweepOptions {
 pub struct ViewOptions {
     #[command(flatten)]
     pub solve: SolveOptions,
-    /// Loops: run the input through a range, all branches moving
+    /// Loops and linkages: run the input through a range, all branches moving
     #[arg(long, requires_all = ["from", "to"])]
     pub sweep: bool,
     /// --sweep: the joint to sweep [default: the input of the file]
@@ -436,6 +436,9 @@ pub struct ViewOptions {
     /// --sweep: number of equal steps between
     #[arg(long, value_name = "N", default_value = "360", value_parser = steps)]
     pub steps: usize,
+    /// --sweep of a linkage: the point of a body whose curve is drawn [default: those of the [[trace]]s of the file]
+    #[arg(long, value_name = "BODY.POINT", requires = "sweep")]
+    pub trace: Option<String>,
     /// A picture for a paper in place of a page: stick figures, or the map
     #[arg(long)]
     pub svg: bool,

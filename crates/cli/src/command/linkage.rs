@@ -9,6 +9,8 @@ use looproot::internal::error::Error;
 use looproot::internal::linkage::answer::solve;
 use looproot::internal::report::linkage as report;
 use looproot::internal::verdict::{Proof, Status, Verdict};
+use looproot::internal::view::drawable;
+use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::io::Write;
 use std::sync::atomic::Ordering;
@@ -34,7 +36,7 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
         exit = exit.max(code(&answer.verdict));
         if options.json || options.jsonl {
             let result = report::result(file, case, index + 1, &answer, options.complex);
-            if options.jsonl {
+            if options.jsonl && !options.scene {
                 writeln!(output.writer, "{result}")?;
                 output.writer.flush()?;
             } else {
@@ -47,11 +49,31 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
             write!(output.writer, "{gap}{}", report::text(file, case, index + 1, &answer, options.complex))?;
         }
     }
-    if options.json {
-        writeln!(output.writer, "{:#}", report::json(file, &results))?;
+    if options.json || options.scene {
+        written(options, report::json(file, &results), &mut output)?;
     }
     output.writer.flush()?;
     Ok(exit)
+}
+
+/// Writes a document, with the scene where it is asked for; as lines the document comes first, then every result.
+pub fn written(options: &SolveOptions, mut document: Value, output: &mut Output) -> Result<(), Fault> {
+    if options.scene {
+        drawable(&mut document)?;
+    }
+    if options.json {
+        writeln!(output.writer, "{document:#}")?;
+        return Ok(());
+    }
+    let results = document["results"].take();
+    if let Some(object) = document.as_object_mut() {
+        object.remove("results");
+    }
+    writeln!(output.writer, "{}", json!({ "document": document }))?;
+    for result in results.as_array().into_iter().flatten() {
+        writeln!(output.writer, "{result}")?;
+    }
+    Ok(())
 }
 
 /// Returns the exit code of a verdict.
@@ -69,11 +91,13 @@ pub fn refuse(options: &SolveOptions) -> Result<(), Error> {
     let found = [
         (options.poses.is_some(), "--poses"),
         (options.derivatives, "--derivatives"),
-        (options.scene, "--scene"),
         (options.near.is_some(), "--near"),
         (options.turns, "--turns"),
         (options.tolerance.is_some(), "--tolerance"),
     ];
+    if options.scene && !options.json && !options.jsonl {
+        return Err(Error::Invalid("found --scene alone, expected it with --json or --jsonl".to_owned()));
+    }
     match found.iter().find(|(is_there, _)| *is_there) {
         Some((_, option)) => Err(Error::Invalid(format!("found {option} for a linkage, which has none"))),
         None => Ok(()),

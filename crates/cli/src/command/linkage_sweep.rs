@@ -9,6 +9,7 @@ use looproot::internal::error::Error;
 use looproot::internal::kinematics::linkage::Given;
 use looproot::internal::report::linkage_sweep::{self as report, Asked, Traced};
 use looproot::internal::sweep::{Range, sweep_linkage};
+use looproot::internal::view::drawable;
 use looproot_algebra::number::{Angle, Number, Quantity};
 use std::io::Write;
 
@@ -18,10 +19,6 @@ pub fn run(
     file: &LinkageFile,
     open: impl FnOnce() -> Result<Output, Fault>,
 ) -> Result<Exit, Fault> {
-    let refused = |what: &str| Error::Invalid(format!("found {what}"));
-    if options.scene {
-        return Err(refused("--scene for a linkage, which has none").into());
-    }
     let traced = match &options.trace {
         Some(asked) => {
             let (body, _, place) = point_of(file, asked)?;
@@ -29,9 +26,6 @@ pub fn run(
         }
         None => None,
     };
-    if options.svg && traced.is_none() {
-        return Err(refused("--svg of a linkage without --trace, expected the point whose curve is drawn").into());
-    }
     let case = &file.cases[0];
     let joint = joint_of(options, file, &case.given)?;
     let ends = [("--from", &options.from), ("--to", &options.to)];
@@ -44,7 +38,14 @@ pub fn run(
     let mut output = open()?;
     let out = &mut output.writer;
     match &traced {
-        _ if options.json => writeln!(out, "{}", report::json(asked, &found))?,
+        _ if options.json => {
+            let mut document = report::json(asked, &found);
+            if options.scene {
+                drawable(&mut document)?;
+            }
+            writeln!(out, "{document}")?;
+        }
+        None if options.svg => write!(out, "{}", report::joints_svg(file, &found))?,
         Some(traced) if options.svg => write!(out, "{}", report::svg(file, traced, &found))?,
         _ if options.csv => write!(out, "{}", report::csv(asked, &found))?,
         _ if options.quiet => writeln!(out, "{}", report::verdict(&found))?,

@@ -2,7 +2,7 @@
 
 use super::arguments::{DeriveOptions, SolveOptions, SweepOptions};
 use super::exit::{Exit, Fault};
-use super::linkage::{code, refuse};
+use super::linkage::{code, refuse, written};
 use super::output::Output;
 use looproot::internal::catalogue::SphereFile;
 use looproot::internal::derivation::{sphere_trace, transfer};
@@ -12,6 +12,7 @@ use looproot::internal::linkage::sphere::solve;
 use looproot::internal::report::sphere as report;
 use looproot::internal::report::sphere_sweep as sweeps;
 use looproot::internal::sweep::sweep_sphere;
+use looproot::internal::view::drawable;
 use looproot_algebra::number::Angle;
 use std::borrow::Cow;
 use std::io::Write;
@@ -59,7 +60,7 @@ pub fn run(options: &SolveOptions, file: &SphereFile, output: Output) -> Result<
         exit = exit.max(code(&answer.verdict));
         if options.json || options.jsonl {
             let result = report::result(file, case, index + 1, &answer, options.complex);
-            if options.jsonl {
+            if options.jsonl && !options.scene {
                 writeln!(output.writer, "{result}")?;
             } else {
                 results.push(result);
@@ -71,8 +72,8 @@ pub fn run(options: &SolveOptions, file: &SphereFile, output: Output) -> Result<
             write!(output.writer, "{gap}{}", report::text(file, case, index + 1, &answer, options.complex))?;
         }
     }
-    if options.json {
-        writeln!(output.writer, "{:#}", report::json(file, &results))?;
+    if options.json || options.scene {
+        written(options, report::json(file, &results), &mut output)?;
     }
     output.writer.flush()?;
     Ok(exit)
@@ -135,11 +136,9 @@ pub fn sweep(
     file: &SphereFile,
     open: impl FnOnce() -> Result<Output, Fault>,
 ) -> Result<Exit, Fault> {
-    let refused = |what: &str| Error::Invalid(format!("found {what} for a linkage on the sphere, which has none"));
-    for (is_there, option) in [(options.scene, "--scene"), (options.svg, "--svg")] {
-        if is_there {
-            return Err(refused(option).into());
-        }
+    if options.svg && options.trace.is_some() {
+        let message = "found --svg of a curve on the sphere, expected --svg without --trace, or --csv";
+        return Err(Error::Invalid(message.to_owned()).into());
     }
     let traced = match &options.trace {
         Some(asked) => {
@@ -171,7 +170,13 @@ pub fn sweep(
     let mut output = open()?;
     let (out, traced) = (&mut output.writer, traced.as_ref());
     if options.json {
-        writeln!(out, "{}", sweeps::json(file, traced, &found))?;
+        let mut document = sweeps::json(file, traced, &found);
+        if options.scene {
+            drawable(&mut document)?;
+        }
+        writeln!(out, "{document}")?;
+    } else if options.svg {
+        write!(out, "{}", sweeps::svg(file, &found))?;
     } else if options.csv {
         write!(out, "{}", sweeps::csv(file, traced, &found))?;
     } else if options.quiet {

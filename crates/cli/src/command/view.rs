@@ -124,7 +124,7 @@ fn sweep_options(options: &ViewOptions) -> SweepOptions {
         steps: options.steps,
         csv: false,
         svg: false,
-        trace: None,
+        trace: options.trace.clone(),
         json: true,
         scene: true,
         seed: solve.seed,
