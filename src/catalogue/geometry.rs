@@ -264,9 +264,11 @@ fn limits(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Vec<[f64; 2]>
             .fail(node.line, format!("found {found} pairs of limits, expected {expected}, one per joint variable")));
     }
     let mut limits = Vec::with_capacity(nodes.len());
+    // Limits are compared in f64: they do not make the mechanism a rounded one.
+    let own = Scope::new(scope.path, scope.reading.clone());
     for (pair, variable) in nodes.iter().zip(variables) {
         let [low, high] = scope.exactly::<2>(pair, "limits")?;
-        let read = |node| variable_value(scope, node, variable.variable, "limits");
+        let read = |node| variable_value(&own, node, variable.variable, "limits");
         let (low, high) = (read(low)?, read(high)?);
         if low > high {
             return Err(

@@ -105,6 +105,7 @@ impl Arm {
     /// [`Error::UnknownEntry`] for a name that the library does not have.
     pub fn robot(name: &str) -> Result<Self> {
         let is_known = crate::catalogue::all_names().iter().any(|known| known == name)
+            || crate::catalogue::robot_names().iter().any(|known| known == name)
             || !crate::catalogue::namesakes(name).is_empty();
         if !is_known {
             return Err(Error::UnknownEntry { name: name.to_owned(), near: Vec::new() });

@@ -124,7 +124,7 @@ fn no_robot_of_six_joints_allocates() {
         }
         robots += 1;
     }
-    assert!(robots >= 40, "{robots}");
+    assert!(robots >= 110, "{robots}");
 }
 
 #[test]

@@ -24,6 +24,7 @@ mod pencil;
 mod platform;
 mod printed;
 mod real_field;
+mod robots;
 mod sphere;
 mod strategies;
 mod sweep_proof;
