@@ -177,6 +177,7 @@ fn jobs_print_their_three_lines() {
         ("res", "2", "9"),
         ("expand", "6", "5623"),
         ("mul", "28", "46764"),
+        ("gcd", "3", "26"),
         ("roots", "3", "3"),
         ("roots_poly", "4", "4"),
     ] {

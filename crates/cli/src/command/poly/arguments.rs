@@ -206,7 +206,7 @@ pub struct EvaluateOptions {
 /// `looproot poly job`
 #[derive(Args)]
 pub struct JobOptions {
-    /// A JSON file of kind polydet, mpolydet, res, expand, mul or roots
+    /// A JSON file of kind polydet, mpolydet, res, expand, mul, gcd or roots
     pub file: String,
     /// Repeat for at most this long
     #[arg(long, value_name = "S", default_value_t = 1.5)]

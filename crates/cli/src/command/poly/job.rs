@@ -58,6 +58,8 @@ enum Job<'j> {
     Expand(Vec<&'j str>, &'j str, Option<&'j str>, u64),
     /// The product of two expressions.
     Product(Vec<&'j str>, [&'j str; 2]),
+    /// The greatest common divisor of two expressions.
+    Gcd(Vec<&'j str>, [&'j str; 2]),
     /// The real roots of a coefficient list.
     RootsOfList(Vec<&'j str>),
     /// The real roots of an expression.
@@ -99,10 +101,11 @@ impl<'j> Job<'j> {
                 Ok(Self::Expand(variables()?, text("expr")?, divisor, times))
             }
             "mul" => Ok(Self::Product(variables()?, [text("f")?, text("g")?])),
+            "gcd" => Ok(Self::Gcd(variables()?, [text("f")?, text("g")?])),
             "roots" if document["poly"].is_string() => Ok(Self::Roots(variables()?, text("poly")?)),
             "roots" => Ok(Self::RootsOfList(list(&document["coefficients"], "coefficients", string)?)),
             kind => Err(Error::Unsupported(format!(
-                "jobs of kind `{kind}`, other than polydet, mpolydet, res, expand, mul and roots"
+                "jobs of kind `{kind}`, other than polydet, mpolydet, res, expand, mul, gcd and roots"
             ))),
         }
     }
@@ -114,6 +117,7 @@ impl<'j> Job<'j> {
             | Self::Resultant(vars, ..)
             | Self::Expand(vars, ..)
             | Self::Product(vars, _)
+            | Self::Gcd(vars, _)
             | Self::Roots(vars, _) => vars.len(),
         }
     }
@@ -142,7 +146,9 @@ impl<'j> Job<'j> {
                 let row = |row: &Vec<&str>| row.iter().map(|text| expand(text, &mut names)).collect();
                 Ok(Input::Matrix(rows.iter().map(row).collect::<Outcome<_>>()?))
             }
-            Self::Resultant(variables, texts, _) | Self::Product(variables, texts) => polynomials(variables, texts),
+            Self::Resultant(variables, texts, _) | Self::Product(variables, texts) | Self::Gcd(variables, texts) => {
+                polynomials(variables, texts)
+            }
             Self::Expand(variables, text, None, _) => polynomials(variables, &[text]),
             Self::Expand(variables, text, Some(divisor), _) => polynomials(variables, &[text, divisor]),
             Self::RootsOfList(numbers) => {
@@ -184,6 +190,10 @@ impl<'j> Job<'j> {
                 }
                 Answer::Polynomial(rest)
             }
+            (Self::Gcd(..), Input::Polynomials(polynomials)) => {
+                check_degrees(&polynomials)?;
+                Answer::Polynomial(common_divisor(&polynomials[0], &polynomials[1]))
+            }
             (_, Input::Polynomials(polynomials)) => {
                 let (f, g) = (&polynomials[0], &polynomials[1]);
                 let (numerator, denominator) = (f.numerator.mul(&g.numerator), f.denominator.mul(&g.denominator));
@@ -223,6 +233,13 @@ fn divide(dividend: &Fraction, divisor: &Fraction) -> Outcome<Fraction> {
     let numerator = dividend.numerator.checked_div_exact(&divisor.numerator).ok_or_else(fault)?;
     let numerator = if divisor.denominator == Int::one() { numerator } else { numerator.scale(&divisor.denominator) };
     Ok(Fraction { numerator, denominator: dividend.denominator.clone() }.reduced())
+}
+
+/// The greatest common divisor, numbers included: `gcd(f/a, g/b) = gcd(f, g) / lcm(a, b)`, each in lowest terms.
+fn common_divisor(f: &Fraction, g: &Fraction) -> Fraction {
+    let (a, b) = (&f.denominator, &g.denominator);
+    let denominator = a.mul(&b.div_exact(&a.gcd(b)));
+    Fraction { numerator: f.numerator.gcd(&g.numerator), denominator }.reduced()
 }
 
 fn expand(text: &str, names: &mut Names) -> Outcome<Fraction> {

@@ -2,13 +2,16 @@
 
 use std::time::Instant;
 
-/// Operations shorter than this, in seconds, are measured by their shortest wall time, longer ones by the median of CPU
-/// times. The first is robust against other work on the machine, the second shows the cost of a long run.
+/// Operations shorter than this, in seconds, are measured by their shortest time, longer ones by the median of CPU times.
+/// The first is robust against other work on the machine, the second shows the cost of a long run.
 const SHORT: f64 = 0.02;
 const SHORT_SAMPLES: usize = 300;
 const LONG_SAMPLES: usize = 25;
 
 /// Returns the seconds of an operation, repeated for the given time but at least once, and its last result.
+///
+/// CPU times are those of all threads. A short operation is counted by the longer of wall and CPU time: the CPU clock of
+/// some machines is coarse, and on several threads the wall clock shows too little.
 pub fn measure<R, E>(budget: f64, mut operation: impl FnMut() -> Result<R, E>) -> Result<(f64, R), E> {
     let begin = Instant::now();
     let (mut shortest, mut cpu) = (f64::INFINITY, Vec::new());
@@ -17,8 +20,9 @@ pub fn measure<R, E>(budget: f64, mut operation: impl FnMut() -> Result<R, E>) -
         let result = operation()?;
         let wall = wall.elapsed().as_secs_f64();
         // Without a CPU clock the wall clock is used.
-        cpu.push(start.zip(cpu_seconds()).map_or(wall, |(start, end)| end - start));
-        shortest = wall.min(shortest);
+        let spent = start.zip(cpu_seconds()).map_or(wall, |(start, end)| end - start);
+        shortest = shortest.min(if wall < SHORT { wall.max(spent) } else { spent });
+        cpu.push(spent);
         let limit = if shortest < SHORT { SHORT_SAMPLES } else { LONG_SAMPLES };
         if begin.elapsed().as_secs_f64() > budget || cpu.len() >= limit {
             cpu.sort_by(f64::total_cmp);
@@ -27,10 +31,14 @@ pub fn measure<R, E>(budget: f64, mut operation: impl FnMut() -> Result<R, E>) -
     }
 }
 
-/// Returns the CPU time of this thread so far, if the system reports it.
+/// Returns the CPU time of all threads of the process so far, if the system reports it. Threads of a pool stay, so
+/// that nothing that they did is lost.
 fn cpu_seconds() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    let nanoseconds: u64 = text.split_whitespace().next()?.parse().ok()?;
+    let thread = |path: std::path::PathBuf| -> Option<u64> {
+        std::fs::read_to_string(path.join("schedstat")).ok()?.split_whitespace().next()?.parse().ok()
+    };
+    let threads = std::fs::read_dir("/proc/self/task").ok()?;
+    let nanoseconds: u64 = threads.map(|entry| thread(entry.ok()?.path())).sum::<Option<u64>>()?;
     Some(nanoseconds as f64 * 1e-9)
 }
 
