@@ -1,6 +1,7 @@
 //! Common divisors and square-free factors of integer polynomials, by images modulo primes and a proof over the integers.
 
 use super::modp::{Modulus, PRIME_61, PRIME_62, primes};
+use super::residue_polynomial::{common_divisor, derivative, reduce, trim};
 use super::ring::Ring;
 use super::univariate::Univariate;
 use rug::{Integer, Rational};
@@ -8,60 +9,40 @@ use std::cmp::Ordering;
 
 /// Returns the residues of an integer polynomial, constant term first; empty when all vanish.
 fn residues(coefficients: &[Integer], modulus: &Modulus) -> Vec<u64> {
-    trimmed(coefficients.iter().map(|c| modulus.reduce(c)).collect())
-}
-
-fn trimmed(mut residues: Vec<u64>) -> Vec<u64> {
-    let length = residues.iter().rposition(|&r| r != 0).map_or(0, |last| last + 1);
-    residues.truncate(length);
+    let mut residues = coefficients.iter().map(|c| modulus.reduce(c)).collect();
+    trim(&mut residues);
     residues
 }
 
-/// Returns the derivative of residues.
-fn slope(residues: &[u64], modulus: &Modulus) -> Vec<u64> {
-    let (one, mut index) = (modulus.enter(1), 0);
-    let term = |&r: &u64| {
-        index = modulus.add(index, one);
-        modulus.mul(index, r)
-    };
-    trimmed(residues.iter().skip(1).map(term).collect())
-}
-
-/// Reduces `a` to a multiple of its remainder by `b`. Cross-multiplication needs no inverse.
-fn reduce(a: &mut Vec<u64>, b: &[u64], modulus: &Modulus) {
-    let Some(&leading) = b.last() else { return };
-    while a.len() >= b.len() {
-        let top = a[a.len() - 1];
-        let shift = a.len() - b.len();
-        for c in &mut a[..shift] {
-            *c = modulus.mul(*c, leading);
-        }
-        for (x, &y) in a[shift..].iter_mut().zip(b) {
-            *x = modulus.sub(modulus.mul(*x, leading), modulus.mul(y, top));
-        }
-        let length = a.iter().rposition(|&r| r != 0).map_or(0, |last| last + 1);
-        a.truncate(length);
-    }
-}
-
-/// Returns a greatest common divisor of residues, not normalised.
-fn common_divisor(mut a: Vec<u64>, mut b: Vec<u64>, modulus: &Modulus) -> Vec<u64> {
-    while !b.is_empty() {
-        reduce(&mut a, &b, modulus);
-        (a, b) = (b, a);
-    }
-    a
-}
-
 /// A common divisor known modulo a product of primes, coefficients symmetric about 0.
-struct Lifted {
+pub(super) struct Lifted {
     coefficients: Vec<Integer>,
     product: Integer,
 }
 
 impl Lifted {
+    /// Returns a divisor with so many coefficients, of which nothing is known.
+    pub(super) fn new(count: usize) -> Self {
+        Self { coefficients: vec![Integer::new(); count], product: Integer::from(1) }
+    }
+
+    /// Returns the coefficients.
+    pub(super) fn coefficients(&self) -> &[Integer] {
+        &self.coefficients
+    }
+
+    /// Returns the bits of the longest coefficient.
+    pub(super) fn longest(&self) -> u32 {
+        self.coefficients.iter().map(Integer::significant_bits).max().unwrap_or(0)
+    }
+
+    /// Returns the bits of the product of the primes.
+    pub(super) fn bits(&self) -> u32 {
+        self.product.significant_bits()
+    }
+
     /// Joins an image, of the same length, modulo a further prime. Returns whether that changed anything.
-    fn join(&mut self, image: &[u64], modulus: &Modulus) -> bool {
+    pub(super) fn join(&mut self, image: &[u64], modulus: &Modulus) -> bool {
         let inverse = modulus.inverse(modulus.reduce(&self.product));
         let mut changed = false;
         for (c, &r) in self.coefficients.iter_mut().zip(image) {
@@ -175,8 +156,7 @@ impl Univariate<Integer> {
                     }
                 }
                 _ => {
-                    let start = vec![Integer::new(); image.len()];
-                    let mut first = Lifted { coefficients: start, product: Integer::from(1) };
+                    let mut first = Lifted::new(image.len());
                     first.join(&image, &modulus);
                     lifted = Some(first);
                     continue;
@@ -196,7 +176,7 @@ impl Univariate<Integer> {
         let image = |modulus: Modulus| {
             let f = residues(self.coefficients(), &modulus);
             let same_degree = f.len() == self.coefficients().len();
-            let derivative = slope(&f, &modulus);
+            let derivative = derivative(&f, &modulus);
             same_degree && common_divisor(f, derivative, &modulus).len() == 1
         };
         // A second prime, because the first may be unlucky.
@@ -208,7 +188,7 @@ impl Univariate<Integer> {
     pub(super) fn has_clearly_full_chain(&self) -> bool {
         let modulus = Modulus::new(PRIME_62);
         let mut a = residues(self.coefficients(), &modulus);
-        let mut b = slope(&a, &modulus);
+        let mut b = derivative(&a, &modulus);
         let mut length = self.coefficients().len();
         while length > 1 {
             if a.len() != length || b.len() != length - 1 {

@@ -37,6 +37,7 @@ pub mod real_field;
 pub mod real_roots;
 pub mod reduction;
 pub mod residue_field;
+mod residue_polynomial;
 pub mod residues;
 pub mod resultant;
 pub mod ring;

@@ -52,6 +52,9 @@ impl Polynomial<Int> {
         if let Some(&variable) = others.iter().find(|variable| !own.contains(variable)) {
             return other.gcd_with_content(variable, self);
         }
+        if let Some(gcd) = self.sparse_gcd(other, &own) {
+            return gcd;
+        }
         Layout::new(self, other)
             .map_or_else(|| self.euclidean_gcd(other, own[0]), |layout| self.modular_gcd(other, &layout))
     }
@@ -65,7 +68,7 @@ impl Polynomial<Int> {
     }
 
     /// From images modulo primes; both occur in the same variables.
-    fn modular_gcd(&self, other: &Self, layout: &Layout) -> Self {
+    pub(super) fn modular_gcd(&self, other: &Self, layout: &Layout) -> Self {
         // The true leading coefficient of the divisor divides this one, by which all images are scaled. The leading
         // coefficients are those in the order of the layout.
         let (a, b) = (layout.leading_coefficient(self), layout.leading_coefficient(other));

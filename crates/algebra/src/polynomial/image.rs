@@ -6,6 +6,7 @@
 use super::Polynomial;
 use crate::int::Int;
 use crate::modp::Modulus;
+use crate::residue_polynomial::{Residues, common_divisor, divide, make_monic, product, trim, value};
 use std::cmp::{Ordering, Reverse};
 
 /// The packing of the exponents of the occurring variables into one integer, each field as wide as needed.
@@ -71,9 +72,6 @@ pub(super) struct Image {
     terms: Vec<(u128, u64)>,
 }
 
-/// A polynomial in one variable modulo a prime, constant term first, the last coefficient not zero.
-type Dense = Vec<u64>;
-
 impl Image {
     /// Returns the image of a polynomial.
     pub(super) fn new(polynomial: &Polynomial<Int>, layout: &Layout, modulus: Modulus) -> Self {
@@ -135,7 +133,7 @@ struct Images<'a> {
 }
 
 /// Terms grouped by the monomial in the variables before the last one, each with a polynomial in that one.
-type Groups = Vec<(u128, Dense)>;
+type Groups = Vec<(u128, Residues)>;
 
 impl Images<'_> {
     /// Returns the monic greatest common divisor of polynomials in the first `count` variables.
@@ -160,7 +158,7 @@ impl Images<'_> {
             state ^= state >> 7;
             state ^= state << 17;
             let x = m.enter(state);
-            if self.value(&a[0].1, x) == 0 || self.value(&b[0].1, x) == 0 {
+            if value(&a[0].1, x, m) == 0 || value(&b[0].1, x, m) == 0 {
                 continue;
             }
             let image = self.gcd(&self.at(&a, x), &self.at(&b, x), last).0;
@@ -173,14 +171,14 @@ impl Images<'_> {
                 Ordering::Less => interpolant = Interpolant::empty(m),
                 Ordering::Equal => {}
             }
-            if self.extend(&mut interpolant, &image, self.value(&leading, x), x) {
+            if self.extend(&mut interpolant, &image, value(&leading, x, m), x) {
                 break;
             }
         }
         let mut gcd = interpolant.groups;
         self.remove_content(&mut gcd);
         for (_, c) in &mut gcd {
-            *c = self.product(c, &content);
+            *c = product(c, &content, m);
         }
         self.terms(&gcd, last)
     }
@@ -188,7 +186,7 @@ impl Images<'_> {
     /// Applies Newton's step: adds the value `factor image` at x, and returns whether it was predicted.
     fn extend(&self, interpolant: &mut Interpolant, image: &[(u128, u64)], factor: u64, x: u64) -> bool {
         let m = &self.modulus;
-        let scale = m.inverse(self.value(&interpolant.vanishing, x));
+        let scale = m.inverse(value(&interpolant.vanishing, x, m));
         let mut merged = Vec::with_capacity(image.len());
         let mut known = std::mem::take(&mut interpolant.groups).into_iter().peekable();
         let mut new = image.iter().copied().peekable();
@@ -201,8 +199,8 @@ impl Images<'_> {
                 (None, Some(b)) => b.0,
             };
             let mut c = known.next_if(|(monomial, _)| *monomial == top).map_or_else(Vec::new, |(_, c)| c);
-            let value = new.next_if(|(monomial, _)| *monomial == top).map_or(0, |(_, value)| m.mul(value, factor));
-            let step = m.mul(m.sub(value, self.value(&c, x)), scale);
+            let image = new.next_if(|(monomial, _)| *monomial == top).map_or(0, |(_, image)| m.mul(image, factor));
+            let step = m.mul(m.sub(image, value(&c, x, m)), scale);
             if step != 0 {
                 foreseen = false;
                 c.resize(interpolant.vanishing.len(), 0);
@@ -217,7 +215,7 @@ impl Images<'_> {
             }
         }
         interpolant.groups = merged;
-        interpolant.vanishing = self.product(&interpolant.vanishing, &[m.sub(0, x), m.enter(1)]);
+        interpolant.vanishing = product(&interpolant.vanishing, &[m.sub(0, x), m.enter(1)], m);
         interpolant.points += 1;
         foreseen
     }
@@ -241,7 +239,7 @@ impl Images<'_> {
     }
 
     /// Returns the terms of the monic multiple.
-    fn terms(&self, groups: &[(u128, Dense)], last: usize) -> Terms {
+    fn terms(&self, groups: &[(u128, Residues)], last: usize) -> Terms {
         let leading = groups.first().and_then(|(_, c)| c.last()).copied().unwrap_or(0);
         let inverse = self.modulus.inverse(leading);
         let mut terms = Vec::new();
@@ -255,8 +253,8 @@ impl Images<'_> {
     }
 
     /// Divides by the common divisor of all polynomials in the last variable, and returns it.
-    fn remove_content(&self, groups: &mut Groups) -> Dense {
-        let mut content = Dense::new();
+    fn remove_content(&self, groups: &mut Groups) -> Residues {
+        let mut content = Residues::new();
         for (_, c) in groups.iter() {
             content = self.univariate_gcd(content, c.clone());
             if content.len() == 1 {
@@ -264,88 +262,22 @@ impl Images<'_> {
             }
         }
         for (_, c) in groups.iter_mut() {
-            *c = self.divide(c, &content).0;
+            *c = divide(c, &content, &self.modulus).0;
         }
         content
     }
 
     /// Returns the terms for a value of the last variable.
     fn at(&self, groups: &Groups, x: u64) -> Vec<(u128, u64)> {
-        let terms = groups.iter().map(|(monomial, c)| (*monomial, self.value(c, x)));
+        let terms = groups.iter().map(|(monomial, c)| (*monomial, value(c, x, &self.modulus)));
         terms.filter(|term| term.1 != 0).collect()
     }
 
-    fn value(&self, polynomial: &[u64], x: u64) -> u64 {
-        polynomial.iter().rev().fold(0, |value, c| self.modulus.add(self.modulus.mul(value, x), *c))
-    }
-
-    fn product(&self, a: &[u64], b: &[u64]) -> Dense {
-        let mut product = vec![0; a.len() + b.len() - 1];
-        for (i, a) in a.iter().enumerate() {
-            for (j, b) in b.iter().enumerate() {
-                product[i + j] = self.modulus.add(product[i + j], self.modulus.mul(*a, *b));
-            }
-        }
-        product
-    }
-
-    /// Returns quotient and remainder.
-    fn divide(&self, a: &[u64], b: &[u64]) -> (Dense, Dense) {
-        let m = &self.modulus;
-        let mut rest = a.to_vec();
-        let (Some(leading), true) = (b.last(), a.len() >= b.len()) else { return (Dense::new(), rest) };
-        let inverse = m.inverse(*leading);
-        let mut quotient = vec![0; a.len() - b.len() + 1];
-        for shift in (0..quotient.len()).rev() {
-            let factor = m.mul(rest[shift + b.len() - 1], inverse);
-            for (x, y) in rest[shift..].iter_mut().zip(b) {
-                *x = m.sub(*x, m.mul(factor, *y));
-            }
-            quotient[shift] = factor;
-        }
-        trim(&mut rest);
-        (quotient, rest)
-    }
-
-    /// Computes the remainder of a multiple: products replace an inverse, which costs more than a hundred of them.
-    fn reduce(&self, a: &mut Dense, b: &[u64]) {
-        let m = &self.modulus;
-        let Some((&leading, lower)) = b.split_last() else { return };
-        while a.len() >= b.len() {
-            let Some(top) = a.pop() else { return };
-            let shift = a.len() - lower.len();
-            for c in a.iter_mut() {
-                *c = m.mul(*c, leading);
-            }
-            for (c, d) in a[shift..].iter_mut().zip(lower) {
-                *c = m.sub(*c, m.mul(top, *d));
-            }
-            trim(a);
-        }
-    }
-
     /// Returns the monic greatest common divisor; zero, without coefficients, only of two zeros.
-    fn univariate_gcd(&self, mut a: Dense, mut b: Dense) -> Dense {
-        while !b.is_empty() {
-            if b.len() == 1 {
-                return vec![self.modulus.enter(1)];
-            }
-            self.reduce(&mut a, &b);
-            (a, b) = (b, a);
-        }
-        if let Some(&leading) = a.last() {
-            let inverse = self.modulus.inverse(leading);
-            for c in &mut a {
-                *c = self.modulus.mul(*c, inverse);
-            }
-        }
-        a
-    }
-}
-
-fn trim(polynomial: &mut Dense) {
-    while polynomial.last() == Some(&0) {
-        polynomial.pop();
+    fn univariate_gcd(&self, a: Residues, b: Residues) -> Residues {
+        let mut gcd = common_divisor(a, b, &self.modulus);
+        make_monic(&mut gcd, &self.modulus);
+        gcd
     }
 }
 
@@ -353,7 +285,7 @@ fn trim(polynomial: &mut Dense) {
 struct Interpolant {
     groups: Groups,
     /// The product of `x - x_i` over the abscissae.
-    vanishing: Dense,
+    vanishing: Residues,
     points: usize,
 }
 
