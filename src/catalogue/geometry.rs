@@ -283,7 +283,7 @@ fn limits(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Vec<[f64; 2]>
 /// Reads the value of a joint variable, radians or metres.
 pub(super) fn variable_value(scope: &Scope<'_>, node: &Node, variable: Variable, what: &str) -> Result<f64> {
     Ok(match variable {
-        Variable::Rotation => scope.angle(node, what)?.radians(),
+        Variable::Rotation => scope.radians(node, what)?,
         Variable::Translation => scope.length(node, what)?.to_f64(),
     })
 }

@@ -151,6 +151,12 @@ impl<'a> Scope<'a> {
         Ok(angle)
     }
 
+    /// Reads the radians of an angle that is compared only: it does not make the mechanism a rounded one.
+    pub(super) fn radians(&self, node: &Node, what: &str) -> Result<f64> {
+        let text = self.written(node, what, "an angle")?;
+        self.placed(Angle::parse_radians(text, &self.reading), node, what)
+    }
+
     /// Reads an angle in radians that a program may have printed, as the multiple of half a degree that it represents.
     pub(super) fn printed_angle(&self, node: &Node, what: &str, place: &str) -> Result<Angle> {
         let text = self.written(node, what, "an angle")?.trim();

@@ -287,6 +287,36 @@ impl Number {
     }
 }
 
+/// The text of an angle, read.
+struct Radians {
+    /// The angle in radians.
+    value: Value,
+    /// Whether it was written in degrees, without the unit.
+    is_plain_degrees: bool,
+}
+
+impl Radians {
+    fn read(text: &str, reading: &Reading) -> Result<Self> {
+        let Quantified { value, unit } = read(text, "an angle")?;
+        let found = || shortened(text);
+        let degrees = match unit {
+            None if reading.degrees && value.radians => {
+                return Err(Error::Invalid(format!(
+                    "found `{0}` where plain angles are degrees, expected its unit: `{0} rad` or `{0} deg`",
+                    found()
+                )));
+            }
+            None => reading.degrees,
+            Some(Unit::Degree) => true,
+            Some(Unit::Radian) => false,
+            Some(_) => return Err(Error::Invalid(format!("found `{}`, expected an angle", found()))),
+        };
+        let value = if degrees { value.mul(&Value::from_turns(Rational::from((1, 180)), true)) } else { value };
+        check_size(&value.float(), text)?;
+        Ok(Self { value, is_plain_degrees: unit.is_none() && degrees })
+    }
+}
+
 impl Angle {
     /// Returns the angle 0.
     #[must_use]
@@ -337,29 +367,23 @@ impl Angle {
     /// # Ok::<(), looproot_algebra::error::Error>(())
     /// ```
     pub fn parse(text: &str, reading: &Reading) -> Result<Self> {
-        let Quantified { value, unit } = read(text, "an angle")?;
-        let found = || shortened(text);
-        let degrees = match unit {
-            None if reading.degrees && value.radians => {
-                return Err(Error::Invalid(format!(
-                    "found `{0}` where plain angles are degrees, expected its unit: `{0} rad` or `{0} deg`",
-                    found()
-                )));
-            }
-            None => reading.degrees,
-            Some(Unit::Degree) => true,
-            Some(Unit::Radian) => false,
-            Some(_) => return Err(Error::Invalid(format!("found `{}`, expected an angle", found()))),
-        };
-        let value = if degrees { value.mul(&Value::from_turns(Rational::from((1, 180)), true)) } else { value };
-        check_size(&value.float(), text)?;
+        let Radians { value, is_plain_degrees } = Radians::read(text, reading)?;
         if let Some(half_tangent) = value.half_tangent() {
             return Ok(Self { radians: value.float().to_f64(), ..Self::from_half_tangent(half_tangent) });
         }
         let own = text.trim();
-        let own = if unit.is_none() && degrees { format!("({own}) deg") } else { own.to_owned() };
+        let own = if is_plain_degrees { format!("({own}) deg") } else { own.to_owned() };
         let written = Written::new(&own, Rational::from(1));
         Ok(Self { phase: value.phase().map(Arc::new), written, ..Self::rounded(&value.real, reading.digits) })
+    }
+
+    /// Reads the text of an angle as [`Angle::parse`] does, and returns no more than its radians: for limits and for values
+    /// that are compared, whose cosine and sine nobody asks for.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] saying what was found instead of an angle.
+    pub fn parse_radians(text: &str, reading: &Reading) -> Result<f64> {
+        Ok(Radians::read(text, reading)?.value.float().to_f64())
     }
 
     /// Reads the half-angle tangent of an angle: a rational number or `inf`.
