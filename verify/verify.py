@@ -14,6 +14,7 @@ sys.set_int_max_str_digits(4300)
 try:
     from bounds import check_proof
     from chains import Chain
+    from distance import check_distance
     from isolation import modes_of, prove_all
     from mobility import check_mobility
     from platforms import Platform
@@ -82,7 +83,7 @@ def check(certificate, source):
         if source is not None:
             source(data, True)
         return check_mobility(data, claim, modes, proof)
-    _, status, word, complex_, real = fields(claim, ("verb", "status", "proof", "complex", "real"))
+    _, status, word, real, complex_ = fields(claim, ("verb", "status", "proof", "real"), ("complex",))
     if verb != "solve" or word != "proved":
         raise Refused("claim: only proved answers of solve and mobility are covered")
     mechanism = data.get("mechanism") if isinstance(data, dict) else None
@@ -97,6 +98,9 @@ def check(certificate, source):
         raise Refused(f"closure: {system.size} unknowns, where this checker proves loops of six")
     if source is not None:
         source(data)
+    first = proof[0] if isinstance(proof, list) and len(proof) == 1 else None
+    if isinstance(first, dict) and first.get("kind") == "distance":
+        return check_distance(system, claim, modes, first)
     modes = modes_of(modes, system.size)
     prove_all(system, modes)
     check_proof(system, modes, items(proof))

@@ -3,12 +3,13 @@
 use super::bound::bound;
 use super::chain::ChainClosure;
 use super::data::{data_of, data_of_loop, entry_of};
+use super::distance;
 use super::fault::{Fault, refused, shortened, unreadable};
 use super::isolation::{Closed, proved_modes};
 use super::mode::Ball;
 use super::moving::mobility;
 use super::platform::PlatformClosure;
-use super::record::Record;
+use super::record::{Claim, Record};
 use crate::catalogue::Chains;
 use crate::catalogue::entry::{Case, Design, Entry};
 use serde_json::{Deserializer, Value};
@@ -27,6 +28,8 @@ pub enum Holds {
         /// The number of real solutions.
         real: usize,
     },
+    /// No real solution exists; the complex ones are not counted.
+    OutOfReach,
     /// A closed loop moves in this many dimensions; 0 means that it does not move.
     Mobility(usize),
 }
@@ -37,6 +40,7 @@ impl fmt::Display for Holds {
             Self::Solutions { complex, real } => {
                 write!(f, "{complex} solutions, {real} of them real: complete, proved")
             }
+            Self::OutOfReach => write!(f, "no real solution: proved"),
             Self::Mobility(0) => write!(f, "immobile, of dimension 0: proved"),
             Self::Mobility(dimension) => write!(f, "mobile, of dimension {dimension}: proved"),
         }
@@ -68,6 +72,11 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         }
     }
     let closed = closed(&entry, case)?;
+    if let [item] = record.proof.as_slice()
+        && item.get("kind").and_then(Value::as_str) == Some(distance::KIND)
+    {
+        return out_of_reach(&closed, item, &record.claim, record.modes.len());
+    }
     if let Some(at) = record.modes.iter().position(|mode| mode.multiplicity != 1) {
         return refused(format!("mode {}: a ball of an isolated simple solution counts once", at + 1));
     }
@@ -86,6 +95,18 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         return refused(format!("claim: the status is `{status}`, where {real} real solutions are proved"));
     }
     Ok(Holds::Solutions { complex, real })
+}
+
+/// Checks a certificate of an answer without real solutions that counts no complex ones.
+fn out_of_reach(closed: &Closed, item: &Value, claim: &Claim, modes: usize) -> Result<Holds, Fault> {
+    distance::check_distance(closed, item)?;
+    if modes > 0 {
+        return refused("modes: none are asked for here");
+    }
+    if claim.status != "unreachable" || claim.real != Some(0) || claim.complex.is_some() {
+        return refused("claim: no real solution is proved, and nothing of complex ones");
+    }
+    Ok(Holds::OutOfReach)
 }
 
 /// Checks a certificate of `mobility`.

@@ -14,9 +14,9 @@ use rug::Rational;
 
 /// The points and the legs.
 pub struct PlatformClosure {
-    base: [[Enclosure; 3]; 6],
-    plate: [[Enclosure; 3]; 6],
-    squares: [Enclosure; 6],
+    pub(super) base: [[Enclosure; 3]; 6],
+    pub(super) plate: [[Enclosure; 3]; 6],
+    pub(super) squares: [Enclosure; 6],
     /// Points of base and moving platform, if all are rational.
     pub(super) exact: Option<[[[Rational; 3]; 6]; 2]>,
 }

@@ -29,8 +29,9 @@ pub(super) struct Claim {
     pub verb: String,
     pub status: String,
     pub proof: String,
-    /// The number of all solutions, and of the real ones, for `solve`.
+    /// The number of all solutions of `solve`; `None` if the real ones alone are claimed.
     pub complex: Option<usize>,
+    /// The real solutions of `solve`.
     pub real: Option<usize>,
     /// The dimension of the motion, for `mobility`.
     pub mobility: Option<usize>,
@@ -64,10 +65,10 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
         let (verb, status, proof) = words(verb, status, word)?;
         return Ok(Claim { verb, status, proof, complex: None, real: None, mobility: Some(count(mobility)?) });
     }
-    let [verb, status, word, complex, real] = fields(value, ["verb", "status", "proof", "complex", "real"], &[])?;
+    let [verb, status, word, real] = fields(value, ["verb", "status", "proof", "real"], &["complex"])?;
     let (verb, status, proof) = words(verb, status, word)?;
-    let (complex, real) = (Some(count(complex)?), Some(count(real)?));
-    Ok(Claim { verb, status, proof, complex, real, mobility: None })
+    let complex = value.get("complex").map(count).transpose()?;
+    Ok(Claim { verb, status, proof, complex, real: Some(count(real)?), mobility: None })
 }
 
 fn mode(value: &Value) -> Result<Unproved, Fault> {

@@ -183,6 +183,9 @@ pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
             Ok(Holds::Solutions { complex, real }) => {
                 json!({ "holds": true, "complex": complex, "real": real, "mobility": null, "fault": null })
             }
+            Ok(Holds::OutOfReach) => {
+                json!({ "holds": true, "complex": null, "real": 0, "mobility": null, "fault": null })
+            }
             Ok(Holds::Mobility(dimension)) => {
                 json!({ "holds": true, "complex": null, "real": null, "mobility": dimension, "fault": null })
             }

@@ -1,7 +1,7 @@
 //! The certificate of an answer: docs/certificate.md.
 
 use crate::catalogue::entry::{Case, Entry};
-use crate::certificate::{Ball, Closed, FORMAT, Fault, VERSION, balls, check, closed, data_of, data_of_loop, proof_of, proof_of_motion};
+use crate::certificate::{Ball, Closed, FORMAT, Fault, VERSION, balls, check, closed, data_of, data_of_loop, proof_by_distance, proof_of, proof_of_motion};
 use crate::mechanism::{FullMode, Solution};
 use crate::mobility::Mobility;
 use crate::verdict::Status;
@@ -26,38 +26,41 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
             "answers to arms of other than six joints, to tasks and with joints held are not covered".to_owned()
         );
     }
+    let data = data_of(entry, case)?;
+    let closed = closed(entry, case).map_err(|fault| words(&fault))?;
+    let info =
+        json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
+    let (claim, balls, proof) = counted(&closed, solution).or_else(|reason| {
+        let distance = if verdict.status == Status::Unreachable { proof_by_distance(&closed) } else { None };
+        let claim = json!({ "verb": "solve", "status": "unreachable", "proof": "proved", "real": 0 });
+        distance.map(|proof| (claim, Vec::new(), proof)).ok_or(reason)
+    })?;
+    accepted(info, data, claim, &balls, proof)
+}
+
+/// Returns the claim of an answer that counts all its solutions, a ball around each, and the item that bounds their number.
+fn counted(closed: &Closed, solution: &Solution) -> Result<(Value, Vec<Ball>, Value), String> {
+    let verdict = &solution.verdict;
     if !verdict.complex_complete {
         return Err(format!("proofs with the code {} are not covered", verdict.code.word()));
     }
-    let data = data_of(entry, case)?;
-    let closed = closed(entry, case).map_err(|fault| words(&fault))?;
     let modes: Vec<&FullMode> = solution.modes.iter().filter(|mode| !mode.near).collect();
     if modes.len() != verdict.complex {
         return Err("multiple solutions are not covered".to_owned());
     }
-    let near: Vec<(Vec<Complex<f64>>, bool)> = modes.iter().map(|mode| (unknowns(&closed, mode), mode.real)).collect();
-    let balls = balls(&closed, &near).ok_or("a solution is too ill conditioned for a ball of its own")?;
-    let proof = proof_of(&closed, &balls)
+    let near: Vec<(Vec<Complex<f64>>, bool)> = modes.iter().map(|mode| (unknowns(closed, mode), mode.real)).collect();
+    let balls = balls(closed, &near).ok_or("a solution is too ill conditioned for a ball of its own")?;
+    let proof = proof_of(closed, &balls)
         .ok_or("no bound of docs/certificate.md is met: the code is ".to_owned() + verdict.code.word())?;
     let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
-    let certificate = json!({
-        "format": FORMAT,
-        "version": VERSION,
-        "info": { "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number },
-        "data": data,
-        "claim": {
-            "verb": "solve",
-            "status": if real == 0 { "unreachable" } else { "complete" },
-            "proof": "proved",
-            "complex": complex,
-            "real": real,
-        },
-        "modes": balls.iter().map(mode).collect::<Vec<_>>(),
-        "proof": [proof],
+    let claim = json!({
+        "verb": "solve",
+        "status": if real == 0 { "unreachable" } else { "complete" },
+        "proof": "proved",
+        "complex": complex,
+        "real": real,
     });
-    // What is written is what the checker accepts.
-    check(&certificate, None).map_err(|fault| words(&fault))?;
-    Ok(certificate)
+    Ok((claim, balls, proof))
 }
 
 /// The certificate of whether a loop moves, which the checker of [`crate::certificate`] accepts.
@@ -74,17 +77,24 @@ pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, 
     let configurations: Vec<Vec<f64>> = answer.configurations.iter().map(|own| own.q.clone()).collect();
     let (proof, balls) = proof_of_motion(entry, dimension > 0, &configurations)
         .ok_or_else(|| format!("no theorem of docs/certificate.md applies: the code is {}", answer.code.word()))?;
+    let info = json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title });
+    let claim = json!({
+        "verb": "mobility",
+        "status": if dimension == 0 { "immobile" } else { "mobile" },
+        "proof": "proved",
+        "mobility": dimension,
+    });
+    accepted(info, data, claim, &balls, proof)
+}
+
+/// Returns the certificate of these parts, once the checker has accepted it.
+fn accepted(info: Value, data: Value, claim: Value, balls: &[Ball], proof: Value) -> Result<Value, String> {
     let certificate = json!({
         "format": FORMAT,
         "version": VERSION,
-        "info": { "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title },
+        "info": info,
         "data": data,
-        "claim": {
-            "verb": "mobility",
-            "status": if dimension == 0 { "immobile" } else { "mobile" },
-            "proof": "proved",
-            "mobility": dimension,
-        },
+        "claim": claim,
         "modes": balls.iter().map(mode).collect::<Vec<_>>(),
         "proof": [proof],
     });

@@ -106,6 +106,25 @@ def turned(mode):
     return {**mode, "centre": [first, *mode["centre"][1:]], "radius": "0.0000001"}
 
 
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_distances_prove_that_nothing_is_in_reach(certificates, tmp_path, checker):
+    """A platform with a leg longer than the way round by any other one."""
+    source = (ROOT / "equations/platform/dietmaier_40real.toml").read_text()
+    at = source.index("legs = ")
+    far = tmp_path / "far.toml"
+    far.write_text(source[:at] + 'legs = [0.9, 0.9, 0.88, 1e-7, 1e7, 0.75]\n')
+    path = tmp_path / "certificate"
+    solved = run(LOOPROOT, "solve", far, "-q", "--certificate", path)
+    assert solved.returncode == 3, solved
+    assert json.loads(path.read_text())["proof"] == [{"kind": "distance"}]
+    answer = CHECKERS[checker](path, "--file", far)
+    assert answer.returncode == 0 and "no real solution" in answer.stdout, answer
+    true = json.loads((certificates / "platform-points_6_3").read_text())
+    forged = {**true, "modes": [], "proof": [{"kind": "distance"}], "claim": {**json.loads(path.read_text())["claim"]}}
+    answer = CHECKERS[checker](written(tmp_path / "forged", forged))
+    assert answer.returncode == 2 and "distance" in answer.stdout, answer
+
+
 BROKEN = {
     "cut": lambda text: text[: len(text) // 2],
     "another version": lambda text: text.replace('"version":1', '"version":2'),
