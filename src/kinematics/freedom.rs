@@ -1,4 +1,4 @@
-//! How freely a loop may move: Gruebler's count, and the rank of the screws of its joints in general position.
+//! The freedom of a loop: Gruebler's count, and the rank of the screws of its joints in general position.
 
 use super::chain::{Chain, Geometry, JointKind};
 use super::closed_loop::{Numbers, Variable};

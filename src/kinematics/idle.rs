@@ -13,9 +13,9 @@ use rug::Rational;
 pub struct Idle {
     /// Index of the joint variable behind which it stands.
     pub behind: usize,
-    /// What it does.
+    /// Its kind.
     pub variable: Variable,
-    /// Which axis it has: any two numbers give axes that have nothing to do with each other.
+    /// The number that selects its axis: any two numbers give unrelated axes.
     pub choice: u32,
 }
 

@@ -1,6 +1,6 @@
 //! The types of joints: the one table of their letters and variables.
 
-/// What one joint variable measures.
+/// The quantity that one joint variable measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variable {
     /// Rotation about the z axis, an angle in radians.
@@ -20,7 +20,7 @@ impl Variable {
     }
 }
 
-/// What a joint lets through.
+/// The kind of a joint, by the motions that it allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointKind {
     /// R: one rotation.
@@ -74,13 +74,14 @@ impl JointKind {
         }
     }
 
-    /// How many variables it has.
+    /// Returns the number of its variables.
     #[must_use]
     pub fn freedoms(self) -> usize {
         self.variables().len()
     }
 
-    /// Whether all its motions are about or along a single axis, so that an angle or a distance says which one is meant.
+    /// Returns whether all its motions are about or along a single axis, so that giving an angle or a distance identifies its
+    /// variable.
     #[must_use]
     pub fn has_one_axis(self) -> bool {
         match self {
@@ -89,7 +90,7 @@ impl JointKind {
         }
     }
 
-    /// What its rotations are about, where it has several.
+    /// Returns the names of the axes of its rotations, where it has several.
     #[must_use]
     pub fn turns(self) -> &'static [&'static str] {
         match self {
@@ -99,7 +100,7 @@ impl JointKind {
         }
     }
 
-    /// Whether an angle or a distance given for this joint says which of its variables is meant.
+    /// Returns whether an angle or a distance given for this joint identifies one of its variables.
     #[must_use]
     pub fn takes(self, wanted: Variable) -> bool {
         self.has_one_axis() && self.variables().contains(&wanted)
@@ -113,9 +114,9 @@ pub struct JointVariable {
     pub joint: usize,
     /// The kind of that joint.
     pub kind: JointKind,
-    /// What it measures.
+    /// Its kind.
     pub variable: Variable,
-    /// Which of the rotations of a joint with several axes it is, counted from 1; 0 for other joints.
+    /// The number, from 1, of a rotation of a joint with several axes; 0 for other joints.
     pub turn: usize,
 }
 
@@ -141,7 +142,7 @@ impl JointVariable {
         format!("{letter}{}{about}", self.joint)
     }
 
-    /// The number of its joint; the rotations of a joint with several axes are told apart, as `2_1`.
+    /// Returns the number of its joint; rotations of a joint with several axes have a second number, as `2_1`.
     #[must_use]
     pub fn number(&self) -> String {
         if self.turn == 0 { self.joint.to_string() } else { format!("{}_{}", self.joint, self.turn) }

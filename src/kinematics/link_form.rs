@@ -11,7 +11,7 @@ use crate::algebra::ring::{Field, Ring};
 /// A loop of `RHO` rotations and `TAU` translations, six together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkForm<R, const RHO: usize, const TAU: usize> {
-    /// Which unknown of the loop each rotation is.
+    /// The unknown of the loop that each rotation is.
     pub rotations: [usize; RHO],
     /// The link behind each rotation, translations at zero: R_k and s_k0.
     pub links: [Motion<R>; RHO],
@@ -22,7 +22,7 @@ pub struct LinkForm<R, const RHO: usize, const TAU: usize> {
 /// A translation inside a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slide<R> {
-    /// Which unknown of the loop it is.
+    /// The unknown of the loop that it is.
     pub unknown: usize,
     /// In which link it stands.
     pub link: usize,
@@ -30,16 +30,16 @@ pub struct Slide<R> {
     pub direction: Vector<R>,
 }
 
-/// What closes a loop whose rotations are known.
+/// The translations that close a loop whose rotations are known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slides<R, const TAU: usize> {
     /// The translations; `None` where their directions are dependent.
     pub values: Option<[R; TAU]>,
-    /// How far the directions are from being dependent: their determinant, for two of them their cross product, over
-    /// the product of their sizes; 0 or 1 in exact fields.
+    /// Independence of the directions: their determinant, or for two of them their cross product, over the product of their
+    /// sizes; 0 or 1 in exact fields.
     pub independence: f64,
-    /// The same with what they have to bridge in place of each of them in turn: how far dependent directions are from
-    /// closing the loop.
+    /// The largest such determinant with the displacement to be bridged in place of one direction: the distance of dependent
+    /// directions from closing the loop.
     pub gap: f64,
 }
 
@@ -72,7 +72,7 @@ impl<R: Ring, const RHO: usize, const TAU: usize> LinkForm<R, RHO, TAU> {
         Some(Self { rotations, links, slides })
     }
 
-    /// The same over another ring; `None` as soon as one entry has no image.
+    /// Maps the form to another ring; `None` as soon as one entry has no image.
     pub fn map<S: Ring>(&self, image: impl Fn(&R) -> Option<S>) -> Option<LinkForm<S, RHO, TAU>> {
         let mut links: [Motion<S>; RHO] = std::array::from_fn(|_| Motion::identity());
         for (to, from) in links.iter_mut().zip(&self.links) {
@@ -136,7 +136,7 @@ impl<F: Field, const RHO: usize, const TAU: usize> LinkForm<F, RHO, TAU> {
         }
         let rest = frame.translation.each_ref().map(F::neg);
         let normal = cross(&directions[0], &directions[1]);
-        // Of two directions the largest coordinate of their cross product decides; exactly, any nonzero one would do.
+        // For two directions the largest coordinate of their cross product decides; exactly, any nonzero one would do.
         let largest = |v: &Vector<F>| (1..3).fold(0, |b, i| if v[i].pivot_size() > v[b].pivot_size() { i } else { b });
         let [u, v] = [&directions[0], &directions[1]];
         let (determinant, numerators): (F, [F; TAU]) = if TAU == 3 {
@@ -146,7 +146,7 @@ impl<F: Field, const RHO: usize, const TAU: usize> LinkForm<F, RHO, TAU> {
         } else {
             let along = [cross(&rest, v), cross(u, &rest)];
             let best = largest(&normal);
-            // Where the directions are parallel only the size of what is left of the gap is of use.
+            // Where the directions are parallel only the size of the remaining displacement is used.
             let at = |v: &Vector<F>| if normal[best].is_zero() { largest(v) } else { best };
             (normal[best].clone(), std::array::from_fn(|j| along[j][at(&along[j])].clone()))
         };

@@ -25,7 +25,7 @@ impl Body {
     }
 }
 
-/// What a joint lets its two bodies do.
+/// The relative motion that a joint allows its two bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pair {
     /// The bodies turn about a common point.
@@ -55,7 +55,7 @@ pub enum Pair {
 pub struct LinkageJoint {
     /// Its name in the file.
     pub name: String,
-    /// What it allows.
+    /// The relative motion that it allows.
     pub pair: Pair,
     /// The two bodies, by their numbers. Values of the joint are the motion of the second against the first.
     pub of: [usize; 2],
@@ -90,7 +90,7 @@ pub struct Linkage {
     pub joints: Vec<LinkageJoint>,
 }
 
-/// What is known of a linkage beforehand.
+/// A value of a linkage that is given as input.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Given {
     /// The rotation of the second body of a revolute joint against the first.
@@ -111,7 +111,7 @@ pub enum Given {
         /// Line of the file, from 1.
         line: usize,
     },
-    /// Where a body stands against the ground.
+    /// The place of a body relative to the ground.
     Place {
         /// The body.
         body: usize,

@@ -98,8 +98,8 @@ impl Placement {
         KnownMotion { exact, enclosed, algebraic: Some(motion) }.placement(Some(&field))
     }
 
-    /// The rational motion nearest to an enclosed one: its quaternion is four integers over 2^60, and its translation is
-    /// rounded to as many bits of the longest coordinate.
+    /// Returns the rational motion nearest to an enclosed one: its quaternion is four integers over 2^60, and its translation is
+    /// rounded to the same number of bits of the longest coordinate.
     #[must_use]
     pub fn near(motion: &Motion<Enclosure>) -> Self {
         let rotation = motion.rotation.each_ref().map(|row| row.each_ref().map(|x| x.middle().clone()));

@@ -31,7 +31,7 @@ impl<R: Ring> Platform<R> {
         self.legs(pose).map(|leg| dot(&leg, &leg))
     }
 
-    /// The same platform over another ring; `None` as soon as one coordinate has no image.
+    /// Maps the platform to another ring; `None` as soon as one coordinate has no image.
     pub fn map<S>(&self, image: impl Fn(&R) -> Option<S>) -> Option<Platform<S>> {
         let point = |v: &Vector<R>| -> Option<Vector<S>> { Some([image(&v[0])?, image(&v[1])?, image(&v[2])?]) };
         let points = |[a, b, c, d, e, f]: &[Vector<R>; 6]| -> Option<[Vector<S>; 6]> {

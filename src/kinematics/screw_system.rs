@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 /// Squared directions below this share of the largest belong to translations.
 const TRANSLATION: f64 = 1e-14;
 
-/// What counts as zero beside 1: nothing but zero in an exact field.
+/// Returns the size below which a number counts as zero beside 1; 0 in an exact field.
 fn negligible<F: Field>() -> f64 {
     F::PIVOT_ZERO * 1e4
 }
@@ -119,7 +119,7 @@ pub enum LinearComplex<F> {
     Perpendicular(Vector<F>),
 }
 
-/// How many freedoms a single closed loop has at a configuration, and what closes it more often than needed.
+/// The number of freedoms of a single closed loop at a configuration, and its redundant closure conditions.
 #[derive(Clone, Debug)]
 pub struct LoopFreedom<F> {
     /// Freedoms of all joints together.
@@ -226,7 +226,7 @@ impl<F: Field> ScrewSystem<F> {
         Echelon::of(rows.collect(), 4).rank() < 4
     }
 
-    /// What the joints have in common, in words.
+    /// Describes in words the common property of the joints.
     #[must_use]
     pub fn description(&self) -> String {
         let order = self.order();

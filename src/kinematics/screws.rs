@@ -58,13 +58,13 @@ impl Held {
 /// A coordinate axis of the tool, through its origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VirtualJoint {
-    /// What it lets through.
+    /// Its kind.
     pub variable: Variable,
     /// Which axis: 0 is x.
     pub axis: usize,
 }
 
-/// What stands behind the tool.
+/// The part behind the tool.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Behind {
     /// A joint along a coordinate axis.

@@ -1,11 +1,11 @@
-//! What an arm is asked for: a whole pose, or a part of it; and which of its joints are held.
+//! The task of an arm: a whole pose or a part of it; and the joints that are held.
 
 use super::closed_loop::Variable;
 use super::motion::{Motion, dot};
 use super::screws::{Behind, Held, VirtualJoint};
 use super::tolerance::PoseError;
 
-/// What is asked of the tool.
+/// The condition on the tool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Task {
     /// Position and orientation.
@@ -31,13 +31,13 @@ pub const TASKS: [(&str, Task); 5] = [
 ];
 
 impl Task {
-    /// How many conditions it has.
+    /// Returns the number of conditions.
     #[must_use]
     pub fn conditions(self) -> usize {
         6 - self.free()
     }
 
-    /// How many freedoms it leaves to the tool.
+    /// Returns the number of freedoms left to the tool.
     #[must_use]
     pub fn free(self) -> usize {
         match self {
@@ -62,7 +62,7 @@ impl Task {
         }
     }
 
-    /// By how much a pose misses the wanted one, as far as the task asks for it.
+    /// Returns the error of a pose in the part that the task requests.
     #[must_use]
     pub fn miss(self, reached: &Motion<f64>, wanted: &Motion<f64>) -> PoseError {
         let whole = PoseError::between(reached, wanted);
@@ -85,10 +85,10 @@ impl Task {
     }
 }
 
-/// What is asked of an arm beside the pose.
+/// The task of an arm beside the pose.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Demand {
-    /// Which part of the pose.
+    /// The part of the pose that is requested.
     pub task: Task,
     /// The joint variables that are held, counted from 0, with their values.
     pub held: Vec<(usize, Held)>,

@@ -1,15 +1,15 @@
-//! How far a configuration may miss the pose that is asked for.
+//! The tolerance of a configuration beside the requested pose.
 
 use super::motion::Motion;
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::error::{Error, Result};
 
-/// How far a configuration may miss a pose and still be listed.
+/// Largest error of the pose with which a configuration is still listed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Of the position, metres.
+    /// Error of the position, in metres.
     pub length: f64,
-    /// Of the orientation, radians.
+    /// Error of the orientation, in radians.
     pub angle: f64,
 }
 
@@ -48,7 +48,7 @@ impl Tolerance {
         miss.position <= self.length && miss.orientation <= self.angle
     }
 
-    /// How large a miss is in parts of it.
+    /// Returns the size of an error in units of the tolerance.
     #[must_use]
     pub fn parts(&self, miss: &PoseError) -> f64 {
         let over = |size: f64, one: f64| size / one.max(f64::MIN_POSITIVE);

@@ -105,7 +105,7 @@ fn gram(m: &Matrix3) -> Matrix3 {
 fn off_rotation(m: &Matrix3) -> f64 {
     let gram = gram(m);
     let entry = |i: usize, j: usize| if i == j { gram[i][j].sub(&DoubleDouble::one()) } else { gram[i][j] };
-    // What is no number is no rotation.
+    // NaN is no rotation.
     let larger = |most: f64, x: f64| if x > most || x.is_nan() { x } else { most };
     (0..9).map(|k| entry(k / 3, k % 3).to_f64().abs()).fold(0.0, larger)
 }
@@ -170,7 +170,7 @@ mod tests {
         Decimal::read(&format!("{x:?}")).unwrap()
     }
 
-    /// Whether two motions are equal but for what an entry of 0 leaves in twice the digits.
+    /// Returns whether two motions are equal up to the error that an entry of 0 has in twice the digits.
     fn agree(one: &Motion<f64>, two: &Motion<f64>) -> bool {
         let entries = |motion: &Motion<f64>| [motion.rotation[0], motion.rotation[1], motion.rotation[2], motion.translation];
         entries(one).iter().flatten().zip(entries(two).iter().flatten()).all(|(x, y)| (x - y).abs() < 1e-30)

@@ -1,4 +1,4 @@
-//! How fast the plate of a platform moves with its legs.
+//! The velocity of a platform's plate with respect to its legs.
 
 use super::motion::{Motion, Vector, cross};
 use super::platform::Platform;

@@ -19,7 +19,7 @@ pub type Coordinate = Complex<f64>;
 pub struct LinkageMode {
     /// Whether it is real.
     pub real: bool,
-    /// How often it counts.
+    /// The multiplicity.
     pub multiplicity: usize,
     /// The values of the joints: radians in (-pi, pi] or metres; `None` of gears.
     pub joints: Vec<Option<Coordinate>>,
@@ -56,7 +56,7 @@ pub struct LinkageGroup {
 /// The answer to a case.
 #[derive(Clone, Debug)]
 pub struct LinkageAnswer {
-    /// What is claimed of the list.
+    /// The verdict on the list.
     pub verdict: Verdict,
     /// The isolated assemblies, real ones first.
     pub modes: Vec<LinkageMode>,

@@ -15,7 +15,7 @@ use crate::kinematics::linkage::{Given, Linkage};
 const DEEP: usize = 5;
 /// Towers that hold i alone, and square roots that are no new ones.
 const SHALLOW: usize = 1;
-/// What is said of an assembly of which it is not known whether it is real.
+/// The reason given for an assembly that is neither proved real nor proved complex.
 const UNDECIDED: &str = "an assembly is neither proved real nor proved complex";
 /// Most branches that are listed.
 const MOST_BRANCHES: usize = 1 << 14;
@@ -25,11 +25,11 @@ const MOST_BRANCHES: usize = 1 << 14;
 pub enum Route {
     /// A quadratic equation, or a linear one.
     Quadratic,
-    /// A matrix of so many rows.
+    /// A matrix with this many rows.
     Pencil(usize),
 }
 
-/// What became of a group.
+/// The solution of a group.
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// The bodies of its clusters, in the order of the file.
@@ -38,7 +38,7 @@ pub struct Solution {
     pub joints: Vec<usize>,
     /// The most assemblies that a branch has, with multiplicity.
     pub count: usize,
-    /// How it was solved.
+    /// The route by which it was solved.
     pub route: Route,
 }
 
@@ -261,7 +261,7 @@ fn branch(
     }
 }
 
-/// How far the ends of a dyad are apart beyond what its links reach, metres; `None` with slides.
+/// Returns the distance, in metres, by which the ends of a dyad exceed the reach of its links; `None` with slides.
 fn dyad_gap(equations: &Equations<Number>) -> Option<f64> {
     let [cycle] = equations.cycles.as_slice() else { return None };
     if !equations.slides.is_empty() {

@@ -30,7 +30,7 @@ pub struct Loaded<'a> {
 pub struct Reduced {
     /// The inertia matrix.
     pub inertia: DMatrix<f64>,
-    /// What the rates give: of one freedom `M' q'^2/2`.
+    /// The part due to the rates: for one freedom `M' q'^2/2`.
     pub bias: DVector<f64>,
     /// The derivatives of the potential energy.
     pub potential: DVector<f64>,
@@ -210,9 +210,9 @@ impl Loaded<'_> {
         kinetic + potential.sum::<f64>()
     }
 
-    /// The motion from a position, by the method of Runge and Kutta of order 4, brought back to closed loops after every step,
-    /// with as many steps between two rows as keep the energy.
-    /// `None` where accelerations are not determined on the way.
+    /// Returns the motion from a position, by the Runge-Kutta method of order 4, projected back to closed loops after every step.
+    /// Between two rows it takes the number of steps that conserves the energy. `None` where accelerations are not determined on
+    /// the way.
     #[must_use]
     pub fn motion(&self, given: &[Given], rest: &[Body], rates: &[f64], time: f64, steps: usize) -> Option<Vec<Row>> {
         let (_, _, mut bodies) = self.start(given, rest, rates)?;
@@ -229,7 +229,7 @@ impl Loaded<'_> {
         Some(rows)
     }
 
-    /// The bodies a time later, and the number of steps that kept the energy, at least so many.
+    /// Returns the bodies after `time`, and the number of steps, at least `least`, that conserves the energy.
     fn next(&self, bodies: &[Body], time: f64, least: usize) -> Option<(Vec<Body>, usize)> {
         let before = self.energy(bodies);
         let mut within = least;

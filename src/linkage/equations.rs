@@ -247,7 +247,7 @@ impl<N> Equations<N> {
         self.cycles.len()
     }
 
-    /// The same over other numbers; `None` as soon as one has no image.
+    /// Maps the equations to other numbers; `None` as soon as one has no image.
     pub fn map<M>(&self, image: impl Fn(&N) -> Option<M>) -> Option<Equations<M>> {
         let all = |list: &Vec<N>| list.iter().map(&image).collect::<Option<Vec<M>>>();
         let slide = |slide: &Slide<N>| {

@@ -25,12 +25,12 @@ const PAIRS: usize = 40;
 /// Choices whose polynomials are asked for until every root of one of them is a solution.
 const TRIES: usize = 3;
 
-/// What is known of a group of several cycles.
+/// The solutions found for a group of several cycles.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The solutions that were proved.
     pub solutions: Vec<Proved>,
-    /// At most this many solutions exist, with multiplicity; `None` where nothing is known.
+    /// Upper bound on the number of solutions, with multiplicity; `None` where it is not known.
     pub most: Option<usize>,
     /// Rows of the matrix.
     pub size: usize,
@@ -141,7 +141,7 @@ fn ranked(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize)> {
     }
     let pairs =
         rest.iter().flat_map(|rest| (0..exact.classes).map(move |hidden| (*rest, hidden))).filter(|(a, b)| a != b);
-    // Which class rests and which is hidden makes no difference without slides.
+    // Without slides it makes no difference which class rests and which is hidden.
     let pairs = pairs.filter(|(a, b)| a < b || !exact.slides.is_empty());
     let mut pencils: Vec<(usize, usize, Pencil<Residue>)> = pairs
         .filter_map(|(rest, hidden)| Some((rest, hidden, Pencil::new(&residues, rest, &[Parameter::Turn(hidden)])?)))
@@ -174,8 +174,8 @@ pub fn residue(z: &Gaussian) -> Option<Residue> {
     Some(Residue::from_rational(&z.re)?.add(&Residue::new(ROOT_OF_MINUS_ONE).mul(&Residue::from_rational(&z.im)?)))
 }
 
-/// How many roots the determinant of a pencil with one rotation as parameter has that are neither zero nor infinite,
-/// modulo the prime; `None` where it vanishes.
+/// Returns the number of roots, neither zero nor infinite, of the determinant of a pencil with one rotation as parameter, modulo
+/// the prime; `None` where it vanishes.
 #[must_use]
 pub fn torus_degree(pencil: &Pencil<Residue>) -> Option<usize> {
     let polynomial = linear_determinant(pencil).or_else(|| interpolated_determinant(pencil))?;

@@ -1,4 +1,4 @@
-//! Which links of a four-bar turn all the way round: Grashof's condition in the plane, and its form on the sphere.
+//! The links of a four-bar that turn all the way round: Grashof's condition in the plane, and its form on the sphere.
 
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::ring::Ring;
@@ -11,8 +11,8 @@ use std::cmp::Ordering;
 /// The class of a four-bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grashof {
-    /// How the sum of the shortest and the longest link compares with that of the others; on the sphere, where lengths are angles,
-    /// `Less` where some link turns round, `Equal` where all axes can fall into a plane.
+    /// Comparison of the sum of the shortest and the longest link with the sum of the others; on the sphere, where lengths are
+    /// angles,
     pub sum: Ordering,
     /// Crank and rocker as seen from the ground.
     pub class: &'static str,
@@ -99,8 +99,8 @@ pub fn planar(linkage: &Linkage) -> Option<Grashof> {
 /// Cosine and sine of an angle between 0 and pi.
 type Side = (Enclosure, Enclosure);
 
-/// Whether the joint between the first two of four sides turns all the way round: in its two stretched positions the other two
-/// can still be bridged. `None` where that is not decided because a position is just reached.
+/// Returns whether the joint between the first two of four sides turns all the way round: in its two stretched positions the
+/// other two can still be bridged. `None` where a position is just reached, which decides nothing.
 fn turns([one, two, three, four]: [&Side; 4]) -> Option<bool> {
     let (cosines, sines) = (|a: &Side, b: &Side| a.0.mul(&b.0), |a: &Side, b: &Side| a.1.mul(&b.1));
     // cos(three - four) >= cos(one - two), and cos(one + two) >= cos(three + four)

@@ -80,7 +80,7 @@ pub fn groups(bodies: usize, joints: &[(usize, [usize; 2])], mut merged: Merged)
 
 /// The clusters and the joints between them.
 struct Graph {
-    /// Of every cluster its neighbours and the joints with them.
+    /// The neighbours of every cluster, and the joints with each.
     around: BTreeMap<usize, BTreeMap<usize, Vec<usize>>>,
     /// Pairs of neighbours not yet searched for triangles.
     fresh: Vec<(usize, usize)>,
@@ -208,7 +208,7 @@ impl Graph {
 
 /// A pebble game of three pebbles a cluster.
 struct Pebbles {
-    /// Of every cluster the heads of the edges that its pebbles cover.
+    /// The heads of the edges that the pebbles of every cluster cover.
     out: BTreeMap<usize, Vec<usize>>,
     covered: usize,
 }
@@ -218,7 +218,7 @@ impl Pebbles {
         Self { out: clusters.map(|cluster| (cluster, Vec::new())).collect(), covered: 0 }
     }
 
-    /// How many edges are covered: the rank of the joints by count.
+    /// Returns the number of covered edges: the rank of the joints by count.
     fn rank(&self) -> usize {
         self.covered
     }
@@ -274,8 +274,8 @@ impl Pebbles {
         }
     }
 
-    /// The least rigid set that holds two clusters, at the first of which all pebbles are that can come; `None` where there
-    /// is none of fewer clusters than `most`.
+    /// Returns the least rigid set that holds two clusters, after all possible pebbles were moved to the first; `None` where
+    /// there is none of fewer clusters than `most`.
     fn rigid(&self, a: usize, b: usize, most: usize) -> Option<BTreeSet<usize>> {
         let mut seen = BTreeSet::from([a, b]);
         let mut open = vec![a, b];

@@ -20,7 +20,7 @@ pub struct Relative {
     pub alpha: f64,
 }
 
-/// Where a body stands against another one: its angle, and its origin in axes of that body.
+/// Returns the place of a body relative to another one: its angle, and its origin in axes of that body.
 #[must_use]
 pub fn against(body: &Body, base: &Body) -> Body {
     let angle = body.angle.sub(&base.angle);

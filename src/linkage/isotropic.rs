@@ -23,7 +23,7 @@ pub struct Isotropic<R> {
 }
 
 impl<R> Isotropic<R> {
-    /// The same with both halves in another ring.
+    /// Maps both halves to another ring.
     pub fn map<S>(&self, image: impl Fn(&R) -> S) -> Isotropic<S> {
         Isotropic { z: image(&self.z), w: image(&self.w) }
     }
@@ -101,7 +101,7 @@ impl Value {
         Self { disc, exact: None }
     }
 
-    /// Whether it is zero; `None` where that is not decided.
+    /// Returns whether it is zero; `None` where that is undecided.
     #[must_use]
     pub fn vanishes(&self) -> Option<bool> {
         if self.disc.is_not_zero() {
@@ -150,7 +150,7 @@ impl Ring for Value {
         Self { disc: self.disc.sub(&other.disc), exact: both(self, other, Surd::sub) }
     }
     fn mul(&self, other: &Self) -> Self {
-        // What is exactly zero stays so, and has no roundings.
+        // An exact zero stays zero, without rounding.
         if self.disc.is_zero() || other.disc.is_zero() {
             return Self::zero();
         }

@@ -1,9 +1,9 @@
 //! Newton's method on the equations of a group, and the proof that exactly one solution is near.
 //!
-//! Unknown are the relative changes e of the rotations and the changes of the slides. With an approximate inverse R of the
-//! derivative F' at the middle, `|R F(0)| <= y` and `|I - R F'(e)| <= q < 1` for all e of size at most r, exactly one
-//! solution lies in that ball where `y <= (1 - q) r`, at most `y/(1 - q)` from the middle. \[Krawczyk1969\]
-//! The numbers of the equations are discs: the proof holds for all numbers in them.
+//! The unknowns are the relative changes e of the rotations and the changes of the slides. With an approximate inverse R of the
+//! derivative F' at the middle, `|R F(0)| <= y` and `|I - R F'(e)| <= q < 1` for all e of size at most r, exactly one solution
+//! lies in that ball where `y <= (1 - q) r`, at most `y/(1 - q)` from the middle. \[Krawczyk1969\] The numbers of the equations
+//! are discs: the proof holds for all numbers in them.
 
 use super::equations::Equations;
 use super::isotropic::{BITS, Isotropic, Value, middle};
@@ -15,7 +15,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex;
 use rug::Float;
 
-/// Steps of Newton's method: a start that needs more is none.
+/// Largest number of steps of Newton's method: a start that needs more is dropped.
 const STEPS: usize = 60;
 /// The derivative is taken anew while steps are larger than this.
 const NEAR: f64 = 1e-8;
@@ -31,7 +31,7 @@ const MARGIN: f64 = 1.000_001;
 pub struct Proved {
     /// Discs that hold it.
     pub root: Root,
-    /// Whether it is real; `None` where that is not decided. Meant for equations with real data.
+    /// Whether it is real; `None` where that is undecided. It is meaningful for equations with real data.
     pub real: Option<bool>,
 }
 
@@ -218,7 +218,7 @@ pub fn prove(
     let change = zero().widened(&Float::with_val(64, radius));
     let found = system.moved(&at, &vec![change; size]);
     let back = inverses(&found.turns)?;
-    // The mirror image of a solution is one: where it is in the same ball, it is the same.
+    // The mirror image of a solution is a solution: where it lies in the same ball, it is the same one.
     let off_circle = |turn: &Disc| (middle_square(turn) - 1.0).abs();
     let turned = at.turns.iter().map(off_circle).fold(0.0, f64::max);
     let shifted = at.shifts.iter().map(|shift| 2.0 * shift.im.to_f64().abs()).fold(0.0, f64::max);

@@ -1,9 +1,9 @@
 //! All assemblies of a planar linkage, real and complex, with the proof that none is missing.
 //!
-//! Inputs glue bodies; what is left falls apart into groups, least sets of bodies that are rigid by count ([`groups`]).
-//! Each is solved in every branch of those before: a group of one cycle by a quadratic equation ([`quadratic`]), others by
-//! Cramer's pencil ([`pencil`]), whose determinant is an exact polynomial ([`polynomial`]) with as many roots as there are
-//! certified solutions ([`krawczyk`]), or the list is not called complete.
+//! Inputs merge bodies; the remaining bodies split into groups, least sets of bodies that are rigid by count ([`groups`]). Each
+//! group is solved in every branch of the earlier ones: a group of one cycle by a quadratic equation ([`quadratic`]), others by
+//! Cramer's pencil ([`pencil`]), whose determinant is an exact polynomial ([`polynomial`]). The list is called complete only if
+//! that polynomial has as many roots as there are certified solutions ([`krawczyk`]).
 
 pub mod answer;
 pub mod assembly;

@@ -29,7 +29,7 @@ pub fn foundations(linkage: &Linkage, list: &[Solution], number: usize, base: us
     require(&list[number], &first, &mut required);
     let mut needed = vec![number];
     for earlier in (0..number).rev() {
-        // What is held together by the inputs and the groups before this one.
+        // The clusters after the inputs and the groups before this one are merged.
         let mut before = merged.clone();
         for group in &list[..earlier] {
             let mut bodies = group.bodies.iter().flatten();
@@ -70,8 +70,8 @@ pub fn group_of(linkage: &Linkage, joints: Vec<usize>, merged: &mut Merged) -> G
     Group { clusters, joints, count }
 }
 
-/// The least part of one freedom, by count, that holds two bodies: the second moves against the first on a curve. `None`
-/// where there is none, or more clusters than are searched.
+/// Returns the least part of one freedom, by count, that holds two bodies: the second moves against the first on a curve. `None`
+/// where there is none, or where there are more clusters than are searched.
 #[must_use]
 pub fn least_mover(linkage: &Linkage, joints: &[Link], merged: &mut Merged, base: usize, body: usize) -> Option<Group> {
     let (base, body) = (merged.root(base), merged.root(body));

@@ -16,7 +16,7 @@ use super::isotropic::Isotropic;
 use crate::algebra::ring::{Field, Ring};
 use std::collections::BTreeMap;
 
-/// What the entries of the matrix depend on, beside the data.
+/// The unknown on which the entries of the matrix depend, beside the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
     /// The rotation x of a class: its first halves stand before x, its second ones before 1/x.
@@ -137,7 +137,7 @@ impl<R: Field> Pencil<R> {
         let constant = [first(rest), second(rest)].concat();
         let mut vectors: BTreeMap<u32, Vec<R>> = BTreeMap::new();
         for set in 0..1_u32 << classes.len() {
-            // Of the halves of L equations each at most L rows are independent.
+            // Among the halves of L equations, at most L rows are independent.
             let of_b = set.count_ones() as usize;
             if of_b > loops || classes.len() - of_b > loops {
                 continue;

@@ -16,7 +16,7 @@ use rug::{Integer, Rational, ops::Pow};
 pub struct ClosurePolynomial {
     /// Primitive, without the factors `1 + t^2`.
     pub polynomial: Univariate<Integer>,
-    /// How many roots are the half turn, t = infinity.
+    /// The number of roots at the half turn, t = infinity.
     pub at_pi: usize,
     /// Rows of the matrix.
     pub size: usize,

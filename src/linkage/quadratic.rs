@@ -14,7 +14,7 @@ pub struct Root {
     pub turns: Vec<Number>,
     /// One for every slide, in parts of the length of its direction.
     pub shifts: Vec<Number>,
-    /// How often it counts.
+    /// The multiplicity.
     pub multiplicity: usize,
 }
 
@@ -25,7 +25,7 @@ pub enum Solved {
     Roots(Vec<Root>),
     /// A curve of solutions, on which these lie.
     Curve(Vec<Root>),
-    /// What is left undecided.
+    /// The question that is left undecided.
     Undecided(String),
 }
 

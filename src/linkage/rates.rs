@@ -17,7 +17,7 @@ pub type Moving = Series<f64, 4>;
 /// A singular value below this share of the largest one stands for 0.
 const SINGULAR: f64 = 1e-10;
 
-/// Where a body stands against the ground.
+/// The place of a body relative to the ground.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// Its angle.
@@ -113,7 +113,7 @@ pub fn joint_value(linkage: &Linkage, bodies: &[Body], joint: usize) -> Option<M
     }
 }
 
-/// What inputs prescribe: a joint value each, and three numbers of a body that is placed.
+/// Returns the values that inputs prescribe: one joint value each, or three numbers for a body that is placed.
 fn prescribed(linkage: &Linkage, given: &[Given], bodies: &[Body]) -> Vec<Moving> {
     let one = |given: &Given| match given {
         Given::Turn { joint, .. } | Given::Shift { joint, .. } => {
@@ -127,7 +127,7 @@ fn prescribed(linkage: &Linkage, given: &[Given], bodies: &[Body]) -> Vec<Moving
     given.iter().flat_map(one).collect()
 }
 
-/// How many numbers the inputs prescribe.
+/// Returns the number of values that the inputs prescribe.
 #[must_use]
 pub fn freedoms(given: &[Given]) -> usize {
     given.iter().map(|one| if matches!(one, Given::Place { .. }) { 3 } else { 1 }).sum()

@@ -50,7 +50,7 @@ fn product(a: &Entry, b: &Entry) -> Entry {
 
 /// The variables of the parameters.
 struct Variables {
-    /// Of every parameter its first variable.
+    /// The first variable of every parameter.
     first: Vec<usize>,
     total: usize,
 }
@@ -182,7 +182,8 @@ impl RealForm {
         Some(Self { matrix, degrees })
     }
 
-    /// Where no rotation is unknown there is one equation, its own mirror image: a real one times a complex number.
+    /// Returns the form of a pencil without an unknown rotation: its one equation is its own mirror image, a real one times a
+    /// complex number.
     fn of_one(pencil: &Pencil<Gaussian>) -> Option<Self> {
         let [row] = pencil.rows.as_slice() else { return None };
         let variables = Variables::of(&pencil.parameters);
@@ -200,7 +201,7 @@ impl RealForm {
     }
 }
 
-/// Which denominators the rotations of a row have: those of themselves and of their inverses.
+/// Returns the denominators that the rotations of a row have: their own and those of their inverses.
 fn denominators(pencil: &Pencil<Gaussian>, row: &Row<Gaussian>) -> Vec<[bool; 2]> {
     let is_turn = |parameter: &Parameter| matches!(parameter, Parameter::Turn(_));
     let both = pencil.parameters.iter().zip(&row.by);

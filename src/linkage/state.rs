@@ -23,7 +23,7 @@ pub fn real(q: &Rational) -> Number {
     number(&Gaussian { re: q.clone(), im: Rational::new() })
 }
 
-/// Where a body or a cluster stands: p goes to `origin + turn p`.
+/// The place of a body or a cluster: p goes to `origin + turn p`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// The rotation.
@@ -63,18 +63,18 @@ impl Place {
 /// Clusters and places.
 #[derive(Clone, Debug)]
 pub struct State {
-    /// Of every body the body that names its cluster, and its place there.
+    /// For every body, the body that names its cluster, and its place there.
     pub bodies: Vec<(usize, Place)>,
     /// The tower of square roots that holds all numbers.
     pub top: Top,
-    /// Whether every number is one of a real assembly.
+    /// Whether every number belongs to a real assembly.
     pub real: bool,
-    /// How often the branch counts.
+    /// The multiplicity of the branch.
     pub multiplicity: usize,
 }
 
 impl State {
-    /// Every body by itself; square roots are kept exactly in towers of at most so many generators.
+    /// Returns the state with every body on its own; square roots are kept exactly in towers of at most `highest` generators.
     #[must_use]
     pub fn new(bodies: usize, highest: usize) -> Self {
         let bodies = (0..bodies).map(|body| (body, Place::identity())).collect();
@@ -99,7 +99,7 @@ impl State {
         }
     }
 
-    /// Where a body stands against another one of the same cluster.
+    /// Returns the place of a body relative to another one of the same cluster.
     #[must_use]
     pub fn against(&self, body: usize, base: usize) -> Place {
         self.bodies[base].1.inverse().after(&self.bodies[body].1)

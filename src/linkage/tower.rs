@@ -75,7 +75,7 @@ impl Tower {
         self.joined(&first, &second, a.len() / 2)
     }
 
-    /// `low + high s`, s the generator above so many coefficients.
+    /// Returns `low + high s`, where s is the generator above `half` coefficients.
     #[expect(clippy::unused_self, reason = "it reads as the other operations of the tower")]
     fn joined(&self, low: &[Rational], high: &[Rational], half: usize) -> Vec<Rational> {
         let mut all = low.to_vec();
@@ -172,7 +172,7 @@ impl Surd {
         self.tower.squares.len()
     }
 
-    /// The same number in the tower of another one, which holds its own.
+    /// Returns the same number in the tower of another one, which contains its own tower.
     #[must_use]
     pub fn lifted(&self, other: &Self) -> Self {
         Self { tower: self.tower_with(other), coefficients: self.coefficients.clone() }

@@ -1,4 +1,4 @@
-//! What is prepared once for every choice of the locked variable, and found again case by case.
+//! Preparations made once for every choice of the locked variable, and looked up case by case.
 
 use super::single_loop::locked_variable;
 use crate::catalogue::entry::{Case, Entry, Kind};
@@ -7,12 +7,12 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::Layout;
 use std::time::Instant;
 
-/// What serves all cases that lock the same variable.
+/// The preparation for all cases that lock the same variable.
 pub(super) struct Prepared<T> {
     locked: Option<usize>,
     /// Microseconds that the preparation took.
     pub prepare_us: f64,
-    /// What was prepared.
+    /// The prepared value.
     pub of: T,
 }
 
@@ -38,7 +38,7 @@ impl<T> ByInput<T> {
         Ok(Self(all))
     }
 
-    /// What was prepared for the locked joint of one case.
+    /// Returns the preparation for the locked joint of one case.
     pub fn of(&self, chain: &Chain, case: &Case) -> Result<&Prepared<T>> {
         let locked = locked_variable(chain, case)?;
         let found = self.0.iter().find(|known| known.locked == locked);

@@ -1,4 +1,4 @@
-//! How exactly the numbers of a mechanism are known: as rationals, in a number field, or rounded.
+//! The exactness of the numbers of a mechanism: rational, in a number field, or rounded.
 
 use super::single_loop::closing_transformation;
 use crate::algebra::drawn::{self, Drawn};
@@ -18,7 +18,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rug::Rational;
 
-/// What the numbers of a loop are.
+/// The exactness of the numbers of a loop.
 pub(super) enum Data {
     /// Rationals.
     Rational,
@@ -28,7 +28,7 @@ pub(super) enum Data {
     Rounded,
 }
 
-/// A loop over a number field, its gap open.
+/// A loop over a number field, without its closing transformation.
 pub(super) struct FieldLoop {
     field: DataField,
     open: OpenLoop<Algebraic>,
@@ -45,7 +45,7 @@ pub(super) enum Modular {
 }
 
 impl Data {
-    /// What the numbers of a chain and of a case are.
+    /// Classifies the numbers of a chain and of a case.
     pub(super) fn of(chain: &Chain, layout: &Layout, case: Option<&Case>) -> Self {
         let pose = case.and_then(|case| case.pose.as_ref());
         let input = case.and_then(|case| case.input.first());
@@ -60,12 +60,12 @@ impl Data {
         }
     }
 
-    /// Whether equations between the numbers prove nothing.
+    /// Returns whether the numbers are rounded, so that equations between them prove nothing.
     pub(super) fn is_rounded(&self) -> bool {
         matches!(self, Self::Rounded)
     }
 
-    /// Whether three neighbouring axes of a chain are parallel or meet in a point, as far as the numbers tell.
+    /// Returns whether three neighbouring axes of a chain are proved to be parallel or to meet in a point.
     pub(super) fn has_triple(&self, chain: &Chain, layout: &Layout) -> bool {
         if let Self::Field(own) = self {
             return has_triple(&own.open);
@@ -114,7 +114,7 @@ impl FieldLoop {
         Some(Self { field, open, places, modular })
     }
 
-    /// What fills the gap.
+    /// Returns the closing transformation.
     fn closing(&self, chain: &Chain, case: &Case) -> Option<Motion<Algebraic>> {
         if let Some(pose) = &case.pose {
             return Some(self.field.pose(chain, pose)?.inverse());
@@ -158,7 +158,7 @@ impl Modular {
         }
     }
 
-    /// How many positions the centre of a spherical joint has.
+    /// Returns the number of positions of the centre of a spherical joint.
     pub(super) fn reach(&self, spherical: usize) -> Option<usize> {
         match self {
             Self::Drawn(own) => point_reach::count(own, spherical),

@@ -13,15 +13,15 @@ use std::f64::consts::TAU;
 pub struct Family {
     /// Its dimension, at least 1.
     pub dimension: usize,
-    /// Which joint variables move along it, counted from 0 in joint order; none where that is not known.
+    /// The joint variables that move along it, counted from 0 in joint order; empty where they are not known.
     pub moving: Vec<usize>,
-    /// How far it stays from the pose that was asked for; 0 where it reaches it exactly.
+    /// Its largest distance from the requested pose; 0 where it reaches the pose exactly.
     pub distance: f64,
     /// A whole configuration of it, within the limits if it has one there; of a platform the quaternion `w, x, y, z` and
     /// the position `x, y, z`.
     pub sample: Vec<f64>,
-    /// More of its configurations, of a curve in their order along it: the last one is the first one again where the curve
-    /// closes. Where limits cut a curve, each part within them is a family.
+    /// Further configurations of the family. Those of a curve are in their order along it, and the last one repeats the first
+    /// where the curve closes. Where limits cut a curve, each part within them is a family.
     pub samples: Vec<Vec<f64>>,
 }
 
@@ -33,9 +33,9 @@ const ROUNDING: f64 = 1e-9;
 pub struct Shape {
     /// The dimension, at least 1.
     pub dimension: usize,
-    /// Which joint variables move, counted from 0.
+    /// The joint variables that move, counted from 0.
     pub moving: Vec<usize>,
-    /// How far it stays from what was asked.
+    /// Its largest distance from the requested pose.
     pub distance: f64,
     /// Configurations: of a curve in their order along it, angles running on without jumps; else one.
     pub points: Vec<Vec<f64>>,
@@ -46,15 +46,15 @@ pub struct Shape {
 /// The joint variables of a mechanism with their limits.
 #[derive(Clone, Copy, Debug)]
 pub struct Joints<'a> {
-    /// What each of them does.
+    /// The kind of each of them.
     pub variables: &'a [Variable],
     /// Their limits; none where there are none.
     pub limits: &'a [[f64; 2]],
 }
 
 impl Joints<'_> {
-    /// Solutions as an answer: one family, or as many as the joint limits leave parts of a curve. `between` is the
-    /// configuration at a part of the way from one point of a curve, by number, to the next one.
+    /// Returns the solutions as an answer: one family, or one for each part of a curve that the joint limits leave. `between`
+    /// returns the configuration at a part of the way from one point of a curve, by number, to the next one.
     #[must_use]
     pub fn families(&self, shape: &Shape, between: &dyn Fn(usize, f64) -> Option<Vec<f64>>) -> Vec<Family> {
         let (at, all) = self.looked_at(shape, between);
@@ -132,7 +132,7 @@ impl Joints<'_> {
         (at, all)
     }
 
-    /// How far a configuration is outside the limits; 0 within them.
+    /// Returns the distance of a configuration from the limits; 0 within them.
     fn outside(&self, q: &[f64]) -> f64 {
         let own =
             q.iter().zip(self.variables).zip(self.limits).map(|((value, variable), [low, high])| match variable {

@@ -20,7 +20,7 @@ use crate::solve::walk::Followed;
 /// Condition numbers beyond this leave no digit of a derivative.
 const SINGULAR: f64 = 1e13;
 
-/// How the joints of a loop move with its input at one mode, in joint order.
+/// The derivatives of a loop's joints with respect to its input at one mode, in joint order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivatives {
     /// `dq/dx`: the rates of all joint variables at input rate 1; not a number where the angles of a spherical joint have none.
@@ -35,7 +35,7 @@ pub struct InputCurve {
     way: Way,
 }
 
-/// In what the curve lies.
+/// The space in which the curve lies.
 enum Way {
     /// Six unknowns and the input.
     Loop { curve: Box<Curve>, spherical: Option<TurnedJoint> },
@@ -53,7 +53,7 @@ struct Pair {
 }
 
 impl InputCurve {
-    /// What to know of the angles of spherical joints: at which position of their idle degree of freedom they are.
+    /// Returns a note on the angles of spherical joints: the position of the idle degree of freedom to which they belong.
     #[must_use]
     pub fn note(&self) -> Option<&str> {
         match &self.way {
@@ -88,7 +88,7 @@ impl InputCurve {
         Ok(Self { layout, way: Way::Loop { curve, spherical } })
     }
 
-    /// What each joint variable does, in joint order.
+    /// Returns the kind of each joint variable, in joint order.
     #[must_use]
     pub fn variables(&self) -> &[Variable] {
         &self.layout.variables
@@ -100,7 +100,7 @@ impl InputCurve {
         self.layout.locked.unwrap_or(0)
     }
 
-    /// What each variable of a point does.
+    /// Returns the kind of each variable of a point.
     #[must_use]
     pub fn kinds(&self) -> &[Variable; 7] {
         match &self.way {
@@ -118,7 +118,7 @@ impl InputCurve {
         }
     }
 
-    /// Which variable of a point is the first of the three of a spherical joint, if there is one.
+    /// Returns the index of the variable of a point that is the first of the three of a spherical joint, if there is one.
     #[must_use]
     pub fn spherical(&self) -> Option<usize> {
         match &self.way {

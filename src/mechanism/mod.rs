@@ -47,7 +47,7 @@ pub struct FullMode {
     pub q: Vec<Complex<f64>>,
     /// Whether all of them are real.
     pub real: bool,
-    /// How many solutions coincide here; 0 where that is not known.
+    /// The number of solutions that coincide here; 0 where it is not known.
     pub multiplicity: usize,
     /// Closure residual, dimensionless: see [`crate::assembly::Mode::residual`].
     pub residual: f64,
@@ -63,16 +63,16 @@ pub struct FullMode {
     pub within_limits: Option<bool>,
     /// Whether it reaches the pose within the tolerance, but not exactly.
     pub near: bool,
-    /// How far it misses the pose; `None` where it is a solution.
+    /// The error of the pose; `None` for an exact solution.
     pub error: Option<PoseError>,
-    /// What only a platform has.
+    /// The part that only a platform has.
     pub platform: Option<PlatformMode>,
 }
 
-/// What only the mode of a platform has.
+/// The part of a mode that only a platform has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlatformMode {
-    /// How the plate moves with the legs, at a real mode.
+    /// The velocity of the plate with respect to the legs, at a real mode.
     pub velocity: Option<Velocity>,
     /// Number, from 1, of the mode that is this one mirrored in the plane of the base.
     pub mirror: Option<usize>,
@@ -87,20 +87,20 @@ pub struct Solution {
     pub modes: Vec<FullMode>,
     /// Solutions that form a curve or more, as far as they were followed.
     pub families: Vec<Family>,
-    /// What the reader of the file and the solver want known.
+    /// Warnings of the reader of the file and of the solver.
     pub warnings: Vec<String>,
     /// Microseconds for the preparation of the geometry, spent once for all cases.
     pub prepare_us: f64,
     /// Microseconds for this case.
     pub solve_us: f64,
-    /// What only an arm of few or many joints has, or one with a task or with joints held.
+    /// The part that only an arm of few or many joints has, or one with a task or with held joints.
     pub arm: Option<ArmAnswer>,
-    /// What only a platform has.
+    /// The part that only a platform has.
     pub platform: Option<PlatformAnswer>,
 }
 
 impl Solution {
-    /// How many modes and families reach the pose within the tolerance, but not exactly.
+    /// Returns the number of modes and families that reach the pose within the tolerance, but not exactly.
     #[must_use]
     pub fn near(&self) -> usize {
         let modes = self.modes.iter().filter(|mode| mode.near).count();
@@ -108,12 +108,12 @@ impl Solution {
     }
 }
 
-/// What only the answer to a case of a platform has.
+/// The part of an answer that only a platform has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlatformAnswer {
     /// The lengths of the legs.
     pub legs: [f64; 6],
-    /// Which way the modes were found, and why.
+    /// The route by which the modes were found, and its reason.
     pub route: String,
 }
 
@@ -162,7 +162,7 @@ impl Mechanism {
         Ok(Self { solver, turns, tolerance: None })
     }
 
-    /// The same with another tolerance, within which configurations of an arm that miss a pose are listed as near ones.
+    /// Returns the mechanism with another tolerance: configurations of an arm within it of a pose are listed as near ones.
     #[must_use]
     pub fn with_tolerance(self, tolerance: Option<Tolerance>) -> Self {
         Self { tolerance, ..self }

@@ -1,5 +1,5 @@
-//! What reaches a pose within the tolerance but not exactly: the pose that people type is rounded, and a singular pose is
-//! lost by that. A double solution becomes a complex pair then, and a self-motion a few isolated solutions.
+//! Configurations that reach a pose within the tolerance but not exactly. A pose that is typed is rounded, and a singular pose is
+//! lost by rounding: a double solution becomes a complex pair, and a self-motion becomes a few isolated solutions.
 
 use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, Variable};
@@ -39,17 +39,17 @@ pub(super) struct Start {
     pub condition: f64,
 }
 
-/// What is near.
+/// The configurations and families near a pose.
 #[derive(Debug, Default)]
 pub(super) struct Near {
-    /// Configurations, isolated as far as is seen.
+    /// Configurations that appear to be isolated.
     pub modes: Vec<(Six<f64>, PoseError)>,
     /// Self-motions, with the largest error along them.
     pub families: Vec<(SelfMotion, f64)>,
 }
 
-/// How much worse than the tolerance the condition of a solution is that lies on a near self-motion: 0.02 of its way
-/// miss the pose by no more than the tolerance.
+/// Ratio of the condition of a solution on a near self-motion to the tolerance: 0.02 of its way changes the pose by no more than
+/// the tolerance.
 const CONDITION: f64 = 1e-3;
 /// Solutions nearer to each other than this are one as seen from a near one: a pair that rounding splits.
 const SAME: f64 = 1e-3;
@@ -65,7 +65,8 @@ const TRIALS: usize = 8;
 const LOOKED_AT: usize = 24;
 
 impl Neighbourhood<'_> {
-    /// What is near and not known: `solutions` are all there are, `families` the self-motions that reach the pose exactly.
+    /// Returns the near configurations that are not yet known. `solutions` are all exact ones, `families` the self-motions that
+    /// reach the pose exactly.
     pub fn run(&self, solutions: &[Start], families: &[SelfMotion], seen: &[SelfMotion]) -> Near {
         let within = self.tolerance.angle.max(self.tolerance.length / self.scale).max(CLOSES_WITHIN);
         let mut near = Near::default();
@@ -100,8 +101,8 @@ impl Neighbourhood<'_> {
         near
     }
 
-    /// Looks for a near self-motion from a singular complex solution: what rounding leaves of a curve may be complex points
-    /// of its continuation, far from all real ones. What does not move along it is real but for rounding.
+    /// Looks for a near self-motion from a singular complex solution. Rounding may leave of a curve only complex points of its
+    /// continuation, far from all real ones; the unknowns that do not move along it are real up to rounding.
     fn search(&self, beside: &Six<f64>, families: &[SelfMotion], within: f64, near: &mut Near) {
         for trial in 0..TRIALS {
             let elsewhere = spread(&self.closed.variables, trial);
@@ -160,7 +161,7 @@ impl Neighbourhood<'_> {
         error.position <= self.tolerance.length && error.orientation <= self.tolerance.angle
     }
 
-    /// How far a configuration misses the pose.
+    /// Returns the error of the pose at a configuration.
     fn error(&self, unknowns: &Six<f64>) -> Option<PoseError> {
         let q = self.layout.assemble(unknowns, 0.0);
         let motions = q.iter().zip(&self.layout.variables).map(|(value, variable)| match variable {

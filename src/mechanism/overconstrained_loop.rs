@@ -45,7 +45,7 @@ const OPEN: f64 = 1e-11;
 /// Closure residuals up to this are rounding: where the equations enlarge it, virtual joints may be larger. Loops that close so
 /// well count as solutions before they are counted exactly.
 const CLOSED: f64 = 1e-13;
-/// How many choices of idle axes are tried before a search is given up.
+/// Number of choices of virtual axes after which the search is given up.
 const CHOICES: u32 = 2;
 /// At how many places each joint of a loop without input is held, to find out whether the others follow.
 const PLACES: i32 = 3;
@@ -63,10 +63,10 @@ struct Rung {
     solver: Solver,
     /// The loop with lengths over the mean link.
     open: OpenLoop<f64>,
-    /// At most so many solutions there are at any input, virtual joints free, when first asked for; none where the closure
-    /// polynomials vanish.
+    /// Upper bound on the number of solutions at any input, with the virtual joints free, computed at its first use; `None` where
+    /// the closure polynomials vanish.
     most: OnceLock<Option<usize>>,
-    /// What counts the solutions, when first asked for; none for an unlucky prime.
+    /// The count of solutions, computed at its first use; `None` for an unlucky prime.
     counting: OnceLock<Option<Counting>>,
 }
 
@@ -81,7 +81,7 @@ struct Ladder {
     /// Without virtual joints.
     layout: Layout,
     rungs: Vec<Rung>,
-    /// Whether an answer over the rationals took too long at some input: so it will at others.
+    /// Whether an answer over the rationals took too long at some input; it is then not tried at others.
     is_long: AtomicBool,
 }
 
@@ -101,7 +101,7 @@ struct Count {
     is_of_ring: bool,
 }
 
-/// What may be a solution.
+/// A possible solution.
 #[derive(Clone)]
 struct Candidate {
     mode: Mode,
@@ -154,8 +154,8 @@ fn dependent(chain: &Chain) -> Error {
     ))
 }
 
-/// The choices of virtual joints by which a loop can be solved: as many translations as leave the six unknowns
-/// independent in general position, which is simplest, then rotations only.
+/// Returns the choices of virtual joints by which a loop can be solved: first the simplest, with as many translations as leave
+/// the six unknowns independent in general position, then rotations only.
 fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
     // A spherical joint has its own route.
     if layout.spherical.is_some() && layout.second_spherical.is_none() {
@@ -216,7 +216,7 @@ impl OverconstrainedLoop {
         let start = Instant::now();
         let locked = ladder.layout.locked;
         let exact = self.exactly(ladder, case)?;
-        // What does not close, or closes at points, need not be searched for a motion.
+        // A loop that does not close, or closes at points, need not be searched for a motion.
         let is_asked = locked.is_none() && !self.is_rounded;
         let points = if is_asked && exact.is_none() { self.count_by_ring(&ladder.layout, case) } else { None };
         let moving = match points {
@@ -263,7 +263,7 @@ impl OverconstrainedLoop {
         Ok(answer.filter(|(verdict, _)| !is_rounded || verdict.real > 0 || verdict.self_motion > 0))
     }
 
-    /// Whether a loop without input moves, and how; `None` where it has isolated modes only.
+    /// Returns the motion of a loop without input; `None` where it has isolated modes only.
     fn motion(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> Result<Option<Answer>> {
         let variables = Layout::of(&self.chain, None)?.variables;
         let mut complex: Option<(usize, usize)> = None;
@@ -376,7 +376,7 @@ impl OverconstrainedLoop {
             && count.is_some_and(|count| count.most > total(&best))
             && let Some(plan) = self.plan(&ladder.layout, case)
         {
-            // What virtual joints in general position hide.
+            // The solutions that virtual joints in general position hide.
             let found = self.by_ring(&ladder.layout, case, &plan)?;
             if total(&found) > total(&best) {
                 best = found;
@@ -428,7 +428,7 @@ impl OverconstrainedLoop {
                 if real { Complex::from(value.re) } else { value }
             });
             let (unknowns, residual) = closer(&closed, &own, joints.map(|joint| joint.is_none()), real);
-            // With idle rotations the closure equations are those of six unknowns, which a simple solution closes alone.
+            // With virtual rotations the closure equations have six unknowns, and a simple solution alone is a proof.
             let spherical = joints.iter().position(|joint| joint.is_some() && *joint == layout.spherical);
             let proof = spherical.filter(|_| multiplicity == 1).and_then(|spherical| proof(&closed, &unknowns, spherical, real));
             let q = filled.assemble(&std::array::from_fn(|k| unknowns[k] * units[k]), locked);
@@ -479,7 +479,7 @@ impl OverconstrainedLoop {
         Ok((Verdict { complex: total, real, certified, ..outcome(status, 0, reason) }, modes))
     }
 
-    /// What nearly closes the loop, by the size of its virtual joints.
+    /// Returns the configurations that nearly close the loop, sorted by the size of their virtual joints.
     fn candidates(
         &self,
         rung: &Rung,
@@ -516,13 +516,13 @@ impl OverconstrainedLoop {
         common_roots(&one, &other, *is_idle, enough)
     }
 
-    /// At most so many solutions there are by the closure equations, all of them at once; `None` where they form families, where
-    /// it is not seen that they do not, and for loops with a spherical joint.
+    /// Returns an upper bound on the number of solutions from all closure equations together; `None` where solutions form
+    /// families, where that is not excluded, and for loops with a spherical joint.
     fn count_by_ring(&self, layout: &Layout, case: &Case) -> Option<usize> {
         self.plan(layout, case).map(|plan| plan.count())
     }
 
-    /// How the ring of the closure equations is found.
+    /// Returns the plan by which the ring of the closure equations is computed.
     fn plan(&self, layout: &Layout, case: &Case) -> Option<Plan> {
         if layout.spherical.is_some() {
             return None;
@@ -644,8 +644,8 @@ struct Setting {
 }
 
 impl Setting {
-    /// What a mode with these unknowns, lengths over the mean link, is with its idle ones at zero, where they are below
-    /// `most` and the loop closes.
+    /// Returns the candidate of a mode with these unknowns, lengths over the mean link: its virtual joints are set to zero if
+    /// they are below `most` and the loop closes.
     fn candidate(&self, mode: &Mode, own: &Six<Complex<f64>>, most: f64) -> Option<Candidate> {
         let idle = (0..6).filter(|&k| self.is_idle[k]).map(|k| own[k].norm()).fold(0.0, f64::max);
         if !(idle < most) {
@@ -699,7 +699,7 @@ fn in_order(a: &[Complex<f64>], b: &[Complex<f64>]) -> std::cmp::Ordering {
     key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal)
 }
 
-/// How many of the candidates, best first, make up this number of solutions.
+/// Returns the number of leading candidates whose multiplicities add up to at most this number of solutions.
 fn fitting(candidates: &[Candidate], count: usize) -> usize {
     let sums = candidates.iter().scan(0, |sum, candidate| {
         *sum += candidate.mode.multiplicity.max(1);

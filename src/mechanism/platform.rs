@@ -43,7 +43,7 @@ pub fn over<R: Ring>(geometry: &Platform<Number>) -> Option<Platform<R>> {
     Some(Platform { base: points(&geometry.base)?, plate: points(&geometry.plate)? })
 }
 
-/// Whether a list needs no exact count: as many simple poses as there can be, all of them certified.
+/// Returns whether a list needs no exact count: it has the largest possible number of poses, all simple and certified.
 fn is_settled(assembly: &PlatformAssembly) -> bool {
     assembly.modes.len() == DIMENSION && assembly.modes.iter().all(|mode| mode.certificate.is_some())
 }

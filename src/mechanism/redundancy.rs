@@ -115,7 +115,7 @@ fn follow(entry: &Entry, all: &mut Vec<Curves>, found: &mut Redundancy) -> Resul
     for case in &entry.cases {
         let solution = mechanism.solve(case, Roots::All, &mut workspace, &mut assembly)?;
         if solution.verdict.code == Code::StructurallyDeficient || solution.verdict.status == Status::SelfMotion {
-            // With this joint held the others are dependent, or the joint stands still along a curve.
+            // With this joint held the others are dependent, or the joint does not move along a curve.
             break;
         }
         found.asked += 1;

@@ -49,7 +49,7 @@ pub(super) struct SixUnknowns {
     /// The loop, enclosed, when first asked for.
     enclosed: OnceLock<Option<OpenLoop<Enclosure>>>,
     bound: OnceLock<Bound>,
-    /// What the numbers of the mechanism are.
+    /// The exactness of the numbers of the mechanism.
     data: OnceLock<Data>,
 }
 
@@ -57,14 +57,14 @@ pub(super) struct SixUnknowns {
 struct SphericalPair {
     layout: Layout,
     open: OpenSsDyad<f64>,
-    /// The same in intervals.
+    /// The same dyad in intervals.
     bounds: OpenSsDyad<Interval>,
 }
 
 /// Modes of a lower condition number are those of the mechanism that rounded data stand for: these are off by 1e-17.
 const FIRM: f64 = 1e10;
 
-/// What counts rest on.
+/// The phrase that says on which computation counts rest.
 const MODULO: &str = "modulo a prime drawn at run time";
 
 /// A solution in spherical joints.
@@ -111,7 +111,7 @@ impl SixUnknowns {
         self.modular.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten()).as_ref()
     }
 
-    /// What the numbers of the mechanism are.
+    /// Returns the exactness of the numbers of the mechanism.
     fn data(&self, chain: &Chain) -> &Data {
         self.data.get_or_init(|| Data::of(chain, &self.layout, None))
     }
@@ -225,7 +225,7 @@ impl SingleLoop {
                     verdict = Verdict { proof: exact.proof, self_motion: exact.self_motion, reason, ..verdict };
                 }
                 (_, None) => return Ok(exact_solution(case, exact, modes, *prepare_us, start)),
-                // What reaches a pose nearly is answered as well: the families stay as they were measured.
+                // The pose is also answered by near solutions: the families stay as they were measured.
                 (_, Some(_)) => {}
             }
         }
@@ -289,7 +289,7 @@ impl SingleLoop {
         let layout = &prepared.layout;
         let ss_dyad = prepared.open.close(&closing_transformation(case)?);
         let idle = idle_spin(&self.chain, layout, ss_dyad.indices[1]);
-        // Where the equation may be free of its unknown rounding would lead to roots.
+        // Where the equation may not depend on its unknown, rounding would produce roots.
         let bounds = spherical_pair::equation(&prepared.bounds.close(&closing_transformation(case)?));
         let is_equation = bounds[1..].iter().any(|c| c.mignitude() > 0.0);
         let spherical_joints = is_equation.then(|| ss_dyad::solve(&ss_dyad, roots, workspace, assembly));
@@ -345,16 +345,16 @@ struct Question<'a> {
     gap: &'a Gap,
     /// The exact count of all cuts.
     by_cuts: OnceCell<Option<Degree>>,
-    /// How the ring of the loop is found.
+    /// The plan by which the ring of the loop is computed.
     ring: OnceCell<Option<Plan>>,
-    /// What the eliminants said, and how many solutions were known then.
+    /// The resolution by the eliminants, with the number of solutions known at that time.
     resolved: RefCell<Option<(usize, Resolution)>>,
-    /// What the numbers of the case are, where its own are not rational.
+    /// The exactness of the numbers of the case, where its own are not rational.
     data: OnceCell<Data>,
 }
 
 impl Question<'_> {
-    /// What the numbers of the mechanism and of the case are.
+    /// Returns the exactness of the numbers of the mechanism and of the case.
     fn data(&self) -> &Data {
         let SingleLoop { chain, .. } = self.of;
         if is_rational(self.case) {
@@ -404,12 +404,12 @@ impl Question<'_> {
         Verdict { proof: verdict.proof.of_rounded(is_rounded), ..verdict }
     }
 
-    /// The number of solutions, where all are wanted and not found.
+    /// Returns the number of solutions, where all are requested and some are missing.
     fn expected(&self, verdict: &Verdict) -> Option<usize> {
         if self.only_lists || self.roots == Roots::Real || self.rank() < 6 {
             return None;
         }
-        // What moves in f64 does not by its exact equations, unless rounded data made that so.
+        // A motion seen in f64 is refuted by the exact equations, unless the data are rounded.
         let is_refuted = || self.case.pose.is_none() && !self.is_rounded() && self.plan().is_some();
         let here = || self.count_here(0).map(|here| here.count);
         match verdict.status {
@@ -417,7 +417,7 @@ impl Question<'_> {
                 let everywhere = self.prepared.bound(&self.of.chain).count;
                 Some(here().map_or(everywhere, |here| here.min(everywhere)))
             }
-            // The exact count of three rotations knows of every self-motion: what f64 took for one is none.
+            // The exact count of three rotations detects every self-motion: if it finds none, f64 was mistaken.
             Status::SelfMotion if self.prepared.general() == 2 || is_refuted() => here(),
             _ => None,
         }
@@ -587,7 +587,7 @@ impl Question<'_> {
         }
     }
 
-    /// What the eliminants say, asked again where more solutions are known than before.
+    /// Returns the resolution by the eliminants, computed again where more solutions are known than before.
     fn resolution(&self, known: &[Known]) -> Option<Resolution> {
         let mut last = self.resolved.borrow_mut();
         if let Some((count, resolution)) = &*last
@@ -627,7 +627,7 @@ impl Question<'_> {
         }
     }
 
-    /// What the exact equations say of all solutions, some of which are known.
+    /// Resolves all solutions by the exact equations, where some are known.
     fn asked(&self, known: &[Known]) -> Option<Resolution> {
         if let Data::Field(own) = self.data() {
             if self.leaves_fields {
@@ -652,8 +652,8 @@ impl Question<'_> {
         Some(open.close(&closing_transformation(self.case).ok()?))
     }
 
-    /// The rank of the six joint screws in general position. What f64 calls deficient is asked modulo the prime, where full
-    /// rank proves full rank.
+    /// Returns the rank of the six joint screws in general position. A rank deficient in f64 is computed modulo the prime, where
+    /// full rank proves full rank.
     fn rank(&self) -> usize {
         let measured = self.prepared.solver.structural_rank();
         if measured == 6 {
@@ -855,7 +855,8 @@ pub fn locked_variable(chain: &Chain, case: &Case) -> Result<Option<usize>> {
     variable.map(Some).ok_or_else(|| Error::Invalid(format!("joint {} has no such variable", input.joint)))
 }
 
-/// What fills the gap of the loop: the inverse of an arm's pose, a loop's locked joint; nothing without input.
+/// Returns the closing transformation of the loop: the inverse of an arm's pose, a loop's locked joint, or the identity without
+/// input.
 pub(super) fn closing_transformation<R: Ring>(case: &Case) -> Result<Motion<R>> {
     if case.pose.is_none() && case.input.is_empty() {
         return Ok(Motion::identity());

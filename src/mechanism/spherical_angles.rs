@@ -92,7 +92,7 @@ fn angles(r: &Rotation<Jet>) -> [Jet; 3] {
 /// `X = A X' B` for constant rotations A and B in general position.
 #[derive(Clone, Debug)]
 pub(super) struct TurnedJoint {
-    /// Where it stands among the variables of a point.
+    /// Its index among the variables of a point.
     pub unknown: usize,
     /// Index of its first joint variable.
     pub joint: usize,
@@ -134,7 +134,7 @@ pub(super) fn ss_dyad_angles(open: &OpenSsDyad<Jet>, input: Variable, unknown: &
     let helper = farthest_axis(&along.map(|x| x.coefficients[0]));
     let x = unit(&cross(&helper.map(Series::constant), &along));
     let own = columns(&x, &cross(&along, &x), &along);
-    // The same frame where the second spherical joint lets it be.
+    // The same frame at the second spherical joint.
     let line = unit(&across.translation);
     let column = |k: usize| -> Vector<Jet> { std::array::from_fn(|i| across.rotation[i][k]) };
     let mut side = cross(&line, &column(2));

@@ -29,7 +29,7 @@ pub(super) enum Positions {
     Isolated {
         /// The joint variables in joint order, and how many coincide there.
         found: Vec<(Vec<Value>, usize)>,
-        /// Whether there are none, and none would be there for data nearby.
+        /// Whether there are none, and still none for data nearby.
         clear: bool,
     },
     /// The other joints move on while the centre is where it has to be.
@@ -132,8 +132,8 @@ pub(super) fn positions(chain: &Chain, layout: &Layout, case: &Case) -> Result<P
     Ok(Positions::Isolated { clear: clear && found.is_empty(), found })
 }
 
-/// Whether two polynomials of degree 2 or less have no common root, and none if their coefficients are a little off: by their
-/// resultant, the degree 2 taken for granted, so that roots at infinity count.
+/// Returns whether two polynomials of degree 2 or less have no common root, even if their coefficients are slightly perturbed: by
+/// their resultant for degree 2, so that roots at infinity count.
 fn are_apart(one: &Univariate<Rational>, two: &Univariate<Rational>) -> bool {
     let parts = |polynomial: &Univariate<Rational>| {
         let list: [f64; 3] = std::array::from_fn(|k| polynomial.coefficients().get(k).map_or(0.0, Rational::to_f64));
@@ -146,7 +146,8 @@ fn are_apart(one: &Univariate<Rational>, two: &Univariate<Rational>) -> bool {
     resultant.abs() > CLEAR
 }
 
-/// What stands behind the spherical joint up to the first unknown, and the unknowns with the constants behind them, up to the spherical joint.
+/// Returns the constant between the spherical joint and the first unknown, and the unknowns with the constants behind them, up to
+/// the spherical joint.
 fn behind_spherical(chain: &Chain, layout: &Layout, case: &Case) -> Result<(Motion<Rational>, Vec<Step>)> {
     let unsupported = || Error::Unsupported("the loop has no S joint".to_owned());
     let spherical = layout.spherical.ok_or_else(unsupported)?;

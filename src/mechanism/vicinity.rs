@@ -23,7 +23,7 @@ pub(super) struct Vicinity<'a> {
     pub prepared: &'a SixUnknowns,
     /// The value of the locked variable.
     pub locked: f64,
-    /// What the case leaves open.
+    /// The closing transformation of the case.
     pub gap: &'a Gap,
 }
 
@@ -65,7 +65,8 @@ impl Vicinity<'_> {
         found.flat_map(one).collect()
     }
 
-    /// What is near the pose of an arm. Where the list of solutions is not known, only what was met is looked at.
+    /// Returns the configurations near the pose of an arm. Where the list of solutions is unknown, only the families met are
+    /// used.
     pub fn near(&self, pose: &Placement, tolerance: Tolerance, status: Status, assembly: &Assembly) -> Near {
         let is_moving = status == Status::SelfMotion;
         let (closed, scale) = self.closed();

@@ -35,12 +35,12 @@ struct Cycle {
     edge: [usize; 2],
     /// x, y and z.
     wings: [usize; 3],
-    /// Of the octahedra about xy and about xz: the inner vertex joined to q, and the one joined to p.
+    /// For the octahedra about xy and about xz: the inner vertex joined to q, and the one joined to p.
     inner: [[usize; 2]; 2],
 }
 
-/// Whether a framework is made of two octahedra and a bar about an edge and does not move, by proof: in no realisation with these
-/// squared lengths of its bars, and whether or not it has one.
+/// Returns whether a framework consists of two octahedra and a bar about an edge and is proved not to move, in any realisation
+/// with these squared lengths of its bars and whether or not it has one.
 ///
 /// # Shape
 /// A square for every bar.
@@ -179,11 +179,11 @@ fn by_powers(closures: &[Univariate<Mod>]) -> Vec<Univariate<Mod>> {
 /// The squares of the distances of p, q, x, y and z that are known at one s.
 struct Distances {
     s: Mod,
-    /// Of p from x, y and z.
+    /// Squared distances of p from x, y and z.
     from_p: [Mod; 3],
-    /// Of q from x, y and z.
+    /// Squared distances of q from x, y and z.
     from_q: [Mod; 3],
-    /// Of y from z.
+    /// Squared distance of y from z.
     between: Mod,
 }
 

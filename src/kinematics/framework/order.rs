@@ -16,8 +16,8 @@ pub enum Order {
 
 /// Continues the only first-order motion of a framework; `None` if it has none or several.
 ///
-/// Six coordinates are held, one is the parameter tau, as many others as the rank of the rigidity matrix are solved for as power
-/// series in tau from as many bars, and the remaining bars are looked at order by order.
+/// Six coordinates are held and one is the parameter tau. The bars of a regular minor of the rigidity matrix determine its
+/// coordinates as power series in tau, and the remaining bars are checked order by order.
 pub fn order<F: Field>(framework: &Framework<F>, most: usize) -> Option<Order> {
     let columns = framework.coordinates();
     let matrix = framework.rigidity_matrix();

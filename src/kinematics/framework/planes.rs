@@ -65,8 +65,8 @@ pub fn on_planes(framework: &Framework<Rational>) -> Option<usize> {
     (dimension > 0).then_some(dimension)
 }
 
-/// Which vertices belong to the part of the first one, every bar joining the one part with the other; `None` if there are no such
-/// parts, or the bars do not hold together.
+/// Marks the vertices in the part of the first one, where every bar joins the one part with the other; `None` if there are no
+/// such parts, or the bars are not connected.
 fn colours(framework: &Framework<Rational>) -> Option<Vec<bool>> {
     let mut colours = vec![None; framework.vertices.len()];
     *colours.first_mut()? = Some(true);

@@ -12,7 +12,7 @@ use crate::algebra::echelon::Echelon;
 use crate::kinematics::motion::{Vector, dot};
 use rug::Rational;
 
-/// What the realisations of a slice have in common.
+/// The common property of the realisations of a slice.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Nothing: all realisations.
@@ -34,7 +34,7 @@ pub enum Kind {
 /// A slice in which the framework moves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Slice {
-    /// What its realisations have in common.
+    /// The common property of its realisations.
     pub kind: Kind,
     /// Its dimension.
     pub dimension: usize,

@@ -86,10 +86,10 @@ fn right_factor<F: Field>(all: &[DualQuaternion<F>], quadratic: &Univariate<F>) 
 /// All factorisations that split the quadratic factors of the norm off in some order.
 ///
 /// # Errors
-/// For what is no motion at all.
+/// For a polynomial that is no motion.
 ///
 /// # Panics
-/// When there are not as many quadratics as the degree.
+/// When the number of quadratics differs from the degree.
 ///
 /// # Source
 /// \[HegedusSchichoSchrocker2013\], the algorithm of their section 3.

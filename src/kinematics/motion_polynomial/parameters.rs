@@ -1,4 +1,4 @@
-//! Links between the axes of a loop: lengths, twists and offsets, and the loops that can be told by them.
+//! Links between the axes of a loop: lengths, twists and offsets, and the loops that they characterise.
 
 use super::linkage::Linkage;
 use crate::algebra::ring::Field;
@@ -42,7 +42,7 @@ fn length(v: &Vector<f64>) -> f64 {
     dot(v, v).sqrt()
 }
 
-/// Of parallel lines, the normal through the point nearest to the origin of the first.
+/// For parallel lines, returns the normal through the point nearest to the origin of the first.
 fn normal(first: &Screw<f64>, second: &Screw<f64>) -> Option<Normal> {
     let (p, q) = (first.foot()?, second.foot()?);
     let (u, v) = (

@@ -33,7 +33,7 @@ pub type Coordinate = Complex<f64>;
 pub struct SphereMode {
     /// Whether it is real.
     pub real: bool,
-    /// How often it counts.
+    /// The multiplicity.
     pub multiplicity: usize,
     /// The angles of the joints, radians.
     pub joints: Vec<Coordinate>,
@@ -63,7 +63,7 @@ impl SphereMode {
 /// The answer to a case.
 #[derive(Clone, Debug)]
 pub struct SphereAnswer {
-    /// What is claimed of the list.
+    /// The verdict on the list.
     pub verdict: Verdict,
     /// The isolated assemblies, real ones first.
     pub modes: Vec<SphereMode>,
@@ -121,7 +121,7 @@ fn verdict(modes: &[SphereMode], dimension: usize, exact: bool) -> Verdict {
     };
     Verdict {
         status,
-        // Of a family only the dimension is known, and not whether it has a real point.
+        // For a family only the dimension is known, and not whether it has a real point.
         proof: if dimension > 0 { Proof::None } else { Proof::Proved.of_rounded(!exact) },
         code,
         complex_complete: dimension == 0,
@@ -151,7 +151,7 @@ fn modes(linkage: &SphereLinkage, system: &System, basis: &Basis) -> Option<Vec<
     Some(list)
 }
 
-/// The assembly of a root, with as many bits as it takes.
+/// Returns the assembly of a root, computed with as many bits as it needs.
 fn assembled(
     linkage: &SphereLinkage,
     system: &System,

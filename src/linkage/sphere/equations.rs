@@ -25,9 +25,9 @@ pub struct Cluster {
 pub struct System {
     /// The clusters, that of the ground first; its coordinates are those of the ground.
     pub clusters: Vec<Cluster>,
-    /// Of every joint its axis, a polynomial in the unknowns; zero of joints within a cluster.
+    /// The axis of every joint, a polynomial in the unknowns; zero for joints within a cluster.
     pub axes: Vec<Vector<Equation>>,
-    /// What vanishes.
+    /// The polynomials that vanish.
     pub equations: Vec<Equation>,
     /// The number of unknowns.
     pub unknowns: usize,
@@ -132,7 +132,7 @@ impl System {
             let ((a, first), (b, second)) = (home(&clusters, joint.of[0])?, home(&clusters, joint.of[1])?);
             let ends = [apply(&first, &joint.at[0]), apply(&second, &joint.at[1])];
             if a == b {
-                // What is given closes this joint, or it does not.
+                // The inputs close this joint, or they do not.
                 let [one, two] = ends.each_ref().map(constant);
                 equations.extend((0..3).map(|k| one[k].sub(&two[k])));
                 continue;

@@ -22,10 +22,10 @@ use rug::{Float, float::Round};
 /// it, and what general loops of five take, or some special ones, is hours.
 const EFFORT: u64 = 1_500_000;
 
-/// With so many unknowns a cut is quicker than a Gröbner basis, of which it is out of reach.
+/// Number of unknowns from which a cut is quicker than a Gröbner basis, which is out of reach there.
 const MANY: usize = 5;
 
-/// What is asked of a loop.
+/// A loop with the data of the question.
 pub(crate) struct Question<'a> {
     /// The mechanism.
     pub chain: &'a Chain,
@@ -111,7 +111,7 @@ impl Question<'_> {
         self.listed(modes, count, [count, real], reason)
     }
 
-    /// The verdict on a list that has all of so many distinct solutions.
+    /// Returns the verdict on a list that has all of `distinct` distinct solutions.
     fn listed(&self, mut modes: Vec<FullMode>, distinct: usize, [count, real]: [usize; 2], reason: String) -> Answer {
         modes.sort_by(in_order);
         let (status, code) = match (count, real) {
@@ -154,7 +154,7 @@ impl Question<'_> {
         let values: Vec<Complex<f64>> = cycle.indices.iter().map(|index| q[*index]).collect();
         let (residual, condition) = measure(cycle, &values, unit);
         let is_simple = multiplicity == 1;
-        // Of rounded data nothing is known to be there.
+        // With rounded data no solution is proved to exist.
         let certified = !self.is_rounded && radius.is_finite();
         FullMode {
             real,
@@ -188,11 +188,11 @@ pub(super) fn nearest(ball: &Disc, variable: Variable, real: bool) -> (Complex<f
             error += 4.0 * f64::EPSILON;
         }
     }
-    // What the sums of this function are off.
+    // The error of the sums of this function.
     (value, error * (1.0 + 8.0 * f64::EPSILON) + f64::MIN_POSITIVE)
 }
 
-/// What the equations of a loop are.
+/// Names the equations of a loop.
 fn equations(cycle: &Cycle) -> &'static str {
     match cycle.before {
         Some(_) => "the equations by which the centre of the S joint is reached from both sides",

@@ -1,6 +1,6 @@
 //! Loops of five unknowns by a cut: all their solutions, where each of them is simple.
 //!
-//! A Gröbner basis of so many unknowns takes long. The cut hides one unknown, and over the roots of a polynomial in its
+//! A Gröbner basis of that many unknowns takes long. The cut hides one unknown, and over the roots of a polynomial in its
 //! half tangent linear algebra gives the others (docs/mobility.md, theorem 3).
 
 use super::configuration::Configuration;
@@ -14,12 +14,12 @@ use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::Motion;
 use rug::Rational;
 
-/// Bits in which values are tried: twice as many each time, up to the last.
+/// Bits in which values are tried: doubled each time, up to the last.
 const BITS: [u32; 4] = [160, 320, 640, 1280];
 
 /// Solutions whose values are the same expressions in the roots of one polynomial.
 struct Family {
-    /// Of each unknown cosine and sine, or the distance.
+    /// Cosine and sine of each unknown, or its distance.
     values: Vec<[Vec<Rational>; 2]>,
     roots: Vec<Root>,
 }

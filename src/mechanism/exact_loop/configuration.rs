@@ -12,16 +12,16 @@ use rug::{Float, Rational, float::Constant};
 
 /// Bits from which a value is good enough: more than an f64 has.
 const WANTED: u32 = 70;
-/// Bits in which values are tried: twice as many each time.
+/// Bits in which values are tried first; they are doubled each time.
 const FIRST: u32 = 160;
 /// The last of them. Solutions that need more differ by less than anything that a mechanism has.
 const LAST: u32 = 20_480;
 
-/// What a part of the solutions has in common.
+/// The data shared by a part of the solutions.
 pub(crate) struct Configurations<'a> {
     system: &'a System,
     steps: &'a [Step],
-    /// Of a loop with a spherical joint, the constant between it and the first step.
+    /// For a loop with a spherical joint, the constant between it and the first step.
     before: Option<&'a Motion<Rational>>,
     points: &'a Points,
 }
@@ -29,13 +29,13 @@ pub(crate) struct Configurations<'a> {
 /// The joint values of a solution.
 #[derive(Clone, Debug)]
 pub(crate) struct Configuration {
-    /// Of each step an angle or a distance.
+    /// An angle or a distance for each step.
     pub values: Vec<Disc>,
     /// The angles of the spherical joint about z, x and z.
     pub spherical: Option<[Disc; 3]>,
 }
 
-/// What so many digits are good for.
+/// The result of a computation with a given number of digits.
 enum Digits {
     /// The joint values.
     Enough(Box<Configuration>),
@@ -51,7 +51,7 @@ impl Digits {
     }
 }
 
-/// How the first and the third axis of a spherical joint stand.
+/// The position of the first and the third axis of a spherical joint to each other.
 enum Lock {
     /// Apart.
     Apart,
@@ -94,7 +94,7 @@ impl<'a> Configurations<'a> {
         None
     }
 
-    /// The values in so many digits.
+    /// Returns the values computed with `bits` bits.
     fn in_digits(&self, point: &Point, pairs: &[[Disc; 2]], bits: u32, lock: &mut Option<Lock>) -> Digits {
         let value = |(step, [one, other]): (&Step, &[Disc; 2])| match step.variable {
             Variable::Rotation => Disc::angle(one, other),
@@ -132,7 +132,7 @@ impl<'a> Configurations<'a> {
         Some(rest.rotation)
     }
 
-    /// How the axes of the spherical joint stand at a point, exactly.
+    /// Returns the position of the axes of the spherical joint to each other at a point, exactly.
     fn lock(&self, point: &Point, before: &Motion<Rational>) -> Option<Lock> {
         let whole = lifted(before)?.then_after(&self.system.stretch(self.steps, 0, self.steps.len())?);
         let [x, y, _] = &whole.rotation[2];

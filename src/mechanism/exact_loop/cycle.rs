@@ -13,7 +13,7 @@ use rug::Rational;
 pub(crate) struct Cycle {
     /// The unknowns in loop order.
     pub steps: Vec<Step>,
-    /// Which joint variable each of them is.
+    /// Index of the joint variable of each of them.
     pub indices: Vec<usize>,
     /// The constant between the spherical joint and the first of them, if there is such a joint: the steps follow it.
     pub before: Option<Motion<Rational>>,
@@ -31,7 +31,7 @@ impl Cycle {
         }
         let Some((variables, mut constants)) = chain.unknowns_and_constants::<Rational>() else { return Ok(None) };
         let closing = closing_transformation::<Rational>(case)?;
-        // What stands before the first variable comes behind the last one, and behind the pose of an arm.
+        // The constant before the first variable comes behind the last one, and behind the pose of an arm.
         let start = constants.remove(0);
         if let Some(end) = constants.last_mut() {
             *end = if layout.locked.is_none() { end.then_after(&closing) } else { end.clone() }.then_after(&start);
@@ -39,7 +39,7 @@ impl Cycle {
         let mut items: Vec<_> = variables.into_iter().zip(constants).enumerate().collect();
         items.rotate_left(layout.spherical.map_or(0, |spherical| spherical + 2));
         let mut found = Self { steps: Vec::new(), indices: Vec::new(), before: None };
-        // What stands before the first unknown.
+        // The constant before the first unknown.
         let mut first = Motion::identity();
         for (index, (variable, behind)) in items {
             if layout.spherical == Some(index) {

@@ -9,7 +9,7 @@ use rug::Rational;
 /// An unknown of the loop, and the constant motion behind it.
 #[derive(Clone, Debug)]
 pub(crate) struct Step {
-    /// What the unknown does.
+    /// The kind of the unknown.
     pub variable: Variable,
     /// The constant behind it.
     pub behind: Motion<Rational>,
@@ -98,7 +98,7 @@ impl System {
             Some([Equation::from_rational(&p[0])?, Equation::from_rational(&p[1])?, Equation::from_rational(&p[2])?])
         };
         let origin: Vector<Equation> = std::array::from_fn(|_| Equation::zero());
-        // The centre as it is seen behind each unknown, from both sides.
+        // The centre as seen behind each unknown, from both sides.
         let mut near = origin;
         let mut inner = Vec::new();
         for k in (0..steps.len()).rev() {

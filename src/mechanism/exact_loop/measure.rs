@@ -1,4 +1,4 @@
-//! What f64 measures of an exact solution: how well it closes, and how well it is determined.
+//! Measures of an exact solution in f64: its residual and its condition number.
 
 use super::cycle::Cycle;
 use crate::algebra::number::nearest_f64;
@@ -50,7 +50,7 @@ pub(super) fn measure(cycle: &Cycle, values: &[Complex<f64>], unit: f64) -> (f64
     let residual = frame.translation.iter().map(|x| x.norm()).fold(turned, f64::max);
     let matrix = DMatrix::from_fn(6, columns.len(), |i, j| columns[j][i]);
     let singular = matrix.singular_values();
-    // More columns than rows, or none at all.
+    // There are more columns than rows, or no columns at all.
     let is_full = columns.len() <= 6 && singular.min() > 0.0;
     (residual, if is_full { singular.max() / singular.min() } else { f64::INFINITY })
 }

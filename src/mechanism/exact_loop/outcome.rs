@@ -1,4 +1,4 @@
-//! What the closure equations have for solutions: a family, or points with their multiplicities.
+//! The solution set of closure equations: a family, or points with their multiplicities.
 
 use super::equations::System;
 use super::roots::{Root, roots};
@@ -29,10 +29,10 @@ pub(crate) struct Points {
 /// One solution.
 #[derive(Clone, Debug)]
 pub(crate) struct Point {
-    /// Which part of the solutions it belongs to.
+    /// The part of the solutions to which it belongs.
     part: usize,
     root: Root,
-    /// How many solutions coincide here.
+    /// The number of solutions that coincide here.
     pub multiplicity: usize,
 }
 
@@ -42,7 +42,7 @@ impl Point {
         self.root.is_real()
     }
 
-    /// Its place among the roots of its part, in about so many bits.
+    /// Returns the root of its part at this point, to about `bits` bits.
     pub fn root(&self, bits: u32) -> Option<Disc> {
         self.root.ball(bits)
     }

@@ -9,9 +9,9 @@ use crate::solve::polynomial_roots::polynomial_roots;
 use crate::solve::scalar::Extended;
 use rug::{Float, Rational};
 
-/// Bits in which roots are told apart.
+/// Bits in which roots are separated first.
 const FIRST_BITS: u32 = 320;
-/// Steps of Newton's method: from 384 bits to as many as anything needs.
+/// Steps of Newton's method: enough to get from 384 bits to any precision in use.
 const STEPS: u32 = 8;
 
 /// One root of a polynomial.
@@ -25,7 +25,7 @@ pub(crate) enum Root {
         middle: Rational,
         /// The square of half their difference.
         square: Rational,
-        /// Which of them it is.
+        /// The sign of the square root.
         sign: i32,
     },
     /// A real root.
@@ -44,7 +44,7 @@ impl Root {
         }
     }
 
-    /// The root in about so many bits; `None` where they cannot be had.
+    /// Returns the root to about `bits` bits; `None` where that is not possible.
     pub fn ball(&self, bits: u32) -> Option<Disc> {
         match self {
             Self::Rational(q) => Some(Disc::of(q, bits)),
@@ -74,7 +74,7 @@ impl Root {
     }
 }
 
-/// All roots of a square-free polynomial; `None` where complex ones could not be told apart.
+/// Returns all roots of a square-free polynomial; `None` where complex ones could not be separated.
 pub(crate) fn roots(polynomial: &Univariate<Rational>) -> Option<Vec<Root>> {
     match polynomial.coefficients() {
         [] | [_] => Some(Vec::new()),
@@ -135,7 +135,7 @@ fn many(polynomial: &Univariate<Rational>) -> Option<Vec<Root>> {
     Some(found)
 }
 
-/// The discs of the roots above the real line, of which there are so many.
+/// Returns the discs of the roots above the real line, of which there are `pairs`.
 fn upper<R: Extended>(polynomial: &Univariate<Rational>, pairs: usize) -> Option<Vec<Disc>> {
     let rounded: Univariate<R> = polynomial.map(R::from_rational)?;
     let mut discs = Vec::new();

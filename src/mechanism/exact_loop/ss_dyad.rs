@@ -19,11 +19,11 @@ type Rotation = [[Disc; 3]; 3];
 
 /// Bits of the arithmetic in which joint angles are found.
 const BITS: u32 = 640;
-/// Sines below `2^-SAME` leave two axes one. That they differ by less is not possible for numbers of fewer than a hundred
-/// digits; where they do, what is shown is off by no more than the root of this.
+/// Two axes count as one where their sine is below `2^-SAME`. Numbers of fewer than a hundred digits cannot differ by less; where
+/// they do, the error of the output is at most the square root of this.
 const SAME: u32 = 320;
 
-/// What is asked of a loop with two spherical joints.
+/// A loop with two spherical joints with the data of the question.
 pub(crate) struct SsDyadQuestion<'a> {
     /// The loop over the rationals.
     pub ss_dyad: &'a SsDyad<Rational>,
@@ -35,10 +35,10 @@ pub(crate) struct SsDyadQuestion<'a> {
     pub is_rounded: bool,
 }
 
-/// Of rounded data a discriminant below this, over the squares that it is the difference of, may be 0.
+/// Discriminants of rounded data below this, relative to the squares that they are the difference of, may be 0.
 const CLEAR: f64 = 1e-12;
 
-/// Where the unknown of the loop has to be.
+/// The set of places that the unknown of the loop can have.
 enum Places {
     /// Anywhere.
     All,
@@ -142,7 +142,8 @@ impl SsDyadQuestion<'_> {
         })
     }
 
-    /// How fast the square of the distance of the centres changes with the unknown, upside down and over the unit.
+    /// Returns the reciprocal of the derivative of the squared distance of the centres with respect to the unknown, over the
+    /// unit.
     fn condition(&self, pair: &[Value; 2]) -> f64 {
         let [_, first, second] = equation(self.ss_dyad).map(|x| x.to_f64());
         let value = |root: &Root| root.ball(64).map_or(Complex::ZERO, |b| Complex::new(b.re.to_f64(), b.im.to_f64()));
@@ -213,7 +214,7 @@ fn zero() -> Disc {
     Disc::point(Float::new(BITS), Float::new(BITS))
 }
 
-/// Whether the square of a sine is 0, or as good as that.
+/// Returns whether the square of a sine is 0 or negligible.
 fn is_nothing(square: &Disc) -> bool {
     square.at_most() < Float::with_val(64, 1) >> (2 * SAME)
 }

@@ -21,12 +21,12 @@ use rug::Rational;
 
 type Rotation = [[Rational; 3]; 3];
 
-/// What closes a loop of few revolute joints.
+/// The solution set of a loop of few revolute joints.
 #[derive(Debug, PartialEq)]
 enum Closing {
     /// Nothing does: this far off is what has to vanish, in cosines, or lengths over the mean link.
     Open(f64),
-    /// A family of so many dimensions.
+    /// A family of this dimension.
     Moving(usize),
     /// One choice of cosines and sines of the rotations and, alone, of distances; none of virtual joints.
     Closed(Box<[Option<(Rational, Rational)>; 6]>),
@@ -96,7 +96,7 @@ impl OverconstrainedLoop {
             condition: dense::inverse(jacobian)
                 .map_or(f64::INFINITY, |inverse| dense::norm(jacobian) * dense::norm(&inverse)),
             certified: true,
-            // Of cosine, sine and arctangent, or of one rounding.
+            // A bound on the rounding of cosine, sine and arctangent, or of one rounding.
             radius: 4.0 * f64::EPSILON * largest,
             within_limits: within,
             near: false,
@@ -109,7 +109,7 @@ impl OverconstrainedLoop {
     }
 }
 
-/// What closes a loop of at most two rotations; `None` for more, and for two parallel ones.
+/// Returns the solution set of a loop of at most two rotations; `None` for more, and for two parallel ones.
 fn close(closed: &ClosedLoop<Rational>, is_idle: [bool; 6], unit: &Rational) -> Option<Closing> {
     let turns = |j: &usize| !is_idle[*j] && closed.variables[*j] == Variable::Rotation;
     let turning: Vec<usize> = (0..6).filter(turns).collect();
@@ -198,7 +198,7 @@ fn bridged<'a>(
         let free = (0..3).filter(|row| !used.contains(row));
         let largest = free.max_by(|&a, &b| columns[column][a].clone().abs().cmp(&columns[column][b].clone().abs()));
         let Some(pivot) = largest.filter(|&row| columns[column][row] != 0) else {
-            // Dependent on those before: of no use for the gap.
+            // This column depends on those before it and adds nothing.
             used.push(usize::MAX);
             continue;
         };

@@ -1,4 +1,4 @@
-//! What the exact side knows of one set of legs: how many poses there are, and where.
+//! Exact results for one set of legs: the number of poses, and the poses.
 
 use super::roots::are_all_matched;
 use crate::algebra::drawn;
@@ -55,11 +55,11 @@ impl Search<'_> {
 
 /// Words of 64 bits in which poses are looked for that f64 does not reach.
 const LIMBS: usize = 6;
-/// The same where these are not enough: a border basis may lose eight times the digits by which the data differ from those of a
-/// special platform, and 15 digits are ordinary.
+/// Limbs of a second attempt: a border basis may lose eight times the digits by which the data differ from those of a special
+/// platform, and 15 digits are ordinary.
 const MORE_LIMBS: usize = 15;
 
-/// How many roots of a polynomial are simple.
+/// Returns the number of simple roots of a polynomial.
 fn simple_roots(polynomial: &PlatformPolynomial) -> usize {
     let factors = Univariate::new(polynomial.coefficients.clone()).square_free_decomposition();
     factors.iter().filter(|(_, multiplicity)| *multiplicity == 1).filter_map(|(factor, _)| factor.degree()).sum()
@@ -95,7 +95,7 @@ impl ExactSide<'_> {
         search.assembly.self_motion = 0;
         let (mut is_repeated, mut is_longer) = (false, false);
         if poses == MOST_POSES && known.is_none() {
-            // What f64 does not reach, the exact data do.
+            // Poses that f64 does not reach are computed from the exact data.
             self.solve_in_high_precision::<LIMBS>(search, poses);
             is_repeated = true;
             // Platforms near special ones have simple poses that take more digits.
@@ -175,7 +175,7 @@ fn polynomial(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Option<
     platform_polynomial(platform, squares).or_else(|| multiple_platform_polynomial(platform, squares))
 }
 
-/// What is said of solutions that are no poses.
+/// Describes the solutions that are no poses.
 fn beside(null: usize, curves: bool) -> String {
     match (null, curves) {
         (_, true) => ", beside curves of solutions with N = 0, which are no poses".to_owned(),
@@ -184,7 +184,7 @@ fn beside(null: usize, curves: bool) -> String {
     }
 }
 
-/// As many poses as a theorem on the geometry allows.
+/// Returns the bound that a theorem on the geometry gives.
 fn at_most(most: usize, why: &str) -> Bound {
     let because = format!("at most {most} that such a platform can have: {why}");
     Bound { count: most, proof: Proof::Proved, code: Code::GeometryBoundMet, because }

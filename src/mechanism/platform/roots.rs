@@ -25,8 +25,8 @@ fn interval(coordinate: &Coordinate, mode: &PlatformMode) -> Option<(f64, f64)> 
     (least > 0.0 && error.is_finite()).then_some((value - error, value + error))
 }
 
-/// Whether every real root of the polynomial is the value of as many listed real modes, with multiplicity, as it counts: no
-/// real pose is missing then.
+/// Returns whether every real root of the polynomial is the value of listed real modes whose multiplicities add up to its own, so
+/// that no real pose is missing.
 pub fn are_all_matched(polynomial: &PlatformPolynomial, modes: &[PlatformMode]) -> bool {
     let mut roots = Univariate::new(polynomial.coefficients.clone()).real_roots();
     for root in &mut roots {

@@ -1,4 +1,4 @@
-//! Which conditions of a pose an arm of few joints is asked to meet, and which joints of an arm of many are held.
+//! The conditions of a pose imposed on an arm of few joints, and the joints held in an arm of many.
 
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::forward::{Forward, Twist};
@@ -24,7 +24,7 @@ const ALL: [VirtualJoint; 6] = [
     VirtualJoint { variable: Variable::Translation, axis: 2 },
 ];
 
-/// What a virtual joint leaves free, in words.
+/// Describes in words the motion that a virtual joint leaves free.
 pub(super) fn words(joint: VirtualJoint) -> String {
     let what = match joint.variable {
         Variable::Rotation => "rotation about",
@@ -159,7 +159,7 @@ fn configuration(forward: &Forward, limits: &[[f64; 2]], held: &[(usize, f64)], 
     forward.variables().iter().enumerate().map(value).collect()
 }
 
-/// All choices of so many of the numbers below `total`.
+/// Returns all subsets of `count` of the numbers below `total`.
 fn subsets(total: usize, count: usize) -> Vec<Vec<usize>> {
     if count == 0 {
         return vec![Vec::new()];

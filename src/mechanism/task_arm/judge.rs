@@ -77,7 +77,7 @@ impl TaskArm {
             }
         }
         let all_miss = others.iter().filter(|other| other.mode.real).all(|other| self.surely_misses(other, tolerance));
-        // What moves may meet the conditions only, not the pose.
+        // A family may meet the conditions only, and not the pose.
         let families = &mut solution.families;
         for family in families.iter_mut() {
             self.measure(family, pose, tolerance);
@@ -141,7 +141,7 @@ impl TaskArm {
         Some(nearest(&self.forward, &start, &moving, &pose.float, tolerance))
     }
 
-    /// Whether a configuration is another one than a mode.
+    /// Returns whether a configuration differs from a mode.
     fn are_apart(&self, mode: &FullMode, q: &[f64]) -> bool {
         let variables = self.forward.variables();
         mode.q.iter().zip(q).zip(variables).any(|((one, other), variable)| {

@@ -25,12 +25,12 @@ use std::sync::OnceLock;
 
 /// Most free joints of an arm whose pose is asked for: one freedom is a family of curves.
 const MOST_FREE: usize = 7;
-/// How many choices of conditions are tried at a pose at which one leaves something open.
+/// Number of choices of conditions tried at a pose where one of them leaves a question open.
 const MOST_CHOICES: usize = 4;
-/// What a pose of few joints may be off where nothing else is asked for.
+/// Tolerance of a pose of few joints where no other one is given.
 const OF_FEW: Tolerance = Tolerance { length: 1e-6, angle: 1e-6 };
 
-/// What only the answer to a pose of an arm of few or many joints has.
+/// The part of an answer that only an arm of few or many joints has.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArmAnswer {
     /// The conditions of the pose that the verdict is about; none where it is about the whole task.
@@ -54,7 +54,7 @@ pub(super) struct TaskArm {
     plan: Plan,
 }
 
-/// How the loop comes to six unknowns.
+/// The way in which the loop is completed to six unknowns.
 enum Plan {
     /// It has them.
     Whole(Box<Inner>),
@@ -257,7 +257,7 @@ impl TaskArm {
     }
 }
 
-/// What a search works with.
+/// The tools of a search.
 struct Tools<'a> {
     roots: Roots,
     tolerance: Option<Tolerance>,

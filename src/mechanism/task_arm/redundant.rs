@@ -21,7 +21,7 @@ use std::sync::OnceLock;
 const PLACES: [f64; 7] = [0.5, 0.25, 0.75, 0.375, 0.625, 0.125, 0.875];
 /// Half-angle tangents are rounded to multiples of one over this: short numbers make exact work short.
 const PARTS: f64 = 16.0;
-/// How many choices of joints to hold are tried where several are held.
+/// Number of choices of held joints that are tried where several joints are held.
 const CHOICES: usize = 2;
 /// A joint moves along a family where its part of the motion is larger.
 const MOVES: f64 = 1e-7;
@@ -74,7 +74,7 @@ pub(super) fn free(solution: &mut Solution, joint: usize) {
 }
 
 impl TaskArm {
-    /// The ways in which so many more joints are held, those that leave the loop most regular first.
+    /// Returns the ways to hold `more` further joints, those that leave the loop most regular first.
     pub(super) fn with_more_held(&self, more: usize) -> Vec<Inner> {
         let free: Vec<usize> = self.kept(&Inner { held: self.held.clone(), ..Inner::default() });
         let choices = self.trial().held(more, &self.behind(&Placement::identity()));
@@ -102,7 +102,7 @@ impl TaskArm {
         let (lists, roots) = (std::mem::replace(&mut with.workspace.only_lists, true), with.roots);
         with.roots = Roots::Real;
         let mut answer = self.met(more, ways, case, pose, with);
-        // Where rounding took the pose out of reach, what comes near it is beside complex solutions.
+        // Where rounding put the pose out of reach, near configurations lie beside complex solutions.
         if roots == Roots::All && answer.as_ref().is_ok_and(|solution| solution.families.is_empty()) {
             with.roots = Roots::All;
             answer = self.met(more, ways, case, pose, with);
@@ -126,7 +126,7 @@ impl TaskArm {
         for inner in ways {
             let (solution, found) = match self.by(inner, case, pose, with) {
                 Ok(answer) => answer,
-                // With some joints held the others may be dependent: others are held then.
+                // With some joints held the others may be dependent: another choice is then held.
                 Err(error) if error.unsupported().is_some() => continue,
                 Err(error) => return Err(error),
             };

@@ -20,7 +20,7 @@ pub(super) struct Tracer<'a> {
     of: &'a TaskArm,
     pose: &'a Placement,
     curve: Curve,
-    /// What need not close better than this, in radians and scaled lengths.
+    /// Residual up to which near configurations count as closed, in radians and scaled lengths.
     within: f64,
     tolerance: Tolerance,
     /// For every variable of a point the joint of the arm; none for virtual joints.
@@ -31,9 +31,9 @@ pub(super) struct Tracer<'a> {
 /// A family that was met.
 struct Found {
     piece: Piece,
-    /// How far it stays from the pose.
+    /// Its largest distance from the pose.
     distance: f64,
-    /// What its points close the loop within.
+    /// Residual within which its points close the loop.
     within: f64,
 }
 
@@ -67,8 +67,8 @@ impl<'a> Tracer<'a> {
         is_whole.then_some(Self { of, pose, curve, within, tolerance, joints, found: Vec::new() })
     }
 
-    /// Follows the families through a configuration, unless they are known. What only comes near the pose need not close
-    /// exactly.
+    /// Follows the families through a configuration, unless they are known. A configuration that only comes near the pose need
+    /// not close exactly.
     pub(super) fn follow(&mut self, q: &[f64], is_near: bool) {
         let start: Point = std::array::from_fn(|k| self.joints[k].map_or(0.0, |joint| q[joint]) / self.curve.unit(k));
         let within = if is_near { self.within } else { CLOSES_WITHIN };
@@ -83,7 +83,7 @@ impl<'a> Tracer<'a> {
             let is_known =
                 |known: &Found| known.piece.dimension >= piece.dimension && explorer.holds(&known.piece, &middle);
             let Some(distance) = self.distance(&piece).filter(|_| !self.found.iter().any(is_known)) else { continue };
-            // What is held by a family of a larger dimension is a part of it.
+            // A family contained in one of a larger dimension is dropped as a part of it.
             self.found.retain(|known| {
                 let middle = &known.piece.trace.points[known.piece.trace.points.len() / 2];
                 known.piece.dimension >= piece.dimension || !explorer.holds(&piece, middle)
@@ -92,7 +92,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// How far a family stays from the pose: 0 where that is rounding; `None` beyond the tolerance.
+    /// Returns the largest distance of a family from the pose: 0 where it is rounding; `None` beyond the tolerance.
     fn distance(&self, piece: &Piece) -> Option<f64> {
         let points = &piece.trace.points;
         let stride = points.len().div_ceil(LOOKED_AT);
@@ -108,7 +108,7 @@ impl<'a> Tracer<'a> {
         misses.iter().all(|miss| self.tolerance.allows(miss)).then_some(worst)
     }
 
-    /// What was met, cut by the joint limits.
+    /// Returns the families found, cut by the joint limits.
     pub(super) fn families(&self) -> Vec<Family> {
         let joints = Joints { variables: self.of.forward.variables(), limits: &self.of.limits };
         let family = |found: &Found| {
@@ -127,7 +127,7 @@ impl<'a> Tracer<'a> {
             };
             joints.families(&shape, &between)
         };
-        // What reaches the pose exactly comes first.
+        // Families that reach the pose exactly come first.
         let (exact, near): (Vec<&Found>, Vec<&Found>) = self.found.iter().partition(|found| found.distance == 0.0);
         exact.into_iter().chain(near).flat_map(family).collect()
     }
