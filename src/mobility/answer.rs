@@ -1,4 +1,4 @@
-//! What is answered when it is asked whether a mechanism moves.
+//! The answer to the question whether a mechanism moves.
 
 use super::order::Local;
 use crate::kinematics::closed_loop::Variable;
@@ -10,7 +10,7 @@ use crate::verdict::{Code, Proof};
 pub struct JointVariable {
     /// Its joint, from 1.
     pub joint: usize,
-    /// What it does.
+    /// Its kind.
     pub variable: Variable,
 }
 
@@ -24,14 +24,14 @@ pub struct Configuration {
     pub degree: usize,
     /// Rank of the joint screws.
     pub rank: usize,
-    /// What the configurations near this one form.
+    /// The set that the configurations near this one form.
     pub local: Local,
-    /// Which joint variables move along the curve or in the manifold.
+    /// Marks the joint variables that move along the curve or in the manifold.
     pub moving: Vec<bool>,
     /// The branch it lies on, numbered from 0; `None` if it does not move. Configurations that a curve passes one after the other
     /// are of one branch.
     pub branch: Option<usize>,
-    /// What the axes have in common, in words.
+    /// The common property of the axes, in words.
     pub system: String,
     /// A basis of the screws reciprocal to all joints: of the wrenches that the loop can hold in itself, its redundant
     /// constraints.
@@ -54,31 +54,32 @@ impl Configuration {
 /// The joint variables that were held to find the configurations, with their values.
 pub type Held = Vec<(usize, f64)>;
 
-/// Whether and how a loop moves.
+/// The mobility of a loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mobility {
     /// The joint variables; of a platform the lengths of its legs.
     pub variables: Vec<JointVariable>,
-    /// How many equations bind them in general: six round a loop, none in an open chain, of a platform one for every leg.
+    /// The number of equations that bind them in general: six round a loop, none in an open chain, one for every leg of a
+    /// platform.
     pub equations: usize,
     /// The rank of the screws where it is known without a configuration: of an arm in general position, of a platform that of the
     /// lines of its legs.
     pub general_rank: Option<usize>,
     /// The dimension of the largest motion found: 0 when the loop is immobile, `None` when that is not decided.
     pub mobility: Option<usize>,
-    /// What that rests on.
+    /// The proof of that.
     pub proof: Proof,
     /// The reason as a code.
     pub code: Code,
     /// The order to which an immobile loop is shaky: the multiplicity of its configuration, 2 or more.
     pub shaky: Option<usize>,
-    /// What was held.
+    /// The held joints.
     pub held: Held,
     /// The real configurations there; of an immobile loop all of them. Every one of a mobile loop lies on a branch.
     pub configurations: Vec<Configuration>,
     /// The number of configurations, complex ones included.
     pub complex: usize,
-    /// Whether these are all configurations there, or more may have been missed.
+    /// Whether all configurations are listed, or some may be missing.
     pub is_listed: bool,
     /// Why.
     pub reason: String,

@@ -1,4 +1,4 @@
-//! Which configurations of a mobile loop lie on one and the same curve: the curve is followed in floating point.
+//! Configurations of a mobile loop that lie on one and the same curve: the curve is followed in floating point.
 
 use super::answer::Configuration;
 use super::order::Germ;
@@ -134,7 +134,8 @@ impl Curve<'_> {
         DVector::from_fn(from.len(), |k, _| difference(k))
     }
 
-    /// The joint screws at a place, as many rows as columns at least, and what is left of the closure equations.
+    /// Returns the joint screws at a place, padded to at least as many rows as columns, and the residual of the closure
+    /// equations.
     pub(super) fn equations(&self, at: &DVector<f64>) -> (DMatrix<f64>, DVector<f64>) {
         let value = |(x, variable): (&f64, &Variable)| -> JointValue<f64> {
             match variable {
@@ -162,7 +163,7 @@ impl Curve<'_> {
         let (values, rows) = (svd.singular_values, svd.v_t?);
         let least = MOTION * values.amax();
         let ahead = match before {
-            // Where curves cross, there are several: the one that goes on straight.
+            // Where curves cross there are several tangents: the one that goes straight on is taken.
             Some(before) => (0..values.len())
                 .filter(|k| values[*k] <= least.max(values.min()))
                 .map(|k| rows.row(k).transpose())

@@ -1,4 +1,4 @@
-//! How many configurations a chain that does not move can have, by exact arithmetic alone.
+//! The number of configurations that a chain that does not move can have, by exact arithmetic alone.
 
 use super::stillness::conditions;
 use crate::algebra::determinant::{by_interpolation, determinant};
@@ -31,13 +31,13 @@ pub fn count(linkage: &Linkage<Rational>) -> Option<usize> {
     }
 }
 
-/// No more configurations, complex ones included, has a chain of six joint variables than this: the least number of values that
-/// the conditions of the cuts leave a rotation k, over the rotations until it is down to `enough`.
+/// Returns an upper bound on the number of configurations, complex ones included, of a chain of six joint variables: the least
+/// number of values that the conditions of the cuts leave a rotation k. It tries rotations until the bound is down to `enough`.
 ///
-/// The conditions of the cuts that hide variable h, with k held, are polynomials in both tangents, and every configuration is
-/// a common zero of all of them. Their resultants by h are polynomials in the tangent of k, for every other variable h. The
-/// common divisor of all has as many zeros at least as there are configurations, those with the angle pi at infinity. It is
-/// computed modulo a prime, where its degree can only be greater.
+/// The conditions of the cuts that hide variable h, with k held, are polynomials in both tangents, and every configuration is a
+/// common zero of all of them. Their resultants by h are polynomials in the tangent of k, for every other variable h. The common
+/// divisor of all has at least as many zeros as there are configurations, those with the angle pi at infinity. It is computed
+/// modulo a prime, where its degree can only be greater.
 ///
 /// # Panics
 /// Unless there are six joint variables.
@@ -66,7 +66,7 @@ pub fn at_most(linkage: &Linkage<Rational>, enough: usize) -> Option<usize> {
     least
 }
 
-/// What is left of the values of one rotation.
+/// The values of one rotation that the conditions leave.
 #[derive(Default)]
 struct Values {
     /// The common divisor of all resultants, and the least multiplicity of its zero at infinity.
@@ -97,7 +97,7 @@ impl Values {
         }
     }
 
-    /// How many values are left, without those that belong to no angle: of tangent i over the length of the axis.
+    /// Returns the number of remaining values, without those that belong to no angle: tangent i over the length of the axis.
     fn count(&self, square: Mod) -> Option<usize> {
         let (divisor, at_infinity) = self.common.as_ref()?;
         let circle = Univariate::new(vec![Mod::one(), Mod::zero(), square]);

@@ -1,4 +1,4 @@
-//! Whether the loop of an entry moves.
+//! The decision whether the loop of an entry moves.
 
 use super::answer::{Configuration, JointVariable, Mobility};
 use super::branches::branches;
@@ -174,7 +174,7 @@ impl Subject<'_> {
         let degree = ground.field.degree();
         let field = format!("in the number field of degree {degree} of the file");
         if self.variables.len() <= 6 && ground.residue().is_some_and(|image| all_stand_still_modulo(&image)) {
-            // Where they are known to stand still, the rounded loop tells which configurations there are.
+            // Where the joints are known to stand still, the rounded loop gives the configurations.
             let rounded =
                 if self.variables.len() < 6 { self.immobile(Some(STILL)) } else { self.structure(Some(STILL))? };
             let reason = format!("{STILL} ({field}); the loop with its numbers rounded: {}", rounded.reason);
@@ -238,7 +238,7 @@ impl Subject<'_> {
         }
     }
 
-    /// The same by exact arithmetic alone.
+    /// Decides by exact arithmetic alone.
     fn exactly(&self) -> Result<Mobility> {
         let is_short = self.variables.len() < 6;
         // Angles at which two axes of a spherical joint coincide would hide that it stands still.
@@ -321,8 +321,8 @@ impl Subject<'_> {
         }
     }
 
-    /// Loops of up to five variables in which no curve was found: all their configurations. `why` says how it is known that
-    /// there is none, if it is.
+    /// Answers for loops of up to five variables in which no curve was found, with all their configurations. `why` is the reason
+    /// why there is no curve, if it is known.
     fn immobile(&self, why: Option<&str>) -> Mobility {
         let mobility = why.map(|_| 0);
         let nothing = why.unwrap_or("no motion was found through any value of a joint");
@@ -377,8 +377,8 @@ impl Subject<'_> {
         };
         let verdict = &solution.verdict;
         let is_complete = is_complete(verdict);
-        // As many isolated configurations as loops of this kind can have leave none for a curve. They are those of unit axes: of
-        // axes of irrational length rounded ones.
+        // If there are as many isolated configurations as loops of this kind can have, there is no curve. The configurations are
+        // those of unit axes, which are rounded where an axis has irrational length.
         let meets_bound = verdict.certified == MOST_SOLUTIONS
             || verdict.proof.is_proved()
                 && verdict.code == Code::GeneralBoundMet
@@ -418,7 +418,7 @@ impl Subject<'_> {
             why.unwrap_or("no motion was found through any value of a joint, but that there is none is not proved")
         };
         let reason = format!("{what}: {}; {curves}", verdict.reason);
-        // Which configurations there are is another question than whether one of them moves.
+        // The list of configurations has a proof of its own, apart from the proof that none of them moves.
         let is_listed = verdict.proof.is_proved();
         Ok(Mobility { shaky, configurations, complex, is_listed, ..self.answer(Some(0), rests_on(is_proved), reason) })
     }
@@ -495,7 +495,7 @@ impl Subject<'_> {
     }
 }
 
-/// What it rests on that there is no curve of configurations.
+/// Returns the proof and the code for the absence of a curve of configurations.
 fn rests_on(is_proved: bool) -> (Proof, Code) {
     if is_proved { (Proof::Proved, Code::NoCurve) } else { (Proof::None, Code::NotDecided) }
 }

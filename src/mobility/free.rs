@@ -37,7 +37,7 @@ const STEP: f64 = 0.6;
 const CLOSED: f64 = 1e-11;
 /// Screws are independent if what one adds to the others is more than this part of the largest.
 const INDEPENDENT: f64 = 1e-4;
-/// How much rather a joint variable of another joint than of a spherical joint is held.
+/// Factor by which a joint variable is preferred for holding if it is not in a spherical joint.
 const SPHERICAL: f64 = 8.0;
 /// Decimal digits of values at which joints are held.
 const DIGITS: u32 = 3;
@@ -47,7 +47,7 @@ const ROUNDED: f64 = 1e-12;
 const BITS: u32 = 256;
 
 impl Subject<'_> {
-    /// Whether and how a loop of seven variables or more moves.
+    /// Decides the mobility of a loop of seven variables or more.
     pub(super) fn free(&self) -> Mobility {
         if let Outcome::Mobile(found) = search_group(&self.linkage, &self.spherical_joints()) {
             return self.rounded(self.mobile(found));
@@ -173,7 +173,7 @@ impl Subject<'_> {
                         (InputValue::Distance(distance), length)
                     }
                 };
-                // What a single input cannot hold is held otherwise.
+                // A joint that a single input cannot hold is held in another way.
                 let solution = solve(self.entry, Case::given(Input { joint, value }, 0), false).ok()?;
                 let certified: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real && m.certified).collect();
                 if !certified.is_empty() {
@@ -185,7 +185,7 @@ impl Subject<'_> {
         None
     }
 
-    /// Which joint variables are those of spherical joints, and where the spherical joints begin.
+    /// Returns the indices at which the joint variables of spherical joints begin.
     pub(super) fn spherical_joints(&self) -> Vec<usize> {
         let kinds = self.chain.joint_kinds();
         let is_spherical = |k: usize| kinds[self.variables[k].joint - 1] == JointKind::Spherical;
@@ -203,12 +203,12 @@ fn search_group(linkage: &Linkage<Rational>, spherical_joints: &[usize]) -> Outc
     Some(search(linkage, spherical_joints)).filter(is_group).unwrap_or(Outcome::Nothing)
 }
 
-/// Closes a loop in floating point and holds as many of its joints as leave six unknowns.
+/// Closes a loop in floating point and holds joints until six unknowns are left.
 struct Assembler<'a> {
     subject: &'a Subject<'a>,
     floating: Linkage<f64>,
     unit: f64,
-    /// Where the starts that were tried have ended, and what is left of the equations there.
+    /// The ends of the starts that were tried, with the residuals of the equations there.
     ends: Vec<(DVector<f64>, f64)>,
 }
 
@@ -227,8 +227,8 @@ impl<'a> Assembler<'a> {
         self.ends.iter().map(|(_, residual)| *residual).fold(f64::INFINITY, f64::min)
     }
 
-    /// Where Newton's method ends from one start, half angles and half distances over the unit, and what is left of the
-    /// equations.
+    /// Returns the end of Newton's method from one start, as half angles and half distances over the unit, and the residual of
+    /// the equations.
     fn approached(&self, start: u32) -> (DVector<f64>, f64) {
         // Digits of a fixed generator: the same every time.
         let mut state = u64::from(start).wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(0x2545_F491_4F6C_DD1D);

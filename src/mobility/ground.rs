@@ -24,7 +24,7 @@ const MULTIPLIERS: i32 = 12;
 pub(super) struct Grounded {
     pub(super) field: RealField,
     pub(super) linkage: Linkage<Algebraic>,
-    /// Where the three variables of spherical joints begin.
+    /// Indices at which the three variables of spherical joints begin.
     pub(super) spherical_joints: Vec<usize>,
 }
 
@@ -95,7 +95,7 @@ impl Grounded {
         Cut::<Algebraic>::all(n).find_map(|cut| self.separated(&linkage, &Cut::of(&linkage, cut)))
     }
 
-    /// What one cut finds, as [`crate::exact::positions::positions`] does over the rationals.
+    /// Returns the positions that one cut finds, as [`crate::exact::positions::positions`] does over the rationals.
     fn separated(&self, linkage: &Linkage<Algebraic>, cut: &Cut<Algebraic>) -> Option<Vec<Conjugates>> {
         let conditions = cut.conditions(|matrix| determinant::by_interpolation(matrix));
         let determinant = conditions.into_iter().reduce(|a, b| a.gcd(&b))?;

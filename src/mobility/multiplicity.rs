@@ -1,4 +1,4 @@
-//! How often an isolated position counts: the dimension of its local ring, order by order.
+//! The multiplicity of an isolated position: the dimension of its local ring, order by order.
 
 use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::Field;

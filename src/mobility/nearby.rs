@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// Values of the joint that is held: more than a loop of six joints has parameters.
 const VALUES: usize = 24;
-/// At least at so many of them the loop has to close, nearly.
+/// Least number of places at which the loop has to close, nearly.
 const FEWEST: usize = 16;
 /// Starts from which it is closed for the first time.
 const STARTS: u32 = 30;
@@ -22,7 +22,7 @@ const NEARLY: f64 = 1e-2;
 const CLOSED: f64 = 1e-11;
 /// Corrections of the links.
 const CORRECTIONS: usize = 8;
-/// How much rather a joint moves than a link changes.
+/// Weight by which a joint is moved rather than a link changed.
 const JOINTS: f64 = 1e3;
 /// Singular values below this part of the largest count as none.
 const LEAST: f64 = 1e-10;
@@ -33,9 +33,9 @@ pub(super) struct Nearby {
     pub held: usize,
     /// At how many values of it the loop was closed, half of them not used to find it.
     pub values: usize,
-    /// How far the links are turned at most, in radians.
+    /// The largest rotation of a link, in radians.
     pub turn: f64,
-    /// How far they are shifted at most.
+    /// The largest shift of a link.
     pub shift: f64,
 }
 
@@ -46,7 +46,7 @@ pub(super) fn nearby(linkage: &Linkage<Rational>) -> Option<Nearby> {
     let held = linkage.variables.iter().position(|variable| *variable == Variable::Rotation)?;
     let places = nearby.around(held)?;
     let (places, [turn, shift]) = nearby.corrected(held, places)?;
-    // What was not asked of the links shows whether they move.
+    // Points between the places, at which the links were not adapted, show whether they move.
     let between = places.windows(2).all(|pair| {
         let mut at = (&pair[0] + &pair[1]) / 2.0;
         at[held] = f64::midpoint(pair[0][held], pair[1][held]);
@@ -168,8 +168,8 @@ impl Approach {
         (largest < CLOSED).then(|| (places, [most(0), most(3) * self.unit]))
     }
 
-    /// What small half turns about, and half shifts along, the axes of the frame behind each link add to the closure equations, as
-    /// [`Curve::equations`] has them.
+    /// Returns the derivatives of the closure equations, as in [`Curve::equations`], by small half rotations about, and half
+    /// shifts along, the axes of the frame behind each link.
     fn of_links(&self, at: &DVector<f64>) -> DMatrix<f64> {
         let n = self.linkage.variables.len();
         let value = |k: usize| match self.linkage.variables[k] {

@@ -1,4 +1,4 @@
-//! What moves without closing a loop of its own: arms, and platforms with locked legs.
+//! Mechanisms that move without a closed loop of their own: arms, and platforms with locked legs.
 
 use super::answer::{JointVariable, Mobility};
 use super::decision::solve;

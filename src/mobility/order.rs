@@ -10,13 +10,14 @@ use crate::kinematics::screw_system::{Screw, ScrewSystem};
 /// position of any chain of up to six can have.
 pub const MOST_SOLUTIONS: usize = 16;
 
-/// What is known of the positions near one position of a chain.
+/// The set of positions near one position of a chain.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Local {
     /// The chain does not close here.
     Open,
-    /// The screws of the joint variables that can move span the Lie algebra of a group of motions, or those of two groups in
-    /// two arcs of the loop: the positions near this one form a smooth manifold of this dimension, as many as the joint variables are more than the rank.
+    /// The screws of the joint variables that can move span the Lie algebra of a group of motions, or the algebras of two groups
+    /// in two arcs of the loop: the positions near this one form a smooth manifold of this dimension, the number of joint
+    /// variables minus the rank.
     Manifold {
         /// Its dimension.
         dimension: usize,
@@ -38,7 +39,7 @@ pub enum Local {
 /// A position of a chain and the positions near it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Germ<F> {
-    /// What the positions near this one form.
+    /// The set that the positions near this one form.
     pub local: Local,
     /// The rank of the joint screws.
     pub rank: usize,
@@ -53,8 +54,8 @@ pub struct Germ<F> {
 impl<F: Field> Germ<F> {
     /// Decides what the positions near this one form, if the field is exact. Over an inexact field it is a measurement.
     ///
-    /// The closure equations of the position, all joints at 0, are solved order by order for as many joint variables as
-    /// the screws are independent, as power series of the remaining one; the equations left over are the reduced ones.
+    /// The closure equations of the position, all joints at 0, are solved order by order for a set of joint variables with
+    /// independent screws, as power series of the remaining one; the equations left over are the reduced ones.
     /// Over a prime field an order found is an upper bound of the order over the rationals.
     ///
     /// # Source
@@ -64,8 +65,8 @@ impl<F: Field> Germ<F> {
         Self::of_conjugates(position, 1)
     }
 
-    /// The same for a position that has at least so many conjugates, itself included: being isolated of the same multiplicity,
-    /// they share the highest multiplicity possible.
+    /// As [`Self::of`] for a position that has at least `conjugates` conjugates, itself included: they are isolated of the same
+    /// multiplicity and so share the highest multiplicity possible.
     ///
     /// # Panics
     /// When there are no conjugates.
@@ -203,7 +204,7 @@ impl<'a, F: Field> Expansion<'a, F> {
         times_axis(&self.products[k][0], self.position.variables[k], &self.position.axes[k])
     }
 
-    /// What each joint variable alone adds to the product of the closed chain, to first order.
+    /// Returns the derivatives of the product of the closed chain by each joint variable alone.
     fn screws(&self) -> Vec<[F; 6]> {
         let n = self.position.links.len();
         let mut behind = vec![one()];
@@ -283,7 +284,7 @@ impl<'a, F: Field> Expansion<'a, F> {
                 }
                 sum
             };
-            // Of an inexact field: beside what cancels in it.
+            // In an inexact field, zero is judged relative to the terms that cancel.
             let level = F::PIVOT_ZERO.sqrt() * rest.iter().map(F::pivot_size).fold(1.0, f64::max);
             let is_there = |x: F| if level > 0.0 { x.pivot_size() > level } else { is_unit(&x) };
             if left_over.iter().any(|row| is_there(along(row))) {

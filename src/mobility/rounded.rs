@@ -18,9 +18,9 @@ const CLOSED: f64 = 1e-13;
 const CEASING: f64 = CLOSED / 4.0;
 /// Inputs in a full turn, none of them special.
 const INPUTS: u32 = 180;
-/// At least so many neighbouring inputs make a range.
+/// Least number of neighbouring inputs that make a range.
 const FEWEST: usize = 12;
-/// Decimals of so many digits behind the point may be rounded numbers.
+/// Number of digits behind the point from which decimals may be rounded numbers.
 const LONG: u32 = 14;
 /// No decimal of more digits is looked at.
 const MOST_DIGITS: u32 = 64;
@@ -33,7 +33,7 @@ pub(super) struct Closing {
     pub modes: Vec<FullMode>,
     /// Largest residual in the range.
     pub residual: f64,
-    /// How many neighbouring inputs the range has, and how many were asked.
+    /// The number of neighbouring inputs in the range, and the number of inputs tried.
     pub inputs: (usize, usize),
 }
 

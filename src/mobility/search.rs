@@ -44,11 +44,11 @@ const TANGENTS: [(i32, i32); 24] = [
 /// Bits in which real configurations are evaluated before they are rounded.
 const BITS: u32 = 256;
 
-/// Over a number field joints are held at so many values, over the degree and the number of joint variables: arithmetic is
-/// dearer there, and a loop of ordinary numbers that moves is seen to move at the first ones.
+/// Over a number field the number of values at which joints are held is this, over the degree and the number of joint variables:
+/// arithmetic is slower there, and an ordinary loop that moves is recognised at the first values.
 const WORK: usize = 400;
 
-/// What holding joints showed.
+/// The result of holding joints.
 pub(super) struct Search {
     /// The joint variables held, and their values.
     pub held: Held,
@@ -68,14 +68,14 @@ pub(super) enum Outcome {
     Nothing,
 }
 
-/// Whether a chain of up to six joint variables moves, by proof: `None` where neither a real motion was found nor its absence
-/// proved.
+/// Decides by proof whether a chain of up to six joint variables moves: `None` where neither a real motion was found nor its
+/// absence proved.
 ///
 /// # Source
 /// docs/mobility.md, theorems 1, 2, 4, 5 and 6.
 #[must_use]
 pub fn moves(linkage: &Linkage<Rational>) -> Option<bool> {
-    // What is cheaper first.
+    // The cheaper test comes first.
     if all_stand_still(linkage) {
         return Some(false);
     }
@@ -173,7 +173,7 @@ struct Setting<'a> {
     /// Lengths of the axes.
     lengths: Vec<Float>,
     unit: Rational,
-    /// Where the three variables of spherical joints begin.
+    /// Indices at which the three variables of spherical joints begin.
     spherical_joints: &'a [usize],
     /// The loop in the field of some configurations.
     image: Image<'a>,
@@ -239,7 +239,7 @@ fn with_held(held: &[(usize, Rational)], conjugates: &Conjugates) -> Option<Vec<
         .collect()
 }
 
-/// What is known of conjugate configurations, exactly.
+/// The exact properties of conjugate configurations.
 struct Known {
     values: Vec<JointValue<Algebraic>>,
     germ: Germ<Algebraic>,
@@ -285,14 +285,14 @@ impl Known {
         Some(Self { values, germ, moving, system: description, redundant })
     }
 
-    /// The same in floating point, at one value of the root.
+    /// Returns the configuration in floating point, at one value of the root.
     fn configuration(&self, setting: &Setting, degree: usize, root: &Float) -> Configuration {
         let value = |x: &Algebraic| x.at(root).to_f64();
         let joint = |(k, [c, s]): (usize, &JointValue<Algebraic>)| {
             let (c, s) = (c.at(root), s.at(root) * &setting.lengths[k]);
             match setting.variables[k] {
                 Variable::Rotation => {
-                    // Of (c : s) and (-c : -s) the one within half a turn.
+                    // Of (c : s) and (-c : -s) the one within half a turn is taken.
                     let angle = if c < 0 { Float::with_val(BITS, -s).atan2(&-c) } else { s.atan2(&c) };
                     2.0 * angle.to_f64()
                 }
@@ -316,7 +316,7 @@ impl Known {
     }
 }
 
-/// What the real ones of these configurations are.
+/// Decides the real ones of these configurations.
 pub(super) fn decide(
     linkage: &Linkage<Rational>,
     spherical_joints: &[usize],
@@ -327,7 +327,7 @@ pub(super) fn decide(
 }
 
 impl Setting<'_> {
-    /// What the real ones of these configurations are.
+    /// Decides the real ones of these configurations.
     fn decide(&self, held: &[(usize, Rational)], found: &[Conjugates]) -> Search {
         let mut configurations = Vec::new();
         for conjugates in found.iter().filter(|conjugates| conjugates.real() > 0) {

@@ -14,11 +14,11 @@ use rug::Rational;
 type Mod = ModP<PRIME_61>;
 /// Values of half the angle's tangent, or half the distance, in the prime field: any would do, few are unlucky.
 const START: u64 = 0x9e37_79b9_7f4a_7c15 % PRIME_61;
-/// A condition has this degree at most in the variable that is held, so that as many values and one more tell it from zero.
+/// Largest degree of a condition in the held variable: one value more shows whether it is zero.
 const DEGREE: i32 = 4;
 
-/// Whether it is proved that no joint variable of a chain of up to six moves: none takes more than finitely many values in
-/// the configurations, complex ones included.
+/// Returns whether it is proved that no joint variable of a chain of up to six moves: each takes finitely many values in the
+/// configurations, complex ones included.
 ///
 /// # Source
 /// docs/mobility.md, theorems 5 and 6.
@@ -61,8 +61,8 @@ fn stands_still(linkage: &Linkage<Rational>, image: &Linkage<Mod>, k: usize) -> 
     others().any(|hidden| is_bound(image, k, hidden)) || others().any(|hidden| is_bound_exactly(linkage, k, hidden))
 }
 
-/// Whether the columns of a cut are independent at some value of the hidden variable: no configuration has that value, nor
-/// all but finitely many others.
+/// Returns whether the columns of a cut are independent at some value of the hidden variable: then only finitely many values have
+/// a configuration.
 fn is_separated<M: Field>(image: &Linkage<M>, cut: (usize, usize), k: usize) -> bool {
     let cut = Cut::of(image, cut);
     let t = value::<M>(k);
@@ -143,7 +143,7 @@ fn is_bound<M: Field + Domain>(image: &Linkage<M>, k: usize, hidden: usize) -> b
     Common::of(forms, is_trivial).is_some_and(|common| is_trivial(&common))
 }
 
-/// The same over the rationals, and with factors that belong to no motion left out.
+/// As [`is_bound`] over the rationals, without the factors that belong to no motion.
 fn is_bound_exactly(linkage: &Linkage<Rational>, k: usize, hidden: usize) -> bool {
     let is_improper = |common: &Common<Rational>| common.is_improper(linkage, hidden);
     (0..=DEGREE).all(|shift| {
@@ -151,8 +151,8 @@ fn is_bound_exactly(linkage: &Linkage<Rational>, k: usize, hidden: usize) -> boo
     })
 }
 
-/// Whether a joint variable that is known to stand still has no constant value that all cuts allow at several values of k: then k
-/// does not move, either.
+/// Returns whether a joint variable that is known to stand still has no constant value that all cuts allow at several values of
+/// k: then k does not move, either.
 fn is_without_value(linkage: &Linkage<Rational>, k: usize, constant: usize) -> bool {
     let is_improper = |common: &Common<Rational>| common.is_improper(linkage, constant);
     let forms = (0..3).flat_map(|shift| conditions_at(linkage, k, constant, shift));

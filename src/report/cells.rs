@@ -15,7 +15,7 @@ use rug::{Integer, Rational};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Longer polynomials are told by their degree.
+/// Polynomials longer than this are described by their degree.
 const LONGEST: usize = 1500;
 
 /// `theta1: 2 cells with 0 and 2 real modes, 2 zeros; proved`
@@ -56,7 +56,7 @@ fn unit(kind: Variable) -> &'static str {
     if kind == Variable::Rotation { "deg" } else { "m" }
 }
 
-/// What the variables are called.
+/// Returns the names of the variables.
 fn names(cells: &Cells) -> [&str; 2] {
     [&cells.variable, &cells.unknown]
 }

@@ -12,10 +12,10 @@ use std::fmt::Write;
 const PLANE: [f64; 2] = [560.0, 420.0];
 /// Room left of the plane, above, right and below it.
 const MARGIN: [f64; 4] = [72.0, 76.0, 120.0, 52.0];
-/// Colours for 0, 2, 4 ... real modes: from pale to dark, told apart by the colour-blind.
+/// Colours for 0, 2, 4 ... real modes: from pale to dark, distinguishable by the colour-blind.
 const SHADES: [&str; 9] =
     ["#f4f4f4", "#c6dbef", "#9ecae1", "#6baed6", "#4292c6", "#2171b5", "#08519c", "#08306b", "#041c40"];
-/// One in so many zeros lies outside the window of a length on either side: the outermost ones run to infinity.
+/// One zero in this many lies outside the window of a length on either side: the outermost ones run to infinity.
 const OUTSIDE: usize = 20;
 
 /// The picture of a map, an SVG document: angles in degrees, lengths in metres.
@@ -85,7 +85,7 @@ fn shade(modes: usize) -> &'static str {
     SHADES[modes.div_ceil(2).min(SHADES.len() - 1)]
 }
 
-/// What surrounds the columns.
+/// The frame around the columns.
 struct Picture<'e> {
     title: &'e str,
     verdict: String,

@@ -12,10 +12,10 @@ use serde_json::{Value, json};
 /// Largest number of decimals that a centre or a radius has.
 const DECIMALS: u32 = 30;
 
-/// The certificate of one case, which the checker of [`crate::certificate`] accepts.
+/// Returns the certificate of one case, which the checker of [`crate::certificate`] accepts.
 ///
 /// # Errors
-/// Says in a clause why there is none.
+/// A clause that says why there is none.
 pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solution) -> Result<Value, String> {
     let verdict = &solution.verdict;
     if !verdict.proof.is_proved() || !matches!(verdict.status, Status::Complete | Status::Unreachable) {
@@ -63,10 +63,10 @@ fn counted(closed: &Closed, solution: &Solution) -> Result<(Value, Vec<Ball>, Va
     Ok((claim, balls, proof))
 }
 
-/// The certificate of whether a loop moves, which the checker of [`crate::certificate`] accepts.
+/// Returns the certificate of the decision whether a loop moves, which the checker of [`crate::certificate`] accepts.
 ///
 /// # Errors
-/// Says in a clause why there is none.
+/// A clause that says why there is none.
 pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, String> {
     let dimension = match answer.mobility {
         Some(dimension @ 0..=1) if answer.proof.is_proved() => dimension,

@@ -31,7 +31,7 @@ fn is_rounded(ansatz: &Ansatz, decision: &Decision) -> bool {
     ansatz.rounded && decision.field.is_none()
 }
 
-/// What the answer rests on. Numbers that were rounded satisfy or break an equality that the true ones may not.
+/// Returns the proof of the answer. Rounded numbers may satisfy or break an equality that the true ones do not.
 #[must_use]
 pub fn proof(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Proof {
     if !theorem.is_proved() || decision.confirmed == Some(false) {

@@ -1,4 +1,4 @@
-//! What a search for conditions of 5R and 6R loops found: the verdict first, then what was tried; as text and JSON.
+//! The result of a search for conditions of 5R and 6R loops: the verdict first, then what was tried; as text and JSON.
 
 use super::table::Columns;
 use crate::algebra::polynomial::Polynomial;
@@ -19,7 +19,7 @@ use rug::Rational;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// How sure it is that what was found moves.
+/// The certainty that the mechanisms found move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Certainty {
     /// Proved for all parameters.
@@ -28,7 +28,7 @@ enum Certainty {
     Probable(u32),
     /// A member over the rationals is proved; nothing is said of the others.
     Member,
-    /// Not at all.
+    /// There is no proof.
     Conjecture,
 }
 
@@ -81,7 +81,7 @@ fn own_pattern(search: &Search) -> Option<&TwistPattern> {
     search.patterns.iter().find(|pattern| pattern.conditions.is_empty() && pattern.proved)
 }
 
-/// How sure it is that the members of an ansatz without unknown symbols move.
+/// Returns the certainty that the members of an ansatz without unknown symbols move.
 fn own_certainty(search: &Search) -> Certainty {
     let modular = search.modular.is_some_and(|modular| modular.all_move());
     match () {
@@ -92,7 +92,7 @@ fn own_certainty(search: &Search) -> Certainty {
     }
 }
 
-/// Whether what was found is proved, for the family that was asked for or for a member of it.
+/// Returns whether the result is proved, for the requested family or for a member of it.
 #[must_use]
 pub fn is_proved(search: &Search) -> bool {
     if let Some(fitted) = &search.fitted {
@@ -115,7 +115,7 @@ pub fn is_proved(search: &Search) -> bool {
     search.mobile_slices.iter().all(|slice| slice.proof.is_some()) && proper_slices(search).count() > 0
 }
 
-/// What the answer rests on. A bound on the probability of error comes from primes that are not drawn: nothing here is
+/// Returns the proof of the answer. The primes behind a bound on the probability of error are not drawn: nothing here is
 /// `probable`.
 #[must_use]
 pub fn proof(ansatz: &Ansatz, search: &Search) -> Proof {
@@ -142,7 +142,7 @@ fn conditions(list: &[Polynomial<Rational>], names: &Names) -> String {
     list.iter().map(|one| format!("{} = 0", condition(one, names))).collect::<Vec<_>>().join(", ")
 }
 
-/// What was found, with how far it is proved.
+/// Returns the result, and how far it is proved.
 #[must_use]
 pub fn verdict(ansatz: &Ansatz, search: &Search) -> String {
     if let Some(reason) = empty(ansatz, search) {
@@ -239,7 +239,7 @@ fn fit_verdict(ansatz: &Ansatz, search: &Search, fitted: &Fitted) -> String {
     format!("mobile where {}: {sure}{member}{}", found.join(", "), hypotheses(certainty, fitted.proof.as_ref()))
 }
 
-/// What the theorem for all parameters asks of a position.
+/// Returns the hypotheses of the theorem for all parameters about a position.
 fn hypotheses(certainty: Certainty, proof: Option<&FamilyProof>) -> &'static str {
     match proof.filter(|_| matches!(certainty, Certainty::Family)) {
         Some(FamilyProof::Multiplier(_)) => {
@@ -263,7 +263,7 @@ fn said(ansatz: &Ansatz, fitted: &Fitted) -> Vec<String> {
     angle.iter().cloned().chain(texts).collect()
 }
 
-/// What the positions near one form.
+/// Describes the set of positions near one position.
 fn local(germ: &Germ<Rational>) -> String {
     match &germ.local {
         Local::Curve => "a smooth curve of positions, zero through order 16".to_owned(),
@@ -632,7 +632,7 @@ pub fn json(ansatz: &Ansatz, search: &Search) -> Value {
     })
 }
 
-/// How sure what was found is; `None` where nothing was.
+/// Returns the certainty of the result; `None` where nothing was found.
 fn certainty(search: &Search) -> Option<Certainty> {
     match (&search.fitted, &search.curves) {
         (Some(fitted), _) if fitted.sweep.relations.is_empty() && !fitted.sweep.always => None,
@@ -718,10 +718,10 @@ fn loops(curves: &CurveSearch) -> Value {
     })
 }
 
-/// What was found as Markdown, conditions in LaTeX.
+/// Returns the result as Markdown, with conditions in LaTeX.
 ///
 /// # Errors
-/// Never for what searches find.
+/// None for the result of a search.
 pub fn markdown(ansatz: &Ansatz, search: &Search) -> Result<String> {
     let mut text = format!("# {}\n\n{}.\n", ansatz.title, verdict(ansatz, search));
     for (name, conditions, names) in families(ansatz, search) {

@@ -13,7 +13,7 @@ use rug::Rational;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Longer factors are told by their degree in a verdict.
+/// Factors longer than this are described by their degree in a verdict.
 const LONGEST_FACTOR: usize = 40;
 
 /// The name of the polynomial's variable.
@@ -253,7 +253,7 @@ pub fn paper(entry: &Entry, case: usize, derivation: &Derivation, found: &Substi
     paper_with(entry, case, derivation, found, style, None)
 }
 
-/// The same with what there is to say of one elimination of several: its name, its matrix, and what was divided out.
+/// Writes the paper with the part about one elimination of several: its name, its matrix, and the factors divided out.
 pub(super) fn paper_with(
     entry: &Entry,
     case: usize,
@@ -318,7 +318,7 @@ pub(super) fn paper_with(
     paper.finish()
 }
 
-/// What the variables of the equations are.
+/// Describes the variables of the equations.
 pub(super) fn unknowns(paper: &mut Paper<'_>, kind: Kind) {
     match kind {
         Kind::Platform => {

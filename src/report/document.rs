@@ -1,4 +1,4 @@
-//! What every JSON document says of its mechanism: names, units, joint variables, and what was understood of the file.
+//! The part about the mechanism in every JSON document: names, units, joint variables, and the interpretation of the file.
 
 use super::model;
 use crate::algebra::drawn;
@@ -80,7 +80,7 @@ fn joint_variables(entry: &Entry) -> Value {
     own.collect()
 }
 
-/// What the file calls the joint of every variable, else the name of the variable.
+/// Returns the name of each variable's joint in the file, else the name of the variable.
 #[must_use]
 pub fn labels(entry: &Entry) -> Vec<String> {
     let variables = entry.chain().map(crate::kinematics::chain::Chain::variables).unwrap_or_default();

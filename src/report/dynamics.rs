@@ -13,12 +13,12 @@ use crate::linkage::tree::hanging;
 use nalgebra::{DMatrix, DVector};
 use serde_json::{Map, Value, json};
 
-/// What is asked beside the accelerations.
+/// The results requested beside the accelerations.
 #[derive(Clone, Debug, Default)]
 pub struct Asked {
     /// The rates of the inputs; those not given are 0.
     pub rates: Vec<f64>,
-    /// Whether the forces in the joints are asked for.
+    /// Whether the forces in the joints are requested.
     pub forces: bool,
     /// The mode from which a motion is followed, its time, and the number of its rows.
     pub motion: Option<(usize, f64, usize)>,
@@ -102,7 +102,7 @@ fn reactions_json(linkage: &Linkage, reactions: &[Option<crate::linkage::dynamic
     Value::Object(linkage.joints.iter().zip(reactions).filter_map(one).collect())
 }
 
-/// Of linkages without loops: the path matrix, and the velocities of all bodies by it and by recursion.
+/// For linkages without loops: the path matrix, and the velocities of all bodies by it and by recursion.
 fn tree(linkage: &Linkage, case: &LinkageCase, rest: &[Body], rates: &[f64]) -> Option<Value> {
     let hanging = hanging(linkage)?;
     let rate = |k: usize| rates.get(k).copied().unwrap_or(0.0);

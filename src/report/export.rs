@@ -74,7 +74,7 @@ pub(super) fn relations(lines: &[Line], names: &Names) -> Vec<Line> {
     found
 }
 
-/// What a variable is, by its name; `None` for names that say it themselves.
+/// Returns the meaning of a variable by its name; `None` for names that explain themselves.
 fn meaning(name: &str) -> Option<String> {
     let number = |prefix: &str| name.strip_prefix(prefix).filter(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
     let list: [(&str, &str); 15] = [

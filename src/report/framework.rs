@@ -1,4 +1,4 @@
-//! Whether a framework moves, as text and JSON.
+//! The mobility of a framework as text and JSON.
 
 use super::document;
 use super::json::number;
@@ -113,7 +113,7 @@ pub fn text(file: &FrameworkFile, answer: &Mobility) -> String {
     text
 }
 
-/// What was seen of a motion.
+/// Describes the motion found in f64.
 fn seen(flex: &Flex) -> String {
     let steps = flex.positions.len() - 1;
     if steps == 0 {

@@ -9,7 +9,7 @@ const MARGIN: [f64; 2] = [58.0, 52.0];
 const HEAD: f64 = 40.0;
 /// Bars of a decade.
 const BARS: i32 = 2;
-/// What is below 1e-18 counts as 0 and stands in the first bar: the last digit of f64 is 1e-16 of a number.
+/// Values below 1e-18 count as 0 and belong to the first bar: the last digit of f64 is 1e-16 of a number.
 const FIRST: i32 = -18 * BARS;
 /// The last decade of f64 ends the last bar.
 const LAST: i32 = 308 * BARS;

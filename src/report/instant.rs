@@ -14,7 +14,7 @@ use looproot_calculus::instant::plane::{Instant, curvature};
 use num_complex::Complex;
 use serde_json::{Map, Value, json};
 
-/// Which body is asked for, against which, and which of its points.
+/// The body that is requested, its reference body, and its points.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// The body.
@@ -48,7 +48,7 @@ pub fn result(
     result
 }
 
-/// What is known of an assembly where the first input runs at unit rate and the others stand.
+/// Returns the instantaneous motion of an assembly where the first input runs at unit rate and the others stand.
 fn instant(linkage: &Linkage, case: &LinkageCase, mode: &LinkageMode, asked: &Asked<'_>) -> Value {
     let mut runs = vec![Moving::zero(); freedoms(&case.given)];
     if let Some(first) = runs.first_mut() {

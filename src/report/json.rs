@@ -19,8 +19,7 @@ pub fn kind(kind: Kind) -> &'static str {
     }
 }
 
-/// What stands before the results of the document, everything up to the opening bracket of the list. `keys` are those of
-/// every document.
+/// Returns the document before the results, up to the opening bracket of the list. `keys` are the keys of every document.
 #[must_use]
 pub fn head(entry: &Entry, keys: &Map<String, Value>) -> String {
     let mut text = format!("{{ \"title\": {}, \"kind\": \"{}\",", json!(entry.title), kind(entry.kind()));
@@ -40,7 +39,7 @@ pub fn line_of_document(entry: &Entry, keys: &Map<String, Value>) -> Value {
     json!({ "document": object })
 }
 
-/// What stands behind the results of the document: the closing bracket, and the seed of the primes if any was drawn.
+/// Returns the document after the results: the closing bracket, and the seed of the primes if any was drawn.
 #[must_use]
 pub fn foot(seed: Option<u64>) -> String {
     seed.map_or_else(|| "] }".to_owned(), |seed| format!("], \"seed\": {seed} }}"))
@@ -91,7 +90,7 @@ pub fn verdict(verdict: &Verdict) -> Value {
     object
 }
 
-/// What only arms of few or many joints have.
+/// Inserts the part that only arms of few or many joints have.
 fn insert_arm(result: &mut Value, arm: &ArmAnswer) {
     if !arm.conditions.is_empty() {
         result["verdict"]["conditions"] = json!(arm.conditions);

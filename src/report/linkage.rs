@@ -11,7 +11,7 @@ use crate::linkage::answer::{Coordinate, LinkageAnswer, LinkageMode};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// What is given, in words such as `A = 53.130 deg`.
+/// Returns the inputs in words such as `A = 53.130 deg`.
 pub(super) fn asked(linkage: &Linkage, given: &[Given]) -> String {
     let one = |given: &Given| match given {
         Given::Turn { joint, turn, .. } => {
@@ -37,7 +37,7 @@ fn distance(linkage: &Linkage, given: &Given) -> Option<f64> {
     Some(shift.to_f64() * length.to_f64())
 }
 
-/// The same as JSON: joints with their values, bodies with their places.
+/// Returns the inputs as JSON: joints with their values, bodies with their places.
 fn asked_json(linkage: &Linkage, given: &[Given]) -> Value {
     let (mut joints, mut bodies) = (Map::new(), Map::new());
     for one in given {

@@ -57,7 +57,7 @@ fn symbol(file: &LinkageFile, symbol: Symbol) -> String {
     }
 }
 
-/// What the variable of a polynomial is.
+/// Returns the meaning of the variable of a polynomial.
 fn meaning(file: &LinkageFile, polynomial: &GroupPolynomial) -> String {
     let [body, against] = [polynomial.body, polynomial.against].map(|body| &file.linkage.bodies[body].name);
     format!("{} is the tangent of half the angle of {body} against {against}", tangent(file, polynomial.body))
@@ -80,7 +80,7 @@ pub fn verdict(file: &LinkageFile, derivation: &LinkageDerivation) -> String {
     format!("closure polynomial of degree {degree} in {name}, {}{at_pi}; {proof}", counted(real, "distinct real root"))
 }
 
-/// What to know of how the polynomials came about.
+/// Describes the steps that lead to the polynomials.
 fn steps(file: &LinkageFile, derivation: &LinkageDerivation) -> Vec<String> {
     let mut steps = vec![
         "Every cycle of bodies gives an equation in the rotations exp(i angle) and its conjugate.".to_owned(),
@@ -239,7 +239,7 @@ pub fn text(file: &LinkageFile, case: &LinkageCase, number: usize, derivation: &
     text
 }
 
-/// How often the curve passes the circular points: the power of x^2 + y^2 in its highest terms.
+/// Returns the number of times that the curve passes the circular points: the power of x^2 + y^2 in its highest terms.
 fn circularity(curve: &Curve) -> usize {
     let highest = curve
         .polynomial

@@ -15,14 +15,14 @@ use crate::verdict::Status;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// A point whose curve is wanted.
+/// A point whose curve is requested.
 #[derive(Clone, Debug)]
 pub struct Traced {
     /// Its body.
     pub body: usize,
     /// Its name, `BODY.POINT`.
     pub name: String,
-    /// Where it is in the body.
+    /// Its place in the body.
     pub place: Gaussian,
 }
 

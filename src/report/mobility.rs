@@ -1,4 +1,4 @@
-//! Whether a loop moves, as text and JSON.
+//! The mobility of a loop as text and JSON.
 
 use super::json::{kind, number};
 use super::number::{counted, short};
@@ -126,11 +126,11 @@ fn principal(configuration: &Configuration) -> (Vec<PrincipalScrew>, usize) {
     if configuration.rank >= 6 {
         return (Vec::new(), 0);
     }
-    // What is reciprocal to all screws reciprocal to the joints.
+    // The screws reciprocal to all screws that are reciprocal to the joints.
     ScrewSystem::of(&configuration.redundant).reciprocal().principal_screws()
 }
 
-/// What the configurations near one form.
+/// Describes the set of configurations near one.
 fn what(configuration: &Configuration) -> String {
     match configuration.local {
         Local::Open => "open".to_owned(),

@@ -1,4 +1,4 @@
-//! What a reader sees: the verdict in one line, tables, normalised models, JSON.
+//! Output for readers: the verdict in one line, tables, normalised models, JSON.
 
 pub mod atlas;
 pub mod calculus;

@@ -64,7 +64,7 @@ impl<'n> Paper<'n> {
         let _ = write!(self.text, "\n{text}\n");
     }
 
-    /// What an equation is called.
+    /// Writes the name of an equation.
     pub(super) fn label(&mut self, text: &str) {
         match self.style {
             Style::Markdown => self.text.push_str(&format!("\n**{text}**\n")),
@@ -101,7 +101,7 @@ impl<'n> Paper<'n> {
         }
     }
 
-    /// A polynomial in as many lines as it takes.
+    /// Writes a polynomial, broken into lines.
     fn lines(&mut self, before: &str, polynomial: &Polynomial<Rational>, behind: &str) {
         let formula = format!("{before}{}{behind}", words(&Format::Latex.polynomial(polynomial, self.names)));
         let lines = broken(&formula).join(" \\\\\n  &\\quad ");
@@ -141,7 +141,7 @@ impl<'n> Paper<'n> {
         }
     }
 
-    /// What came of putting in solutions.
+    /// Writes the result of substituting solutions.
     pub(super) fn check(&mut self, found: &Substitution) {
         self.heading("Check");
         self.sentence(&verified(found));
@@ -232,7 +232,7 @@ fn broken(formula: &str) -> Vec<String> {
 
 /// The width of a line, in points of a page of 16 cm.
 const LINE: f64 = 430.0;
-/// How far lines after the first are set in.
+/// Indent of the lines after the first.
 const INDENT: f64 = 14.0;
 /// As much room as most terms need behind their sign.
 const TERM: f64 = 70.0;
@@ -291,7 +291,7 @@ fn escaped(text: &str) -> String {
     escaped
 }
 
-/// How the displayed equations were checked, in a sentence.
+/// Describes in a sentence the check of the displayed equations.
 pub(super) fn verified(found: &Substitution) -> String {
     if let Some(without) = &found.without {
         return format!("Not checked by a solution: there is none to put in. {without}");

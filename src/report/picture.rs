@@ -13,7 +13,7 @@ const PANEL: [f64; 2] = [360.0, 220.0];
 const MARGIN: [f64; 4] = [62.0, 34.0, 22.0, 44.0];
 /// Room for the title.
 const HEAD: f64 = 58.0;
-/// One colour for each circuit, in turn; told apart by the colour-blind, dark enough on white (after P. Tol, bright).
+/// Colours of the circuits, in turn: distinguishable by the colour-blind, dark enough on white (after P. Tol, bright).
 pub const COLOURS: [&str; 7] = ["#4477aa", "#cc3311", "#228833", "#aa3377", "#997700", "#33a0c0", "#555555"];
 /// Translations outside this many times the middle half of all are cut off: they run to infinity.
 const WHISKER: f64 = 4.0;
@@ -168,10 +168,10 @@ impl Panel {
         Self { x, y, is_turn: [frame.is_turn, graph.is_turn], lines, dots }
     }
 
-    /// Where a point lies on the plane of the panel.
+    /// Returns the place of a point on the plane of the panel.
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let part = |v: f64, [low, high]: [f64; 2]| (v - low) / (high - low);
-        // Far beyond the frame nothing is seen, and browsers dislike huge numbers.
+        // Points far beyond the frame are invisible, and browsers cannot handle huge numbers.
         [PANEL[0] * part(x, self.x), (PANEL[1] * (1.0 - part(y, self.y))).clamp(-9e3, 9e3)]
     }
 

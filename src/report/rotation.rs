@@ -15,7 +15,7 @@ use looproot_calculus::unit::Analytic;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// What is printed.
+/// The request.
 #[derive(Clone, Debug)]
 pub struct Asked {
     /// The word behind `--from`.
@@ -26,7 +26,7 @@ pub struct Asked {
     pub is_motion: bool,
     /// The order of the axes of the Euler angles.
     pub order: Order,
-    /// Whether parametrisations over the dual numbers are asked for.
+    /// Whether parametrisations over the dual numbers are requested.
     pub dual: bool,
     /// The Euler-Rodrigues parameters as they were typed.
     pub typed: Option<Quaternion<f64>>,
@@ -162,7 +162,7 @@ fn family<R: Analytic>(
     }))
 }
 
-/// The same for a reader.
+/// Returns the document as text.
 #[must_use]
 pub fn text(asked: &Asked) -> String {
     let document = json(asked);

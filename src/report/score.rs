@@ -81,7 +81,7 @@ fn row(name: &str, tally: &Tally) -> [String; 14] {
     ]
 }
 
-/// The same as JSON.
+/// Returns the score as JSON.
 #[must_use]
 pub fn document(solver: &str, hash: &str, score: &Score) -> Value {
     let classes: Map<String, Value> = score.classes.iter().map(|(name, own)| (name.clone(), tally(own))).collect();

@@ -25,7 +25,7 @@ fn quaternion(given: &SphereGiven) -> [f64; 4] {
     unit(&from_matrix(&rows)).map_or([f64::NAN; 4], |q| [q.scalar, q.vector[0], q.vector[1], q.vector[2]])
 }
 
-/// What is given, in words.
+/// Returns the inputs in words.
 fn asked(file: &SphereFile, given: &[SphereGiven]) -> String {
     let linkage = &file.linkage;
     let one = |given: &SphereGiven| {
@@ -183,12 +183,12 @@ const SPACE: [&str; 3] = ["x", "y", "z"];
 const CHART: [&str; 2] = ["u", "v"];
 const TANGENTS: [&str; 2] = ["t", "s"];
 
-/// How the polynomial of a curve is found.
+/// The sentence on the derivation of the polynomial of a curve.
 const CURVE: &str = "three equations are linear in the end of the crank; by Cramer's rule its length is the equation of the curve";
-/// How a transfer function is found.
+/// The sentence on the derivation of a transfer function.
 const TRANSFER: &str = "the ends of crank and rocker include the angle of the coupler; what lies between two four-bars is eliminated";
 
-/// What all documents of derivations have.
+/// Returns the common part of all documents of derivations.
 fn document(file: &SphereFile, case: usize, verdict: &str, step: &str) -> Value {
     json!({
         "name": file.heading.name,

@@ -16,7 +16,7 @@ use std::fmt::Write;
 pub struct Swept {
     /// Its number, from 1.
     pub joint: usize,
-    /// Which of its variables.
+    /// The variable of that joint.
     pub variable: Variable,
 }
 
@@ -68,7 +68,7 @@ pub(super) fn input_name(entry: &Entry, swept: Swept) -> (String, &'static str) 
     (name, if swept.variable == Variable::Rotation { "deg" } else { "m" })
 }
 
-/// How an end of a branch is told.
+/// Describes an end of a branch.
 fn words(end: &End, swept: Swept) -> String {
     match end {
         End::Limit(limit) => format!("limit {}", limit + 1),

@@ -29,7 +29,7 @@ impl Columns {
         Self { table, left }
     }
 
-    /// Adds a row of as many cells as the header has.
+    /// Adds a row of one cell for every column.
     pub fn row<S: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = S>) {
         let cells = cells.into_iter().zip(&self.left).map(|(text, left)| cell(text.as_ref(), *left));
         self.table.add_row(cells.collect::<Vec<_>>());

@@ -11,7 +11,7 @@ use crate::verdict::{Code, Status};
 use num_complex::Complex;
 use std::fmt::Write;
 
-/// What to show of a solution.
+/// The parts of a solution to show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct View {
     /// Complex modes too.
@@ -96,7 +96,7 @@ fn quality(solution: &Solution) -> String {
     format!("{}, {}", certified(solution), measured(solution))
 }
 
-/// How much of the list is proved.
+/// Describes how much of the list is proved.
 fn certified(solution: &Solution) -> String {
     let proved = solution.verdict.certified;
     let multiple: Vec<usize> = solution.modes.iter().map(|m| m.multiplicity).filter(|k| *k > 1).collect();
@@ -233,7 +233,7 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
     text
 }
 
-/// What the reader of the file decided.
+/// Returns the decisions of the file's reader.
 #[must_use]
 pub fn reading(entry: &Entry) -> Vec<String> {
     let angles = |taken: bool| {
@@ -274,7 +274,7 @@ pub fn variables(chain: &Chain) -> Vec<(String, Variable)> {
     chain.variables().into_iter().map(|variable| (variable.name(), variable.variable)).collect()
 }
 
-/// What a column of the table of modes measures.
+/// The quantity in a column of the table of modes.
 #[derive(Clone, Copy)]
 enum Measure {
     Angle,

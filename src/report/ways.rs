@@ -8,7 +8,7 @@ use crate::derivation::{ByWay, Removed, Substitution};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Longer factors are told by their degree.
+/// Factors longer than this are described by their degree.
 const LONGEST_FACTOR: usize = 60;
 
 /// `raghavan-roth: 12 x 12 matrix of degree 2, eliminant of degree 24 before false factors; degree 16 in t3 ...`

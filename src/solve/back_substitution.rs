@@ -20,7 +20,7 @@ pub struct CutView<'a, S: Number> {
     pub cut: &'a ClosedLoop<S::Real>,
     /// Its elimination.
     pub form: &'a HalfAngleForm<S::Real>,
-    /// Which unknown is the eigenvalue.
+    /// The unknown that is the eigenvalue.
     pub hidden: Hidden,
     inverses: [Motion<S>; 5],
     start: MarkedLine<S>,
@@ -38,7 +38,7 @@ fn sample<S: Scalar>(angle: f64) -> (S, S) {
 pub struct Candidates<S> {
     list: [Six<S>; MOST],
     count: usize,
-    /// Whether something about the root could not be resolved: a family of solutions, or more than fit.
+    /// Whether part of the root could not be resolved: a family of solutions, or more solutions than fit.
     pub unresolved: bool,
 }
 
@@ -239,7 +239,7 @@ impl<S: Scalar> CutView<'_, S> {
     }
 }
 
-/// What the equations say of unknown 3.
+/// The information on unknown 3 in the equations.
 enum Third<S> {
     /// Nothing: every value fits.
     Free,

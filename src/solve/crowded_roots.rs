@@ -11,14 +11,14 @@ use num_complex::Complex;
 use rug::Float;
 use std::f64::consts::TAU;
 
-/// Rounds of corrections after which roots that have not settled count as crowded.
+/// Rounds of corrections after which roots that have not converged count as crowded.
 const ROUNDS: usize = 150;
 /// Crowds within crowds.
 const DEPTH: usize = 12;
 /// Steps towards the middle of a crowd; their number of digits doubles with every step.
 const CENTRING: usize = 12;
-/// Approximations crowd where their distance is not so many times their error. Where all of them do, and all about the origin, a
-/// smaller number of times divides them.
+/// Approximations crowd where their distance is less than this multiple of their error. Where all of them crowd about the origin,
+/// a smaller multiple divides them.
 const CLEAR: [f64; 4] = [64.0, 16.0, 4.0, 1.0];
 /// Powers of two beyond which a number counts as 0 or infinite beside another one.
 const RANGE: f64 = 900.0;
@@ -74,14 +74,14 @@ impl Scaled {
     }
 }
 
-/// Approximations of all roots of a polynomial whose leading coefficient is not 0. Those that its digits do not tell apart
-/// are as f64 has them. `None` where numbers overflow.
+/// Returns approximations of all roots of a polynomial whose leading coefficient is not 0. Roots that its digits do not separate
+/// are left as f64 has them. `None` where numbers overflow.
 #[must_use]
 pub fn approximations<const BITS: u32>(coefficients: &[Ball<BITS>]) -> Option<Vec<Ball<BITS>>> {
     smallest(coefficients.to_vec(), coefficients.len().saturating_sub(1), DEPTH)
 }
 
-/// The roots nearest to the origin, so many of them.
+/// Returns the `count` roots nearest to the origin.
 fn smallest<const BITS: u32>(mut polynomial: Vec<Ball<BITS>>, count: usize, depth: usize) -> Option<Vec<Ball<BITS>>> {
     if count == 0 {
         return Some(Vec::new());
@@ -134,8 +134,8 @@ fn resolved<const BITS: u32>(
     Some(found.iter().map(|z| z.add(&middle).midpoint()).collect())
 }
 
-/// The polynomial about the middle of a crowd of so many roots, near which a place is known, and that middle: the root of
-/// the derivative that has one there.
+/// Returns the polynomial about the middle of a crowd of `count` roots near a known place, and that middle: the root there of a
+/// derivative.
 fn centred<const BITS: u32>(
     polynomial: &[Ball<BITS>],
     near: Ball<BITS>,
@@ -152,7 +152,7 @@ fn centred<const BITS: u32>(
         let radius = sizes_of_roots(&about.iter().map(log2).collect::<Vec<_>>()).get(count - 1).copied()?;
         middle = middle.add(&step).midpoint();
         about = shifted(polynomial, &middle);
-        // Twice as many digits from here on: the middle is as good as wanted.
+        // The step squares from here on: the middle is accurate enough.
         if log2(&step) < radius - 30.0 {
             break;
         }
@@ -246,8 +246,8 @@ fn corrected(all: &mut [(Approximation, usize)], k: usize, scales: &[Scaled]) ->
     correction.norm() > 2.0 * f64::EPSILON * y.norm()
 }
 
-/// Which approximations may stand for each other's roots: those that are no farther apart than a multiple of the correction
-/// by Weierstrass.
+/// Groups approximations that may stand for each other's roots: those no farther apart than a multiple of Weierstrass'
+/// correction.
 fn crowds<const BITS: u32>(polynomial: &[Ball<BITS>], logs: &[f64], all: &[Approximation]) -> Vec<Vec<usize>> {
     let count = all.len();
     let distance = |j: usize, k: usize| {
@@ -264,7 +264,7 @@ fn crowds<const BITS: u32>(polynomial: &[Ball<BITS>], logs: &[f64], all: &[Appro
     let joined = |clear: f64| {
         let mut crowds: Vec<Vec<usize>> = Vec::new();
         for k in 0..count {
-            // What is no number does not tell them apart.
+            // NaN does not separate them.
             let is_near = |j: &usize| !(distance(*j, k) > reaches[*j].max(reaches[k]) + clear.log2());
             let (near, apart): (Vec<_>, Vec<_>) = crowds.into_iter().partition(|crowd| crowd.iter().any(is_near));
             crowds = apart;
@@ -293,7 +293,7 @@ mod tests {
         (0..n.abs()).fold(Rational::from(1), |x, _| if n < 0 { x / &unit } else { x * &unit })
     }
 
-    /// How far the worst approximation is off, over the distance of the root from the next one.
+    /// Returns the largest error of an approximation, over the distance of the root from the next one.
     fn worst(roots: &[Rational]) -> f64 {
         let one = Univariate::new(vec![Rational::from(1)]);
         let product = roots.iter().fold(one, |p, x| p.mul(&Univariate::new(vec![-x.clone(), Rational::from(1)])));

@@ -23,7 +23,7 @@ pub const ALONG_INPUT: Point = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
 #[derive(Clone, Debug)]
 pub struct Curve {
     variables: [Variable; 7],
-    /// Which of them are idle: 0 all along the curve of an overconstrained loop, whose equations are more than its joints.
+    /// Marks the virtual ones: 0 all along the curve of an overconstrained loop, which has more equations than joints.
     idle: [bool; 7],
     constants: [Motion<f64>; 7],
     scale: f64,
@@ -37,7 +37,7 @@ pub const CLOSES_WITHIN: f64 = 1e-11;
 /// has no part in it.
 const COBORDER: [f64; 6] = [0.41, -0.37, 0.53, 0.29, -0.47, 0.33];
 
-/// How the loop closes at a point.
+/// The closure of the loop at a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Closing {
     /// The skew-symmetric part of the rotation of the product round the loop as a vector, and its translation.
@@ -69,7 +69,7 @@ fn bordered(jacobian: &[[f64; 7]; 6], border: &Point) -> [[f64; 7]; 7] {
 }
 
 impl Curve {
-    /// The curve of a loop whose gap the input of this kind fills; `idle` says which of its unknowns stay at 0.
+    /// Returns the curve of a loop whose input has this kind; `idle` marks the unknowns that stay at 0.
     #[must_use]
     pub fn new(open: &OpenLoop<f64>, idle: [bool; 6], input: Variable) -> Self {
         let mut constants: [Motion<f64>; 7] = std::array::from_fn(|j| match j {
@@ -111,26 +111,26 @@ impl Curve {
         Self { idle, closes_within, ..self.clone() }
     }
 
-    /// Which variables stay where they are.
+    /// Returns the marks of the variables that stay at 0.
     #[must_use]
     pub fn idle(&self) -> &[bool; 7] {
         &self.idle
     }
 
-    /// Which variables turn.
+    /// Returns the marks of the variables that are rotations.
     #[must_use]
     pub fn turns(&self) -> [bool; 7] {
         self.variables.map(|variable| variable == Variable::Rotation)
     }
 
-    /// How a point closes the loop, and the twists of all variables.
+    /// Returns the closure of the loop at a point, and the twists of all variables.
     #[must_use]
     pub fn closure(&self, at: &Point) -> (Closing, [[f64; 7]; 6]) {
         let Here { residual, defect, jacobian } = self.here(at);
         (Closing { residual, defect }, jacobian)
     }
 
-    /// What each variable does.
+    /// Returns the kind of each variable.
     #[must_use]
     pub fn variables(&self) -> &[Variable; 7] {
         &self.variables
@@ -241,7 +241,7 @@ impl Curve {
         let inverted = self.inverted(&bordered(&self.here(at).jacobian, border))?;
         let mut values: [Series<f64, N>; 7] = at.map(Series::constant);
         for order in 1..N {
-            // With this order still 0 the residual holds what the lower ones bring about.
+            // While this order is 0, the residual contains the contributions of the lower ones.
             let residual = Self::residual(&self.product(&values), order);
             let right = std::array::from_fn(|i| if i < 6 { -residual[i] } else { f64::from(u8::from(order == 1)) });
             let solved = times(&inverted, &right);
@@ -315,8 +315,8 @@ impl Curve {
         Some(if side < 0.0 { tangent.map(|x| -x) } else { tangent })
     }
 
-    /// Whether no curve leads away from a point at which the loop closes: the twists of its variables are independent, by a
-    /// margin far beyond rounding, as they may be where some unknowns are idle.
+    /// Returns whether no curve leads away from a point at which the loop closes: the twists of its variables are independent by
+    /// a margin far beyond rounding, which is possible where some unknowns are virtual.
     #[must_use]
     pub fn is_rigid(&self, at: &Point) -> bool {
         /// The least singular value, in parts of the largest, that tells independent twists.

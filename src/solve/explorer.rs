@@ -15,7 +15,7 @@ type Jacobian = SMatrix<f64, 6, 7>;
 pub struct Piece {
     /// The dimension, at least 1.
     pub dimension: usize,
-    /// Which variables move.
+    /// Marks the variables that move.
     pub moving: [bool; 7],
     /// The points of a curve; of a surface one point.
     pub trace: Trace,
@@ -25,7 +25,7 @@ pub struct Piece {
 const RANK: f64 = 1e-6;
 /// Unknowns that change by less along a step of 0.02 stand still: rounding at a multiple curve reaches 1e-7.
 const MOVED: f64 = 1e-6;
-/// How far a step goes that explores a self-motion.
+/// Length of a step that explores a self-motion.
 const STEP: f64 = 0.01;
 /// Directions in which points of a self-motion lie beside one of its points: those with at least this part of the largest
 /// spread. A curve bends by a part of about one step of 0.01 out of its tangent.
@@ -34,8 +34,8 @@ const SPREAD: f64 = 0.15;
 /// too, as 0.1 to the power of its order; and within what is allowed as far as the root of that order.
 const SHORTEST: f64 = 0.15;
 
-/// What stands still along a surface differs by less between two of its points: beside a multiple one they are known to the
-/// root of rounding.
+/// Largest difference of a constant variable between two points of a surface: near a multiple point both are known to the square
+/// root of rounding only.
 const STILL: f64 = 1e-4;
 /// Screws of joints that are this near to dependent ones, in scaled lengths, count as dependent: a multiple solution is
 /// known to the root of rounding.
@@ -46,7 +46,7 @@ const DEPENDENT: f64 = 1e-5;
 pub struct Explorer<'a> {
     curve: &'a Curve,
     within: f64,
-    /// How many variables are not idle.
+    /// The number of variables that are not virtual.
     unknowns: usize,
 }
 
@@ -69,7 +69,7 @@ impl Rank {
 }
 
 impl Piece {
-    /// What is known by one point, or by two that are not neighbours.
+    /// Returns a piece known by one point, or by two that are not neighbours.
     fn at(dimension: usize, moving: [bool; 7], points: Vec<Point>) -> Self {
         Self { dimension, moving, trace: Trace { points, is_closed: false } }
     }
@@ -83,7 +83,7 @@ impl<'a> Explorer<'a> {
         Self { curve, within, unknowns }
     }
 
-    /// What a real solution lies on, nothing where it is isolated as far as is seen.
+    /// Returns the pieces on which a real solution lies; none where it appears to be isolated.
     #[must_use]
     pub fn pieces(&self, solution: &Point) -> Vec<Piece> {
         let here = self.rank(solution);
@@ -106,8 +106,8 @@ impl<'a> Explorer<'a> {
         (rank > 0 && self.project(&mut found, rank) < self.within).then_some(found)
     }
 
-    /// Whether a solution lies on a piece, angles modulo whole turns: on a curve; of a surface it is taken to where all that
-    /// stands still along it is the same.
+    /// Returns whether a solution lies on a piece, angles modulo whole turns. On a curve this is tested; on a surface it is
+    /// assumed where all constant variables agree.
     #[must_use]
     pub fn holds(&self, piece: &Piece, solution: &Point) -> bool {
         let turns = self.curve.turns();
@@ -137,7 +137,7 @@ impl<'a> Explorer<'a> {
         if let Some(left) = svd.u {
             let column = |k: usize| -> Point { std::array::from_fn(|j| left[(j, k)]) };
             vectors.extend(order.iter().take(rank.min(self.unknowns)).map(|&k| column(k)));
-            // The last direction of seven unknowns is none of the six.
+            // The last direction of seven unknowns does not belong to the six.
             let others = order.iter().skip(rank).map(|&k| column(k));
             let units = (0..7).map(|k| std::array::from_fn(|j| f64::from(u8::from(j == k))));
             for vector in others.chain(units) {
@@ -149,7 +149,8 @@ impl<'a> Explorer<'a> {
         Rank { rank: rank.min(self.unknowns), vectors }
     }
 
-    /// What a vector has across orthonormal ones, of length 1, idle variables left out; `None` where that is rounding.
+    /// Returns the component of a vector across orthonormal ones, scaled to length 1 and without virtual variables; `None` where
+    /// it is rounding.
     fn beside_all(&self, all: &[Point], vector: Point) -> Option<Point> {
         /// Less of a vector than this is rounding.
         const LEAST: f64 = 1e-3;
@@ -185,7 +186,7 @@ impl<'a> Explorer<'a> {
             let svd = self.matrix(at).svd(true, true);
             let mut values: Vec<f64> = svd.singular_values.iter().copied().collect();
             values.sort_by(|a, b| b.total_cmp(a));
-            // Keep as many directions as the solution set leaves transversal ones.
+            // The cut keeps as many directions as the solution set leaves transversal ones.
             let cut = values[full_rank.min(6) - 1].max(1e-9 * values[0]) * 0.999;
             let Ok(step) = svd.solve(&Vector6::from(closing.residual), cut) else { break };
             for k in 0..7 {

@@ -52,7 +52,7 @@ impl<R: Field + Copy> Hessenberg<R> {
     #[must_use]
     pub fn characteristic(&self) -> Univariate<R> {
         let h = &self.matrix;
-        // Those of the leading blocks: p_k = (x - h_kk) p_{k-1} - sum_i h_ik (h_{i+1,i} ... h_{k,k-1}) p_{i-1}.
+        // Polynomials of the leading blocks: p_k = (x - h_kk) p_{k-1} - sum_i h_ik (h_{i+1,i} ... h_{k,k-1}) p_{i-1}.
         let mut leading = vec![Univariate::constant(R::one())];
         for k in 0..h.len() {
             let mut p = leading[k].mul(&Univariate::new(vec![h[k][k].neg(), R::one()]));

@@ -26,22 +26,22 @@ pub struct Closure<S> {
     pub trace: S,
     /// Norms for error bounds, one set per unknown.
     pub norms: [StepNorms; 6],
-    /// How far the closure may be off because constants are, beyond the rounding that error bounds allow for.
+    /// Error of the closure due to the constants, beyond the rounding that error bounds include.
     pub data_error: f64,
 }
 
 /// Row-sum norms at one step of the product round the loop.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StepNorms {
-    /// Of the product of all steps before this one.
+    /// Norm of the product of all steps before this one.
     pub before: f64,
-    /// Of this step.
+    /// Norm of this step.
     pub step: f64,
-    /// Of the inverse of the product up to and including this step: by closure, of the product of all steps behind it.
+    /// Norm of the inverse of the product up to and including this step, which by closure is the product of all steps behind it.
     pub behind: f64,
-    /// Of the twist of this unknown as a 4 x 4 matrix.
+    /// Norm of the twist of this unknown as a 4 x 4 matrix.
     pub twist: f64,
-    /// How fast that twist changes with the frame before this step: of the direction of its axis, times 1 and the
+    /// Derivative of that twist with respect to the frame before this step: of the direction of its axis, times 1 and the
     /// distance of the frame for a rotation.
     pub lever: f64,
 }
@@ -54,8 +54,8 @@ impl<S> Closure<S> {
         self.data_error += norms.before * norms.step * norms.behind * off;
     }
 
-    /// How much rounding errors may grow round the loop: 1 for real unknowns, the largest product of norms for complex
-    /// ones, which large imaginary parts make large.
+    /// Returns the largest growth of rounding errors round the loop: 1 for real unknowns, the largest product of norms for
+    /// complex ones, whose imaginary parts may make it large.
     #[must_use]
     pub fn growth(&self, real: bool) -> f64 {
         if real { 1.0 } else { self.norms.iter().map(|n| n.before * n.step * n.behind).fold(1.0, f64::max) }
@@ -269,7 +269,7 @@ pub struct Polished<S> {
     pub inverse: Option<[Six<S>; 6]>,
     /// The defect before the first step.
     pub raw: f64,
-    /// How far the polish moved: the largest change of an unknown.
+    /// The distance that the polish moved: the largest change of an unknown.
     pub moved: f64,
 }
 
@@ -277,8 +277,8 @@ pub struct Polished<S> {
 const ROUNDING: f64 = 2e-15;
 /// Enough for linear convergence to a double root to come down to rounding.
 const MOST_STEPS: usize = 100;
-/// After so many steps the defect must have halved: it falls to a quarter by one step beside a double root, to a third beside
-/// a triple one, and candidates that damped steps lead nowhere are given up.
+/// Number of steps after which the defect must have halved: a step reduces it to a quarter beside a double root and to a third
+/// beside a triple one, and candidates that damped steps do not improve are dropped.
 const PATIENCE: usize = 10;
 /// The largest change of an unknown in a damped step.
 const LONGEST_STEP: f64 = 0.5;

@@ -1,7 +1,7 @@
-//! The curve of one equation between one unknown and the input, as that of two spherical joints is.
+//! The curve of one equation between one unknown and the input, such as the curve of two spherical joints.
 //!
-//! `sum c_ij m_i(v) m_j(x) = 0` over the monomials (1, cos, sin) of an angle or (1, d, d^2) of a distance. The same
-//! questions as to the curve of a whole loop, answered in the plane of v and x.
+//! `sum c_ij m_i(v) m_j(x) = 0` over the monomials (1, cos, sin) of an angle or (1, d, d^2) of a distance. It answers the same
+//! questions as the curve of a whole loop, in the plane of v and x.
 
 use super::curve::{INPUT, Point};
 use crate::algebra::ring::Ring;
@@ -14,7 +14,7 @@ pub const UNKNOWN: usize = 0;
 /// The curve of one equation between an unknown and the input.
 #[derive(Clone, Debug)]
 pub struct PlaneCurve {
-    /// What the unknown and the input do; the places between them are empty.
+    /// The kinds of the unknown and the input; the places between them are empty.
     variables: [Variable; 7],
     /// Row i belongs to monomial i of the unknown, column j to monomial j of the input; the largest is 1.
     coefficients: [[f64; 3]; 3],
@@ -73,7 +73,7 @@ impl PlaneCurve {
         Self { variables, coefficients: scaled.map(|row| row.map(|x| x / over)), scale }
     }
 
-    /// What the unknown and the input do, at their places.
+    /// Returns the kinds of the unknown and the input, at their places.
     #[must_use]
     pub fn variables(&self) -> &[Variable; 7] {
         &self.variables
@@ -113,7 +113,7 @@ impl PlaneCurve {
         let matrix = [self.here(at).slopes, [border[UNKNOWN], border[INPUT]]];
         let (mut unknown, mut input) = (Series::<f64, N>::constant(at[UNKNOWN]), Series::constant(at[INPUT]));
         for order in 1..N {
-            // With this order still 0 the value holds what the lower ones bring about.
+            // While this order is 0, the value contains the contributions of the lower ones.
             let value = self.value(&unknown, &input).coefficients[order];
             let ([v, x], _) = solved(matrix, [-value, f64::from(u8::from(order == 1))])?;
             (unknown.coefficients[order], input.coefficients[order]) = (v, x);

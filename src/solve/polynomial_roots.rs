@@ -1,4 +1,4 @@
-//! All complex roots of a polynomial at once, in as many digits as its coefficients have.
+//! All complex roots of a polynomial at once, to the number of digits of its coefficients.
 //!
 //! Newton's correction N = p/p' at every approximation x_k, with the other approximations divided out of p:
 //! `x_k -= N / (1 - N sum_j 1/(x_k - x_j))`. It converges with order three to simple roots. \[Aberth1973\]
@@ -38,7 +38,7 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
     });
     // Corrections of this relative size are rounding.
     let settled = R::UNIT_ROUNDOFF.powf(0.75);
-    // More digits tell nearer roots apart, to which approximations come nearer by a constant factor only.
+    // More digits separate nearer roots, which approximations approach by a constant factor per step only.
     let patience = PATIENCE * (R::BITS as usize).div_ceil(384).pow(2);
     let mut open = vec![true; degree];
     let mut idle = 0;
@@ -77,7 +77,7 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
     Some(roots.into_iter().zip(open).filter(|(_, open)| !open).map(|(root, _)| root).collect())
 }
 
-/// Approximations of all roots, crowded ones told apart as far as the digits go.
+/// Returns approximations of all roots, with crowded ones separated as far as the digits allow.
 fn starts<R: Extended>(coefficients: &[R]) -> Option<Vec<Complex<R>>> {
     let image = |c: &R| {
         let whole = whole(*c);
@@ -106,9 +106,9 @@ fn whole<R: Extended>(mut x: R) -> Float {
     sum
 }
 
-/// How far from the origin the roots may be, by the sizes of the coefficients: every edge of their upper convex hull, on
-/// a logarithmic scale, stands for as many roots as it is long, and its slope for their size. Roots at 0 share the
-/// smallest radius.
+/// Estimates the distances of the roots from the origin by the sizes of the coefficients: on a logarithmic scale, every edge of
+/// their upper convex hull stands for as many roots as its length, and its slope for their size. Roots at 0 share the smallest
+/// radius.
 fn radii(sizes: &[f64]) -> Vec<f64> {
     let logs: Vec<f64> = sizes.iter().map(|size| size.ln()).collect();
     sizes_of_roots(&logs).into_iter().map(f64::exp).collect()

@@ -10,7 +10,7 @@ use num_complex::Complex;
 /// Study's parameters (x, y) of a pose, as one vector.
 pub type Eight<S> = [S; 8];
 
-/// The square of a length, in units of the platform, below which legs are not told from points.
+/// The square of a length, in units of the platform, below which legs count as points.
 const SHORT: f64 = 1e-18;
 /// Newton steps before giving up.
 const MOST_STEPS: usize = 12;
@@ -57,7 +57,7 @@ pub fn equations<S: Number<Real: From<f64>>>(legs: &[Leg<f64>; 6], v: &Eight<S>,
     equations_with(legs, v, patch, |x, c| x.times((*c).into()), |c| c.abs())
 }
 
-/// The same for legs of more digits than f64 has.
+/// As [`equations`], for legs of more digits than f64 has.
 pub fn extended_equations<R: Extended>(
     legs: &[Leg<R>; 6],
     v: &Eight<Complex<R>>,

@@ -7,7 +7,7 @@ use crate::algebra::long_float::LongNumber;
 use crate::algebra::ring::{Field, Ring};
 use num_complex::Complex;
 
-/// What linear algebra and error bounds need of a numeric field.
+/// The operations on a number that linear algebra and error bounds need.
 pub trait Number: Field + Copy {
     /// The type of the constants it is multiplied by.
     type Real: Field + Copy + From<f64>;
@@ -42,13 +42,13 @@ pub trait Number: Field + Copy {
 pub trait Extended: Number<Real = Self> + From<f64> {
     /// The nearest f64, or one beside it.
     fn to_f64(self) -> f64;
-    /// How often Newton's method doubles the digits of f64 until all are right.
+    /// Number of Newton steps, each doubling the digits of f64, until all digits are right.
     const DOUBLINGS: u32;
     /// Bits of a mantissa.
     const BITS: u32;
 }
 
-/// A complex number of as many digits, exactly.
+/// Converts a complex number to more digits, exactly.
 #[must_use]
 pub fn extended<R: Extended>(z: Complex<f64>) -> Complex<R> {
     Complex::new(z.re.into(), z.im.into())
@@ -60,7 +60,7 @@ pub fn narrowed<R: Extended>(z: Complex<R>) -> Complex<f64> {
     Complex::new(z.re.to_f64(), z.im.to_f64())
 }
 
-/// What finding roots needs on top.
+/// The further operations that root finding needs.
 pub trait Scalar: Number<Real = f64> {
     /// Whether values of this type are real.
     const REAL: bool;
@@ -172,7 +172,7 @@ impl<const LIMBS: usize> Extended for LongNumber<LIMBS> {
     const BITS: u32 = Self::BITS;
 }
 
-/// What numbers of more digits have in common, their unit roundoff and their halves apart.
+/// The common part of numbers of more digits, without their unit roundoff and their halves.
 macro_rules! extended_number {
     ($real:ty, $halved:expr $(, $parameter:ident)?) => {
         impl$(<const $parameter: usize>)? Number for $real {

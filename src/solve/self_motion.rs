@@ -15,7 +15,7 @@ use crate::kinematics::closed_loop::ClosedLoop;
 pub struct SelfMotion {
     /// The dimension, at least 1.
     pub dimension: usize,
-    /// Which unknowns move.
+    /// Marks the unknowns that move.
     pub moving: [bool; 6],
     /// Points: of a curve in their order along it, angles running on without jumps; else one point.
     pub points: Vec<Six<f64>>,
@@ -23,7 +23,7 @@ pub struct SelfMotion {
     pub is_closed: bool,
 }
 
-/// The self-motions that a real solution lies on, none where it is isolated as far as is seen. Their points close the loop
+/// Returns the self-motions on which a real solution lies; none where it appears to be isolated. Their points close the loop
 /// within `within`, in radians and scaled lengths.
 #[must_use]
 pub fn self_motions(closed: &ClosedLoop<f64>, solution: &Six<f64>, within: f64) -> Vec<SelfMotion> {
@@ -47,8 +47,8 @@ impl SelfMotion {
         Explorer::new(&curve, within).between(&self.piece(), first, part).map(|point| unknowns(&point))
     }
 
-    /// Whether a solution lies on the self-motion, angles modulo whole turns: on a curve; of a surface it is taken to where
-    /// all that stands still along it is the same.
+    /// Returns whether a solution lies on the self-motion, angles modulo whole turns. On a curve this is tested; on a surface it
+    /// is assumed where all constant unknowns agree.
     #[must_use]
     pub fn holds(&self, closed: &ClosedLoop<f64>, solution: &Six<f64>, within: f64) -> bool {
         let curve = Curve::of_self_motion(closed, within);

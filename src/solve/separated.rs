@@ -61,14 +61,14 @@ fn roots_of(kind: Variable, conic: &[[f64; 3]; 3]) -> Option<(RootList, (f64, f6
 /// Cosine and sine of an angle.
 #[derive(Clone, Copy, Debug)]
 pub enum Angle {
-    /// Of a real one.
+    /// A real one.
     Real((f64, f64)),
-    /// Of a complex one.
+    /// A complex one.
     Complex((Complex<f64>, Complex<f64>)),
 }
 
-/// The angles at which a quadratic form in (1, cos, sin) vanishes, one of each pair of conjugates. Those at infinity are left
-/// out.
+/// Returns the angles at which a quadratic form in (1, cos, sin) vanishes, one of each pair of conjugates, without those at
+/// infinity.
 #[must_use]
 pub fn angles_of(conic: &[[f64; 3]; 3]) -> [Option<Angle>; 4] {
     let Some((roots, offset)) = roots_of(Variable::Rotation, conic) else { return [None; 4] };

@@ -2,7 +2,7 @@
 
 use num_complex::Complex;
 
-/// Rounds before giving up on roots that have not settled.
+/// Rounds after which roots that have not converged are given up.
 const MOST_ROUNDS: usize = 80;
 /// A step of this size, relative to 1 + |x|, is the last of a root.
 const SETTLED: f64 = 1e-14;

@@ -11,7 +11,7 @@ use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use nalgebra::Matrix6;
 use num_complex::Complex;
 
-/// What a singular solution is.
+/// The nature of a singular solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nature {
     /// Isolated, of this multiplicity.
@@ -71,7 +71,7 @@ fn bordered<S: Scalar>(jacobian: &[Six<S>; 6]) -> [[S; 7]; 7] {
     })
 }
 
-/// What the singular solution at `unknowns` is, by following its one free direction.
+/// Returns the nature of the singular solution at `unknowns`, found by following its one free direction.
 #[must_use]
 pub fn nature<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Nature {
     let Some(direction) = free_direction(closed, unknowns) else { return Nature::Unresolved };
@@ -108,7 +108,7 @@ fn orders<S: Scalar>(closed: &ClosedLoop<f64>, origin: &Six<S>, direction: &Six<
 pub fn pair<S: Scalar>(closed: &ClosedLoop<f64>, unknowns: &Six<S>) -> Option<([Six<Complex<f64>>; 2], f64)> {
     /// Displacements at which g is taken: large against the rounding of g, its square small against the pair.
     const STEP: f64 = 1e-5;
-    /// How far away the solutions may be.
+    /// Largest distance of the solutions.
     const REACH: f64 = 1e-2;
     let direction = free_direction(closed, unknowns)?;
     let [behind, here, ahead] = [-STEP, 0.0, STEP].map(|h| follow(closed, unknowns, &direction, h));

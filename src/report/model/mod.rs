@@ -55,7 +55,7 @@ pub fn any_json(any: &Any) -> Value {
     }
 }
 
-/// What a listing says of a file beside its name: its kind in short, source, title; and the same as JSON.
+/// Returns the listing of a file without its name: its kind in short, source, title; and the same as JSON.
 #[must_use]
 pub fn listed(any: &Any) -> ([String; 3], Value) {
     let (short, object) = match any {
@@ -93,7 +93,7 @@ pub fn cases(entry: &Entry) -> String {
     counted(entry.cases.len(), case_noun(entry))
 }
 
-/// What a case of this entry is called.
+/// Returns the noun for a case of this entry.
 #[must_use]
 pub fn case_noun(entry: &Entry) -> &'static str {
     match entry.kind() {
@@ -151,7 +151,7 @@ pub fn text(entry: &Entry) -> String {
     text
 }
 
-/// Where a mechanism comes from, and the remarks of its file.
+/// Writes the source of a mechanism and the remarks of its file.
 fn origin(text: &mut String, source: Option<&Source>, notes: Option<&str>) {
     if let Some(source) = source {
         let place = source.place.as_ref().map_or(String::new(), |place| format!(", {place}"));
@@ -163,7 +163,7 @@ fn origin(text: &mut String, source: Option<&Source>, notes: Option<&str>) {
     }
 }
 
-/// The same for JSON.
+/// Inserts the source and the remarks for JSON.
 fn remarks(object: &mut Map<String, Value>, source: Option<&Source>, notes: Option<&str>) {
     object.insert("notes".into(), json!(notes));
     object.insert("citation".into(), json!(source.and_then(|source| citation(&source.key))));
@@ -176,7 +176,7 @@ fn claims<const N: usize>(claims: [(&str, Option<String>); N]) -> String {
     if claims.is_empty() { "no claims\n".to_owned() } else { format!("claimed: {}\n", claims.join(", ")) }
 }
 
-/// What relates its numbers.
+/// Returns the formula that relates its numbers.
 fn formula(entry: &Entry) -> String {
     match &entry.design {
         Design::Arm(chain) | Design::Loop(chain) => {
@@ -220,7 +220,7 @@ fn identity(entry: &Entry) -> Map<String, Value> {
     labels(&entry.name, &entry.title, kind(entry.kind()), &kinds, entry.source.as_ref())
 }
 
-/// What every listing says: name, title, kind, type and source.
+/// Returns the common part of every listing: name, title, kind, type and source.
 fn labels(name: &str, title: &str, kind: &str, kinds: &str, source: Option<&Source>) -> Map<String, Value> {
     let source = source.map(|source| json!({ "key": source.key, "where": source.place }));
     let mut object = Map::new();
@@ -238,7 +238,7 @@ fn case(case: &Case) -> Value {
     Value::Object(object)
 }
 
-/// What a case asks for: a pose, the value of a joint, the lengths of legs.
+/// Returns the request of a case: a pose, the value of a joint, or the lengths of legs.
 pub(super) fn asked(case: &Case) -> Map<String, Value> {
     let mut object = Map::new();
     if let Some(pose) = &case.pose {

@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 
 type Points = [[Number; 3]; 6];
 
-/// How many different points base and plate have: `6-3`.
+/// Returns the numbers of different points of base and plate, as `6-3`.
 pub(super) fn points(platform: &Platform<Number>) -> String {
     let different = |points: &Points| (0..6).filter(|k| !points[..*k].contains(&points[*k])).count();
     format!("{}-{}", different(&platform.base), different(&platform.plate))

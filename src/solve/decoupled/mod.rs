@@ -20,11 +20,11 @@ type C64 = Complex<f64>;
 
 /// No closed form has more candidates.
 const MOST: usize = 8;
-/// Parts of the larger one below which a planar vector is none, and of their product below which two are dependent: what is
-/// special by its incidences is so to rounding.
+/// Largest part, relative to the larger one, of a planar vector that counts as zero, and of the product of two that count as
+/// dependent: special incidences hold up to rounding.
 const DEPENDENT: f64 = 1e-9;
 
-/// What three neighbouring axes of a loop have in common.
+/// The common property of three neighbouring axes of a loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Common {
     /// A point, at these heights on the first and on the last of the axes.
@@ -38,7 +38,7 @@ pub enum Common {
 pub struct Decoupled {
     /// The first of the three.
     pub first: usize,
-    /// What they have in common.
+    /// Their common property.
     pub common: Common,
 }
 
@@ -69,7 +69,7 @@ impl Candidates {
         &self.complex[..self.counts[1]]
     }
 
-    /// How many there are, conjugates included.
+    /// Returns their number, conjugates included.
     #[must_use]
     pub fn count(&self) -> usize {
         self.counts[0] + 2 * self.counts[1]

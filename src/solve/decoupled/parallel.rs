@@ -21,7 +21,7 @@ pub(super) struct Parallel<'a> {
     own: Rotated<'a>,
     /// The direction as C sees it.
     direction: [f64; 3],
-    /// Where it has to be.
+    /// The place that it has to reach.
     target: [f64; 3],
     /// The two equations: a row over the angle of A, one over that of C, and a constant, which add up to 0.
     equations: [([Planar; 2], f64); 2],

@@ -21,11 +21,11 @@ pub(super) struct Wrist<'a> {
     own: Rotated<'a>,
     /// The point as C sees it.
     point: [f64; 3],
-    /// Where it has to be.
+    /// The place that it has to reach.
     target: [f64; 3],
     /// The vectors u of the two equations.
     across: [[f64; 3]; 2],
-    /// What is free of B in the two equations, as rows over the angle of C.
+    /// The part free of B in the two equations, as rows over the angle of C.
     free: [Row; 2],
     /// The square of the distance of g from the axis of B, from its parts: |g|^2 and the height.
     square: Row,
@@ -72,7 +72,7 @@ impl<'a> Wrist<'a> {
         if !(sizes[strong] > DEPENDENT) {
             return;
         }
-        // What is left of the weaker equation is free of B.
+        // The rest of the weaker equation is free of B.
         let (w, s) = (&self.across[weak], &self.across[strong]);
         let factor = (w[0] * s[0] + w[1] * s[1]) / (sizes[strong] * sizes[strong]);
         let equation = combined(&self.free[weak], -factor, &self.free[strong]);
