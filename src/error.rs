@@ -19,7 +19,7 @@ pub enum Error {
         path: String,
         /// Line of the fault, from 1.
         line: usize,
-        /// What was found and what was expected.
+        /// The value found and the value expected.
         message: String,
     },
     /// A file could not be read or written at all.
@@ -27,7 +27,7 @@ pub enum Error {
     Io {
         /// The file as it was named.
         path: String,
-        /// What the system or the reader said.
+        /// The message of the system or the reader.
         message: String,
     },
     /// Neither a file nor an entry of the built-in library.
@@ -61,8 +61,8 @@ impl From<algebra::error::Error> for Error {
 }
 
 impl Error {
-    /// The same fault, placed in a file: an [`Error::Invalid`] becomes an [`Error::File`], others stay as they are
-    /// (an unsupported feature only gains the place).
+    /// Places the error in a file: an [`Error::Invalid`] becomes an [`Error::File`]; an unsupported feature only gains the place,
+    /// and others stay as they are.
     #[must_use]
     pub fn at(self, path: &str, line: usize) -> Self {
         match self {
@@ -82,7 +82,7 @@ impl Error {
         }
     }
 
-    /// What is beyond what is implemented; `None` for any other error.
+    /// Returns the unsupported feature; `None` for any other error.
     #[must_use]
     pub fn unsupported(&self) -> Option<&str> {
         match self {

@@ -16,7 +16,7 @@ use rug::Rational;
 /// Real numbers t at which the screws of a loop are looked at: rank and words are those of the most general of them.
 const SAMPLES: [(i32, i32); 4] = [(1, 3), (-2, 5), (7, 2), (-5, 1)];
 
-/// What became of a motion polynomial.
+/// The result of factoring a motion polynomial.
 #[derive(Clone, Debug)]
 pub enum Factored {
     /// All factorisations, over the rationals.
@@ -30,7 +30,7 @@ pub enum Factored {
 /// The closed loop of two factorisations.
 #[derive(Clone, Debug)]
 pub struct Loop {
-    /// Which ones, counted from 0.
+    /// Indices of the two factorisations, counted from 0.
     pub pair: (usize, usize),
     /// Its joints in short: `6R`.
     pub letters: String,
@@ -38,7 +38,7 @@ pub struct Loop {
     pub axes: Vec<(Screw<Rational>, bool)>,
     /// The order of the screw system of the joints.
     pub order: usize,
-    /// What the axes have in common.
+    /// The common property of the axes.
     pub system: String,
     /// Bennett's ratio `(a / sin alpha)^2` if it is his.
     pub bennett: Option<Rational>,
@@ -47,8 +47,8 @@ pub struct Loop {
 }
 
 impl Loop {
-    /// Least and greatest dimension of the motions: it moves, and to first order in as many ways as joints exceed the order of
-    /// their screw system; of order 6, or with one such way, that is what there is.
+    /// Returns the least and greatest dimension of the motions. The loop moves, and to first order its freedom is the number of
+    /// joints minus the order of their screw system. For order 6, or where that is 1, both are equal.
     #[must_use]
     pub fn mobility(&self) -> (usize, usize) {
         let most = self.axes.len() - self.order;
@@ -116,11 +116,11 @@ impl Factored {
         }
     }
 
-    /// The loop of two factorisations counted from 0, or of the first pair with the most joints; `None` if that has fewer
+    /// Returns the loop of two factorisations counted from 0, or of the first pair with the most joints; `None` if that has fewer
     /// than three joints, or the factorisations are not exact.
     ///
     /// # Errors
-    /// When there are not so many factorisations.
+    /// When a number exceeds the number of factorisations.
     pub fn closed_loop(&self, wanted: Option<(usize, usize)>) -> Result<Option<Loop>> {
         let count = self.factorisations();
         if let Some((i, j)) = wanted
@@ -163,7 +163,7 @@ fn quadratics<F: Field>(found: &Factorisations<F>, text: &dyn Fn(&F) -> String) 
     found.quadratics.iter().map(one).collect()
 }
 
-/// What there is to say of a loop that closes for every t.
+/// Describes a loop that closes for every t.
 fn closed(pair: (usize, usize), linkage: &Linkage<Rational>) -> Option<Loop> {
     if linkage.joints.len() < 3 || !linkage.closes() {
         return None;

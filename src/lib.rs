@@ -1,11 +1,11 @@
 #![doc = include_str!("../README.md")]
 //
-// What the product is stands at the root. What it is made of stands in one hidden module, for the command line, the bindings, tests
+// The public API stands at the root. Its implementation stands in one hidden module, for the command line, the bindings, tests
 // and benches: its names may change with every version.
 
 use looproot_algebra as algebra;
 
-/// What the library is made of, in layer order: none of these modules imports a later one.
+/// The implementation, in layer order: none of these modules imports a later one.
 #[doc(hidden)]
 #[path = ""]
 #[rustfmt::skip]

@@ -66,7 +66,7 @@ fn inverse(value: &Enclosure) -> Option<Enclosure> {
         if off.middle().is_sign_negative() { low = middle } else { high = middle }
     }
     let found = Float::with_val(192, &low + &high) / 2_u32;
-    // It lies between these two, of which the values are told apart.
+    // The root lies between these two if their values are proved to differ in sign.
     let width = Float::with_val(192, 1) >> WIDTH.unsigned_abs();
     let below = involute(&Enclosure::of_float(&Float::with_val(192, &found - &width)))?.sub(value);
     let above = involute(&Enclosure::of_float(&Float::with_val(192, &found + &width)))?.sub(value);

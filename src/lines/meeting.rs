@@ -83,7 +83,7 @@ fn real_mode(
         let vector = |v: &[Rational; 3]| v.each_ref().map(Enclosure::of);
         Complex { a: vector(&complex.a), b: vector(&complex.b) }
     };
-    // Where the root is rational, zeros of the direction are decided exactly.
+    // For a rational root, zeros of the direction are decided exactly.
     if let Some(root) = Root::sqrt(discriminant) {
         let (s, t) = ratio(a, b, c, &Rational::from(&root * sign));
         let line = member(one, two, &s, &t);

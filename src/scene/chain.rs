@@ -68,7 +68,7 @@ impl ChainPoser {
     }
 }
 
-/// What has been drawn so far of a chain.
+/// The part of a chain drawn so far.
 struct Drawing<'a> {
     poser: &'a ChainPoser,
     bodies: Vec<Body>,

@@ -8,7 +8,7 @@ const PARALLEL: f64 = 1e-4;
 /// Feet farther away than this many times the size of the mechanism are not used: nearly parallel axes have them.
 const FAR: f64 = 2.0;
 
-/// Where a joint acts.
+/// The place at which a joint acts.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Seat {
     /// About or along a line: a point of it and its direction.

@@ -1,6 +1,6 @@
-//! How a mechanism looks: its bodies with what is drawn of them, and where every body is at a configuration.
+//! The scene of a mechanism: its bodies with their drawn parts, and the place of every body at a configuration.
 //!
-//! A scene is written once. A configuration adds one pose for every body, so that nothing that draws has to know the
+//! A scene is written once. A configuration adds one pose for every body, so that a program that draws need not know the
 //! conventions of joints and links.
 
 mod chain;
@@ -28,9 +28,9 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Straight lines between two bodies.
     pub connections: Vec<Connection>,
-    /// Where the mechanism stands.
+    /// The centre of the mechanism.
     pub centre: Point,
-    /// How far from there it reaches, roughly.
+    /// The approximate distance from there to its farthest points.
     pub size: f64,
     /// Points whose paths are drawn.
     pub traces: Vec<Trace>,
@@ -54,11 +54,11 @@ pub struct Trace {
 pub struct Body {
     /// Its name.
     pub name: String,
-    /// What is drawn of it, in its own frame.
+    /// The drawn parts, in its own frame.
     pub parts: Vec<Part>,
 }
 
-/// What is drawn of a body.
+/// A drawn part of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
     /// The joint to the next body.
@@ -98,7 +98,7 @@ pub enum Part {
     },
 }
 
-/// What joins two bodies.
+/// The kind of a connection of two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConnectionKind {
     /// A leg of a platform.
@@ -124,7 +124,7 @@ impl ConnectionKind {
 /// A straight line between a point of one body and a point of another one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Connection {
-    /// What it is.
+    /// Its kind.
     pub kind: ConnectionKind,
     /// A body and a point in its frame.
     pub from: (usize, Point),
@@ -135,7 +135,7 @@ pub struct Connection {
 /// A scene, and how its bodies are posed.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    /// What is drawn.
+    /// The scene.
     pub scene: Scene,
     poser: Poser,
 }
@@ -182,9 +182,9 @@ impl Stage {
         Some(Self { scene, poser })
     }
 
-    /// Where the bodies are: of a chain or a linkage at these joint variables, of a platform at the quaternion `w, x, y, z` and the
-    /// position of its plate, of a framework at the coordinates of its vertices one behind the other. `None` for a list of
-    /// another length, and for numbers that are not finite.
+    /// Returns the poses of the bodies: of a chain or a linkage at these joint variables, of a platform at the quaternion `w, x, y, z` and the
+    /// position of its plate, of a framework at the concatenated coordinates of its vertices. `None` for a list of another
+    /// length, and for numbers that are not finite.
     #[must_use]
     pub fn poses(&self, q: &[f64]) -> Option<Vec<Pose>> {
         if !q.iter().all(|x| x.is_finite()) {

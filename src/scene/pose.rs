@@ -36,7 +36,7 @@ pub fn pose_of(motion: &Motion<f64>) -> Pose {
     [w, x, y, z, px, py, pz]
 }
 
-/// Where a pose brings a point.
+/// Applies a pose to a point.
 #[must_use]
 pub fn apply(pose: &Pose, p: &Point) -> Point {
     let [w, x, y, z, px, py, pz] = *pose;

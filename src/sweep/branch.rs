@@ -9,20 +9,20 @@ use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::InputCurve;
 use crate::solve::curve::INPUT;
 
-/// How a branch begins or ends.
+/// The beginning or end of a branch.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
     /// In a limit position: index in [`super::Sweep::limits`].
     Limit(usize),
     /// At an end of the range.
     Range,
-    /// In itself, after so many full turns.
+    /// In itself, after this many full turns.
     Closed(usize),
     /// A translation grows beyond all bounds near this input.
     Infinite(f64),
-    /// Where it is: the loop closes at this input alone and does not move there.
+    /// At an isolated input: the loop closes there and does not move.
     Isolated,
-    /// Not known, what becomes of it between these two inputs.
+    /// Unresolved between these two inputs.
     Unresolved([f64; 2]),
 }
 
@@ -31,7 +31,7 @@ pub enum End {
 pub struct Row {
     /// The step, 0 for the first input.
     pub step: usize,
-    /// Which turn of the branch, from 0, where a full turn joins up.
+    /// The turn of the branch, from 0, where a full turn joins up.
     pub turn: usize,
     /// Index of the mode among those of the sample.
     pub mode: usize,
@@ -44,11 +44,11 @@ pub struct Branch {
     pub circuit: usize,
     /// The input at which it begins, in the direction of the sweep.
     pub from: f64,
-    /// How it begins.
+    /// The beginning.
     pub begin: End,
     /// The input at which it ends, not reduced by full turns.
     pub to: f64,
-    /// How it ends.
+    /// The end.
     pub end: End,
     /// Its modes, step by step.
     pub rows: Vec<Row>,
@@ -123,7 +123,7 @@ impl Web {
         let mut owner: Vec<Vec<Option<usize>>> =
             self.samples.iter().map(|(sample, _)| vec![None; sample.modes.len()]).collect();
         let mut paths: Vec<(Vec<Node>, bool)> = Vec::new();
-        // Those with a beginning first; what is left runs round.
+        // Paths with a beginning come first; the rest are closed.
         for is_open in [true, false] {
             for start in nodes() {
                 if owner[start.0][start.1].is_some() || (is_open && self.next(start, false).is_some()) {
@@ -201,7 +201,7 @@ fn sort_limits(branches: &mut [Branch], limits: &mut Vec<Limit>) {
     }
 }
 
-/// What has been found of the branches so far.
+/// The branches found so far.
 struct Found<'a> {
     web: &'a Web,
     curve: &'a InputCurve,
@@ -249,13 +249,13 @@ impl Found<'_> {
         }
         let (begin, from) = self.end(first, false);
         let (end, to) = self.end(last, true);
-        // An end between the end of a full turn and its beginning may be told by its input one turn away.
+        // An end between the end of a full turn and its beginning may be given by its input one turn away.
         let from = if (from - input(first)) * span > 0.0 { from - span } else { from };
         let to = if (to - input(last)) * span < 0.0 { to + span } else { to };
         Branch { circuit: 0, from, begin, to: to + turn as f64 * span, end, rows }
     }
 
-    /// How a branch ends at a node, and the input there.
+    /// Returns the end of a branch at a node, and the input there.
     fn end(&mut self, node: Node, forwards: bool) -> (End, f64) {
         let web = self.web;
         let own = web.samples[node.0].0.input;

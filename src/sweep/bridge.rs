@@ -1,4 +1,4 @@
-//! What becomes of every mode between two neighbouring inputs.
+//! The fate of every mode between two neighbouring inputs.
 
 use super::sample::{Sample, Swept};
 use super::track::{Destination, Fold, Track, follow};
@@ -11,10 +11,10 @@ use std::f64::consts::PI;
 
 /// Points nearer than this are one, in radians and scaled lengths over the longest of them.
 const SAME: f64 = 1e-6;
-/// How often a step whose branches do not add up is halved.
+/// Number of times that a step is halved whose branches do not match.
 const HALVINGS: usize = 8;
 
-/// Where a mode goes to on one side.
+/// The fate of a mode on one side.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Fate {
     /// To a mode of the neighbouring input; limit positions passed on the way.
@@ -25,16 +25,16 @@ pub(super) enum Fate {
     Infinite(f64, Vec<usize>),
     /// Nowhere: it is an isolated position of a loop that does not move there.
     Still,
-    /// Not known.
+    /// Unknown.
     Lost,
 }
 
 /// The fates of the modes of two neighbouring inputs between them.
 #[derive(Clone, Debug)]
 pub(super) struct Bridge {
-    /// Of the modes at the lower index, forwards.
+    /// The fates of the modes at the lower index, forwards.
     pub forwards: Vec<Fate>,
-    /// Of the modes at the higher index, backwards.
+    /// The fates of the modes at the higher index, backwards.
     pub backwards: Vec<Fate>,
     /// The limit positions.
     pub folds: Vec<Fold>,
@@ -45,7 +45,7 @@ impl Bridge {
         !self.forwards.iter().chain(&self.backwards).any(|fate| *fate == Fate::Lost)
     }
 
-    /// Whether it says of no mode what becomes of it.
+    /// Whether the fate of every mode is unknown.
     fn is_blank(&self) -> bool {
         self.forwards.iter().chain(&self.backwards).all(|fate| *fate == Fate::Lost)
     }
@@ -69,7 +69,7 @@ pub(super) fn apart(curve: &InputCurve, a: &Point, b: &Point) -> f64 {
         largest / size
     };
     let Some(spherical) = curve.spherical() else { return plain(a) };
-    // The same orientation of a spherical joint by other angles.
+    // Other angles give the same orientation of a spherical joint.
     let mut other = *a;
     let index = |k: usize| (spherical + k) % INPUT;
     other[index(1)] = -other[index(1)];
@@ -90,8 +90,7 @@ pub(super) fn mode_at(curve: &InputCurve, sample: &Sample, point: &Point) -> Opt
     }
 }
 
-/// Follows every mode of two neighbouring inputs to where it goes in between. What cannot be followed is
-/// [`Fate::Lost`].
+/// Follows every mode of two neighbouring inputs to its destination in between. A mode that cannot be followed is [`Fate::Lost`].
 pub(super) fn bridge(curve: &InputCurve, low: &Sample, high: &Sample) -> Bridge {
     let mut folds: Vec<Fold> = Vec::new();
     let unit = curve.unit(INPUT);
@@ -176,7 +175,7 @@ pub(super) fn bridges(
         && last.is_blank()
         && next.is_blank()
     {
-        // A sample of which nothing is known on either side would only cut one gap in two.
+        // A sample without any known fate on either side would only cut one unresolved step in two.
         last.backwards = std::mem::take(&mut next.backwards);
         more.remove(0);
     } else {

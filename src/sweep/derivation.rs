@@ -9,8 +9,8 @@ use crate::derivation::{Derivation, derive};
 use crate::error::Result;
 use crate::mechanism::locked_variable;
 
-/// Whether a polynomial may have a real branch: one in the output alone without real roots has none, and its complex roots need close
-/// nothing.
+/// Returns whether a polynomial may have a real branch: one in the output alone without real roots has none, and its complex
+/// roots need not close the loop.
 fn is_branch((_, polynomial): &(usize, Polynomial<Int>)) -> bool {
     let in_output = polynomial.to_univariate(1).and_then(|p| p.map(|c| Some(c.to_integer())));
     in_output.is_none_or(|p| p.distinct_real_roots() > 0)

@@ -9,9 +9,9 @@ use super::sample::{Pair, Sample, Swept};
 use crate::assembly::{Assembly, Workspace};
 use crate::error::Result;
 
-/// How often a smallest distance is looked for more closely.
+/// Number of times that the search for a smallest distance is refined.
 const LOOKS: usize = 10;
-/// Where a pair is met on one side only, this part of the step shows which way it goes.
+/// Part of the step to probe the direction of a pair that is met on one side only.
 const PROBE: f64 = 0.1;
 
 /// A pair of conjugate modes at some input.
@@ -33,7 +33,7 @@ pub(super) fn between(
     for pair in &low.pairs {
         let here = Seen { input: low.input, pair: *pair };
         let Some(next) = nearest(swept, &here, high) else { continue };
-        // The pair is followed outwards on both sides, so that a smallest distance at either end is seen as one.
+        // The pair is followed outwards on both sides, so that a smallest distance at either end is recognised.
         let before = index.checked_sub(1).and_then(|k| nearest(swept, &here, &samples[k]));
         let after = samples.get(index + 2).and_then(|sample| nearest(swept, &next, sample));
         let (mut triples, mut seen): (Vec<[Seen; 3]>, Vec<Sample>) = (Vec::new(), Vec::new());
@@ -77,7 +77,7 @@ fn nearest(swept: &Swept<'_>, seen: &Seen, sample: &Sample) -> Option<Seen> {
     Some(Seen { input: sample.input, pair: *pair })
 }
 
-/// What a look from one input a little way towards another one shows of a pair.
+/// The state of a pair at a probe from one input a little way towards another one.
 enum Probe {
     /// It has become real.
     Real(Sample),
@@ -130,7 +130,7 @@ fn closer(
     Ok(None)
 }
 
-/// Where a parabola through three points is smallest, between the outer ones, and its value there.
+/// Returns the place of the minimum of a parabola through three points, between the outer ones, and its value there.
 fn vertex([one, middle, two]: [Seen; 3]) -> Option<(f64, f64)> {
     let (a, c) = (one.input - middle.input, two.input - middle.input);
     let (fa, fc) = (one.pair.spread - middle.pair.spread, two.pair.spread - middle.pair.spread);

@@ -24,9 +24,9 @@ const SMALLEST: f64 = 1e-11;
 const FURTHER: f64 = 1e-3;
 /// An assembly is followed to one at this part of the distance of any other, at most.
 const NEARER: f64 = 0.35;
-/// And at this distance at most: radians, or parts of the size of the linkage.
+/// Largest distance of two such assemblies: radians, or parts of the size of the linkage.
 const NEAR: f64 = 0.5;
-/// Where a step is cut; beside these places where an assembly is double there.
+/// Places at which a step is cut; the later ones serve where an assembly is double at the earlier ones.
 const CUTS: [f64; 3] = [0.5, 0.463_017, 0.551_923];
 
 /// The real assemblies at one input.
@@ -49,7 +49,7 @@ pub struct LinkageSample {
 pub struct LinkageRow {
     /// The step, 0 for the first input.
     pub step: usize,
-    /// Which turn of the branch, from 0, where a full turn joins up.
+    /// The turn of the branch, from 0, where a full turn joins up.
     pub turn: usize,
     /// Index of the assembly among those of the sample.
     pub mode: usize,
@@ -62,11 +62,11 @@ pub struct LinkageBranch {
     pub circuit: usize,
     /// The input at which it begins, in the direction of the sweep.
     pub from: f64,
-    /// How it begins.
+    /// The beginning.
     pub begin: End,
     /// The input at which it ends, not reduced by full turns.
     pub to: f64,
-    /// How it ends.
+    /// The end.
     pub end: End,
     /// Its assemblies, step by step.
     pub rows: Vec<LinkageRow>,
@@ -85,7 +85,7 @@ pub struct LinkageLimit {
     pub branches: Vec<usize>,
 }
 
-/// What a sweep of a linkage found.
+/// The result of a sweep of a linkage.
 #[derive(Clone, Debug)]
 pub struct LinkageSweep {
     /// The joint that runs.
@@ -103,14 +103,14 @@ pub struct LinkageSweep {
 }
 
 impl LinkageSweep {
-    /// How many ends of branches are not known.
+    /// Returns the number of unresolved ends of branches.
     #[must_use]
     pub fn unresolved(&self) -> usize {
         let ends = self.branches.iter().flat_map(|branch| [&branch.begin, &branch.end]);
         ends.filter(|end| matches!(end, End::Unresolved(_))).count()
     }
 
-    /// How many inputs have a list that is not complete.
+    /// Returns the number of inputs whose list is not complete.
     #[must_use]
     pub fn incomplete(&self) -> usize {
         self.samples.iter().filter(|sample| !is_listed(sample.status)).count()
@@ -204,7 +204,7 @@ impl Run<'_> {
         let is_whole = lost.is_empty() && new.is_empty();
         let least_here = if one.modes.len() == two.modes.len() { FURTHER * least } else { least };
         if is_whole || (two.input - one.input).abs() < least_here {
-            // What is left at the end of all halving comes together in pairs, or is not known.
+            // The assemblies left after all halving meet in pairs, or are unresolved.
             let pairs = |sample: &LinkageSample, mut left: Vec<usize>| {
                 let mut pairs = Vec::new();
                 while let Some(pair) = self.fold(sample, &left) {
@@ -241,9 +241,9 @@ struct Between {
     links: Vec<Link>,
 }
 
-/// What becomes of the assemblies of a sample up to the next one.
+/// The connections of the assemblies of a sample to those of the next one.
 struct Link {
-    /// Of every assembly the one of the next sample that it passes into.
+    /// For every assembly, the one of the next sample into which it passes.
     passes: Vec<Option<usize>>,
     /// Pairs that come together behind the sample, and pairs that come from one before the next sample.
     folds: [Vec<[usize; 2]>; 2],
@@ -353,7 +353,7 @@ impl Web {
         let mut keys: Vec<(usize, usize, usize)> = Vec::new();
         let mut limits: Vec<LinkageLimit> = Vec::new();
         let mut branches: Vec<LinkageBranch> = Vec::new();
-        // Those with a beginning first; what is left runs round.
+        // Paths with a beginning come first; the rest are closed.
         for is_open in [true, false] {
             for start in places() {
                 if owner[start.0][start.1] || (is_open && self.previous(start).is_some()) {

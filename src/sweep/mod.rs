@@ -47,9 +47,9 @@ const BESIDE: f64 = 1e-3;
 /// The range of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// Where it begins: radians or a length.
+    /// The beginning: radians or a length.
     pub from: f64,
-    /// Where it ends.
+    /// The end.
     pub to: f64,
     /// Number of equal steps between.
     pub steps: usize,
@@ -66,7 +66,7 @@ impl Range {
     }
 }
 
-/// What a sweep found.
+/// The result of a sweep.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     /// The range that was asked for.
@@ -81,7 +81,7 @@ pub struct Sweep {
     pub is_full_turn: bool,
     /// Whether the loop has fewer than seven joint variables, so that it may close at single inputs.
     pub is_overconstrained: bool,
-    /// What to know of the angles of spherical joints.
+    /// A note on the angles of spherical joints.
     pub note: Option<String>,
     /// Inputs of the range at which the loop moves while its input stands still, where branches are proved: no branches,
     /// but configurations that these may meet.
@@ -91,13 +91,13 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// How many inputs have this status.
+    /// Returns the number of inputs with this status.
     #[must_use]
     pub fn count(&self, status: Status) -> usize {
         self.samples.iter().filter(|sample| sample.status == status).count()
     }
 
-    /// How many ends of branches are not known.
+    /// Returns the number of unresolved ends of branches.
     #[must_use]
     pub fn unresolved(&self) -> usize {
         let ends = self.branches.iter().flat_map(|branch| [&branch.begin, &branch.end]);
@@ -162,9 +162,9 @@ pub fn sweep(
     Ok(found)
 }
 
-/// What lies between two neighbouring samples: further samples, and the bridges from each to the next one.
+/// The part between two neighbouring samples: further samples, and the bridges from each to the next one.
 type Span = (Vec<Sample>, Vec<Bridge>);
-/// What is proved, or the reason why nothing is.
+/// A proved result, or the reason why it is not proved.
 type Proved<T> = std::result::Result<T, Code>;
 /// A sample to follow branches from, and the step that it is or stands for.
 type Node = (Sample, Option<usize>);
@@ -267,7 +267,7 @@ fn with_hidden(swept: &Swept<'_>, nodes: Vec<Node>) -> Result<Vec<Node>> {
     Ok(all)
 }
 
-/// How the end of a full turn is joined to its beginning.
+/// The joint of the end of a full turn and its beginning.
 enum Closing {
     /// They are the same input: the same modes.
     Same(Bridge),

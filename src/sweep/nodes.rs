@@ -6,8 +6,8 @@ use super::sample::Sample;
 use crate::kinematics::closed_loop::Variable;
 use std::f64::consts::TAU;
 
-/// How far on both sides of a critical input branches are looked at, in radians or parts of the range: near enough for
-/// two branches that meet there to be seen alone, far enough for them to be solved apart in floating point.
+/// Distance on both sides of a critical input at which branches are examined, in radians or parts of the range: near enough to
+/// isolate two branches that meet there, far enough to separate them in floating point.
 const REACH: f64 = 1e-5;
 /// Critical inputs keep this part of the distance to the next one.
 const PART: f64 = 0.25;
@@ -107,7 +107,7 @@ impl Range {
         wanted
     }
 
-    /// With inputs between those that are too far apart.
+    /// Inserts inputs between those that are too far apart.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
     pub(super) fn filled(
         &self,

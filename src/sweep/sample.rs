@@ -17,7 +17,7 @@ const CLOSED: f64 = 1e-13;
 /// Condition numbers up to this are those of simple modes, also where no proof says so.
 const REGULAR: f64 = 1e8;
 
-/// What was found at one input.
+/// The result at one input.
 #[derive(Clone, Debug)]
 pub struct Sample {
     /// The input: radians, not reduced modulo 2 pi, or a length.
@@ -28,7 +28,7 @@ pub struct Sample {
     pub reason: String,
     /// The real modes: joint variables in joint order.
     pub modes: Vec<Vec<f64>>,
-    /// Whether every real mode is simple, and the list nothing but isolated modes: branches can be followed from here.
+    /// Whether every real mode is simple and the list contains only isolated modes: branches can be followed from here.
     pub(super) is_regular: bool,
     /// The modes as points of the curve.
     pub(super) points: Vec<Point>,

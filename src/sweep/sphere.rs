@@ -27,12 +27,12 @@ pub struct SphereNode {
     pub mode: SphereMode,
 }
 
-/// What was found in the range.
+/// The result over the range.
 #[derive(Clone, Debug)]
 pub struct SphereSweep {
     /// The joint that runs.
     pub joint: usize,
-    /// Of every step the angle of the input, radians, and the verdict.
+    /// The angle of the input in radians, and the verdict, for every step.
     pub inputs: Vec<(f64, Verdict)>,
     /// The real branches, each as its positions in order.
     pub branches: Vec<Vec<SphereNode>>,
@@ -43,7 +43,7 @@ pub struct SphereSweep {
     pub complex_limits: Option<usize>,
 }
 
-/// Runs a joint from one angle to another in so many steps; what else is given stays.
+/// Runs a joint from one angle to another in `steps` steps; the other inputs stay.
 ///
 /// # Errors
 /// As [`solve`].

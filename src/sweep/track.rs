@@ -11,19 +11,19 @@ const MOST_STEPS: usize = 2000;
 const FAR: f64 = 1e5;
 /// Translations beyond this are where the way cannot be followed any longer and they grow as beside a pole.
 const LARGE: f64 = 1e3;
-/// Two places tell the same pole if they differ by no more than this part of the way to it.
+/// Largest difference, as a part of the way to a pole, of two estimates of the same pole.
 const SAME_POLE: f64 = 0.05;
 
 /// A limit position as it is met on the way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fold {
-    /// Where.
+    /// The place.
     pub point: Point,
     /// Whether the input is largest there, else smallest.
     pub is_largest: bool,
 }
 
-/// Where a branch goes to.
+/// The destination of a branch.
 #[derive(Clone, Debug)]
 pub(super) enum Destination {
     /// To a point at the input it was followed to.
@@ -32,14 +32,14 @@ pub(super) enum Destination {
     Returned(Point),
     /// To infinity near this input.
     Infinite(f64),
-    /// Not known: the branch could not be followed.
+    /// Unknown: the branch could not be followed.
     Lost,
 }
 
 /// A branch followed.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
-    /// Where it goes to.
+    /// The destination.
     pub destination: Destination,
     /// The limit positions on the way.
     pub folds: Vec<Fold>,
@@ -106,8 +106,8 @@ impl Walk<'_> {
         sizes.fold((0, 0.0), |best, other| if other.1 > best.1 { other } else { best })
     }
 
-    /// The pole of a translation on the way, as it is told alike by two places, or by one far out. There the closure in
-    /// floating point does not hold the way any longer, though beside a pole y = c/(x - x0) it is known: x0 = x + y/y'.
+    /// Returns the pole of a translation on the way, if two places agree on it or one is far out. There the closure in floating
+    /// point no longer determines the way, but beside a pole y = c/(x - x0) it is known: x0 = x + y/y'.
     fn pole(&self, first: &Place, last: &Place) -> Option<Destination> {
         let (k, size) = self.largest(last);
         let pole = |place: &Place| place.point[INPUT] + place.point[k] * place.direction[INPUT] / place.direction[k];
@@ -119,7 +119,7 @@ impl Walk<'_> {
         (is_same && is_far && is_ahead && is_inside).then_some(Destination::Infinite(two))
     }
 
-    /// What happens between two neighbouring places: a limit position, the end of the way.
+    /// Returns the event between two neighbouring places: a limit position, or the end of the way.
     fn events(&self, here: &Place, next: &Place, h: f64, folds: &mut Vec<Fold>) -> Reached {
         let (before, after) = (here.direction[INPUT], next.direction[INPUT]);
         if before * after > 0.0 {
@@ -165,7 +165,8 @@ impl Walk<'_> {
         Some(point)
     }
 
-    /// Where the curve between two neighbouring points, along which the input is monotone, meets an end of the way.
+    /// Returns the point at which the curve between two neighbouring points, along which the input is monotone, meets an end of
+    /// the way.
     fn landing(&self, from: &Point, to: &Point, bend: Bend) -> Reached {
         let inside = |x: f64| (x - self.begin) * (x - self.target) <= 0.0;
         let heading = (to[INPUT] - from[INPUT]) * (self.target - self.begin) > 0.0;
@@ -200,7 +201,7 @@ impl Walk<'_> {
 /// The curve could not be followed.
 struct Untraceable;
 
-/// Where on a piece of the curve the input stands still.
+/// The end of a piece of the curve at which the input is stationary.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Bend {
     None,

@@ -1,4 +1,4 @@
-//! What a sweep rests on.
+//! The proof of a sweep.
 
 use super::Sweep;
 use crate::verdict::{Code, Proof, Status};
@@ -8,7 +8,7 @@ use crate::verdict::{Code, Proof, Status};
 pub struct SweepVerdict {
     /// `Complete`, `Unreachable` where the loop closes at no input, or `Incomplete`.
     pub status: Status,
-    /// What that rests on.
+    /// Its proof.
     pub proof: Proof,
     /// The reason as a code.
     pub code: Code,

@@ -1,4 +1,4 @@
-//! What became of a synthesis: its dyads, and what is claimed of their list.
+//! The answer to a synthesis: its dyads, and the verdict on their list.
 
 use super::cells::Place;
 use super::curves::Curve;
@@ -22,7 +22,7 @@ const WANTED: f64 = 4.0 * f64::EPSILON;
 pub struct Mode {
     /// Whether all its numbers are real.
     pub is_real: bool,
-    /// How many solutions coincide here.
+    /// The number of solutions that coincide here.
     pub multiplicity: usize,
     /// Its numbers.
     pub dyad: Dyad,
@@ -48,7 +48,7 @@ pub struct Family {
 /// All dyads of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// What is claimed of the list.
+    /// The verdict on the list.
     pub verdict: Verdict,
     /// The degrees of the exact polynomials on whose roots the dyads depend, one for each multiplicity.
     pub degrees: Vec<usize>,
@@ -58,11 +58,11 @@ pub struct Answer {
     pub families: Vec<Family>,
     /// Curves of moving and fixed points, where there are any.
     pub curves: Vec<Curve>,
-    /// What is special about the positions.
+    /// Remarks on special positions.
     pub warnings: Vec<String>,
 }
 
-/// How the numbers of a solution are made.
+/// A function that computes the numbers of a solution.
 pub(super) type Maker = fn(&Wanted, &Place<Disc>, bool) -> Option<Dyad>;
 
 /// The answer where the equations were not solved.
@@ -177,7 +177,7 @@ fn by_numbers(one: &Dyad, other: &Dyad) -> std::cmp::Ordering {
     one.iter().zip(&other).map(order).find(|order| order.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
 }
 
-/// The numbers of a solution in as many bits as they need.
+/// Computes the numbers of a solution with as many bits as they need.
 pub(super) fn numbers(wanted: &Wanted, point: &Point, maker: Maker) -> Dyad {
     let mut best: Option<Dyad> = None;
     for bits in BITS {

@@ -55,7 +55,7 @@ fn times(monomial: &[usize; X], i: usize) -> [usize; X] {
     product
 }
 
-/// All solutions where they are as many as in general, each certified; `None` where that is not shown.
+/// Returns all solutions, each certified, where they are as many as in general; `None` where that is not shown.
 pub(super) fn solutions(wanted: &Wanted) -> Option<Vec<Certified>> {
     let count = wanted.general_count()?;
     let bilinear = Bilinear::of(wanted)?;
@@ -214,7 +214,7 @@ impl Bilinear {
         let (monomial, k) = (columns[largest / self.width], largest % self.width);
         let y: Vec<Complex<LongFloat>> =
             (0..self.width).map(|k| values[largest / self.width * self.width + k]).collect();
-        // Of the same y the monomials in which another x stands in place of one of them.
+        // For the same y, the monomials with another x in place of one of them.
         let from = (0..X).find(|i| monomial[*i] > 0)?;
         let mut rest = monomial;
         rest[from] -= 1;

@@ -2,7 +2,7 @@
 
 use crate::algebra::ring::Ring;
 
-/// What is unknown: vectors up to scale, and numbers.
+/// The shape of the unknowns: vectors up to scale, and numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Shape {
     /// Sizes of the vectors up to scale.

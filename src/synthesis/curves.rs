@@ -18,9 +18,9 @@ type Plane = Univariate<Univariate<Rational>>;
 /// A curve in the coordinates of one body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// Which points they are: `moving` or `fixed`.
+    /// The kind of the points: `moving` or `fixed`.
     pub of: &'static str,
-    /// What its points are called.
+    /// The name of its points.
     pub name: &'static str,
     /// Its degree.
     pub degree: usize,

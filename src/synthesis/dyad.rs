@@ -10,7 +10,7 @@ use crate::kinematics::motion::{Vector, cross, dot};
 use num_complex::Complex;
 use rug::Float;
 
-/// Bits of a number of which nothing more is wanted: more than an f64 has.
+/// Bits of a number that is only shown: more than an f64 has.
 const SHOWN: u32 = 64;
 
 /// Numbers of a dyad by their name in the output, such as `fixed` or `fixed.direction`.
@@ -60,12 +60,12 @@ impl Making {
     }
 
     fn value(&mut self, disc: &Disc) -> Complex<f64> {
-        // What may be 0 is shown as 0.
+        // A number that may be 0 is shown as 0.
         let shown = |x: &Float| if *x.as_abs() <= *disc.radius() { 0.0 } else { x.to_f64() };
         let (re, im) = (shown(&disc.re), if self.is_real { 0.0 } else { shown(&disc.im) });
         let off = |exact: &Float, shown: f64| Float::with_val(SHOWN, exact - shown).abs().to_f64();
         let radius = disc.radius().to_f64() + off(&disc.re, re).max(if self.is_real { 0.0 } else { off(&disc.im, im) });
-        // The sum of two rounded numbers is no more than two roundings too small.
+        // The sum of two rounded numbers is at most two roundings too small.
         self.radius = self.radius.max(radius * (1.0 + 4.0 * f64::EPSILON));
         Complex::new(re + 0.0, im + 0.0)
     }

@@ -1,4 +1,4 @@
-//! What the positions demand of a dyad, as polynomials over any ring.
+//! The conditions that the positions impose on a dyad, as polynomials over any ring.
 
 use super::cells::{Place, Shape};
 use crate::algebra::dual::Dual;
@@ -13,9 +13,9 @@ pub(super) struct Wanted {
     pub kind: DyadKind,
     pub space: Space,
     pub positions: Vec<Motion<Rational>>,
-    /// Of some positions how the body leaves them: with dual parts that are rates. RR dyads in the plane only.
+    /// Motions of the body at some positions, with dual parts that are rates. RR dyads in the plane only.
     pub rates: Vec<Motion<Dual<Rational>>>,
-    /// How many solutions that are no dyads the equations always have.
+    /// The number of solutions of the equations that are always there and are no dyads.
     pub trivial: usize,
 }
 
@@ -79,8 +79,9 @@ impl Wanted {
         if self.space == Space::Plane { 2 } else { 3 }
     }
 
-    /// What is unknown: of RR and SS the fixed and the moving point, of PR and PPS the normal of the line or plane and the
-    /// moving point, of RP the normal of the moving line and the fixed point, on the sphere both axes, of CC both lines.
+    /// Returns the shape of the unknowns: for RR and SS the fixed and the moving point, for PR and PPS the normal of the line or
+    /// plane and the moving point, for RP the normal of the moving line and the fixed point, on the sphere both axes, for CC both
+    /// lines.
     pub fn shape(&self) -> Shape {
         let width = self.width();
         match (self.kind, self.space) {
@@ -118,7 +119,7 @@ impl Wanted {
         Some(count - self.trivial)
     }
 
-    /// What vanishes for a dyad that takes all positions.
+    /// Returns the polynomials that vanish for a dyad that takes all positions.
     pub fn equations<R: Ring>(&self, place: &Place<R>) -> Vec<R> {
         let motions: Vec<Motion<R>> = self.positions.iter().map(lifted).collect();
         let width = self.width();
@@ -157,7 +158,7 @@ impl Wanted {
         }
     }
 
-    /// Of CC dyads the same of the directions only: those of a spherical RR dyad.
+    /// For CC dyads, returns the conditions on the directions only: those of a spherical RR dyad.
     pub fn directions(&self) -> Self {
         Self { kind: DyadKind::RR, space: Space::Sphere, ..self.clone() }
     }
@@ -198,7 +199,7 @@ fn rate_of_link<R: Ring>(motion: &Motion<Dual<Rational>>, fixed: &Vector<R>, mov
     square_of_link(&motion, &still(fixed), &still(moving)).epsilon
 }
 
-/// What vanishes if all values are equal.
+/// Returns the differences that vanish if all values are equal.
 fn constant<R: Ring>(values: impl Iterator<Item = R>) -> Vec<R> {
     let values: Vec<R> = values.collect();
     values.iter().skip(1).map(|value| value.sub(&values[0])).collect()

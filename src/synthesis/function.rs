@@ -45,7 +45,7 @@ fn seen_from_crank<R: Ring>((cos, sin): &(R, R), output: &(R, R)) -> Motion<R> {
     motion
 }
 
-/// The same at unit rate of the crank, where the ratio of the rates is given.
+/// Returns the motion at unit rate of the crank, where the ratio of the rates is given.
 fn leaving(pair: &AnglePair) -> Option<Motion<Dual<Rational>>> {
     let ratio = pair.ratio.as_ref()?;
     let [input, output] = &pair.angles;

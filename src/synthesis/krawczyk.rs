@@ -1,4 +1,4 @@
-//! Whether equations that are linear in two groups of unknowns have a solution near given values, and one only.
+//! Krawczyk's theorem: equations linear in two groups of unknowns have exactly one solution near given values.
 //!
 //! For a matrix A and a box of radius r about c, `|A f(c)| + |I - A f'(box)| r < r` proves that f has exactly one zero in
 //! the box, complex ones counted. \[Krawczyk1969\]
@@ -129,7 +129,7 @@ impl Certified {
         place(&self.boxes, self.directions)
     }
 
-    /// Whether the moving point is surely another one.
+    /// Returns whether the moving point is proved to be another one.
     pub fn is_apart_from(&self, other: &Self) -> bool {
         self.boxes[3..].iter().zip(&other.boxes[3..]).any(|(x, y)| x.sub(y).is_not_zero())
     }

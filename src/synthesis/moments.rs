@@ -9,8 +9,8 @@ use crate::algebra::ring::Ring;
 /// Components of two moments.
 const UNKNOWNS: usize = 6;
 
-/// The same place with the moments of both lines; `None` where the conditions are not as many as the moments, or where these
-/// discs do not show that they are independent.
+/// Returns the place with the moments of both lines; `None` where the numbers of conditions and moments differ, or where these
+/// discs do not show that the conditions are independent.
 pub(super) fn with_moments(wanted: &Wanted, place: &Place<Disc>) -> Option<Place<Disc>> {
     let at = |numbers: Vec<Disc>| wanted.equations(&Place { directions: place.directions.clone(), numbers });
     let unit = |k: usize| (0..UNKNOWNS).map(|j| if j == k { Disc::one() } else { Disc::zero() }).collect();

@@ -1,4 +1,4 @@
-//! What is special about positions, in words.
+//! Remarks in words on special positions.
 
 use super::equations::Wanted;
 use crate::catalogue::Space;
@@ -29,7 +29,7 @@ pub(super) fn remarks(wanted: &Wanted) -> Vec<String> {
     remarks
 }
 
-/// The point of the ground that all positions after the first one leave where it is; `None` where there is none.
+/// Returns the point of the ground that all motions from the first position leave in place; `None` where there is none.
 fn common_pole(positions: &[Motion<Rational>]) -> Option<[Rational; 2]> {
     let first = positions.first()?;
     let mut others = positions.iter().skip(1).filter(|motion| *motion != first).map(|motion| pole(first, motion));

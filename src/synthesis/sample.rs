@@ -10,7 +10,7 @@ use crate::algebra::ring::Ring;
 
 /// Products of words that a cut may take: a sample is no part of the verdict.
 const EFFORT: u64 = 50_000_000;
-/// How many cuts are tried. Where real members are half of all, one in a thousand families is left without a sample.
+/// Number of cuts that are tried. Where half of all members are real, one in a thousand families is left without a sample.
 const TRIES: i32 = 10;
 
 /// One real dyad of a family of this dimension, if a cut meets one.

@@ -14,7 +14,7 @@ use crate::mechanism::exact_loop::roots::{Root, roots};
 use rug::Rational;
 use std::sync::Arc;
 
-/// What a set of equations has for solutions.
+/// The solution set of a system of equations.
 pub(super) enum Found {
     /// Infinitely many, complex ones included: the dimension of their set.
     Family(usize),
@@ -31,7 +31,7 @@ struct Part {
     polynomial: Univariate<Rational>,
 }
 
-/// How a solution is known.
+/// The form in which a solution is known.
 #[derive(Clone, Debug)]
 enum Known {
     /// As a root of a polynomial.
@@ -44,7 +44,7 @@ enum Known {
 #[derive(Clone, Debug)]
 pub(super) struct Point {
     known: Known,
-    /// How many solutions coincide here.
+    /// The number of solutions that coincide here.
     pub multiplicity: usize,
 }
 
@@ -66,7 +66,7 @@ impl Point {
         }
     }
 
-    /// The unknowns in discs of about so many bits; `None` where the root cannot be had in them.
+    /// Returns the unknowns in discs of about `bits` bits; `None` where the root cannot be computed to them.
     pub fn place(&self, bits: u32) -> Option<Place<Disc>> {
         let (part, root) = match &self.known {
             Known::Exactly(part, root) => (part, root.ball(bits)?),

@@ -39,12 +39,12 @@ impl Status {
     }
 }
 
-/// What is claimed of a list of modes.
+/// The verdict on a list of modes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// The outcome.
     pub status: Status,
-    /// What the outcome rests on.
+    /// The proof of the outcome.
     pub proof: Proof,
     /// The reason as a code.
     pub code: Code,
@@ -67,9 +67,9 @@ pub struct Verdict {
 /// An upper bound on the number of isolated solutions, and where it comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bound {
-    /// At most this many, with multiplicity.
+    /// The bound, with multiplicity.
     pub count: usize,
-    /// What the bound rests on.
+    /// The proof of the bound.
     pub proof: Proof,
     /// The code of a verdict that rests on it.
     pub code: Code,
@@ -78,7 +78,7 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// What holds for every loop whose closure polynomial has this degree in general.
+    /// Returns the bound of every loop whose closure polynomial has this degree in general.
     #[must_use]
     pub fn general(degree: usize) -> Self {
         let because = format!("a degree-{degree} closure polynomial");
@@ -86,8 +86,9 @@ impl Bound {
     }
 }
 
-/// Judges a list of modes. `general` is the degree of the closure polynomial of general loops of this kind; `geometry` bounds the number of solutions at every pose, `pose` at this one; each is asked
-/// only when needed. `too_far` holds the width of a gap and the length of all links if that is shorter.
+/// Judges a list of modes. `general` is the degree of the closure polynomial of general loops of this kind; `geometry` bounds the
+/// number of solutions at every pose, `pose` at this one; each is called only when needed. `too_far` holds the distance to be
+/// bridged and the length of all links if that is shorter.
 pub fn verdict(
     assembly: &Assembly,
     roots: Roots,
@@ -115,7 +116,7 @@ pub fn verdict(
     } else {
         count(assembly, roots, general, geometry, pose)
     };
-    // What has no certificate is multiple, real or distinct as measured.
+    // A mode without certificate is multiple, real or distinct as measured only.
     if certified(&assembly.modes) < assembly.modes.len() {
         judged.proof = Proof::None;
     }
@@ -186,7 +187,7 @@ fn self_motion(assembly: &Assembly, structural_rank: usize) -> String {
     )
 }
 
-/// What speaks against counting these modes at all.
+/// Returns the doubt that prevents counting these modes at all.
 fn doubt(modes: &[Mode]) -> Option<(Code, String)> {
     if let Some(mode) = modes.iter().find(|m| m.multiplicity == 0) {
         let kind = if mode.real { "real" } else { "complex" };
@@ -237,13 +238,13 @@ fn count(
     }
 }
 
-/// How the modes add up to the bound.
+/// Describes in words the count of the modes against the bound.
 fn accounted(modes: &[Mode], bound: &Bound) -> String {
     let multiple: Vec<usize> = modes.iter().map(|m| m.multiplicity).filter(|&m| m > 1).collect();
     accounted_for(certified(modes), &multiple, bound)
 }
 
-/// How so many certified modes and multiple ones of these multiplicities add up to the bound.
+/// Describes in words the count of certified modes and multiple ones of these multiplicities against the bound.
 fn accounted_for(certified: usize, multiple: &[usize], bound: &Bound) -> String {
     let also = match multiple.len() {
         0 => String::new(),
@@ -255,8 +256,8 @@ fn accounted_for(certified: usize, multiple: &[usize], bound: &Bound) -> String 
     format!("{certified} distinct certified roots{also} of {}", bound.because)
 }
 
-/// Whether the solutions proved of two modes cannot be one. A check of the list as a whole: the solver has merged what
-/// is one already. Every unknown counts as an angle here, which can only bring modes nearer.
+/// Returns whether two modes are proved to be different solutions. This checks the list as a whole: the solver has merged equal
+/// modes already. Every unknown counts as an angle here, which can only bring modes nearer.
 fn are_distinct(one: &Mode, two: &Mode) -> bool {
     are_apart(&[Variable::Rotation; 6], one, two)
 }

@@ -8,19 +8,19 @@ use crate::certify::pose::{are_apart, is_complex};
 /// The most isolated poses that six legs can have.
 pub const MOST_POSES: usize = 40;
 
-/// What is known of the poses of one set of legs beside the list.
+/// The knowledge of the poses of one set of legs beside the list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlatformKnowledge {
     /// The number of isolated poses, counted with multiplicity.
     pub count: Option<Bound>,
-    /// The dimension of a family of poses, complex ones included, as it was counted; no more than a measurement.
+    /// The counted dimension of a family of poses, complex ones included; a measurement only.
     pub infinite: Option<usize>,
-    /// What it rests on that no real pose is missing: every real root of the exact polynomial belongs to listed real poses
-    /// that count as often.
+    /// The proof that no real pose is missing: every real root of the exact polynomial belongs to listed real poses whose
+    /// multiplicities add up to its own.
     pub reals: Option<Proof>,
     /// Whether two legs alone show that no pose is real.
     pub no_real_pose: bool,
-    /// Whether the list is asked for complex poses, too.
+    /// Whether complex poses are requested as well.
     pub complex_asked: bool,
 }
 
@@ -28,7 +28,7 @@ pub struct PlatformKnowledge {
 #[must_use]
 pub fn platform_verdict(assembly: &PlatformAssembly, roots: Roots, knowledge: &PlatformKnowledge) -> Verdict {
     let dimension = match knowledge.infinite {
-        // Where solutions are multiple, a pose gives way in more directions than it can move.
+        // Where solutions are multiple, a pose is shaky in more directions than it can move.
         Some(counted) => assembly.self_motion.min(counted),
         None => assembly.self_motion,
     };
@@ -71,7 +71,7 @@ fn certified(modes: &[PlatformMode]) -> usize {
     modes.iter().filter(|mode| mode.certificate.is_some()).count()
 }
 
-/// What is known of the real poses alone.
+/// Judges the real poses alone.
 fn real_list(assembly: &PlatformAssembly, knowledge: &PlatformKnowledge) -> Option<Judged> {
     if knowledge.no_real_pose && assembly.real() == 0 {
         let reason = "no pose has legs of these lengths: two of them alone show it".to_owned();
@@ -89,14 +89,14 @@ fn real_list(assembly: &PlatformAssembly, knowledge: &PlatformKnowledge) -> Opti
     Some(Judged::by(status, &bound, reason))
 }
 
-/// What speaks against counting these modes at all.
+/// Returns the doubt that prevents counting these modes at all.
 fn doubt(assembly: &PlatformAssembly) -> Option<(Code, String)> {
     let modes = &assembly.modes;
     if let Some(mode) = modes.iter().find(|mode| mode.multiplicity == 0) {
         let kind = if mode.real { "real" } else { "complex" };
         return Some((Code::UnknownMultiplicity, format!("a singular {kind} pose of unknown multiplicity")));
     }
-    // How often a pose counts is proved or not listed as certified.
+    // The multiplicity of a pose is proved, or the pose is not listed as certified.
     let unproved = modes.iter().filter(|mode| mode.certificate.is_none()).count();
     if unproved > 0 {
         return Some((Code::NoCertificate, format!("{unproved} of {} roots have no certificate", modes.len())));

@@ -1,6 +1,6 @@
-//! What a verdict rests on, and a stable code for the reason that its text gives.
+//! The proof of a verdict, and a stable code for the reason that its text gives.
 
-/// What a verdict rests on, in one word. It stands beside [`super::Status`] and is never mixed with it.
+/// The kind of proof of a verdict, in one word. It stands beside [`super::Status`] and is never mixed with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
     /// A theorem whose every assumption was checked on the data: facts of the form "not 0 modulo p", "not 0 in an
@@ -31,13 +31,13 @@ impl Proof {
         }
     }
 
-    /// Whether a theorem holds of the data as they are.
+    /// Returns whether a theorem applies to the data as they are.
     #[must_use]
     pub fn is_proved(self) -> bool {
         self == Self::Proved
     }
 
-    /// The same proof of data of which some numbers had to be rounded, where the verdict rests on their exact values.
+    /// Returns the proof for data of which some numbers had to be rounded, where the verdict rests on their exact values.
     #[must_use]
     pub fn of_rounded(self, is_rounded: bool) -> Self {
         if is_rounded && self.is_proved() { Self::RoundedData } else { self }
@@ -47,13 +47,13 @@ impl Proof {
 /// The reason of a verdict as a code that scripts can rely on. The text beside it may be reworded at any time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Code {
-    /// As many certified solutions as mechanisms of this kind can have at all.
+    /// The number of certified solutions equals the bound for all mechanisms of this kind.
     GeneralBoundMet,
-    /// As many certified solutions as the geometry allows at any pose or input, by exact incidences of its axes.
+    /// The number of certified solutions equals the bound of the geometry at any pose or input, by exact incidences of its axes.
     GeometryBoundMet,
     /// Every root of the exact closure polynomial of this case belongs to exactly one listed solution.
     ExactRootsMatched,
-    /// As many solutions as a count modulo primes gives.
+    /// The number of solutions equals a count modulo primes.
     CountMet,
     /// The closure equations have no solution at all.
     NoSolution,
@@ -73,7 +73,7 @@ pub enum Code {
     NotDistinct,
     /// A solution is neither proved real nor proved complex.
     RealOrComplex,
-    /// More solutions were found than there can be.
+    /// More solutions were found than can exist.
     TooMany,
     /// Fewer solutions were found than there may be.
     TooFew,

@@ -1,4 +1,4 @@
-//! Where the solutions stand to each other: a dial for every angle, a rule for every distance, and maps of a plate.
+//! The positions of the solutions to each other: a dial for every angle, a rule for every distance, and maps of a plate.
 //!
 //! A dial shows e^{iq}. Real angles lie on the circle, complex ones in pairs inside and outside of it; the distance from
 //! the circle is compressed.
@@ -12,7 +12,7 @@ use std::fmt::Write;
 /// Half the width of a dial, and the radius of its circle, in pixels.
 const HALF: f64 = 44.0;
 const RADIUS: f64 = 29.0;
-/// How far a complex angle can lie from the circle.
+/// Largest distance of a complex angle from the circle.
 const DEPTH: f64 = 12.0;
 
 /// The plots of one case.
@@ -104,7 +104,7 @@ fn rule(text: &mut String, name: &str, values: &[(usize, [f64; 2])]) {
     close(text, name);
 }
 
-/// Where the origin of a plate is, from above and from the front.
+/// Draws the place of the origin of a plate, from above and from the front.
 fn plate(modes: &[(usize, &Value)]) -> String {
     let mut text = String::from("<div class=\"dials wide\">\n");
     let points: Vec<(usize, [[f64; 2]; 3])> = modes

@@ -1,4 +1,4 @@
-//! What stands inside a page: numbers as base64, JSON inside a script.
+//! Data inside a page: numbers as base64, JSON inside a script.
 
 use serde_json::Value;
 

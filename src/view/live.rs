@@ -9,11 +9,10 @@ use std::fmt::Write;
 /// The worker that runs the program.
 const WORKER: &str = include_str!("../../assets/viewer/worker.js");
 
-/// What a live page solves with.
+/// The files and the command with which a live page solves.
 #[derive(Clone, Debug, Default)]
 pub struct Live {
-    /// What stands behind `looproot` on the command line, apart from what is asked: it writes the [`parts`](super::parts) of a
-    /// page.
+    /// The command line after `looproot`, without the request itself: it writes the [`parts`](super::parts) of a page.
     pub arguments: Vec<String>,
     /// The names of files that these arguments read, with their texts.
     pub files: Vec<(String, String)>,
@@ -95,7 +94,7 @@ fn pose(matrix: &[[f64; 4]; 3], size: f64) -> (String, Vec<Value>) {
     let [first, second, third] = matrix;
     let level = first[0].hypot(second[0]);
     let pitch = (-third[0]).atan2(level);
-    // With the tool straight up or down, roll and yaw turn about the same axis: all of it is roll.
+    // With the tool straight up or down, roll and yaw have the same axis: the whole angle counts as roll.
     let (roll, yaw) = if level > 1e-9 {
         (third[1].atan2(third[2]), second[0].atan2(first[0]))
     } else {
@@ -130,7 +129,7 @@ fn rounded(value: f64, unit: f64) -> f64 {
     (value / unit).round() * unit
 }
 
-/// What the script needs to solve: the controls, the command, its files, the worker and the program.
+/// Writes the data with which the script solves: the controls, the command, its files, the worker and the program.
 pub(super) fn solver(text: &mut String, controls: &Value, live: &Live) {
     let files: serde_json::Map<String, Value> =
         live.files.iter().map(|(name, text)| (name.clone(), json!(text))).collect();

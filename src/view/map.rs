@@ -1,4 +1,4 @@
-//! How many real solutions an arm has over a plane of its workspace, at one orientation of its tool.
+//! A map of the number of real solutions of an arm over a plane of its workspace, at one orientation of its tool.
 
 use crate::report::picture::{escaped, tick_text, ticks};
 use std::collections::BTreeMap;
@@ -35,11 +35,11 @@ pub struct Map {
     pub plane: Plane,
     /// The range of both coordinates.
     pub range: [[f64; 2]; 2],
-    /// The points of the grid to the right; as many upward.
+    /// The number of points of the grid to the right, and upward.
     pub side: usize,
     /// The number of real solutions at every point, row by row from the lowest; `None` where it is not known.
     pub counts: Vec<Option<usize>>,
-    /// Where the pose is that gave the orientation.
+    /// The place of the pose that gave the orientation.
     pub at: [f64; 2],
 }
 
@@ -96,7 +96,7 @@ impl Map {
             let mut start = 0;
             while start < self.side {
                 let length = counts[start..].iter().take_while(|count| **count == counts[start]).count();
-                // A hair wider, so that no lines are seen between rectangles.
+                // The rectangles are slightly wider, so that no lines show between them.
                 let _ = writeln!(
                     text,
                     "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{}\"/>",

@@ -21,7 +21,7 @@ pub(super) const STYLE: &str = include_str!("../../assets/viewer/viewer.css");
 /// Nothing is fetched from anywhere; the icon is empty data.
 pub(super) const POLICY: &str =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
-/// The same, and WebAssembly in a worker that stands in the page.
+/// The policy of a page that also runs WebAssembly in a worker inside the page.
 const LIVE_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; \
                            style-src 'unsafe-inline'; img-src data:";
 /// Bytes for the poses of a page: with the script and the table it stays below 1 MB.
@@ -80,7 +80,7 @@ fn whole(document: &Value, figure: Option<&str>, live: Option<(&Value, &Live)>) 
     );
     header(&mut text, document, &headlines);
     if live.is_some() {
-        // The script fills it: as many sliders as numbers were asked for.
+        // The script fills it with one slider for every requested number.
         text.push_str("<section id=\"controls\" aria-label=\"What is asked\"></section>\n");
     }
     text.push_str("<main>\n");
@@ -104,7 +104,7 @@ fn whole(document: &Value, figure: Option<&str>, live: Option<(&Value, &Live)>) 
     text
 }
 
-/// What the script reads: the bodies and where they are.
+/// Returns the data for the script: the bodies and their places.
 fn data(document: &Value, tracks: &[Track<'_>]) -> Value {
     let scene = if document["scene"].is_object() { document["scene"].clone() } else { Value::Null };
     let stride = stride(tracks, POSES);

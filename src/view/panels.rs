@@ -1,5 +1,5 @@
-//! The panels of a sweep: every joint variable against the input, a path for every branch, a circle for every limit
-//! position. Those of a path of poses: every joint variable against the number of the pose, a circle where a joint jumps.
+//! The panels of a sweep: every joint variable against the input, a path for every branch, a circle for every limit position. The
+//! panels of a path of poses: every joint variable against the number of the pose, a circle where a joint jumps.
 
 use super::tracks::{Kind, Track, is_path, list, shown, turns};
 use crate::report::picture::{COLOURS, escaped, range, tick_text, ticks};
@@ -115,7 +115,7 @@ impl Panel {
 
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let part = |v: f64, [low, high]: [f64; 2]| (v - low) / (high - low);
-        // Far beyond the frame nothing is seen, and browsers dislike huge numbers.
+        // Points far beyond the frame are invisible, and browsers cannot handle huge numbers.
         [PANEL[0] * part(x, self.x), (PANEL[1] * (1.0 - part(y, self.y))).clamp(-9e3, 9e3)]
     }
 
@@ -204,7 +204,7 @@ impl Panel {
     }
 }
 
-/// Where a joint of a path jumps: the pose behind the jump, and its value there.
+/// Returns the jumps of a joint along a path: the pose behind each jump, and its value there.
 fn jumps(document: &Value, label: &Value, value: impl Fn(&Value) -> f64) -> Vec<([f64; 2], &'static str)> {
     let mut dots = Vec::new();
     for result in list(document, "results") {

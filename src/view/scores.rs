@@ -81,7 +81,7 @@ fn sum(list: &[Value], key: &str) -> u64 {
     list.iter().filter_map(|own| own[key].as_u64()).sum()
 }
 
-/// How many were drawn, and what they are called.
+/// Returns the number of samples drawn, and their name.
 fn drawn(own: &Value) -> (u64, &'static str) {
     ["arms", "platforms", "loops"]
         .into_iter()

@@ -19,7 +19,7 @@ const EDGE: f64 = 36.0;
 const ARC: usize = 8;
 /// The paths of points.
 const TRACE: &str = "#b0253a";
-/// One colour for each body in turn, the ground first; told apart by the colour-blind.
+/// Colours of the bodies in turn, the ground first; distinguishable by the colour-blind.
 const COLOURS: [&str; 10] =
     ["#3f4652", "#2f6fb0", "#1f9e89", "#d0782a", "#8a5fb0", "#c14f63", "#6b8e23", "#3b8ea5", "#b58b1a", "#7a6a5a"];
 
@@ -54,7 +54,7 @@ struct Stroke {
 /// The flat drawing of a scene at one configuration, before it is scaled.
 struct Drawing {
     strokes: Vec<Stroke>,
-    /// What must lie within the picture.
+    /// The points that must lie within the picture.
     corners: Vec<[f64; 2]>,
     size: f64,
     is_flat: bool,
@@ -230,7 +230,7 @@ fn frames(scene: &Value, track: &Track<'_>) -> Vec<Vec<Pose>> {
     frames
 }
 
-/// How points of drawings become points of a picture.
+/// The map from points of drawings to points of a picture.
 struct Fit {
     scale: f64,
     middle: [f64; 2],
@@ -245,7 +245,7 @@ impl Fit {
         if low <= high { [low, high] } else { [-1.0, 1.0] }
     }
 
-    /// How much of the height a drawing needs that fills the width.
+    /// Returns the height that a drawing needs when it fills the width.
     fn height(corners: &[[f64; 2]], [width, height]: [f64; 2]) -> f64 {
         let (x, y) = (Self::span(corners, 0), Self::span(corners, 1));
         let needed = (width - EDGE) * (y[1] - y[0]) / (x[1] - x[0]).max(1e-9) + EDGE;

@@ -58,7 +58,7 @@ fn written(caption: &str, heads: &[String], rows: &[(Option<usize>, String, Vec<
         let index = track.map_or_else(String::new, |track| format!(" data-track=\"{track}\""));
         let _ = write!(text, "<tr{index}{class}>");
         for Cell { text: cell, value, class } in cells {
-            // Where the text is a number, it is sorted by that.
+            // A numeric text is sorted by its number.
             let is_plain = cell.replace('\u{2212}', "-").parse::<f64>().is_ok();
             let value = value.filter(|_| !is_plain).map_or_else(String::new, |x| format!(" data-value=\"{x}\""));
             let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
@@ -168,7 +168,7 @@ fn condition(value: &Value) -> Cell {
     Cell { text, value: Some(number.unwrap_or(f64::MAX)), class: "" }
 }
 
-/// What a case is called.
+/// Returns the noun for a case.
 pub(super) fn case_noun(document: &Value) -> &'static str {
     match document["kind"].as_str() {
         Some("arm") => "pose",
@@ -202,7 +202,7 @@ fn of_branches(document: &Value, listed: &[(usize, &Track<'_>)]) -> String {
     written("Branches", &heads, &listed.iter().map(row).collect::<Vec<_>>())
 }
 
-/// How a branch ends.
+/// Describes an end of a branch.
 fn end(document: &Value, end: &Value) -> String {
     match end["kind"].as_str() {
         Some("limit") => format!("limit {}", end["limit"]),

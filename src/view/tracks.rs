@@ -1,4 +1,4 @@
-//! What can be looked at on a page: a mode stands still, a family, a branch or a motion runs through configurations.
+//! The tracks of a page: a mode is one configuration, a family, a branch or a motion runs through many.
 
 use super::encode;
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ pub(super) struct Track<'a> {
     /// Its name on buttons.
     pub(super) name: String,
     pub(super) kind: Kind,
-    /// Which result it belongs to, from 0.
+    /// Index of the result to which it belongs, from 0.
     pub(super) case: usize,
     /// Its object in the document.
     pub(super) source: &'a Value,
@@ -19,7 +19,7 @@ pub(super) struct Track<'a> {
     pub(super) inputs: Option<Vec<f64>>,
 }
 
-/// What a track is.
+/// The kind of a track.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Mode,
@@ -145,7 +145,7 @@ pub(super) fn shown(document: &Value, value: &Value) -> f64 {
     if turns(document) { value.to_degrees() } else { value }
 }
 
-/// How many configurations are left out between two that are drawn, so that all of them fit into this many bytes.
+/// Returns the stride between drawn configurations with which all of them fit into `bytes` bytes.
 pub(super) fn stride(tracks: &[Track<'_>], bytes: usize) -> usize {
     let poses = |frame: &&Value| list(frame, "poses").len();
     let count: usize = tracks.iter().flat_map(|track| &track.frames).map(poses).sum();

@@ -41,7 +41,7 @@ fn count(value: &Value) -> usize {
     value.as_u64().and_then(|n| usize::try_from(n).ok()).unwrap_or(0)
 }
 
-/// What a proof says.
+/// Describes a proof.
 fn proof(verdict: &Value) -> String {
     match verdict["proof"].as_str() {
         Some("proved") => "proved".to_owned(),

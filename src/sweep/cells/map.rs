@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 pub struct Column {
     /// The first parameter: radians, or a length.
     pub value: f64,
-    /// The same exactly: the half tangent of an angle, or the length.
+    /// The exact value: the half tangent of an angle, or the length.
     pub exact: Rational,
     /// The cells of the second parameter; why there are none, where the closure polynomial is not known.
     pub cells: std::result::Result<Cells, String>,
@@ -38,7 +38,7 @@ pub struct CellMap {
     pub columns: Vec<Column>,
 }
 
-/// What is asked for in a map.
+/// The request of a map.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted<'n> {
     /// Both parameters.

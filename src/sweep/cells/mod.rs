@@ -30,7 +30,7 @@ use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// What happens at a zero of the discriminant, or at another value that bounds a cell.
+/// The event at a zero of the discriminant, or at another value that bounds a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Label {
     /// The number of real modes changes: modes meet and become complex.
@@ -70,11 +70,11 @@ impl Label {
 pub struct Zero {
     /// The parameter: radians in (-pi, pi], or a length.
     pub value: f64,
-    /// The same as a rational number, where the half tangent or the length is known to be one.
+    /// The exact half tangent or length, where it is known to be rational.
     pub exact: Option<Rational>,
-    /// How often it is a zero of the discriminant; 0 where it is none.
+    /// The multiplicity as a zero of the discriminant; 0 where it is none.
     pub order: usize,
-    /// What happens there.
+    /// The event there.
     pub label: Label,
     /// The numbers of real modes before and behind it.
     pub modes: [usize; 2],
@@ -85,9 +85,9 @@ pub struct Zero {
 /// An open interval of the parameter in which the number of real modes is constant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
-    /// Where it begins: `None` for minus infinity, and where there is one cell only.
+    /// The lower end: `None` for minus infinity, and where there is one cell only.
     pub from: Option<f64>,
-    /// Where it ends: `None` for infinity, and where there is one cell only. An angle may be a turn further.
+    /// The upper end: `None` for infinity, and where there is one cell only. An angle may be a turn further.
     pub to: Option<f64>,
     /// A point of it: the half tangent of an angle, or a length.
     pub sample: Rational,
@@ -95,11 +95,11 @@ pub struct Cell {
     pub value: f64,
     /// The number of real roots of the closure polynomial, and so of real modes, everywhere in it.
     pub modes: usize,
-    /// How many real modes the solver lists at the point, where its list is complete.
+    /// The number of real modes that the solver lists at the point, where its list is complete.
     pub solved: Option<usize>,
 }
 
-/// What the cells rest on.
+/// The proof of the cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellsVerdict {
     /// In one word.
@@ -133,7 +133,7 @@ pub struct Cells {
     pub zeros: Vec<Zero>,
     /// The cells; the first one lies before the first zero, of an angle behind the last one.
     pub cells: Vec<Cell>,
-    /// What they rest on.
+    /// The proof of them.
     pub verdict: CellsVerdict,
 }
 
@@ -156,7 +156,7 @@ pub fn is_angle(entry: &Entry, case: &Case, parameter: &str) -> Result<bool> {
     Ok(found.iter().all(|setting| setting.kind == Variable::Rotation))
 }
 
-/// What bounds a cell, before its label is known.
+/// A bound of a cell, before its label is known.
 struct Bound {
     root: RealRoot,
     event: Event,
@@ -426,7 +426,7 @@ impl Cells {
     /// The number of real modes at a value, radians or a length; `None` at a value between cells, as far as f64 tells.
     #[must_use]
     pub fn modes_at(&self, value: f64) -> Option<usize> {
-        /// Values as close as this to a zero are not told from it.
+        /// Distance from a zero below which a value counts as the zero.
         const CLOSE: f64 = 1e-9;
         let apart = |x: f64| if self.kind == Variable::Rotation { wrapped(x - value).abs() } else { (x - value).abs() };
         if self.zeros.iter().any(|zero| apart(zero.value) < CLOSE * (1.0 + zero.value.abs())) {

@@ -1,4 +1,4 @@
-//! Where the closure polynomial in a parameter and an unknown comes from.
+//! The source of the closure polynomial in a parameter and an unknown.
 
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;

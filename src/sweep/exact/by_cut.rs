@@ -28,7 +28,7 @@ pub(super) fn relations(chain: &Chain, layout: &Layout, offset: &Rational) -> Ve
     of_outputs(chain, layout, offset, OUTPUTS)
 }
 
-/// The same with as many outputs as have one.
+/// Returns the relations of every output that has one.
 pub(super) fn of_every_output(chain: &Chain, layout: &Layout, offset: &Rational) -> Vec<Relation> {
     of_outputs(chain, layout, offset, usize::MAX)
 }
@@ -74,7 +74,7 @@ impl Held {
         Self { locked, input, linkages }
     }
 
-    /// Which of all joint variables an unknown is.
+    /// Returns the index, among all joint variables, of an unknown.
     fn index(&self, unknown: usize) -> usize {
         unknown + usize::from(unknown >= self.locked)
     }
@@ -126,7 +126,7 @@ struct Matrix {
     rows: Vec<Vec<Plane>>,
     /// The columns that have the output; the other ones are free of it.
     left: usize,
-    /// Whether the input stands in these columns, or in the other ones.
+    /// Whether the input occurs in these columns, or in the other ones.
     is_input_left: bool,
     kind: Variable,
     input: Variable,
@@ -174,7 +174,7 @@ impl Matrix {
         Some(Integral::of_form(whole, is_finite, short))
     }
 
-    /// What vanishes where a vector is in the kernel and made of two tensor products.
+    /// Returns the conditions that vanish where a vector is in the kernel and consists of two tensor products.
     fn conditions(&self, vector: &[Plane]) -> Vec<Condition> {
         let right = vector.len() - self.left;
         // A coordinate of the vector has one column less of the side that it belongs to.

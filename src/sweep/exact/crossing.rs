@@ -1,4 +1,4 @@
-//! What becomes of every mode between two neighbouring inputs, proved from the closure polynomial.
+//! The fate of every mode between two neighbouring inputs, proved from the closure polynomial.
 
 use super::node::Node;
 use super::output::{Chart, Critical, Event, Output};
@@ -188,7 +188,7 @@ fn across(
         list.iter().filter(is_left).cloned().collect()
     };
     let (ends, begins) = (left(0, from), left(1, to));
-    // Roots of the closure polynomial that meet, real or not, would have to be told from those at infinity.
+    // Roots of the closure polynomial that meet, real or not, would have to be distinguished from those at infinity.
     let is_simple = critical.event == Event::Infinity && ends.is_empty() && begins.is_empty();
     let are_excluded = passages.iter().all(|passage| passage.excludes_infinity(chart));
     let passing = passages.len() * usize::from(are_excluded);
@@ -221,7 +221,7 @@ fn across(
     }
 }
 
-/// What two modes that meet do.
+/// The fate of two modes that meet.
 enum Meeting {
     /// They are one limit position.
     Limit(Fold),
@@ -230,7 +230,7 @@ enum Meeting {
 }
 
 impl Bridge {
-    /// With the fates of two modes of one side.
+    /// Sets the fates of two modes of one side.
     fn settle(mut self, is_low: bool, [one, two]: [usize; 2], meeting: &Meeting) -> Self {
         let (fates, folds) = match meeting {
             Meeting::Limit(fold) => ([Fate::Back(two, vec![0]), Fate::Back(one, vec![0])], vec![*fold]),
@@ -337,7 +337,7 @@ fn goes_to_infinity(
     if is_single && is_alone && is_simple && is_open { Ok(true) } else { Err(Code::SingularNotDecided) }
 }
 
-/// What two modes of a sample do that meet on the way to another sample.
+/// Returns the fate of two modes of a sample that meet on the way to another sample.
 fn meeting(
     chart: &Chart,
     curve: &InputCurve,

@@ -1,11 +1,10 @@
-//! What the closure polynomial proves of a sweep: see docs/sweep.md.
+//! The proof of a sweep by the closure polynomial: see docs/sweep.md.
 //!
-//! Let F(s, t) be the closure polynomial of an input s and an output t. Between real roots of its discriminant, real
-//! roots t are analytic functions of s that never meet, so their number is constant and so is their order. Of the loops
-//! treated here a configuration follows from s and t uniquely, wherever F has a simple root and the translations are
-//! independent. So the exact real roots at one rational input of each interval say how many configurations there are in
-//! all of it, and which passes into which; at the critical inputs themselves each branch is proved to pass, or two of
-//! them meet in a limit position, or go to infinity.
+//! Let F(s, t) be the closure polynomial of an input s and an output t. Between real roots of its discriminant, real roots t are
+//! analytic functions of s that never meet, so their number is constant and so is their order. In the loops treated here s and t
+//! determine a configuration uniquely wherever F has a simple root and the translations are independent. So the exact real roots
+//! at one rational input of each interval give the number of configurations in all of it, and show which passes into which. At
+//! the critical inputs themselves each branch is proved to pass, or two of them meet in a limit position or go to infinity.
 
 mod by_cut;
 mod crossing;
@@ -47,7 +46,7 @@ const WIDEST: f64 = 2.5;
 /// The closure polynomials of a loop.
 pub(super) struct Exact {
     input: Variable,
-    /// Where angles of the input are counted from.
+    /// The angle from which angles of the input are counted.
     offset: f64,
     /// The half tangent of that angle.
     pub from: Rational,
@@ -113,8 +112,8 @@ impl Exact {
         Vec::new()
     }
 
-    /// Of a closure polynomial in what runs and in one unknown, over the variables 0 and 1; the half tangents of angles are counted
-    /// from 0, and the unknown is in general of this degree, half turns included.
+    /// Returns the output of a closure polynomial in variable 0, which runs, and the unknown 1. Half tangents of angles are
+    /// counted from 0; `full` is the general degree in the unknown, half turns included.
     pub fn of_polynomial(polynomial: &Polynomial<Int>, moved: Variable, unknown: Variable, full: usize) -> Option<Self> {
         let turns = moved == Variable::Rotation;
         let degree = polynomial.degree(S) as usize;

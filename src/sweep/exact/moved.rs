@@ -1,4 +1,4 @@
-//! What runs in a loop: its input, a link parameter, or a coordinate of the pose of an arm.
+//! The variable that runs in a loop: its input, a link parameter, or a coordinate of the pose of an arm.
 
 use crate::algebra::circle_fraction::CircleFraction;
 use crate::algebra::number::{Angle, Number};
@@ -18,7 +18,7 @@ pub(in crate::internal::sweep) struct Moved<'c> {
     pub kind: Variable,
 }
 
-/// The same with the angle from which its half tangents are counted.
+/// A running variable with the angle from which its half tangents are counted.
 pub(super) struct Running<'c> {
     moved: Moved<'c>,
     /// Cosine and sine of a running angle.

@@ -23,8 +23,8 @@ pub(super) struct Node<'a> {
 }
 
 impl Node<'_> {
-    /// Which branch of the second side each of the first one passes into, the discriminant having a root of this order;
-    /// `None` where a distance may go to infinity.
+    /// Returns the branch of the second side into which each of the first one passes, where the discriminant has a root of this
+    /// order; `None` where a distance may go to infinity.
     pub fn pairs(&self, order: usize) -> Option<[[usize; 2]; 2]> {
         if !self.is_finite() {
             return None;

@@ -15,7 +15,7 @@ use rug::{Integer, Rational};
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-/// What happens at a critical input.
+/// The event at a critical input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::internal::sweep) enum Event {
     /// A root of the discriminant, with its multiplicity: roots of the closure polynomial meet.
@@ -44,7 +44,7 @@ pub(in crate::internal::sweep) struct Chart {
     pub curve: PlaneCurve,
     /// All vanish where the translations are dependent.
     pub parallel: Vec<PlaneCurve>,
-    /// Not all vanish where dependent translations leave the loop open.
+    /// Polynomials that do not all vanish where dependent translations leave the loop open.
     pub gap: Vec<PlaneCurve>,
     /// For each of `parallel` the inputs at which it has a root in common with the closure polynomial.
     pub dependent: Vec<Univariate<Integer>>,
@@ -107,7 +107,8 @@ fn without_common_content(list: &[Integral]) -> Option<(Univariate<Integer>, Vec
 }
 
 impl Output {
-    /// What all equations of a relation have for a common divisor: without multiple factors and without factors in the input alone.
+    /// Returns the common divisor of all equations of a relation, without multiple factors and without factors in the input
+    /// alone.
     pub(super) fn divisor(relation: &Relation, turns: bool) -> Option<Polynomial<Int>> {
         let equations: Vec<&Integral> = relation.equations.iter().filter(|f| !f.polynomial.is_zero()).collect();
         let (first, others) = equations.split_first()?;
@@ -202,7 +203,7 @@ impl Output {
     }
 }
 
-/// How a root compares with a number of a chart.
+/// Compares a root with a number of a chart.
 fn compare(root: &RealRoot, chart: usize, x: &Rational) -> Ordering {
     if chart == 0 {
         return root.compare(x);

@@ -54,7 +54,7 @@ pub(super) struct Integral {
     pub polynomial: Polynomial<Int>,
     /// Its degree in the half tangent of the input, unless it vanishes where that is infinite.
     pub full_degree: usize,
-    /// Whether it vanishes at half a turn of the output, whatever the input, as far as is known.
+    /// Whether it is known to vanish at half a turn of the output, whatever the input.
     pub is_half_turn: bool,
 }
 
@@ -119,7 +119,7 @@ impl PlaneCurve {
         Self { rows: polynomial.coefficients_in(T).iter().map(|row| in_one(row, S)).collect() }
     }
 
-    /// With half a turn of the output for one more zero at every input.
+    /// Adds half a turn of the output as a zero at every input.
     pub fn with_half_turn(mut self) -> Self {
         self.rows.push(Univariate::zero());
         self
@@ -150,7 +150,7 @@ impl PlaneCurve {
         self.rows.iter().filter_map(Univariate::degree).max().unwrap_or(0)
     }
 
-    /// The same in `-1/s`: half tangents of the input less half a turn.
+    /// Returns the curve in `-1/s`: half tangents of the input less half a turn.
     pub fn half_turned(&self) -> Self {
         let degree = self.input_degree();
         let turned = |row: &Univariate<Integer>| {
@@ -163,8 +163,8 @@ impl PlaneCurve {
         Self { rows: self.rows.iter().map(turned).collect() }
     }
 
-    /// The same in half tangents of the input counted from an angle with this half tangent h, up to a factor: `(x + h) / (1 - h x)`
-    /// in the place of s.
+    /// Returns the curve in half tangents of the input counted from an angle with this half tangent h, up to a factor: `(x + h) /
+    /// (1 - h x)` replaces s.
     pub fn counted_from(&self, h: &Rational) -> Self {
         let degree = self.input_degree();
         if h.is_zero() {
@@ -185,7 +185,7 @@ impl PlaneCurve {
         Self::over_rationals(&self.rows.iter().map(counted).collect::<Vec<_>>())
     }
 
-    /// With integer coefficients without common factor.
+    /// Scales to integer coefficients without common factor.
     fn over_rationals(rows: &[Univariate<Rational>]) -> Self {
         let lengths: Vec<usize> = rows.iter().map(|row| row.coefficients().len()).collect();
         let all: Vec<Rational> = rows.iter().flat_map(|row| row.coefficients().iter().cloned()).collect();
@@ -213,7 +213,7 @@ impl PlaneCurve {
         Polynomial::from_terms(terms)
     }
 
-    /// The same in `1/t`.
+    /// Returns the curve in `1/t`.
     pub fn inverted(&self) -> Self {
         Self { rows: self.rows.iter().rev().cloned().collect() }
     }
@@ -258,11 +258,10 @@ impl PlaneCurve {
         sum_of_sizes(&about, rectangle, |i, k| (i, k) != (0, 0)) < centre.clone().abs()
     }
 
-    /// Whether its zeros in a rectangle are the graph of one function of s with simple roots, that leaves it at the ends
+    /// Returns whether its zeros in a rectangle are the graph of one function of s with simple roots that leaves it at the ends
     /// of s only; `false` proves nothing.
     ///
-    /// The derivative by t has no zero, and neither has the polynomial at the upper and at the lower side, where it has
-    /// different signs.
+    /// The derivative by t has no zero, and the polynomial has none on the upper and the lower side, where its signs differ.
     pub(super) fn is_graph_in(&self, rectangle: &Rectangle) -> bool {
         let about = self.about(&rectangle.centre);
         let Some(slope) = about.get(1).and_then(|row| row.first()) else { return false };

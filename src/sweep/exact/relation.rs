@@ -23,7 +23,7 @@ use rug::Rational;
 /// A polynomial in the output, its coefficients functions of the input.
 pub(super) type InOutput = Univariate<CircleFraction>;
 
-/// What ties an output to the input.
+/// The equations between an output and the input.
 #[derive(Clone, Debug)]
 pub(super) struct Relation {
     /// Index of the output among the joint variables.
@@ -37,11 +37,11 @@ pub(super) struct Relation {
     pub parallel: Vec<InOutput>,
     /// Where those vanish and these do not all vanish, the loop does not close: translations go to infinity.
     pub gap: Vec<InOutput>,
-    /// What a factor in the input alone says.
+    /// The meaning of a factor in the input alone.
     pub content: Content,
 }
 
-/// What it means that all equations vanish at an input, whatever the output.
+/// The meaning of an input at which all equations vanish, whatever the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Content {
     /// The loop moves while its input stands still.
@@ -58,7 +58,7 @@ impl Relation {
         Self { output, kind, equations, parallel: Vec::new(), gap: Vec::new(), content: Content::Open }
     }
 
-    /// The same with one equation.
+    /// Returns the relation of one equation.
     fn plain(output: usize, kind: Variable, equation: &InOutput) -> Self {
         Self::of(output, kind, vec![integral(equation)])
     }
@@ -76,8 +76,8 @@ pub(super) fn of_row(kind: Variable, row: &[CircleFraction; 3]) -> InOutput {
     Univariate::new((0..3).map(coefficient).collect())
 }
 
-/// The relations of a loop between what runs in it, an angle counted from `offset`, and as many outputs as there are ways to
-/// eliminate the others; none for loops that have no route.
+/// Returns the relations of a loop between its running variable, an angle counted from `offset`, and each output for which the
+/// others can be eliminated; the list is empty for loops without a route.
 pub(super) fn relations(chain: &Chain, layout: &Layout, moved: Moved<'_>, offset: &Rational) -> Vec<Relation> {
     let running = moved.at(offset);
     let Some(closing) = running.closing() else { return Vec::new() };
