@@ -17,7 +17,7 @@ fn main() {
     divan::main();
 }
 
-/// The loop of an entry, and what fills its gap in the first case.
+/// Returns the loop of an entry, and its closing transformation in the first case.
 fn first_case(entry: &Entry) -> (OpenLoop<f64>, Motion<f64>) {
     let (case, chain) = (&entry.cases[0], entry.chain().unwrap());
     let (locked, closing) = if let Some(pose) = &case.pose {
@@ -62,7 +62,7 @@ fn eigenvalues_faer(bencher: Bencher) {
     bencher.bench_local(|| workspace.of_matrix(black_box(&matrix)));
 }
 
-/// The same by our own routine.
+/// The eigenvalues by our own routine.
 #[divan::bench]
 fn eigenvalues_own(bencher: Bencher) {
     let matrix = matrix();

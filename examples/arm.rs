@@ -2,10 +2,10 @@
 
 use looproot::{Arm, Status};
 
-/// What the program does; a test calls it, too.
+/// Runs the example; a test calls it, too.
 ///
 /// # Errors
-/// None with the data that stand here.
+/// None with the data given here.
 pub fn main() -> looproot::Result<()> {
     let arm = Arm::robot("ur5")?;
     let pose = arm.fk(&[0.1, -1.0, 1.2, 0.3, 0.7, -0.4])?;

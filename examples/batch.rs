@@ -3,10 +3,10 @@
 use looproot::{Arm, Convention, DhRow, JointKind};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// What the program does; a test calls it, too.
+/// Runs the example; a test calls it, too.
 ///
 /// # Errors
-/// None with the data that stand here.
+/// None with the data given here.
 pub fn main() -> looproot::Result<()> {
     // A row is a, alpha, d: metres and radians. Right angles are taken as exact.
     let table = [

@@ -3,10 +3,10 @@
 use looproot::{Loop, Range};
 use std::f64::consts::PI;
 
-/// What the program does; a test calls it, too.
+/// Runs the example; a test calls it, too.
 ///
 /// # Errors
-/// None with the data that stand here.
+/// None with the data given here.
 pub fn main() -> looproot::Result<()> {
     let four_bar = Loop::from_file("planar_4r")?;
     let (joint, _) = four_bar.input();

@@ -2,10 +2,10 @@
 
 use looproot::{Arm, mobility};
 
-/// What the program does; a test calls it, too.
+/// Runs the example; a test calls it, too.
 ///
 /// # Errors
-/// None with the data that stand here.
+/// None with the data given here.
 pub fn main() -> looproot::Result<()> {
     let arm = Arm::robot("puma560")?;
     let derivation = arm.derive(&arm.fk(&[0.2, -0.5, 0.4, 0.3, 0.8, -0.1])?)?;

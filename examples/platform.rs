@@ -2,10 +2,10 @@
 
 use looproot::{Platform, verify};
 
-/// What the program does; a test calls it, too.
+/// Runs the example; a test calls it, too.
 ///
 /// # Errors
-/// None with the data that stand here.
+/// None with the data given here.
 pub fn main() -> looproot::Result<()> {
     let base =
         [[1.0, 0.0, 0.0], [0.4, 0.9, 0.1], [-0.6, 0.8, 0.0], [-1.1, 0.0, 0.2], [-0.5, -0.9, 0.0], [0.6, -0.8, 0.1]];

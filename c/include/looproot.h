@@ -15,7 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// What a function returns. The first five are the exit codes of the command line.
+// The status that a function returns. The first five are the exit codes of the command line.
 typedef enum lr_status {
   // Answered and proved.
   LR_STATUS_OK = 0,
@@ -27,7 +27,7 @@ typedef enum lr_status {
   LR_STATUS_UNREACHABLE = 3,
   // A mechanism beyond what is implemented.
   LR_STATUS_UNSUPPORTED = 4,
-  // The buffer is too small: as many solutions as fit are in it, the count says how many there are.
+  // The buffer is too small: it is full, and the count is the number of all solutions.
   LR_STATUS_TRUNCATED = 5,
   // A fault of the library: please report it.
   LR_STATUS_PANIC = 6,
@@ -47,7 +47,7 @@ typedef enum lr_answer {
   LR_ANSWER_UNSUPPORTED = 4,
 } lr_answer;
 
-// What an answer rests on.
+// The kind of proof of an answer.
 typedef enum lr_proof {
   // Nothing but measurement.
   LR_PROOF_NONE = 0,
@@ -68,10 +68,10 @@ typedef struct lr_loop lr_loop;
 // A platform on six legs.
 typedef struct lr_platform lr_platform;
 
-// What one thread needs to solve; it is kept from one pose to the next.
+// The memory in which one thread solves; it is kept from one pose to the next.
 typedef struct lr_workspace lr_workspace;
 
-// What is known of one solution.
+// One solution.
 typedef struct lr_mode {
   // An error bound of every joint value, radians and metres; infinite where it is not certified.
   double radius;
@@ -85,11 +85,11 @@ typedef struct lr_mode {
   int8_t within_limits;
 } lr_mode;
 
-// Whether a list is complete.
+// The verdict on a list.
 typedef struct lr_verdict {
   // The outcome.
   enum lr_answer answer;
-  // What it rests on.
+  // Its proof.
   enum lr_proof proof;
   // Isolated real solutions, with multiplicity.
   size_t real;
@@ -106,8 +106,8 @@ extern "C" {
 // The version of the library, such as "0.1.0".
 const char *lr_version(void);
 
-// What the last call on this thread had to say: what was found and what was expected, or why a list is complete. It is valid
-// until the next call on this thread, and never NULL.
+// Returns the message of the last call on this thread: the value found and the value expected, or why a list is complete. It is
+// valid until the next call on this thread, and never NULL.
 const char *lr_message(void);
 
 // An arm of the library by its name, such as "puma560".

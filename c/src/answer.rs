@@ -5,7 +5,7 @@ use looproot::internal::face::Matrix;
 use looproot::internal::mechanism::{FullMode, Solution};
 use looproot::internal::verdict::{Proof, Status};
 
-/// What an answer rests on.
+/// The kind of proof of an answer.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LrProof {
@@ -35,13 +35,13 @@ pub enum LrAnswer {
     Unsupported = 4,
 }
 
-/// Whether a list is complete.
+/// The verdict on a list.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct LrVerdict {
     /// The outcome.
     pub answer: LrAnswer,
-    /// What it rests on.
+    /// Its proof.
     pub proof: LrProof,
     /// Isolated real solutions, with multiplicity.
     pub real: usize,
@@ -51,7 +51,7 @@ pub struct LrVerdict {
     pub self_motion: usize,
 }
 
-/// What is known of one solution.
+/// One solution.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct LrMode {
@@ -111,11 +111,11 @@ fn mode(mode: &FullMode) -> LrMode {
     }
 }
 
-/// Where an answer is written. What is not wanted is empty.
+/// The place where an answer is written. Parts that are not requested are empty.
 pub struct Place<'a> {
     /// Rows of joint values, or matrices.
     pub rows: &'a mut [f64],
-    /// As many rows fit.
+    /// The number of rows that fit.
     pub capacity: usize,
     pub modes: Option<&'a mut [LrMode]>,
     pub count: &'a mut usize,

@@ -1,5 +1,5 @@
 //! The functions that C calls. C hands over pointers, so that this file, alone of the crate, contains unsafe code: it turns pointers
-//! into references, slices and boxes once they are known not to be NULL. What C must promise stands at every function.
+//! into references, slices and boxes once they are known not to be NULL. The obligations of the C side stand at every function.
 #![allow(unsafe_code)]
 
 use crate::answer::{LrMode, LrVerdict, Place, joint_values, plate, write};
@@ -17,7 +17,7 @@ pub struct LrLoop(Loop);
 /// A platform on six legs.
 pub struct LrPlatform(Platform);
 
-/// What one thread needs to solve; it is kept from one pose to the next.
+/// The memory in which one thread solves; it is kept from one pose to the next.
 pub struct LrWorkspace(Workspace);
 
 unsafe fn borrowed<'a, T>(pointer: *const T, name: &'static str) -> Result<&'a T, Fault> {
@@ -38,7 +38,7 @@ unsafe fn numbers<'a>(pointer: *const f64, count: usize, name: &'static str) -> 
     if pointer.is_null() {
         return Err(Fault::Null(name));
     }
-    // SAFETY: the caller of the library promises that as many numbers are there.
+    // SAFETY: the caller of the library promises that this many numbers are there.
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
 
@@ -109,8 +109,8 @@ pub extern "C" fn lr_version() -> *const c_char {
     VERSION.as_ptr()
 }
 
-/// What the last call on this thread had to say: what was found and what was expected, or why a list is complete. It is valid
-/// until the next call on this thread, and never NULL.
+/// Returns the message of the last call on this thread: the value found and the value expected, or why a list is complete. It is
+/// valid until the next call on this thread, and never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn lr_message() -> *const c_char {
     said()
@@ -311,7 +311,7 @@ pub unsafe extern "C" fn lr_arm_jacobian(
         // SAFETY: as promised above.
         let (arm, q) = unsafe { (borrowed(arm, "arm")?, numbers(q, count, "q")?) };
         let rows = arm.0.jacobian(q)?;
-        // SAFETY: as promised above; the arm has as many joints.
+        // SAFETY: as promised above; the arm has `count` joints.
         let to = unsafe { buffer(jacobian, 6 * count, "jacobian") }?;
         for (to, value) in to.iter_mut().zip(rows.iter().flatten()) {
             *to = *value;

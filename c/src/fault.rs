@@ -1,4 +1,4 @@
-//! What a function of the library returns, and what it has to say about it.
+//! The result of a function of the library, and its message.
 
 use looproot::internal::error::Error;
 use std::any::Any;
@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What a function returns. The first five are the exit codes of the command line.
+/// The status that a function returns. The first five are the exit codes of the command line.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LrStatus {
@@ -20,7 +20,7 @@ pub enum LrStatus {
     Unreachable = 3,
     /// A mechanism beyond what is implemented.
     Unsupported = 4,
-    /// The buffer is too small: as many solutions as fit are in it, the count says how many there are.
+    /// The buffer is too small: it is full, and the count is the number of all solutions.
     Truncated = 5,
     /// A fault of the library: please report it.
     Panic = 6,
@@ -73,7 +73,7 @@ pub fn say(text: &str) {
     let _ = MESSAGE.try_with(|cell| cell.replace(message));
 }
 
-/// What was said last on this thread.
+/// Returns the last message on this thread.
 pub fn said() -> *const c_char {
     const NOTHING: &CStr = c"";
     MESSAGE.try_with(|cell| cell.borrow().as_ptr()).unwrap_or(NOTHING.as_ptr())

@@ -8,8 +8,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// What is known of every mode: joint values, certified, radius, condition, within limits (-1: without limits), near, and
-/// how far it misses the pose.
+/// The columns of all modes: joint values, certified, radius, condition, within limits (-1: without limits), near, and the error
+/// of the pose.
 pub type Modes<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<bool>>,
@@ -20,7 +20,7 @@ pub type Modes<'py> = (
     Bound<'py, PyArray2<f64>>,
 );
 
-/// A matrix of so many columns, by its rows one behind the other.
+/// Returns a matrix with this many columns from its concatenated rows.
 pub fn rows(values: Vec<f64>, columns: usize) -> PyResult<Array2<f64>> {
     let count = values.len() / columns.max(1);
     Array2::from_shape_vec((count, columns), values).map_err(|fault| PyValueError::new_err(fault.to_string()))

@@ -63,7 +63,7 @@ fn values(given: &PyReadonlyArray2<'_, f64>) -> Vec<Vec<f64>> {
     given.as_array().rows().into_iter().map(|row| row.to_vec()).collect()
 }
 
-/// The same fault with the index of its row.
+/// Adds the index of its row to an error.
 fn at(error: Error, index: usize, count: usize) -> Error {
     match error {
         Error::Invalid(text) if count > 1 => Error::Invalid(format!("[{index}]: {text}")),

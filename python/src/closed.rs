@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// How often a sweep looks for Ctrl-C.
+/// Interval at which a sweep looks for Ctrl-C.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// A closed loop.

@@ -1,4 +1,5 @@
-//! What Python calls. It takes arrays and gives arrays, or the documents of the command line as JSON; the package above it is what users see.
+//! The functions that Python calls. They take arrays and return arrays, or the documents of the command line as JSON; users see
+//! the package above them.
 
 mod answers;
 mod arm;
@@ -54,7 +55,7 @@ fn conditions(python: Python<'_>, name: &str) -> PyResult<String> {
     python.detach(|| faults::guarded(|| face::conditions(name).map(|document| document.to_string())))
 }
 
-/// What the check of certificates finds, one for each line.
+/// Checks certificates and returns a result for each line.
 #[pyfunction]
 fn verify(python: Python<'_>, certificates: &str, file: Option<&str>) -> PyResult<String> {
     python.detach(|| faults::guarded(|| face::verify(certificates, file).map(|found| found.to_string())))

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 struct Counting;
 
 thread_local! {
-    /// How often this thread has asked for memory: other threads of the test harness do not count.
+    /// The number of allocations of this thread: other threads of the test harness do not count.
     static REQUESTS: Cell<usize> = const { Cell::new(0) };
 }
 
@@ -54,7 +54,7 @@ fn requests() -> usize {
     REQUESTS.with(Cell::get)
 }
 
-/// A general arm prepared, and what fills its gap at random poses.
+/// Returns a prepared general arm, and the closing transformations of random poses.
 fn arm(index: u64, poses: usize) -> (Solver, Vec<Motion<f64>>) {
     let chain = sample(Set::General, 5, index).unwrap().chain;
     let open: OpenLoop<f64> = chain.open_loop(&Layout::of(&chain, None).unwrap()).unwrap();

@@ -42,7 +42,7 @@ fn the_cells_of_an_input_are_those_of_the_sweep() {
         let own = found(&entry, &format!("theta{joint}"));
         holds(&own);
         assert!(matches!(own.verdict.proof, Proof::Proved | Proof::RoundedData), "{name}: {:?}", own.verdict);
-        // So that samples are at no special angles.
+        // This range avoids special angles.
         let range = Range { from: -PI + 0.01, to: PI + 0.01, steps: 24 };
         let swept = sweep(&entry, joint, Variable::Rotation, range, || true, || {}).unwrap();
         let (mut compared, mut seen) = (0, vec![false; own.cells.len()]);
@@ -70,7 +70,7 @@ fn link_parameters_cut_cells_that_derivations_confirm() {
         let entry = entry(name);
         let own = found(&entry, parameter);
         holds(&own);
-        // The value of the file lies in the cell that has as many modes as the derivation real roots.
+        // The value of the file lies in the cell whose number of modes is the number of real roots of the derivation.
         let derivation = derive(&entry, &entry.cases[0]).unwrap();
         let polynomial = derivation.polynomial.unwrap();
         if let Some(modes) = own.modes_at(own.given.unwrap()) {
@@ -103,7 +103,7 @@ fn a_map_has_the_cells_of_each_column() {
         holds(cells);
         assert!(column.value > 5.0 && column.value < 7.0);
     }
-    // What stops at once has no columns, and that is no error.
+    // A map that stops at once has no columns, which is no error.
     let stopped = cell_map(&entry, &entry.cases[0], wanted, || false, || {}).unwrap();
     assert!(stopped.columns.is_empty());
     let empty = MapWanted { range: Some([5.0, 5.0]), ..wanted };

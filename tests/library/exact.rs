@@ -41,7 +41,7 @@ fn apart(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| wrapped(a - b).abs()).fold(0.0, f64::max)
 }
 
-/// What is wrong with an answer, judged by the truth.
+/// Returns the fault of an answer, judged by the truth.
 fn fault(arm: &Value, answer: &Solution) -> Option<String> {
     let verdict = &answer.verdict;
     let dimension = arm["dimension"].as_u64().unwrap();
@@ -127,7 +127,7 @@ fn special_arm(seed: u64) -> (String, Vec<f64>) {
     special_arm_with(seed, 0)
 }
 
-/// The same with so many translations among the first joints.
+/// Returns a special arm with this many translations among the first joints.
 fn special_arm_with(seed: u64, translations: usize) -> (String, Vec<f64>) {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let (mut joints, mut values) = (Vec::new(), Vec::new());
@@ -165,8 +165,8 @@ fn special_arm_with(seed: u64, translations: usize) -> (String, Vec<f64>) {
     (text.to_string(), values)
 }
 
-/// What contradicts in the answer to a special arm: the planted configuration is not listed, or the exact side alone counts
-/// other solutions.
+/// Returns the contradiction in the answer to a special arm: the planted configuration is not listed, or the exact side alone
+/// counts other solutions.
 fn contradiction(seed: u64, translations: usize) -> Option<String> {
     let (text, planted) = special_arm_with(seed, translations);
     let answer = solved(&text);

@@ -20,7 +20,7 @@ const WRIST: Table = [(0.0, -1, 0.4), (0.45, 0, 0.1), (0.05, -1, 0.0), (0.0, 1, 
 /// An arm with three parallel axes and no wrist centre.
 const PARALLEL: Table =
     [(0.0, 1, 0.15), (-0.4, 0, 0.0), (-0.38, 0, 0.0), (0.0, 1, 0.13), (0.0, -1, 0.1), (0.0, 0, 0.09)];
-/// The same with the wrist centre on the first axis where the arm points up.
+/// The same arm with the wrist centre on the first axis where the arm points up.
 const CENTRED: Table = [(0.0, -1, 0.3), (0.4, 0, 0.0), (0.0, -1, 0.0), (0.0, 1, 0.35), (0.0, -1, 0.0), (0.0, 0, 0.08)];
 
 type Matrix = [[f64; 4]; 4];
@@ -71,7 +71,7 @@ fn off(one: &Matrix, other: &Matrix) -> f64 {
     one.iter().flatten().zip(other.iter().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// How far a configuration is from the nearest sample.
+/// Returns the distance of a configuration from the nearest sample.
 fn beside(family: &Family, q: &[f64]) -> f64 {
     family.samples.iter().chain([&family.sample]).map(|sample| apart(sample, q)).fold(f64::INFINITY, f64::min)
 }
@@ -234,7 +234,7 @@ fn the_redundancy_of_seven_joints_is_met_in_all_branches() {
     for sample in found.families.iter().flat_map(|family| &family.samples) {
         assert!(off(&reached(&SEVEN, sample), &pose) < 1e-9, "{sample:?}");
     }
-    // What a joint held at another value leaves is on the curves.
+    // The configurations with a joint held at another value lie on the curves.
     let mechanism = Mechanism::prepare(&entry).unwrap();
     let answer =
         mechanism.solve(&entry.cases[0], Roots::All, &mut Workspace::default(), &mut Assembly::default()).unwrap();

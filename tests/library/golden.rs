@@ -1,4 +1,4 @@
-//! What a reader sees, compared as text with the files of tests/golden. `LOOPROOT_BLESS=1 cargo test --test library golden::`
+//! Output for readers, compared as text with the files of tests/golden. `LOOPROOT_BLESS=1 cargo test --test library golden::`
 //! writes them anew: read the difference before you commit it.
 #![allow(clippy::unwrap_used)]
 

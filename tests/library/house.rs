@@ -72,7 +72,7 @@ fn sources() -> Vec<(PathBuf, String)> {
     rust("src")
 }
 
-/// The same, the crates below it and the command line above it.
+/// The sources of the library, of the crates below it and of the command line above it.
 fn all_sources() -> Vec<(PathBuf, String)> {
     [rust("src"), rust("crates")].concat()
 }
@@ -103,7 +103,7 @@ fn code(line: &str) -> &str {
 
 /// The modules that a file names behind `crate::`, also in `use crate::{a, b::c}`.
 fn imports(text: &str) -> BTreeSet<String> {
-    // Where a visibility is named, a module has its full path.
+    // A module has its full path where a visibility is named.
     let code = text.lines().map(code).collect::<Vec<_>>().join("\n").replace("crate::internal::", "crate::");
     let mut found = BTreeSet::new();
     for (at, _) in code.match_indices("crate::") {
@@ -172,7 +172,7 @@ fn lib_declares_the_layers_in_order() {
     assert!(places.is_sorted(), "{places:?}");
 }
 
-/// What the library shows is small enough to be read: 60 to 80 names are meant.
+/// The public names of the library are few enough to be read: 60 to 80 are intended.
 #[test]
 fn the_root_has_few_names_and_hides_the_rest() {
     let text = fs::read_to_string(root().join("src/lib.rs")).unwrap();
@@ -261,7 +261,7 @@ fn nothing_kept_knows_where_it_was_written() {
     for (path, text) in kept() {
         for (index, line) in text.lines().enumerate() {
             for place in &places {
-                // What follows a name, as in an address or below target, is no absolute path.
+                // A path that follows a name, as in an address or below target, is not absolute.
                 let is_absolute = |(at, _): (usize, &str)| {
                     !line[..at].ends_with(|c: char| c.is_alphanumeric() || matches!(c, '.' | '}' | '_' | '-'))
                 };

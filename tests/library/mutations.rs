@@ -12,7 +12,7 @@ use std::path::PathBuf;
 /// Changed copies of each file; the fuzzer itself makes millions (CONTRIBUTING.md).
 const COPIES: usize = 60;
 
-/// What readers stumble over.
+/// Pieces of text that are hard for readers of files.
 const PIECES: [&str; 24] = [
     "1e999999999",
     "1e-999999999",

@@ -100,7 +100,7 @@ fn the_exact_determinant_is_of_degree_16_and_has_the_planted_root() {
             assert_eq!(p.gcd(&p.derivative()).degree(), Some(0), "arm {seed}, {cut:?}, {hidden:?}");
             let root = planted_root(&values, cut, hidden);
             assert!(p.eval(&root).is_zero(), "arm {seed}, {cut:?}, {hidden:?}");
-            // And no other place: the test above is not one of the zero polynomial.
+            // It vanishes at no other place: the test above does not hold for the zero polynomial only.
             assert!(!p.eval(&(root + 1)).is_zero(), "arm {seed}, {cut:?}, {hidden:?}");
         }
     }

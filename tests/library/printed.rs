@@ -5,7 +5,7 @@ use looproot::internal::assembly::{Assembly, Roots, Workspace, wrapped};
 use looproot::internal::catalogue::{Options, builtin};
 use looproot::internal::mechanism::Mechanism;
 
-/// The printed solutions, each within a unit of the last printed digit of one found, and as many as found.
+/// Asserts that the printed solutions are all that are found, each within a unit of its last printed digit.
 fn agrees(name: &str, printed: &[[f64; 6]]) {
     let entry = builtin(name, &Options::default()).unwrap();
     let mechanism = Mechanism::prepare(&entry).unwrap();

@@ -1,4 +1,4 @@
-//! What the laws are tried on: random numbers, expressions, polynomials, matrices and motions.
+//! Random inputs of the laws: numbers, expressions, polynomials, matrices and motions.
 #![allow(dead_code, reason = "shared by several test files")]
 
 use looproot_algebra::{dual::Dual, modp::ModP, ring::Ring, univariate::Univariate};

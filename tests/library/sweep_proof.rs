@@ -190,7 +190,7 @@ fn four_bar(links: [&str; 4], is_planar: bool) -> Entry {
     read(&format!("[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [\n{joints}]\n"))
 }
 
-/// How many positions a planar four-bar has: two circles meet, about the ends of the links at the input.
+/// Returns the number of positions of a planar four-bar: two circles meet, about the ends of the links at the input.
 fn circles(lengths: [f64; 4], joint: usize, input: f64) -> usize {
     let length = |k: usize| lengths[(joint + k) % 4];
     let (before, behind) = (length(2), length(3));

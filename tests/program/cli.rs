@@ -11,7 +11,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 
-/// What a run of the program left behind.
+/// The result of a run of the program.
 struct Run {
     code: i32,
     out: String,
@@ -247,7 +247,7 @@ fn fault(value: &Value, schema: &Value, root: &Value, place: &str) -> Option<Str
             ));
         }
     }
-    // Of what is no object nothing is required: null, where the type allows it.
+    // No key is required of a value that is no object: null, where the type allows it.
     let mut required = schema["required"].as_array().into_iter().flatten().filter(|_| value.is_object());
     if let Some(key) = required.find(|key| value.get(key.as_str().unwrap()).is_none()) {
         return Some(format!("{place}: no {key}"));
@@ -714,7 +714,7 @@ fn a_name_in_two_folders_is_given_with_its_folder() {
         let expected = "found the name `bennett`, expected one of conditions/bennett, motion/bennett";
         assert!(run.code == 1 && run.err.contains(expected), "{}", run.err);
     }
-    // Where one of them only is meant, the name is enough.
+    // Where only one of them can be meant, the name is enough.
     assert_eq!(run(&["factor", "bennett", "-q"]).code, 0);
     assert_eq!(run(&["conditions", "bennett", "-q"]).code, 0);
 }
@@ -807,7 +807,7 @@ fn an_interrupt_keeps_what_is_done() {
         let mut child = command(&["solve", &path, form, "--threads", "1"]).spawn().unwrap();
         let mut out = BufReader::new(child.stdout.take().unwrap());
         let mut text = String::new();
-        // With a full pipe the program waits for its reader: it cannot be done yet.
+        // With a full pipe the program waits for its reader, so that it has not ended yet.
         out.read_line(&mut text).unwrap();
         let kill = format!("kill -INT {}", child.id());
         assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());

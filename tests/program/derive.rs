@@ -103,7 +103,7 @@ fn has_tangent(form: &Polynomial<Rational>, names: &[String]) -> bool {
     (0..names.len()).any(|variable| names[variable].starts_with('t') && form.degree(variable) > 0)
 }
 
-/// How far the nearest root is from a value of the variable; angles by their difference.
+/// Returns the distance of the nearest root from a value of the variable; angles by their difference.
 fn distance(polynomial: &ClosurePolynomial, is_angle: bool, value: f64) -> f64 {
     let at = |t: f64| if is_angle { 2.0 * t.atan() } else { t };
     let distances = polynomial.roots.iter().map(|root| (at(root.value) - at(value)).abs());
@@ -160,7 +160,7 @@ fn arms_of_the_library_are_derived_as_they_are_solved() {
     folder("arm").iter().for_each(check);
 }
 
-/// Which legs meet at the plate, and the triangle they carry.
+/// Returns the pairs of legs that meet at the plate, and the triangle they carry.
 fn triangle(design: &Design, case: &Case) -> Option<([[usize; 2]; 3], Triangle<Rational>)> {
     let Design::Platform(platform) = design else { return None };
     let platform = looproot::internal::mechanism::platform_over::<Rational>(platform)?;

@@ -80,7 +80,7 @@ fn each_proof_is_the_one_for_its_kind() {
 
 #[test]
 fn the_identity_of_octahedra_agrees_with_their_symmetry() {
-    // The same octahedra, known by their lengths only: no vertices from which a symmetry could be read.
+    // The same octahedra, given by their lengths only: there are no vertices from which a symmetry could be read.
     for name in ["octahedron_line_symmetric", "octahedron_plane_symmetric"] {
         let mut file = builtin(name);
         file.squares = Some(file.framework.squares());

@@ -282,7 +282,7 @@ fn axes_of_irrational_length_are_taken_as_they_are() {
     let answer = mobility(&slider("[0, 1, 2]", "[1, -1, 3]")).unwrap();
     assert_eq!((answer.mobility, answer.screw_rank(), answer.proof), (Some(1), Some(3), Proof::Proved));
     assert!(!answer.reason.contains("rounded"), "{}", answer.reason);
-    // What is held is told in radians, and its values close the loop.
+    // Held joints are reported in radians, and their values close the loop.
     let (k, value) = answer.held[0];
     assert!(answer.configurations.iter().all(|c| (c.q[k] - value).abs() < 1e-12));
     let broken = mobility(&slider("[0, 1, 2]", "[1, \"-1000001/1000000\", 3]")).unwrap();

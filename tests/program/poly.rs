@@ -7,7 +7,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-/// What a run of `looproot poly` left behind.
+/// The result of a run of `looproot poly`.
 struct Run {
     code: i32,
     out: String,
@@ -138,7 +138,7 @@ fn files_and_standard_input_hold_polynomials() {
     assert_eq!(answer(&["resultant", &format!("@{document}"), "--eliminate", "x"]), direct);
     let piped = run_with_input(&["resultant", "-", "--eliminate", "x"], &fs::read(&document).unwrap());
     assert_eq!((piped.code, piped.out), (0, direct));
-    // What is printed for people is read again.
+    // Output for people can be read again.
     let again = run_with_input(&["resultant", "-", "--eliminate", "x"], answer(&["expand", &text]).as_bytes());
     assert_eq!((again.code, again.out), (0, answer(&["resultant", &text, "--eliminate", "x"])));
     let refused = run(&["expand", &text, "-o", &text]);

@@ -350,7 +350,7 @@ fn circuits_within_one_step_are_found() {
     assert_eq!(found.unresolved(), 0);
 }
 
-/// A picture has a panel for every joint but the input, every limit position in each, and no number that is none.
+/// A picture has a panel for every joint but the input, every limit position in each, and no NaN.
 #[test]
 fn a_picture_shows_every_joint_and_every_limit_position() {
     let program = env!("CARGO_BIN_EXE_looproot");
@@ -594,8 +594,8 @@ fn a_position_of_a_structure_is_isolated() {
     }
 }
 
-/// With its slider d3 given, no two of the closure polynomials of this loop count its solutions: the ring of its equations
-/// does, and leads to the complex ones beyond the limit positions.
+/// With its slider d3 given, no two of the closure polynomials of this loop count its solutions: the ring of its equations does,
+/// and finds the complex ones beyond the limit positions.
 #[test]
 fn a_loop_of_parallel_pairs_is_followed_by_its_translation() {
     let found = swept("rrcrp_a", 3, Variable::Translation, [-10.0, 10.0], 60);

@@ -1,5 +1,5 @@
-//! Pages of `looproot view`. What a browser makes of them is tested where one is found: chromium on the path, or the program
-//! that the variable LOOPROOT_BROWSER names. Without one these tests say so and pass.
+//! Pages of `looproot view`. They are tested in a browser where one is found: chromium on the path, or the program that the
+//! variable LOOPROOT_BROWSER names. Without one these tests say so and pass.
 #![allow(clippy::unwrap_used)]
 
 use serde_json::Value;
@@ -298,7 +298,7 @@ fn browsed(browser: &str, name: &str, page: &str, script: &str, more: &[&str]) -
     (String::from_utf8(output.stdout).unwrap(), console.join("\n"))
 }
 
-/// What the script left in the attributes of the root element.
+/// Returns a value that the script left in the attributes of the root element.
 fn left(dom: &str, name: &str) -> String {
     let (_, rest) = dom.split_once(&format!("data-{name}=\"")).unwrap_or_else(|| panic!("{name} is not there"));
     rest.split('"').next().unwrap().to_owned()

@@ -32,7 +32,7 @@ fn is_self_motion(solution: &Solution) {
 #[test]
 fn a_puma_with_a_straight_wrist_moves_by_itself() {
     is_self_motion(&at(&puma_like(), &[[1, 2], [-2, 3], [3, 4], [1, 3], [0, 1], [2, 5]]));
-    // And with a bent one it does not.
+    // With a bent elbow it does not.
     let bent = at(&puma_like(), &[[1, 2], [-2, 3], [3, 4], [1, 3], [1, 7], [2, 5]]);
     assert_eq!((bent.verdict.status, bent.verdict.complex), (Status::Complete, 8), "{}", bent.verdict.reason);
 }
@@ -56,7 +56,7 @@ fn deficient() -> [Chain; 3] {
     ]
 }
 
-/// What is said of deficient arms at six reachable poses each.
+/// Returns the answers to deficient arms at six reachable poses each.
 fn deficient_answers() -> Vec<Solution> {
     let mut random = crate::arms::random(99);
     let mut answers = Vec::new();
@@ -139,7 +139,7 @@ fn a_double_solution_counts_twice() {
         let planted = values.each_ref().map(|t| angle(t).radians());
         let here: Vec<&FullMode> = solution.modes.iter().filter(|m| away(m, &planted) < 1e-4).collect();
         assert!(here.len() == 1 && here[0].real && here[0].multiplicity == 2, "arm {seed}: {here:?}");
-        // What the rounding of the pose makes of a double solution: its square root.
+        // The rounding of the pose moves a double solution by its square root.
         assert!(away(here[0], &planted) < 1e-5, "arm {seed}: {:e}", away(here[0], &planted));
         assert!(solution.modes.iter().all(|m| m.multiplicity == 1 || away(m, &planted) < 1e-4), "arm {seed}");
     }

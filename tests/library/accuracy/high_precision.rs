@@ -35,8 +35,8 @@ fn closed<R: Ring>(drawn: &Sample, layout: &Layout) -> (OpenLoop<R>, Motion<R>, 
 
 #[test]
 fn solutions_almost_at_infinity_are_found_and_proved() {
-    // Of every elimination some whose solutions f64 loses, or cannot prove: right angles, wrists and parallel axes off by
-    // a little.
+    // For every elimination, some cases whose solutions f64 loses or cannot prove: right angles, wrists and parallel axes that
+    // are slightly off.
     let cases = [
         (chain("CCC"), 684, 2),
         (chain("CCPR"), 240, 2),

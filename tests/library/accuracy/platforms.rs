@@ -1,4 +1,4 @@
-//! Planted poses found in random platforms of every class, as many as an exact count finds; and crippled lists noticed.
+//! Random platforms of every class: planted poses are found, their number equals an exact count, and crippled lists are noticed.
 
 use looproot::internal::assembly::Roots;
 use looproot::internal::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
@@ -124,7 +124,7 @@ fn no_crippled_list_is_called_complete() {
 #[test]
 fn a_curve_of_poses_is_a_self_motion() {
     let whole = list(PlatformSet::General, 2);
-    // What is counted alone is no self-motion: the count is a measurement.
+    // A count alone proves no self-motion: it is a measurement.
     let counted = PlatformKnowledge { infinite: Some(2), ..PlatformKnowledge::default() };
     let list = PlatformAssembly { modes: whole.modes[..30].to_vec(), ..whole.clone() };
     assert_eq!(platform_verdict(&list, Roots::All, &counted).status, Status::Incomplete);

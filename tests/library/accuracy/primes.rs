@@ -92,7 +92,7 @@ fn solve(entry: &Entry) -> Verdict {
     mechanism.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap().verdict
 }
 
-/// Whether a verdict says, as proved, that there are so many complex solutions.
+/// Returns the number of complex solutions that a verdict states as proved.
 fn claims(verdict: &Verdict) -> Option<usize> {
     let is_answer = matches!(verdict.status, Status::Complete | Status::Unreachable);
     (is_answer && verdict.proof.is_proved() && verdict.complex_complete).then_some(verdict.complex)
@@ -104,7 +104,7 @@ fn numbers_are_read_from_code() {
     assert_eq!(numbers("f(1_000_003, 0x10u64)"), [1_000_003, 16]);
 }
 
-/// With A = 0 three axes meet and 8 solutions are left; with any other A there are 16.
+/// With A = 0 three axes meet and there are 8 solutions; with any other A there are 16.
 fn arm(a: &str) -> Entry {
     let joint = |a: &str, t: &str, d: &str| {
         format!("{{ type = \"R\", a = \"{a}\", tan_half_alpha = \"{t}\", d = \"{d}\" }},\n")

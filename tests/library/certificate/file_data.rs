@@ -43,12 +43,12 @@ impl SignedPower for Float {
     }
 }
 
-/// What is drawn from.
+/// The source of random mechanisms.
 struct Draw {
     random: ChaCha8Rng,
     /// Lengths are multiples of this power of ten.
     scale: i32,
-    /// How far axes are away, in parts of that.
+    /// The distance of the axes from the origin, in parts of that.
     shift: [i64; 3],
 }
 
@@ -292,7 +292,7 @@ fn drawn(draw: &mut Draw, is_loop: bool) -> Drawn {
     Drawn { text, steps, is_angle, given }
 }
 
-/// What is found of many.
+/// The results for many mechanisms.
 #[derive(Debug, Default)]
 struct Tally {
     mechanisms: usize,
@@ -334,7 +334,7 @@ fn judge(drawn: &Drawn, tally: &mut Tally) {
     }
 }
 
-/// How many mechanisms are drawn: of each sixteen modes at most.
+/// Returns the number of mechanisms drawn, each with at most sixteen modes.
 fn count() -> u64 {
     std::env::var("LOOPROOT_RADII").ok().and_then(|text| text.parse().ok()).unwrap_or(8)
 }

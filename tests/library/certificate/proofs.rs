@@ -181,7 +181,7 @@ fn every_proved_ball_holds_a_solution_and_no_two_balls_meet() {
             let exact = solution(&truth, &mode.unknowns).unwrap();
             let away = distance(&ROTATIONS, &exact, &mode.unknowns);
             assert!(away <= radius, "{}: {away:e} from the middle of a ball of {radius:e}", job.name);
-            // And so lies that of the mechanism as given, before its constants were rounded.
+            // The solution of the mechanism as given, before its constants were rounded, lies there as well.
             let given = distance(&ROTATIONS, &solution(&job.given, &mode.unknowns).unwrap(), &mode.unknowns);
             assert!(given <= radius, "{}: {given:e} from the middle of a ball of {radius:e}, as given", job.name);
             if mode.real {
@@ -226,7 +226,7 @@ fn a_real_mode_has_no_imaginary_parts() {
     }
 }
 
-/// Checks a claim against all solutions: exactly one in the ball, and no other one within the isolation.
+/// Checks a certificate against all solutions: exactly one in the ball, and no other one within the isolation.
 fn judge<S: Scalar>(job: &Job, at: &Six<S>, solutions: &[Six<Complex<Big>>]) -> bool {
     let here = closure(&job.stored, at);
     let Some(claim) = inverse(&here.jacobian).and_then(|a| certificate(&here, &a)) else { return false };

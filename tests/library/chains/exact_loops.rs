@@ -32,7 +32,7 @@ fn solve(joints: &[[&str; 4]], joint: usize, value: &str) -> Solution {
     mechanism.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap()
 }
 
-/// Proves a loop to have so many solutions, and so many real ones.
+/// Asserts that a loop is proved to have this many solutions, and this many real ones.
 fn has(joints: &[[&str; 4]], joint: usize, value: &str, complex: usize, real: usize) -> Solution {
     let found = solve(joints, joint, value);
     let verdict = &found.verdict;

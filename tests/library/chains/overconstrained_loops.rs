@@ -33,7 +33,7 @@ const LINKS: &str = "{ type = \"R\", a = 4, tan_half_alpha = \"1/2\", d = 0 },\n
 
 #[test]
 fn a_link_off_by_a_billionth_leaves_no_solution() {
-    // Of a double root in f64 nothing could be said: the exact count decides, and the closure is off by 1e-9 only.
+    // f64 decides nothing about a double root: the exact count does, and the closure is off by 1e-9 only.
     let names = [
         "bennett_a",
         "goldberg_a",
@@ -86,7 +86,7 @@ fn rounded_data_close_but_prove_nothing() {
 fn a_loop_without_input_moves_or_is_a_structure() {
     let moving = solve(&read(&bennett(&LINKS.repeat(2), "")).unwrap(), 0).verdict;
     assert_eq!((moving.status, moving.self_motion), (Status::SelfMotion, 1), "{}", moving.reason);
-    // The same with one link too long.
+    // The same loop with one link too long.
     let rigid = bennett(&(LINKS.repeat(2).replacen("a = 3", "a = \"31/10\"", 1)), "");
     let rigid = solve(&read(&rigid).unwrap(), 0).verdict;
     assert_eq!((rigid.status, rigid.complex), (Status::Unreachable, 0), "{}", rigid.reason);
@@ -235,7 +235,7 @@ fn planted_positions_of_a_ball_are_found() {
     }
 }
 
-/// What a loop is told that is not solved: its mobility by Gruebler's count and by screws, and what it lacks.
+/// The error for a loop that is not solved: its mobility by Gruebler's count and by screws, and the missing part.
 #[test]
 fn mobility_is_named_where_a_loop_is_not_solved() {
     let joint = |kind: char, own: &str| format!("{{ type = \"{kind}\", a = 1, tan_half_alpha = \"2/3\", {own} }},\n");

@@ -53,7 +53,7 @@ fn solved(entry: &Entry) -> Result<Solution, Error> {
     Mechanism::prepare(entry)?.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly)
 }
 
-/// What is not done says why: a place in the file, or the mobility and what is solved.
+/// Asserts that a refusal gives its reason: a place in the file, or the mobility and the kinds that are solved.
 fn assert_of_use(letters: &str, error: &Error) {
     let message = error.to_string();
     match error {
@@ -92,7 +92,7 @@ proptest! {
             Err(error) => assert_of_use(&letters, &error),
         }
         match derive(&entry, &entry.cases[0]) {
-            // What the solver finds in floating point holds in every equation that is derived exactly.
+            // The solutions in floating point satisfy every equation that is derived exactly.
             Ok(derivation) => {
                 let found = derivation.substituted(&entry, &entry.cases[0]);
                 prop_assert!(found.is_ok(), "{}\n{}\n{:?}", letters, text, found);
@@ -101,7 +101,7 @@ proptest! {
         }
     }
 
-    /// With two symbols, for speed.
+    /// Two symbols are used, for speed.
     #[test]
     fn symbols_are_derived_or_refused((letters, text) in file()) {
         let Ok(entry) = load_text(&text, "any.toml", Format::Toml, &Options::default()) else { return Ok(()) };

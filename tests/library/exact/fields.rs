@@ -50,7 +50,7 @@ fn rational_arms_are_decided_as_over_a_field_of_degree_one() {
     assert!(decided > 4, "only {decided} are decided");
 }
 
-/// The same arm and pose, all lengths times a number.
+/// Returns the same arm and pose with all lengths scaled by a number.
 fn scaled(text: &str, factor: &str) -> String {
     let mut document: Value = serde_json::from_str(text).unwrap();
     let times = |x: &mut Value| *x = json!(format!("({})*({factor})", x.as_str().unwrap()));
@@ -64,7 +64,7 @@ fn scaled(text: &str, factor: &str) -> String {
     document.to_string()
 }
 
-/// Whether every mode of one list is one of the other, with its multiplicity.
+/// Returns whether every mode of one list is in the other, with its multiplicity.
 fn agree(one: &Solution, other: &Solution) -> bool {
     let real = |solution: &Solution| -> Vec<(Vec<f64>, usize)> {
         let modes = solution.modes.iter().filter(|mode| mode.real);
@@ -83,7 +83,7 @@ fn irrational_lengths_leave_the_solutions_as_they_are() {
         let (text, _) = special_arm(seed);
         let rational = solved(&text);
         let one = &rational.verdict;
-        // What is finite is decided in the field as it is over the rationals.
+        // Finite lists are decided in the field as they are over the rationals.
         if one.status == Status::Complete && one.proof == Proof::Proved {
             let irrational = solved(&scaled(&text, factors[usize::try_from(seed).unwrap() % 4]));
             let other = &irrational.verdict;

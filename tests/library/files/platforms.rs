@@ -33,7 +33,7 @@ position = [10, 20, 30]
 digits = 8
 "#;
 
-/// The same points for the tests of where lengths stand.
+/// Returns a platform with the same points, to test the places of lengths.
 fn with(legs: &str) -> String {
     let head = &PLATFORM[..PLATFORM.find("legs =").unwrap()];
     format!("{head}{legs}\n")

@@ -9,7 +9,7 @@ use looproot_algebra::ring::{Domain, Ring};
 use proptest::prelude::*;
 use rug::{Integer, Rational};
 
-/// A polynomial in so many variables, of a total degree; some coefficients are zero.
+/// A polynomial in this many variables, of a total degree; some coefficients are zero.
 fn polynomial(variables: usize, degree: u32) -> impl Strategy<Value = Terms> {
     let mut exponents = vec![vec![]];
     for _ in 0..variables {
@@ -79,7 +79,7 @@ fn in_second(f: &Terms) -> Poly {
     coefficients(f).into_iter().next().unwrap_or_else(Poly::zero)
 }
 
-/// The value of all but the first variable put in, as coefficients in the first; as many as the degree asks for.
+/// Substitutes values for all but the first variable and returns the coefficients in the first, padded to the degree.
 fn specialised(f: &Terms, variables: usize, at: &[i64]) -> Vec<Integer> {
     let mut all = Vec::new();
     for (e, c) in f.iter(variables) {

@@ -38,7 +38,7 @@ proptest! {
 
     #[test]
     fn are_reduced_to_unit_rows_and_null_rows(b in matrix::<6, 3>(), c in matrix::<3, 4>()) {
-        // Of rank 3 at most, and the transform is regular whatever the rank.
+        // The rank is at most 3, and the transform is regular whatever the rank.
         let a = multiply(&b, &c);
         let reduced: Reduction<Rational, 6, 4> = reduce(a.clone());
         prop_assert!(reduced.rank <= 3 && reduced.independence == 0.0);

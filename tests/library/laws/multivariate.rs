@@ -38,7 +38,7 @@ fn any_int() -> impl Strategy<Value = Int> {
     integer().prop_map(Int::from)
 }
 
-/// Up to so many terms in so many variables with exponents up to a degree.
+/// A polynomial with at most this many terms and variables, with exponents up to a degree.
 fn polynomial<R: Ring>(
     c: impl Strategy<Value = R> + 'static,
     terms: usize,

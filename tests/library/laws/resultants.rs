@@ -142,7 +142,7 @@ proptest! {
         monomial in (0_u32..3, 0_u32..3),
         gap in 1_u32..3,
     ) {
-        // Common monomials and gaps in the eliminated variable are taken out before, contents too.
+        // Common monomials and gaps in the eliminated variable are divided out before, and contents too.
         let monomial = Polynomial::from_terms([(vec![0, monomial.0, monomial.1], int(6))]);
         let spread = |f: &Poly| Polynomial::from_terms(f.terms().map(|(mut e, c)| {
             if let Some(first) = e.first_mut() { *first *= gap; }
@@ -186,7 +186,7 @@ proptest! {
         let divisor = eliminant.common_divisor_at(rational, &numbers, 0.0).unwrap();
         let root = Univariate::new(divisor.clone()).eval(&numbers[0]);
         prop_assert!(root.is_zero() , "{:?}", divisor);
-        // With one common root the lift has it too, unless it vanishes there.
+        // A single common root is a root of the lift, too, unless the lift vanishes.
         if divisor.len() == 2 {
             prop_assert!(Univariate::new(lift).eval(&values[0]).is_zero());
         }
@@ -322,7 +322,7 @@ mod of_three_polynomials {
         let at = |c: &Poly| c.map(|c| f64::from_rational(&c.to_integer().into())).map(|c| c.evaluate(&[0.0, 0.0, 5.0]));
         let [[p, q], [r, s]] = eliminant.matrix.common_root_at(at, 1e-9).unwrap();
         assert!((p / q + 2.0).abs() < 1e-9 && (r / s - 3.0).abs() < 1e-9);
-        // There is none elsewhere.
+        // There is no common root elsewhere.
         let at = |c: &Poly| Some(ModP::<PRIME_61>::new(c.evaluate(&[0, 0, 4].map(int)).to_integer().mod_u(97).into()));
         assert!(eliminant.matrix.common_root_at(at, 0.0).is_none());
     }

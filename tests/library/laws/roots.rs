@@ -1,4 +1,4 @@
-//! Laws of real roots: as many as Sturm counts, each alone in its interval, rounded correctly, however they lie.
+//! Laws of real roots: their number is Sturm's count, each is alone in its interval and rounded correctly, however they lie.
 
 use crate::strategies::{integers, nonzero_polynomial, rational};
 use looproot_algebra::{

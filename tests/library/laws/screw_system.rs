@@ -1,4 +1,4 @@
-//! Screw systems keep what does not depend on where they are seen from, and agree over the rationals and in f64.
+//! Screw systems keep the properties that do not depend on the frame, and agree over the rationals and in f64.
 
 use looproot::internal::kinematics::motion::{Motion, Vector, cross, dot};
 use looproot::internal::kinematics::screw_system::{LinearComplex, Screw, ScrewSystem};

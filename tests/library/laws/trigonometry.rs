@@ -52,7 +52,7 @@ proptest! {
         let [circle, other] = circles();
         let same = f.add(&a.mul(&circle)).add(&b.mul(&other));
         prop_assert_eq!(reduce(&same, &PAIRS), reduce(&f, &PAIRS));
-        // And different ones differ: at the points of a grid with more of them than a polynomial has zeros.
+        // Different ones differ at the points of a grid, which has more points than a polynomial has zeros.
         let (f, a) = (reduce(&f, &PAIRS), reduce(&a, &PAIRS));
         let point = |i: i32| values(&i.into(), &(7 * i * i + 1).into(), &(i * i * i).into());
         let differs = (0..12).any(|i| f.evaluate(&point(i)) != a.evaluate(&point(i)));

@@ -13,7 +13,7 @@ use looproot_algebra::number::{Angle, HalfTangent, Number};
 use num_complex::Complex;
 use rug::Rational;
 
-/// The same verdict, and the same solutions after `image` has renamed those of the second.
+/// Asserts the same verdict, and the same solutions after `image` has renamed those of the second.
 fn assert_same(what: &str, one: &Solution, two: &Solution, image: impl Fn(&[Complex<f64>]) -> Vec<Complex<f64>>) {
     let facts = |s: &Solution| {
         let v = &s.verdict;
@@ -70,7 +70,7 @@ fn opposite(joint: &Joint) -> Joint {
     Joint { a: negative(&joint.a), d: negative(&joint.d), alpha: angle(&-t.clone()), ..joint.clone() }
 }
 
-/// The same arm with its links before the joints.
+/// Returns the same arm with its links before the joints.
 fn modified(arm: &Chain) -> Chain {
     let dh = joints(arm);
     let first = Joint { a: Number::zero(), alpha: Angle::zero(), ..dh[0].clone() };
@@ -80,7 +80,7 @@ fn modified(arm: &Chain) -> Chain {
     Chain { tool, ..chain(Geometry::ModifiedDh(joints)) }
 }
 
-/// The same arm by its screw axes.
+/// Returns the same arm by its screw axes.
 fn screws(arm: &Chain) -> Chain {
     let mut frame = Motion::identity();
     let mut axes = Vec::new();

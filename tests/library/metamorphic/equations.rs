@@ -64,7 +64,7 @@ fn product(closed: &ClosedLoop<Rational>, values: &[Rational; 6]) -> Motion<Rati
     })
 }
 
-/// What the unknowns of a cut are.
+/// Returns the unknowns as a cut reads them.
 fn seen(cut: Cut, values: &[Rational; 6]) -> [Rational; 6] {
     std::array::from_fn(|j| {
         let value = values[cut.unknown_index(j)].clone();

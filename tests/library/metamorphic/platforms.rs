@@ -1,5 +1,5 @@
-//! What must not change about platforms: frames, the order of the legs and the roles of base and plate change no count, and
-//! carry the poses along.
+//! Invariants of platforms: frames, the order of the legs and the roles of base and plate change no count, and carry the poses
+//! along.
 
 use crate::arms::{motion, random, small};
 use looproot::internal::assembly::{Assembly, Roots, Workspace};
@@ -43,7 +43,7 @@ fn apart(one: &Motion<f64>, two: &Motion<f64>) -> f64 {
     rotation.chain((0..3).map(|k| (one.translation[k] - two.translation[k]).abs())).fold(0.0, f64::max)
 }
 
-/// The same verdict, and the real poses of one carried to those of the other.
+/// Asserts the same verdict, and that the real poses of one are carried to those of the other.
 fn same(what: &str, wanted: &Solution, found: &Solution, carry: impl Fn(&Motion<f64>) -> Motion<f64>) {
     let verdict = |s: &Solution| (s.verdict.status, s.verdict.complex, s.verdict.real, s.verdict.certified);
     assert_eq!(verdict(wanted), verdict(found), "{what}: {} / {}", wanted.verdict.reason, found.verdict.reason);

@@ -103,7 +103,7 @@ pub fn translation(translation: [Rational; 3]) -> Motion<Rational> {
     Motion { rotation: identity.scaled_rotation(), translation }
 }
 
-/// How far the nearest real pose of a list is from a given one.
+/// Returns the distance of the nearest real pose of a list from a given one.
 pub fn nearest(assembly: &PlatformAssembly, pose: &[f64; 7]) -> f64 {
     let reach = pose[4..].iter().fold(1.0_f64, |reach, x| reach.max(x.abs()));
     let distance = |mode: &looproot::internal::assembly::platform::PlatformMode| {
@@ -126,7 +126,7 @@ impl Draw {
         Rational::from(self.0.random_range(-20..=20))
     }
 
-    /// One of so many.
+    /// Draws a number below `most`.
     pub fn choice(&mut self, most: u64) -> u64 {
         self.0.random_range(0..most)
     }

@@ -32,9 +32,9 @@ fn certified(assembly: &PlatformAssembly) -> usize {
 
 #[test]
 fn related_plates_have_as_many_poses_as_a_groebner_basis_says() {
-    // Singular 4.3.1 modulo 32003, with a generic patch and u N = 1: dimension 0, and as many solutions with multiplicity
-    // as without. All of them are simple, though poses of a congruent plate share |x_i| by twos (g and its inverse), and
-    // those of plane plates share rotations by twos (mirrored in the plane).
+    // Singular 4.3.1 modulo 32003, with a generic patch and u N = 1: the dimension is 0, and the number of solutions with
+    // multiplicity is the number without. All of them are simple, though poses of a congruent plate share |x_i| in pairs (g and
+    // its inverse), and those of plane plates share rotations in pairs (mirrored in the plane).
     let flat = |p: [[i32; 3]; 6]| p.map(|[x, y, _]| [x, y, 0]);
     let large = |p: [[i32; 3]; 6]| p.map(|p| p.map(|x| 3 * x));
     let mirrored = BASE.map(|[x, y, z]| [x, y, -z]);
@@ -166,7 +166,7 @@ fn coordinates_rounded_to_15_digits_have_no_self_motion_and_none_is_claimed() {
     let platform = Platform { base: hexagon(100.0), plate: hexagon(50.0) };
     let squares = platform.legs_squared(&turned_about_z([0, 0, 100]));
     let solution = answer(&platform, &squares);
-    // Of exactly these data all poses are isolated, though f64 cannot tell them from a curve.
+    // For exactly these data all poses are isolated, though f64 cannot distinguish them from a curve.
     assert!(solution.verdict.status != Status::SelfMotion && solution.verdict.self_motion == 0);
     assert!(solution.verdict.complex <= 40 && solution.modes.iter().all(|mode| mode.certified));
 }

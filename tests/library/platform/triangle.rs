@@ -1,4 +1,4 @@
-//! Legs that meet in pairs: two resultants and the border basis find the same poses, as many as are counted exactly.
+//! Legs that meet in pairs: two resultants and the border basis find the same poses, in the number that an exact count gives.
 
 use super::cases::{Draw, case, solved};
 use looproot::internal::assembly::Roots;
@@ -39,7 +39,7 @@ fn exchanged(platform: Exact) -> Exact {
     Platform { base: platform.plate, plate: platform.base }
 }
 
-/// The same platform, but for a digit that is not there: nothing coincides.
+/// Returns the same platform with an invisible digit added: no points coincide.
 fn parted(platform: &Exact) -> Exact {
     let mut parted = platform.clone();
     let tiny = Rational::from((1, Integer::from(1_u64 << 46)));

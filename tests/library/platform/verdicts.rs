@@ -121,7 +121,7 @@ fn special_platforms_at_special_poses() {
     check_all("fuzzp");
 }
 
-/// What random platforms are.
+/// The classes of random platforms.
 const CLASSES: [&str; 10] = [
     "general",
     "plane",
@@ -257,8 +257,8 @@ fn check_list(name: &str, solution: &Solution, pose: Option<&Motion<Rational>>) 
     }
 }
 
-/// Random platforms of all classes, at poses that are special or not and beside them, against their exact polynomials: as many
-/// as the variable `LOOPROOT_PLATFORMS` says, or those of a range `from..to`.
+/// Random platforms of all classes, at poses that are special or not and near them, against their exact polynomials. The variable
+/// `LOOPROOT_PLATFORMS` gives their number, or a range `from..to`.
 #[test]
 fn verdicts_on_random_platforms_agree_with_their_exact_polynomials() {
     let wanted = std::env::var("LOOPROOT_PLATFORMS").unwrap_or_else(|_| "10".to_owned());

@@ -52,7 +52,7 @@ fn checking_compares_the_equations_beside_a_file() {
     let failure = &document[0]["failures"][0];
     assert!(code == 2 && failure["claim"] == "equations" && failure["line"] == line + 1, "{out}");
     assert!(failure["file"].as_str().unwrap().ends_with("cccr_1_angle.eqs"), "{out}");
-    // What is missing at the end is missing in the last line.
+    // A line missing at the end is reported.
     fs::write(&page, kept.trim_end().rsplit_once('\n').unwrap().0).unwrap();
     let (code, out, _) = run(&["check", &file, "-q"]);
     assert!(code == 2 && out.contains("found the end"), "{out}");

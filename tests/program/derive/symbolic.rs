@@ -269,7 +269,7 @@ fn bennett_s_loop_is_a_pair_of_equations() {
     // Without lengths only the spherical four-bar is left.
     let spherical = symbolic(&four_revolutes([(1, 2), (1, 3), (2, 5), (3, 4)], [0; 4], [0; 4]));
     let polynomial = spherical.polynomial.unwrap();
-    // Of degree 2 in the angle behind the input's.
+    // The degree is 2 in the angle behind the input's.
     assert_eq!(spherical.names.list()[polynomial.variable], "t1");
     assert_eq!(polynomial.displayed.polynomial.degree(polynomial.variable), 2);
     assert_eq!(spherical.equations.iter().map(|e| e.polynomial.len()).collect::<Vec<_>>(), [21]);
@@ -317,7 +317,7 @@ fn symbols_can_be_chosen_and_refused() {
     assert!(code == 0 && out.contains("poly f1 = ") && out.contains("t4^2"), "{out}");
 }
 
-/// What is left with the numbers of the file in the place of the symbols, as a primitive polynomial in the unknown.
+/// Substitutes the numbers of the file for the symbols and returns a primitive polynomial in the unknown.
 fn at_the_numbers(derived: &Symbolic) -> Univariate<Integer> {
     let values: Vec<(usize, Polynomial<Rational>)> =
         derived.values.iter().map(|(variable, value)| (*variable, Polynomial::constant(value.clone()))).collect();

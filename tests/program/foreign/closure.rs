@@ -232,7 +232,7 @@ fn msolve(equations: &str, names: &[String]) -> Option<usize> {
     Some(points)
 }
 
-/// Whether an answer agrees with what the other programs found; `None` where one of them found nothing in time.
+/// Returns whether an answer agrees with the results of the other programs; `None` where one of them found nothing in time.
 fn agrees(case: &Case) -> Option<bool> {
     let (equations, count) = case.equations();
     let names: Vec<String> = (0..count).map(|k| format!("x{k}")).collect();
