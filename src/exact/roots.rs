@@ -27,7 +27,7 @@ pub struct Isolated<const BITS: u32> {
 /// Returns the roots of a square-free polynomial, conjugates included; `None` where this precision does not separate them.
 ///
 /// # Source
-/// Of n approximations each disc of radius `n |w_k|` around one, with Weierstrass' corrections `w_k = p(z_k) / (a_n prod_j
+/// Each disc of radius `n |w_k|` around one of n approximations, with Weierstrass' corrections `w_k = p(z_k) / (a_n prod_j
 /// (z_k - z_j))`, holds a root, and exactly one if it meets no other disc. \[Smith1970\]
 #[must_use]
 pub fn isolated_roots<const BITS: u32>(polynomial: &Univariate<Integer>) -> Option<Vec<Isolated<BITS>>> {

@@ -15,7 +15,7 @@ pub struct Forward {
 /// A velocity: of the origin of the tool, and angular, both in the frame of the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
-    /// Of the origin of the tool.
+    /// The velocity of the origin of the tool.
     pub linear: Vector<f64>,
     /// The angular velocity.
     pub angular: Vector<f64>,

@@ -137,8 +137,8 @@ pub struct LoopFreedom<F> {
 }
 
 impl<F: Field> ScrewSystem<F> {
-    /// The system that these screws span. Of inexact coordinates, directions of length 1 and moments in a unit of the size
-    /// of the mechanism tell the rank best.
+    /// Returns the system that these screws span. For inexact coordinates, the rank is most reliable with directions of length 1
+    /// and moments in a unit of the size of the mechanism.
     #[must_use]
     pub fn of(screws: &[Screw<F>]) -> Self {
         let rows = screws.iter().map(|screw| screw.coordinates().to_vec()).collect();
@@ -327,7 +327,7 @@ pub struct PrincipalScrew {
 impl ScrewSystem<f64> {
     /// The principal screws by rising pitch, and the number of independent translations in the system (infinite pitch).
     ///
-    /// Of a system of order 2 they are the two perpendicular, intersecting generators of the cylindroid with its greatest and
+    /// For a system of order 2 they are the two perpendicular, intersecting generators of the cylindroid with its greatest and
     /// least pitch; of order 3 three perpendicular, concurrent screws. The pitches are the roots of
     /// `det(K - p G) = 0` with half the Klein form K and the inner products G of the directions of a basis.
     ///

@@ -62,7 +62,7 @@ impl Tolerance {
     }
 }
 
-/// By how much a configuration misses the pose that was asked for.
+/// The error of a configuration against the requested pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseError {
     /// The distance of the origins of the tool, metres.

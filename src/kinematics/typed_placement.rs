@@ -1,4 +1,4 @@
-//! Poses of plain decimals: in twice the digits of a double at once, over the rationals when that is asked for.
+//! Poses of plain decimals: in twice the digits of a double at once, over the rationals on request.
 
 use super::chain::Placement;
 use super::decimal::{Decimal, whole};

@@ -106,7 +106,7 @@ fn ratio<R: Ring>(a: &R, b: &R, c: &R, root: &R) -> (R, R) {
     if a.is_zero() {
         // t = 0, and 2 b s + c t = 0.
         let two_b = b.add(b);
-        // The sign of the root tells the two apart: it is b or -b.
+        // The sign of the root distinguishes the two: it is b or -b.
         return if root == b { (c.neg(), two_b) } else { (R::one(), R::zero()) };
     }
     (root.sub(b), a.clone())

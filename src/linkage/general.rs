@@ -22,7 +22,7 @@ use num_complex::Complex;
 const TURNS: u32 = 8;
 /// Pairs of classes at rest and hidden whose determinants are compared: all of a group of nine bodies.
 const PAIRS: usize = 40;
-/// Choices whose polynomials are asked for until every root of one of them is a solution.
+/// Number of choices whose polynomials are computed until every root of one of them is a solution.
 const TRIES: usize = 3;
 
 /// The solutions found for a group of several cycles.
@@ -281,7 +281,7 @@ fn choice(exact: &Equations<Isotropic<Gaussian>>, rest: usize, hidden: usize) ->
     None
 }
 
-/// Approximations of all roots; `None` where no precision tells them apart.
+/// Returns approximations of all roots; `None` where no precision separates them.
 fn hidden_rotations(square_free: &Univariate<rug::Integer>) -> Option<Vec<Complex<f64>>> {
     fn middles<const BITS: u32>(roots: &[Isolated<BITS>]) -> Vec<Complex<f64>> {
         roots.iter().map(|root| Complex::new(root.ball.re().to_f64(), root.ball.im().to_f64())).collect()

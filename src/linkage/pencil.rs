@@ -1,6 +1,6 @@
 //! Cramer's rule on the cycles of a group: a square matrix in a few parameters, singular at every solution.
 //!
-//! Of the classes one is at rest, one is hidden with the rotation x, and m others are left; the equations are vectors of
+//! One of the classes is at rest, one is hidden with the rotation x, and m others are left; the equations are vectors of
 //! 2 L halves, `e0(x) = (c_0 + c_x x; c_0' + c_x'/x)`, `a_j = (c_j; 0)`, `b_j = (0; c_j')`, and a constant vector for
 //! every slide of the class at rest. Further parameters, an input or a point that is
 //! traced, stand in e0 as x does. For a set S of classes let N_S be the rows a_j (j not in S), b_j (j in S) and all

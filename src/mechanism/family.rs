@@ -210,8 +210,8 @@ fn neighbours(outer: usize, inner: usize, last: usize, is_closed: bool) -> (usiz
     }
 }
 
-/// The longest rows of neighbouring points inside: the first one, and how many. Of a closed curve, whose last point is its
-/// first one, rows run on over its end.
+/// Returns the longest runs of neighbouring points inside, each by its first point and its length. In a closed curve, whose last
+/// point is its first one, runs continue over its end.
 fn parts(inside: &[bool], is_closed: bool) -> Vec<(usize, usize)> {
     let count = if is_closed { inside.len() - 1 } else { inside.len() };
     let before = |k: usize| if is_closed { inside[(k + count - 1) % count] } else { k > 0 && inside[k - 1] };

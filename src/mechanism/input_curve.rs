@@ -300,7 +300,7 @@ impl Pair {
             let case = Case::given(Input { joint: 1, value }, 0);
             closing_transformation::<f64>(&case).map(|motion| open.close(&motion))
         };
-        // The equation at three inputs tells its coefficients, which are linear in the monomials of the input.
+        // The equation at three inputs determines its coefficients, which are linear in the monomials of the input.
         let at = |k: i32| match input {
             Variable::Rotation if k == 2 => InputValue::Angle(Angle::from_half_tangent(HalfTangent::Infinite)),
             Variable::Rotation => InputValue::Angle(Angle::from_half_tangent(HalfTangent::Finite(k.into()))),

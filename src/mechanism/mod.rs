@@ -43,7 +43,7 @@ pub use turns::representatives;
 #[derive(Clone, Debug, PartialEq)]
 pub struct FullMode {
     /// Joint variables in joint order; a C joint has its angle, then its distance; the given joint of a loop included.
-    /// Of a platform the quaternion `w, x, y, z` and the position `x, y, z` of the plate.
+    /// For a platform, the quaternion `w, x, y, z` and the position `x, y, z` of the plate.
     pub q: Vec<Complex<f64>>,
     /// Whether all of them are real.
     pub real: bool,

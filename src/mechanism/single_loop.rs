@@ -44,9 +44,9 @@ enum Way {
 pub(super) struct SixUnknowns {
     pub(super) layout: Layout,
     pub(super) solver: Solver,
-    /// The loop modulo a prime, when first asked for; none for an unlucky prime.
+    /// The loop modulo a prime, computed at its first use; `None` for an unlucky prime.
     modular: OnceLock<Option<OpenLoop<Drawn>>>,
-    /// The loop, enclosed, when first asked for.
+    /// The loop, enclosed, computed at its first use.
     enclosed: OnceLock<Option<OpenLoop<Enclosure>>>,
     bound: OnceLock<Bound>,
     /// The exactness of the numbers of the mechanism.
@@ -122,7 +122,7 @@ impl SixUnknowns {
         open.as_ref().map(|open| Ok(open.close(&closing_transformation(case)?))).transpose()
     }
 
-    /// The bound on the number of solutions at every pose or input, computed when first asked for.
+    /// Returns the bound on the number of solutions at every pose or input, computed at its first use.
     fn bound(&self, chain: &Chain) -> &Bound {
         self.bound.get_or_init(|| {
             let locked = self.layout.locked.map(|k| self.layout.variables[k]);
@@ -332,7 +332,7 @@ impl SingleLoop {
     }
 }
 
-/// One case, and what is found out about it when first asked for.
+/// One case, with results that are computed at their first use.
 struct Question<'a> {
     of: &'a SingleLoop,
     prepared: &'a SixUnknowns,

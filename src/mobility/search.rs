@@ -278,7 +278,7 @@ impl Known {
             moving[k..k + 3].fill(moves);
         }
         let (description, redundant) = (system.description(), freedom.redundant.basis());
-        // Asked here, so that a pitch that vanishes at some roots only tells them apart.
+        // The inverse is taken here, so that a pitch that vanishes only at some roots separates them.
         for screw in &redundant {
             let _ = screw.pitch().map(|pitch| is_unit(&pitch));
         }

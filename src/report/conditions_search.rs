@@ -123,7 +123,7 @@ pub fn proof(ansatz: &Ansatz, search: &Search) -> Proof {
     proof.of_rounded(ansatz.rounded)
 }
 
-/// Why no real mechanism has what was asked for, or what was found; `None` where that is not proved.
+/// Returns the reason why no real mechanism satisfies the request or the result; `None` where that is not proved.
 #[must_use]
 pub fn empty<'a>(ansatz: &'a Ansatz, search: &'a Search) -> Option<&'a str> {
     ansatz.empty().or_else(|| search.fitted.as_ref()?.empty.as_deref())

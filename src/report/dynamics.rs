@@ -24,7 +24,7 @@ pub struct Asked {
     pub motion: Option<(usize, f64, usize)>,
 }
 
-/// The answer to a case: all real assemblies with `dynamics`, and `motion` where it is asked for.
+/// Returns the answer to a case: all real assemblies with `dynamics`, and `motion` on request.
 #[must_use]
 pub fn result(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &LinkageAnswer, asked: &Asked) -> Value {
     let mut result = linkage::result(file, case, index, answer, false);

@@ -87,7 +87,7 @@ pub fn json(file: &LinkageFile, results: &[Value]) -> Value {
     })
 }
 
-/// The answer to one case, its number counted from 1; complex assemblies where they are asked for.
+/// Returns the answer to one case, its number counted from 1, with complex assemblies on request.
 #[must_use]
 pub fn result(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &LinkageAnswer, complex: bool) -> Value {
     let (linkage, verdict) = (&file.linkage, &answer.verdict);
@@ -175,7 +175,7 @@ pub fn verdict(answer: &LinkageAnswer) -> String {
     )
 }
 
-/// The answer to one case as tables; complex assemblies where they are asked for.
+/// Returns the answer to one case as tables, with complex assemblies on request.
 #[must_use]
 pub fn text(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &LinkageAnswer, complex: bool) -> String {
     let linkage = &file.linkage;

@@ -30,7 +30,7 @@ pub struct Asked {
     pub dual: bool,
     /// The Euler-Rodrigues parameters as they were typed.
     pub typed: Option<Quaternion<f64>>,
-    /// The angular velocity whose rates are asked for.
+    /// The angular velocity whose rates are requested.
     pub rates: Option<[f64; 3]>,
     /// Warnings.
     pub warnings: Vec<String>,

@@ -111,7 +111,7 @@ fn mode(file: &SphereFile, id: usize, mode: &SphereMode) -> Value {
     })
 }
 
-/// The answer to one case, its number counted from 1; complex assemblies where they are asked for.
+/// Returns the answer to one case, its number counted from 1, with complex assemblies on request.
 #[must_use]
 pub fn result(file: &SphereFile, case: &SphereCase, index: usize, answer: &SphereAnswer, complex: bool) -> Value {
     let verdict = &answer.verdict;
@@ -148,7 +148,7 @@ pub fn verdict(answer: &SphereAnswer) -> String {
     format!("{status} ({proof}): {} complex, {} real; {}", verdict.complex, verdict.real, verdict.reason)
 }
 
-/// The answer to one case as a table; complex assemblies where they are asked for.
+/// Returns the answer to one case as a table, with complex assemblies on request.
 #[must_use]
 pub fn text(file: &SphereFile, case: &SphereCase, index: usize, answer: &SphereAnswer, complex: bool) -> String {
     let mut text = format!("{}, case {index}: {}\n", file.heading.title, asked(file, &case.given));

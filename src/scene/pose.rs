@@ -9,8 +9,8 @@ pub type Pose = [f64; 7];
 /// The pose of what has not moved.
 pub(super) const IDENTITY: Pose = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
-/// The pose of a rigid motion. Of the four ways to read the quaternion off the matrix the one with the largest divisor is
-/// taken.
+/// Returns the pose of a rigid motion. There are four ways to read the quaternion off the matrix; the one with the largest
+/// divisor is taken.
 #[must_use]
 pub fn pose_of(motion: &Motion<f64>) -> Pose {
     let r = &motion.rotation;

@@ -319,7 +319,7 @@ impl Curve {
     /// a margin far beyond rounding, which is possible where some unknowns are virtual.
     #[must_use]
     pub fn is_rigid(&self, at: &Point) -> bool {
-        /// The least singular value, in parts of the largest, that tells independent twists.
+        /// Least singular value, in parts of the largest, of independent twists.
         const CLEAR: f64 = 1e-6;
         let moving = self.idle.iter().filter(|idle| !**idle).count();
         if moving == 7 {

@@ -63,10 +63,10 @@ impl<S> Closure<S> {
 }
 
 impl<S: Number> Closure<S> {
-    /// The defect over the size of what cancels in it. Of real unknowns the entries of rotations are no larger than 1, and
-    /// the translation is a sum of the links and joint translations round the loop: it counts in parts of their whole
-    /// length, or of the scale of lengths if that is larger. Of complex unknowns it is the largest product of the norms of
-    /// all steps before, at and behind one of them.
+    /// The defect over the size of the terms that cancel in it. For real unknowns the entries of rotations are at most 1, and the
+    /// translation is a sum of the links and joint translations round the loop: it counts in parts of their whole length, or of
+    /// the scale of lengths if that is larger. For complex unknowns the size is the largest product of the norms of all steps
+    /// before, at and behind one of them.
     #[must_use]
     pub fn relative_defect(&self, closed: &ClosedLoop<S::Real>, unknowns: &Six<Complex<f64>>, real: bool) -> f64
     where

@@ -90,7 +90,7 @@ pub struct LinkageLimit {
 pub struct LinkageSweep {
     /// The joint that runs.
     pub joint: usize,
-    /// The range that was asked for.
+    /// The requested range.
     pub range: Range,
     /// The assemblies at the first input and at the end of every step.
     pub samples: Vec<LinkageSample>,

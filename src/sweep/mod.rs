@@ -69,7 +69,7 @@ impl Range {
 /// The result of a sweep.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// The range that was asked for.
+    /// The requested range.
     pub range: Range,
     /// The real modes at the first input and at the end of every step, as far as the sweep came.
     pub samples: Vec<Sample>,

@@ -99,7 +99,7 @@ impl Swept<'_> {
             && real().all(|mode| mode.multiplicity == 1 && (mode.certified || closes(mode)));
         let mut modes: Vec<Vec<f64>> = real().map(|mode| mode.q.iter().map(|z| z.re).collect()).collect();
         for mode in &mut modes {
-            // As it was asked for, not modulo a full turn.
+            // The input as requested, not modulo a full turn.
             mode[self.curve.input()] = input;
         }
         let unit = self.curve.unit(INPUT);

@@ -14,7 +14,7 @@ use crate::verdict::{Code, Proof, Status, Verdict};
 /// Bits in which the numbers of a dyad are computed first, and at most. The last are more than twice what the exact numbers of
 /// twenty solutions through positions of two digits take.
 const BITS: [u32; 6] = [320, 1280, 5120, 10_240, 20_480, 40_960];
-/// Relative accuracy with which more bits are not asked for: that of an f64.
+/// Relative accuracy beyond which no more bits are computed: that of an f64.
 const WANTED: f64 = 4.0 * f64::EPSILON;
 
 /// A dyad that takes all positions, or a four-bar.

@@ -1,7 +1,7 @@
 //! All solutions of the equations of a synthesis: a family with its dimension, or points with their multiplicities.
 //!
-//! A Gröbner basis over the rationals tells the dimension of the set of solutions. Where they are finitely many, the quotient
-//! ring tells how many there are and which of them coincide, and every unknown is a rational function of the roots of one
+//! A Gröbner basis over the rationals gives the dimension of the set of solutions. Where they are finitely many, the quotient
+//! ring gives their number and shows which of them coincide, and every unknown is a rational function of the roots of one
 //! polynomial. Solutions outside of the main chart are not overlooked: the other charts must have none.
 
 use super::cells::{CHOICES, Chart, Place, Shape};

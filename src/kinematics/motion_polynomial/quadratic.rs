@@ -8,7 +8,7 @@ use rug::{Float, Integer, Rational};
 
 /// Rounds of the simultaneous iteration for the roots of a norm, whose degree is small.
 const ROUNDS: usize = 500;
-/// Newton steps from f64 to any precision asked for: the digits double.
+/// Newton steps from f64 to any requested precision: the digits double.
 const STEPS: usize = 24;
 
 /// The monic quadratic factors of a polynomial without real roots but double rational ones, each as often as it divides;

@@ -22,7 +22,7 @@ use std::time::Instant;
 const EFFORT: u64 = 2_000_000_000;
 /// Bits in which axes are computed from a root, and more where they do not tell enough.
 const BITS: [u32; 4] = [320, 1280, 5120, 20_480];
-/// Relative accuracy with which more bits are not asked for.
+/// Relative accuracy beyond which no more bits are computed.
 const WANTED: f64 = 1e-17;
 
 /// A number of an assembly, real of a real one.

@@ -170,7 +170,7 @@ impl ExactSide<'_> {
     }
 }
 
-/// The polynomial of a set of legs, in a variable that tells all poses apart if there is one.
+/// Returns the polynomial of a set of legs, in a variable that distinguishes all poses if there is one.
 fn polynomial(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Option<PlatformPolynomial> {
     platform_polynomial(platform, squares).or_else(|| multiple_platform_polynomial(platform, squares))
 }

@@ -23,7 +23,7 @@ use choice::{Trial, conditions};
 use num_complex::Complex;
 use std::sync::OnceLock;
 
-/// Most free joints of an arm whose pose is asked for: one freedom is a family of curves.
+/// Largest number of free joints of an arm that is solved for a pose: one freedom is a family of curves.
 const MOST_FREE: usize = 7;
 /// Number of choices of conditions tried at a pose where one of them leaves a question open.
 const MOST_CHOICES: usize = 4;
@@ -64,7 +64,7 @@ enum Plan {
     Redundant(usize, Vec<Inner>),
 }
 
-/// A loop of six unknowns, prepared when it is first asked for.
+/// A loop of six unknowns, prepared at its first use.
 #[derive(Default)]
 struct Inner {
     held: Vec<(usize, Held)>,

@@ -42,7 +42,7 @@ pub struct Decoupled {
     pub common: Common,
 }
 
-/// The candidates at one pose, all angles in the order of the loop. Of two that are conjugates one is listed.
+/// The candidates at one pose, all angles in the order of the loop. Only one of two conjugates is listed.
 #[derive(Clone, Debug)]
 pub struct Candidates {
     real: [[f64; 6]; MOST],

@@ -24,7 +24,7 @@ pub struct Column {
 /// The cells of two parameters.
 #[derive(Clone, Debug)]
 pub struct CellMap {
-    /// Both parameters as they were asked for.
+    /// Both parameters as requested.
     pub parameters: [String; 2],
     /// Whether each is an angle.
     pub kinds: [Variable; 2],
@@ -32,7 +32,7 @@ pub struct CellMap {
     pub given: [Option<f64>; 2],
     /// The range of the first one.
     pub range: [f64; 2],
-    /// The width of a column: the range over the number of columns asked for.
+    /// The width of a column: the range over the requested number of columns.
     pub width: f64,
     /// The columns, in the order of their values.
     pub columns: Vec<Column>,

@@ -113,7 +113,7 @@ pub struct CellsVerdict {
 /// The cells of one parameter.
 #[derive(Clone, Debug)]
 pub struct Cells {
-    /// The parameter as it was asked for.
+    /// The parameter as requested.
     pub parameter: String,
     /// The name of its variable: a length, or the half tangent of an angle.
     pub variable: String,
