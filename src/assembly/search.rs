@@ -20,7 +20,7 @@ use crate::solve::decoupled::Decoupled;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
 use crate::solve::kernel::{SHARED, at_root, double_angle, kernel};
-use crate::solve::newton::{Polished, Six, approach, closure, polish, reach};
+use crate::solve::newton::{Polished, Six, approach, approach_singular, closure, polish, reach};
 use crate::solve::scalar::Scalar;
 use crate::solve::self_motion::{SelfMotion, self_motions};
 use crate::solve::singular::{Nature, nature, pair, spread};
@@ -54,6 +54,8 @@ pub(super) struct Search<'a> {
     pub spherical: Option<usize>,
     /// The part of the loop that a closed form solves, if there is one.
     pub decoupled: Option<Decoupled>,
+    /// Whether the joints are dependent in every position.
+    pub is_deficient: bool,
     /// Bound on the rounding error of the closing transformation.
     pub gap_rounding: f64,
     /// Index of every unknown of a cut in the loop, and whether the translation has the opposite sign there.
@@ -90,7 +92,8 @@ impl Search<'_> {
             Effort::Pencils(_) => return self.resolve_pairs(),
             Effort::All(_) => {}
         }
-        if !self.assembly.all_resolved {
+        // The pencils of dependent joints vanish but for rounding, and their roots say nothing of the solutions.
+        if !self.assembly.all_resolved || self.is_deficient {
             self.cast_about();
         }
         self.resolve_pairs();
@@ -435,14 +438,14 @@ impl Search<'_> {
     /// Searches from random starts. If every pencil leaves roots unresolved, solutions form families as a rule.
     fn cast_about(&mut self) {
         // The missing solutions have large imaginary parts, which no real start reaches.
-        if self.assembly.real_resolved {
+        if self.assembly.real_resolved && !self.is_deficient {
             return;
         }
         for trial in 1..=limits::CASTS {
             let start = approach(self.closed, &spread(&self.closed.variables, trial));
             // A start that ends far from closing is at a dead end.
             if closure(self.closed, &start).defect < limits::NEAR {
-                self.admit::<f64>(&start);
+                self.admit::<f64>(&approach_singular(self.closed, &start));
             }
         }
     }

@@ -300,6 +300,7 @@ impl Solver {
             spherical: self.spherical,
             decoupled: self.decoupled,
             arrangement: AS_IT_IS,
+            is_deficient: self.structural_rank < 6,
             gap_rounding: gap.rounding,
             roots,
             effort,

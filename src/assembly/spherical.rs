@@ -64,6 +64,7 @@ impl Search<'_> {
             spherical: None,
             decoupled: None,
             arrangement: AS_IT_IS,
+            is_deficient: false,
             gap_rounding: self.gap_rounding,
             roots: self.roots,
             effort: Effort::OnePencil,

@@ -128,6 +128,7 @@ fn one<S: Scalar>(
         spherical: None,
         decoupled: None,
         arrangement: AS_IT_IS,
+        is_deficient: false,
         gap_rounding: 0.0,
         roots,
         effort: Effort::OnePencil,

@@ -209,8 +209,9 @@ impl SingleLoop {
             return Ok(exact_solution(case, verdict, modes, *prepare_us, start));
         }
         let (mut verdict, solve_us) = fast.unwrap_or_else(|| question.answer(workspace, assembly));
+        let mut exact_modes = None;
         if roots == Roots::All
-            && (verdict.status, verdict.proof) == (Status::SelfMotion, Proof::None)
+            && is_left_to_equations(&verdict)
             && prepared.layout.spherical.is_none()
             && matches!(question.data(), Data::Rational)
             && let Some((exact, modes)) = self.exactly(&prepared.layout, case, true)?
@@ -218,15 +219,22 @@ impl SingleLoop {
             match (exact.status, &case.pose) {
                 (Status::SelfMotion, _) => {
                     let rest = "the isolated ones are listed, not proved complete";
-                    let reason = match solver.structural_rank() {
-                        6 => format!("{}; {rest}", exact.reason),
-                        _ => format!("{}; {}; {rest}", verdict.reason, exact.reason),
+                    let is_alike = exact.self_motion == verdict.self_motion;
+                    let reason = match (verdict.status, solver.structural_rank()) {
+                        (Status::SelfMotion, rank) if rank < 6 && is_alike => {
+                            format!("{}; {}; {rest}", verdict.reason, exact.reason)
+                        }
+                        (Status::SelfMotion, _) => format!("{}; {rest}", exact.reason),
+                        _ => format!("{}; no real curve was found; {rest}", exact.reason),
                     };
-                    verdict = Verdict { proof: exact.proof, self_motion: exact.self_motion, reason, ..verdict };
+                    verdict = Verdict { reason, ..moving(&exact, verdict) };
+                    for family in &mut assembly.families {
+                        family.dimension = family.dimension.min(exact.self_motion);
+                    }
                 }
                 (_, None) => return Ok(exact_solution(case, exact, modes, *prepare_us, start)),
-                // The pose is also answered by near solutions: the families stay as they were measured.
-                (_, Some(_)) => {}
+                // The pose is also answered by near solutions, which follow the exact ones in the list.
+                (_, Some(_)) => (verdict, exact_modes) = (exact, Some(modes)),
             }
         }
         if solver.structural_rank() < 6 {
@@ -241,7 +249,7 @@ impl SingleLoop {
             let q = prepared.layout.assemble(&mode.unknowns, locked_value);
             full_mode(mode, q, &prepared.layout.variables, &self.limits)
         });
-        let mut modes: Vec<FullMode> = modes.collect();
+        let mut modes: Vec<FullMode> = exact_modes.unwrap_or_else(|| modes.collect());
         let vicinity = Vicinity { of: self, prepared, locked: locked_value.re, gap: &gap };
         let is_moving = verdict.status == Status::SelfMotion;
         let mut families = if is_moving { vicinity.families(&assembly.families) } else { Vec::new() };
@@ -583,7 +591,11 @@ impl Question<'_> {
                 };
                 (verdict, false)
             }
-            Resolution::Vanishing(_) | Resolution::Finite { .. } => (probable(verdict, assembly), false),
+            Resolution::Vanishing(free) => {
+                let verdict = if cap(assembly, free.len()) { self.judge(assembly) } else { verdict };
+                (probable(verdict, assembly), false)
+            }
+            Resolution::Finite { .. } => (probable(verdict, assembly), false),
         }
     }
 
@@ -686,6 +698,18 @@ fn probable(verdict: Verdict, assembly: &Assembly) -> Verdict {
     }
     let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
     Verdict { proof, ..verdict }
+}
+
+/// Corrects the dimension of self-motions where all unknowns but so many have finitely many values. There are fewer dimensions
+/// than joints that move: while the others stand still, no joint moves alone. Whether there was something to correct.
+fn cap(assembly: &mut Assembly, free: usize) -> bool {
+    let most = free.saturating_sub(1).max(1);
+    for family in &mut assembly.families {
+        family.dimension = family.dimension.min(most);
+    }
+    let is_wrong = assembly.self_motion > most;
+    assembly.self_motion = assembly.self_motion.min(most);
+    is_wrong
 }
 
 /// The places of modes with certificate of which no two can be the same solution.
@@ -869,6 +893,17 @@ pub(super) fn closing_transformation<R: Ring>(case: &Case) -> Result<Motion<R>> 
         })
     });
     motion.ok_or_else(|| Error::Invalid("a case without pose and input".to_owned()))
+}
+
+/// Whether it is left to the closure equations over the rationals what the solutions are: nothing of the answer is proved.
+fn is_left_to_equations(verdict: &Verdict) -> bool {
+    verdict.proof == Proof::None && verdict.code != Code::OnlyReal
+}
+
+/// The verdict on a self-motion that is proved, beside a list that is as it was found.
+fn moving(exact: &Verdict, found: Verdict) -> Verdict {
+    let Verdict { status, proof, code, self_motion, .. } = *exact;
+    Verdict { status, proof, code, self_motion, complex_complete: false, ..found }
 }
 
 /// Whether a list is proved complete, complex solutions included.

@@ -337,18 +337,35 @@ pub fn polish<S: Scalar>(closed: &ClosedLoop<f64>, start: &Six<S>) -> Polished<S
     Polished { unknowns, closure: here, inverse: known_inverse, raw, moved }
 }
 
-/// Comes near a real solution from anywhere, if there is one downhill: damped steps on the whole rotation angle of the
-/// closure, of which the skew part used near a solution sees only the sine.
+/// Comes near a real solution from anywhere, if there is one downhill.
 #[must_use]
 pub fn approach(closed: &ClosedLoop<f64>, start: &Six<f64>) -> Six<f64> {
-    const STEPS: usize = 60;
+    downhill(closed, start, 1e-6, 60, |defect| 1e-3 * defect.min(1.0))
+}
+
+/// Comes from nearby to a real solution at which the equations are dependent, where Newton's steps only halve the distance.
+#[must_use]
+pub fn approach_singular(closed: &ClosedLoop<f64>, start: &Six<f64>) -> Six<f64> {
+    // The smallest singular value has shrunk to the root of the defect: more damping than that slows the steps down.
+    downhill(closed, start, 1e-13, 200, |defect| (1e-6 * defect).max(1e-15))
+}
+
+/// Damped steps on the whole rotation angle of the closure, of which the skew part used near a solution sees only the
+/// sine, until the loop closes to `goal`, or after so many steps; `damping` is that at a defect.
+fn downhill(
+    closed: &ClosedLoop<f64>,
+    start: &Six<f64>,
+    goal: f64,
+    steps: usize,
+    damping: impl Fn(f64) -> f64,
+) -> Six<f64> {
     /// The search ends after this many steps without progress.
     const IDLE: usize = 10;
     let mut unknowns = *start;
     let mut before = f64::INFINITY;
-    for count in 0..STEPS {
+    for count in 0..steps {
         let mut here = closure(closed, &unknowns);
-        if here.defect < 1e-6 {
+        if here.defect < goal {
             break;
         }
         if count % IDLE == 0 {
@@ -365,7 +382,7 @@ pub fn approach(closed: &ClosedLoop<f64>, start: &Six<f64>) -> Six<f64> {
                 *value *= angle / sine;
             }
         }
-        let Some(step) = damped_step(&here, 1e-3 * here.defect.min(1.0)) else { break };
+        let Some(step) = damped_step(&here, damping(here.defect)) else { break };
         for (x, d) in unknowns.iter_mut().zip(step) {
             *x -= d;
         }

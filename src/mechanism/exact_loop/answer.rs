@@ -18,9 +18,9 @@ use crate::verdict::{Code, Proof, Status, Verdict};
 use num_complex::Complex;
 use rug::{Float, float::Round};
 
-/// Products of words after which a system is given up: about a tenth of a second. Loops of four unknowns take a thousandth of
-/// it, and what general loops of five take, or some special ones, is hours.
-const EFFORT: u64 = 1_500_000;
+/// Products of words after which a system is given up. Loops of four unknowns take a thousandth of it, half of the self-motions
+/// of six joints a part of it, and what general loops of five take, or some special ones, is hours.
+const EFFORT: u64 = 10_000_000;
 
 /// Number of unknowns from which a cut is quicker than a Gröbner basis, which is out of reach there.
 const MANY: usize = 5;

@@ -5,7 +5,7 @@ use looproot::internal::catalogue::{Format, Options, load_text};
 use looproot::internal::verdict::{Code, Proof, Status};
 use serde_json::{Value, json};
 
-/// Loops without a solution, by Groebner bases.
+/// Loops without a solution, and arms at singular poses, by Groebner bases.
 const LOOPS: &str = include_str!("dependent.json");
 
 fn answer(document: &Value) -> looproot::internal::mechanism::Solution {
@@ -35,4 +35,19 @@ fn dependent_joints_that_close_a_loop_are_not_said_to_leave_it_open() {
     });
     let verdict = answer(&document).verdict;
     assert_ne!(verdict.status, Status::Unreachable, "{}", verdict.reason);
+}
+
+#[test]
+fn self_motions_at_singular_poses_are_proved() {
+    let list: Value = serde_json::from_str(LOOPS).unwrap();
+    for arm in list["moving"].as_array().unwrap() {
+        let document = json!({ "title": arm["title"], "mechanism": arm["mechanism"], "pose": arm["pose"] });
+        let answer = answer(&document);
+        let verdict = &answer.verdict;
+        assert_eq!((verdict.status, verdict.proof), (Status::SelfMotion, Proof::Proved), "{document}: {}", verdict.reason);
+        assert_eq!(verdict.self_motion as u64, arm["dimension"].as_u64().unwrap(), "{document}");
+        // A linkage stretched flat is a real point of a complex curve.
+        assert_eq!(!answer.families.is_empty(), arm["has_family"].as_bool().unwrap(), "{document}");
+        assert!(!answer.families.is_empty() || answer.modes.iter().any(|mode| mode.real), "{document}");
+    }
 }
