@@ -15,6 +15,7 @@ mod spherical_angles;
 mod spherical_chain;
 mod task_arm;
 mod turns;
+mod unproved;
 mod vicinity;
 
 pub use family::{Family, Joints, Shape};

@@ -1,6 +1,7 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
 use super::by_input::{ByInput, Prepared};
+use super::unproved::{cap, is_left_to_equations, is_settled, moving, probable};
 use super::data::{Data, Modular, is_rational};
 use super::exact_loop::{SsDyadQuestion, Question as ExactQuestion};
 use super::exact_modes::exact_mode;
@@ -689,29 +690,6 @@ fn exact_solution(case: &Case, verdict: Verdict, modes: Vec<FullMode>, prepare_u
     }
 }
 
-/// A list of certified solutions that is as long as a count modulo the drawn prime is complete with a probability.
-fn probable(verdict: Verdict, assembly: &Assembly) -> Verdict {
-    let is_counted = verdict.complex_complete && verdict.code == Code::CountMet;
-    let is_certified = assembly.modes.iter().all(|mode| mode.certificate.is_some());
-    if !(is_counted && is_certified) {
-        return verdict;
-    }
-    let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
-    Verdict { proof, ..verdict }
-}
-
-/// Corrects the dimension of self-motions where all unknowns but so many have finitely many values. There are fewer dimensions
-/// than joints that move: while the others stand still, no joint moves alone. Whether there was something to correct.
-fn cap(assembly: &mut Assembly, free: usize) -> bool {
-    let most = free.saturating_sub(1).max(1);
-    for family in &mut assembly.families {
-        family.dimension = family.dimension.min(most);
-    }
-    let is_wrong = assembly.self_motion > most;
-    assembly.self_motion = assembly.self_motion.min(most);
-    is_wrong
-}
-
 /// The places of modes with certificate of which no two can be the same solution.
 fn distinct(modes: &[Mode], variables: &[Variable; 6]) -> Vec<usize> {
     let mut places: Vec<usize> = Vec::new();
@@ -893,22 +871,6 @@ pub(super) fn closing_transformation<R: Ring>(case: &Case) -> Result<Motion<R>> 
         })
     });
     motion.ok_or_else(|| Error::Invalid("a case without pose and input".to_owned()))
-}
-
-/// Whether it is left to the closure equations over the rationals what the solutions are: nothing of the answer is proved.
-fn is_left_to_equations(verdict: &Verdict) -> bool {
-    verdict.proof == Proof::None && verdict.code != Code::OnlyReal
-}
-
-/// The verdict on a self-motion that is proved, beside a list that is as it was found.
-fn moving(exact: &Verdict, found: Verdict) -> Verdict {
-    let Verdict { status, proof, code, self_motion, .. } = *exact;
-    Verdict { status, proof, code, self_motion, complex_complete: false, ..found }
-}
-
-/// Whether a list is proved complete, complex solutions included.
-fn is_settled(verdict: &Verdict) -> bool {
-    verdict.proof.is_proved() && verdict.complex_complete
 }
 
 /// Whether the input of a loop is an exact number.

@@ -44,7 +44,12 @@ fn self_motions_at_singular_poses_are_proved() {
         let document = json!({ "title": arm["title"], "mechanism": arm["mechanism"], "pose": arm["pose"] });
         let answer = answer(&document);
         let verdict = &answer.verdict;
-        assert_eq!((verdict.status, verdict.proof), (Status::SelfMotion, Proof::Proved), "{document}: {}", verdict.reason);
+        assert_eq!(
+            (verdict.status, verdict.proof),
+            (Status::SelfMotion, Proof::Proved),
+            "{document}: {}",
+            verdict.reason
+        );
         assert_eq!(verdict.self_motion as u64, arm["dimension"].as_u64().unwrap(), "{document}");
         // A linkage stretched flat is a real point of a complex curve.
         assert_eq!(!answer.families.is_empty(), arm["has_family"].as_bool().unwrap(), "{document}");
