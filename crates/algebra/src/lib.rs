@@ -46,6 +46,7 @@ pub mod series;
 pub mod sturm;
 pub mod surd;
 pub mod text;
+mod triangular;
 pub mod trigonometric;
 pub mod univariate;
 mod value;

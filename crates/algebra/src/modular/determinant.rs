@@ -2,6 +2,7 @@
 
 use super::batch::place;
 use super::bound::Norms;
+use super::cost::cost;
 use super::lattice::Lattice;
 use super::problem::{Form, Problem, most_points};
 use super::substitution::Plan;
@@ -88,7 +89,16 @@ pub(super) fn univariate_determinant_on(arch: Arch, size: usize, entries: &[Vec<
     Problem { form: Form::Matrix(size), plan, coefficients, lattice, bits }.solve(arch)
 }
 
-/// Returns the binary logarithm of a bound on the coefficients of the determinant; `None` if a row or a column is zero.
+/// Returns what [`determinant`] is predicted to cost, in nanoseconds, for a matrix of this size with so many terms in all,
+/// if the determinant has these degrees and this total one at most and coefficients of so many bits; `None` if there would
+/// be too many values.
+pub(crate) fn determinant_cost(size: usize, degrees: &[usize], total: usize, bits: f64, terms: usize) -> Option<f64> {
+    // Of the terms of an entry few are left when all variables but the first have their values.
+    let steps = (size * size) as f64 + terms as f64 / 2.0;
+    cost(size, steps, degrees, total, bits, terms).map(|(cost, _)| cost)
+}
+
+/// Returns the binary logarithm of a bound on the coefficients of the determinant; `None` where a row or a column is zero.
 fn bits<'a>(size: usize, coefficients: impl Iterator<Item = (usize, &'a Integer)> + Clone) -> Option<f64> {
     let norms = Norms::new(size * size, coefficients);
     let rows: f64 = (0..size).map(|i| norms.bits((0..size).map(|j| i * size + j))).sum();

@@ -26,7 +26,7 @@ pub trait Lanes: Copy {
     fn digit(self, digit: u32) -> Self::Element;
     /// Loads one number per lane, of absolute value less than half the prime.
     fn load(self, residues: &[i64]) -> Self::Element;
-    /// The residues of least absolute value, or nearly so, one per lane.
+    /// Returns the residues of least absolute value, or nearly so, one per lane.
     fn store(self, a: Self::Element, residues: &mut [i64]);
     /// Returns the sum modulo the primes.
     fn add(self, a: Self::Element, b: Self::Element) -> Self::Element;

@@ -10,10 +10,45 @@ pub(super) struct Lattice {
     /// The points one after the other, as many coordinates each as there are parameters.
     points: Vec<u32>,
     count: usize,
-    /// By parameter, the lines parallel to its axis: the indices of their points, from coordinate 0 on.
-    lines: Vec<Vec<Vec<usize>>>,
+    /// By parameter, the lines parallel to its axis.
+    lines: Vec<Lines>,
     /// The number of points on the longest line.
     longest: usize,
+}
+
+/// Parallel lines that hold each point once.
+struct Lines {
+    /// The indices of the points, line after line, on each from coordinate 0 on.
+    points: Vec<u32>,
+    /// Where each line ends.
+    ends: Vec<usize>,
+}
+
+impl Lines {
+    /// Returns the lines, given the number of the line of each point; points on a line come by increasing coordinates.
+    fn new(line_of: &[u32]) -> Self {
+        let count = line_of.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut ends = vec![0; count];
+        for &line in line_of {
+            ends[line as usize] += 1;
+        }
+        let mut sum = 0;
+        for end in &mut ends {
+            (*end, sum) = (sum, sum + *end);
+        }
+        let mut points = vec![0; line_of.len()];
+        for (point, &line) in (0..).zip(line_of) {
+            let next = &mut ends[line as usize];
+            points[*next] = point;
+            *next += 1;
+        }
+        Self { points, ends }
+    }
+
+    fn iter(&self) -> impl Iterator<Item = &[u32]> {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(start, &end)| &self.points[start..end])
+    }
 }
 
 impl Lattice {
@@ -21,12 +56,12 @@ impl Lattice {
     pub(super) fn new(degrees: &[usize], total: usize, most: usize) -> Option<Self> {
         let parameters = degrees.len();
         count_points(degrees, total, most)?;
-        let (mut points, mut count, mut lines) = (Vec::new(), 0, vec![Vec::new(); parameters]);
+        let (mut points, mut count, mut lines) = (Vec::new(), 0, vec![0_u32; parameters]);
         let (mut point, mut sum) = (vec![0_u32; parameters], 0);
         // By parameter a: the start of the points with the current coordinates from a on, the index of the point one step
         // back along the axis, and the lines through earlier points.
         let (mut start, mut back) = (vec![0; parameters], vec![0; parameters]);
-        let mut line_of: Vec<Vec<usize>> = vec![Vec::new(); parameters];
+        let mut line_of: Vec<Vec<u32>> = vec![Vec::new(); parameters];
         let mut changed = parameters;
         loop {
             for a in 0..parameters {
@@ -36,8 +71,8 @@ impl Lattice {
                     back[a] += 1;
                 }
                 let line = if point[a] == 0 {
-                    lines[a].push(Vec::new());
-                    lines[a].len() - 1
+                    lines[a] += 1;
+                    lines[a] - 1
                 } else {
                     while points[back[a] * parameters..][..a] != point[..a] {
                         back[a] += 1;
@@ -45,7 +80,6 @@ impl Lattice {
                     line_of[a][back[a]]
                 };
                 line_of[a].push(line);
-                lines[a][line].push(count);
             }
             points.extend(&point);
             count += 1;
@@ -62,7 +96,8 @@ impl Lattice {
             sum += 1;
             changed = axis + 1;
         }
-        let longest = lines.iter().flatten().map(Vec::len).max().unwrap_or(0);
+        let lines: Vec<Lines> = line_of.iter().map(|line_of| Lines::new(line_of)).collect();
+        let longest = lines.iter().flat_map(Lines::iter).map(<[u32]>::len).max().unwrap_or(0);
         Some(Self { parameters, points, count, lines, longest })
     }
 
@@ -84,7 +119,7 @@ impl Lattice {
     pub(super) fn interpolate<L: Lanes>(&self, lanes: L, values: &mut [L::Element]) {
         let inverses = inverse_factorials(lanes, self.longest);
         let mut on_line = vec![lanes.zero(); self.longest];
-        for line in self.lines.iter().flatten() {
+        for line in self.lines.iter().flat_map(Lines::iter) {
             let on_line = &mut on_line[..line.len()];
             gather(values, line, on_line);
             for order in 1..on_line.len() {
@@ -93,12 +128,12 @@ impl Lattice {
                 }
             }
             for i in 0..line.len() {
-                values[line[i]] = lanes.mul(on_line[i], inverses[i]);
+                values[line[i] as usize] = lanes.mul(on_line[i], inverses[i]);
             }
         }
         // Only now: with a term of the lattice go all lower ones, in powers as in falling factorials, but not the values
         // at its points.
-        for line in self.lines.iter().flatten() {
+        for line in self.lines.iter().flat_map(Lines::iter) {
             let on_line = &mut on_line[..line.len()];
             gather(values, line, on_line);
             let mut node = lanes.zero();
@@ -112,14 +147,14 @@ impl Lattice {
                 node = lanes.add(node, lanes.one());
             }
             for i in 0..line.len() {
-                values[line[i]] = on_line[i];
+                values[line[i] as usize] = on_line[i];
             }
         }
     }
 }
 
 /// Returns the number of points, if it is not beyond `most`.
-fn count_points(degrees: &[usize], total: usize, most: usize) -> Option<usize> {
+pub(super) fn count_points(degrees: &[usize], total: usize, most: usize) -> Option<usize> {
     let highest = degrees.iter().fold(0, |sum: usize, &degree| sum.saturating_add(degree)).min(total);
     // There are as many points on the way to one with the highest sum.
     if highest >= most {
@@ -147,9 +182,9 @@ fn count_points(degrees: &[usize], total: usize, most: usize) -> Option<usize> {
 
 /// Copies the values on a line.
 #[inline(always)]
-fn gather<E: Copy>(values: &[E], line: &[usize], on_line: &mut [E]) {
+fn gather<E: Copy>(values: &[E], line: &[u32], on_line: &mut [E]) {
     for i in 0..line.len() {
-        on_line[i] = values[line[i]];
+        on_line[i] = values[line[i] as usize];
     }
 }
 

@@ -7,6 +7,7 @@
 mod batch;
 mod bound;
 mod chinese;
+mod cost;
 mod determinant;
 pub mod lanes;
 mod lattice;
@@ -17,6 +18,7 @@ mod substitution;
 mod terms;
 
 pub use determinant::determinant;
-pub(super) use determinant::{degree_bound, univariate_determinant};
+pub(super) use determinant::{degree_bound, determinant_cost, univariate_determinant};
 pub use resultant::resultant;
+pub(super) use resultant::resultant_cost;
 pub use terms::Terms;

@@ -289,7 +289,7 @@ mod tests {
         }
     }
 
-    /// The determinant by lanes, by the single lane and by Bareiss.
+    /// Returns the determinant by lanes, by the single lane and by Bareiss.
     fn agree(size: usize, entries: &[Vec<Integer>]) {
         let polynomial = |c: &[Integer]| Univariate::new(c.iter().map(|c| Rational::from(c.clone())).collect());
         let rows: Vec<Vec<_>> =

@@ -1,14 +1,16 @@
 //! Resultants of polynomials with numeric coefficients.
 
 use super::bound::Norms;
+use super::cost::cost;
 use super::lattice::Lattice;
 use super::problem::{Form, Problem, most_points};
 use super::substitution::Plan;
 use super::terms::{Terms, descending};
 use pulp::Arch;
+use rug::Integer;
 
 /// The degree beyond which a matrix of that size is not to be written down.
-const HIGHEST_DEGREE: u32 = 1 << 10;
+const HIGHEST_DEGREE: usize = 1 << 10;
 
 /// Returns the resultant of two polynomials with respect to one of their variables: the determinant of the Sylvester matrix.
 ///
@@ -47,52 +49,104 @@ pub fn resultant(f: &Terms, g: &Terms, variables: usize, variable: usize) -> Opt
 /// As `resultant`, on a chosen instruction set.
 pub(super) fn resultant_on(arch: Arch, f: &Terms, g: &Terms, variables: usize, variable: usize) -> Option<Terms> {
     assert!(variable < variables, "the variable is one of them");
-    let degree = |p: &Terms| p.iter(variables).map(|(e, _)| e[variable]).max();
-    let (Some(m), Some(n)) = (degree(f), degree(g)) else { return Some(Terms::default()) };
-    let (f, g, m, n, negative) = if m < n { (g, f, n, m, m % 2 == 1 && n % 2 == 1) } else { (f, g, m, n, false) };
-    if m > HIGHEST_DEGREE {
-        return None;
-    }
-    let (m, n) = (m as usize, n as usize);
-    // By coefficient: of f from the constant one on, then of g.
-    let terms = f
-        .iter(variables)
-        .map(|(e, c)| (e[variable] as usize, e, c))
-        .chain(g.iter(variables).map(|(e, c)| (m + 1 + e[variable] as usize, e, c)));
-
-    let norms = Norms::new(m + n + 2, terms.clone().map(|(slot, _, c)| (slot, c)));
-    let bits = n as f64 * norms.bits(0..=m) + m as f64 * norms.bits(m + 1..=m + n + 1);
-
-    let bound = |size: &dyn Fn(&[u32]) -> i64| {
-        let mut highest = vec![i64::MIN; m + n + 2];
-        for (slot, e, _) in terms.clone() {
-            highest[slot] = highest[slot].max(size(e));
-        }
-        degree_bound(&highest, m)
-    };
-    let others = (0..variables).filter(|&k| k != variable);
-    let (parameters, degrees): (Vec<usize>, Vec<usize>) =
-        others.map(|k| (k, bound(&|e| i64::from(e[k])))).filter(|&(_, degree)| degree > 0).unzip();
-    let total = bound(&|e| e.iter().enumerate().filter(|&(k, _)| k != variable).map(|(_, &x)| i64::from(x)).sum());
-    let lattice = Lattice::new(&degrees, total, most_points(bits, parameters.len()))?;
+    let Some(pair) = Pair::new(f, g, variables, variable) else { return Some(Terms::default()) };
+    let bounds = pair.bounds()?;
+    let lattice = Lattice::new(&bounds.degrees, bounds.total, most_points(bounds.bits, bounds.degrees.len()))?;
 
     // If the bound is 0, the resultant is the same at 0.
+    let parameters = &bounds.parameters;
     let kept = |e: &[u32]| (0..variables).all(|k| e[k] == 0 || k == variable || parameters.contains(&k));
-    let terms = descending(terms.filter(|(_, e, _)| kept(e)), &parameters);
+    let terms = descending(pair.terms().filter(|(_, e, _)| kept(e)), parameters);
     let problem = Problem {
-        form: Form::Resultant(m, n),
+        form: Form::Resultant(pair.m, pair.n),
         plan: Plan::new(&terms.slots, &terms.exponents, parameters.len()),
         coefficients: terms.coefficients,
         lattice,
-        bits,
+        bits: bounds.bits,
     };
     let mut coefficients = problem.solve(arch);
-    if negative {
+    if pair.negative {
         for c in &mut coefficients {
             *c = -std::mem::take(c);
         }
     }
-    Some(problem.lattice.terms(coefficients, variables, &parameters))
+    Some(problem.lattice.terms(coefficients, variables, parameters))
+}
+
+/// Returns what [`resultant`] is predicted to cost, in nanoseconds, and how many terms the resultant may have at most;
+/// `None` if that takes too much memory.
+pub(crate) fn resultant_cost(f: &Terms, g: &Terms, variables: usize, variable: usize) -> Option<(f64, f64)> {
+    /// The steps at a point for each entry of the matrix that is made of the coefficients.
+    const FILL: f64 = 3.0;
+    let pair = Pair::new(f, g, variables, variable)?;
+    let Bounds { degrees, total, bits, .. } = pair.bounds()?;
+    let steps = FILL * (pair.m * pair.n) as f64;
+    let terms = f.coefficients.len() + g.coefficients.len();
+    cost(pair.m, steps, &degrees, total, bits, terms)
+}
+
+/// Two polynomials, that of the higher degree first.
+struct Pair<'a> {
+    f: &'a Terms,
+    g: &'a Terms,
+    /// Their degrees.
+    m: usize,
+    n: usize,
+    /// Whether the exchange of the two turns the sign of the resultant.
+    negative: bool,
+    variables: usize,
+    variable: usize,
+}
+
+/// What is known of a resultant beforehand.
+struct Bounds {
+    /// The parameters that may occur in it, and its degrees in these.
+    parameters: Vec<usize>,
+    degrees: Vec<usize>,
+    /// Its total degree.
+    total: usize,
+    /// The binary logarithm of its coefficients.
+    bits: f64,
+}
+
+impl<'a> Pair<'a> {
+    /// Returns the two polynomials in order; `None` if one is zero.
+    fn new(f: &'a Terms, g: &'a Terms, variables: usize, variable: usize) -> Option<Self> {
+        let degree = |p: &Terms| p.iter(variables).map(|(e, _)| e[variable] as usize).max();
+        let (m, n) = (degree(f)?, degree(g)?);
+        let pair = Self { f, g, m, n, negative: false, variables, variable };
+        let exchanged = |pair| Self { f: g, g: f, m: n, n: m, negative: m % 2 == 1 && n % 2 == 1, ..pair };
+        Some(if m < n { exchanged(pair) } else { pair })
+    }
+
+    /// Returns the terms by coefficient: of f from the constant one on, then of g.
+    fn terms(&self) -> impl Iterator<Item = (usize, &'a [u32], &'a Integer)> + Clone {
+        let (m, variable) = (self.m, self.variable);
+        let of_f = self.f.iter(self.variables).map(move |(e, c)| (e[variable] as usize, e, c));
+        of_f.chain(self.g.iter(self.variables).map(move |(e, c)| (m + 1 + e[variable] as usize, e, c)))
+    }
+
+    /// Returns the bounds; `None` if the degree is too high.
+    fn bounds(&self) -> Option<Bounds> {
+        let Self { m, n, .. } = *self;
+        if m > HIGHEST_DEGREE {
+            return None;
+        }
+        let norms = Norms::new(m + n + 2, self.terms().map(|(slot, _, c)| (slot, c)));
+        let bits = n as f64 * norms.bits(0..=m) + m as f64 * norms.bits(m + 1..=m + n + 1);
+        let bound = |size: &dyn Fn(&[u32]) -> i64| {
+            let mut highest = vec![i64::MIN; m + n + 2];
+            for (slot, e, _) in self.terms() {
+                highest[slot] = highest[slot].max(size(e));
+            }
+            degree_bound(&highest, m)
+        };
+        let others = (0..self.variables).filter(|&k| k != self.variable);
+        let (parameters, degrees): (Vec<usize>, Vec<usize>) =
+            others.map(|k| (k, bound(&|e| i64::from(e[k])))).filter(|&(_, degree)| degree > 0).unzip();
+        let others = |e: &[u32]| e.iter().map(|&x| i64::from(x)).sum::<i64>() - i64::from(e[self.variable]);
+        Some(Bounds { parameters, degrees, total: bound(&others), bits })
+    }
 }
 
 /// Returns a bound on the degree of the resultant in some parameters, from the highest degrees of the coefficients of f, then g.

@@ -106,6 +106,24 @@ impl<R: Ring> Polynomial<R> {
         Self::from_unsorted(packing, monomials, coefficients)
     }
 
+    /// As [`Self::from_terms`], from variables and exponents, term after term up to the given ends; no variable stands twice
+    /// in a term.
+    pub(crate) fn from_powers(variables: usize, powers: &[(u32, u32)], ends: &[usize], coefficients: Vec<R>) -> Self {
+        let largest = powers.iter().map(|power| power.1).max().unwrap_or(0);
+        let packing = Packing::new(variables, largest);
+        let places: Vec<(usize, u32)> = (0..variables).map(|variable| packing.place(variable)).collect();
+        let mut monomials = vec![0; packing.words() * coefficients.len()];
+        let mut start = 0;
+        for (monomial, &end) in monomials.chunks_exact_mut(packing.words()).zip(ends) {
+            for &(variable, exponent) in &powers[start..end] {
+                let (word, shift) = places[variable as usize];
+                monomial[word] |= u64::from(exponent) << shift;
+            }
+            start = end;
+        }
+        Self::from_unsorted(packing, monomials, coefficients)
+    }
+
     /// Returns the sum of packed terms in any order.
     fn from_unsorted(packing: Packing, monomials: Vec<u64>, coefficients: Vec<R>) -> Self {
         let words = packing.words();

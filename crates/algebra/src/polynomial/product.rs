@@ -53,6 +53,9 @@ impl<R: Ring> Polynomial<R> {
         if left.len() == 1 {
             return right.shifted(packing, &b, &a, &left.coefficients[0]);
         }
+        if packing.words() == 1 && left.len() == 2 {
+            return left.merged_product(right, packing, &a, &b);
+        }
         if packing.words() == 1 && left.len() * right.len() <= FEW {
             return left.sorted_product(right, packing, &a, &b);
         }
@@ -80,6 +83,32 @@ impl<R: Ring> Polynomial<R> {
             own.chunks_exact(monomial.len()).flat_map(|own| own.iter().zip(monomial).map(|(a, b)| a + b)).collect()
         };
         Self::from_sorted(packing, monomials, self.coefficients.iter().map(|own| own.mul(c)).collect())
+    }
+
+    /// Returns the product of two terms with a polynomial: two sorted lists, merged.
+    fn merged_product(&self, other: &Self, packing: Packing, left: &[u64], right: &[u64]) -> Self {
+        let (mut monomials, mut coefficients) = (Vec::new(), Vec::new());
+        monomials.reserve(2 * right.len());
+        coefficients.reserve(2 * right.len());
+        let (a, b) = (&self.coefficients[0], &self.coefficients[1]);
+        let (mut i, mut j) = (0, 0);
+        // The first list begins higher, and ends first.
+        while j < right.len() {
+            let lower = left[1] + right[j];
+            let upper = right.get(i).map_or(0, |monomial| left[0] + monomial);
+            let (from_upper, from_lower) = (i < right.len() && upper >= lower, i == right.len() || upper <= lower);
+            let mut c = if from_lower { b.mul(&other.coefficients[j]) } else { a.mul(&other.coefficients[i]) };
+            if from_upper && from_lower {
+                c.add_product(a, &other.coefficients[i]);
+            }
+            if !c.is_zero() {
+                monomials.push(upper.max(lower));
+                coefficients.push(c);
+            }
+            i += usize::from(from_upper);
+            j += usize::from(from_lower);
+        }
+        Self { packing, monomials, coefficients }
     }
 
     /// Schoolbook: all products of terms, sorted.

@@ -34,16 +34,25 @@ pub fn resultant(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> P
     let (m, n) = (f.degree(variable) as usize, g.degree(variable) as usize);
     let ((content_f, f), (content_g, g)) = (without_content(f), without_content(g));
     let factor = subresultant::power(&content_f, n).mul(&subresultant::power(&content_g, m));
-    let resultant = if route::is_numeric(&f, &g, variable) { by_values(&f, &g, variable) } else { None };
+    let resultant = by_values(&f, &g, variable);
     let resultant = resultant.unwrap_or_else(|| eliminate(&f, &g, variable).resultant);
     if factor == Int::one() { resultant } else { resultant.scale(&factor) }
 }
 
-/// Returns the resultant from its values modulo primes; `None` if that takes too much memory.
+/// Returns the resultant from its values modulo primes; `None` if another way is expected to be faster, or that takes too
+/// much memory.
 fn by_values(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> Option<Polynomial<Int>> {
+    let (m, n) = (f.degree(variable), g.degree(variable));
+    if m.min(n) < 2 || m.max(n) < 3 {
+        return None;
+    }
     let variables = f.variables().max(g.variables()).max(variable + 1);
-    let resultant = modular::resultant(&Terms::of(f, variables), &Terms::of(g, variables), variables, variable);
-    resultant.map(|terms| terms.polynomial(variables))
+    let (of_f, of_g) = (Terms::of(f, variables), Terms::of(g, variables));
+    let (cost, values) = modular::resultant_cost(&of_f, &of_g, variables, variable)?;
+    if !route::values_pay(f, g, variable, cost, values) {
+        return None;
+    }
+    modular::resultant(&of_f, &of_g, variables, variable).map(|terms| terms.polynomial(variables))
 }
 
 /// Returns the greatest common divisor of the coefficients, and the polynomial without it.

@@ -3,7 +3,7 @@
 use super::bezout::{self, Expansion};
 use super::subresultant;
 use crate::int::Int;
-use crate::minors::parameters;
+use crate::minors::{Price, cells, parameters};
 use crate::polynomial::Polynomial;
 use crate::ring::{Domain, Ring};
 use crate::univariate::Univariate;
@@ -88,16 +88,18 @@ const fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-/// Returns whether the resultant is found faster from its values modulo primes than from the polynomials as they are: with
-/// numbers for coefficients, at most a few parameters, and polynomials that are nearly dense or of low degree.
-pub(super) fn is_numeric(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> bool {
+/// Degrees from which the expansion by minors is no measure of what other routes cost without values.
+const HIGH: u32 = 8;
+/// A resultant with fewer terms than this part of the possible ones is no matter for values at all points.
+const SPARSE: f64 = 1.0 / 20.0;
+
+/// Returns whether the resultant is sooner computed from its values modulo primes than from the polynomials as they are:
+/// that takes `cost` nanoseconds and as many values as the resultant may have terms.
+pub(super) fn values_pay(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize, cost: f64, values: f64) -> bool {
     let (m, n) = (f.degree(variable), g.degree(variable));
-    if m.min(n) < 2 || m.max(n) < 3 {
-        return false;
-    }
-    let variables = f.variables().max(g.variables());
-    let occurs = |&v: &usize| v != variable && (f.degree(v) > 0 || g.degree(v) > 0);
-    let parameters: Vec<usize> = (0..variables).filter(occurs).collect();
+    let parameters = (0..f.variables().max(g.variables()))
+        .filter(|&v| v != variable && (f.degree(v) > 0 || g.degree(v) > 0))
+        .collect::<Vec<usize>>();
     match parameters.as_slice() {
         [] => true,
         &[y] => {
@@ -105,8 +107,53 @@ pub(super) fn is_numeric(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usi
             let work = points.saturating_mul(u64::from(m.max(n)).pow(3));
             work < 1 << 24 || (is_dense(f, 2) && is_dense(g, 2))
         }
-        several => several.len() <= 3 && is_dense(f, several.len() + 1) && is_dense(g, several.len() + 1),
+        several => {
+            // As many products of n terms of f and m terms of g there are at most.
+            let products = multisets(f.len(), n) * multisets(g.len(), m);
+            let dense = m.max(n) <= HIGH || products > SPARSE * values;
+            dense && cost < cost_by_minors(f, g, variable, several)
+        }
     }
+}
+
+/// Returns in how many ways so many of these things can be chosen, with repetition.
+fn multisets(things: usize, chosen: u32) -> f64 {
+    (1..=chosen).map(f64::from).fold(1.0, |ways, k| ways * (things as f64 + k - 1.0) / k)
+}
+
+/// Returns about how many nanoseconds the expansion of the Bezout matrix by minors takes.
+fn cost_by_minors(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize, parameters: &[usize]) -> f64 {
+    let (f, g) = if f.degree(variable) < g.degree(variable) { (g, f) } else { (f, g) };
+    let (m, n) = (f64::from(f.degree(variable)), f64::from(g.degree(variable)));
+    let degrees = |p: &Polynomial<Int>| -> (Vec<f64>, f64) {
+        let total = |term| parameters.iter().map(|&v| f64::from(p.exponent(term, v))).sum::<f64>();
+        let total = (0..p.len()).map(total).fold(0.0, f64::max);
+        (parameters.iter().map(|&v| f64::from(p.degree(v))).collect(), total)
+    };
+    let ((of_f, total_f), (of_g, total_g)) = (degrees(f), degrees(g));
+    let possible = |rows_g: f64, rows_both: f64| {
+        let degrees = of_f.iter().zip(&of_g).map(|(f, g)| rows_g * g + rows_both * (f + g));
+        cells(degrees, rows_g * total_g + rows_both * (total_f + total_g))
+    };
+    let (of_f, of_g) = (f.len() as f64 / (m + 1.0), g.len() as f64 / (n + 1.0));
+    // An entry of the first n rows is a sum of n/3 differences of two products of coefficients.
+    let mut bracket = Price::default();
+    bracket.add(2.0 * of_f * of_g * f64::max(1.0, n / 3.0), 1.0);
+    let (entry_cost, entry) = bracket.total(possible(0.0, 1.0));
+    let (mut cost, mut size, mut minors, mut k) = (m * n * entry_cost, 1.0, 1.0, 0.0);
+    while k < m {
+        k += 1.0;
+        // The rows of g alone come first.
+        let (rows_g, rows_both) = (f64::min(k, m - n), f64::max(0.0, k - (m - n)));
+        minors *= (m - k + 1.0) / k;
+        let mut price = Price::default();
+        let own = if rows_both > 0.0 { entry } else { of_g };
+        price.add(k * own, size);
+        let (own, next) = price.total(possible(rows_g, rows_both));
+        cost += minors * (own + (k - 1.0) * Price::PRODUCT);
+        size = next;
+    }
+    cost
 }
 
 /// Returns whether a polynomial has a quarter of the terms that its total degree allows in that many variables.

@@ -27,6 +27,8 @@ const RESEMBLANCE: f64 = 0.6;
 #[derive(Clone, Debug, Default)]
 pub struct Names {
     list: Vec<String>,
+    /// Their bytes in one word, 0 for those of more than eight bytes.
+    words: Vec<u64>,
     /// The index of each name, once there are more than a few.
     table: HashMap<String, usize>,
     complete: bool,
@@ -72,11 +74,19 @@ impl Names {
     /// Returns the number of the variable with this name.
     #[must_use]
     pub fn index(&self, name: &str) -> Option<usize> {
-        if self.table.is_empty() {
-            // Names are short: comparing byte by byte is faster than calling for a comparison of memory.
-            return self.list.iter().position(|known| known.len() == name.len() && known.bytes().eq(name.bytes()));
+        if !self.table.is_empty() {
+            return self.table.get(name).copied();
         }
-        self.table.get(name).copied()
+        match word(name) {
+            0 => self.list.iter().position(|known| known == name),
+            word => self.position(word),
+        }
+    }
+
+    /// Returns the number of the variable whose name has these bytes, up to eight, the last one lowest; `None` among many names.
+    #[inline]
+    pub(super) fn position(&self, word: u64) -> Option<usize> {
+        if self.table.is_empty() { self.words.iter().position(|&known| known == word) } else { None }
     }
 
     /// Like [`Self::index`]; the error names those that resemble it.
@@ -102,6 +112,7 @@ impl Names {
             return Err(format!("found `{}`, one variable more than the {MOST_NAMES} possible", shortened(name)));
         }
         self.list.push(name.to_owned());
+        self.words.push(word(name));
         if self.list.len() == FEW {
             self.table = self.list.iter().cloned().zip(0..).collect();
         } else if self.list.len() > FEW {
@@ -122,6 +133,11 @@ impl Names {
         };
         format!("found the unknown variable `{}`; {expected}", shortened(name))
     }
+}
+
+/// Returns the bytes of a name in one word, the last one lowest; 0 for more than eight.
+fn word(name: &str) -> u64 {
+    if name.len() > 8 { 0 } else { name.bytes().fold(0, |word, byte| word << 8 | u64::from(byte)) }
 }
 
 /// Returns whether a text is a letter or underscore, then letters, digits, underscores, and primes at the end.

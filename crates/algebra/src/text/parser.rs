@@ -10,7 +10,7 @@
 use super::expression::Node;
 use super::fault::{Fault, Place};
 use super::names::Names;
-use super::scanner::Scanner;
+use super::scanner::{Scanner, WORD_DIGITS, integer};
 use super::terms::{MOST_TERMS, Terms, bits, power};
 use crate::int::Int;
 use crate::monomial::LARGEST_EXPONENT;
@@ -20,7 +20,9 @@ use std::cmp::Ordering;
 /// Parentheses nested deeper than this are refused.
 const DEEPEST: usize = 500;
 /// Room is made for this many terms before they are read.
-const MOST_EXPECTED: usize = 4096;
+const MOST_EXPECTED: usize = 1 << 16;
+/// So many digits make an exponent that needs no look at its size.
+const MOST_EXPONENT_DIGITS: usize = 6;
 /// Powers of numbers may have this many bits in one text, all taken together.
 const LARGEST_POWERS: u64 = 100_000_000;
 
@@ -123,7 +125,9 @@ impl<'t, 'n> Parser<'t, 'n> {
         let place = self.scanner.place();
         let mut negative = false;
         loop {
-            self.term(negative, &mut terms, &mut others)?;
+            if !self.plain_term(negative, &mut terms) {
+                self.term(negative, &mut terms, &mut others)?;
+            }
             negative = match self.scanner.peek() {
                 b'+' => false,
                 b'-' => true,
@@ -136,6 +140,78 @@ impl<'t, 'n> Parser<'t, 'n> {
             (0, 1) => others.remove(0),
             _ => Node::Sum(place, terms, others),
         })
+    }
+
+    /// Reads a term as programs write them, `-12*x^3*y**2`: digits, known names, small exponents. Returns
+    /// false, and reads nothing, if there is anything else, right or wrong.
+    fn plain_term(&mut self, negative: bool, terms: &mut Terms) -> bool {
+        self.scanner.peek();
+        let before = self.scanner;
+        let complete = self.terms < MOST_TERMS && self.read_plain_term(negative, terms);
+        if complete {
+            self.terms += 1;
+        } else {
+            self.scanner = before;
+            terms.drop_term();
+        }
+        complete
+    }
+
+    fn read_plain_term(&mut self, negative: bool, terms: &mut Terms) -> bool {
+        let bytes = self.scanner.rest();
+        let byte = |at: usize| bytes.get(at).copied().unwrap_or(0);
+        let number = |start: usize| {
+            let (mut value, mut at) = (0_i64, start);
+            while byte(at).is_ascii_digit() {
+                value = value.wrapping_mul(10).wrapping_add(i64::from(byte(at) - b'0'));
+                at += 1;
+            }
+            (value, at)
+        };
+        let (value, mut at) = number(0);
+        let mut coefficient = match at {
+            0 => Int::one(),
+            1..=WORD_DIGITS => Int::from(value),
+            _ => integer(self.scanner.next(at)),
+        };
+        let mut more = at == 0 || byte(at) == b'*';
+        at += usize::from(more && at > 0);
+        while more {
+            let (mut name, start) = (0, at);
+            while byte(at).is_ascii_alphanumeric() || byte(at) == b'_' {
+                name = name << 8 | u64::from(byte(at));
+                at += 1;
+            }
+            if at == start || at - start > 8 || byte(at) == b'\'' {
+                return false;
+            }
+            let Some(variable) = self.names.position(name) else { return false };
+            let power = byte(at) == b'^' || byte(at) == b'*' && byte(at + 1) == b'*';
+            let mut exponent = 1;
+            if power {
+                let start = at + if byte(at) == b'^' { 1 } else { 2 };
+                (exponent, at) = number(start);
+                if at == start || at - start > MOST_EXPONENT_DIGITS {
+                    return false;
+                }
+            }
+            let (Ok(variable), Ok(exponent)) = (u32::try_from(variable), u32::try_from(exponent)) else { return false };
+            if terms.multiply(variable, exponent).is_none() {
+                return false;
+            }
+            more = byte(at) == b'*';
+            at += usize::from(more);
+        }
+        self.scanner.advance(at);
+        // Digits after a name are part of it, digits before a name lack their `*`, and all else is to be complained about.
+        if !matches!(self.scanner.peek(), 0 | b'+' | b'-' | b')' | b',' | b';' | b']') {
+            return false;
+        }
+        if negative {
+            coefficient = coefficient.neg();
+        }
+        terms.finish_term(coefficient, Int::one());
+        true
     }
 
     /// Reads a product, and adds it to the plain terms or else to the others.

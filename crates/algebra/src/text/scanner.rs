@@ -9,7 +9,14 @@ use rug::{Integer, Rational, ops::Pow};
 /// Largest decimal exponent read, as in `1e-400`.
 const LARGEST_EXPONENT: u32 = 400;
 
+/// So many digits fit a machine word; up to so many are put together word by word, which general conversion is slower at.
+pub(super) const WORD_DIGITS: usize = 18;
+const FEW_DIGITS: usize = 200;
+/// `10^WORD_DIGITS`
+const TEN_TO_WORD_DIGITS: u64 = 1_000_000_000_000_000_000;
+
 /// A text and how far it is read.
+#[derive(Clone, Copy)]
 pub(super) struct Scanner<'t> {
     text: &'t str,
     at: usize,
@@ -63,6 +70,16 @@ impl<'t> Scanner<'t> {
 
     pub(super) fn advance(&mut self, bytes: usize) {
         self.at += bytes;
+    }
+
+    /// Returns the bytes not read yet.
+    pub(super) const fn rest(&self) -> &'t [u8] {
+        self.text.as_bytes().split_at(self.at).1
+    }
+
+    /// Returns so many of them, which are ASCII.
+    pub(super) fn next(&self, count: usize) -> &'t str {
+        &self.text[self.at..self.at + count]
     }
 
     /// Passes over this byte if it comes next.
@@ -156,11 +173,22 @@ impl<'t> Scanner<'t> {
 
 /// Returns the value of decimal digits.
 #[inline]
-fn integer(digits: &str) -> Int {
-    if digits.len() <= 18 {
-        return Int::from(digits.bytes().fold(0, |value, digit| value * 10 + i64::from(digit - b'0')));
+pub(super) fn integer(digits: &str) -> Int {
+    let word = |digits: &str| digits.bytes().fold(0, |value, digit| value * 10 + i64::from(digit - b'0'));
+    if digits.len() <= WORD_DIGITS {
+        return Int::from(word(digits));
     }
-    Int::from(Integer::parse(digits).map(Integer::from).unwrap_or_default())
+    if digits.len() > FEW_DIGITS {
+        return Int::from(Integer::parse(digits).map(Integer::from).unwrap_or_default());
+    }
+    let mut value = Integer::with_capacity(4 * digits.len());
+    let (first, rest) = digits.split_at(digits.len() % WORD_DIGITS);
+    value += word(first);
+    for chunk in (0..rest.len()).step_by(WORD_DIGITS) {
+        value *= TEN_TO_WORD_DIGITS;
+        value += word(&rest[chunk..chunk + WORD_DIGITS]);
+    }
+    Int::from(value)
 }
 
 /// Reads a number in digits, optionally with a sign, a point, a power of ten, and a divisor: `-22/7`, `0.1`, `1e-3`.

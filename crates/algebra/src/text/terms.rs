@@ -81,12 +81,16 @@ impl Terms {
         Some(())
     }
 
+    /// Forgets the term that is being read.
+    pub(super) fn drop_term(&mut self) {
+        self.powers.truncate(self.start());
+    }
+
     /// Ends the term that is being read.
     #[inline]
     pub(super) fn finish_term(&mut self, numerator: Int, denominator: Int) {
         if numerator.is_zero() {
-            self.powers.truncate(self.start());
-            return;
+            return self.drop_term();
         }
         if denominator != Int::one() {
             self.denominators.push((self.numerators.len(), denominator));
@@ -162,14 +166,6 @@ impl Terms {
             denominator = common_multiple(&denominator, one);
             self.check_size(variables, &denominator)?;
         }
-        let mut exponents = vec![0; variables * self.len()];
-        let mut start = 0;
-        for (term, &end) in self.ends.iter().enumerate() {
-            for &(variable, exponent) in &self.powers[start..end] {
-                exponents[variables * term + variable as usize] = exponent;
-            }
-            start = end;
-        }
         let mut numerators = self.numerators.clone();
         if denominator != Int::one() {
             let mut fractions = self.denominators.iter().peekable();
@@ -180,7 +176,10 @@ impl Terms {
                 };
             }
         }
-        Ok(Fraction { numerator: Polynomial::from_lists(variables, &exponents, numerators), denominator })
+        Ok(Fraction {
+            numerator: Polynomial::from_powers(variables, &self.powers, &self.ends, numerators),
+            denominator,
+        })
     }
 
     /// Refuses results that would not fit the memory.
