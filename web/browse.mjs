@@ -68,6 +68,9 @@ export async function browser(program = process.env.LOOPROOT_BROWSER || 'chromiu
       }
       throw new Error(`after ${seconds} s this does not hold: ${expression}; console: ${page.console.join(' | ')}`);
     };
+    /** A mouse event: mouseMoved, mousePressed or mouseReleased, with the left button or none. */
+    page.mouse = (type, x, y, button = 'none') => send(
+      'Input.dispatchMouseEvent', { type, x, y, button, buttons: button === 'left' ? 1 : 0, clickCount: 1 }, sessionId);
     page.picture = async (path) => {
       const { data } = await send('Page.captureScreenshot', { format: 'png' }, sessionId);
       writeFileSync(path, Buffer.from(data, 'base64'));

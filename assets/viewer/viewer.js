@@ -331,6 +331,7 @@ function open3d() {
   new ResizeObserver(resize).observe(canvas.parentElement);
   canvas.addEventListener('pointerdown', (event) => { stage.down = [event.clientX, event.clientY]; });
   canvas.addEventListener('click', pick);
+  if (live) dragged(canvas);
 }
 
 /** How far a track reaches; tracks that reach much farther than the chosen one are not fitted into its view. */
@@ -611,13 +612,19 @@ function resize() {
   if (stage.standing && !stage.touched && !state.grid) stand(); else draw();
 }
 
-/** A click that is no drag chooses the ghost under it. */
-function pick(event) {
-  if (!stage.down || Math.hypot(event.clientX - stage.down[0], event.clientY - stage.down[1]) > 4) return;
+/** The line of sight through the pointer. */
+function pointed(event) {
   const box = stage.canvas.getBoundingClientRect();
   const at = new Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
   const ray = new Raycaster();
   ray.setFromCamera(at, stage.camera);
+  return ray;
+}
+
+/** A click that is no drag chooses the ghost under it. */
+function pick(event) {
+  if (!stage.down || Math.hypot(event.clientX - stage.down[0], event.clientY - stage.down[1]) > 4) return;
+  const ray = pointed(event);
   const ghosts = stage.ghosts.filter((ghost) => ghost.figure.group.visible).map((ghost) => ghost.figure.group);
   const hit = ray.intersectObjects([...ghosts, stage.main.group], true)[0];
   if (hit && hit.object.userData.track) choose(tracks.indexOf(hit.object.userData.track));
@@ -801,6 +808,64 @@ function show(parts) {
   state.moving = false;
 }
 
+/** Pixels within which the tool is taken. */
+const NEAR_TOOL = 24;
+
+/**
+ * Drags what is asked: the tool of an arm and the plate of a platform follow the pointer in the plane that faces the camera, an
+ * input follows the pointer to the right. The ground, and everything beside the figure, turns the camera as before.
+ */
+function dragged(canvas) {
+  let drag = null;
+  /** The origin of the tool, which is thin, where the pointer is near to it. */
+  const toolBeside = ({ offsetX, offsetY }) => {
+    const frame = frameOf(tracks[state.track]);
+    const tool = data.scene.bodies[COUNT - 1].parts.find((part) => part.kind === 'frame');
+    if (!frame || !tool) return null;
+    const point = new Vector3(...placed(frame, COUNT - 1, tool.pose.slice(4)));
+    const at = point.clone().project(stage.camera);
+    const [x, y] = [((at.x + 1) * canvas.clientWidth) / 2, ((1 - at.y) * canvas.clientHeight) / 2];
+    return Math.hypot(x - offsetX, y - offsetY) < NEAR_TOOL ? point : null;
+  };
+  const held = (event) => {
+    if (state.grid || !stage.main.group.visible || !live.set) return null;
+    const hit = pointed(event).intersectObject(stage.main.group, true)[0];
+    const body = hit ? stage.main.bodies.indexOf(hit.object.parent) : -1;
+    const places = live.controls.length > 1;
+    const tool = places && toolBeside(event);
+    if (tool) return { point: tool, places };
+    return body > 0 && (!places || body === COUNT - 1) ? { point: hit.point, places } : null;
+  };
+  const asked = ({ point, places, values, legs, start, normal }, event) => {
+    if (!places) {
+      const { low, high } = live.controls[0];
+      return [values[0] + ((high - low) * (event.clientX - start)) / canvas.clientWidth];
+    }
+    const { origin, direction } = pointed(event).ray;
+    const way = origin.clone().addScaledVector(direction, point.clone().sub(origin).dot(normal) / direction.dot(normal)).sub(point);
+    if (!legs.length) return values.map((value, k) => (k < 3 ? value + way.getComponent(k) : value));
+    return values.map((_, k) => legs[k][1].clone().add(way).distanceTo(legs[k][0]));
+  };
+  canvas.addEventListener('pointerdown', (event) => {
+    const found = event.button === 0 ? held(event) : null;
+    if (!found) return;
+    event.stopImmediatePropagation();
+    stage.down = null;
+    canvas.setPointerCapture(event.pointerId);
+    const frame = frameOf(tracks[state.track]);
+    const ends = data.scene.connections.filter(({ kind }) => kind === 'leg')
+      .map(({ from, to }) => [from, to].map((end) => new Vector3(...placed(frame, ...end))));
+    const legs = ends.length === live.controls.length ? ends : [];
+    const normal = stage.camera.getWorldDirection(new Vector3());
+    drag = { ...found, values: live.values(), legs, start: event.clientX, normal };
+  }, true);
+  canvas.addEventListener('pointermove', (event) => {
+    if (drag) live.setAll(asked(drag, event));
+    else if (!event.buttons) canvas.style.cursor = held(event) ? 'move' : '';
+  });
+  for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => { drag = null; });
+}
+
 /** Starts what solves: a worker with the program of this page, or the window around it. */
 function solver(answered) {
   const text = (id) => document.getElementById(id)?.textContent;
@@ -808,7 +873,7 @@ function solver(answered) {
     window.addEventListener('message', ({ data: answer }) => { if (answer && 'code' in answer) answered(answer); });
     return { ready: Promise.resolve(), ask: (question) => window.parent.postMessage(question, '*') };
   }
-  const bytes = Uint8Array.from(atob(text('module')), (c) => c.charCodeAt(0));
+  const bytes = globalThis.unpacked(text('module'));
   const worker = new Worker(URL.createObjectURL(new Blob([text('worker')], { type: 'text/javascript' })));
   const ready = new Promise((resolve, reject) => {
     worker.onmessage = ({ data: answer }) => {
@@ -851,10 +916,15 @@ function startLive() {
     if (next) ask();
   });
   const moved = () => { if (busy) next = true; else ask(); };
-  live.set = (k, value) => {
+  const put = (k, value) => {
     values[k] = value;
     outputs[k].value.textContent = number(live.controls[k], value);
     outputs[k].range.value = value;
+  };
+  live.set = (k, value) => { put(k, value); moved(); };
+  live.values = () => [...values];
+  live.setAll = (list) => {
+    list.forEach((value, k) => put(k, Math.min(live.controls[k].high, Math.max(live.controls[k].low, value))));
     moved();
   };
 

@@ -1,4 +1,4 @@
-//! Data inside a page: numbers as base64, JSON inside a script.
+//! Encodings inside a page: numbers as base64, files as seven bits a character, JSON inside a script.
 
 use serde_json::Value;
 
@@ -32,6 +32,30 @@ pub(super) fn base64(bytes: &[u8]) -> String {
     text
 }
 
+/// Packs bytes into a text of seven bits a character, for a script element: base64 takes a seventh more. The characters that HTML or an
+/// editor may change stand 128 places further on, where their last seven bits are the same.
+pub(super) fn packed(bytes: &[u8]) -> String {
+    let mut text = String::with_capacity(bytes.len() * 6 / 5 + 2);
+    let mut put = |bits: u32| {
+        let code = (bits & 0x7f) as u8;
+        text.push(char::from(if matches!(code, 0 | b'\n' | b'\r' | b'<') { code | 0x80 } else { code }));
+    };
+    let (mut bits, mut count) = (0_u32, 0);
+    for byte in bytes {
+        bits = bits << 8 | u32::from(*byte);
+        count += 8;
+        while count >= 7 {
+            count -= 7;
+            put(bits >> count);
+        }
+        bits &= (1 << count) - 1;
+    }
+    if count > 0 {
+        put(bits << (7 - count));
+    }
+    text
+}
+
 /// JSON that a script element can hold: nothing in it ends the element or begins a comment.
 pub(super) fn script(value: &Value) -> String {
     value.to_string().replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
@@ -48,6 +72,18 @@ mod tests {
         let pose = [1.0, 0.0, 0.0, 0.0, 2.0, 0.0, -4.0];
         assert_eq!(poses(pose.into_iter(), 4.0), "/38AAAAAAAAAQAAAAYA=");
         assert_eq!(poses([1.0].into_iter(), 4.0), "/38=");
+    }
+
+    #[test]
+    fn files_are_texts_of_seven_bits_a_character() {
+        let bytes: Vec<u8> = (0..=255).chain([0, 0, 10, 13, 60, 255, 7]).collect();
+        let text = packed(&bytes);
+        assert!(!text.contains(['\0', '\n', '\r', '<']));
+        // As the script reads them: the last seven bits of every character.
+        let bits: Vec<bool> = text.chars().flat_map(|c| (0..7).rev().map(move |k| u32::from(c) >> k & 1 == 1)).collect();
+        let read = bits.chunks_exact(8).map(|own| own.iter().fold(0, |byte, bit| byte << 1 | u8::from(*bit)));
+        assert_eq!(read.collect::<Vec<u8>>(), bytes);
+        assert_eq!(text.chars().count(), (8 * bytes.len()).div_ceil(7));
     }
 
     #[test]

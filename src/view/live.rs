@@ -1,6 +1,6 @@
 //! Live pages: controls for what was asked, and the program that solves anew when one is moved.
 
-use super::encode::{base64, script};
+use super::encode::{packed, script};
 use super::tracks::list;
 use crate::error::Error;
 use serde_json::{Value, json};
@@ -16,8 +16,17 @@ pub struct Live {
     pub arguments: Vec<String>,
     /// The names of files that these arguments read, with their texts.
     pub files: Vec<(String, String)>,
-    /// The program as WebAssembly, gzipped. Without it the window around the page is asked to solve.
-    pub module: Option<Vec<u8>>,
+    /// The program. Without it the window around the page is asked to solve.
+    pub program: Option<Program>,
+}
+
+/// The program of a live page: two gzipped files that `web/build` writes.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// The program as WebAssembly.
+    pub module: Vec<u8>,
+    /// The script of the page, bundled.
+    pub viewer: Vec<u8>,
 }
 
 /// The controls of a document of `solve`: the argument that asks, in which `{0}` is the value of the first control, and each
@@ -137,13 +146,12 @@ pub(super) fn solver(text: &mut String, controls: &Value, live: &Live) {
     asked["arguments"] = json!(live.arguments);
     asked["files"] = Value::Object(files);
     let _ = writeln!(text, "<script type=\"application/json\" id=\"live\">{}</script>", script(&asked));
-    if let Some(module) = &live.module {
+    if let Some(program) = &live.program {
         let worker = WORKER.replace("</script", "<\\/script");
-        let _ = writeln!(
-            text,
-            "<script type=\"text/plain\" id=\"worker\">{worker}</script>\n<script type=\"text/plain\" id=\"module\">{}</script>",
-            base64(module)
-        );
+        let _ = writeln!(text, "<script type=\"text/plain\" id=\"worker\">{worker}</script>");
+        for (id, bytes) in [("module", &program.module), ("viewer", &program.viewer)] {
+            let _ = writeln!(text, "<script type=\"text/plain\" id=\"{id}\">{}</script>", packed(bytes));
+        }
     }
 }
 

@@ -16,7 +16,7 @@ mod table;
 mod tracks;
 mod words;
 
-pub use live::Live;
+pub use live::{Live, Program};
 pub use page::{live_page, page, parts};
 pub use saved::{drawable, parse};
 pub use scores::is_scores;

@@ -17,6 +17,8 @@ use std::fmt::Write;
 
 /// The script, bundled with three.js (see assets/viewer).
 const SCRIPT: &str = include_str!("../../assets/viewer/viewer.min.js");
+/// What runs the script of a live page.
+const START: &str = include_str!("../../assets/viewer/start.js");
 pub(super) const STYLE: &str = include_str!("../../assets/viewer/viewer.css");
 /// Nothing is fetched from anywhere; the icon is empty data.
 pub(super) const POLICY: &str =
@@ -95,11 +97,13 @@ fn whole(document: &Value, figure: Option<&str>, live: Option<(&Value, &Live)>) 
     if let Some((controls, live)) = live {
         solver(&mut text, controls, live);
     }
+    // The script of a page with the program stands there gzipped, and is run from there.
+    let runs = if live.is_some_and(|(_, live)| live.program.is_some()) { START } else { SCRIPT };
     let _ = write!(
         text,
         "<script type=\"application/json\" id=\"data\">{}</script>\n<script>{}</script>\n</body>\n</html>\n",
         script(&data(document, &tracks)),
-        SCRIPT.replace("</script", "<\\/script")
+        runs.replace("</script", "<\\/script")
     );
     text
 }

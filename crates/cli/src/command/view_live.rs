@@ -6,9 +6,9 @@ use looproot::internal::catalogue::entry::Kind;
 use looproot::internal::catalogue::{Chains, load};
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::joint::Variable;
-use looproot::internal::view::Live;
+use looproot::internal::view::{Live, Program};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The name for a file whose own name would be misread.
 const PLAIN: &str = "mechanism";
@@ -54,7 +54,7 @@ pub fn begun(options: &ViewOptions) -> Option<ViewOptions> {
 /// Returns the data with which a live page solves: the command that it runs, its files, and the program.
 pub fn live(options: &ViewOptions, document: &Value) -> Result<Live, Fault> {
     let solve = &options.solve;
-    let mut live = Live { module: module()?, ..Live::default() };
+    let mut live = Live { program: program()?, ..Live::default() };
     let name = embedded(&mut live, &solve.mechanism)?;
     live.arguments = vec!["view".to_owned(), name, "--parts".to_owned()];
     let mut add = |words: &[&str]| live.arguments.extend(words.iter().map(|word| (*word).to_owned()));
@@ -105,23 +105,26 @@ fn embedded(live: &mut Live, mechanism: &str) -> Result<String, Fault> {
     Ok(name)
 }
 
-/// Returns the program as WebAssembly from the places of `web/build` and an installation: beside the folder of this program in
-/// `browser`, beside this program, or in `share/looproot`. In a browser there is none: the window around the page has it.
-fn module() -> Result<Option<Vec<u8>>, Fault> {
-    const NAME: &str = "looproot.wasm.gz";
+/// Returns the program from the places of `web/build` and an installation: beside the folder of this program in `browser`, beside
+/// this program, or in `share/looproot`. In a browser there is none: the window around the page has it.
+fn program() -> Result<Option<Program>, Fault> {
+    const MODULE: &str = "looproot.wasm.gz";
+    const VIEWER: &str = "viewer.min.js.gz";
     if cfg!(target_family = "wasm") {
         return Ok(None);
     }
     let folder = std::env::current_exe().ok().and_then(|path| path.parent().map(Path::to_path_buf)).unwrap_or_default();
-    let places: Vec<PathBuf> =
-        ["../browser", ".", "../share/looproot"].iter().map(|place| folder.join(place).join(NAME)).collect();
-    let Some(place) = places.iter().find(|place| place.is_file()) else {
+    let mut places = ["../browser", ".", "../share/looproot"].iter().map(|place| folder.join(place));
+    let Some(place) = places.find(|place| place.join(MODULE).is_file() && place.join(VIEWER).is_file()) else {
         let message = format!(
-            "found no {NAME} in {}, expected the program as WebAssembly: web/build makes it from the sources",
+            "found no {MODULE} with {VIEWER} in {}, expected the program as WebAssembly: web/build makes it from the sources",
             folder.join("../browser").display()
         );
         return Err(Error::Invalid(message).into());
     };
-    let fault = |error: std::io::Error| Error::Io { path: place.display().to_string(), message: error.to_string() };
-    Ok(Some(std::fs::read(place).map_err(fault)?))
+    let read = |name: &str| {
+        let path = place.join(name);
+        std::fs::read(&path).map_err(|error| Error::Io { path: path.display().to_string(), message: error.to_string() })
+    };
+    Ok(Some(Program { module: read(MODULE)?, viewer: read(VIEWER)? }))
 }
