@@ -2,6 +2,7 @@
 
 use super::heading::{Heading, heading_with};
 use super::job::digits;
+use super::linkage_configuration::{LinkageConfiguration, configuration};
 use super::masses::{Masses, masses};
 use super::node::{Field, Node, Value};
 use super::scope::{Scope, Table, nearest};
@@ -28,6 +29,8 @@ pub struct LinkageFile {
     pub traces: Vec<TraceClaim>,
     /// Whether every number of bodies and joints is exact.
     pub exact: bool,
+    /// Where the bodies stand, for questions about one assembly.
+    pub configuration: Option<LinkageConfiguration>,
     /// Masses and gravity.
     pub masses: Masses,
     /// The interpretation of numbers in the file.
@@ -100,8 +103,8 @@ pub(super) fn is_on_sphere(root: &Node) -> bool {
 
 /// Reads a linkage file.
 pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<LinkageFile> {
-    let heading = heading_with(scope, root, name, &["input", "solution", "trace"])?;
-    let keys = ["title", "source", "notes", "units", "mechanism", "expected", "input", "solution", "trace"];
+    let heading = heading_with(scope, root, name, &["input", "solution", "trace", "configuration"])?;
+    let keys = ["title", "source", "notes", "units", "mechanism", "configuration", "expected", "input", "solution", "trace"];
     let table = scope.table(root, "the file", &keys)?;
     let node = scope.need(&table, "mechanism")?;
     let keys = ["kind", "space", "ground", "joints", "bodies", "mass", "gravity"];
@@ -144,8 +147,9 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
         }
         None => Vec::new(),
     };
+    let configuration = table.get("configuration").map(|node| configuration(scope, node, &linkage)).transpose()?;
     let masses = masses(scope, &mechanism, &linkage)?;
-    Ok(LinkageFile { heading, linkage, cases, traces, exact, masses, reading: scope.reading.clone() })
+    Ok(LinkageFile { heading, linkage, cases, traces, exact, configuration, masses, reading: scope.reading.clone() })
 }
 
 /// Reads a claim about the curve of a point, `BODY.POINT`.
@@ -515,7 +519,11 @@ fn turn(scope: &Scope<'_>, node: &Node, what: &str) -> Result<(Gaussian, bool)> 
     if !matches!(node.value, Value::Table(_)) {
         return Ok(rotation(&scope.angle(node, what)?));
     }
-    let table = scope.table(node, what, &["angle", "tan_half"])?;
+    turn_of(scope, &scope.table(node, what, &["angle", "tan_half"])?, what)
+}
+
+/// The rotation of a table with `angle` or `tan_half`, and whether it is exact.
+pub(super) fn turn_of(scope: &Scope<'_>, table: &Table<'_>, what: &str) -> Result<(Gaussian, bool)> {
     match (table.get("angle"), table.get("tan_half")) {
         (Some(node), None) => Ok(rotation(&scope.angle(node, "angle")?)),
         (None, Some(node)) => Ok(rotation(&scope.half_tangent(node, "tan_half")?)),
@@ -545,7 +553,7 @@ fn joint_named(scope: &Scope<'_>, linkage: &Linkage, name: &str, line: usize) ->
     })
 }
 
-fn body_named(scope: &Scope<'_>, linkage: &Linkage, name: &str, line: usize) -> Result<usize> {
+pub(super) fn body_named(scope: &Scope<'_>, linkage: &Linkage, name: &str, line: usize) -> Result<usize> {
     linkage.bodies.iter().position(|body| body.name == name).ok_or_else(|| {
         let name: String = name.chars().take(40).collect();
         scope.fail(line, format!("found the unknown body `{name}`, expected one of [mechanism.bodies]"))

@@ -1,11 +1,12 @@
 //! Inputs of linkages as typed on the command line: `A=60 deg, leg1=4`.
 
+use super::entry::InputValue;
 use super::linkage::{LinkageCase, LinkageClaims, LinkageFile, root, rotation};
 use super::sphere::{SphereCase, SphereClaims, SphereFile, turned};
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::error::{Error, Result};
-use crate::kinematics::linkage::{Given, Pair};
-use crate::kinematics::sphere::SphereGiven;
+use crate::kinematics::linkage::{Gaussian, Given, Pair};
+use crate::kinematics::sphere::{Direction, SphereGiven};
 use rug::Rational;
 
 /// Splits names and values: `A=60 deg, B=1/2`.
@@ -35,32 +36,49 @@ fn in_option(name: &str, error: impl Into<Error>) -> Error {
 }
 
 impl LinkageFile {
-    /// Returns the first case with these values, which replace those of the same joints or are added. Values without a unit have
+    /// Returns the first case with these values in place of those of the same joints, or beside them. Values without a unit have
     /// that of the file.
     ///
     /// # Errors
-    /// For unknown joints, gears, and invalid values.
+    /// For unknown joints, gears, and values that are none.
     pub fn case_with(&self, text: &str) -> Result<LinkageCase> {
-        let mut case = LinkageCase { expected: LinkageClaims::default(), ..self.cases[0].clone() };
-        let line = case.line;
+        let mut values = Vec::new();
         for (name, value) in typed(text)? {
             let joint = number_of(name, self.linkage.joints.iter().map(|joint| joint.name.as_str()))?;
-            let own = &self.linkage.joints[joint];
-            let (given, exact) = match &own.pair {
-                Pair::Gear { .. } => {
-                    return Err(Error::Invalid(format!("found the gears {name} in --input, which have no value")));
+            let value = if self.linkage.joints[joint].is_prismatic() {
+                let distance = Number::parse(value, Quantity::Length, &self.reading);
+                InputValue::Distance(distance.map_err(|error| in_option(name, error))?)
+            } else {
+                InputValue::Angle(angle(name, value, &self.reading)?)
+            };
+            values.push((name.to_owned(), value));
+        }
+        self.case_at(&values)
+    }
+
+    /// Returns the first case with these values in place of those of the same joints, or beside them.
+    ///
+    /// # Errors
+    /// For unknown joints, gears, and values of another kind than that of their joint.
+    pub fn case_at(&self, values: &[(String, InputValue)]) -> Result<LinkageCase> {
+        let mut case = LinkageCase { expected: LinkageClaims::default(), ..self.cases[0].clone() };
+        let line = case.line;
+        for (name, value) in values {
+            let joint = number_of(name, self.linkage.joints.iter().map(|joint| joint.name.as_str()))?;
+            let (given, exact) = match (&self.linkage.joints[joint].pair, value) {
+                (Pair::Gear { .. }, _) => {
+                    return Err(Error::Invalid(format!("found the gears {name} as an input, which have no value")));
                 }
-                Pair::Prismatic { along, length, .. } => {
-                    let distance =
-                        Number::parse(value, Quantity::Length, &self.reading).map_err(|error| in_option(name, error))?;
+                (Pair::Prismatic { along, length, .. }, InputValue::Distance(distance)) => {
                     let square = Rational::from(along.re.square_ref()) + Rational::from(along.im.square_ref());
                     let exact = distance.is_exact() && root(&square).1;
                     (Given::Shift { joint, shift: Rational::from(distance.rational() / length), line }, exact)
                 }
-                Pair::Revolute => {
-                    let (turn, exact) = rotation(&angle(name, value, &self.reading)?);
+                (Pair::Revolute, InputValue::Angle(angle)) => {
+                    let (turn, exact) = rotation(angle);
                     (Given::Turn { joint, turn, line }, exact)
                 }
+                _ => return Err(Error::Invalid(format!("found a value of another kind for the joint {name}"))),
             };
             let is_other = |one: &Given| {
                 !matches!(one, Given::Turn { joint: old, .. } | Given::Shift { joint: old, .. } if *old == joint)
@@ -71,25 +89,78 @@ impl LinkageFile {
         }
         Ok(case)
     }
+
+    /// Returns a point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and its place there.
+    ///
+    /// # Errors
+    /// For names of other forms, and for bodies and points that do not exist.
+    pub fn point<'a>(&self, asked: &'a str) -> Result<(usize, &'a str, Gaussian)> {
+        let found = |what: String| Error::Invalid(format!("found the point {asked}, {what}"));
+        let bodies = &self.linkage.bodies;
+        let names = || bodies.iter().take(12).map(|body| body.name.as_str()).collect::<Vec<_>>().join(", ");
+        let Some((body, point)) = asked.split_once('.') else {
+            return Err(found(format!("expected a point of a body, such as {}.POINT", bodies[0].name)));
+        };
+        let number = bodies.iter().position(|own| own.name == body);
+        let number = number.ok_or_else(|| found(format!("expected one of the bodies {}", names())))?;
+        let place = bodies[number].point(point).cloned().ok_or_else(|| {
+            let known: Vec<&str> = bodies[number].points.iter().take(12).map(|(name, _)| name.as_str()).collect();
+            found(format!("expected one of the points {} of {body}", known.join(", ")))
+        })?;
+        Ok((number, point, place))
+    }
 }
 
 impl SphereFile {
-    /// Returns the first case with these angles, which replace those of the same joints or are added.
+    /// Returns the first case with these angles in place of those of the same joints, or beside them.
     ///
     /// # Errors
-    /// For unknown joints and invalid values.
+    /// For unknown joints and values that are none.
     pub fn case_with(&self, text: &str) -> Result<SphereCase> {
+        let mut values = Vec::new();
+        for (name, value) in typed(text)? {
+            values.push((name.to_owned(), InputValue::Angle(angle(name, value, &self.reading)?)));
+        }
+        self.case_at(&values)
+    }
+
+    /// Returns the first case with these angles in place of those of the same joints, or beside them.
+    ///
+    /// # Errors
+    /// For unknown joints and distances.
+    pub fn case_at(&self, values: &[(String, InputValue)]) -> Result<SphereCase> {
         let mut case = SphereCase { expected: SphereClaims::default(), ..self.cases[0].clone() };
         let line = case.line;
-        for (name, value) in typed(text)? {
+        for (name, value) in values {
             let joint = number_of(name, self.linkage.joints.iter().map(|joint| joint.name.as_str()))?;
             let own = &self.linkage.joints[joint];
-            let (rotation, exact) = turned(own, &angle(name, value, &self.reading)?);
+            let InputValue::Angle(angle) = value else {
+                return Err(Error::Invalid(format!("found a distance for the joint {name}, expected an angle")));
+            };
+            let (rotation, exact) = turned(own, angle);
             case.given.retain(|one| one.joint != Some(joint));
             case.given.push(SphereGiven { of: own.of, rotation, joint: Some(joint), line });
             case.exact &= exact;
         }
         Ok(case)
+    }
+
+    /// Returns a point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and its direction.
+    ///
+    /// # Errors
+    /// For bodies and points that do not exist.
+    pub fn point<'a>(&self, asked: &'a str) -> Result<(usize, &'a str, Direction)> {
+        let bodies = &self.linkage.bodies;
+        let found = asked.split_once('.').and_then(|(body, point)| {
+            let number = bodies.iter().position(|own| own.name == body)?;
+            Some((number, point, bodies[number].point(point)?.clone()))
+        });
+        found.ok_or_else(|| {
+            let points =
+                bodies.iter().flat_map(|body| body.points.iter().map(move |(point, _)| format!("{}.{point}", body.name)));
+            let known: Vec<String> = points.take(12).collect();
+            Error::Invalid(format!("found the point {asked}, expected a point of a body: {}", known.join(", ")))
+        })
     }
 }
 

@@ -14,6 +14,7 @@ mod job;
 mod library;
 pub mod lines;
 mod linkage;
+mod linkage_configuration;
 mod linkage_inputs;
 pub mod masses;
 mod motion;
@@ -43,6 +44,7 @@ pub use library::{
     moving_names, namesakes,
 };
 pub use linkage::{LinkageCase, LinkageClaim, LinkageClaims, LinkageFile, TraceClaim};
+pub use linkage_configuration::LinkageConfiguration;
 pub use motion::MotionFile;
 pub use options::{Chains, Options};
 pub use robots::robot_names;

@@ -14,7 +14,9 @@ use crate::kinematics::joint::Variable;
 use crate::mechanism::{Mechanism, Solution};
 use crate::report::sweep::Swept;
 use crate::report::text::View;
-use crate::report::{conditions as conditions_report, conditions_search, derivation, document, framework, json, scene};
+use crate::report::{
+    conditions as conditions_report, conditions_search, derivation, document, framework, json, linkage_mobility, scene,
+};
 use crate::scene::Stage;
 use crate::sweep::{Range, sweep};
 use serde_json::{Value, json};
@@ -156,7 +158,7 @@ impl Model {
     }
 }
 
-/// Returns the document of `mobility --json` for a file or an entry of the library, frameworks included.
+/// Returns the document of `mobility --json` for a file or an entry of the library, frameworks and planar linkages included.
 ///
 /// # Errors
 /// For a file or name that cannot be read, and for a file without a mechanism.
@@ -166,7 +168,10 @@ pub fn mobility(name: &str) -> Result<Value> {
     match load_any(name, &Options { chains: Chains::Any, ..Options::default() })? {
         Any::Entry(entry) => Model::new(*entry).mobility(),
         Any::Framework(file) => Ok(framework::json(&file, &file.mobility(STEPS)?)),
-        other => Err(Error::Invalid(other.kind().unexpected("a loop, an arm, a platform or a framework"))),
+        Any::Linkage(file) => Ok(linkage_mobility::json(&file, &crate::mobility::planar_mobility(&file)?)),
+        other => {
+            Err(Error::Invalid(other.kind().unexpected("a loop, an arm, a platform, a planar linkage or a framework")))
+        }
     }
 }
 

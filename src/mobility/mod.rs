@@ -10,6 +10,7 @@ mod multiplicity;
 mod nearby;
 mod open;
 pub mod order;
+mod planar;
 mod rounded;
 mod search;
 mod stillness;
@@ -18,5 +19,6 @@ pub use crate::exact::{Axis, Conjugates, JointValue, Linkage, Position, Position
 pub use answer::{Configuration, Held, JointVariable, Mobility};
 pub use count::{at_most, count};
 pub use decision::mobility;
+pub use planar::{LinkageMobility, planar_mobility};
 pub use order::{Germ, Local};
 pub use search::moves;

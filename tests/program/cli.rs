@@ -147,6 +147,7 @@ fn the_document_follows_its_schema() {
             &["mobility", "puma560", "--json"],
             &["mobility", "platform/hexapod", "--json"],
             &["mobility", "framework/heureka", "--json"],
+            &["mobility", "linkage/coupler_curve", "--json"],
         ],
     );
     follows(
@@ -723,7 +724,7 @@ fn a_name_in_two_folders_is_given_with_its_folder() {
 #[test]
 fn a_file_of_the_wrong_kind_is_told_with_its_verb() {
     let entry = "expected an arm, a loop or a platform with numbers";
-    let moving = "expected a loop, an arm, a platform or a framework";
+    let moving = "expected a loop, an arm, a platform, a planar linkage or a framework";
     let kinds = [
         ("motion/bennett", "a rational motion", "factor"),
         ("framework/steffen", "a framework", "mobility"),

@@ -8,6 +8,7 @@ mod derive;
 mod foreign;
 mod framework;
 mod instant;
+mod linkage_mobility;
 mod mobility;
 mod mobility_verb;
 mod motion;

@@ -24,7 +24,7 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
         let (name, point, curve) = if asked == "mass" {
             ("mass", "centre", trace_mass(&file.linkage, &case.given, &masses(file)?).map_err(in_place)?)
         } else {
-            let (body, point, place) = point_of(file, asked)?;
+            let (body, point, place) = file.point(asked)?;
             let curve = trace(&file.linkage, &case.given, body, &place).map_err(in_place)?;
             (file.linkage.bodies[body].name.as_str(), point, curve)
         };
@@ -74,23 +74,6 @@ fn masses(file: &LinkageFile) -> Result<Vec<(usize, Gaussian, Rational)>, Error>
         list.push((body, centre, weight));
     }
     Ok(list)
-}
-
-/// Returns a point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and its position.
-pub fn point_of<'a>(file: &LinkageFile, asked: &'a str) -> Result<(usize, &'a str, Gaussian), Error> {
-    let found = |what: String| Error::Invalid(format!("found --trace {asked}, {what}"));
-    let bodies = &file.linkage.bodies;
-    let names = || bodies.iter().take(12).map(|body| body.name.as_str()).collect::<Vec<_>>().join(", ");
-    let Some((body, point)) = asked.split_once('.') else {
-        return Err(found(format!("expected a point of a body, such as {}.POINT", bodies[0].name)));
-    };
-    let number = bodies.iter().position(|own| own.name == body);
-    let number = number.ok_or_else(|| found(format!("expected one of the bodies {}", names())))?;
-    let place = bodies[number].point(point).cloned().ok_or_else(|| {
-        let known: Vec<&str> = bodies[number].points.iter().take(12).map(|(name, _)| name.as_str()).collect();
-        found(format!("expected one of the points {} of {body}", known.join(", ")))
-    })?;
-    Ok((number, point, place))
 }
 
 /// Refuses the options that linkages do not have.

@@ -2,7 +2,6 @@
 
 use super::arguments::SweepOptions;
 use super::exit::{Exit, Fault};
-use super::linkage_derive::point_of;
 use super::output::{Output, pool};
 use looproot::internal::catalogue::LinkageFile;
 use looproot::internal::error::Error;
@@ -21,7 +20,7 @@ pub fn run(
 ) -> Result<Exit, Fault> {
     let traced = match &options.trace {
         Some(asked) => {
-            let (body, _, place) = point_of(file, asked)?;
+            let (body, _, place) = file.point(asked)?;
             Some(Traced { body, name: asked.clone(), place })
         }
         None => None,

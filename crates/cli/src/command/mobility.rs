@@ -5,11 +5,12 @@ use super::certificates::Certificates;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use super::seed::plant;
-use looproot::internal::catalogue::{Any, Chains, FrameworkFile, Options, load_any};
+use looproot::internal::catalogue::{Any, Chains, FrameworkFile, LinkageFile, Options, load_any};
 use looproot::internal::error::Error;
-use looproot::internal::mobility::{Mobility, mobility};
+use looproot::internal::mobility::{Mobility, mobility, planar_mobility};
 use looproot::internal::report::document::complete;
 use looproot::internal::report::framework as report;
+use looproot::internal::report::linkage_mobility;
 use looproot::internal::report::mobility::{json, text, verdict};
 use std::io::Write;
 
@@ -23,7 +24,18 @@ pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
             return Err(Error::Invalid(message.to_owned()).into());
         }
         Any::Framework(file) => return of_framework(options, &file),
-        other => return Err(unexpected(&options.mechanism, other.kind(), "a loop, an arm, a platform or a framework")),
+        Any::Linkage(_) if options.certificate.is_some() => {
+            let message = "found --certificate with a linkage, expected a loop: linkages have no certificate yet";
+            return Err(Error::Invalid(message.to_owned()).into());
+        }
+        Any::Linkage(file) => return of_linkage(options, &file),
+        other => {
+            return Err(unexpected(
+                &options.mechanism,
+                other.kind(),
+                "a loop, an arm, a platform, a planar linkage or a framework",
+            ));
+        }
     };
     let answer = mobility(&entry)?;
     if let Some(path) = &options.certificate {
@@ -63,6 +75,29 @@ fn of_framework(options: &MobilityOptions, file: &FrameworkFile) -> Result<Exit,
         (false, _) => Exit::NotProved,
         (true, (_, 0)) => Exit::Unreachable,
         _ => Exit::Complete,
+    })
+}
+
+/// Decides whether a planar linkage moves.
+fn of_linkage(options: &MobilityOptions, file: &LinkageFile) -> Result<Exit, Fault> {
+    let line = file.configuration.as_ref().map_or(1, |configuration| configuration.line);
+    let answer = planar_mobility(file).map_err(|error| error.at(&options.mechanism, line))?;
+    let written = if options.json {
+        format!("{:#}\n", linkage_mobility::json(file, &answer))
+    } else if options.quiet {
+        linkage_mobility::verdict(&answer) + "\n"
+    } else {
+        linkage_mobility::text(file, &answer)
+    };
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    output.writer.write_all(written.as_bytes())?;
+    output.writer.flush()?;
+    Ok(if !answer.proof.is_proved() {
+        Exit::NotProved
+    } else if answer.mobility == Some(0) {
+        Exit::Unreachable
+    } else {
+        Exit::Complete
     })
 }
 

@@ -7,7 +7,6 @@ use super::output::Output;
 use looproot::internal::catalogue::SphereFile;
 use looproot::internal::derivation::{sphere_trace, transfer};
 use looproot::internal::error::Error;
-use looproot::internal::kinematics::sphere::Direction;
 use looproot::internal::linkage::sphere::solve;
 use looproot::internal::report::sphere as report;
 use looproot::internal::report::sphere_sweep as sweeps;
@@ -86,7 +85,7 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
     let index = wanted(options.asked.input.as_deref(), file)?.start;
     let in_place = |error: Error| error.at(mechanism, file.cases[index].line);
     let written = if let Some(asked) = &options.trace {
-        let (body, point, place) = point_of(file, asked)?;
+        let (body, point, place) = file.point(asked)?;
         let curve = sphere_trace(&file.linkage, body, &place).map_err(in_place)?;
         if options.json {
             format!("{}\n", report::curve_json(file, index + 1, &file.linkage.bodies[body].name, point, &curve))
@@ -115,21 +114,6 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
     Ok(if file.exact { Exit::Complete } else { Exit::NotProved })
 }
 
-/// Returns a point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and its direction.
-pub fn point_of<'a>(file: &SphereFile, asked: &'a str) -> Result<(usize, &'a str, Direction), Error> {
-    let bodies = &file.linkage.bodies;
-    let found = asked.split_once('.').and_then(|(body, point)| {
-        let number = bodies.iter().position(|own| own.name == body)?;
-        Some((number, point, bodies[number].point(point)?.clone()))
-    });
-    found.ok_or_else(|| {
-        let points =
-            bodies.iter().flat_map(|body| body.points.iter().map(move |(point, _)| format!("{}.{point}", body.name)));
-        let known: Vec<String> = points.take(12).collect();
-        Error::Invalid(format!("found --trace {asked}, expected a point of a body: {}", known.join(", ")))
-    })
-}
-
 /// Sweeps a joint through its range and prints the branches.
 pub fn sweep(
     options: &SweepOptions,
@@ -142,7 +126,7 @@ pub fn sweep(
     }
     let traced = match &options.trace {
         Some(asked) => {
-            let (body, _, place) = point_of(file, asked)?;
+            let (body, _, place) = file.point(asked)?;
             Some((body, asked.clone(), place))
         }
         None => None,
