@@ -43,11 +43,13 @@ pub mod internal {
 use internal::{
     assembly, benchmark, catalogue, certificate, certify, claims, closure, conditions, derivation, displacement,
     elimination, error, exact, face, factoring, gearing, kinematics, lines, linkage, mechanism, mobility, report,
-    scene, solve, sweep, synthesis, verdict,
+    scene, solve, sweep, synthesis, verdict, view,
 };
 
 pub use error::{Error, Result};
-pub use face::{Arm, Convention, DhRow, Loop, Matrix, Platform, ScrewRow, Workspace, conditions, mobility, verify};
+pub use face::{
+    Arm, Convention, DhRow, Linkage, Loop, Matrix, Platform, ScrewRow, Workspace, conditions, mobility, verify,
+};
 pub use kinematics::chain::JointKind;
 pub use kinematics::joint::Variable;
 pub use kinematics::velocity::Velocity;

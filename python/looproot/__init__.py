@@ -18,6 +18,7 @@ from ._certificate import Certificate, Verification, verify
 from ._closed import Loop, Platform
 from ._core import InternalError, UnsupportedError, __version__
 from ._functions import conditions, load, mobility, names
+from ._linkage import Linkage
 from ._pose import Pose
 
 __all__ = [
@@ -27,6 +28,7 @@ __all__ = [
     "Derivation",
     "Family",
     "InternalError",
+    "Linkage",
     "Loop",
     "Platform",
     "Polynomial",

@@ -89,6 +89,8 @@ class Solutions:
     warnings: list[str] = field(default_factory=list)
     matrix: Floats | None = None
     """(k, 4, 4): poses of the plate of a platform."""
+    bodies: dict[str, Floats] | None = None
+    """Of a linkage for every body (k, 3): angle and position in the plane, or (k, 4): quaternions, w first, on the sphere."""
     _document: Callable[[], Document] | None = field(default=None, repr=False)
 
     def __len__(self) -> int:
@@ -113,9 +115,10 @@ class Solutions:
     def _taken(self, order: Any) -> Solutions:
         within = None if self.within_limits is None else self.within_limits[order]
         matrix = None if self.matrix is None else self.matrix[order]
+        bodies = None if self.bodies is None else {name: places[order] for name, places in self.bodies.items()}
         return type(self)(
             self.q[order], self.certified[order], self.radius[order], self.condition[order], within, self.near[order],
-            self.names, self.verdict, self.families, self.warnings, matrix, self._document,
+            self.names, self.verdict, self.families, self.warnings, matrix, bodies, self._document,
         )  # fmt: skip
 
     def nearest(self, q0: Any) -> Solutions:
@@ -204,8 +207,19 @@ def of_document(text: str) -> Solutions:
         [family(one) for one in result["families"]],
         list(result["warnings"]),
         matrix,
+        _places(document, real) if document["kind"] == "linkage" else None,
         lambda: document,
     )
+
+
+def _places(document: Document, modes: list[Document]) -> dict[str, Floats]:
+    def of(name: str) -> Floats:
+        bodies = [mode["bodies"][name] for mode in modes]
+        rows = [body["quaternion"] if "quaternion" in body else [body["angle"], *body["position"]] for body in bodies]
+        width = 4 if document["mechanism"]["space"] == "sphere" else 3
+        return np.array(rows, dtype=np.float64).reshape(len(modes), width)
+
+    return {name: of(name) for name in document["mechanism"]["bodies"]}
 
 
 @dataclass(frozen=True, eq=False)

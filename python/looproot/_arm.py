@@ -82,7 +82,8 @@ class Arm:
             return read
 
         answer = Solutions(
-            q, certified, radius, condition, bounded, close, self.names, Verdict(**verdict), found, warnings, None, document
+            q, certified, radius, condition, bounded, close, self.names, Verdict(**verdict), found, warnings,
+            _document=document,
         )
         return answer if start is None else answer.nearest(start)
 

@@ -9,6 +9,7 @@ from . import _core
 from ._answers import Document
 from ._arm import Arm, _text, from_file
 from ._closed import Loop, Platform
+from ._linkage import Linkage
 
 
 def names() -> list[str]:
@@ -16,8 +17,8 @@ def names() -> list[str]:
     return _core.robots()
 
 
-def load(name: str | os.PathLike[str]) -> Arm | Loop | Platform:
-    """An arm, a loop or a platform of a file or of the library.
+def load(name: str | os.PathLike[str]) -> Arm | Loop | Platform | Linkage:
+    """An arm, a loop, a platform or a linkage of a file or of the library.
 
     >>> load("ur5")
     Arm('Universal Robots UR5', 6 joints: q1, q2, q3, q4, q5, q6)
@@ -26,11 +27,13 @@ def load(name: str | os.PathLike[str]) -> Arm | Loop | Platform:
     kind = _core.kind(text, None, None)
     if kind == "arm":
         return from_file(text)
+    if kind == "linkage":
+        return Linkage(text)
     return Loop(text) if kind == "loop" else Platform.load(text)
 
 
 def mobility(name: str | os.PathLike[str]) -> Document:
-    """Whether a loop, an arm, a platform or a framework moves, as ``looproot mobility --json`` says it.
+    """Whether a loop, an arm, a platform, a planar linkage or a framework moves, as ``looproot mobility --json`` says it.
 
     >>> mobility("bennett_a")["mobility"]
     1

@@ -5,6 +5,7 @@ mod answers;
 mod arm;
 mod closed;
 mod faults;
+mod linkage;
 
 use looproot::internal::face;
 use pyo3::prelude::*;
@@ -19,6 +20,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<arm::Arm>()?;
     module.add_class::<closed::Loop>()?;
     module.add_class::<closed::Platform>()?;
+    module.add_class::<linkage::Linkage>()?;
     module.add_function(wrap_pyfunction!(robots, module)?)?;
     module.add_function(wrap_pyfunction!(mobility, module)?)?;
     module.add_function(wrap_pyfunction!(conditions, module)?)?;
@@ -34,10 +36,13 @@ fn robots() -> Vec<String> {
     looproot::internal::catalogue::all_names()
 }
 
-/// Arm, loop or platform: what a file or a name is.
+/// Arm, loop, platform or linkage: what a file or a name is.
 #[pyfunction]
 fn kind(name: &str, tip_link: Option<&str>, base_link: Option<&str>) -> PyResult<&'static str> {
     faults::guarded(|| {
+        if face::Linkage::from_file(name).is_ok() {
+            return Ok("linkage");
+        }
         let model = face::Model::load(name, tip_link, base_link)?;
         Ok(looproot::internal::report::json::kind(model.entry.kind()))
     })

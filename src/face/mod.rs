@@ -1,4 +1,4 @@
-//! The short way in: arms, loops and platforms by name, with numbers in and numbers out.
+//! The short way in: arms, loops, platforms and linkages by name, with numbers in and numbers out.
 //!
 //! Angles are radians, lengths metres, quaternions have w first.
 //!
@@ -17,12 +17,14 @@
 mod arm;
 mod closed;
 mod forward;
+mod linkage;
 mod model;
 mod pose;
 mod workspace;
 
 pub use arm::{Arm, Convention, DhRow, ScrewRow};
 pub use closed::{Loop, Platform};
+pub use linkage::Linkage;
 pub use model::{Model, conditions, mobility, verify};
 pub use pose::Matrix;
 pub use workspace::Workspace;

@@ -1,0 +1,60 @@
+"""Linkages from Python."""
+
+import math
+
+import numpy as np
+import pytest
+
+import looproot as lr
+
+
+def test_assemblies_of_a_linkage() -> None:
+    linkage = lr.Linkage("linkage/jansen")
+    s = linkage.solve(input={"O": math.pi / 2})
+    assert s.q.shape == (8, len(linkage.names)) and s.verdict.proved and s.complete
+    assert np.allclose(s.q[:, linkage.names.index("O")], math.pi / 2)
+    assert s.bodies is not None and set(s.bodies) == set(linkage.bodies)
+    assert all(places.shape == (8, 3) for places in s.bodies.values())
+    assert "<canvas" in s.view()
+    assert len(linkage.solve()) == 8
+    assert "Jansen" in repr(linkage)
+
+
+def test_bad_inputs_of_a_linkage() -> None:
+    linkage = lr.Linkage("linkage/3prr")
+    assert not all(linkage.angles)
+    with pytest.raises(ValueError, match="unknown joint 'Z'"):
+        linkage.solve(input={"Z": 1.0})
+    with pytest.raises(ValueError):
+        linkage.solve(input={linkage.names[0]: math.nan})
+    with pytest.raises(TypeError):
+        linkage.solve(input=0.3)  # type: ignore[arg-type]
+    with pytest.raises(KeyError):
+        lr.Linkage("no_such_linkage")
+    with pytest.raises(ValueError, match="expected a linkage"):
+        lr.Linkage("ur5")
+
+
+def test_branches_and_curves_of_a_linkage() -> None:
+    linkage = lr.Linkage("linkage/coupler_curve_symmetric")
+    sweep = linkage.sweep("A", -math.pi, math.pi, 24, trace="coupler.P")
+    assert len(sweep.branches) == 2 and sweep.branches[0].shape[1] == 4
+    point = sweep.document["branches"][0]["rows"][0]["points"]["coupler.P"]
+    curve = linkage.trace("coupler.P")["trace"]
+    assert curve["degree"] == 6 and len(point) == 2
+    assert linkage.derive()["polynomials"]
+    assert linkage.mobility()["mobility"] == 1
+    with pytest.raises(ValueError):
+        linkage.sweep("A", 0, 0)
+    with pytest.raises(ValueError):
+        linkage.sweep("nothing", 0, 1)
+
+
+def test_a_linkage_on_the_sphere() -> None:
+    linkage = lr.load("linkage/spherical_3rrr")
+    assert isinstance(linkage, lr.Linkage)
+    s = linkage.solve()
+    assert s.verdict.complex == 8 and s.bodies is not None
+    assert all(np.allclose(np.linalg.norm(places, axis=1), 1) for places in s.bodies.values())
+    with pytest.raises(lr.UnsupportedError):
+        linkage.mobility()
