@@ -1,8 +1,8 @@
 //! Chooses the tip link of a robot description that names none.
 
+use super::robot_chain::LONGEST;
 use super::robot_tree::Tree;
 use super::scope::Scope;
-use super::urdf::{LONGEST, child, line};
 use crate::error::Result;
 use std::collections::{BTreeMap, HashSet};
 
@@ -45,7 +45,7 @@ fn rank(link: &str) -> Option<usize> {
 }
 
 /// Returns the tip of the only arm of a robot.
-pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &Tree<'a, '_>, base: Option<&str>) -> Result<Tip<'a>> {
+pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &'a Tree, base: Option<&str>) -> Result<Tip<'a>> {
     let all = arms(tree, base);
     let wanted: Vec<&Arm<'a>> =
         all.iter().filter(|(joints, _)| JOINTS.contains(&joints.len())).map(|(_, arm)| arm).collect();
@@ -59,6 +59,8 @@ pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &Tree<'a, '_>, base: Option<&s
         ([], _) if tree.leaves().len() == 1 => Some((tree.leaves()[0], "the only end")),
         ([_], Some(((_, link), _))) => Some((link, "by its name, on the only arm")),
         ([arm], None) if arm.leaves.len() == 1 => Some((arm.leaves[0], "the end of the only arm")),
+        // Behind its last link only a gripper moves.
+        ([arm], None) if arm.leaves.is_empty() => outermost(tree, arm).map(|link| (link, "the last link of the only arm")),
         (_, Some(((_, link), _))) if rivals == 1 => Some((link, "by its name")),
         _ => None,
     };
@@ -67,26 +69,32 @@ pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &Tree<'a, '_>, base: Option<&s
     }
     let leaves = tree.leaves();
     let message = format!("found {} end links ({}), expected a tip link to be named", leaves.len(), leaves.join(", "));
-    Err(scope.fail(line(tree.robot), format!("{message}: --tip-link LINK")))
+    Err(scope.fail(tree.line, format!("{message}: --tip-link LINK")))
+}
+
+/// Returns the link of an arm farthest from the root; `None` if there are several.
+fn outermost<'a>(tree: &Tree, arm: &Arm<'a>) -> Option<&'a str> {
+    let length = |link: &&str| tree.path(None, link, LONGEST).map_or(0, |path| path.len());
+    let longest = arm.links.iter().map(length).max()?;
+    let mut all = arm.links.iter().filter(|link| length(link) == longest);
+    let first = all.next()?;
+    all.next().is_none().then_some(*first)
 }
 
 /// Groups the links below the base by the moving joints that move them, without mimic joints, those they mimic and immobile links.
-fn arms<'a>(tree: &Tree<'a, '_>, base: Option<&str>) -> BTreeMap<Vec<usize>, Arm<'a>> {
+fn arms<'a>(tree: &'a Tree, base: Option<&str>) -> BTreeMap<Vec<usize>, Arm<'a>> {
     let leaves = tree.leaves();
-    // The joint that others mimic is a finger, too.
-    let mimicked: HashSet<&str> =
-        tree.joints.iter().filter_map(|joint| child(*joint, "mimic")?.attribute("joint")).collect();
+    // The joint that others follow is a finger, too.
+    let followed: HashSet<&str> = tree.joints.iter().filter_map(|joint| joint.follows.as_deref()).collect();
     let mut arms: BTreeMap<Vec<usize>, Arm<'a>> = BTreeMap::new();
-    for &link in &tree.links {
+    for link in tree.links.iter().map(String::as_str) {
         let Some(path) = tree.path(base, link, LONGEST) else { continue };
-        let moving: Vec<usize> =
-            path.into_iter().filter(|joint| tree.joints[*joint].attribute("type") != Some("fixed")).collect();
+        let moving: Vec<usize> = path.into_iter().filter(|joint| !tree.joints[*joint].is_fixed).collect();
         let is_gripper = |joint: &usize| {
-            let joint = tree.joints[*joint];
-            child(joint, "mimic").is_some() || joint.attribute("name").is_some_and(|name| mimicked.contains(name))
+            let joint = &tree.joints[*joint];
+            joint.follows.is_some() || joint.name.as_deref().is_some_and(|name| followed.contains(name))
         };
-        let mimics = moving.iter().any(is_gripper);
-        if moving.is_empty() || mimics {
+        if moving.is_empty() || moving.iter().any(is_gripper) {
             continue;
         }
         let arm = arms.entry(moving).or_insert_with(|| Arm { links: Vec::new(), leaves: Vec::new() });
@@ -96,6 +104,8 @@ fn arms<'a>(tree: &Tree<'a, '_>, base: Option<&str>) -> BTreeMap<Vec<usize>, Arm
         }
     }
     // If more joints follow, it is the middle of an arm, unless a link ends there or is named as a tip.
-    arms.retain(|_, arm| !arm.leaves.is_empty() || arm.named().is_some());
+    let all: Vec<Vec<usize>> = arms.keys().cloned().collect();
+    let is_middle = |joints: &[usize]| all.iter().any(|other| other.len() > joints.len() && other.starts_with(joints));
+    arms.retain(|joints, arm| !is_middle(joints) || !arm.leaves.is_empty() || arm.named().is_some());
     arms
 }

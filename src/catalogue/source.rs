@@ -92,7 +92,7 @@ fn text_of(name: &str, is_built_in: bool) -> Result<Option<(String, &str, Format
         Some("toml") => Format::Toml,
         Some("json") => Format::Json,
         Some("csv") => Format::Csv,
-        Some("urdf" | "xml") => Format::Urdf,
+        Some("urdf" | "xml" | "mjcf") => Format::Urdf,
         _ => sniffed(&text),
     };
     Ok(Some((text, name, format)))

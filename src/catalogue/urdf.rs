@@ -1,92 +1,97 @@
-//! Robot descriptions (URDF): the chain of joints between two links, as screw axes in the home position.
+//! Robot descriptions (URDF): the joints and frames of a robot.
 
-use super::entry::{Design, Entry, Labels};
-use super::geometry::check_kinds;
+use super::entry::Entry;
+use super::mjcf;
 use super::node::{Node, Value};
 use super::options::Options;
-use super::robot_tip::tip_of;
-use super::robot_tree::Tree;
+use super::robot_chain::{self, Heading, Origin, Step, Turn, along, between, nowhere, numbers};
+use super::robot_tree::{Joint, LARGEST, Tree};
 use super::scope::Scope;
-use super::srdf;
-use crate::algebra::enclosure::Enclosure;
-use crate::algebra::number::{Angle, Number, Quantity};
-use crate::algebra::real_field::RealField;
-use crate::algebra::ring::Ring;
+use crate::algebra::number::{Number, Quantity};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, Geometry, JointKind, Placement, ScrewJoint};
-use crate::kinematics::freedom::Freedom;
-use crate::kinematics::known_motion::KnownMotion;
-use crate::kinematics::motion::Motion;
+use crate::kinematics::chain::JointKind;
 use roxmltree::{Document, Node as Element};
-use rug::Rational;
+use std::collections::HashSet;
 use std::path::Path;
 
-/// Maximum number of joints between base and tip, fixed ones included; their exact rotations then have half a million digits.
-pub(super) const LONGEST: usize = 100;
-
-/// Reads the arm between two links; it has no pose.
+/// Reads the arm between two links of a robot, described by URDF or MJCF; it has no pose.
 pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str, options: &Options) -> Result<Entry> {
     let document = parse(scope, text)?;
     let robot = document.root_element();
-    if robot.tag_name().name() != "robot" {
-        let found: String = robot.tag_name().name().chars().take(40).collect();
-        return Err(scope.fail(line(robot), format!("found <{found}>, expected <robot>")));
+    match robot.tag_name().name() {
+        "robot" => {}
+        "mujoco" => return mjcf::entry(scope, robot, name, options),
+        other => {
+            let found: String = other.chars().take(40).collect();
+            return Err(scope.fail(line(robot), format!("found <{found}>, expected <robot> or <mujoco>")));
+        }
     }
-    let Between { chain, links, remark } = between(scope, robot, options)?;
+    let (tree, joints) = tree(scope, robot)?;
+    let way = between(scope, &tree, options)?;
+    let chain: Vec<Element<'_, '_>> = way.path.iter().map(|joint| joints[*joint]).collect();
     let kinds = chain.iter().map(|joint| kind(scope, *joint)).collect::<Result<Vec<_>>>()?;
-    // The exact axes of a long chain have numbers of many digits, so a chain that cannot be an arm is refused first.
-    let moving: Vec<JointKind> = kinds.iter().flatten().copied().collect();
-    let expected = (6, "expected 1 to 24 for an arm; name the chain by its base and tip links");
-    check_kinds(
-        scope,
-        &moving,
-        || Freedom { variables: moving.len(), rank: None, spins: false },
-        line(robot),
-        expected,
-    )?;
-    if chain.len() > LONGEST {
-        let found = chain.len();
-        return Err(scope.fail(line(robot), format!("found a chain of {found} joints, expected at most {LONGEST}")));
+    robot_chain::check(scope, line(robot), &kinds)?;
+    let steps = chain.into_iter().zip(kinds).map(|(joint, kind)| step(scope, joint, kind)).collect::<Result<_>>()?;
+    let title = robot.attribute("name").unwrap_or(name);
+    let remarks = way.remark.into_iter().collect();
+    robot_chain::entry(scope, steps, Heading { name, title, line: line(robot), remarks, links: way.links })
+}
+
+/// Returns the links and joints of a robot, and the elements of its joints.
+fn tree<'a, 'i>(scope: &Scope<'_>, robot: Element<'a, 'i>) -> Result<(Tree, Vec<Element<'a, 'i>>)> {
+    let parts = |tag: &'static str| robot.children().filter(move |element| element.has_tag_name(tag));
+    let (all_links, elements) = (parts("link").collect::<Vec<_>>(), parts("joint").collect::<Vec<_>>());
+    if elements.len().max(all_links.len()) > LARGEST {
+        return Err(scope.fail(line(robot), format!("found more than {LARGEST} joints or links, expected a robot")));
     }
-    let origins = chain.iter().map(|joint| Origin::read(scope, *joint)).collect::<Result<Vec<_>>>()?;
-    // The axis of a fixed joint is irrelevant.
-    let moves = |(joint, kind): (&Element<'_, '_>, &Option<JointKind>)| match kind {
-        Some(_) => axis(scope, *joint),
-        None => Ok(along_x()),
+    let is_macro = |element: Element<'_, '_>| element.tag_name().namespace().is_some_and(|n| n.contains("xacro"));
+    if let Some(found) = robot.descendants().find(|element| is_macro(*element)) {
+        return Err(scope.fail(line(found), macro_found(scope)));
+    }
+    if all_links.is_empty() {
+        return Err(scope.fail(line(robot), "found a robot without links, expected at least two and a joint"));
+    }
+    only_once(scope, &all_links, "links")?;
+    only_once(scope, &elements, "joints")?;
+    let links: Vec<String> = all_links.iter().filter_map(|link| link.attribute("name")).map(str::to_owned).collect();
+    let known: HashSet<&str> = links.iter().map(String::as_str).collect();
+    let joint = |joint: &Element<'_, '_>| -> Result<Joint> {
+        let [parent, child_link] = ["parent", "child"].map(|end| end_of(scope, *joint, end, &known));
+        Ok(Joint {
+            name: joint.attribute("name").map(str::to_owned),
+            line: line(*joint),
+            is_fixed: joint.attribute("type") == Some("fixed"),
+            // A joint that follows one without a name follows some joint all the same.
+            follows: child(*joint, "mimic").map(|mimic| mimic.attribute("joint").unwrap_or_default().to_owned()),
+            parent: parent?.to_owned(),
+            child: child_link?.to_owned(),
+        })
     };
-    let axes = chain.iter().zip(&kinds).map(moves).collect::<Result<Vec<_>>>()?;
-    let field = field(&origins, &axes);
-    let (mut joints, mut limits, mut names) = (Vec::new(), Vec::new(), Vec::new());
-    let mut home = KnownMotion::identity();
-    for (((joint, kind), origin), axis) in chain.into_iter().zip(kinds).zip(origins).zip(axes) {
-        let unknown = || scope.fail(line(joint), "found an angle that is not known well enough");
-        home = home.then_after(&origin.motion(field.as_ref()).ok_or_else(unknown)?);
-        let Some(kind) = kind else { continue };
-        let (axis, point) = (home.direction(field.as_ref(), &axis), home.point(field.as_ref()));
-        joints.push(ScrewJoint { kind, axis, point, pitch: None });
-        limits.push(limit(scope, joint)?);
-        names.push(joint.attribute("name").map(str::to_owned));
+    let joints = elements.iter().map(joint).collect::<Result<_>>()?;
+    Ok((Tree::new(scope, line(robot), links, joints)?, elements))
+}
+
+/// Refuses two parts with the same name.
+pub(super) fn only_once(scope: &Scope<'_>, parts: &[Element<'_, '_>], what: &str) -> Result<()> {
+    let mut names = HashSet::new();
+    match parts.iter().find(|part| part.attribute("name").is_some_and(|name| !names.insert(name))) {
+        Some(part) => {
+            let name = part.attribute("name").unwrap_or_default();
+            Err(scope.fail(line(*part), format!("found two {what} `{name}`, expected different names")))
+        }
+        None => Ok(()),
     }
-    let home = home.placement(field.as_ref());
-    let geometry = Geometry::Screws { joints, home: Box::new(home) };
-    let chain = Chain { geometry, base: Placement::identity(), tool: Placement::identity() };
-    Ok(Entry {
-        name: name.to_owned(),
-        title: robot.attribute("name").unwrap_or(name).to_owned(),
-        source: None,
-        notes: None,
-        design: Design::Arm(chain),
-        limits,
-        cases: Vec::new(),
-        rounded: scope.is_rounded(),
-        reading: scope.reading.clone(),
-        labels: Labels {
-            joints: names,
-            links: Some(links),
-            snapped: scope.take_snapped(),
-            remarks: remark.into_iter().collect(),
-        },
-    })
+}
+
+/// Returns the link at an end of a joint, which must be one of the robot.
+fn end_of<'a>(scope: &Scope<'_>, joint: Element<'a, '_>, end: &str, links: &HashSet<&str>) -> Result<&'a str> {
+    let link = child(joint, end).and_then(|element| element.attribute("link"));
+    let link =
+        link.ok_or_else(|| scope.fail(line(joint), format!("found a joint without <{end} link=...>, expected one")))?;
+    if !links.contains(link) {
+        return Err(scope.fail(line(joint), format!("found no link `{link}`, the {end} of a joint, expected one")));
+    }
+    Ok(link)
 }
 
 /// Returns the kind of a joint; `None` for a fixed one.
@@ -149,120 +154,46 @@ pub(super) fn child<'a, 'i>(element: Element<'a, 'i>, name: &str) -> Option<Elem
     element.children().find(|child| child.has_tag_name(name))
 }
 
-/// The joints from the base link to the tip link, the names of these links, and the reason for the choice of the tip.
-struct Between<'a, 'i> {
-    chain: Vec<Element<'a, 'i>>,
-    links: [String; 2],
-    remark: Option<String>,
+/// Reads the numbers of a joint of the chain.
+fn step(scope: &Scope<'_>, joint: Element<'_, '_>, kind: Option<JointKind>) -> Result<Step> {
+    let name = joint.attribute("name");
+    // Fixed joints have no axis that counts.
+    let axis = if kind.is_some() { axis(scope, joint)? } else { along(0) };
+    Ok(Step {
+        name: name.map(str::to_owned),
+        kind,
+        origins: vec![origin(scope, joint, name.unwrap_or("a joint without name"))?],
+        axis,
+        limits: limit(scope, joint)?,
+    })
 }
 
-/// Returns the requested chain, else that of the only arm.
-fn between<'a, 'i>(scope: &Scope<'_>, robot: Element<'a, 'i>, options: &Options) -> Result<Between<'a, 'i>> {
-    let tree = Tree::read(scope, robot)?;
-    let group = match &options.group {
-        Some((path, group)) => srdf::ends(path, group, &|joint| tree.ends_of(joint))?,
-        None => srdf::Ends::default(),
-    };
-    let (base, tip) = (options.base_link.clone().or(group.base), options.tip_link.clone().or(group.tip));
-    let base = base.as_ref().map(|base| tree.known(scope, base)).transpose()?;
-    let (tip, remark) = if let Some(tip) = &tip {
-        (tree.known(scope, tip)?, None)
-    } else {
-        let tip = tip_of(scope, &tree, base)?;
-        (tip.link, Some(tip.remark))
-    };
-    let Some(path) = tree.path(base, tip, usize::MAX) else {
-        let message = format!("found no chain from link `{}` to link `{tip}`, expected one", base.unwrap_or_default());
-        return Err(scope.fail(line(robot), message));
-    };
-    let start = path.first().map_or(tip, |joint| tree.ends[*joint].0);
-    let chain = path.into_iter().map(|joint| tree.joints[joint]).collect();
-    Ok(Between { chain, links: [start.to_owned(), tip.to_owned()], remark })
+/// Reads the `<origin>` of a joint: a translation, then a rotation by roll about x after pitch about y after yaw about z.
+fn origin(scope: &Scope<'_>, joint: Element<'_, '_>, place: &str) -> Result<Origin> {
+    let mut origin = Origin { position: nowhere(), turns: Vec::new() };
+    let Some(element) = child(joint, "origin") else { return Ok(origin) };
+    if let Some(nodes) = triple(scope, element, "rpy")? {
+        for (axis, node) in nodes.iter().enumerate().rev() {
+            origin.turns.push(Turn::About(axis, scope.printed_angle(node, "rpy", place)?));
+        }
+    }
+    if let Some(nodes) = triple(scope, element, "xyz")? {
+        for (length, node) in origin.position.iter_mut().zip(&nodes) {
+            *length = scope.length(node, "xyz")?;
+        }
+    }
+    Ok(origin)
 }
 
-/// Returns the numbers of an attribute, each as a node of the attribute's line.
+/// Reads the three numbers of an attribute.
 fn triple(scope: &Scope<'_>, element: Element<'_, '_>, name: &str) -> Result<Option<[Node; 3]>> {
-    let Some(text) = element.attribute(name) else { return Ok(None) };
-    let nodes: Vec<Node> =
-        text.split_whitespace().map(|word| Node { line: line(element), value: Value::Text(word.to_owned()) }).collect();
-    let count = nodes.len();
-    <[Node; 3]>::try_from(nodes)
-        .map(Some)
-        .map_err(|_| scope.fail(line(element), format!("found {count} numbers in `{name}`, expected 3")))
-}
-
-/// The numbers of an `<origin>`: translation after roll about x, pitch about y, yaw about z.
-struct Origin {
-    angles: [Angle; 3],
-    position: [Number; 3],
-}
-
-impl Origin {
-    fn read(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<Self> {
-        let mut origin =
-            Self { angles: std::array::from_fn(|_| Angle::zero()), position: std::array::from_fn(|_| Number::zero()) };
-        let Some(element) = child(joint, "origin") else { return Ok(origin) };
-        if let Some(nodes) = triple(scope, element, "rpy")? {
-            let place = joint.attribute("name").unwrap_or("a joint without name");
-            for (angle, node) in origin.angles.iter_mut().zip(&nodes) {
-                *angle = scope.printed_angle(node, "rpy", place)?;
-            }
-        }
-        if let Some(nodes) = triple(scope, element, "xyz")? {
-            for (length, node) in origin.position.iter_mut().zip(&nodes) {
-                *length = scope.length(node, "xyz")?;
-            }
-        }
-        Ok(origin)
-    }
-
-    /// Returns the motion; `None` for an angle that is not known well enough.
-    fn motion(&self, field: Option<&RealField>) -> Option<KnownMotion> {
-        let mut exact = Motion::<Rational>::roll_pitch_yaw(&self.angles)?;
-        exact.translation = self.position.each_ref().map(|x| x.rational().clone());
-        let mut enclosed = Motion::<Enclosure>::roll_pitch_yaw(&self.angles)?;
-        enclosed.translation =
-            self.position.each_ref().map(|x| Enclosure::from_number(x).unwrap_or_else(Enclosure::zero));
-        let algebraic = field.and_then(|field| {
-            let phase = |angle: &Angle| {
-                let (cos, sin) = angle.phase()?;
-                Some((field.element(&cos)?, field.element(&sin)?))
-            };
-            let [roll, pitch, yaw] = self.angles.each_ref().map(phase);
-            let [x, y, z] = self.position.each_ref().map(|x| field.element(&x.closed()?));
-            Some(Motion { translation: [x?, y?, z?], ..Motion::turned([roll?, pitch?, yaw?]) })
-        });
-        Some(KnownMotion { exact, enclosed, algebraic })
-    }
-}
-
-/// Returns the field of all numbers of the origins and axes of a chain, if there is one.
-fn field(origins: &[Origin], axes: &[[Number; 3]]) -> Option<RealField> {
-    let mut all = Vec::new();
-    for Origin { angles, position } in origins {
-        for angle in angles {
-            let (cos, sin) = angle.phase()?;
-            all.extend([cos, sin]);
-        }
-        for length in position {
-            all.push(length.closed()?);
-        }
-    }
-    for entry in axes.iter().flatten() {
-        all.push(entry.closed()?);
-    }
-    RealField::containing(&all)
-}
-
-/// Returns the default axis of a joint.
-fn along_x() -> [Number; 3] {
-    [1, 0, 0].map(|n| Number::exact(Rational::from(n)))
+    element.attribute(name).map(|text| numbers(scope, text, line(element), name)).transpose()
 }
 
 fn axis(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<[Number; 3]> {
-    let Some(element) = child(joint, "axis") else { return Ok(along_x()) };
-    let Some(nodes) = triple(scope, element, "xyz")? else { return Ok(along_x()) };
-    let mut axis = along_x();
+    let Some(element) = child(joint, "axis") else { return Ok(along(0)) };
+    let Some(nodes) = triple(scope, element, "xyz")? else { return Ok(along(0)) };
+    let mut axis = along(0);
     for (image, node) in axis.iter_mut().zip(&nodes) {
         *image = scope.number(node, Quantity::Ratio, "axis")?;
     }

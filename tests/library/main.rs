@@ -18,6 +18,7 @@ mod laws;
 mod linkage_derive;
 mod linkage_sweep;
 mod metamorphic;
+mod mjcf;
 mod mutations;
 mod overconstrained;
 mod pencil;

@@ -88,10 +88,10 @@ impl NumberOptions {
 pub struct ReadOptions {
     #[command(flatten)]
     pub numbers: NumberOptions,
-    /// URDF: the link at the root of the chain
+    /// URDF and MJCF: the link or body at the root of the chain
     #[arg(long, value_name = "LINK")]
     pub base_link: Option<String>,
-    /// URDF: the link at the end of the chain
+    /// URDF and MJCF: the link, body or site at the end of the chain
     #[arg(long, value_name = "LINK")]
     pub tip_link: Option<String>,
     /// URDF: the SRDF file of the planning group that names the chain
@@ -100,7 +100,7 @@ pub struct ReadOptions {
     /// URDF: the planning group of the SRDF file
     #[arg(long, value_name = "NAME", requires = "srdf")]
     pub group: Option<String>,
-    /// URDF and DH tables: take truncated multiples of pi (1.5708, 3.14159) as the angles meant
+    /// URDF, MJCF and DH tables: take truncated multiples of pi (1.5708, 3.14159) as the angles meant
     #[arg(long)]
     pub snap: bool,
 }
@@ -195,7 +195,7 @@ pub enum Limits {
 #[derive(Args, Clone)]
 #[command(after_help = help::SOLVE)]
 pub struct SolveOptions {
-    /// A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input
+    /// A file (TOML, JSON, DH table as CSV, URDF, MJCF), the name of a built-in entry, or - for standard input
     pub mechanism: String,
     /// List complex solutions too
     #[arg(long)]
@@ -276,7 +276,7 @@ fn way() -> impl TypedValueParser<Value = Way> {
 #[derive(Args)]
 #[command(after_help = help::DERIVE)]
 pub struct DeriveOptions {
-    /// A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input; of several
+    /// A file (TOML, JSON, DH table as CSV, URDF, MJCF), the name of a built-in entry, or - for standard input; of several
     /// poses or inputs the first one, unless one is asked for; with --bless files and folders
     #[arg(required = true, value_name = "MECHANISM")]
     pub mechanisms: Vec<String>,
@@ -456,7 +456,7 @@ pub struct ViewOptions {
     pub open: bool,
 }
 
-const VIEWED: &str = "A file (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or what solve, sweep, mobility or bench --json has \
+const VIEWED: &str = "A file (TOML, JSON, DH table as CSV, URDF, MJCF), the name of a built-in entry, or what solve, sweep, mobility or bench --json has \
                       written (- for standard input)";
 
 /// `looproot conditions`
@@ -734,7 +734,7 @@ fn target() -> impl TypedValueParser<Value = Target> {
 #[derive(Args)]
 #[command(after_help = help::CONVERT)]
 pub struct ConvertOptions {
-    /// A file of an arm (TOML, JSON, DH table as CSV, URDF), the name of a built-in entry, or - for standard input
+    /// A file of an arm (TOML, JSON, DH table as CSV, URDF, MJCF), the name of a built-in entry, or - for standard input
     pub mechanism: String,
     /// The format; opw is the seven lengths of arms with an ortho-parallel base and a spherical wrist
     #[arg(long, value_name = "FORMAT", value_parser = target())]
