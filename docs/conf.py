@@ -36,8 +36,7 @@ looproot = os.environ["LOOPROOT"]
 run_folder = str(ROOT / "target" / "docs" / "run")
 
 autodoc_member_order = "bysource"
-autodoc_typehints = "description"
-autodoc_typehints_description_target = "documented"
+autodoc_typehints = "signature"
 python_use_unqualified_type_names = True
 
 # Links to other sites are looked up by `docs/build --links` only.
@@ -52,5 +51,3 @@ html_copy_source = False
 html_show_sphinx = False
 # Pages are read from a disk, too: nothing is fetched.
 html_theme_options = {"sidebar_hide_name": False}
-pygments_style = "sphinx"
-pygments_dark_style = "monokai"

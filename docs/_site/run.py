@@ -19,12 +19,21 @@ from typing import Any
 
 from docutils import nodes
 from docutils.parsers.rst import directives
+from pygments.lexer import RegexLexer, bygroups
+from pygments.token import Generic, Text
 from sphinx.application import Sphinx
 from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective
 
 # A command of a page ends within seconds; one that does not is at fault, and the build should say which.
 SECONDS = 120
+
+
+class Transcript(RegexLexer):
+    """Commands behind a prompt, all else is what they print."""
+
+    name = "transcript"
+    tokens = {"root": [(r"^([$>] )(.*\n)", bygroups(Generic.Prompt, Text)), (r".*\n", Generic.Output)]}
 
 
 class Runs(SphinxDirective):
@@ -46,6 +55,14 @@ class Runs(SphinxDirective):
     def fault(self, text: str) -> None:
         """Told as a warning, which ends the build when every page has been read."""
         logging.getLogger(__name__).warning("%s", text, location=(self.env.docname, self.lineno))
+
+    def published(self, path: Path) -> str:
+        """The link to a copy of a file in the site."""
+        place = Path("pages") / self.env.docname.replace("/", "-") / path.name
+        target = Path(self.env.app.outdir) / place
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, target)
+        return os.path.relpath(place, Path(self.env.docname).parent)
 
     def block(self, text: str, language: str) -> nodes.literal_block:
         node = nodes.literal_block(text, text, language=language)
@@ -85,7 +102,7 @@ class Run(Runs):
             output = self.output(command, code)
             if "quiet" not in self.options:
                 shown.extend(output)
-        return [self.block("\n".join(shown), "console")]
+        return [self.block("\n".join(shown), "transcript")]
 
     def output(self, command: str, expected: int) -> list[str]:
         place = Path(self.config.looproot)
@@ -127,6 +144,7 @@ class File(Runs):
     """A file that the commands of the page read, with its name above it."""
 
     required_arguments = 1
+    option_spec = {"folded": directives.flag}
 
     def run(self) -> list[nodes.Node]:
         name = self.arguments[0]
@@ -135,9 +153,13 @@ class File(Runs):
         language = {"toml": "toml", "urdf": "xml", "py": "python", "json": "json"}.get(name.rpartition(".")[2], "text")
         block = self.block(text.rstrip("\n"), language)
         box = nodes.container("", literal_block=True, classes=["literal-block-wrapper"])
-        box += nodes.caption(name, "", nodes.literal(name, name))
+        link = self.published(self.folder / name)
+        box += nodes.caption(name, "", nodes.literal(name, name), nodes.Text(" "), nodes.reference("", "download", refuri=link))
         box += block
-        return [box]
+        if "folded" not in self.options:
+            return [box]
+        summary = f"<details><summary><code>{name}</code>: show the file</summary>"
+        return [nodes.raw("", summary, format="html"), box, nodes.raw("", "</details>", format="html")]
 
 
 class Python(Runs):
@@ -168,6 +190,7 @@ class Made(Runs):
     """A picture or a page that a block before this one has written. The text of the block says what is seen."""
 
     required_arguments = 1
+    option_spec = {"width": directives.unchanged}
 
     def run(self) -> list[nodes.Node]:
         path = self.folder / self.arguments[0]
@@ -177,7 +200,7 @@ class Made(Runs):
         text = " ".join(self.content)
         if path.suffix == ".html":
             return [self.page(path, text)]
-        image = nodes.image(uri="/" + os.path.relpath(path, self.env.srcdir), alt=text, width="100%")
+        image = nodes.image(uri="/" + os.path.relpath(path, self.env.srcdir), alt=text, width=self.options.get("width", "100%"))
         figure = nodes.figure("", image, classes=["made"])
         self.set_source_info(figure)
         if text:
@@ -186,11 +209,7 @@ class Made(Runs):
         return [figure]
 
     def page(self, path: Path, text: str) -> nodes.Node:
-        place = Path("pages") / (self.env.docname.replace("/", "-") + "-" + path.name)
-        target = Path(self.env.app.outdir) / place
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(path, target)
-        link = os.path.relpath(place, Path(self.env.docname).parent)
+        link = self.published(path)
         return nodes.raw(
             "",
             f'<figure class="made"><iframe src="{link}" title="{text}" loading="lazy"></iframe>'
@@ -212,6 +231,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_config_value("looproot", None, "", str)
     app.add_config_value("run_folder", None, "", str)
     app.add_config_value("run_log", [], "", list)
+    app.add_lexer("transcript", Transcript)
     app.add_directive("run", Run)
     app.add_directive("file", File)
     app.add_directive("python", Python)
