@@ -33,7 +33,7 @@ from ._answers import Batch
 from ._arm import Arm, from_file, robot
 from ._functions import names
 
-__all__ = ["Poses", "Report", "alone", "joined", "results", "run"]
+__all__ = ["Poses", "Report", "alone", "joined", "read", "results", "run"]
 
 Job = Callable[[int], Mapping[str, Any]]
 
@@ -242,7 +242,16 @@ def joined(folder: str | os.PathLike[str]) -> Batch:
     parts = list(results(folder))
     if not parts:
         raise ValueError(f"found no chunks in {folder}, expected some")
+    return _batch(parts)
 
+
+def read(path: str | os.PathLike[str]) -> Batch:
+    """The answers that ``looproot solve ARM --poses poses.npy -o answers.npz`` has written, or one chunk of :class:`Poses`."""
+    with np.load(path, allow_pickle=False) as found:
+        return _batch([dict(found)])
+
+
+def _batch(parts: list[dict[str, Any]]) -> Batch:
     def together(name: str) -> Any:
         return np.concatenate([part[name] for part in parts])
 

@@ -38,6 +38,8 @@ def test_chunks_are_the_whole_and_errors_keep_their_index(tmp_path: Path) -> Non
     found = batch.joined(tmp_path / "out")
     assert list(found.errors) == [17] and found.status[17] == "error"
     same(found, place)
+    part = batch.read(tmp_path / "out" / "chunk-00000003.npz")
+    assert list(part.errors) == [2] and np.array_equal(part[0], found[15])
 
 
 def test_a_missing_chunk_is_done_again_and_a_half_written_one_does_not_count(tmp_path: Path) -> None:

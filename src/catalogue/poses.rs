@@ -49,6 +49,8 @@ pub struct PoseRows<'a> {
     columns: Vec<(usize, String)>,
     /// The power of ten of the unit of each length column, in metres, if all have one.
     powers: Option<Vec<i32>>,
+    /// Whether the numbers were doubles before they were decimals: their digits do not say how well they are known.
+    are_doubles: bool,
 }
 
 impl<'a> PoseRows<'a> {
@@ -61,7 +63,7 @@ impl<'a> PoseRows<'a> {
         let reading = reading.clone();
         let first = first.trim_start_matches('\u{feff}').trim();
         if first.starts_with('{') {
-            return Ok((Self { path, design, reading, form: Form::Objects, columns: Vec::new(), powers: None }, true));
+            return Ok((Self { path, design, reading, form: Form::Objects, columns: Vec::new(), powers: None, are_doubles: false }, true));
         }
         let names: Vec<&str> = first.split(',').map(|name| name.trim().trim_matches('"')).collect();
         for (form, own) in
@@ -71,11 +73,17 @@ impl<'a> PoseRows<'a> {
             let Some(columns) = columns.filter(|columns| columns.len() == own.len()) else { continue };
             if (0..own.len()).all(|k| columns.iter().any(|(place, _)| *place == k)) {
                 let powers = columns.iter().map(|(place, unit)| power(form, *place, unit, &reading)).collect();
-                return Ok((Self { path, design, reading, form, columns, powers }, false));
+                return Ok((Self { path, design, reading, form, columns, powers, are_doubles: false }, false));
             }
         }
         let found: String = first.chars().take(60).collect();
         Err(Error::Invalid(format!("found the header `{found}`, {EXPECTED}")).at(path, line))
+    }
+
+    /// Returns the same reader for rows whose numbers are doubles.
+    #[must_use]
+    pub fn of_doubles(self) -> Self {
+        Self { are_doubles: true, ..self }
     }
 
     /// Returns the pose of a row.
@@ -94,7 +102,7 @@ impl<'a> PoseRows<'a> {
         }
         if let Some((placement, typed)) = self.of_decimals(&cells) {
             let case = of_design(self.design, placement, line);
-            return Ok(Case { typed: Some(typed), ..case });
+            return Ok(Case { typed: (!self.are_doubles).then_some(typed), ..case });
         }
         let mut values = vec![String::new(); cells.len()];
         for ((place, unit), cell) in self.columns.iter().zip(&cells) {
@@ -103,7 +111,7 @@ impl<'a> PoseRows<'a> {
         let (placement, warning) = self.placement(&values).map_err(|fault| fault.at(self.path, line))?;
         let mut case = of_design(self.design, placement, line);
         case.warnings.extend(warning);
-        case.typed = Some(self.typed(&values));
+        case.typed = (!self.are_doubles).then(|| self.typed(&values));
         Ok(case)
     }
 
@@ -278,7 +286,7 @@ pub fn typed_pose(text: &str, design: &Design, reading: &Reading) -> Result<Case
         (3, 3) => Form::Angles,
         (lengths, others) => return Err(fail(&format!("{lengths} and {others} values in --at"))),
     };
-    let rows = PoseRows { path: "--at", design, reading: reading.clone(), form, columns: Vec::new(), powers: None };
+    let rows = PoseRows { path: "--at", design, reading: reading.clone(), form, columns: Vec::new(), powers: None, are_doubles: false };
     let (placement, warning) = rows.placement(&values)?;
     let mut case = of_design(design, placement, 1);
     case.warnings.extend(warning);

@@ -1,5 +1,6 @@
 //! The tests that run the program.
 
+mod arrays;
 mod book;
 mod cli;
 mod conditions;

@@ -215,7 +215,7 @@ pub struct SolveOptions {
     #[command(flatten)]
     pub asked: CaseOptions,
     /// Many poses, one a row: CSV with the header x,y,z,qw,qx,qy,qz or x,y,z,roll,pitch,yaw or m00,...,m23 (a suffix gives a
-    /// unit: x_mm, roll_deg), or JSON lines; - for standard input
+    /// unit: x_mm, roll_deg), JSON lines, or an array of numpy (n, 4, 4) or (n, 7) in metres; - for standard input
     #[arg(long, value_name = "FILE", conflicts_with_all = ["pose", "input", "joints", "legs", "at"])]
     pub poses: Option<String>,
     #[command(flatten)]

@@ -25,6 +25,8 @@ pub mod linkage_sweep;
 pub mod list;
 pub mod mobility;
 pub mod motion;
+mod npy;
+mod npz;
 pub mod order;
 pub mod output;
 pub mod poly;

@@ -1,5 +1,6 @@
 //! The poses of `--poses`, read row by row while others are solved.
 
+use super::npy::{Array, MAGIC};
 use looproot::internal::catalogue::entry::{Case, Design};
 use looproot::internal::catalogue::poses::PoseRows;
 use looproot::internal::error::Error;
@@ -25,17 +26,25 @@ pub struct Rows<'a> {
     line: usize,
     /// A row that was read to determine the form of the table.
     first: Option<Row>,
+    /// The array that the file is, where it is none of text.
+    array: Option<Array>,
 }
 
 /// Opens a table of poses, or standard input.
 pub fn open<'a>(path: &'a str, design: &'a Design, reading: &Reading) -> Result<(PoseRows<'a>, Rows<'a>), Error> {
-    let input: Box<dyn BufRead + Send> = if path == "-" {
+    let mut input: Box<dyn BufRead + Send> = if path == "-" {
         Box::new(BufReader::new(std::io::stdin()))
     } else {
         let file = File::open(path).map_err(|fault| Error::Io { path: path.to_owned(), message: fault.to_string() })?;
         Box::new(BufReader::with_capacity(1 << 20, file))
     };
-    let mut rows = Rows { path, input, line: 0, first: None };
+    let begin = input.fill_buf().map_err(|fault| Error::Io { path: path.to_owned(), message: fault.to_string() })?;
+    if begin.starts_with(MAGIC) {
+        let array = Array::open(&mut input).map_err(|fault| fault.at(path, 1))?;
+        let (reader, _) = PoseRows::of(array.header(), 1, path, design, reading)?;
+        return Ok((reader.of_doubles(), Rows { path, input, line: 0, first: None, array: Some(array) }));
+    }
+    let mut rows = Rows { path, input, line: 0, first: None, array: None };
     let Some(first) = rows.next() else {
         return Err(Error::Invalid("found no rows, expected a table of poses".to_owned()).at(path, 1));
     };
@@ -51,6 +60,19 @@ impl Iterator for Rows<'_> {
     fn next(&mut self) -> Option<Row> {
         if let Some(first) = self.first.take() {
             return Some(first);
+        }
+        if let Some(array) = &self.array {
+            if self.line >= array.count {
+                return None;
+            }
+            self.line += 1;
+            let line = self.line;
+            let text = array.row(line, &mut self.input).map_err(|fault| fault.at(self.path, line));
+            // What a file ends before is missed once.
+            if text.is_err() && self.input.fill_buf().is_ok_and(<[u8]>::is_empty) {
+                self.line = array.count;
+            }
+            return Some(Row { line, text });
         }
         loop {
             let mut bytes = Vec::new();
