@@ -80,7 +80,7 @@ pub(super) fn entry(scope: &Scope<'_>, model: Element<'_, '_>, name: &str, optio
     let classes = classes(scope, model)?;
     let worlds: Vec<Element<'_, '_>> = model.children().filter(|own| own.has_tag_name("worldbody")).collect();
     let bodies: Vec<Element<'_, '_>> =
-        worlds.iter().flat_map(|own| own.descendants()).filter(|own| own.has_tag_name("body")).collect();
+        worlds.iter().flat_map(Element::descendants).filter(|own| own.has_tag_name("body")).collect();
     if bodies.is_empty() {
         refuse_include(scope, model)?;
         return Err(scope.fail(line(model), "found a model without bodies, expected a robot"));

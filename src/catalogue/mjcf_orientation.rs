@@ -83,7 +83,7 @@ impl Orientations {
         let found = own.map(|(kind, text)| (kind, (text, line(part.element)))).or_else(inherited);
         let Some((kind, (text, at))) = found else { return Ok(Vec::new()) };
         match kind {
-            "quat" => self.quaternion(scope, text, at, part.place()),
+            "quat" => Self::quaternion(scope, text, at, part.place()),
             "euler" => self.euler(scope, text, at, part.place()),
             "axisangle" => self.axis_angle(scope, text, at, part.place()),
             "xyaxes" => {
@@ -111,7 +111,7 @@ impl Orientations {
         }
     }
 
-    fn quaternion(&self, scope: &Scope<'_>, text: &str, at: usize, place: &str) -> Result<Vec<Turn>> {
+    fn quaternion(scope: &Scope<'_>, text: &str, at: usize, place: &str) -> Result<Vec<Turn>> {
         let nodes = numbers::<4>(scope, text, at, "quat")?;
         let mut exact: [Number; 4] = std::array::from_fn(|_| Number::zero());
         for (number, node) in exact.iter_mut().zip(&nodes) {

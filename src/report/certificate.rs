@@ -35,7 +35,7 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
         let claim = json!({ "verb": "solve", "status": "unreachable", "proof": "proved", "real": 0 });
         distance.map(|proof| (claim, Vec::new(), proof)).ok_or(reason)
     })?;
-    accepted(info, data, claim, &balls, proof)
+    accepted(&info, &data, &claim, &balls, &proof)
 }
 
 /// Returns the claim of an answer that counts all its solutions, a ball around each, and the item that bounds their number.
@@ -84,11 +84,11 @@ pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, 
         "proof": "proved",
         "mobility": dimension,
     });
-    accepted(info, data, claim, &balls, proof)
+    accepted(&info, &data, &claim, &balls, &proof)
 }
 
 /// Returns the certificate of these parts, once the checker has accepted it.
-fn accepted(info: Value, data: Value, claim: Value, balls: &[Ball], proof: Value) -> Result<Value, String> {
+fn accepted(info: &Value, data: &Value, claim: &Value, balls: &[Ball], proof: &Value) -> Result<Value, String> {
     let certificate = json!({
         "format": FORMAT,
         "version": VERSION,

@@ -245,13 +245,11 @@ fn grouped(linkage: &Linkage, held: &[usize]) -> Result<Groups> {
 fn given(linkage: &Linkage, joint: usize, number: usize) -> Given {
     let [a, b] = TRIED[number % TRIED.len()];
     let value = Rational::from((a, b));
-    match &linkage.joints[joint].pair {
-        Pair::Prismatic { length, .. } => Given::Shift { joint, shift: value / length, line: 1 },
-        _ => {
-            let square = Rational::from(value.square_ref());
-            let whole = Rational::from(&square + 1);
-            let turn = Gaussian { re: (1 - square) / &whole, im: value * 2 / whole };
-            Given::Turn { joint, turn, line: 1 }
-        }
+    if let Pair::Prismatic { length, .. } = &linkage.joints[joint].pair {
+        return Given::Shift { joint, shift: value / length, line: 1 };
     }
+    let square = Rational::from(value.square_ref());
+    let whole = Rational::from(&square + 1);
+    let turn = Gaussian { re: (1 - square) / &whole, im: value * 2 / whole };
+    Given::Turn { joint, turn, line: 1 }
 }

@@ -209,22 +209,21 @@ fn signature(mut matrix: Vec<Vec<Rational>>) -> [usize; 2] {
     let mut signs = [0, 0];
     let mut open: Vec<usize> = (0..size).collect();
     while !open.is_empty() {
-        let pivot = match open.iter().copied().find(|k| matrix[*k][*k] != 0) {
-            Some(pivot) => pivot,
-            None => {
-                let pair = open.iter().flat_map(|a| open.iter().map(move |b| (*a, *b))).find(|(a, b)| matrix[*a][*b] != 0);
-                let Some((a, b)) = pair else { return signs };
-                // With a replaced by a + b the diagonal is 2 q_ab.
-                for k in 0..size {
-                    let own = matrix[b][k].clone();
-                    matrix[a][k] += own;
-                }
-                for row in &mut matrix {
-                    let own = row[b].clone();
-                    row[a] += own;
-                }
-                a
+        let pivot = if let Some(pivot) = open.iter().copied().find(|k| matrix[*k][*k] != 0) {
+            pivot
+        } else {
+            let pair = open.iter().flat_map(|a| open.iter().map(move |b| (*a, *b))).find(|(a, b)| matrix[*a][*b] != 0);
+            let Some((a, b)) = pair else { return signs };
+            // With a replaced by a + b the diagonal is 2 q_ab.
+            for k in 0..size {
+                let own = matrix[b][k].clone();
+                matrix[a][k] += own;
             }
+            for row in &mut matrix {
+                let own = row[b].clone();
+                row[a] += own;
+            }
+            a
         };
         signs[usize::from(matrix[pivot][pivot] < 0)] += 1;
         open.retain(|k| *k != pivot);

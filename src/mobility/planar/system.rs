@@ -240,7 +240,7 @@ fn displacements(
         }
         let columns: Vec<Gaussian> = open.iter().map(|slide| of(*slide)).collect();
         for part in [|z: &Gaussian| z.re.clone(), |z: &Gaussian| z.im.clone()] {
-            rows.push(columns.iter().map(part).chain([Rational::from(-part(&rest))]).collect());
+            rows.push(columns.iter().map(part).chain([-part(&rest)]).collect());
         }
     }
     let reduced = super::series::Reduced::of(&rows, open.len());
