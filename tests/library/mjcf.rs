@@ -1,4 +1,5 @@
 //! Models for `MuJoCo`: the arm that is read is the one that the same frames make, written here as a robot description or by hand.
+#![allow(clippy::unwrap_used)]
 
 use looproot::Error;
 use looproot::internal::catalogue::entry::Entry;
@@ -31,11 +32,8 @@ fn are_the_same(one: &Entry, other: &Entry, joints: usize) {
 
 /// A chain of hinges about z, body k in the frame before it by `frames[k]`, with a site at the end.
 fn model(compiler: &str, frames: &[&str]) -> String {
-    let bodies: String = frames
-        .iter()
-        .enumerate()
-        .map(|(k, frame)| format!("<body name=\"b{k}\" pos=\"0.1 -0.2 0.3\" {frame}><joint/>"))
-        .collect();
+    let body = |(k, frame)| format!("<body name=\"b{k}\" pos=\"0.1 -0.2 0.3\" {frame}><joint/>");
+    let bodies = frames.iter().enumerate().map(body).collect::<Vec<_>>().concat();
     let ends = "</body>".repeat(frames.len());
     format!("<mujoco>{compiler}<worldbody>{bodies}<site name=\"tip\" pos=\"0 0.1 0.2\"/>{ends}</worldbody></mujoco>")
 }

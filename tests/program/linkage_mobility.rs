@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Three cranks on a plate; the third one has its pivot C and its length.
@@ -32,7 +32,7 @@ fn run(path: &str, more: &[&str]) -> (i32, String, String) {
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
-fn document(path: &PathBuf) -> (i32, Value) {
+fn document(path: &Path) -> (i32, Value) {
     let (code, out, _) = run(path.to_str().unwrap(), &["--json"]);
     (code, serde_json::from_str(&out).unwrap())
 }

@@ -13,7 +13,7 @@ fn model(number: u32) -> String {
         count += 1.0;
         (count * 2f64.sqrt()).fract() * 2.0 - 1.0
     };
-    let is_degrees = number % 2 == 0;
+    let is_degrees = number.is_multiple_of(2);
     let unit = if is_degrees { 100.0 } else { 1.7 };
     let mut text = format!(
         "<mujoco><compiler angle=\"{}\" eulerseq=\"{}\"/><default><joint axis=\"1 0 0\"/><default class=\"c\">\

@@ -50,8 +50,8 @@ impl Column {
     }
 
     fn head(&self) -> Vec<u8> {
-        let tail: String = self.tail.iter().map(|size| format!(" {size},")).collect();
-        head(&self.kind, &format!("({},{tail})", self.rows))
+        let sizes: Vec<String> = std::iter::once(&self.rows).chain(&self.tail).map(ToString::to_string).collect();
+        head(&self.kind, &format!("({},)", sizes.join(", ")))
     }
 }
 
