@@ -45,6 +45,8 @@ LEFT_OUT = {
     "PATH...": "stands for paths",
     "--atlas": "derives the whole library; a test compares the atlas",
     "conditions 6R": "searches for minutes",
+    "bench speed --set robots": "times a hundred robots: minutes without optimisation",
+    "bench speed --set special-loops": "minutes without optimisation",
 }
 # Pages show what a mistake is answered with.
 MISTAKES = {
