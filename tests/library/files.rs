@@ -627,9 +627,14 @@ fn the_tip_of_the_only_arm_is_found_by_its_name() {
     assert!(robot.labels.remarks[0].contains("the tip is link `ns/ee_link`"), "{:?}", robot.labels.remarks);
     let named: Vec<_> = robot.labels.joints.iter().flatten().map(String::as_str).collect();
     assert_eq!(named, ["waist", "shoulder", "elbow", "wrist"]);
-    // Without a name that shows it, the arm and the finger beyond it are both possible.
-    let unnamed = read(&GRIPPER.replace("ns/ee_link", "palm"), &Options::default()).unwrap_err().to_string();
-    assert!(unnamed.contains("found 3 end links (camera, left, right)"), "{unnamed}");
+    // Without a name that shows it, it is the last link before the fingers, of which one follows the other.
+    let unnamed = read(&GRIPPER.replace("ns/ee_link", "palm"), &Options::default()).unwrap();
+    assert_eq!(unnamed.labels.links, Some(["world".to_owned(), "palm".to_owned()]));
+    assert!(unnamed.labels.remarks[0].contains("the last link of the only arm"), "{:?}", unnamed.labels.remarks);
+    // Fingers that move on their own are ends of arms, too.
+    let apart = GRIPPER.replace("ns/ee_link", "palm").replace("<mimic joint=\"finger\"/>", "");
+    let fault = read(&apart, &Options::default()).map(|_| ()).unwrap_err().to_string();
+    assert!(fault.contains("found 3 end links (camera, left, right)"), "{fault}");
     let tip = Options { tip_link: Some("palm".to_owned()), ..Options::default() };
     assert_eq!(read(&GRIPPER.replace("ns/ee_link", "palm"), &tip).unwrap().chain().unwrap().freedoms(), 4);
 }
