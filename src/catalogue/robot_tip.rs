@@ -103,9 +103,9 @@ fn arms<'a>(tree: &'a Tree, base: Option<&str>) -> BTreeMap<Vec<usize>, Arm<'a>>
             arm.leaves.push(link);
         }
     }
-    // If more joints follow, it is the middle of an arm, unless a link ends there or is named as a tip.
+    // If more joints follow, or too many are there, it is the middle of an arm, unless a link ends there or is named as a tip.
     let all: Vec<Vec<usize>> = arms.keys().cloned().collect();
     let is_middle = |joints: &[usize]| all.iter().any(|other| other.len() > joints.len() && other.starts_with(joints));
-    arms.retain(|joints, arm| !is_middle(joints) || !arm.leaves.is_empty() || arm.named().is_some());
+    arms.retain(|joints, arm| (JOINTS.contains(&joints.len()) && !is_middle(joints)) || !arm.leaves.is_empty() || arm.named().is_some());
     arms
 }
