@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PAGES = ["README.md", "equations/README.md", "python/README.md", "c/README.md", "CONTRIBUTING.md"]
-# Those of tutorials and how-tos are run by the build itself.
+# The build itself runs the commands of tutorials and how-tos.
 FOLDERS = ["docs"]
 SECONDS = 300
 # The answers of a verdict. A command that shows a mistake stands in MISTAKES.

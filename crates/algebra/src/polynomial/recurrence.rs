@@ -9,7 +9,7 @@ use crate::residue_polynomial::{Residues, common_divisor, divide, make_monic, pr
 
 /// Primes `c 2^m + 1` below this power of two are used.
 const PRIME_BITS: u32 = 61;
-/// So many bits are left to c at least: among as many odd numbers there are several primes.
+/// Minimum number of bits left to c: among that many odd numbers there are several primes.
 const ODD_BITS: u32 = 7;
 /// A logarithm is found in windows of so many bits.
 const WINDOW: u32 = 4;

@@ -24,7 +24,7 @@ use rug::Integer;
 const PREPARATION: f64 = 2e4;
 /// What one root of a recurrence costs, in products of residues for each term of the recurrence.
 const ROOT: f64 = 150.0;
-/// So many bits of a prime have to be left over for its residues to be taken for the coefficients themselves.
+/// Bits of a prime that must be left over before its residues are taken for the coefficients themselves.
 const SPARE_BITS: u32 = 8;
 /// Bits per unit of degree by which factors may have longer coefficients than products: `log2 e` (Gelfond's bound).
 const GROWTH: f64 = std::f64::consts::LOG2_E;

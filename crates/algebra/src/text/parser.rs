@@ -21,7 +21,7 @@ use std::cmp::Ordering;
 const DEEPEST: usize = 500;
 /// Room is made for this many terms before they are read.
 const MOST_EXPECTED: usize = 1 << 16;
-/// So many digits make an exponent that needs no look at its size.
+/// Number of digits up to which an exponent needs no check of its size.
 const MOST_EXPONENT_DIGITS: usize = 6;
 /// Powers of numbers may have this many bits in one text, all taken together.
 const LARGEST_POWERS: u64 = 100_000_000;

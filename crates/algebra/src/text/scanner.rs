@@ -9,7 +9,7 @@ use rug::{Integer, Rational, ops::Pow};
 /// Largest decimal exponent read, as in `1e-400`.
 const LARGEST_EXPONENT: u32 = 400;
 
-/// So many digits fit a machine word; up to so many are put together word by word, which general conversion is slower at.
+/// The digits that fit a machine word, and the most that are put together word by word, which is faster than general conversion.
 pub(super) const WORD_DIGITS: usize = 18;
 const FEW_DIGITS: usize = 200;
 /// `10^WORD_DIGITS`
