@@ -109,6 +109,8 @@ fn route(group: &Solution) -> String {
     match group.route {
         Route::Quadratic => "quadratic".to_owned(),
         Route::Pencil(rows) => format!("pencil of {rows} rows"),
+        Route::Gears(1) => "Gröbner basis of a pair of gears".to_owned(),
+        Route::Gears(pairs) => format!("Gröbner basis of {pairs} pairs of gears"),
     }
 }
 
@@ -126,12 +128,16 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     let complete = found.doubt.is_none() && found.curves.is_empty();
     let real_curves = found.curves.iter().filter(|(state, _)| state.real).count();
     let rounded = Proof::Proved.of_rounded(!exact);
-    let pencils = found.groups.iter().any(|group| group.route != Route::Quadratic);
-    let code = if pencils { Code::ExactRootsMatched } else { Code::GeneralBoundMet };
-    let because = if pencils {
-        "every root of the exact closure polynomials is a certified assembly"
-    } else {
-        "dyads have two each"
+    let has = |wanted: fn(&Route) -> bool| found.groups.iter().any(|group| wanted(&group.route));
+    let (pencils, gears) = (has(|r| matches!(r, Route::Pencil(_))), has(|r| matches!(r, Route::Gears(_))));
+    let code = if pencils || gears { Code::ExactRootsMatched } else { Code::GeneralBoundMet };
+    let because = match (pencils, gears) {
+        (true, false) => "every root of the exact closure polynomials is a certified assembly",
+        (false, false) => "dyads have two each",
+        (false, true) => "Gröbner bases over the rationals count those of gears, dyads have two each",
+        (true, true) => {
+            "every root of the exact closure polynomials is a certified assembly, Gröbner bases over the rationals count those of gears"
+        }
     };
     let (status, proof, code, reason) = if real_curves > 0 {
         let list = match &found.doubt {

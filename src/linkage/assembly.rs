@@ -1,15 +1,17 @@
 //! All assemblies of a linkage: its groups solved one after the other, branch by branch.
 
 use super::equations::{Closure, Equations};
+use super::geared_groups::geared_groups;
+use super::gears::{geared, teeth};
 use super::general::general;
-use super::groups::{Group, Groups, MOST_CLUSTERS, Merged, groups};
+use super::groups::{Group, Groups, MOST_CLUSTERS, Merged};
 use super::isotropic::{Isotropic, Value};
 use super::krawczyk::conjugate;
 use super::quadratic::{Root, Solved, one_cycle};
 use super::state::{Number, State, place_of};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
-use crate::kinematics::linkage::{Given, Linkage};
+use crate::kinematics::linkage::{Given, Linkage, Pair};
 
 /// Towers of more generators are not built: the work doubles with each of them.
 const DEEP: usize = 5;
@@ -27,6 +29,8 @@ pub enum Route {
     Quadratic,
     /// A matrix with this many rows.
     Pencil(usize),
+    /// The equations of this many pairs of gears and of the cycles.
+    Gears(usize),
 }
 
 /// The solution of a group.
@@ -91,19 +95,16 @@ pub fn glued(linkage: &Linkage, given: &[Given]) -> Result<(Merged, Vec<Link>)> 
 /// # Errors
 /// Where inputs are too few, too many, or meet a rigid part; where a group is beyond what is implemented.
 pub fn groups_of(linkage: &Linkage, given: &[Given]) -> Result<Groups> {
-    if let Some(gear) = linkage.joints.iter().find(|joint| joint.is_gear()) {
-        return Err(Error::Unsupported(format!("gears such as {} are read, but not solved yet", gear.name)));
-    }
     let (merged, joints) = glued(linkage, given)?;
-    let found = groups(linkage.bodies.len(), &joints, merged);
+    let gears = gears_of(linkage)?;
+    let found = geared_groups(linkage.bodies.len(), &joints, &gears, merged)?;
     let named = |group: &Group| {
         let names: Vec<&str> = group.clusters.iter().take(8).map(|body| linkage.bodies[*body].name.as_str()).collect();
         names.join(", ") + if group.clusters.len() > 8 { ", ..." } else { "" }
     };
     if let Some(group) = found.list.iter().find(|group| group.count < 0) {
-        let free: Vec<(usize, [usize; 2])> =
-            linkage.joints.iter().enumerate().map(|(index, joint)| (index, joint.of)).collect();
-        let without = groups(linkage.bodies.len(), &free, Merged::new(linkage.bodies.len()));
+        let (merged, free) = glued(linkage, &[])?;
+        let without = geared_groups(linkage.bodies.len(), &free, &gears, merged)?;
         if !given.is_empty() && without.list.iter().all(|group| group.count >= 0) {
             let message = format!(
                 "found inputs that close a rigid part ({}), expected inputs of joints that can move; without inputs the linkage has {}",
@@ -134,6 +135,18 @@ pub fn groups_of(linkage: &Linkage, given: &[Given]) -> Result<Groups> {
         )));
     }
     Ok(found)
+}
+
+/// The pairs of gears with their carriers and bodies.
+fn gears_of(linkage: &Linkage) -> Result<Vec<(usize, [usize; 3])>> {
+    let joints = linkage.joints.iter().enumerate();
+    let gears = joints.filter_map(|(index, joint)| match &joint.pair {
+        Pair::Gear { carrier, ratio, .. } => {
+            Some(teeth(ratio).map(|_| (index, [*carrier, joint.of[0], joint.of[1]])))
+        }
+        _ => None,
+    });
+    gears.collect()
 }
 
 fn freedoms(count: usize) -> String {
@@ -182,7 +195,13 @@ fn attempt(linkage: &Linkage, given: &[Given], groups: &Groups, highest: usize) 
             let Some(closure) = Closure::new(linkage, group, state) else {
                 return Err(Error::Unsupported("a group with gears".to_owned()));
             };
-            branch(&closure, group, state, &mut solution, &mut next, &mut found);
+            if group.gears.is_empty() {
+                branch(&closure, group, state, &mut solution, &mut next, &mut found);
+            } else {
+                solution.route = Route::Gears(group.gears.len());
+                let solved = geared(linkage, &closure, group, state);
+                add(solved, &closure, group, state, &mut solution, &mut next, &mut found);
+            }
         }
         found.groups.push(solution);
         branches = next;
@@ -205,41 +224,7 @@ fn branch(
 ) {
     let equations = &closure.equations;
     if equations.loops() == 1 {
-        match one_cycle(equations, &state.top) {
-            Solved::Undecided(reason) => {
-                found.doubt.get_or_insert(reason);
-            }
-            Solved::Curve(roots) => {
-                for root in &roots {
-                    let state = closure.assembled(state, &root.turns, &root.shifts);
-                    found.curves.push((state, group.joints.clone()));
-                }
-            }
-            Solved::Roots(roots) => {
-                solution.count = solution.count.max(roots.iter().map(|root| root.multiplicity).sum());
-                let real = realness(&roots);
-                if state.real && real.iter().all(|real| *real == Some(false)) {
-                    let gap = dyad_gap(equations);
-                    found.gap = [found.gap, gap].into_iter().flatten().reduce(f64::min);
-                }
-                for (root, real) in roots.iter().zip(real) {
-                    let Some(real) = (if state.real { real } else { Some(false) }) else {
-                        found.doubt.get_or_insert_with(|| UNDECIDED.to_owned());
-                        continue;
-                    };
-                    let mut next_state = closure.assembled(state, &root.turns, &root.shifts);
-                    next_state.real = real;
-                    next_state.multiplicity *= root.multiplicity;
-                    // The number whose tower is the highest holds all others.
-                    for number in root.turns.iter().chain(&root.shifts) {
-                        if let Some(exact) = number.z.exact.as_ref() {
-                            next_state.top.number = next_state.top.number.lifted(exact);
-                        }
-                    }
-                    next.push(next_state);
-                }
-            }
-        }
+        add(one_cycle(equations, &state.top), closure, group, state, solution, next, found);
         return;
     }
     let general = general(equations);
@@ -258,6 +243,53 @@ fn branch(
         let mut next_state = closure.assembled(state, &proved.root.turns, &proved.root.shifts);
         next_state.real = real;
         next.push(next_state);
+    }
+}
+
+/// Adds the assemblies that a group has in one branch.
+fn add(
+    solved: Solved,
+    closure: &Closure,
+    group: &Group,
+    state: &State,
+    solution: &mut Solution,
+    next: &mut Vec<State>,
+    found: &mut Assemblies,
+) {
+    match solved {
+        Solved::Undecided(reason) => {
+            found.doubt.get_or_insert(reason);
+        }
+        Solved::Curve(roots) => {
+            for root in &roots {
+                let state = closure.assembled(state, &root.turns, &root.shifts);
+                found.curves.push((state, group.joints.clone()));
+            }
+        }
+        Solved::Roots(roots) => {
+            solution.count = solution.count.max(roots.iter().map(|root| root.multiplicity).sum());
+            let real = realness(&roots);
+            if state.real && real.iter().all(|real| *real == Some(false)) {
+                let gap = dyad_gap(&closure.equations);
+                found.gap = [found.gap, gap].into_iter().flatten().reduce(f64::min);
+            }
+            for (root, real) in roots.iter().zip(real) {
+                let Some(real) = (if state.real { real } else { Some(false) }) else {
+                    found.doubt.get_or_insert_with(|| UNDECIDED.to_owned());
+                    continue;
+                };
+                let mut next_state = closure.assembled(state, &root.turns, &root.shifts);
+                next_state.real = real;
+                next_state.multiplicity *= root.multiplicity;
+                // The number whose tower is the highest holds all others.
+                for number in root.turns.iter().chain(&root.shifts) {
+                    if let Some(exact) = number.z.exact.as_ref() {
+                        next_state.top.number = next_state.top.number.lifted(exact);
+                    }
+                }
+                next.push(next_state);
+            }
+        }
     }
 }
 

@@ -17,7 +17,9 @@ pub struct Group {
     pub clusters: Vec<usize>,
     /// The joints between them.
     pub joints: Vec<usize>,
-    /// `3 (k - 1) - 2 e`: 0, or less where there are more joints than needed.
+    /// The pairs of gears among them.
+    pub gears: Vec<usize>,
+    /// `3 (k - 1) - 2 e`, less one for every pair of gears: 0, or less where there are more than needed.
     pub count: i64,
 }
 
@@ -146,7 +148,7 @@ impl Graph {
         joints.sort_unstable();
         let size = |list: &Vec<usize>| i64::try_from(list.len()).unwrap_or(i64::MAX / 4);
         let count = 3 * (size(&clusters) - 1) - 2 * size(&joints);
-        Group { clusters, joints, count }
+        Group { clusters, joints, gears: Vec::new(), count }
     }
 
     /// Makes one cluster of a group.

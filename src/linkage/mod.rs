@@ -2,13 +2,16 @@
 //!
 //! Inputs merge bodies; the remaining bodies split into groups, least sets of bodies that are rigid by count ([`groups`]). Each
 //! group is solved in every branch of the earlier ones: a group of one cycle by a quadratic equation ([`quadratic`]), others by
-//! Cramer's pencil ([`pencil`]), whose determinant is an exact polynomial ([`polynomial`]). The list is called complete only if
+//! Cramer's pencil ([`pencil`]), whose determinant is an exact polynomial ([`polynomial`]), and groups with gears by a Gröbner
+//! basis ([`gears`]). The list is called complete only if
 //! that polynomial has as many roots as there are certified solutions ([`krawczyk`]).
 
 pub mod answer;
 pub mod assembly;
 pub mod dynamics;
 pub mod equations;
+pub mod geared_groups;
+pub mod gears;
 pub mod general;
 pub mod grashof;
 pub mod groups;
@@ -17,6 +20,7 @@ pub mod isotropic;
 pub mod krawczyk;
 pub mod parts;
 pub mod pencil;
+mod points;
 pub mod polynomial;
 pub mod quadratic;
 pub mod rates;

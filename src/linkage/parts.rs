@@ -67,7 +67,7 @@ pub fn group_of(linkage: &Linkage, joints: Vec<usize>, merged: &mut Merged) -> G
     let clusters: Vec<usize> = bodies.into_iter().collect();
     let number = |length: usize| i64::try_from(length).unwrap_or(i64::MAX / 8);
     let count = 3 * (number(clusters.len()) - 1) - 2 * number(joints.len());
-    Group { clusters, joints, count }
+    Group { clusters, joints, gears: Vec::new(), count }
 }
 
 /// Returns the least part of one freedom, by count, that holds two bodies: the second moves against the first on a curve. `None`

@@ -66,7 +66,7 @@ pub fn pair(z: &Gaussian) -> [f64; 2] {
     [nearest_f64(&z.re), nearest_f64(&z.im)]
 }
 
-/// The closure equations of a linkage, two for every joint; gears have none.
+/// The closure equations of a linkage, two for every joint and one for every pair of gears.
 #[must_use]
 pub fn open(linkage: &Linkage, bodies: &[Body]) -> Vec<Moving> {
     let mut list = Vec::new();
@@ -84,7 +84,13 @@ pub fn open(linkage: &Linkage, bodies: &[Body]) -> Vec<Moving> {
                 list.push(wrapped(&b.angle.sub(&a.angle).sub(&angle)));
                 list.push(x.mul(&apart[1]).sub(&y.mul(&apart[0])));
             }
-            Pair::Gear { .. } => {}
+            Pair::Gear { carrier, ratio, phase } => {
+                let against = |body: &Body| body.angle.sub(&bodies[*carrier].angle);
+                let [p, q] = [ratio.numer(), ratio.denom()].map(|n| Moving::constant(n.to_f64()));
+                let [re, im] = pair(phase);
+                let phase = Moving::constant(im.atan2(re));
+                list.push(wrapped(&q.mul(&against(b).sub(&phase)).sub(&p.mul(&against(a)))));
+            }
         }
     }
     list

@@ -12,6 +12,7 @@ mod exact;
 mod examples;
 mod families;
 mod files;
+mod gears;
 mod golden;
 mod house;
 mod laws;

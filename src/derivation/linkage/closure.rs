@@ -7,7 +7,7 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::derivation::equation::primitive;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
 use crate::linkage::assembly::{Assemblies, assemblies, glued};
 use crate::linkage::equations::{Closure, Equations};
@@ -238,8 +238,12 @@ fn positive(polynomial: Univariate<Integer>) -> Univariate<Integer> {
 /// Derives the closure polynomials of all groups, and the polynomial of input and output.
 ///
 /// # Errors
-/// As [`crate::linkage::assembly::groups_of`].
+/// As [`crate::linkage::assembly::groups_of`], and for gears.
 pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDerivation> {
+    if let Some(gear) = linkage.joints.iter().find(|joint| joint.is_gear()) {
+        let message = format!("closure polynomials of linkages with gears, such as {}, are not derived", gear.name);
+        return Err(Error::Unsupported(message));
+    }
     let found = assemblies(linkage, given)?;
     let merged = glued(linkage, given)?.0;
     let is_known = found.doubt.is_none() && found.curves.is_empty();

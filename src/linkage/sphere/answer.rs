@@ -2,15 +2,15 @@
 
 use super::equations::{Cluster, System};
 use crate::algebra::disc::Disc;
-use crate::algebra::groebner::{Basis, Equation, FiniteRing, Solutions};
+use crate::algebra::groebner::{Basis, Equation};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
-use crate::algebra::univariate::Univariate;
 use crate::error::{Error, Result};
 use crate::kinematics::motion::{Vector, cross, dot};
 use crate::kinematics::sphere::{SphereGiven, SphereLinkage};
 use crate::linkage::isotropic::middle;
-use crate::mechanism::exact_loop::roots::{Root, roots};
+use crate::linkage::points::{EFFORT, Points};
+use crate::mechanism::exact_loop::roots::Root;
 use crate::verdict::{Code, Proof, Status, Verdict};
 use looproot_calculus::rotation::matrix::{Matrix, apply, from_matrix, product, transpose};
 use looproot_calculus::rotation::vectors::unit;
@@ -18,8 +18,6 @@ use num_complex::Complex;
 use rug::Rational;
 use std::time::Instant;
 
-/// Products of words that a Gröbner basis may take: some seconds.
-const EFFORT: u64 = 2_000_000_000;
 /// Bits in which axes are computed from a root, and more where they do not tell enough.
 const BITS: [u32; 4] = [320, 1280, 5120, 20_480];
 /// Relative accuracy beyond which no more bits are computed.
@@ -49,15 +47,19 @@ impl SphereMode {
     /// The quaternion of a body, of norm 1: w, x, y, z. `None` of a complex rotation whose quaternion has norm 0.
     #[must_use]
     pub fn quaternion(&self, body: usize) -> Option<[Coordinate; 4]> {
-        let q = if self.real {
-            let q = unit(&from_matrix(&self.bodies[body].map(|row| row.map(|c| c.re))))?;
-            [q.scalar, q.vector[0], q.vector[1], q.vector[2]].map(|part| Complex::new(part + 0.0, 0.0))
-        } else {
-            let q = unit(&from_matrix(&self.bodies[body]))?;
-            [q.scalar, q.vector[0], q.vector[1], q.vector[2]]
-        };
-        Some(q)
+        quaternion(&self.bodies[body], self.real)
     }
+}
+
+/// The quaternion of a rotation, of norm 1: w, x, y, z. `None` of a complex rotation whose quaternion has norm 0.
+#[must_use]
+pub fn quaternion(rotation: &Matrix<Coordinate>, real: bool) -> Option<[Coordinate; 4]> {
+    if real {
+        let q = unit(&from_matrix(&rotation.each_ref().map(|row| row.each_ref().map(|c| c.re))))?;
+        return Some([q.scalar, q.vector[0], q.vector[1], q.vector[2]].map(|part| Complex::new(part + 0.0, 0.0)));
+    }
+    let q = unit(&from_matrix(rotation))?;
+    Some([q.scalar, q.vector[0], q.vector[1], q.vector[2]])
 }
 
 /// The answer to a case.
@@ -136,37 +138,21 @@ fn verdict(modes: &[SphereMode], dimension: usize, exact: bool) -> Verdict {
 
 /// All assemblies of a finite set.
 fn modes(linkage: &SphereLinkage, system: &System, basis: &Basis) -> Option<Vec<SphereMode>> {
-    if system.unknowns == 0 {
-        return mode(linkage, system, 1, true, &|equation| constant(equation)).map(|mode| vec![mode]);
-    }
-    let solutions = Solutions::of(FiniteRing::of(basis)?, system.unknowns)?;
-    let quotients: Vec<[Univariate<Rational>; 2]> =
-        (0..system.unknowns).map(|k| solutions.quotient(&Equation::variable(k))).collect::<Option<_>>()?;
-    let mut list = Vec::new();
-    for part in &solutions.parts {
-        for root in roots(&part.polynomial)? {
-            list.push(assembled(linkage, system, &quotients, &root, part.multiplicity)?);
-        }
-    }
-    Some(list)
+    let points = Points::of(system.unknowns, basis)?;
+    points.list.iter().map(|(root, multiplicity)| assembled(linkage, system, &points, root, *multiplicity)).collect()
 }
 
 /// Returns the assembly of a root, computed with as many bits as it needs.
 fn assembled(
     linkage: &SphereLinkage,
     system: &System,
-    quotients: &[[Univariate<Rational>; 2]],
+    points: &Points,
     root: &Root,
     multiplicity: usize,
 ) -> Option<SphereMode> {
     let mut best = None;
     for bits in BITS {
-        let Some(ball) = root.ball(bits) else { break };
-        let value = |[numerator, denominator]: &[Univariate<Rational>; 2]| {
-            let inverse = ball.evaluate(denominator.coefficients()).inverse()?;
-            Some(ball.evaluate(numerator.coefficients()).mul(&inverse))
-        };
-        let Some(values) = quotients.iter().map(value).collect::<Option<Vec<Disc>>>() else { continue };
+        let Some(values) = points.values(root, bits) else { continue };
         let image = |equation: &Equation| equation.evaluate(&values);
         let found = mode(linkage, system, multiplicity, root.is_real(), &image);
         let is_enough = found.as_ref().is_some_and(|mode| mode.radius <= WANTED.max(4.0 * f64::EPSILON));
@@ -176,10 +162,6 @@ fn assembled(
         }
     }
     best
-}
-
-fn constant(equation: &Equation) -> Disc {
-    equation.evaluate(&[])
 }
 
 /// The rotation of a cluster from two of its axes.

@@ -48,7 +48,8 @@ fn scaled(v: &Vector<Equation>, q: &Rational) -> Vector<Equation> {
 }
 
 /// The coefficients of a direction in two others and their cross product.
-pub(super) fn combination(target: &Direction, one: &Direction, two: &Direction) -> [Rational; 3] {
+#[must_use]
+pub fn combination(target: &Direction, one: &Direction, two: &Direction) -> [Rational; 3] {
     let normal = cross(one, two);
     let square = dot(&normal, &normal);
     let part = |v: &Direction| Rational::from(&dot(target, v) / &square);

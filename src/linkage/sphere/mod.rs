@@ -7,5 +7,5 @@
 mod answer;
 mod equations;
 
-pub use answer::{Coordinate, SphereAnswer, SphereMode, solve};
-pub use equations::{Cluster, System};
+pub use answer::{Coordinate, SphereAnswer, SphereMode, quaternion, solve};
+pub use equations::{Cluster, System, combination};

@@ -68,6 +68,7 @@ impl System {
         let group = Group {
             clusters: (0..linkage.bodies.len()).collect(),
             joints: (0..linkage.joints.len()).filter(|joint| !linkage.joints[*joint].is_gear()).collect(),
+            gears: Vec::new(),
             count: 0,
         };
         let state = State::new(linkage.bodies.len(), 1);

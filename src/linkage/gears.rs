@@ -1,0 +1,214 @@
+//! Groups with pairs of gears.
+//!
+//! The angle of the second gear is `ratio = p/q` times that of the first, both against the carrier, and a phase. With rotations
+//! `a`, `b`, `c` of the first, the second and the carrier this is `b^q c^(p-q) = phase^q a^p`, an equation between monomials: as p
+//! and q are coprime, its solutions are exactly the positions that the gears reach when they turn from the phase. Together with the
+//! cycles of the group it is a system over the rationals in the cosines x and sines y of all classes, `x^2 + y^2 = 1`, and in the
+//! slides: its Gröbner basis counts the assemblies.
+
+use super::equations::{Closure, Equations};
+use super::groups::Group;
+use super::isotropic::{Isotropic, Value};
+use super::points::{EFFORT, Points};
+use super::quadratic::{Root, Solved};
+use super::state::{Number, State, number};
+use crate::algebra::disc::Disc;
+use crate::algebra::groebner::{Basis, Equation, MOST_VARIABLES};
+use crate::algebra::ring::Ring;
+use crate::error::{Error, Result};
+use crate::kinematics::linkage::{Gaussian, Linkage, Pair};
+use num_complex::Complex;
+use rug::{Float, Rational};
+
+/// Largest sum of the numbers of teeth in lowest terms: monomials of a basis have degrees up to 127.
+pub const MOST_TEETH: i32 = 40;
+/// Bits in which solutions are computed, and more where two of them are not told apart.
+const BITS: [u32; 2] = [640, 5120];
+/// Radius below which a solution is exact enough for the groups that stand on it.
+const WANTED: f64 = 1e-40;
+
+/// A pair of gears between classes: `sum of exponents[k] times the angle of class k` is the angle of `factor`.
+#[derive(Clone, Debug)]
+struct Mesh {
+    exponents: Vec<i32>,
+    factor: Number,
+}
+
+/// A complex number whose parts are polynomials.
+type Form = Complex<Equation>;
+
+/// Returns the numerator and the denominator of a ratio of gears.
+///
+/// # Errors
+/// For numbers above those that are solved.
+pub fn teeth(ratio: &Rational) -> Result<(i32, i32)> {
+    let both = ratio.numer().to_i32().zip(ratio.denom().to_i32());
+    both.filter(|(p, q)| p.saturating_abs().saturating_add(*q) <= MOST_TEETH).ok_or_else(|| {
+        Error::Unsupported(format!(
+            "gears of the ratio {ratio}: numerator and denominator with a sum above {MOST_TEETH} are not solved yet"
+        ))
+    })
+}
+
+fn power(base: &Number, exponent: i32) -> Number {
+    let base = if exponent < 0 { base.mirrored() } else { base.clone() };
+    (0..exponent.unsigned_abs()).fold(Number::one(), |product, _| product.mul(&base))
+}
+
+/// The pair of gears as an equation between the rotations of the classes.
+fn mesh(linkage: &Linkage, closure: &Closure, state: &State, gear: usize) -> Option<Mesh> {
+    let joint = &linkage.joints[gear];
+    let Pair::Gear { carrier, ratio, phase } = &joint.pair else { return None };
+    let (p, q) = teeth(ratio).ok()?;
+    let mut exponents = vec![0; closure.equations.classes];
+    let mut factor = power(&number(phase), q);
+    for (body, exponent) in [(joint.of[1], q), (*carrier, p - q), (joint.of[0], -p)] {
+        let (class, turn) = closure.class_of(state, body)?;
+        exponents[class] += exponent;
+        factor = factor.mul(&power(&turn, -exponent));
+    }
+    // The first class is at rest.
+    exponents[0] = 0;
+    Some(Mesh { exponents, factor })
+}
+
+/// Solves a group with gears.
+#[must_use]
+pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State) -> Solved {
+    let equations = &closure.equations;
+    let meshes: Option<Vec<Mesh>> = group.gears.iter().map(|gear| mesh(linkage, closure, state, *gear)).collect();
+    let Some(meshes) = meshes else { return Solved::Undecided("gears whose bodies are not of one group".to_owned()) };
+    if let Some(turn) = wheel(equations, &meshes) {
+        return Solved::Roots(vec![Root { turns: vec![Number::one(), turn], shifts: Vec::new(), multiplicity: 1 }]);
+    }
+    let exact = |n: &Number| n.z.exact.as_ref()?.to_gaussian();
+    let factors: Option<Vec<Gaussian>> = meshes.iter().map(|mesh| exact(&mesh.factor)).collect();
+    let (Some(cycles), Some(factors)) = (equations.exact(), factors) else {
+        return Solved::Undecided("a group with gears stands on an assembly whose numbers are not rational".to_owned());
+    };
+    let unknowns = 2 * (equations.classes - 1) + equations.slides.len();
+    if unknowns > MOST_VARIABLES {
+        return Solved::Undecided(format!("a group with gears has more than {MOST_VARIABLES} unknowns"));
+    }
+    let system = system(&cycles, &meshes, &factors);
+    let Some(basis) = Basis::of(unknowns, &system, EFFORT) else {
+        return Solved::Undecided("the Gröbner basis of a group with gears takes more work than is allowed".to_owned());
+    };
+    match basis.dimension() {
+        None => Solved::Roots(Vec::new()),
+        Some(0) => solutions(equations, unknowns, &basis),
+        Some(dimension) => Solved::Undecided(format!(
+            "the assemblies of a group with gears form a set of dimension {dimension}, complex ones counted"
+        )),
+    }
+}
+
+/// The rotation of a wheel that turns about a joint of the rest, once for every turn of what drives it; `None` of other groups.
+fn wheel(equations: &Equations<Number>, meshes: &[Mesh]) -> Option<Number> {
+    let ([mesh], 2, 0, true) = (meshes, equations.classes, equations.loops(), equations.slides.is_empty()) else {
+        return None;
+    };
+    match mesh.exponents[1] {
+        1 => Some(mesh.factor.clone()),
+        -1 => Some(mesh.factor.mirrored()),
+        _ => None,
+    }
+}
+
+fn constant(z: &Gaussian) -> Form {
+    let part = |q: &Rational| Equation::from_rational(q).unwrap_or_else(Equation::zero);
+    Form { re: part(&z.re), im: part(&z.im) }
+}
+
+/// A power of the rotation of a class: `T_n(x) + i y U_(n-1)(x)`, in which y appears at most once.
+fn turned(class: usize, exponent: i32) -> Form {
+    if class == 0 {
+        return Form::one();
+    }
+    let (x, y) = (Equation::variable(2 * class - 2), Equation::variable(2 * class - 1));
+    let two_x = x.add(&x);
+    // T and U of degrees n - 1 and n - 2, n and n - 1.
+    let (mut below, mut here) = ((Equation::one(), Equation::zero()), (x, Equation::one()));
+    if exponent == 0 {
+        here = below.clone();
+    }
+    for _ in 1..exponent.unsigned_abs() {
+        let next = (two_x.mul(&here.0).sub(&below.0), two_x.mul(&here.1).sub(&below.1));
+        below = std::mem::replace(&mut here, next);
+    }
+    let im = here.1.mul(&y);
+    Form { re: here.0, im: if exponent < 0 { im.neg() } else { im } }
+}
+
+/// The polynomials that vanish: both parts of every cycle and every pair of gears, and the circles of the classes.
+fn system(cycles: &Equations<Isotropic<Gaussian>>, meshes: &[Mesh], factors: &[Gaussian]) -> Vec<Equation> {
+    let mut list = Vec::new();
+    for (k, cycle) in cycles.cycles.iter().enumerate() {
+        let mut sum = Form::zero();
+        for (class, c) in cycle.iter().enumerate() {
+            sum = sum.add(&constant(&c.z).mul(&turned(class, 1)));
+        }
+        for (q, slide) in cycles.slides.iter().enumerate() {
+            let way = Form { re: Equation::variable(2 * (cycles.classes - 1) + q), im: Equation::zero() };
+            sum = sum.add(&constant(&slide.coefficients[k].z).mul(&turned(slide.class, 1)).mul(&way));
+        }
+        list.extend([sum.re, sum.im]);
+    }
+    for (mesh, factor) in meshes.iter().zip(factors) {
+        let side = |sign: i32| {
+            let terms = mesh.exponents.iter().enumerate().filter(|(_, exponent)| **exponent * sign > 0);
+            terms.fold(Form::one(), |product, (class, exponent)| product.mul(&turned(class, exponent.abs())))
+        };
+        let difference = side(1).sub(&constant(factor).mul(&side(-1)));
+        list.extend([difference.re, difference.im]);
+    }
+    for class in 1..cycles.classes {
+        let square = turned(class, 1);
+        list.push(square.re.mul(&square.re).add(&square.im.mul(&square.im)).sub(&Equation::one()));
+    }
+    list.retain(|equation| !equation.is_zero());
+    list
+}
+
+/// All solutions of a finite set.
+fn solutions(equations: &Equations<Number>, unknowns: usize, basis: &Basis) -> Solved {
+    let Some(points) = Points::of(unknowns, basis) else {
+        return Solved::Undecided("the assemblies of a group with gears were not told apart".to_owned());
+    };
+    let mut list = Vec::new();
+    for (root, multiplicity) in &points.list {
+        let exact = points.rational(root).map(|values| exactly(equations, &values));
+        let found = exact.or_else(|| {
+            let is_narrow = |values: &Vec<Disc>| values.iter().all(|value| value.radius().to_f64() < WANTED);
+            let values = BITS.iter().find_map(|bits| points.values(root, *bits).filter(is_narrow));
+            values.map(|values| within(equations, &values))
+        });
+        let Some((turns, shifts)) = found else {
+            return Solved::Undecided("an assembly of a group with gears was not isolated".to_owned());
+        };
+        list.push(Root { turns, shifts, multiplicity: *multiplicity });
+    }
+    Solved::Roots(list)
+}
+
+/// Rotations of the classes and slides from the values of the unknowns.
+type Values = (Vec<Number>, Vec<Number>);
+
+fn exactly(equations: &Equations<Number>, values: &[Rational]) -> Values {
+    let mut turns = vec![Number::one()];
+    let (circles, slides) = values.split_at(2 * (equations.classes - 1));
+    turns.extend(circles.chunks(2).map(|at| number(&Gaussian { re: at[0].clone(), im: at[1].clone() })));
+    (turns, slides.iter().map(super::state::real).collect())
+}
+
+fn within(equations: &Equations<Number>, values: &[Disc]) -> Values {
+    let (circles, slides) = values.split_at(2 * (equations.classes - 1));
+    let mut turns = vec![Number::one()];
+    for at in circles.chunks(2) {
+        let i = Disc::point(Float::with_val(64, 0), Float::with_val(64, 1));
+        let turned = at[1].mul(&i);
+        turns.push(Isotropic { z: Value::within(at[0].add(&turned)), w: Value::within(at[0].sub(&turned)) });
+    }
+    let slide = |at: &Disc| Isotropic { z: Value::within(at.clone()), w: Value::within(at.clone()) };
+    (turns, slides.iter().map(slide).collect())
+}
