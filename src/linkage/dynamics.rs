@@ -7,12 +7,17 @@
 use super::rates::{Body, Moving, freedoms, jacobian, joint_value, moved, moving, open};
 use crate::catalogue::masses::Masses;
 use crate::kinematics::linkage::{Given, Linkage, Pair};
+use differential_equations::ivp::IVP;
+use differential_equations::methods::ExplicitRungeKutta;
+use differential_equations::ode::ODE;
 use nalgebra::{DMatrix, DVector};
 
-/// Least and most steps of the integrator between two rows.
-const WITHIN: [usize; 2] = [4, 1024];
-/// Between two rows the energy may change by this share of the largest of its parts, else steps are halved.
+/// Most parts of the time between two rows, behind each of which loops are closed again.
+const PARTS: usize = 256;
+/// Between two rows the energy may change by this share of the largest of its parts, else the parts are halved.
 const KEPT: f64 = 1e-10;
+/// Error that a step of the integrator may make, as a share of every number and in radians, metres and seconds.
+const TOLERANCE: f64 = 1e-12;
 /// A singular value below this share of the largest one stands for 0.
 const SINGULAR: f64 = 1e-10;
 
@@ -210,42 +215,42 @@ impl Loaded<'_> {
         kinetic + potential.sum::<f64>()
     }
 
-    /// Returns the motion from a position, by the Runge-Kutta method of order 4, projected back to closed loops after every step.
-    /// Between two rows it takes the number of steps that conserves the energy. `None` where accelerations are not determined on
-    /// the way.
+    /// Returns the motion from a position, by the method of order 8 of Dormand and Prince with step control, projected back to closed
+    /// loops. Between two rows it takes as many parts, with a projection behind each, as conserve the energy. `None` where
+    /// accelerations are not determined on the way.
     #[must_use]
     pub fn motion(&self, given: &[Given], rest: &[Body], rates: &[f64], time: f64, steps: usize) -> Option<Vec<Row>> {
         let (_, _, mut bodies) = self.start(given, rest, rates)?;
         let between = time / steps as f64;
         let mut rows = vec![self.row(0.0, &bodies)];
-        let mut within = WITHIN[0];
+        let mut parts = 1;
         for k in 1..=steps {
-            let (next, used) = self.next(&bodies, between, within)?;
+            let (next, used) = self.next(&bodies, between, parts)?;
             // The next row may need fewer again.
-            within = WITHIN[0].max(used / 2);
+            parts = (used / 2).max(1);
             bodies = next;
             rows.push(self.row(time * k as f64 / steps as f64, &bodies));
         }
         Some(rows)
     }
 
-    /// Returns the bodies after `time`, and the number of steps, at least `least`, that conserves the energy.
+    /// Returns the bodies after `time`, and the number of parts, at least `least`, that conserves the energy.
     fn next(&self, bodies: &[Body], time: f64, least: usize) -> Option<(Vec<Body>, usize)> {
         let before = self.energy(bodies);
-        let mut within = least;
+        let mut parts = least;
         loop {
             let mut now = bodies.to_vec();
-            for _ in 0..within {
-                now = self.advanced(&now, time / within as f64)?;
+            for _ in 0..parts {
+                now = self.advanced(&now, time / parts as f64)?;
             }
             let (matrix, _, _) = self.parts(&now);
             let rates = self.stacked(&now, 1);
             let kinetic = rates.dot(&(matrix * &rates));
             let size = kinetic.abs().max(before.abs());
-            if (self.energy(&now) - before).abs() <= KEPT * size || within >= WITHIN[1] {
-                return Some((now, within));
+            if (self.energy(&now) - before).abs() <= KEPT * size || parts >= PARTS {
+                return Some((now, parts));
             }
-            within *= 2;
+            parts *= 2;
         }
     }
 
@@ -254,19 +259,16 @@ impl Loaded<'_> {
         Row { time, joints: (0..self.linkage.joints.len()).map(joint).collect(), energy: self.energy(bodies) }
     }
 
-    /// One step.
-    fn advanced(&self, bodies: &[Body], step: f64) -> Option<Vec<Body>> {
-        let (places, rates) = (self.stacked(bodies, 0), self.stacked(bodies, 1));
-        let at = |places: &DVector<f64>, rates: &DVector<f64>| {
-            let (accelerations, _) = self.accelerations(&self.state(bodies, places, rates))?;
-            Some((rates.clone(), accelerations))
-        };
-        let (v1, a1) = at(&places, &rates)?;
-        let (v2, a2) = at(&(&places + &v1 * (step / 2.0)), &(&rates + &a1 * (step / 2.0)))?;
-        let (v3, a3) = at(&(&places + &v2 * (step / 2.0)), &(&rates + &a2 * (step / 2.0)))?;
-        let (v4, a4) = at(&(&places + &v3 * step), &(&rates + &a3 * step))?;
-        let mut next = places + (v1 + (v2 + v3) * 2.0 + v4) * (step / 6.0);
-        let mut rate = rates + (a1 + (a2 + a3) * 2.0 + a4) * (step / 6.0);
+    /// Integrates over a time, and closes the loops again.
+    fn advanced(&self, bodies: &[Body], time: f64) -> Option<Vec<Body>> {
+        let free = FirstOrder { loaded: self, still: bodies };
+        let size = 3 * moved(self.linkage).len();
+        let start: Vec<f64> = self.stacked(bodies, 0).iter().chain(&self.stacked(bodies, 1)).copied().collect();
+        let method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE);
+        let solution = IVP::ode(&free, 0.0, time, start).method(method).solve().ok()?;
+        let last = solution.y.last().filter(|y| y.iter().all(|x| x.is_finite()))?;
+        let mut next = DVector::from_column_slice(last.get(..size)?);
+        let mut rate = DVector::from_column_slice(last.get(size..)?);
         // Back to closed loops by the shortest way, then rates along the loops.
         for _ in 0..2 {
             let now = self.state(bodies, &next, &rate);
@@ -279,5 +281,24 @@ impl Loaded<'_> {
             rate -= svd.solve(&(j * &rate), small).ok()?;
         }
         Some(self.state(bodies, &next, &rate))
+    }
+}
+
+/// The equations of motion of first order: places, then rates.
+struct FirstOrder<'a, 'b> {
+    loaded: &'a Loaded<'b>,
+    still: &'a [Body],
+}
+
+impl ODE<f64, Vec<f64>> for FirstOrder<'_, '_> {
+    fn diff(&self, _: f64, y: &Vec<f64>, slope: &mut Vec<f64>) {
+        let (places, rates) = y.split_at(y.len() / 2);
+        let [places, rates] = [places, rates].map(DVector::from_column_slice);
+        let found = self.loaded.accelerations(&self.loaded.state(self.still, &places, &rates));
+        // Where there are no accelerations, numbers that are none end the integration.
+        let accelerations = found.map_or_else(|| rates.map(|_| f64::NAN), |(accelerations, _)| accelerations);
+        for (slope, value) in slope.iter_mut().zip(rates.iter().chain(&accelerations)) {
+            *slope = *value;
+        }
     }
 }
