@@ -3,6 +3,7 @@
 //! The equations are those of [`crate::closure`] and [`crate::elimination`], written over the rationals in the cosines and
 //! sines of the unknowns. The polynomial comes from the same eliminations as the numbers of the solver.
 
+mod boundary;
 mod chain;
 mod cuts;
 mod equation;

@@ -4,17 +4,18 @@
 //! the distance from a point of the axis, for a translation the two coordinates perpendicular to it. Both are linear in the
 //! cosine and sine of the second variable, or in the displacement, which are eliminated. \[Wittenburg2016, 7.1\]
 
+use super::boundary;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
-use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::{Vector, dot};
 use rug::Rational;
 
 /// A polynomial in the coordinates x, y, z of the point.
-type Space = Polynomial<Rational>;
+pub(super) type Space = Polynomial<Rational>;
 
 /// The surface of a point.
 #[derive(Clone, Debug)]
@@ -25,6 +26,8 @@ pub struct Surface {
     pub variables: Vec<Variable>,
     /// The steps of the derivation, a sentence each.
     pub steps: Vec<&'static str>,
+    /// Whether the point reaches more than the surface, which bounds its work space.
+    pub is_boundary: bool,
 }
 
 impl Surface {
@@ -43,17 +46,27 @@ struct Function {
     second: Rational,
 }
 
-/// Returns the surface of a point with these coordinates in the tool.
+/// Returns the surface of a point with these coordinates in the tool: that on which it moves with two variables, or that which
+/// bounds its work space with three and with two cylindrical joints.
 ///
 /// # Errors
-/// For chains of other than two variables, for data that are not rational, and if the point moves on a curve only.
+/// For chains of more than three variables other than CC, for data that are not rational, and if the point moves on a curve only.
 pub fn surface(chain: &Chain, point: &Vector<Rational>) -> Result<Surface> {
     let unknown = chain.unknowns_and_constants::<Rational>();
     let (variables, constants) =
         unknown.ok_or_else(|| Error::Unsupported("the surface of a chain with data that are not rational".to_owned()))?;
+    if let (3, [base, one, two, tool]) = (variables.len(), constants.as_slice()) {
+        return boundary::of_three(&variables, [base, one, two], &tool.apply(point));
+    }
+    if let ([JointKind::Cylindrical, JointKind::Cylindrical], [base, _, link, _, tool]) =
+        (chain.joint_kinds().as_slice(), constants.as_slice())
+    {
+        return boundary::of_cylinders([base, link], &tool.apply(point), &variables);
+    }
     let (&[first, second], [base, link, tool]) = (variables.as_slice(), constants.as_slice()) else {
         let message = format!(
-            "found a chain of {} joint variables, expected two: the points of a chain of two variables move on surfaces",
+            "found a chain of {} joint variables, expected two, whose points move on surfaces, three, or two C joints, whose points are \
+             bounded by surfaces",
             variables.len()
         );
         return Err(Error::Invalid(message));
@@ -109,10 +122,10 @@ pub fn surface(chain: &Chain, point: &Vector<Rational>) -> Result<Surface> {
     let found = found.filter(|p| p.total_degree() > Some(0)).ok_or_else(|| {
         Error::Invalid("found a point that moves on a curve, because the axes coincide or it lies on one; expected one that moves on a surface".to_owned())
     })?;
-    Ok(Surface { polynomial: found.primitive().0.square_free_part(), variables, steps })
+    Ok(Surface { polynomial: found.primitive().0.square_free_part(), variables, steps, is_boundary: false })
 }
 
-fn scaled(p: &Space, q: &Rational) -> Space {
+pub(super) fn scaled(p: &Space, q: &Rational) -> Space {
     p.mul(&Space::constant(q.clone()))
 }
 

@@ -19,14 +19,16 @@ fn written(surface: &Surface) -> String {
 
 fn letters(surface: &Surface) -> String {
     let letter = |variable: &Variable| if *variable == Variable::Rotation { 'R' } else { 'P' };
-    surface.variables.iter().map(letter).collect()
+    // Four variables are those of two cylindrical joints.
+    if surface.variables.len() == 4 { "CC".to_owned() } else { surface.variables.iter().map(letter).collect() }
 }
 
 /// The verdict on one line.
 #[must_use]
 pub fn verdict(of: &str, surface: &Surface) -> String {
     let terms = counted(surface.polynomial.len(), "term");
-    format!("surface of {of} on a chain {}: degree {}, {terms}", letters(surface), surface.degree())
+    let what = if surface.is_boundary { "boundary of the work space" } else { "surface" };
+    format!("{what} of {of} on a chain {}: degree {}, {terms}", letters(surface), surface.degree())
 }
 
 /// The surface of a point as one document.
@@ -49,6 +51,7 @@ pub fn json(entry: &Entry, of: &str, surface: &Surface) -> Value {
             "body": "tool",
             "point": of,
             "chain": letters(surface),
+            "boundary": surface.is_boundary,
             "degree": surface.degree(),
             "polynomial": written(surface),
         },
