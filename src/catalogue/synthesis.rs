@@ -45,7 +45,7 @@ impl Space {
 /// Two joints that hold the moving body, the one at the ground first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DyadKind {
-    /// Two revolute joints: a point stays on a circle, on the sphere an axis on a cone.
+    /// Two revolute joints: a point stays on a circle, on the sphere an axis on a cone, in space two skew axes.
     RR,
     /// A slide at the ground: a point of the body stays on a line.
     PR,
@@ -195,15 +195,9 @@ fn motion(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>, space: Sp
     let words: &[&str] = match space {
         Space::Plane => &["RR", "PR", "RP"],
         Space::Sphere => &["RR"],
-        Space::Space => &["CC", "SS", "PPS"],
+        Space::Space => &["RR", "CC", "SS", "PPS"],
     };
     let node = scope.need(mechanism, "dyad")?;
-    if let (Space::Space, Value::Text(text)) = (space, &node.value)
-        && text == "RR"
-    {
-        let message = "found RR dyads in space, which are not solved yet: CC, SS and PPS are".to_owned();
-        return Err(Error::Unsupported(message).at(scope.path, node.line));
-    }
     let dyad = match scope.word(node, "dyad", words)? {
         "RR" => DyadKind::RR,
         "PR" => DyadKind::PR,

@@ -1,7 +1,7 @@
 //! The numbers of a dyad, each in a disc that is proved to hold it.
 
 use super::cells::Place;
-use super::equations::{Line, Wanted, vector};
+use super::equations::{Line, Skew, Wanted, vector};
 use super::moments::with_moments;
 use crate::algebra::disc::Disc;
 use crate::algebra::ring::Ring;
@@ -105,6 +105,16 @@ pub(super) fn dyad(wanted: &Wanted, place: &Place<Disc>, is_real: bool) -> Optio
             making.list("moving", &moving);
             making.scalar("angle", &angle(&fixed, &wanted.start_direction(&moving))?);
         }
+        (DyadKind::RR, Space::Space) => {
+            let axes = Skew::of(place);
+            let (g, w) = (unit(&axes.fixed)?, unit(&axes.moving)?);
+            let foot = axes.fixed_foot(&wanted.first());
+            let fixed = Line { moment: cross(&foot, &g), direction: g };
+            let moving = Line { moment: cross(&axes.foot, &w), direction: w };
+            two_lines(&mut making, wanted, &fixed, &moving)?;
+            making.list("fixed.foot", &foot);
+            making.list("moving.foot", &axes.foot);
+        }
         (DyadKind::RR | DyadKind::SS, _) => {
             let (fixed, moving) = place.numbers.split_at(width);
             making.list("fixed", fixed);
@@ -133,22 +143,28 @@ pub(super) fn dyad(wanted: &Wanted, place: &Place<Disc>, is_real: bool) -> Optio
             let known = if place.numbers.is_empty() { with_moments(wanted, place)? } else { place.clone() };
             let fixed = line(&known.directions[0], &known.numbers[..3])?;
             let moving = line(&known.directions[1], &known.numbers[3..])?;
-            for (line, names) in
-                [(&fixed, ["fixed.direction", "fixed.moment"]), (&moving, ["moving.direction", "moving.moment"])]
-            {
-                making.list(names[0], &line.direction);
-                making.list(names[1], &line.moment);
-            }
-            let start = moving.moved(&wanted.first());
-            let angle = angle(&fixed.direction, &start.direction)?;
-            let normal = cross(&fixed.direction, &start.direction);
-            making.scalar("angle", &angle);
-            // The dual part of cos(angle + e distance) is the reciprocal product: -distance sin(angle).
-            let sine = dot(&normal, &normal).sqrt()?;
-            making.scalar("distance", &fixed.reciprocal(&start).neg().mul(&sine.inverse()?));
+            two_lines(&mut making, wanted, &fixed, &moving)?;
         }
     }
     Some(making.done())
+}
+
+/// Lists two lines, and the angle and the distance between them in the first position.
+fn two_lines(making: &mut Making, wanted: &Wanted, fixed: &Line<Disc>, moving: &Line<Disc>) -> Option<()> {
+        for (line, names) in
+            [(fixed, ["fixed.direction", "fixed.moment"]), (moving, ["moving.direction", "moving.moment"])]
+        {
+            making.list(names[0], &line.direction);
+            making.list(names[1], &line.moment);
+        }
+        let start = moving.moved(&wanted.first());
+        let angle = angle(&fixed.direction, &start.direction)?;
+        let normal = cross(&fixed.direction, &start.direction);
+        making.scalar("angle", &angle);
+        // The dual part of cos(angle + e distance) is the reciprocal product: -distance sin(angle).
+        let sine = dot(&normal, &normal).sqrt()?;
+        making.scalar("distance", &fixed.reciprocal(&start).neg().mul(&sine.inverse()?));
+    Some(())
 }
 
 /// The dyads of a function generator: crank and rocker, with the coupler between them. The frame goes from (0, 0) to (1, 0).

@@ -5,6 +5,7 @@ use crate::algebra::dual::Dual;
 use crate::algebra::ring::Ring;
 use crate::catalogue::{DyadKind, Space};
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
+use looproot_calculus::rotation::matrix::from_matrix;
 use rug::Rational;
 
 /// A dyad and the positions that its body shall take.
@@ -73,6 +74,48 @@ pub(super) fn vector<R: Ring>(numbers: &[R]) -> Vector<R> {
     std::array::from_fn(|k| numbers.get(k).cloned().unwrap_or_else(R::zero))
 }
 
+/// Numbers of an RR dyad in space beside the direction of its fixed axis: see [`Skew`].
+const SKEW: usize = 7;
+
+/// Two skew axes: g of the fixed one, and of the moving one w and the foot Q of the common perpendicular, both in the body. The
+/// length of w is such that at every position `P = R Q + t + g x R w` is the foot on the fixed axis, always the same.
+///
+/// Every pair of skew axes has this form. It is without its twist angle and distance, whose signs belong together.
+pub(super) struct Skew<R> {
+    pub fixed: Vector<R>,
+    pub moving: Vector<R>,
+    pub foot: Vector<R>,
+    /// The inverse of `(g.g)(w.w)`: complex vectors of length 0 are no axes.
+    inverse: R,
+}
+
+impl<R: Ring> Skew<R> {
+    /// The axes of the unknowns of a place.
+    pub fn of(place: &Place<R>) -> Self {
+        let (moving, rest) = place.numbers.split_at(3);
+        let inverse = rest.get(3).cloned().unwrap_or_else(R::zero);
+        Self { fixed: vector(&place.directions[0]), moving: vector(moving), foot: vector(&rest[..3]), inverse }
+    }
+
+    /// The foot on the fixed axis at a position.
+    pub fn fixed_foot(&self, motion: &Motion<R>) -> Vector<R> {
+        let across = cross(&self.fixed, &turned(motion, &self.moving));
+        let foot = moved(motion, &self.foot);
+        std::array::from_fn(|k| foot[k].add(&across[k]))
+    }
+
+    /// Feet and twist angle are the same at all positions.
+    fn equations(&self, motions: &[Motion<R>]) -> Vec<R> {
+        let mut all = constant(motions.iter().map(|motion| dot(&self.fixed, &turned(motion, &self.moving))));
+        for k in 0..3 {
+            all.extend(constant(motions.iter().map(|motion| self.fixed_foot(motion)[k].clone())));
+        }
+        let lengths = dot(&self.fixed, &self.fixed).mul(&dot(&self.moving, &self.moving));
+        all.push(lengths.mul(&self.inverse).sub(&R::one()));
+        all
+    }
+}
+
 impl Wanted {
     /// The number of coordinates of a point.
     pub fn width(&self) -> usize {
@@ -81,11 +124,12 @@ impl Wanted {
 
     /// Returns the shape of the unknowns: for RR and SS the fixed and the moving point, for PR and PPS the normal of the line or
     /// plane and the moving point, for RP the normal of the moving line and the fixed point, on the sphere both axes, for CC both
-    /// lines.
+    /// lines; for RR in space see [`Skew`].
     pub fn shape(&self) -> Shape {
         let width = self.width();
         match (self.kind, self.space) {
             (DyadKind::RR, Space::Sphere) => Shape { directions: vec![3, 3], numbers: 0 },
+            (DyadKind::RR, Space::Space) => Shape { directions: vec![3], numbers: SKEW },
             (DyadKind::RR | DyadKind::SS, _) => Shape { directions: Vec::new(), numbers: 2 * width },
             (DyadKind::PR | DyadKind::RP | DyadKind::PPS, _) => Shape { directions: vec![width], numbers: width },
             (DyadKind::CC, _) => Line::shape(),
@@ -96,8 +140,13 @@ impl Wanted {
     pub fn freedom(&self) -> i64 {
         let shape = self.shape();
         let unknowns = shape.directions.iter().map(|size| size - 1).sum::<usize>() + shape.numbers;
-        let each = if self.kind == DyadKind::CC { 2 } else { 1 };
-        let conditions = each * (self.positions.len() - 1) + self.rates.len() + if self.kind == DyadKind::CC { 2 } else { 0 };
+        // Conditions of every further position, and of the unknowns among themselves.
+        let (each, own) = match (self.kind, self.space) {
+            (DyadKind::RR, Space::Space) => (4, 1),
+            (DyadKind::CC, _) => (2, 2),
+            _ => (1, 0),
+        };
+        let conditions = each * (self.positions.len() - 1) + self.rates.len() + own;
         i64::try_from(unknowns).unwrap_or(i64::MAX) - i64::try_from(conditions).unwrap_or(i64::MAX)
     }
 
@@ -110,7 +159,7 @@ impl Wanted {
             return None;
         }
         let count: usize = match (self.kind, self.space) {
-            (DyadKind::RR, Space::Sphere) | (DyadKind::CC, _) => 6,
+            (DyadKind::RR, Space::Sphere | Space::Space) | (DyadKind::CC, _) => 6,
             (DyadKind::RR, _) => 4,
             (DyadKind::PR | DyadKind::RP, _) => 1,
             (DyadKind::SS, _) => 20,
@@ -128,6 +177,7 @@ impl Wanted {
                 let (fixed, moving) = (vector(&place.directions[0]), vector(&place.directions[1]));
                 constant(motions.iter().map(|motion| dot(&fixed, &turned(motion, &moving))))
             }
+            (DyadKind::RR, Space::Space) => Skew::of(place).equations(&motions),
             (DyadKind::RR | DyadKind::SS, _) => {
                 let (fixed, moving) = (vector(&place.numbers[..width]), vector(&place.numbers[width..]));
                 let mut all = constant(motions.iter().map(|motion| square_of_link(motion, &fixed, &moving)));
@@ -161,6 +211,18 @@ impl Wanted {
     /// For CC dyads, returns the conditions on the directions only: those of a spherical RR dyad.
     pub fn directions(&self) -> Self {
         Self { kind: DyadKind::RR, space: Space::Sphere, ..self.clone() }
+    }
+
+    /// Whether some two positions differ by a screw with an angle and a translation: axes that meet or are parallel do not take a body
+    /// through such positions.
+    pub fn needs_skew_axes(&self) -> bool {
+        self.positions.iter().enumerate().any(|(k, one)| {
+            let back = one.inverse();
+            self.positions[..k].iter().any(|other| {
+                let relative = other.then_after(&back);
+                dot(&from_matrix(&relative.rotation).vector, &relative.translation) != 0
+            })
+        })
     }
 
     /// The first position over another ring.

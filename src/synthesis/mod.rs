@@ -17,13 +17,14 @@ mod lines;
 mod moments;
 mod remarks;
 mod sample;
+mod skew;
 mod solved;
 
 pub use answer::{Answer, Family, Mode};
 pub use curves::Curve;
 pub use dyad::{Dyad, Part};
 
-use crate::catalogue::{DyadKind, SynthesisFile, Task};
+use crate::catalogue::{DyadKind, Space, SynthesisFile, Task};
 use answer::{found, undecided};
 use equations::Wanted;
 use solved::{Found, solve};
@@ -52,6 +53,7 @@ pub fn synthesize(file: &SynthesisFile) -> Answer {
     let wanted = Wanted { kind, space: file.space, positions, rates: Vec::new(), trivial: 0 };
     let mut answer = match kind {
         DyadKind::CC => lines::synthesize(file, &wanted),
+        DyadKind::RR if file.space == Space::Space => skew::synthesize(file, &wanted),
         DyadKind::SS | DyadKind::PPS => match bilinear::solutions(&wanted) {
             Some(solutions) => found(file, &wanted, Found::certified(solutions), dyad::dyad),
             None => by_basis(file, &wanted, EFFORT),
