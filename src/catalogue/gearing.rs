@@ -26,6 +26,21 @@ pub enum Gearing {
     Pair(Box<Pair>),
     /// The involute of a circle at a roll angle.
     Involute(Rational, Box<Angle>),
+    /// The path of a point of a rolling circle.
+    Trochoid(Box<Rolling>),
+}
+
+/// A circle that rolls on another one, or in it.
+#[derive(Clone, Debug)]
+pub struct Rolling {
+    /// The radius of the circle at rest.
+    pub fixed: Rational,
+    /// The radius of the other one.
+    pub rolling: Rational,
+    /// The distance of the point from its centre.
+    pub arm: Rational,
+    /// Whether one circle lies in the other.
+    pub internal: bool,
 }
 
 /// Shafts and relations between their rates.
@@ -80,6 +95,7 @@ impl Gearing {
             Self::Wheels { .. } => "wheels",
             Self::Pair(_) => "pair",
             Self::Involute(..) => "involute",
+            Self::Trochoid(_) => "trochoid",
         }
     }
 }
@@ -88,13 +104,14 @@ const PAIR: [&str; 7] = ["module", "pressure_angle", "helix", "teeth", "shift", 
 
 /// Reads the question of a file of kind `gearing`.
 pub(super) fn gearing(scope: &Scope<'_>, table: &Table<'_>) -> Result<Gearing> {
-    let words = ["train", "wheels", "pair", "involute"];
-    let keys = [&PAIR[..], &["twist", "radius", "roll"]].concat();
+    let words = ["train", "wheels", "pair", "involute", "trochoid"];
+    let keys = [&PAIR[..], &["twist", "radius", "roll", "fixed", "rolling", "arm"]].concat();
     let (find, mechanism, _) = found(scope, table, &words, &keys)?;
     let own: &[&str] = match find {
         "train" => &[],
         "wheels" => &["twist"],
         "pair" => &PAIR,
+        "trochoid" => &["fixed", "rolling", "arm", "mesh"],
         _ => &["radius", "roll"],
     };
     if let Some(node) = keys.iter().filter(|key| !own.contains(key)).find_map(|key| mechanism.get(key)) {
@@ -104,6 +121,7 @@ pub(super) fn gearing(scope: &Scope<'_>, table: &Table<'_>) -> Result<Gearing> {
         "train" => train(scope, table),
         "wheels" => wheels(scope, table, &mechanism),
         "pair" => pair(scope, &mechanism),
+        "trochoid" => trochoid(scope, &mechanism),
         _ => {
             // Angles are used as their enclosures, so reading them rounds nothing.
             let free = Scope::new(scope.path, scope.reading.clone());
@@ -120,6 +138,25 @@ fn positive(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Rational> {
         return Err(scope.fail(node.line, format!("found {} as `{what}`, expected a positive length", length.to_f64())));
     }
     Ok(length)
+}
+
+fn is_internal(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<bool> {
+    let word = mechanism.get("mesh").map(|node| scope.word(node, "mesh", &["external", "internal"])).transpose()?;
+    Ok(word == Some("internal"))
+}
+
+fn trochoid(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Gearing> {
+    let length = |key: &str| positive(scope, scope.need(mechanism, key)?, key);
+    let rolling = Rolling {
+        fixed: length("fixed")?,
+        rolling: length("rolling")?,
+        arm: length("arm")?,
+        internal: is_internal(scope, mechanism)?,
+    };
+    if rolling.internal && rolling.fixed == rolling.rolling {
+        return Err(scope.fail(mechanism.line(), "found a circle in one of its own radius, which does not roll, expected two radii"));
+    }
+    Ok(Gearing::Trochoid(Box::new(rolling)))
 }
 
 fn ratio(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Rational> {
@@ -239,10 +276,7 @@ fn pair(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Gearing> {
         other => Err(scope.fail(node.line, format!("found {other} teeth, expected 3 to {MOST_TEETH}"))),
     };
     let teeth = [teeth(a)?, teeth(b)?];
-    let internal = match mechanism.get("mesh") {
-        None => false,
-        Some(node) => scope.word(node, "mesh", &["external", "internal"])? == "internal",
-    };
+    let internal = is_internal(scope, mechanism)?;
     if internal && teeth[1] <= teeth[0] {
         let message = format!("found {} teeth inside around {}, expected more inside than around", teeth[1], teeth[0]);
         return Err(scope.fail(node.line, message));

@@ -1,9 +1,10 @@
 //! Gears and wheels: the questions of files of kind `gearing`, answered with a verdict.
 //!
-//! Trains and wheels are linear and decided over the rationals. Involute gears are computed in enclosures of many digits.
+//! Trains and wheels are linear and decided over the rationals, and so are trochoids. Involute gears are computed in enclosures of many digits.
 
 mod involute;
 mod train;
+mod trochoid;
 mod wheels;
 
 use crate::catalogue::gearing::Gearing;
@@ -17,5 +18,6 @@ pub fn answer(question: &Gearing) -> Answer {
         Gearing::Wheels { wheels, twist } => wheels::answer(wheels, twist.as_ref()),
         Gearing::Pair(pair) => involute::pair(pair),
         Gearing::Involute(radius, roll) => involute::curve(radius, roll),
+        Gearing::Trochoid(rolling) => trochoid::answer(rolling),
     }
 }
