@@ -4,8 +4,6 @@ use super::answer::{Answer, Named, list, number};
 use crate::catalogue::planes::MovingPoint;
 use crate::kinematics::motion::{Vector, cross, dot};
 use looproot_calculus::displacement::velocity::{State, from_points};
-use looproot_calculus::line::pluecker::Line;
-use looproot_calculus::line::ruled::axode;
 use rug::Rational;
 use serde_json::{Value, json};
 
@@ -88,11 +86,7 @@ fn put_screw(named: &mut Named, state: &State<Rational>) {
 
 /// Adds striction point and distribution parameter of both axodes.
 fn put_axodes(named: &mut Named, state: &State<Rational>) {
-    // The velocity at a place fixed in space changes by the acceleration of the point there, and by the point that replaces it.
-    let passing = cross(&state.omega, &state.velocity);
-    let twist = Line { direction: state.omega.clone(), moment: state.velocity.clone() };
-    let rate = Line { direction: state.alpha.clone(), moment: sub(&state.acceleration, &passing) };
-    let Some(found) = axode(&twist, &rate) else {
+    let Some(found) = state.axodes() else {
         named.put("axodes", Value::Null);
         return;
     };

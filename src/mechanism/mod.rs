@@ -6,6 +6,7 @@ pub(crate) mod exact_loop;
 mod exact_modes;
 mod family;
 mod input_curve;
+mod instant;
 mod near;
 mod overconstrained_loop;
 mod platform;
@@ -20,6 +21,7 @@ mod vicinity;
 
 pub use family::{Family, Joints, Shape};
 pub use input_curve::{Derivatives, InputCurve};
+pub use instant::{Moving, MovingChain, relative};
 
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};

@@ -1,6 +1,7 @@
 //! Output for readers: the verdict in one line, tables, normalised models, JSON.
 
 pub mod atlas;
+pub mod axodes;
 pub mod calculus;
 pub mod cells;
 pub mod cells_picture;
@@ -30,6 +31,7 @@ pub mod picture;
 pub mod rotation;
 pub mod scene;
 pub mod score;
+pub mod space_instant;
 pub mod sphere;
 pub mod sphere_sweep;
 pub mod surface;

@@ -123,12 +123,69 @@ fn a_motion_keeps_its_energy() {
     }
 }
 
+/// A Bennett loop whose input stands at tan(q1/2) = 1/2: tan(q1/2) tan(q2/2) = -5 gives q2' = 25/101 by hand.
+#[test]
+fn links_of_loops_have_the_velocity_screws_of_differentiation() {
+    let document = run(&["instant", "bennett_a", "--input", "1", "--body", "2"], 0);
+    let instant = &document["results"][0]["modes"][0]["instant"];
+    let rate = 25.0 / 101.0;
+    for (k, expected) in [0.64 * rate, -0.48 * rate, 1.0 + 0.6 * rate].into_iter().enumerate() {
+        near(&instant["angular_velocity"][k], expected);
+    }
+    // The first link turns about the first axis, and the last one is at rest.
+    let first = run(&["instant", "bennett_a", "--input", "1", "--body", "1"], 0);
+    assert_eq!(first["results"][0]["modes"][0]["instant"]["screw"]["direction"][2], 1.0);
+    let last = run(&["instant", "bennett_a", "--input", "1", "--body", "4"], 0);
+    assert_eq!(last["results"][0]["modes"][0]["instant"]["screw"], Value::Null);
+    // Axodes touch in one line: the inverse motion has the same ones.
+    let inverse = run(&["instant", "bennett_a", "--input", "1", "--body", "2", "--inverse"], 0);
+    let inverse = &inverse["results"][0]["modes"][0]["instant"];
+    near(&inverse["axodes"]["distribution"], instant["axodes"]["distribution"].as_f64().unwrap());
+    for k in 0..3 {
+        near(&inverse["axodes"]["striction"][k], instant["axodes"]["striction"][k].as_f64().unwrap());
+    }
+}
+
+/// Rates of an arm of two cylindrical joints about (0, 0, 1) and (0, 3/5, 4/5).
+#[test]
+fn links_of_arms_move_with_the_rates_of_their_joints() {
+    let document = run(&["instant", "arm/chain_cc", "--body", "tool", "--rate", "1, 2, 1, 3"], 0);
+    let instant = &document["results"][0]["modes"][0]["instant"];
+    for (k, expected) in [0.0, 0.6, 1.8].into_iter().enumerate() {
+        near(&instant["angular_velocity"][k], expected);
+    }
+    // (0, 0, 2) + 3 (0, 3/5, 4/5) + (3, 0, 0) x (0, 3/5, 4/5)
+    for (k, expected) in [0.0, 1.8 - 2.4, 4.4 + 1.8].into_iter().enumerate() {
+        near(&instant["velocity"][k], expected);
+    }
+}
+
+/// The tangent of the second shaft is that of the first divided by 15/17.
+#[test]
+fn the_cross_of_a_hooke_joint_rolls_on_cones() {
+    let document = run(&["instant", "linkage/hooke_series", "--body", "cross1"], 0);
+    for mode in document["results"][0]["modes"].as_array().unwrap() {
+        let instant = &mode["instant"];
+        near(&instant["joint_rates"]["S1"][0], 17.0 / 15.0 * (1.0 + 16.0 / 9.0) / (1.0 + (68.0_f64 / 45.0).powi(2)));
+        assert_eq!(instant["axodes"]["striction"], serde_json::json!([0.0, 0.0, 0.0]));
+        assert_eq!(instant["axodes"]["distribution"], 0.0);
+        // The cross turns at unit rate about the first shaft, and about an axis across it.
+        near(&instant["angular_velocity"][0], 1.0);
+    }
+}
+
 #[test]
 fn limits_and_wrong_words_are_answers() {
     let message = |arguments: &[&str]| run(arguments, 1).as_str().unwrap().to_owned();
     assert!(message(&["instant", "linkage/coupler_instant", "--body", "nobody"]).contains("unknown body"));
     let point = ["instant", "linkage/coupler_instant", "--body", "coupler", "--point", "crank.A"];
     assert!(message(&point).contains("coupler.B"));
+    assert!(message(&["instant", "bennett_a", "--body", "5"]).contains("1 to 4"));
+    assert!(message(&["instant", "bennett_a", "--body", "2", "--rate", "1"]).contains("unit rate"));
+    assert!(message(&["instant", "puma560", "--body", "2"]).contains("--rate"));
+    assert!(message(&["instant", "puma560", "--body", "2", "--rate", "1, 2"]).contains("6 numbers"));
+    assert!(message(&["instant", "linkage/hooke_series", "--body", "nobody"]).contains("unknown body"));
+    assert!(message(&["instant", "linkage/hooke_series", "--body", "in", "--point", "in.F1"]).contains("plane"));
     assert!(message(&["dynamics", "linkage/coupler_instant"]).contains("mass"));
     assert!(message(&["dynamics", "linkage/weighted_four_bar", "--rate", "x"]).contains("--rate"));
 }

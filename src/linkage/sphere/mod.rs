@@ -6,6 +6,8 @@
 
 mod answer;
 mod equations;
+mod instant;
 
 pub use answer::{Coordinate, SphereAnswer, SphereMode, quaternion, solve};
 pub use equations::{Cluster, System, combination};
+pub use instant::{Rates, rates};

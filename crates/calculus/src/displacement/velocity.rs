@@ -2,6 +2,7 @@
 
 use super::cylindroid::Pitched;
 use crate::line::pluecker::Line;
+use crate::line::ruled::{Generator, axode};
 use crate::motion::{Motion, Vector, cross, dot};
 use crate::unit::Unit;
 use looproot_algebra::ring::Ring;
@@ -52,6 +53,39 @@ impl<R: Ring> State<R> {
         }
     }
 
+    /// Returns the series in time of a body that is at a place and moves with this velocity and acceleration; `None` where 2
+    /// has no inverse.
+    ///
+    /// # Example
+    /// ```
+    /// use looproot_calculus::displacement::velocity::State;
+    /// use looproot_calculus::motion::Motion;
+    /// let state = State {
+    ///     omega: [0.0, 1.0, 2.0], alpha: [3.0, 0.0, 1.0], velocity: [1.0, 1.0, 0.0], acceleration: [0.0, 2.0, 5.0],
+    /// };
+    /// let motion = state.motion(&Motion::translation([1.0, 2.0, 3.0])).unwrap();
+    /// assert_eq!(State::of(&motion), state);
+    /// ```
+    #[must_use]
+    pub fn motion(&self, at: &Motion<R>) -> Option<Motion<Series<R, 3>>> {
+        let half = R::from_rational(&rug::Rational::from((1, 2)))?;
+        let turned = |v: &Vector<R>| {
+            let first = cross(&self.omega, v);
+            let second = add(&cross(&self.alpha, v), &cross(&self.omega, &first));
+            [v.clone(), first, second.map(|c| c.mul(&half))]
+        };
+        let columns: [[Vector<R>; 3]; 3] =
+            std::array::from_fn(|j| turned(&std::array::from_fn(|i| at.rotation[i][j].clone())));
+        let [place, first, second] = turned(&at.translation);
+        let first = add(&first, &self.velocity);
+        let second = add(&second, &self.acceleration.each_ref().map(|c| c.mul(&half)));
+        let entry = |parts: [&Vector<R>; 3], i: usize| Series { coefficients: parts.map(|part| part[i].clone()) };
+        Some(Motion {
+            rotation: std::array::from_fn(|i| std::array::from_fn(|j| entry(columns[j].each_ref(), i))),
+            translation: std::array::from_fn(|i| entry([&place, &first, &second], i)),
+        })
+    }
+
     /// Returns the velocity of the point of the body at a position.
     #[must_use]
     pub fn velocity_at(&self, point: &Vector<R>) -> Vector<R> {
@@ -74,6 +108,20 @@ impl<R: Unit> State<R> {
     #[must_use]
     pub fn screw(&self) -> Option<Pitched<R>> {
         Pitched::of_twist(&Line { direction: self.omega.clone(), moment: self.velocity.clone() })
+    }
+
+    /// Returns striction point and distribution parameter of both raccording axodes along the axis of the velocity screw; `None` if
+    /// the axis keeps its direction.
+    ///
+    /// # Source
+    /// \[Wittenburg2016, 9.5\]
+    #[must_use]
+    pub fn axodes(&self) -> Option<Generator<R>> {
+        // The velocity at a place fixed in space changes by the acceleration of the point there, and by the point that replaces it.
+        let passing = cross(&self.omega, &self.velocity);
+        let moment = std::array::from_fn(|i| self.acceleration[i].sub(&passing[i]));
+        let twist = Line { direction: self.omega.clone(), moment: self.velocity.clone() };
+        axode(&twist, &Line { direction: self.alpha.clone(), moment })
     }
 
     /// Returns the point without acceleration; `None` if angular velocity and acceleration are parallel.

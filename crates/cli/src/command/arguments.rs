@@ -386,6 +386,13 @@ pub struct SweepOptions {
     /// Linkages: the place of a point of a body at every step
     #[arg(long, value_name = "BODY.POINT")]
     pub trace: Option<String>,
+    /// JSON of linkages in the plane: the pole of a body at every step, in axes of the ground and of the body
+    #[arg(long, value_name = "BODY", requires = "json")]
+    pub centrodes: Option<String>,
+    /// JSON of loops and of linkages on the sphere: the axis of the velocity screw of a body at every step, in axes of the ground
+    /// and of the body; bodies of a loop have the number of the joint before them
+    #[arg(long, value_name = "BODY", requires = "json")]
+    pub axodes: Option<String>,
     /// One JSON document
     #[arg(long)]
     pub json: bool,
@@ -622,17 +629,19 @@ pub struct MotionOptions {
 #[derive(Args)]
 #[command(after_help = help::INSTANT)]
 pub struct InstantOptions {
-    /// A file of a linkage, the name of a built-in one, or - for standard input
+    /// A file of a linkage, a loop or an arm, the name of a built-in one, or - for standard input
     pub mechanism: String,
-    /// The body whose motion is asked for
+    /// The body whose motion is asked for; of a loop or an arm the number of the joint before it
     #[arg(long, value_name = "BODY")]
     pub body: String,
     /// The body that is held to stand still [default: the ground]
     #[arg(long, value_name = "BODY")]
     pub against: Option<String>,
-    /// This input of the file only, counted from 1
-    #[arg(long, value_name = "K")]
-    pub input: Option<String>,
+    /// The rates of the joint variables of an arm: "1, 0, -2 ..."; the input of anything else runs at unit rate
+    #[arg(long, value_name = "W", allow_hyphen_values = true)]
+    pub rate: Option<String>,
+    #[command(flatten)]
+    pub asked: CaseOptions,
     /// This point of the body only: coupler.P
     #[arg(long, value_name = "BODY.POINT", conflicts_with = "inverse")]
     pub point: Option<String>,

@@ -4,7 +4,8 @@ use super::arguments::InstantOptions;
 use super::exit::{Exit, Fault, unexpected};
 use super::linkage::{code, posed, wanted};
 use super::output::Output;
-use looproot::internal::catalogue::{Any, LinkageFile, load_any};
+use super::space_instant;
+use looproot::internal::catalogue::{Any, LinkageFile, Options, load_any};
 use looproot::internal::error::Error;
 use looproot::internal::linkage::answer::solve;
 use looproot::internal::report::instant::{Asked, result, text};
@@ -13,10 +14,16 @@ use std::io::Write;
 
 /// Finds every assembly of the requested cases, and the instantaneous motion of a body there.
 pub fn run(options: &InstantOptions) -> Result<Exit, Fault> {
-    let file = match load_any(&options.mechanism, &options.read.options())? {
+    let read = Options { chains: options.asked.chains(), ..options.read.options() };
+    let file = match load_any(&options.mechanism, &read)? {
         Any::Linkage(file) => file,
-        other => return Err(unexpected(&options.mechanism, other.kind(), "a linkage")),
+        Any::Entry(entry) => return space_instant::of_chain(options, *entry),
+        Any::Sphere(file) => return space_instant::of_sphere(options, &file),
+        other => return Err(unexpected(&options.mechanism, other.kind(), "a linkage, a loop or an arm")),
     };
+    if options.rate.is_some() {
+        return Err(Error::Invalid("found --rate for a linkage, expected it for an arm".to_owned()).into());
+    }
     let body = named(&file, &options.body)?;
     let against = options.against.as_ref().map_or(Ok(file.linkage.ground), |name| named(&file, name))?;
     if body == against {
@@ -28,8 +35,8 @@ pub fn run(options: &InstantOptions) -> Result<Exit, Fault> {
     let mut output = Output::open(&options.output, &options.mechanism)?;
     let mut exit = Exit::Complete;
     let mut results = Vec::new();
-    let file = posed(options.input.as_deref(), &file)?;
-    for index in wanted(options.input.as_deref(), &file)? {
+    let file = posed(options.asked.input.as_deref(), &file)?;
+    for index in wanted(options.asked.input.as_deref(), &file)? {
         let case = &file.cases[index];
         if case.given.is_empty() {
             let message = "found no input of the linkage, expected an [[input]], which runs at unit rate";
@@ -53,7 +60,7 @@ pub fn run(options: &InstantOptions) -> Result<Exit, Fault> {
 }
 
 /// Returns the index of a body by its name.
-fn named(file: &LinkageFile, name: &str) -> Result<usize, Error> {
+pub fn named(file: &LinkageFile, name: &str) -> Result<usize, Error> {
     let found = file.linkage.bodies.iter().position(|body| body.name == name);
     found.ok_or_else(|| {
         let known: Vec<&str> = file.linkage.bodies.iter().take(12).map(|body| body.name.as_str()).collect();

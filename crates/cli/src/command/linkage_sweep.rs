@@ -2,10 +2,12 @@
 
 use super::arguments::SweepOptions;
 use super::exit::{Exit, Fault};
+use super::instant::named;
 use super::output::{Output, pool};
 use looproot::internal::catalogue::LinkageFile;
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::linkage::Given;
+use looproot::internal::report::axodes;
 use looproot::internal::report::linkage_sweep::{self as report, Asked, Traced};
 use looproot::internal::sweep::{Range, sweep_linkage};
 use looproot::internal::view::drawable;
@@ -25,6 +27,10 @@ pub fn run(
         }
         None => None,
     };
+    if options.axodes.is_some() {
+        return Err(Error::Invalid("found --axodes for a linkage in the plane, expected --centrodes".to_owned()).into());
+    }
+    let rolling = options.centrodes.as_ref().map(|name| named(file, name)).transpose()?;
     let case = &file.cases[0];
     let joint = joint_of(options, file, &case.given)?;
     let ends = [("--from", &options.from), ("--to", &options.to)];
@@ -39,6 +45,9 @@ pub fn run(
     match &traced {
         _ if options.json => {
             let mut document = report::json(asked, &found);
+            if let Some(body) = rolling {
+                axodes::of_plane(&mut document, file, &found, body);
+            }
             if options.scene {
                 drawable(&mut document)?;
             }

@@ -4,10 +4,12 @@ use super::arguments::{DeriveOptions, SolveOptions, SweepOptions};
 use super::exit::{Exit, Fault};
 use super::linkage::{code, refuse, written};
 use super::output::Output;
+use super::space_instant::on_sphere;
 use looproot::internal::catalogue::SphereFile;
 use looproot::internal::derivation::{sphere_trace, transfer};
 use looproot::internal::error::Error;
 use looproot::internal::linkage::sphere::solve;
+use looproot::internal::report::axodes;
 use looproot::internal::report::sphere as report;
 use looproot::internal::report::sphere_sweep as sweeps;
 use looproot::internal::sweep::sweep_sphere;
@@ -17,7 +19,7 @@ use std::borrow::Cow;
 use std::io::Write;
 
 /// Returns the file, with the case of `--input JOINT=VALUE` instead of its own if that is given.
-fn posed<'f>(input: Option<&str>, file: &'f SphereFile) -> Result<Cow<'f, SphereFile>, Error> {
+pub fn posed<'f>(input: Option<&str>, file: &'f SphereFile) -> Result<Cow<'f, SphereFile>, Error> {
     match input {
         Some(text) if text.contains('=') => {
             Ok(Cow::Owned(SphereFile { cases: vec![file.case_with(text)?], ..file.clone() }))
@@ -27,7 +29,7 @@ fn posed<'f>(input: Option<&str>, file: &'f SphereFile) -> Result<Cow<'f, Sphere
 }
 
 /// Returns the requested cases: all, or the one of `--input`.
-fn wanted(input: Option<&str>, file: &SphereFile) -> Result<std::ops::Range<usize>, Error> {
+pub fn wanted(input: Option<&str>, file: &SphereFile) -> Result<std::ops::Range<usize>, Error> {
     let Some(asked) = input else { return Ok(0..file.cases.len()) };
     if asked.contains('=') {
         return Ok(0..1);
@@ -124,6 +126,12 @@ pub fn sweep(
         let message = "found --svg of a curve on the sphere, expected --svg without --trace, or --csv";
         return Err(Error::Invalid(message.to_owned()).into());
     }
+    if options.centrodes.is_some() {
+        return Err(
+            Error::Invalid("found --centrodes for a linkage on the sphere, expected --axodes".to_owned()).into()
+        );
+    }
+    let rolling = options.axodes.as_ref().map(|name| on_sphere(file, name)).transpose()?;
     let traced = match &options.trace {
         Some(asked) => {
             let (body, _, place) = file.point(asked)?;
@@ -155,6 +163,9 @@ pub fn sweep(
     let (out, traced) = (&mut output.writer, traced.as_ref());
     if options.json {
         let mut document = sweeps::json(file, traced, &found);
+        if let Some(body) = rolling {
+            axodes::of_sphere(&mut document, file, &found, body);
+        }
         if options.scene {
             drawable(&mut document)?;
         }

@@ -5,6 +5,7 @@ use super::exit::{Exit, Fault, unexpected};
 use super::output::{Output, pool};
 use super::seed::plant;
 use super::solve::stop_on_interrupt;
+use super::space_instant::link;
 use super::wanted::in_place;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use looproot::internal::catalogue::entry::{Design, Entry};
@@ -13,6 +14,7 @@ use looproot::internal::error::Error;
 use looproot::internal::kinematics::chain::{Chain, JointKind};
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::kinematics::freedom::Freedom;
+use looproot::internal::report::axodes;
 use looproot::internal::report::document::complete;
 use looproot::internal::report::picture::svg;
 use looproot::internal::report::scene;
@@ -52,6 +54,10 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let Design::Loop(chain) = &entry.design else {
         return Err(unexpected(&options.mechanism, entry.kind().into(), "a loop, which has an input to sweep"));
     };
+    if options.centrodes.is_some() {
+        return Err(Error::Invalid("found --centrodes for a loop, expected --axodes".to_owned()).into());
+    }
+    let rolling = options.axodes.as_ref().map(|name| link(name, chain.joint_kinds().len())).transpose()?;
     let swept = swept(options, &entry, chain)?;
     let ends = [("--from", &options.from), ("--to", &options.to)];
     let [from, to] = ends.map(|(name, text)| end(name, text, swept, &entry.reading));
@@ -78,14 +84,23 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let found = pool.install(|| sweep(&entry, swept.joint, swept.variable, range, running, || progress.inc(1)));
     let found = found.map_err(|error| in_place(error, &options.mechanism, &entry))?;
     progress.finish_and_clear();
-    write(options, &entry, swept, &found, output)?;
+    write(options, &entry, swept, (&found, rolling), output)?;
     Ok(exit(&found))
 }
 
-fn write(options: &SweepOptions, entry: &Entry, swept: Swept, found: &Sweep, mut output: Output) -> Result<(), Fault> {
+fn write(
+    options: &SweepOptions,
+    entry: &Entry,
+    swept: Swept,
+    (found, rolling): (&Sweep, Option<usize>),
+    mut output: Output,
+) -> Result<(), Fault> {
     let out = &mut output.writer;
     if options.json {
         let mut document = report::json(entry, swept, found);
+        if let Some(body) = rolling {
+            axodes::of_loop(&mut document, entry, (swept.joint, swept.variable), body)?;
+        }
         complete(&mut document, entry);
         if let Some(stage) = Stage::of(entry).filter(|_| options.scene) {
             document["scene"] = scene::json(&stage.scene);

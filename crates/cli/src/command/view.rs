@@ -124,6 +124,8 @@ fn sweep_options(options: &ViewOptions) -> SweepOptions {
         steps: options.steps,
         csv: false,
         svg: false,
+        centrodes: None,
+        axodes: None,
         trace: options.trace.clone(),
         json: true,
         scene: true,

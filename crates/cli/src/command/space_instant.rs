@@ -1,0 +1,176 @@
+//! `looproot instant` for loops, arms and linkages on the sphere.
+
+use super::arguments::InstantOptions;
+use super::exit::{Exit, Fault, unexpected};
+use super::output::Output;
+use super::wanted::{in_place, wanted};
+use super::{linkage, sphere};
+use looproot::internal::assembly::{Assembly, Roots, Workspace};
+use looproot::internal::catalogue::SphereFile;
+use looproot::internal::catalogue::entry::{Design, Entry, Kind};
+use looproot::internal::error::Error;
+use looproot::internal::linkage::sphere::solve;
+use looproot::internal::mechanism::{Derivatives, InputCurve, Mechanism};
+use looproot::internal::report::document::complete;
+use looproot::internal::report::space_instant::{Pair, of_chain as chain_result, of_sphere as sphere_result, text};
+use looproot::internal::report::{sphere as spheres, text as texts};
+use serde_json::json;
+use std::io::Write;
+
+/// Finds every mode of the requested cases of a loop or an arm, and the motion of a body there.
+pub fn of_chain(options: &InstantOptions, mut entry: Entry) -> Result<Exit, Fault> {
+    let (Design::Arm(chain) | Design::Loop(chain)) = &entry.design else {
+        return Err(unexpected(&options.mechanism, entry.kind().into(), "a linkage, a loop or an arm"));
+    };
+    refuse(options)?;
+    let bodies = chain.joint_kinds().len();
+    let pair = Pair {
+        body: link(&options.body, bodies)?,
+        against: options.against.as_ref().map_or(Ok(0), |name| link(name, bodies))?,
+    };
+    let pair = apart(options, pair)?;
+    let variables = chain.variables().len();
+    let rate = match (entry.kind(), &options.rate) {
+        (Kind::Arm, Some(rate)) => Some(rates(rate, variables)?),
+        (Kind::Arm, None) => {
+            let message = format!("found no --rate, expected the rates of the {variables} joint variables of the arm");
+            return Err(Error::Invalid(message).into());
+        }
+        (_, Some(_)) => {
+            return Err(Error::Invalid("found --rate for a loop, whose input runs at unit rate".to_owned()).into());
+        }
+        _ => None,
+    };
+    let cases = wanted(&options.asked, &options.mechanism, &mut entry)?;
+    let place = |error: Error| in_place(error, &options.mechanism, &entry);
+    let mechanism = Mechanism::prepare(&entry).map_err(place)?;
+    let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    let mut exit = Exit::Complete;
+    let mut results = Vec::new();
+    for index in cases {
+        let case = &entry.cases[index];
+        let solution = mechanism.solve(case, Roots::Real, &mut workspace, &mut assembly).map_err(place)?;
+        exit = exit.max(Exit::of(&solution));
+        let motions: Vec<Option<Derivatives>> = match &rate {
+            Some(rate) => {
+                let own = Derivatives { velocity: rate.clone(), acceleration: vec![0.0; rate.len()] };
+                vec![Some(own); solution.modes.len()]
+            }
+            None => {
+                let curve = InputCurve::of(&entry, case).map_err(place)?;
+                solution.modes.iter().map(|mode| curve.derivatives(mode)).collect()
+            }
+        };
+        let found = chain_result(&entry, (index + 1, case), &solution, &motions, pair);
+        if options.json {
+            results.push(found);
+        } else {
+            let verdict = texts::verdict(entry.kind(), &solution);
+            write!(output.writer, "{}", text(&entry.title, &verdict, &found))?;
+        }
+    }
+    if options.json {
+        let kind = if entry.kind() == Kind::Arm { "arm" } else { "loop" };
+        let mut document = json!({ "title": entry.title, "kind": kind, "results": results });
+        complete(&mut document, &entry);
+        writeln!(output.writer, "{document:#}")?;
+    }
+    output.writer.flush()?;
+    Ok(exit)
+}
+
+/// Finds every assembly of the requested cases of a linkage on the sphere, and the motion of a body there.
+pub fn of_sphere(options: &InstantOptions, file: &SphereFile) -> Result<Exit, Fault> {
+    refuse(options)?;
+    if options.rate.is_some() {
+        return Err(Error::Invalid("found --rate for a linkage, whose input runs at unit rate".to_owned()).into());
+    }
+    let named = |name: &str| on_sphere(file, name);
+    let against = options.against.as_ref().map_or(Ok(file.linkage.ground), |name| named(name))?;
+    let pair = apart(options, Pair { body: named(&options.body)?, against })?;
+    let asked = options.asked.input.as_deref();
+    let file = &*sphere::posed(asked, file)?;
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    let mut exit = Exit::Complete;
+    let mut results = Vec::new();
+    for index in sphere::wanted(asked, file)? {
+        let case = &file.cases[index];
+        let line = case.given.first().map_or(case.line, |given| given.line);
+        if case.given.first().is_none_or(|given| given.joint.is_none()) {
+            let message = "found no input of the linkage, expected an [[input]] with a joint, which runs at unit rate";
+            return Err(Error::Invalid(message.to_owned()).at(&options.mechanism, line).into());
+        }
+        let answer = solve(&file.linkage, &case.given, file.exact && case.exact)
+            .map_err(|error| error.at(&options.mechanism, line))?;
+        exit = exit.max(linkage::code(&answer.verdict));
+        let found = sphere_result(file, case, index + 1, &answer, pair);
+        if options.json {
+            results.push(found);
+        } else {
+            write!(output.writer, "{}", text(&file.heading.title, &spheres::verdict(&answer), &found))?;
+        }
+    }
+    if options.json {
+        writeln!(output.writer, "{:#}", spheres::json(file, &results))?;
+    }
+    output.writer.flush()?;
+    Ok(exit)
+}
+
+/// Returns the index of a body of a linkage on the sphere by its name.
+pub fn on_sphere(file: &SphereFile, name: &str) -> Result<usize, Error> {
+    let found = file.linkage.bodies.iter().position(|body| body.name == name);
+    found.ok_or_else(|| {
+        let known: Vec<&str> = file.linkage.bodies.iter().take(12).map(|body| body.name.as_str()).collect();
+        let name: String = name.chars().take(40).collect();
+        Error::Invalid(format!("found the unknown body `{name}`, expected one of {}", known.join(", ")))
+    })
+}
+
+/// Refuses what only bodies in the plane have.
+fn refuse(options: &InstantOptions) -> Result<(), Error> {
+    match &options.point {
+        Some(point) => {
+            let point: String = point.chars().take(40).collect();
+            let message = format!("found --point {point}, expected it for a linkage in the plane only");
+            Err(Error::Invalid(message))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Returns the pair, exchanged for the inverse motion; a body has no motion against itself.
+fn apart(options: &InstantOptions, pair: Pair) -> Result<Pair, Error> {
+    if pair.body == pair.against {
+        let message = format!("found --body {} against itself, expected two bodies", options.body);
+        return Err(Error::Invalid(message));
+    }
+    Ok(if options.inverse { Pair { body: pair.against, against: pair.body } } else { pair })
+}
+
+/// Returns the number of a body of a chain: that of the joint before it, 0 for the base.
+pub fn link(name: &str, bodies: usize) -> Result<usize, Error> {
+    let number = match name.trim() {
+        "base" => Some(0),
+        "tool" => Some(bodies),
+        other => other.trim_start_matches("link").trim().parse().ok().filter(|number| *number <= bodies),
+    };
+    number.ok_or_else(|| {
+        let name: String = name.chars().take(40).collect();
+        let message = format!(
+            "found the unknown body `{name}`, expected base, or the number of the joint before it, 1 to {bodies}"
+        );
+        Error::Invalid(message)
+    })
+}
+
+/// Reads the rates of all joint variables.
+fn rates(text: &str, variables: usize) -> Result<Vec<f64>, Error> {
+    let found: Option<Vec<f64>> =
+        text.split(',').map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    found.filter(|list| list.len() == variables).ok_or_else(|| {
+        let text: String = text.chars().take(40).collect();
+        Error::Invalid(format!("found --rate \"{text}\", expected {variables} numbers, one for every joint variable"))
+    })
+}
