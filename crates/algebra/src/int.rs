@@ -1,5 +1,6 @@
 //! Integers that stay in a machine word while they fit: the coefficients of symbolic work, which rarely leave 64 bits.
 
+use super::modp::Modulus;
 use super::ring::{Domain, Ring};
 use rug::{Complete, Integer, Rational};
 use std::{cmp::Ordering, fmt};
@@ -23,6 +24,17 @@ impl Int {
         match &self.0 {
             Repr::Small(n) => Some(*n),
             Repr::Large(_) => None,
+        }
+    }
+
+    /// Returns the residue modulo a prime, in Montgomery form.
+    #[must_use]
+    #[inline]
+    pub fn residue(&self, modulus: &Modulus) -> u64 {
+        match &self.0 {
+            Repr::Small(n) if *n < 0 => modulus.sub(0, modulus.enter(n.unsigned_abs())),
+            Repr::Small(n) => modulus.enter(n.unsigned_abs()),
+            Repr::Large(n) => modulus.reduce(n),
         }
     }
 
@@ -236,6 +248,12 @@ impl Ring for Int {
     }
     #[inline]
     fn from_wide(n: i128) -> Self {
+        Self::from(n)
+    }
+    fn to_large(&self) -> Option<Integer> {
+        Some(self.to_integer())
+    }
+    fn from_large(n: Integer) -> Self {
         Self::from(n)
     }
     #[inline]

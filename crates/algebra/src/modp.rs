@@ -1,7 +1,7 @@
 //! Prime fields: the prime is in the type for generic code, or a value for proofs with several primes.
 
 use super::ring::{Domain, Field, Ring};
-use rug::{Integer, Rational, ops::RemRounding};
+use rug::{Integer, Rational};
 use std::fmt;
 
 /// The Mersenne prime `2^61 - 1`.
@@ -91,13 +91,9 @@ impl Modulus {
     }
 
     /// Returns the residue of a big integer.
-    ///
-    /// # Panics
-    /// Never: a remainder modulo a u64 fits a u64.
     #[must_use]
     pub fn reduce(&self, n: &Integer) -> u64 {
-        let remainder = Integer::from(n.rem_euc(self.p));
-        self.enter(remainder.to_u64().expect("a remainder modulo a u64 fits a u64"))
+        self.enter(remainder(n, self.p))
     }
 
     /// Returns `a^exponent`.
@@ -119,6 +115,23 @@ impl Modulus {
     pub const fn inverse(&self, a: u64) -> u64 {
         self.pow(a, self.p - 2)
     }
+}
+
+/// Returns the remainder by a word other than 0, not negative; nothing is allocated.
+#[cfg(all(target_pointer_width = "64", not(windows)))]
+fn remainder(n: &Integer, word: u64) -> u64 {
+    rug::integer::IntegerExt64::mod_u64(n, word)
+}
+
+/// The remainder if GMP divides by 32 bits, as in WebAssembly.
+#[cfg(not(all(target_pointer_width = "64", not(windows))))]
+use wide_remainder as remainder;
+
+/// Returns the remainder with integers of any size.
+#[cfg(any(test, not(all(target_pointer_width = "64", not(windows)))))]
+fn wide_remainder(n: &Integer, word: u64) -> u64 {
+    use rug::ops::RemRounding;
+    Integer::from(n.rem_euc(word)).to_u64_wrapping()
 }
 
 /// Returns whether an integer below `2^63` is prime: Miller-Rabin to the first twelve prime bases, a proof below `3.3e24`.
@@ -276,5 +289,15 @@ mod tests {
     fn a_denominator_divisible_by_the_prime_has_no_image() {
         assert_eq!(ModP::<7>::from_rational(&Rational::from((1, 14))), None);
         assert_eq!(ModP::<7>::from_rational(&Rational::from((-1, 2))).map(ModP::value), Some(3));
+    }
+
+    #[test]
+    fn both_remainders_agree() {
+        let n: Integer = (Integer::from(3) << 200_u32) - 12_345;
+        for word in [1, 77, (1 << 32) - 5, 1 << 32, PRIME_61, PRIME_62, u64::MAX] {
+            for n in [n.clone(), -n.clone(), Integer::new(), Integer::from(-1)] {
+                assert_eq!(remainder(&n, word), wide_remainder(&n, word));
+            }
+        }
     }
 }

@@ -6,7 +6,7 @@
 use super::enclosure::Enclosure;
 use super::number::{Angle, HalfTangent};
 use num_complex::Complex;
-use rug::Rational;
+use rug::{Integer, Rational};
 use std::fmt::Debug;
 
 /// A commutative ring with one, into which the rationals (almost) map.
@@ -62,6 +62,20 @@ pub trait Ring: Clone + PartialEq + Debug {
     /// Never: integers have an image in every ring.
     #[must_use]
     fn from_wide(n: i128) -> Self {
+        Self::from_rational(&Rational::from(n)).expect("integers map into every ring")
+    }
+
+    /// Returns the integer that an element of a ring of integers is, of any size. `None` in all other rings.
+    fn to_large(&self) -> Option<Integer> {
+        None
+    }
+
+    /// Returns the image of an integer of any size.
+    ///
+    /// # Panics
+    /// Never: integers have an image in every ring.
+    #[must_use]
+    fn from_large(n: Integer) -> Self {
         Self::from_rational(&Rational::from(n)).expect("integers map into every ring")
     }
 

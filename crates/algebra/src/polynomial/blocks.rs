@@ -5,6 +5,7 @@
 use super::heap::{Heap, Key};
 use crate::monomial::Packing;
 use crate::ring::Ring;
+use rug::Integer;
 use std::ops::Range;
 
 /// The sum of products of coefficients.
@@ -42,6 +43,42 @@ impl Accumulator<i64> for i128 {
     #[inline(always)]
     fn vanishes(&self) -> bool {
         *self == 0
+    }
+}
+
+/// A signed integer of 192 bits: the sum of fewer than `2^64` products of words, each of at most `2^126`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Triple {
+    hi: i64,
+    lo: u128,
+}
+
+impl Triple {
+    /// Returns the sum as an element of a ring.
+    pub(super) fn to_ring<R: Ring>(self) -> R {
+        let lo = self.lo.cast_signed();
+        if i128::from(self.hi) == lo >> 127 {
+            return R::from_wide(lo);
+        }
+        R::from_large((Integer::from(self.hi) << 128_u32) + self.lo)
+    }
+}
+
+impl Accumulator<i64> for Triple {
+    fn empty() -> Self {
+        Self { hi: 0, lo: 0 }
+    }
+    #[inline(always)]
+    fn add(&mut self, a: &i64, b: &i64) {
+        let product = i128::from(*a) * i128::from(*b);
+        let (lo, carry) = self.lo.overflowing_add(product.cast_unsigned());
+        // The words above those of a negative product are all ones.
+        self.hi = self.hi + i64::from(carry) - i64::from(product < 0);
+        self.lo = lo;
+    }
+    #[inline(always)]
+    fn vanishes(&self) -> bool {
+        self.hi == 0 && self.lo == 0
     }
 }
 

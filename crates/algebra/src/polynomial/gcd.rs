@@ -23,6 +23,9 @@ impl Polynomial<Int> {
             return sum.primitive_part().scale(&sum.content());
         }
         let content = self.content().gcd(&other.content());
+        if self.has_constant_divisors(other) {
+            return Self::constant(content);
+        }
         let (a, b) = (self.monomial_content(), other.monomial_content());
         let gcd = self.div_exact(&a).primitive_part().gcd_of_primitives(&other.div_exact(&b).primitive_part());
         let terms = a

@@ -75,12 +75,7 @@ pub(super) struct Image {
 impl Image {
     /// Returns the image of a polynomial.
     pub(super) fn new(polynomial: &Polynomial<Int>, layout: &Layout, modulus: Modulus) -> Self {
-        let residue = |c: &Int| match c.to_i64() {
-            Some(n) if n < 0 => modulus.sub(0, modulus.enter(n.unsigned_abs())),
-            Some(n) => modulus.enter(n.unsigned_abs()),
-            None => modulus.reduce(&c.to_integer()),
-        };
-        let term = |(i, c): (usize, &Int)| (layout.monomial(polynomial, i), residue(c));
+        let term = |(i, c): (usize, &Int)| (layout.monomial(polynomial, i), c.residue(&modulus));
         let mut terms: Vec<(u128, u64)> = polynomial.coefficients().iter().enumerate().map(term).collect();
         terms.retain(|term| term.1 != 0);
         terms.sort_unstable_by_key(|term| Reverse(term.0));

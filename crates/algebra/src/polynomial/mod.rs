@@ -2,11 +2,13 @@
 
 mod blocks;
 mod content;
+mod coprime;
 mod determinant;
 mod gcd;
 mod grading;
 mod heap;
 mod image;
+mod kronecker;
 mod power;
 mod product;
 mod quotient;

@@ -1,0 +1,372 @@
+//! Dense products as one product of big integers.
+//!
+//! Kronecker's substitution: with `d_v` the degree of the product in the variable v, `x_v` becomes `X^(s_v)`, where `s_v` is
+//! the product of the `d_w + 1` over the later variables w, and X becomes `2^B`. Different monomials of the product, the
+//! exponent of each `x_v` being at most `d_v`, have different powers of X, its slots; they follow one another like the
+//! monomials. With B large enough the coefficients are read off the product of two integers, which GMP computes.
+//!
+//! # Why the coefficients are right
+//! Let all coefficients of the product be at most `2^(B-2)` in absolute value. What lies below slot i, the sum of the
+//! `c_j 2^(Bj)` over j < i, is then below `2^(Bi-1)` in absolute value, and therefore the bit below slot i, in two's
+//! complement, tells whether it is negative. If so, slot i holds `c_i - 1` modulo `2^B`, else `c_i`, and both lie from
+//! `-2^(B-1)` to `2^(B-1) - 1`, which determines `c_i`.
+//!
+//! # Source
+//! Kronecker 1882, Grundzüge einer arithmetischen Theorie der algebraischen Größen, § 4.
+
+use crate::monomial::Packing;
+use crate::ring::Ring;
+use rug::{Integer, integer::Order};
+
+/// Bits of a limb.
+const LIMB: usize = 64;
+/// The most slots: beyond it no dense product is worth its memory.
+const MOST_SLOTS: usize = 1 << 24;
+/// What GMP takes for products of two integers of so many limbs, in nanoseconds: measured on a processor of 3 GHz.
+const PRODUCTS: [(f64, f64); 12] = [
+    (1.0, 18.0),
+    (10.0, 78.0),
+    (30.0, 450.0),
+    (60.0, 1.4e3),
+    (100.0, 3e3),
+    (200.0, 9e3),
+    (400.0, 2.6e4),
+    (1e3, 9.3e4),
+    (4e3, 6e5),
+    (1.6e4, 3.2e6),
+    (1e5, 3e7),
+    (1e6, 4e8),
+];
+/// The nanoseconds for a slot of the product, a term of a factor, a limb of all numbers, and the rest: measured likewise.
+const SLOT: f64 = 3.0;
+const TERM: f64 = 5.0;
+const COPY: f64 = 1.5;
+const REST: f64 = 1e3;
+
+/// Coefficients that are integers.
+#[derive(Clone, Copy)]
+pub(super) enum Numbers<'a> {
+    Words(&'a [i64]),
+    Large(&'a [Integer]),
+}
+
+impl Numbers<'_> {
+    /// Returns the length of the longest.
+    pub(super) fn bits(&self) -> usize {
+        match self {
+            Self::Words(words) => length(words.iter().map(|n| n.unsigned_abs()).max().unwrap_or(0)),
+            Self::Large(large) => large.iter().map(Integer::significant_bits).max().unwrap_or(0) as usize,
+        }
+    }
+
+    /// Returns the length of the sum of their absolute values.
+    fn sum_bits(&self) -> usize {
+        match self {
+            Self::Words(words) => {
+                let sum: u128 = words.iter().map(|n| u128::from(n.unsigned_abs())).sum();
+                (u128::BITS - sum.leading_zeros()) as usize
+            }
+            Self::Large(large) => {
+                let sum = large.iter().fold(Integer::new(), |sum, n| sum + &*n.as_abs());
+                sum.significant_bits() as usize
+            }
+        }
+    }
+}
+
+fn length(n: u64) -> usize {
+    (u64::BITS - n.leading_zeros()) as usize
+}
+
+/// The substitution for two factors.
+pub(super) struct Kronecker<'d> {
+    packing: Packing,
+    degrees: &'d [u32],
+    strides: Vec<usize>,
+    /// The width of a slot in bits.
+    width: usize,
+    /// The slots of both factors.
+    slots: (usize, usize),
+    terms: usize,
+}
+
+impl<'d> Kronecker<'d> {
+    /// Returns the substitution for factors, not zero, whose product has at most these degrees; `None` if it has too many slots.
+    pub(super) fn new(
+        packing: Packing,
+        degrees: &'d [u32],
+        (left, a): (&[u64], &Numbers),
+        (right, b): (&[u64], &Numbers),
+    ) -> Option<Self> {
+        let mut strides = vec![0; degrees.len()];
+        let mut slots = 1_usize;
+        for (stride, &degree) in strides.iter_mut().zip(degrees).rev() {
+            *stride = slots;
+            slots = slots.saturating_mul(degree as usize + 1);
+        }
+        if slots > MOST_SLOTS {
+            return None;
+        }
+        // A coefficient of the product is at most the sum of all of one factor times the largest of the other.
+        let bits = (a.sum_bits() + b.bits()).min(b.sum_bits() + a.bits());
+        let words = packing.words();
+        let mut substitution = Self { packing, degrees, strides, width: bits + 2, slots: (0, 0), terms: 0 };
+        let highest = |monomials: &[u64]| substitution.slot(&monomials[..words]) + 1;
+        let terms = (left.len() + right.len()) / words;
+        (substitution.slots, substitution.terms) = ((highest(left), highest(right)), terms);
+        Some(substitution)
+    }
+
+    /// Returns the nanoseconds that the product is expected to take.
+    pub(super) fn cost(&self) -> f64 {
+        let limbs = |slots: usize| (slots * self.width) as f64 / LIMB as f64 + 1.0;
+        let (a, b) = (limbs(self.slots.0), limbs(self.slots.1));
+        let (short, long) = (a.min(b), a.max(b));
+        let slots = (self.slots.0 + self.slots.1) as f64;
+        long / short * balanced(short) + COPY * 2.0 * (a + b) + SLOT * slots + TERM * self.terms as f64 + REST
+    }
+
+    /// Returns the power of X that a monomial becomes.
+    #[inline(always)]
+    fn slot(&self, monomial: &[u64]) -> usize {
+        let term = |(variable, &stride): (usize, &usize)| self.packing.exponent(monomial, variable) as usize * stride;
+        self.strides.iter().enumerate().map(term).sum()
+    }
+
+    /// Returns the product: monomials, decreasing, and coefficients.
+    pub(super) fn product<R: Ring>(
+        &self,
+        (left, a): (&[u64], &Numbers),
+        (right, b): (&[u64], &Numbers),
+    ) -> (Vec<u64>, Vec<R>) {
+        let (a, b) = (self.integer(left, a, self.slots.0), self.integer(right, b, self.slots.1));
+        // Squares are cheaper.
+        let product = if a == b { a.square() } else { a * b };
+        let negative = product.is_negative();
+        let mut digits: Vec<u64> = product.to_digits(Order::Lsf);
+        let slots = self.slots.0 + self.slots.1 - 1;
+        // Slots that end beyond the highest digit are read too.
+        digits.resize((slots + 1) * self.width / LIMB + 3, 0);
+        let reader = Reader { digits: &digits, width: self.width, negative };
+        match self.width {
+            ..=64 => self.collect(slots, |slot| reader.word(slot).map(|n| R::from_wide(n.into()))),
+            ..=128 => self.collect(slots, |slot| reader.pair(slot).map(R::from_wide)),
+            _ => self.collect(slots, |slot| reader.large(slot).map(R::from_large)),
+        }
+    }
+
+    /// Returns the value of a factor at `X = 2^B`.
+    fn integer(&self, monomials: &[u64], numbers: &Numbers, slots: usize) -> Integer {
+        let count = slots * self.width / LIMB + 2;
+        // The positive and the negative coefficients apart: the slots of either hold plain digits.
+        let mut sides = [vec![0_u64; count], vec![0_u64; count]];
+        let mut put = |monomial: &[u64], negative: bool, digits: &[u64]| {
+            let bit = self.slot(monomial) * self.width;
+            let (first, shift) = (bit / LIMB, bit % LIMB);
+            let side = &mut sides[usize::from(negative)];
+            for (i, digit) in digits.iter().enumerate() {
+                side[first + i] |= digit << shift;
+                if shift > 0 && digit >> (LIMB - shift) != 0 {
+                    side[first + i + 1] |= digit >> (LIMB - shift);
+                }
+            }
+        };
+        let monomials = monomials.chunks_exact(self.packing.words());
+        match numbers {
+            Numbers::Words(words) => {
+                monomials.zip(*words).for_each(|(monomial, n)| put(monomial, *n < 0, &[n.unsigned_abs()]));
+            }
+            Numbers::Large(large) => {
+                let mut buffer = Vec::new();
+                for (monomial, n) in monomials.zip(*large) {
+                    buffer.resize(n.significant_digits::<u64>(), 0);
+                    n.write_digits(&mut buffer, Order::Lsf);
+                    put(monomial, n.is_negative(), &buffer);
+                }
+            }
+        }
+        let [plus, minus] = sides.map(|side| Integer::from_digits(&side, Order::Lsf));
+        plus - minus
+    }
+
+    /// Returns the monomials, decreasing, of the slots with a coefficient other than zero, and these coefficients.
+    fn collect<R>(&self, slots: usize, mut read: impl FnMut(usize) -> Option<R>) -> (Vec<u64>, Vec<R>) {
+        let words = self.packing.words();
+        let (mut monomials, mut coefficients) = (Vec::new(), Vec::new());
+        let Some((&inner, outer)) = self.degrees.split_last() else {
+            // Constants.
+            coefficients.extend(read(0));
+            monomials.resize(words * coefficients.len(), 0);
+            return (monomials, coefficients);
+        };
+        let (word, shift) = self.packing.place(outer.len());
+        let rows = slots.div_ceil(inner as usize + 1);
+        let mut row_monomial = vec![0_u64; words];
+        for row in (0..rows).rev() {
+            row_monomial.fill(0);
+            let mut rest = row;
+            for (variable, &degree) in outer.iter().enumerate().rev() {
+                let (word, shift) = self.packing.place(variable);
+                let exponent = rest % (degree as usize + 1);
+                row_monomial[word] |= (exponent as u64) << shift;
+                rest /= degree as usize + 1;
+            }
+            let start = row * (inner as usize + 1);
+            for exponent in (0..=inner as usize).rev().filter(|exponent| start + exponent < slots) {
+                if let Some(c) = read(start + exponent) {
+                    let base = monomials.len();
+                    monomials.extend_from_slice(&row_monomial);
+                    monomials[base + word] |= (exponent as u64) << shift;
+                    coefficients.push(c);
+                }
+            }
+        }
+        (monomials, coefficients)
+    }
+}
+
+/// Returns the nanoseconds for a product of two integers of so many limbs: straight lines between logarithms.
+fn balanced(limbs: f64) -> f64 {
+    let last = PRODUCTS.len() - 2;
+    let piece = PRODUCTS.iter().skip(1).position(|(size, _)| limbs < *size).unwrap_or(last).min(last);
+    let [(x0, y0), (x1, y1)] = [PRODUCTS[piece], PRODUCTS[piece + 1]];
+    let slope = (y1 / y0).ln() / (x1 / x0).ln();
+    y0 * ((limbs.max(1.0) / x0).ln() * slope).exp()
+}
+
+/// The slots of a product, whose coefficients all change their sign if it is negative.
+struct Reader<'a> {
+    digits: &'a [u64],
+    width: usize,
+    negative: bool,
+}
+
+impl Reader<'_> {
+    /// Returns the bit below a slot, which tells whether what lies below is negative.
+    #[inline(always)]
+    fn borrow(&self, bit: usize) -> u64 {
+        if bit == 0 { 0 } else { self.digits[(bit - 1) / LIMB] >> ((bit - 1) % LIMB) & 1 }
+    }
+
+    /// Returns the 64 bits from a bit on.
+    #[inline(always)]
+    fn digit(&self, bit: usize) -> u64 {
+        let (first, shift) = (bit / LIMB, bit % LIMB);
+        // In two steps, because a shift by 64 is none.
+        self.digits[first] >> shift | (self.digits[first + 1] << 1) << (LIMB - 1 - shift)
+    }
+
+    /// Returns the coefficient of a slot of at most 64 bits, unless it is zero.
+    #[inline(always)]
+    fn word(&self, slot: usize) -> Option<i64> {
+        let bit = slot * self.width;
+        let unused = LIMB - self.width;
+        let n = ((self.digit(bit) << unused).cast_signed() >> unused) + self.borrow(bit).cast_signed();
+        (n != 0).then_some(if self.negative { -n } else { n })
+    }
+
+    /// Returns the coefficient of a slot of 65 to 128 bits, unless it is zero.
+    #[inline(always)]
+    fn pair(&self, slot: usize) -> Option<i128> {
+        let bit = slot * self.width;
+        let unused = 2 * LIMB - self.width;
+        let digits = u128::from(self.digit(bit)) | u128::from(self.digit(bit + LIMB)) << LIMB;
+        let n = ((digits << unused).cast_signed() >> unused) + i128::from(self.borrow(bit));
+        (n != 0).then_some(if self.negative { -n } else { n })
+    }
+
+    /// Returns the coefficient of a slot of any width, unless it is zero.
+    fn large(&self, slot: usize) -> Option<Integer> {
+        let bit = slot * self.width;
+        let count = self.width.div_ceil(LIMB);
+        let mut digits: Vec<u64> = (0..count).map(|i| self.digit(bit + i * LIMB)).collect();
+        let used = self.width - (count - 1) * LIMB;
+        digits[count - 1] &= u64::MAX >> (LIMB - used);
+        let high = digits[count - 1] >> (used - 1) == 1;
+        let mut n = Integer::from_digits(&digits, Order::Lsf);
+        if high {
+            n -= Integer::from(1) << u32::try_from(self.width).expect("slots are shorter than memory");
+        }
+        n += self.borrow(bit);
+        (n != 0).then(|| if self.negative { -n } else { n })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::int::Int;
+    use crate::polynomial::Polynomial;
+    use crate::ring::Ring;
+    use proptest::prelude::*;
+
+    type Poly = Polynomial<Int>;
+
+    /// Returns the product by the substitution.
+    fn substituted(f: &Poly, g: &Poly) -> Poly {
+        let degrees: Vec<u32> = (0..f.variables().max(g.variables())).map(|v| f.degree(v) + g.degree(v)).collect();
+        let packing = Packing::new(degrees.len(), degrees.iter().copied().max().unwrap_or(0));
+        let (left, right) = (f.packed_as(packing), g.packed_as(packing));
+        let numbers = |f: &Poly| f.coefficients().iter().map(Int::to_integer).collect::<Vec<_>>();
+        let (a, b) = (numbers(f), numbers(g));
+        let (a, b) = (Numbers::Large(&a), Numbers::Large(&b));
+        let substitution = Kronecker::new(packing, &degrees, (&left, &a), (&right, &b)).unwrap();
+        let (monomials, coefficients) = substitution.product((&left, &a), (&right, &b));
+        Poly { packing, monomials, coefficients }
+    }
+
+    /// Returns the product term by term.
+    fn term_by_term(f: &Poly, g: &Poly) -> Poly {
+        let times = |(exponents, c): (Vec<u32>, &Int)| f.mul(&Poly::from_terms([(exponents, c.clone())]));
+        g.terms().map(times).fold(Poly::zero(), |sum, product| sum.add(&product))
+    }
+
+    /// Numbers of all lengths, the ends of words among them.
+    fn number() -> impl Strategy<Value = Int> {
+        let ends = [i64::MIN, i64::MIN + 1, -1, 1, i64::MAX].map(Int::from).to_vec();
+        let long = (any::<i64>(), 0..300_u32).prop_map(|(n, bits)| Int::from(Integer::from(n) << bits));
+        prop_oneof![(-9..9_i64).prop_map(Int::from), any::<i64>().prop_map(Int::from), prop::sample::select(ends), long]
+    }
+
+    fn polynomial(variables: usize) -> impl Strategy<Value = Poly> {
+        let term = (prop::collection::vec(0..7_u32, variables), number());
+        prop::collection::vec(term, 1..25).prop_map(Poly::from_terms)
+    }
+
+    proptest! {
+        // Each case multiplies four times, term by term as well.
+        #![proptest_config(ProptestConfig::with_cases(48))]
+        #[test]
+        fn products_are_those_of_the_terms((f, g) in (0..5_usize).prop_flat_map(|n| (polynomial(n), polynomial(n)))) {
+            prop_assume!(!f.is_zero() && !g.is_zero());
+            let expected = term_by_term(&f, &g);
+            prop_assert_eq!(&substituted(&f, &g), &expected);
+            prop_assert_eq!(&f.mul(&g), &expected);
+            prop_assert_eq!(&substituted(&f, &f), &term_by_term(&f, &f));
+            prop_assert_eq!(&substituted(&f.neg(), &f), &term_by_term(&f, &f).neg());
+        }
+    }
+
+    /// Every coefficient as large as the slots allow, of all signs: what lies below a slot is then nearest to half of it.
+    #[test]
+    fn slots_are_full() {
+        for bits in [1_u32, 20, 30, 31, 32, 61, 62, 63, 64, 95, 126, 127, 128, 200] {
+            let top = Int::from((Integer::from(1) << bits) - 1_u32);
+            for pattern in 0..16_u32 {
+                let sign = |power: u32, mask: u32| if mask >> (power % 4) & 1 == 1 { top.neg() } else { top.clone() };
+                let dense = |mask: u32| Poly::from_terms((0..40).map(|power| (vec![power], sign(power, mask))));
+                let (f, g) = (dense(pattern), dense(pattern ^ 5));
+                let expected = term_by_term(&f, &g);
+                assert_eq!(substituted(&f, &g), expected, "{bits} {pattern}");
+                assert_eq!(f.mul(&g), expected, "{bits} {pattern}");
+            }
+        }
+    }
+
+    #[test]
+    fn costs_follow_the_table() {
+        assert!((balanced(30.0) - 450.0).abs() < 1e-6);
+        assert!(balanced(0.5) <= 18.0 && balanced(1e7) > 4e8);
+        assert!((1..200).all(|k| balanced(f64::from(k) * 999.0) < balanced(f64::from(k + 1) * 999.0)));
+    }
+}
