@@ -79,7 +79,11 @@ pub(super) fn value_at(
     let mut value = Integer::new();
     for (i, c) in (0_i64..degree).rev().zip(coefficients.iter().rev()) {
         value *= &x;
-        value += shifted(c, -step * (degree - 1 - i));
+        if step == 0 {
+            value += c;
+        } else {
+            value += shifted(c, -step * (degree - 1 - i));
+        }
     }
     Value { mantissa: value, unit: step * (degree - 1) }
 }

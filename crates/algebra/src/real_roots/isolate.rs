@@ -9,6 +9,7 @@ use super::bernstein::{Expansion, Source};
 use super::cell::Cell;
 use super::evaluate::{length, sign, value_at};
 use super::fixed::Wide;
+use super::sample::Sampler;
 use rug::Integer;
 
 /// The precision in which big integers are tried first.
@@ -18,6 +19,8 @@ const FIRST_LEAP: u32 = 8;
 const LONGEST_LEAP: u32 = 1 << 20;
 /// The bits of a guess that f64 arithmetic nearly always gets right.
 const GUESS_BITS: u32 = 48;
+/// The most doublings of a first cell that are left for the end.
+const MOST_DOUBLINGS: i64 = 64;
 /// The bits that a Newton step is computed with beyond those of the leap.
 const LEAP_GUARD: i64 = 64;
 
@@ -53,20 +56,69 @@ impl Place {
 
 /// Returns the places of all real roots of a square-free polynomial that does not vanish at 0, from left to right.
 pub(super) fn isolate(coefficients: Vec<Integer>) -> Vec<Place> {
+    // A polynomial in x^2 has each root with both signs.
+    let even = coefficients.iter().skip(1).step_by(2).all(|c| *c == 0);
     let source = Source::new(coefficients);
-    let negative = positive_roots(&source.mirrored());
+    let positive = positive_roots(&source);
+    let negative = if even { positive.clone() } else { positive_roots(&source.mirrored()) };
     let mut places: Vec<Place> = negative.into_iter().rev().map(Place::mirrored).collect();
-    places.extend(positive_roots(&source));
+    places.extend(positive);
     places
 }
 
 /// Returns the places of the positive roots.
 fn positive_roots(source: &Source) -> Vec<Place> {
-    let mut search = Search { source, places: Vec::new(), bits: FIRST_PRECISION, value_bits: FIRST_PRECISION };
+    let most = sign_changes(&source.coefficients);
+    let mut search = Search { source, places: Vec::new(), most, bits: FIRST_PRECISION, value_bits: FIRST_PRECISION };
     if let Some(k) = bound(source).and_then(|k| skip_empty(source, k)) {
-        search.run(k);
+        let first = largest_of_real(source).filter(|first| (k - MOST_DOUBLINGS..k).contains(first)).unwrap_or(k);
+        search.run(first, k);
     }
     search.places
+}
+
+/// Returns the number of sign changes in a sequence, zeros left out.
+fn sign_changes<'a>(coefficients: impl IntoIterator<Item = &'a Integer>) -> usize {
+    let (mut changes, mut before) = (0, 0);
+    for sign in coefficients.into_iter().map(sign).filter(|sign| *sign != 0) {
+        changes += usize::from(before == -sign);
+        before = sign;
+    }
+    changes
+}
+
+/// Returns a power of two near the largest absolute value of a root, if all roots may be real; a guess that nothing rests on.
+///
+/// All roots are real only if the sign changes of `p(x)` and `p(-x)` are as many as the degree, and Newton's inequalities
+/// hold: `c_i^2 i (n-i) > c_(i-1) c_(i+1) (i+1) (n-i+1)`. The square of the largest root is at least the sum of all fourth
+/// powers over that of all squares.
+fn largest_of_real(source: &Source) -> Option<i64> {
+    let (c, n) = (&source.coefficients, source.degree());
+    if n < 4 || c.contains(&Integer::new()) {
+        return None;
+    }
+    let alternate = c.iter().enumerate().map(|(i, c)| if i % 2 == 1 { Integer::from(-c) } else { c.clone() });
+    let alternate: Vec<Integer> = alternate.collect();
+    let newton = |i: usize| {
+        Integer::from(c[i].square_ref()) * (i * (n - i))
+            > Integer::from(&c[i - 1] * &c[i + 1]) * ((i + 1) * (n - i + 1))
+    };
+    if sign_changes(c) + sign_changes(&alternate) != n || !(1..n).all(newton) {
+        return None;
+    }
+    // Newton's identities, all sums multiplied by powers of the leading coefficient.
+    let leading = &c[n];
+    let [e1, e2, e3, e4] = [1, 2, 3, 4].map(|i| {
+        let power = (1..i).fold(Integer::from(1), |power, _| power * leading);
+        let term = Integer::from(&c[n - i] * &power);
+        if i % 2 == 1 { -term } else { term }
+    });
+    let p1 = e1.clone();
+    let p2 = Integer::from(&e1 * &p1) - Integer::from(&e2 * 2);
+    let p3 = Integer::from(&e1 * &p2) - Integer::from(&e2 * &p1) + Integer::from(&e3 * 3);
+    let p4 = Integer::from(&e1 * &p3) - Integer::from(&e2 * &p2) + Integer::from(&e3 * &p1) - Integer::from(&e4 * 4);
+    let twice = length(&p4) - length(&p2) - 2 * length(leading) + 2;
+    Some((twice + 1).div_euclid(2))
 }
 
 /// Returns a power of two above all positive roots (`2 max |c_i/c_n|^(1/(n-i))` over the c_i of the other sign, Kioustelidis
@@ -142,10 +194,15 @@ struct Cluster {
     leap: u32,
 }
 
+/// Before anything is known.
+const NO_CLUSTER: Cluster = Cluster { changes: 0, halvings: 0, leap: FIRST_LEAP };
+
 /// A remaining task, in order from left to right.
 enum Task {
     Search(Node),
     Report(Place),
+    /// `[2^k, 2^(k+1))`, of which nothing is known yet.
+    Open(i64),
 }
 
 /// The result of Descartes' rule for a node.
@@ -174,6 +231,8 @@ impl Node {
 struct Search<'a> {
     source: &'a Source,
     places: Vec<Place>,
+    /// The number of sign changes of the coefficients: by Descartes' rule there are no more positive roots.
+    most: usize,
     /// The precisions in which expansions, and values, are tried first.
     bits: i64,
     value_bits: i64,
@@ -201,15 +260,26 @@ impl Search<'_> {
 
     /// Returns the node `(0, 2^k)`.
     fn start(&mut self, k: i64) -> Node {
-        self.node(Cell::new(Integer::new(), k), Cluster { changes: 0, halvings: 0, leap: FIRST_LEAP })
+        self.node(Cell::new(Integer::new(), k), NO_CLUSTER)
     }
 
-    /// Searches `(0, 2^k)`.
-    fn run(&mut self, k: i64) {
-        let mut stack = vec![Task::Search(self.start(k))];
+    /// Searches `(0, 2^k)`, first up to `2^first`; it ends as soon as there can be no further root.
+    fn run(&mut self, first: i64, k: i64) {
+        let mut stack: Vec<Task> = (first..k).rev().map(Task::Open).collect();
+        stack.push(Task::Search(self.start(first)));
         while let Some(task) = stack.pop() {
+            if self.places.len() == self.most {
+                return;
+            }
             let node = match task {
                 Task::Search(node) => node,
+                Task::Open(k) => {
+                    let node = self.node(Cell::new(Integer::from(1), k), NO_CLUSTER);
+                    if node.signs.0 == 0 {
+                        self.places.push(Place::At(Integer::from(1), k));
+                    }
+                    node
+                }
                 Task::Report(place) => {
                     self.places.push(place);
                     continue;
@@ -221,9 +291,56 @@ impl Search<'_> {
                     let guess = node.expansion.guess_root(sign).map(|y| Guess { y, bits: GUESS_BITS });
                     self.places.push(Place::Within(node.cell, sign, guess));
                 }
-                Verdict::Several(changes) => self.split(node, changes, &mut stack),
+                Verdict::Several(changes) => {
+                    if !changes.is_some_and(|changes| self.sample(&node, changes)) {
+                        self.split(node, changes, &mut stack);
+                    }
+                }
             }
         }
+    }
+
+    /// Reports all roots of a node, and returns true, if signs on a grid tell as many apart as there are sign changes.
+    fn sample(&mut self, node: &Node, changes: i32) -> bool {
+        let Some((sampler, bits)) = Sampler::new(&node.expansion, changes) else { return false };
+        let mut signs = vec![node.signs.0];
+        signs.extend(sampler.signs(bits));
+        signs.push(node.signs.1);
+        let count = |signs: &[i8]| {
+            let between = signs.windows(2).filter(|pair| pair[0] * pair[1] < 0).count();
+            (between, signs[1..signs.len() - 1].iter().filter(|sign| **sign == 0).count())
+        };
+        let wanted = usize::try_from(changes).unwrap_or(0);
+        let (between, uncertain) = count(&signs);
+        // A point that is not certain may be a root, or tell two; where many are not, f64 has too few bits.
+        if between + 2 * uncertain < wanted || uncertain > wanted {
+            return false;
+        }
+        let start = Integer::from(&node.cell.numerator << bits);
+        let exponent = node.cell.exponent - i64::from(bits);
+        for i in 1..signs.len() - 1 {
+            if signs[i] == 0 {
+                signs[i] = self.sign(Wide::ZERO, 0, &Integer::from(&start + i), exponent);
+            }
+        }
+        let (between, zeros) = count(&signs);
+        if between + zeros != wanted {
+            return false;
+        }
+        let between: Vec<u32> =
+            (0_u32..).zip(signs.windows(2)).filter(|(_, pair)| pair[0] * pair[1] < 0).map(|(i, _)| i).collect();
+        let (guesses, guess_bits) = sampler.guesses(&between, bits);
+        let mut guesses = guesses.into_iter();
+        for i in 0..signs.len() - 1 {
+            if i > 0 && signs[i] == 0 {
+                self.places.push(Place::At(Integer::from(&start + i), exponent));
+            }
+            if signs[i] * signs[i + 1] < 0 {
+                let guess = guesses.next().filter(|y| y.is_finite()).map(|y| Guess { y, bits: guess_bits });
+                self.places.push(Place::Within(Cell::new(Integer::from(&start + i), exponent), signs[i], guess));
+            }
+        }
+        true
     }
 
     /// Puts off the parts of a node that may hold roots, the leftmost to be done first.
