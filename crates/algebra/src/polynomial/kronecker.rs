@@ -149,8 +149,8 @@ impl<'d> Kronecker<'d> {
         digits.resize((slots + 1) * self.width / LIMB + 3, 0);
         let reader = Reader { digits: &digits, width: self.width, negative };
         match self.width {
-            ..=64 => self.collect(slots, |slot| reader.word(slot).map(|n| R::from_wide(n.into()))),
-            ..=128 => self.collect(slots, |slot| reader.pair(slot).map(R::from_wide)),
+            ..65 => self.collect(slots, |slot| reader.word(slot).map(|n| R::from_wide(n.into()))),
+            65..129 => self.collect(slots, |slot| reader.pair(slot).map(R::from_wide)),
             _ => self.collect(slots, |slot| reader.large(slot).map(R::from_large)),
         }
     }
