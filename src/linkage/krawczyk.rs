@@ -248,5 +248,5 @@ fn middle_square(disc: &Disc) -> f64 {
 /// The conjugates of the numbers of a disc.
 #[must_use]
 pub fn conjugate(disc: &Disc) -> Disc {
-    Disc::new(disc.re.clone(), Float::with_val(BITS, -&disc.im), disc.radius())
+    Disc::new(disc.re.clone(), Float::with_val(disc.im.prec(), -&disc.im), disc.radius())
 }

@@ -86,8 +86,31 @@ fn bound(p: i32, q: i32) -> usize {
     usize::try_from(2 * (p.max(q).max(0) - p.min(q).min(0))).unwrap()
 }
 
-/// A geared five-bar with a known assembly: its file, the angles there, and the number of assemblies.
-fn planted(random: &mut ChaCha8Rng, input: &str) -> (String, [f64; 4], usize) {
+/// The number of sign changes of the gap between the last two points round the circle of the common root: at least as many
+/// assemblies are real.
+fn sign_changes(gap: impl Fn(Complex<f64>) -> f64) -> usize {
+    // Fine enough that few pairs of roots lie between two samples.
+    let samples: u32 = 20_000;
+    let at = |k: u32| gap(Complex::cis(0.1 + f64::from(k) * std::f64::consts::TAU / f64::from(samples)));
+    (0..samples).filter(|k| (at(*k) < 0.0) != (at(*k + 1) < 0.0)).count()
+}
+
+fn float(a: &Gaussian) -> Complex<f64> {
+    Complex::new(a.0.to_f64(), a.1.to_f64())
+}
+
+/// A geared five-bar with a known assembly.
+struct Planted {
+    text: String,
+    /// The angles of the four bodies there.
+    angles: [f64; 4],
+    /// The number of assemblies in general.
+    count: usize,
+    /// The least number of real ones.
+    real: usize,
+}
+
+fn planted(random: &mut ChaCha8Rng, input: &str) -> Planted {
     let ratios = [(-1, 1), (2, 1), (3, 1), (-2, 1), (1, 2), (3, 2), (-1, 2), (4, 1), (-3, 1), (2, 3)];
     let (p, q) = ratios[random.random_range(0..ratios.len())];
     let (common, phase) = (turn(random), turn(random));
@@ -142,7 +165,24 @@ tan_half = "{value}"
         written(&c),
         written(&end)
     );
-    (text, [angle(&crank), angle(&wheel), angle(&rod1), angle(&rod2)], count)
+    // The distance of the ends of what is left when the input is held, less the length between them.
+    let (from, to) = (float(&a), float(&e));
+    let relative = float(&times(&rod1, &conjugate(&crank)));
+    let held = float(&times(&rod2, &conjugate(&rod1)));
+    let arm = match input {
+        "B" => float(&b) + relative * float(&c),
+        _ => float(&b),
+    };
+    let last = match input {
+        "B" => float(&end).norm_sqr(),
+        _ => (float(&c) + held * float(&end)).norm_sqr(),
+    };
+    let gap = |root: Complex<f64>| {
+        let wheel_end = to + float(&phase) * root.powi(p) * float(&d);
+        (wheel_end - from - root.powi(q) * arm).norm_sqr() - last
+    };
+    let real = if input == "A" { 1 } else { sign_changes(gap) };
+    Planted { text, angles: [angle(&crank), angle(&wheel), angle(&rod1), angle(&rod2)], count, real }
 }
 
 fn is_listed(answer: &LinkageAnswer, angles: &[f64; 4]) -> bool {
@@ -158,7 +198,7 @@ fn planted_are_listed(members: u64) -> [usize; 3] {
     for seed in 0..members {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let input = ["A", "B", "C"][random.random_range(0..3)];
-        let (text, angles, count) = planted(&mut random, input);
+        let Planted { text, angles, count, real } = planted(&mut random, input);
         let answer = solved(&text);
         if answer.verdict.status == Status::Incomplete {
             open += 1;
@@ -168,6 +208,9 @@ fn planted_are_listed(members: u64) -> [usize; 3] {
         assert_eq!(answer.verdict.proof, Proof::Proved);
         assert!(is_listed(&answer, &angles), "{seed}: {angles:?}\n{text}");
         assert!(answer.verdict.complex <= count, "{seed}: {} of {count}", answer.verdict.complex);
+        assert!(answer.verdict.real >= real, "{seed}: {} real, at least {real}\n{text}", answer.verdict.real);
+        let residual = answer.modes.iter().map(|mode| mode.residual).fold(0.0, f64::max);
+        assert!(residual < 1e-9, "{seed}: {residual}");
         if answer.verdict.complex == count { met += 1 } else { fewer += 1 }
     }
     [met, fewer, open]
@@ -218,7 +261,7 @@ tan_half = "1/3"
 
 #[test]
 fn wrong_gears_are_named() {
-    let (text, ..) = planted(&mut ChaCha8Rng::seed_from_u64(1), "C");
+    let Planted { text, .. } = planted(&mut ChaCha8Rng::seed_from_u64(1), "C");
     let with = |ratio: &str| {
         let start = text.find("ratio = ").unwrap();
         let end = start + text[start..].find(", phase").unwrap();
