@@ -8,7 +8,7 @@ use super::node::{Field, Node, Value};
 use super::scope::{Scope, Table, nearest};
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::algebra::ring::{Ring, exact_cos_sin};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::kinematics::linkage::{Body, Gaussian, Given, Linkage, LinkageJoint, Pair};
 use rug::{Integer, Rational};
 use std::collections::{HashMap, HashSet};
@@ -91,14 +91,16 @@ pub struct LinkageClaim {
     pub line: usize,
 }
 
-/// Returns whether a linkage file states that its axes pass through one point.
-pub(super) fn is_on_sphere(root: &Node) -> bool {
+/// Returns where a linkage file states that it lives: in the plane, on the sphere or in space.
+pub(super) fn lives_in(root: &Node) -> Option<String> {
     let get = |node: &Node, key: &str| match &node.value {
         Value::Table(fields) => fields.iter().find(|field| field.key == key).map(|field| field.node.clone()),
         _ => None,
     };
-    let space = get(root, "mechanism").and_then(|mechanism| get(&mechanism, "space"));
-    space.is_some_and(|space| matches!(&space.value, Value::Text(word) if word == "sphere"))
+    match get(root, "mechanism").and_then(|mechanism| get(&mechanism, "space"))?.value {
+        Value::Text(word) => Some(word),
+        _ => None,
+    }
 }
 
 /// Reads a linkage file.
@@ -109,12 +111,7 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
     let node = scope.need(&table, "mechanism")?;
     let keys = ["kind", "space", "ground", "joints", "bodies", "mass", "gravity"];
     let mechanism = scope.table(node, "the [mechanism] of a linkage", &keys)?;
-    let space = scope.need(&mechanism, "space")?;
-    let word = scope.word(space, "space", &["plane", "sphere", "space"])?;
-    if word != "plane" {
-        let message = format!("linkages with space = \"{word}\" are not read yet, those with \"plane\" are");
-        return Err(Error::Unsupported(message).at(scope.path, space.line));
-    }
+    scope.word(scope.need(&mechanism, "space")?, "space", &["plane", "sphere", "space"])?;
     let mut reader =
         Reader { scope, bodies: Vec::new(), places: HashMap::new(), joints: Vec::new(), names: HashSet::new() };
     reader.bodies(scope.need(&mechanism, "bodies")?)?;

@@ -2,6 +2,7 @@
 
 use super::entry::InputValue;
 use super::linkage::{LinkageCase, LinkageClaims, LinkageFile, root, rotation};
+use super::space::{SpaceCase, SpaceFile};
 use super::sphere::{SphereCase, SphereClaims, SphereFile, turned};
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::error::{Error, Result};
@@ -161,6 +162,26 @@ impl SphereFile {
             let known: Vec<String> = points.take(12).collect();
             Error::Invalid(format!("found the point {asked}, expected a point of a body: {}", known.join(", ")))
         })
+    }
+}
+
+impl SpaceFile {
+    /// Returns the first case with these values in place of those of the same joints, or beside them.
+    ///
+    /// # Errors
+    /// For unknown joints and values that are none.
+    pub fn case_with(&self, text: &str) -> Result<SpaceCase> {
+        let mut values = Vec::new();
+        for (name, value) in typed(text)? {
+            let value = if self.is_distance(name) == Some(true) {
+                let distance = Number::parse(value, Quantity::Length, &self.reading);
+                InputValue::Distance(distance.map_err(|error| in_option(name, error))?)
+            } else {
+                InputValue::Angle(angle(name, value, &self.reading)?)
+            };
+            values.push((name.to_owned(), value));
+        }
+        self.case_at(&values)
     }
 }
 

@@ -149,7 +149,7 @@ fn bodies(scope: &Scope<'_>, node: &Node) -> Result<Vec<SphereBody>> {
     Ok(list)
 }
 
-fn fields<'n>(scope: &Scope<'_>, node: &'n Node, what: &str) -> Result<&'n [Field]> {
+pub(super) fn fields<'n>(scope: &Scope<'_>, node: &'n Node, what: &str) -> Result<&'n [Field]> {
     match &node.value {
         Value::Table(fields) => Ok(fields),
         _ => Err(scope.fail(node.line, format!("found {} as `{what}`, expected a table", node.describe()))),
@@ -157,7 +157,7 @@ fn fields<'n>(scope: &Scope<'_>, node: &'n Node, what: &str) -> Result<&'n [Fiel
 }
 
 /// Reads a direction that is not zero.
-fn direction(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Direction> {
+pub(super) fn direction(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Direction> {
     let numbers = scope.vector(node, Quantity::Ratio, what)?;
     let vector: Direction = numbers.each_ref().map(|c| c.rational().clone());
     if vector.iter().all(|c| *c == 0) {
@@ -225,7 +225,7 @@ fn joints(scope: &Scope<'_>, linkage: &mut SphereLinkage, node: &Node) -> Result
 
 /// Returns references if the file names none. At angle 0 equal axes coincide without a rotation; others do by a rotation by
 /// pi about the direction between them, or for opposite axes about a perpendicular one. Rational directions have rational ones.
-fn references(at: &[Direction; 2]) -> [Direction; 2] {
+pub(super) fn references(at: &[Direction; 2]) -> [Direction; 2] {
     let [u, w] = at;
     let first = least_along(u);
     if u == w {

@@ -5,11 +5,12 @@ use super::calculus::{CalculusFile, calculus};
 use super::entry::Entry;
 use super::file_kind::FileKind;
 use super::framework::{FrameworkFile, framework};
-use super::linkage::{LinkageFile, is_on_sphere, linkage};
+use super::linkage::{LinkageFile, lives_in, linkage};
 use super::motion::{MotionFile, motion};
 use super::node::Node;
 use super::options::Options;
 use super::scope::Scope;
+use super::space::{SpaceFile, space};
 use super::sphere::{SphereFile, sphere};
 use super::synthesis::{SynthesisFile, synthesis};
 use super::{dh_table, job, node, urdf};
@@ -70,6 +71,8 @@ pub enum Any {
     Linkage(Box<LinkageFile>),
     /// Bodies whose joints have axes through one point.
     Sphere(Box<SphereFile>),
+    /// Bodies in space.
+    Space(Box<SpaceFile>),
     /// A rational motion.
     Motion(Box<MotionFile>),
     /// Positions or pairs of angles for the synthesis of a linkage.
@@ -87,7 +90,7 @@ impl Any {
         match self {
             Self::Entry(entry) => entry.kind().into(),
             Self::Framework(_) => FileKind::Framework,
-            Self::Linkage(_) | Self::Sphere(_) => FileKind::Linkage,
+            Self::Linkage(_) | Self::Sphere(_) | Self::Space(_) => FileKind::Linkage,
             Self::Motion(_) => FileKind::Motion,
             Self::Synthesis(_) => FileKind::Synthesis,
             Self::Conditions(_) => FileKind::Conditions,
@@ -111,10 +114,11 @@ pub fn any_from_text(text: &str, path: &str, format: Format, options: &Options) 
     };
     Ok(match FileKind::of(&root).map(|(kind, _)| kind) {
         Some(FileKind::Framework) => Any::Framework(Box::new(framework(&mut scope, &root, &name)?)),
-        Some(FileKind::Linkage) if is_on_sphere(&root) => {
-            Any::Sphere(Box::new(sphere(&mut scope, &root, &name)?))
-        }
-        Some(FileKind::Linkage) => Any::Linkage(Box::new(linkage(&mut scope, &root, &name)?)),
+        Some(FileKind::Linkage) => match lives_in(&root).as_deref() {
+            Some("sphere") => Any::Sphere(Box::new(sphere(&mut scope, &root, &name)?)),
+            Some("space") => Any::Space(Box::new(space(&mut scope, &root, &name)?)),
+            _ => Any::Linkage(Box::new(linkage(&mut scope, &root, &name)?)),
+        },
         Some(FileKind::Motion) => Any::Motion(Box::new(motion(&mut scope, &root, &name)?)),
         Some(FileKind::Synthesis) => Any::Synthesis(Box::new(synthesis(&mut scope, &root, &name)?)),
         Some(FileKind::Conditions) => Any::Conditions(Box::new(ansatz(&mut scope, &root, &name)?)),

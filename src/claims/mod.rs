@@ -6,6 +6,7 @@ mod linkage;
 mod mobility;
 mod moving;
 mod poses;
+mod space;
 mod sphere;
 mod synthesis;
 
@@ -111,6 +112,7 @@ pub fn judge_any(any: &Any) -> Result<Judgement> {
         Any::Framework(file) => moving::framework(file),
         Any::Linkage(file) => linkage::linkage(file),
         Any::Sphere(file) => sphere::sphere(file),
+        Any::Space(file) => space::space(file),
         Any::Motion(file) => moving::motion(file),
         Any::Calculus(file) => calculus::calculus(file),
         Any::Synthesis(file) => Ok(synthesis::judge(file)),

@@ -1,15 +1,15 @@
-//! Linkages in the plane and on the sphere.
+//! Linkages in the plane, on the sphere and in space.
 
 use super::arm::angle;
 use crate::algebra::number::Number;
 use crate::catalogue::entry::InputValue;
-use crate::catalogue::{Any, LinkageCase, LinkageFile, Options, SphereCase, SphereFile, load_any};
+use crate::catalogue::{Any, LinkageCase, LinkageFile, Options, SpaceFile, SphereCase, SphereFile, load_any};
 use crate::derivation::{derive_linkage, sphere_trace, trace, transfer};
 use crate::error::{Error, Result};
 use crate::kinematics::joint::Variable;
 use crate::kinematics::linkage::Given;
 use crate::report::linkage_sweep::{Asked, Traced};
-use crate::report::{linkage, linkage_derivation, linkage_mobility, linkage_sweep, sphere, sphere_sweep};
+use crate::report::{linkage, linkage_derivation, linkage_mobility, linkage_sweep, space, sphere, sphere_sweep};
 use crate::sweep::{Range, sweep_linkage, sweep_sphere};
 use crate::view::drawable;
 use serde_json::Value;
@@ -22,6 +22,7 @@ pub struct Linkage {
 enum Kind {
     Plane(Box<LinkageFile>),
     Sphere(Box<SphereFile>),
+    Space(Box<SpaceFile>),
 }
 
 impl Linkage {
@@ -33,6 +34,7 @@ impl Linkage {
         match load_any(name, &Options::default())? {
             Any::Linkage(file) => Ok(Self { file: Kind::Plane(file) }),
             Any::Sphere(file) => Ok(Self { file: Kind::Sphere(file) }),
+            Any::Space(file) => Ok(Self { file: Kind::Space(file) }),
             other => Err(Error::Invalid(other.kind().unexpected("a linkage"))),
         }
     }
@@ -43,6 +45,7 @@ impl Linkage {
         match &self.file {
             Kind::Plane(file) => &file.heading.title,
             Kind::Sphere(file) => &file.heading.title,
+            Kind::Space(file) => &file.heading.title,
         }
     }
 
@@ -58,6 +61,11 @@ impl Linkage {
             Kind::Sphere(file) => {
                 file.linkage.joints.iter().map(|joint| (joint.name.clone(), Variable::Rotation)).collect()
             }
+            Kind::Space(file) => {
+                let kind = |is_distance: bool| if is_distance { Variable::Translation } else { Variable::Rotation };
+                let joints = file.linkage.joints.iter();
+                joints.filter_map(|joint| Some((joint.name.clone(), kind(joint.is_distance()?)))).collect()
+            }
         }
     }
 
@@ -67,6 +75,7 @@ impl Linkage {
         match &self.file {
             Kind::Plane(file) => file.linkage.bodies.iter().map(|body| body.name.clone()).collect(),
             Kind::Sphere(file) => file.linkage.bodies.iter().map(|body| body.name.clone()).collect(),
+            Kind::Space(file) => file.linkage.bodies.iter().map(|body| body.name.clone()).collect(),
         }
     }
 
@@ -104,6 +113,12 @@ impl Linkage {
                 let case = self.sphere_case(file, given)?;
                 let answer = crate::linkage::sphere::solve(&file.linkage, &case.given, file.exact && case.exact)?;
                 sphere::json(file, &[sphere::result(file, &case, 1, &answer, complex)])
+            }
+            // They have no scene yet.
+            Kind::Space(file) => {
+                let case = file.case_at(&self.values(given)?)?;
+                let answer = crate::linkage::space::solve(&file.linkage, &case.given, file.exact && case.exact)?;
+                return Ok(space::json(file, &[space::result(file, &case, 1, &answer, complex)]));
             }
         };
         drawable(&mut document)?;
@@ -144,6 +159,7 @@ impl Linkage {
                     sweep_sphere(&file.linkage, &file.cases[0].given, number, (range.from, range.to, range.steps))?;
                 sphere_sweep::json(file, traced.as_ref(), &found)
             }
+            Kind::Space(_) => return Err(in_space("sweeps")),
         };
         drawable(&mut document)?;
         Ok(document)
@@ -154,6 +170,7 @@ impl Linkage {
         let found = match &self.file {
             Kind::Plane(file) => file.linkage.joints.iter().position(|own| own.name == joint && !own.is_gear()),
             Kind::Sphere(file) => file.linkage.joints.iter().position(|own| own.name == joint),
+            Kind::Space(file) => file.linkage.joints.iter().position(|own| own.name == joint),
         };
         found.ok_or_else(|| {
             let known: Vec<String> = self.joints().into_iter().take(12).map(|(name, _)| name).collect();
@@ -179,6 +196,7 @@ impl Linkage {
                 let input = input.ok_or_else(|| Error::Invalid("found no joint given, expected one".to_owned()))?;
                 Ok(sphere::transfer_json(file, 1, &transfer(&file.linkage, input)?))
             }
+            Kind::Space(_) => Err(in_space("closure polynomials")),
         }
     }
 
@@ -200,6 +218,7 @@ impl Linkage {
                 let curve = sphere_trace(&file.linkage, body, &place)?;
                 Ok(sphere::curve_json(file, 1, &file.linkage.bodies[body].name, name, &curve))
             }
+            Kind::Space(_) => Err(in_space("curves")),
         }
     }
 
@@ -213,6 +232,11 @@ impl Linkage {
             Kind::Sphere(_) => {
                 Err(Error::Unsupported("the mobility of linkages on the sphere is not decided yet".to_owned()))
             }
+            Kind::Space(_) => Err(in_space("mobility")),
         }
     }
+}
+
+fn in_space(what: &str) -> Error {
+    Error::Unsupported(format!("{what} of linkages in space are not found yet"))
 }

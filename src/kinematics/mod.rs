@@ -22,6 +22,7 @@ pub mod placement;
 pub mod platform;
 pub mod screw_system;
 pub mod screws;
+pub mod space;
 pub mod sphere;
 pub mod task;
 pub mod tolerance;

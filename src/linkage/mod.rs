@@ -25,6 +25,7 @@ pub mod polynomial;
 pub mod quadratic;
 pub mod rates;
 pub mod real_form;
+pub mod space;
 pub mod sphere;
 pub mod state;
 pub mod tower;

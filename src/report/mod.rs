@@ -31,6 +31,7 @@ pub mod picture;
 pub mod rotation;
 pub mod scene;
 pub mod score;
+pub mod space;
 pub mod space_instant;
 pub mod sphere;
 pub mod sphere_sweep;

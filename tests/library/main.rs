@@ -27,6 +27,7 @@ mod platform;
 mod printed;
 mod real_field;
 mod robots;
+mod space;
 mod sphere;
 mod strategies;
 mod sweep_proof;

@@ -7,12 +7,14 @@ mod framework;
 mod linkage;
 mod motion;
 mod platform;
+mod space;
 mod sphere;
 mod synthesis;
 
 pub use ansatz::json as ansatz_json;
 pub use framework::json as framework_json;
 pub use linkage::json as linkage_json;
+pub use space::json as space_json;
 pub use sphere::json as sphere_json;
 pub use synthesis::json as synthesis_json;
 
@@ -33,6 +35,7 @@ pub fn any_text(any: &Any) -> String {
         Any::Framework(file) => framework::text(file),
         Any::Linkage(file) => linkage::text(file),
         Any::Sphere(file) => sphere::text(file),
+        Any::Space(file) => space::text(file),
         Any::Motion(file) => motion::text(file),
         Any::Synthesis(file) => synthesis::text(file),
         Any::Conditions(file) => ansatz::text(file),
@@ -48,6 +51,7 @@ pub fn any_json(any: &Any) -> Value {
         Any::Framework(file) => framework::json(file),
         Any::Linkage(file) => linkage::json(file),
         Any::Sphere(file) => sphere::json(file),
+        Any::Space(file) => space::json(file),
         Any::Motion(file) => motion::json(file),
         Any::Synthesis(file) => synthesis::json(file),
         Any::Conditions(file) => ansatz::json(file),
@@ -63,6 +67,7 @@ pub fn listed(any: &Any) -> ([String; 3], Value) {
         Any::Framework(file) => (framework::short(file), framework::identity(file)),
         Any::Linkage(file) => (linkage::short(file), linkage::identity(file)),
         Any::Sphere(file) => (sphere::short(file), sphere::identity(file)),
+        Any::Space(file) => (space::short(file), space::identity(file)),
         Any::Motion(file) => (motion::short(file), motion::identity(file)),
         Any::Synthesis(file) => (synthesis::short(file), synthesis::identity(file)),
         Any::Conditions(file) => (ansatz::short(file), ansatz::identity(file)),

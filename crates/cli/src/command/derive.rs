@@ -42,6 +42,10 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         Any::Entry(entry) => *entry,
         Any::Linkage(file) => return super::linkage_derive::run(options, mechanism, &file),
         Any::Sphere(file) => return super::sphere::derive(options, mechanism, &file),
+        Any::Space(_) => {
+            let message = "closure polynomials of linkages in space are not derived yet";
+            return Err(Error::Unsupported(message.to_owned()).into());
+        }
         other => return Err(unexpected(mechanism, other.kind(), "an arm, a loop, a platform or a linkage")),
     };
     if let Some(asked) = &options.trace {

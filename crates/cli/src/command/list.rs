@@ -46,6 +46,15 @@ fn table(entries: &[(String, Any)]) -> String {
                 };
                 [file.cases.len().to_string(), first(|e| e.complex), first(|e| e.real)]
             }
+            Any::Space(file) => {
+                let first = |claim: fn(&looproot::internal::catalogue::SpaceClaims) -> Option<usize>| {
+                    file.cases
+                        .iter()
+                        .find_map(|case| claim(&case.expected))
+                        .map_or(String::new(), |count| count.to_string())
+                };
+                [file.cases.len().to_string(), first(|e| e.complex), first(|e| e.real)]
+            }
             _ => Default::default(),
         };
         table.row([name.clone(), mechanism, cases, complex, real, source, title]);

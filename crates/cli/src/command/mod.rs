@@ -35,6 +35,7 @@ pub mod score;
 pub mod seed;
 pub mod show;
 pub mod solve;
+mod space;
 pub mod space_instant;
 mod sphere;
 mod stream;

@@ -55,6 +55,7 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
         Any::Calculus(file) => return calculus::run(options, &file, open),
         Any::Linkage(file) => return super::linkage::run(options, &file, open()?),
         Any::Sphere(file) => return super::sphere::run(options, &file, open()?),
+        Any::Space(file) => return super::space::run(options, &file, open()?),
         other => return Err(unexpected(&options.mechanism, other.kind(), "an arm, a loop or a platform with numbers")),
     };
     plant(options.seed);

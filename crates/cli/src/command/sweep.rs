@@ -40,6 +40,9 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
         Any::Entry(entry) => *entry,
         Any::Linkage(file) => return super::linkage_sweep::run(options, &file, open),
         Any::Sphere(file) => return super::sphere::sweep(options, &file, open),
+        Any::Space(_) => {
+            return Err(Error::Unsupported("linkages in space are not swept yet".to_owned()).into());
+        }
         other => {
             return Err(unexpected(
                 &options.mechanism,

@@ -1,0 +1,250 @@
+//! The answer to one case of a linkage in space.
+
+use super::clusters::{clusters, groups};
+use super::equations::System;
+use super::values::{mode, real_point};
+use crate::algebra::disc::Disc;
+use crate::algebra::groebner::{Basis, FiniteRing};
+use crate::error::{Error, Result};
+use crate::kinematics::motion::{Motion, Vector};
+use crate::kinematics::space::{SpaceGiven, SpaceLinkage};
+use crate::linkage::points::{EFFORT, Points};
+use crate::mechanism::exact_loop::roots::Root;
+use crate::verdict::{Code, Proof, Status, Verdict};
+use num_complex::Complex;
+use std::time::Instant;
+
+/// Bits in which places are computed from a root, and more where they do not tell enough.
+const BITS: [u32; 4] = [320, 1280, 5120, 20_480];
+/// Largest radius, for lengths of 1, beyond which no more bits are computed.
+const WANTED: f64 = 4.0 * f64::EPSILON;
+
+/// A number of an assembly, real of a real one.
+pub type Coordinate = Complex<f64>;
+
+/// An assembly.
+#[derive(Clone, Debug)]
+pub struct SpaceMode {
+    /// Whether it is real.
+    pub real: bool,
+    /// The multiplicity.
+    pub multiplicity: usize,
+    /// The values of the joints that have one: radians or metres.
+    pub joints: Vec<Option<Coordinate>>,
+    /// The motions of the bodies against the ground.
+    pub bodies: Vec<Motion<Coordinate>>,
+    /// The largest distance by which a joint is open, metres.
+    pub residual: f64,
+    /// No entry of a rotation and no coordinate is farther from that of the assembly than this.
+    pub radius: f64,
+}
+
+impl SpaceMode {
+    /// The quaternion of a body, of norm 1: w, x, y, z. `None` of a complex rotation whose quaternion has norm 0.
+    #[must_use]
+    pub fn quaternion(&self, body: usize) -> Option<[Coordinate; 4]> {
+        crate::linkage::sphere::quaternion(&self.bodies[body].rotation, self.real)
+    }
+
+    /// The place of the origin of a body.
+    #[must_use]
+    pub fn position(&self, body: usize) -> &Vector<Coordinate> {
+        &self.bodies[body].translation
+    }
+}
+
+/// A group and its count.
+#[derive(Clone, Debug)]
+pub struct SpaceGroup {
+    /// The bodies of its clusters.
+    pub bodies: Vec<Vec<usize>>,
+    /// Its assemblies, with multiplicity.
+    pub count: usize,
+}
+
+/// The answer to a case.
+#[derive(Clone, Debug)]
+pub struct SpaceAnswer {
+    /// The verdict on the list.
+    pub verdict: Verdict,
+    /// The isolated assemblies, real ones first.
+    pub modes: Vec<SpaceMode>,
+    /// A point of a set of assemblies that is not finite, and the joints that move there.
+    pub sample: Option<(SpaceMode, Vec<usize>)>,
+    /// The groups in the order in which they can be solved.
+    pub groups: Vec<SpaceGroup>,
+    /// Microseconds that it took.
+    pub solve_us: f64,
+}
+
+fn too_much() -> Error {
+    Error::Unsupported("the Gröbner basis of this linkage takes more work than is allowed".to_owned())
+}
+
+/// Finds all assemblies with these inputs; `exact` says whether no number of file and inputs was rounded.
+///
+/// # Errors
+/// Where inputs are too few or hold what others hold, and for linkages that are beyond what is implemented.
+pub fn solve(linkage: &SpaceLinkage, given: &[SpaceGiven], exact: bool) -> Result<SpaceAnswer> {
+    let start = Instant::now();
+    let all = bodies(linkage);
+    let system = System::of(linkage, given, &all)?;
+    let basis = Basis::of(system.unknowns, &system.equations, EFFORT).ok_or_else(too_much)?;
+    let dimension = basis.dimension();
+    let mut modes = Vec::new();
+    let mut sample = None;
+    match dimension {
+        None => {}
+        Some(0) => modes = isolated(linkage, given, &system, &basis).ok_or_else(too_much)?,
+        Some(_) => sample = real_point(linkage, given, &system),
+    }
+    let key = |mode: &SpaceMode| mode.bodies.iter().map(|body| body.translation[0].re).collect::<Vec<f64>>();
+    modes.sort_by(|a, b| {
+        let order = key(a).into_iter().zip(key(b)).map(|(x, y)| x.total_cmp(&y)).find(|order| order.is_ne());
+        b.real.cmp(&a.real).then(order.unwrap_or(std::cmp::Ordering::Equal))
+    });
+    let total = modes.iter().map(|mode| mode.multiplicity).sum();
+    let groups = counted(linkage, given, total)?;
+    let verdict = verdict(&modes, dimension, sample.is_some(), exact);
+    Ok(SpaceAnswer { verdict, modes, sample, groups, solve_us: start.elapsed().as_secs_f64() * 1e6 })
+}
+
+/// All bodies, the ground first.
+#[must_use]
+pub fn bodies(linkage: &SpaceLinkage) -> Vec<usize> {
+    let others = (0..linkage.bodies.len()).filter(|body| *body != linkage.ground);
+    std::iter::once(linkage.ground).chain(others).collect()
+}
+
+/// The groups with their counts: the whole has the product of them.
+fn counted(linkage: &SpaceLinkage, given: &[SpaceGiven], total: usize) -> Result<Vec<SpaceGroup>> {
+    let list = clusters(linkage, given, &bodies(linkage))?;
+    let found = groups(linkage, given, &list);
+    let mut parts: Vec<(Vec<usize>, usize)> = Vec::new();
+    let mut result = Vec::new();
+    let last = found.len();
+    for (number, (group, held)) in found.into_iter().enumerate() {
+        let whole = if number + 1 == last { Some(total) } else { count(linkage, given, &held) };
+        let Some(whole) = whole else { return Ok(Vec::new()) };
+        let inner = |part: &(Vec<usize>, usize)| part.0.iter().all(|body| held.contains(body));
+        // Parts that later ones hold stand for nothing by themselves any more.
+        let before: usize = parts.iter().filter(|part| inner(part)).map(|part| part.1).product();
+        if before == 0 || whole % before != 0 {
+            // Not every assembly of the first parts has as many of this one.
+            return Ok(Vec::new());
+        }
+        parts.retain(|part| !inner(part));
+        parts.push((held, whole));
+        result.push(SpaceGroup { bodies: group.bodies, count: whole / before });
+    }
+    Ok(result)
+}
+
+/// The number of assemblies of some bodies, with multiplicity; `None` where it is not finite or takes too much work.
+fn count(linkage: &SpaceLinkage, given: &[SpaceGiven], within: &[usize]) -> Option<usize> {
+    let mut order: Vec<usize> = within.to_vec();
+    order.sort_by_key(|body| *body != linkage.ground);
+    let system = System::of(linkage, given, &order).ok()?;
+    let basis = Basis::of(system.unknowns, &system.equations, EFFORT)?;
+    match basis.dimension() {
+        None => Some(0),
+        Some(0) if system.unknowns == 0 => Some(1),
+        Some(0) => Some(FiniteRing::of(&basis)?.dimension()),
+        Some(_) => None,
+    }
+}
+
+/// All assemblies of a finite set.
+fn isolated(linkage: &SpaceLinkage, given: &[SpaceGiven], system: &System, basis: &Basis) -> Option<Vec<SpaceMode>> {
+    let points = Points::of(system.unknowns, basis)?;
+    let one = |(root, multiplicity): &(Root, usize)| assembled(linkage, given, system, &points, root, *multiplicity);
+    points.list.iter().map(one).collect()
+}
+
+/// Returns the assembly of a root, computed with as many bits as it needs.
+fn assembled(
+    linkage: &SpaceLinkage,
+    given: &[SpaceGiven],
+    system: &System,
+    points: &Points,
+    root: &Root,
+    multiplicity: usize,
+) -> Option<SpaceMode> {
+    let mut best: Option<SpaceMode> = None;
+    for bits in BITS {
+        let Some(values) = points.values(root, bits) else { continue };
+        let Some(places) = places(system, &values) else { continue };
+        let found = mode(linkage, given, system, &places, root.is_real(), multiplicity);
+        let is_enough = found.as_ref().is_some_and(|mode| mode.radius <= WANTED * size(mode));
+        best = found.or(best);
+        if is_enough {
+            break;
+        }
+    }
+    best
+}
+
+/// The largest coordinate, or 1.
+fn size(mode: &SpaceMode) -> f64 {
+    let all = mode.bodies.iter().flat_map(|body| &body.translation).map(|c| c.norm());
+    all.fold(1.0, f64::max)
+}
+
+/// The places of the clusters at values of the unknowns.
+fn places(system: &System, values: &[Disc]) -> Option<Vec<Option<Motion<Disc>>>> {
+    let place = |place: &Option<Motion<crate::algebra::groebner::Equation>>| match place {
+        None => Some(None),
+        Some(motion) => motion.map(|equation| Some(equation.evaluate(values))).map(Some),
+    };
+    system.places.iter().map(place).collect()
+}
+
+fn verdict(modes: &[SpaceMode], dimension: Option<usize>, has_point: bool, exact: bool) -> Verdict {
+    let complex: usize = modes.iter().map(|mode| mode.multiplicity).sum();
+    let real: usize = modes.iter().filter(|mode| mode.real).map(|mode| mode.multiplicity).sum();
+    let proved = Proof::Proved.of_rounded(!exact);
+    let (status, code, proof, reason) = match (dimension, real) {
+        (None, _) => (
+            Status::Unreachable,
+            Code::NoSolution,
+            proved,
+            "a Gröbner basis over the rationals: the equations of the joints contradict one another".to_owned(),
+        ),
+        (Some(0), 0) => (
+            Status::Unreachable,
+            Code::NoSolution,
+            proved,
+            format!("a Gröbner basis over the rationals: {complex} assemblies with multiplicity, none of them real"),
+        ),
+        (Some(0), _) => (
+            Status::Complete,
+            Code::GeneralBoundMet,
+            proved,
+            format!("a Gröbner basis over the rationals: the joints have {complex} assemblies with multiplicity"),
+        ),
+        (Some(dimension), _) if has_point => (
+            Status::SelfMotion,
+            Code::SelfMotion,
+            Proof::None,
+            format!("a Gröbner basis over the rationals: the assemblies form a set of dimension {dimension}, complex ones counted; a real one near which others lie to first order is listed"),
+        ),
+        (Some(dimension), _) => (
+            Status::Incomplete,
+            Code::TooFew,
+            Proof::None,
+            format!("a Gröbner basis over the rationals: the assemblies form a set of dimension {dimension}, complex ones counted; no real one was found in it"),
+        ),
+    };
+    Verdict {
+        status,
+        proof,
+        code,
+        complex_complete: dimension.is_none_or(|dimension| dimension == 0),
+        complex,
+        real,
+        at_infinity: 0,
+        self_motion: if has_point { dimension.unwrap_or(0) } else { 0 },
+        certified: modes.len(),
+        reason: if exact { reason } else { reason + "; some numbers of the file were rounded" },
+    }
+}

@@ -1,0 +1,11 @@
+//! All assemblies of a linkage in space.
+//!
+//! Inputs merge bodies; what is left is one system of polynomials over the rationals whose solutions are the assemblies, and its
+//! Gröbner basis counts them. Groups that can be solved one after the other have counts of their own, which multiply.
+
+mod answer;
+mod clusters;
+mod equations;
+mod values;
+
+pub use answer::{Coordinate, SpaceAnswer, SpaceGroup, SpaceMode, solve};
