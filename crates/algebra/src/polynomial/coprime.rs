@@ -1,32 +1,43 @@
-//! The proof that common divisors are constants, from values modulo one prime.
+//! Bounds of the degrees of common divisors, from values modulo one prime; with them, divisors from values at a power of two.
+//!
+//! # Source
+//! Char, Geddes, Gonnet 1989, GCDHEU: Heuristic polynomial GCD algorithm based on integer GCD computation, Journal of
+//! Symbolic Computation 7 (divisors from integers; the proof is another one here).
 
 use super::Polynomial;
+use super::kronecker::{Kronecker, Numbers};
+use super::product::to_words;
 use crate::int::Int;
 use crate::modp::{Modulus, PRIME_62};
 use crate::residue_polynomial::{Residues, common_divisor, trim};
+use crate::ring::Domain;
 
 /// The first state of the generator of values: that of the golden ratio.
 const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
 /// The terms of both polynomials below which a table of powers costs more than the way without it.
 const FEW: usize = 8;
+/// The bits of a slot beyond those of a coefficient: for longer coefficients of a divisor, and for a common factor of the
+/// values of the cofactors.
+const MARGIN: usize = 14;
+/// The limbs beyond which the common divisor of the integers, in quadratic time, costs more than images modulo primes.
+const MOST_LIMBS: usize = 320;
 
 impl Polynomial<Int> {
-    /// Returns whether it is proved that no variable occurs in a common divisor; `false` says nothing.
+    /// Returns bounds of the degrees that a common divisor has in each variable; `None` where none are known.
     ///
     /// Let d be a common divisor over the integers, x a variable, and let all other variables get values modulo a prime
     /// at which the leading coefficient in x of one of the polynomials does not vanish. That of d divides it and does not
-    /// vanish either, so that d keeps its degree in x; and it divides both images. Where these have no common divisor but
-    /// constants, x does not occur in d.
+    /// vanish either, so that d keeps its degree in x; and it divides both images. Its degree is therefore at most that of
+    /// the greatest common divisor of the images.
     ///
     /// Here x becomes `v x` with a value v other than zero, which changes no degree, so that one value of each term serves
     /// all variables.
-    pub(super) fn has_constant_divisors(&self, other: &Self) -> bool {
+    pub(super) fn divisor_degrees(&self, other: &Self) -> Option<Vec<u32>> {
         const MODULUS: Modulus = Modulus::new(PRIME_62);
         if self.len() + other.len() < FEW {
-            return false;
+            return None;
         }
         let (own, others) = (self.degrees(), other.degrees());
-        // A variable of one polynomial alone occurs in no common divisor, but in its leading coefficients.
         let count = own.len().max(others.len());
         let of = |degrees: &[u32], variable: usize| degrees.get(variable).copied().unwrap_or(0);
         let mut powers = Vec::with_capacity(count);
@@ -36,13 +47,10 @@ impl Polynomial<Int> {
             state ^= state >> 7;
             state ^= state << 17;
             let (value, mut power) = (MODULUS.enter(state), MODULUS.enter(1));
-            if value == 0 {
-                return false;
-            }
             let largest = of(&own, variable).max(of(&others, variable)) as usize;
             // Powers of sparse polynomials of high degree are not worth a table.
-            if largest > 4 * (self.len() + other.len()) + 64 {
-                return false;
+            if value == 0 || largest > 4 * (self.len() + other.len()) + 64 {
+                return None;
             }
             let mut table = Vec::with_capacity(largest + 1);
             for _ in 0..=largest {
@@ -52,15 +60,53 @@ impl Polynomial<Int> {
             powers.push(table);
         }
         let (a, b) = (self.values(&powers, &MODULUS), other.values(&powers, &MODULUS));
-        (0..count).filter(|&variable| of(&own, variable) > 0 && of(&others, variable) > 0).all(|variable| {
-            let images = [(self, &a, &own), (other, &b, &others)].map(|(polynomial, values, degrees)| {
-                polynomial.image_in(variable, of(degrees, variable) as usize, values, &MODULUS)
-            });
-            let kept = images[0].len() == of(&own, variable) as usize + 1
-                || images[1].len() == of(&others, variable) as usize + 1;
-            let [a, b] = images;
-            kept && common_divisor(a, b, &MODULUS).len() == 1
-        })
+        let bound = |variable: usize| {
+            let (own, others) = (of(&own, variable), of(&others, variable));
+            if own == 0 || others == 0 {
+                return Some(0);
+            }
+            let image = self.image_in(variable, own as usize, &a, &MODULUS);
+            let other_image = other.image_in(variable, others as usize, &b, &MODULUS);
+            let kept = image.len() == own as usize + 1 || other_image.len() == others as usize + 1;
+            let divisor = kept.then(|| common_divisor(image, other_image, &MODULUS))?;
+            u32::try_from(divisor.len() - 1).ok()
+        };
+        (0..count).map(bound).collect()
+    }
+
+    /// Returns whether it is proved that no variable occurs in a common divisor; `false` says nothing.
+    #[cfg(test)]
+    fn has_constant_divisors(&self, other: &Self) -> bool {
+        self.divisor_degrees(other).is_some_and(|degrees| degrees.iter().all(|degree| *degree == 0))
+    }
+
+    /// Returns the greatest common divisor of two primitive polynomials if that of their values at a power of two shows it;
+    /// no common divisor may have larger degrees than these. It divides both, which division proves; a common divisor
+    /// that it divides differs by a factor in which no variable can occur, and that is 1 for primitive polynomials.
+    pub(super) fn divisor_by_value(&self, other: &Self, bounds: &[u32]) -> Option<Self> {
+        let is_largest =
+            |candidate: &Self| bounds.iter().enumerate().all(|(variable, bound)| candidate.degree(variable) == *bound);
+        // A polynomial that divides the other needs no search.
+        for (divisor, dividend) in [(self, other), (other, self)] {
+            if is_largest(divisor) {
+                return dividend.checked_div_exact(divisor).map(|_| divisor.primitive_part());
+            }
+        }
+        let packing = self.joint_packing(other);
+        let (left, right) = (self.packed_as(packing), other.packed_as(packing));
+        let degrees: Vec<u32> =
+            (0..packing.variables()).map(|variable| self.degree(variable).max(other.degree(variable))).collect();
+        let (a, b) = (to_words(&self.coefficients)?, to_words(&other.coefficients)?);
+        let (a, b) = (Numbers::Words(&a), Numbers::Words(&b));
+        let width = a.bits().min(b.bits()) + MARGIN;
+        let substitution = Kronecker::with_width(packing, &degrees, width, &left, &right)?;
+        if substitution.limbs() > MOST_LIMBS {
+            return None;
+        }
+        let (monomials, coefficients) = substitution.divisor((&left, &a), (&right, &b));
+        let candidate = Self { packing, monomials, coefficients }.primitive_part();
+        let divides = |polynomial: &Self| polynomial.checked_div_exact(&candidate).is_some();
+        (is_largest(&candidate) && divides(self) && divides(other)).then_some(candidate)
     }
 
     /// Returns the value of each term.
@@ -103,6 +149,14 @@ mod tests {
 
     type Poly = Polynomial<Int>;
 
+    /// Returns the divisor of primitive polynomials by Euclid's algorithm in the first variable that occurs.
+    fn by_euclid(a: &Poly, b: &Poly) -> Poly {
+        match (0..3).find(|&v| a.degree(v) > 0 || b.degree(v) > 0) {
+            Some(variable) => a.euclidean_gcd(b, variable),
+            None => Poly::one(),
+        }
+    }
+
     fn polynomial(variables: usize) -> impl Strategy<Value = Poly> {
         let term = (prop::collection::vec(0..4_u32, variables), -9..9_i64);
         prop::collection::vec(term, 1..12)
@@ -119,6 +173,45 @@ mod tests {
             let slow = variable.map(|variable| f.euclidean_gcd(&g, variable));
             let constant = slow.is_none_or(|gcd| gcd.to_constant().is_some());
             prop_assert!(constant || !f.has_constant_divisors(&g));
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn divisors_by_values_are_the_greatest(
+            (f, g, h) in (1..4_usize).prop_flat_map(|n| (polynomial(n), polynomial(n), polynomial(n))),
+            squared in any::<bool>(),
+        ) {
+            prop_assume!(!f.is_zero() && !g.is_zero() && !h.is_zero());
+            let h = if squared { h.mul(&h) } else { h };
+            for (a, b) in [(f.mul(&h), g.mul(&h)), (h.clone(), g.mul(&h)), (f.mul(&h).neg(), h.clone()), (h.clone(), h.neg())] {
+                let (a, b) = (a.primitive_part(), b.primitive_part());
+                let Some(bounds) = a.divisor_degrees(&b) else { continue };
+                let expected = by_euclid(&a, &b);
+                prop_assert!(bounds.iter().enumerate().all(|(variable, bound)| expected.degree(variable) <= *bound));
+                if let Some(found) = a.divisor_by_value(&b, &bounds) {
+                    prop_assert_eq!(&found, &expected);
+                }
+                prop_assert_eq!(&a.gcd(&b), &expected);
+            }
+        }
+    }
+
+    /// Values have a common factor that no polynomial shows, coefficients reach the ends of words, leading ones are negative.
+    #[test]
+    fn values_that_mislead() {
+        let [x, y] = [0, 1].map(Poly::variable);
+        let number = |n: i64| Poly::constant(Int::from(n));
+        let h = x.pow(3).scale(&Int::from(i64::MAX >> 40)).sub(&x.mul(&y)).add(&number(7)).add(&y.pow(5));
+        for (f, g) in [
+            (x.pow(2).add(&number(6)), x.add(&number(2)).pow(3)),
+            (x.pow(2).add(&x), x.pow(4).add(&x.pow(2)).add(&number(2))),
+            (number(1), y.sub(&x).neg()),
+            (y.pow(4).sub(&number(1)), y.pow(6).sub(&number(1))),
+        ] {
+            let (a, b) = (f.mul(&h).neg(), g.mul(&h));
+            assert_eq!(a.gcd(&b), f.euclidean_gcd(&g, 0).mul(&h).primitive_part());
         }
     }
 

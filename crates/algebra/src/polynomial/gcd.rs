@@ -23,11 +23,19 @@ impl Polynomial<Int> {
             return sum.primitive_part().scale(&sum.content());
         }
         let content = self.content().gcd(&other.content());
-        if self.has_constant_divisors(other) {
+        let bounds = self.divisor_degrees(other);
+        if bounds.as_ref().is_some_and(|bounds| bounds.iter().all(|bound| *bound == 0)) {
             return Self::constant(content);
         }
         let (a, b) = (self.monomial_content(), other.monomial_content());
-        let gcd = self.div_exact(&a).primitive_part().gcd_of_primitives(&other.div_exact(&b).primitive_part());
+        // The bounds hold for what is left of both as well, if they have no monomials.
+        let bounds = bounds.filter(|_| a == Self::one() && b == Self::one());
+        let rest = |polynomial: &Self, monomial: &Self| {
+            if bounds.is_some() { polynomial.primitive_part() } else { polynomial.div_exact(monomial).primitive_part() }
+        };
+        let (own, others) = (rest(self, &a), rest(other, &b));
+        let by_value = bounds.and_then(|bounds| own.divisor_by_value(&others, &bounds));
+        let gcd = by_value.unwrap_or_else(|| own.gcd_of_primitives(&others));
         let terms = a
             .terms()
             .zip(b.terms())

@@ -11,6 +11,9 @@
 //! complement, tells whether it is negative. If so, slot i holds `c_i - 1` modulo `2^B`, else `c_i`, and both lie from
 //! `-2^(B-1)` to `2^(B-1) - 1`, which determines `c_i`.
 //!
+//! The greatest common divisor of two such integers proposes one of the polynomials; what it is worth is for others to
+//! prove.
+//!
 //! # Source
 //! Kronecker 1882, Grundzüge einer arithmetischen Theorie der algebraischen Größen, § 4.
 
@@ -22,6 +25,8 @@ use rug::{Integer, integer::Order};
 const LIMB: usize = 64;
 /// The most slots: beyond it no dense product is worth its memory.
 const MOST_SLOTS: usize = 1 << 24;
+/// The most slots for which room is made at once.
+const MOST_ROOM: usize = 1 << 16;
 /// What GMP takes for products of two integers of so many limbs, in nanoseconds: measured on a processor of 3 GHz.
 const PRODUCTS: [(f64, f64); 12] = [
     (1.0, 18.0),
@@ -98,6 +103,20 @@ impl<'d> Kronecker<'d> {
         (left, a): (&[u64], &Numbers),
         (right, b): (&[u64], &Numbers),
     ) -> Option<Self> {
+        // A coefficient of the product is at most the sum of all of one factor times the largest of the other.
+        let bits = (a.sum_bits() + b.bits()).min(b.sum_bits() + a.bits());
+        Self::with_width(packing, degrees, bits + 2, left, right)
+    }
+
+    /// Returns the substitution with slots of so many bits for two polynomials, not zero, all exponents being at most these
+    /// degrees; `None` if it has too many slots.
+    pub(super) fn with_width(
+        packing: Packing,
+        degrees: &'d [u32],
+        width: usize,
+        left: &[u64],
+        right: &[u64],
+    ) -> Option<Self> {
         let mut strides = vec![0; degrees.len()];
         let mut slots = 1_usize;
         for (stride, &degree) in strides.iter_mut().zip(degrees).rev() {
@@ -107,14 +126,17 @@ impl<'d> Kronecker<'d> {
         if slots > MOST_SLOTS {
             return None;
         }
-        // A coefficient of the product is at most the sum of all of one factor times the largest of the other.
-        let bits = (a.sum_bits() + b.bits()).min(b.sum_bits() + a.bits());
         let words = packing.words();
-        let mut substitution = Self { packing, degrees, strides, width: bits + 2, slots: (0, 0), terms: 0 };
+        let mut substitution = Self { packing, degrees, strides, width, slots: (0, 0), terms: 0 };
         let highest = |monomials: &[u64]| substitution.slot(&monomials[..words]) + 1;
         let terms = (left.len() + right.len()) / words;
         (substitution.slots, substitution.terms) = ((highest(left), highest(right)), terms);
         Some(substitution)
+    }
+
+    /// Returns the limbs of the larger of the two values.
+    pub(super) fn limbs(&self) -> usize {
+        self.slots.0.max(self.slots.1) * self.width / LIMB
     }
 
     /// Returns the nanoseconds that the product is expected to take.
@@ -142,12 +164,27 @@ impl<'d> Kronecker<'d> {
         let (a, b) = (self.integer(left, a, self.slots.0), self.integer(right, b, self.slots.1));
         // Squares are cheaper.
         let product = if a == b { a.square() } else { a * b };
-        let negative = product.is_negative();
-        let mut digits: Vec<u64> = product.to_digits(Order::Lsf);
-        let slots = self.slots.0 + self.slots.1 - 1;
+        self.read(&product, self.slots.0 + self.slots.1 - 1)
+    }
+
+    /// Returns monomials, decreasing, and coefficients of the greatest common divisor of both values, as if they were those
+    /// of a polynomial at `X = 2^B`.
+    pub(super) fn divisor<R: Ring>(
+        &self,
+        (left, a): (&[u64], &Numbers),
+        (right, b): (&[u64], &Numbers),
+    ) -> (Vec<u64>, Vec<R>) {
+        let divisor = self.integer(left, a, self.slots.0).gcd(&self.integer(right, b, self.slots.1));
+        self.read(&divisor, self.slots.0.min(self.slots.1))
+    }
+
+    /// Returns monomials, decreasing, and coefficients of the polynomial that has a value at `X = 2^B` which fits so many
+    /// slots.
+    fn read<R: Ring>(&self, value: &Integer, slots: usize) -> (Vec<u64>, Vec<R>) {
+        let mut digits: Vec<u64> = value.to_digits(Order::Lsf);
         // Slots that end beyond the highest digit are read too.
-        digits.resize((slots + 1) * self.width / LIMB + 3, 0);
-        let reader = Reader { digits: &digits, width: self.width, negative };
+        digits.resize(((slots + 1) * self.width / LIMB + 3).max(digits.len()), 0);
+        let reader = Reader { digits: &digits, width: self.width, negative: value.is_negative() };
         match self.width {
             ..65 => self.collect(slots, |slot| reader.word(slot).map(|n| R::from_wide(n.into()))),
             65..129 => self.collect(slots, |slot| reader.pair(slot).map(R::from_wide)),
@@ -192,7 +229,9 @@ impl<'d> Kronecker<'d> {
     /// Returns the monomials, decreasing, of the slots with a coefficient other than zero, and these coefficients.
     fn collect<R>(&self, slots: usize, mut read: impl FnMut(usize) -> Option<R>) -> (Vec<u64>, Vec<R>) {
         let words = self.packing.words();
-        let (mut monomials, mut coefficients) = (Vec::new(), Vec::new());
+        // Dense products fill most slots, and are what this is for.
+        let room = slots.min(MOST_ROOM);
+        let (mut monomials, mut coefficients) = (Vec::with_capacity(room * words), Vec::with_capacity(room));
         let Some((&inner, outer)) = self.degrees.split_last() else {
             // Constants.
             coefficients.extend(read(0));
