@@ -13,6 +13,8 @@
 //!
 //! The products that lead to new relations are found once, modulo a prime; the same ones are then formed in other numbers.
 
+mod contradiction;
+
 use super::cut::Cut;
 use crate::algebra::ring::{Field, Ring};
 use crate::closure::woernle_lee::{MarkedLine, SIZE, act, left_columns, right_columns, split, split_inverse};

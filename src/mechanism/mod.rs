@@ -2,6 +2,7 @@
 
 mod by_input;
 mod data;
+mod dependence;
 pub(crate) mod exact_loop;
 mod exact_modes;
 mod family;
@@ -191,6 +192,8 @@ impl Mechanism {
             Solver::TaskArm(solver) => solver.solve(case, roots, self.tolerance, workspace, assembly),
         }?;
         solution.modes.iter_mut().for_each(|mode| self.turns.apply(mode));
+        // Every answer goes through here: nothing is denied without proof.
+        solution.verdict = unproved::not_denied(solution.verdict);
         Ok(solution)
     }
 }

@@ -26,6 +26,8 @@ pub(super) struct Neighbourhood<'a> {
     pub scale: f64,
     /// The tolerance.
     pub tolerance: Tolerance,
+    /// Whether the joints are dependent in every position.
+    pub is_deficient: bool,
 }
 
 /// A solution as far as a neighbourhood looks at it.
@@ -61,6 +63,9 @@ const MOST_STARTS: usize = 16;
 const MOST_SEARCHES: usize = 4;
 /// Starts of a search for a near self-motion.
 const TRIALS: usize = 8;
+/// Starts of the search of an arm of dependent joints, whose self-motions rounding dissolves without a trace: as many as of a search
+/// that no pencil leads.
+const STARTS: usize = 40;
 /// The error of a self-motion is measured at this number of points.
 const LOOKED_AT: usize = 24;
 
@@ -98,7 +103,26 @@ impl Neighbourhood<'_> {
         for start in complex.iter().filter(is_bad).step_by(2).take(MOST_SEARCHES) {
             self.search(&start.unknowns.map(|z| z.re), families, within, &mut near);
         }
+        if self.is_deficient && families.is_empty() && near.families.is_empty() {
+            for trial in 1..=STARTS {
+                self.look(&spread(&self.closed.variables, trial), families, within, &mut near);
+            }
+        }
         near
+    }
+
+    /// Takes in the near self-motions downhill of a start. Whether there are any, known or not.
+    fn look(&self, start: &Six<f64>, families: &[SelfMotion], within: f64, near: &mut Near) -> bool {
+        let Some(point) = nearest(self.closed, &approach(self.closed, start), within) else { return false };
+        let holds = |family: &SelfMotion| family.holds(self.closed, &point, within);
+        if families.iter().chain(near.families.iter().map(|(family, _)| family)).any(holds) {
+            return true;
+        }
+        let found = self_motions(self.closed, &point, within);
+        for family in &found {
+            self.admit(family, families, within, near);
+        }
+        !found.is_empty()
     }
 
     /// Looks for a near self-motion from a singular complex solution. Rounding may leave of a curve only complex points of its
@@ -109,16 +133,7 @@ impl Neighbourhood<'_> {
             // At first as it is, then farther and farther away.
             let part = trial as f64 / TRIALS as f64;
             let start = std::array::from_fn(|k| beside[k] + part * elsewhere[k]);
-            let Some(point) = nearest(self.closed, &approach(self.closed, &start), within) else { continue };
-            let holds = |family: &SelfMotion| family.holds(self.closed, &point, within);
-            if families.iter().chain(near.families.iter().map(|(family, _)| family)).any(holds) {
-                return;
-            }
-            let found = self_motions(self.closed, &point, within);
-            for family in &found {
-                self.admit(family, families, within, near);
-            }
-            if !found.is_empty() {
+            if self.look(&start, families, within, near) {
                 return;
             }
         }

@@ -1,8 +1,9 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
 use super::by_input::{ByInput, Prepared};
-use super::unproved::{cap, is_left_to_equations, is_settled, moving, probable};
+use super::unproved::{cap, is_left_to_equations, is_settled, moving, perhaps_near, probable};
 use super::data::{Data, Modular, is_rational};
+use super::dependence::dependent;
 use super::exact_loop::{SsDyadQuestion, Question as ExactQuestion};
 use super::exact_modes::exact_mode;
 use super::vicinity::Vicinity;
@@ -12,7 +13,7 @@ use crate::algebra::enclosure::Enclosure;
 use crate::algebra::interval::Interval;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, AxisTriple, Gap, Mode, Roots, Solver, Workspace, are_apart, ss_dyad, wrapped};
+use crate::assembly::{Assembly, Gap, Mode, Roots, Solver, Workspace, are_apart, ss_dyad, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::Degree;
@@ -118,7 +119,7 @@ impl SixUnknowns {
     }
 
     /// The loop of a case, enclosed.
-    fn enclosed(&self, chain: &Chain, case: &Case) -> Result<Option<ClosedLoop<Enclosure>>> {
+    pub(super) fn enclosed(&self, chain: &Chain, case: &Case) -> Result<Option<ClosedLoop<Enclosure>>> {
         let open = self.enclosed.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
         open.as_ref().map(|open| Ok(open.close(&closing_transformation(case)?))).transpose()
     }
@@ -202,9 +203,8 @@ impl SingleLoop {
         };
         let start = Instant::now();
         let fast = if solver.structural_rank() == 6 { Some(question.answer(workspace, assembly)) } else { None };
-        let is_settled = |(verdict, _): &(Verdict, f64)| is_settled(verdict);
         if prepared.layout.spherical.is_some()
-            && !fast.as_ref().is_some_and(is_settled)
+            && !fast.as_ref().is_some_and(|(verdict, _)| is_settled(verdict))
             && let Some((verdict, modes)) = self.exactly(&prepared.layout, case, fast.is_some())?
         {
             return Ok(exact_solution(case, verdict, modes, *prepare_us, start));
@@ -246,19 +246,21 @@ impl SingleLoop {
             }
         }
         let locked_value = Complex::from(locked_value(case));
-        let modes = assembly.modes.iter().map(|mode| {
-            let q = prepared.layout.assemble(&mode.unknowns, locked_value);
-            full_mode(mode, q, &prepared.layout.variables, &self.limits)
-        });
-        let mut modes: Vec<FullMode> = exact_modes.unwrap_or_else(|| modes.collect());
+        let values = |mode: &Mode| prepared.layout.assemble(&mode.unknowns, locked_value);
+        let full = |mode: &Mode| full_mode(mode, values(mode), &prepared.layout.variables, &self.limits);
+        let mut modes = exact_modes.unwrap_or_else(|| assembly.modes.iter().map(full).collect::<Vec<_>>());
         let vicinity = Vicinity { of: self, prepared, locked: locked_value.re, gap: &gap };
         let is_moving = verdict.status == Status::SelfMotion;
         let mut families = if is_moving { vicinity.families(&assembly.families) } else { Vec::new() };
         if let Some(pose) = &case.pose {
             let near = vicinity.near(pose, tolerance, verdict.status, assembly);
             vicinity.list(&near, tolerance, &mut modes, &mut families);
-            if !(near.modes.is_empty() && near.families.is_empty()) && verdict.status == Status::Unreachable {
-                verdict.status = Status::Complete;
+            if verdict.status == Status::Unreachable {
+                if !(near.modes.is_empty() && near.families.is_empty()) {
+                    verdict.status = Status::Complete;
+                } else if solver.structural_rank() < 6 && !question.is_clear(tolerance) {
+                    verdict = perhaps_near(verdict);
+                }
             }
         }
         Ok(Solution {
@@ -522,6 +524,11 @@ impl Question<'_> {
         if verdict.code != Code::NoSolution || verdict.proof != Proof::None {
             return verdict;
         }
+        // A contradiction in intervals holds for every value of the data.
+        if self.is_clear(Tolerance { length: 0.0, angle: 0.0 }) {
+            let reason = format!("{}; in intervals 1 is a combination of the closure equations", verdict.reason);
+            return Verdict { proof: Proof::Proved, reason, ..verdict };
+        }
         let is_over_rationals = !matches!(self.data(), Data::Field(_));
         if is_over_rationals
             && let (Some(plan), Some(closed)) = (self.plan(), self.exact())
@@ -532,6 +539,14 @@ impl Question<'_> {
         }
         let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
         Verdict { proof: if self.is_rounded() { Proof::None } else { proof }, ..verdict }
+    }
+
+    /// Returns whether it is proved that no real configuration reaches the pose, or closes the loop, within the tolerance.
+    fn is_clear(&self, tolerance: Tolerance) -> bool {
+        let SixUnknowns { solver, .. } = self.prepared;
+        let beyond = solver.too_far(self.gap).map(|(gap, links)| gap - links - tolerance.length - tolerance.angle * links);
+        let is_contradictory = |plan| self.prepared.is_clear(&self.of.chain, self.case, plan, tolerance);
+        beyond.is_some_and(|beyond| beyond > 0.0) || self.plan().is_some_and(is_contradictory)
     }
 
     /// Whether the solutions are roots of eliminants that decide what f64 leaves open.
@@ -755,19 +770,6 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
     }
     let (modular, enclosed, bound, data) = (OnceLock::new(), OnceLock::new(), OnceLock::new(), OnceLock::new());
     Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular, enclosed, bound, data })))
-}
-
-/// Why six joints are dependent, where two triples of their axes say it.
-fn dependent(chain: &Chain, layout: &Layout, triples: &[AxisTriple]) -> String {
-    let [one, two] = triples else { return String::new() };
-    let joints = chain.variables();
-    let variables = layout.joint_variables();
-    let name = |triple: &AxisTriple| {
-        let joint = |k: usize| variables[triple.first + k].and_then(|v| joints.get(v)).map_or(0, |own| own.joint);
-        let how = if triple.parallel { "are parallel" } else { "meet in a point" };
-        format!("the axes of joints {}, {}, {} {how}", joint(0), joint(1), joint(2))
-    };
-    format!("; {} and {}: their six screws are dependent in every position", name(one), name(two))
 }
 
 /// At which position of the idle degree of freedom a loop of two spherical joints is shown, of which the second one begins at this variable.

@@ -2,7 +2,7 @@
 
 use crate::algebra::drawn;
 use crate::assembly::Assembly;
-use crate::verdict::{Code, Proof, Verdict};
+use crate::verdict::{Code, Proof, Status, Verdict};
 
 /// Whether a list is proved complete, complex solutions included.
 pub(super) fn is_settled(verdict: &Verdict) -> bool {
@@ -18,6 +18,22 @@ pub(super) fn is_left_to_equations(verdict: &Verdict) -> bool {
 pub(super) fn moving(exact: &Verdict, found: Verdict) -> Verdict {
     let Verdict { status, proof, code, self_motion, .. } = *exact;
     Verdict { status, proof, code, self_motion, complex_complete: false, ..found }
+}
+
+/// Returns the verdict, `incomplete` where it denies every real solution and nothing proves that.
+pub(super) fn not_denied(verdict: Verdict) -> Verdict {
+    if verdict.status != Status::Unreachable || verdict.proof != Proof::None {
+        return verdict;
+    }
+    let reason = format!("not proved: no real solution was found; {}", verdict.reason);
+    Verdict { status: Status::Incomplete, complex_complete: false, reason, ..verdict }
+}
+
+/// Returns the verdict on a pose that dependent joints do not reach exactly, where it is not proved that nothing comes near it.
+pub(super) fn perhaps_near(verdict: Verdict) -> Verdict {
+    let reason = format!("not proved: nothing was found near the pose, but rounding decides what reaches it exactly; {}", verdict.reason);
+    let (status, proof, code) = (Status::Incomplete, Proof::None, Code::StructurallyDeficient);
+    Verdict { status, proof, code, complex_complete: false, reason, ..verdict }
 }
 
 /// Corrects the dimension of self-motions where all unknowns but so many have finitely many values. There are fewer dimensions

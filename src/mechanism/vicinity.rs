@@ -82,7 +82,9 @@ impl Vicinity<'_> {
             assembly.families.iter().map(|motion| scaled(motion, &closed, 1.0 / scale)).collect();
         let (exact, seen) = if is_moving { (inside, Vec::new()) } else { (Vec::new(), inside) };
         let (chain, layout) = (&self.of.chain, &self.prepared.layout);
-        Neighbourhood { chain, layout, pose, closed: &closed, scale, tolerance }.run(&starts, &exact, &seen)
+        let is_deficient = self.prepared.solver.structural_rank() < 6;
+        let here = Neighbourhood { chain, layout, pose, closed: &closed, scale, tolerance, is_deficient };
+        here.run(&starts, &exact, &seen)
     }
 
     /// Adds what is near to an answer, behind what is exact.

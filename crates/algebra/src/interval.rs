@@ -3,8 +3,9 @@
 //! Each bound is the f64 next to the rounded result, unless an error-free transformation shows the result exact or
 //! already on the safe side; so integers and short binary fractions stay points. No rounding mode, no FMA.
 
+use super::enclosure::Enclosure;
 use super::number::{Angle, Number};
-use super::ring::{Ring, exact_cos_sin};
+use super::ring::{Field, Ring, exact_cos_sin};
 use rug::{Float, Rational, float::Round};
 
 /// All real numbers from `lo` to `hi`; an infinite bound means none is known.
@@ -256,5 +257,25 @@ impl Ring for Interval {
     }
     fn from_number(number: &Number) -> Option<Self> {
         if number.is_exact() { Self::from_rational(number.rational()) } else { Some(Self::about(number.to_f64())) }
+    }
+}
+
+/// Pivots are chosen by their least absolute value; an interval that contains 0 is no pivot.
+impl Field for Interval {
+    fn inverse(&self) -> Option<Self> {
+        Self::inverse(self)
+    }
+    fn pivot_size(&self) -> f64 {
+        self.mignitude()
+    }
+    const PIVOT_ZERO: f64 = 0.0;
+}
+
+impl From<&Enclosure> for Interval {
+    fn from(x: &Enclosure) -> Self {
+        let bound = |round| x.middle().to_f64_round(round);
+        let off = Float::with_val(53, Float::i_exp(1, x.off())).to_f64_round(Round::Up);
+        let off = if x.off() == i32::MIN { 0.0 } else { off.max(f64::MIN_POSITIVE) };
+        Self { lo: bound(Round::Down), hi: bound(Round::Up) }.add(&Self::around(0.0, off))
     }
 }
