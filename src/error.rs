@@ -61,6 +61,15 @@ impl From<algebra::error::Error> for Error {
 }
 
 impl Error {
+    /// Names the option of the command line whose value is wrong, unless the message names it.
+    #[must_use]
+    pub fn of_option(self, option: &str) -> Self {
+        match self {
+            Self::Invalid(message) if !message.contains(option) => Self::Invalid(format!("{option}: {message}")),
+            other => other,
+        }
+    }
+
     /// Places the error in a file: an [`Error::Invalid`] becomes an [`Error::File`]; an unsupported feature only gains the place,
     /// and others stay as they are.
     #[must_use]

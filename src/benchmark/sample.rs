@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
 use crate::kinematics::closed_loop::{Layout, OpenLoop, Variable, angle_motion, distance_motion};
 use crate::kinematics::motion::Motion;
+use crate::kinematics::platform_limits::PlatformLimits;
 use crate::solve::newton::closure;
 use nalgebra::Matrix6;
 use rand::Rng;
@@ -218,6 +219,7 @@ fn draw(set: Set, data: Data, seed: u64, index: u64) -> Result<Sample> {
             notes: None,
             design: Design::Arm(chain.clone()),
             limits: Vec::new(),
+            platform_limits: PlatformLimits::default(),
             cases: vec![case],
             rounded: data == Data::Floats,
             reading: Reading::default(),

@@ -11,6 +11,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
 use crate::kinematics::closed_loop::{Layout, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
+use crate::kinematics::platform_limits::PlatformLimits;
 use crate::mechanism::Mechanism;
 use crate::solve::eigen::EigenWorkspace;
 use rand::Rng;
@@ -258,6 +259,7 @@ fn rational_loop(index: usize, seed: u64, number: u64) -> Entry {
         notes: None,
         design: Design::Loop(chain),
         limits: Vec::new(),
+        platform_limits: PlatformLimits::default(),
         cases: vec![Case::given(Input { joint: inputs, value }, 0)],
         rounded: false,
         reading: Reading::default(),

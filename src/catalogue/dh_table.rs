@@ -7,6 +7,7 @@ use super::scope::Scope;
 use crate::algebra::number::{Angle, Number};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
+use crate::kinematics::platform_limits::PlatformLimits;
 use std::f64::consts::TAU;
 
 const HEADER: [&str; 5] = ["type", "a", "alpha", "d", "theta0"];
@@ -36,6 +37,7 @@ pub(super) fn entry(scope: &Scope<'_>, text: &str, name: &str) -> Result<Entry> 
         notes: None,
         design: Design::Arm(chain),
         limits: Vec::new(),
+        platform_limits: PlatformLimits::default(),
         cases: Vec::new(),
         rounded: scope.is_rounded(),
         reading: scope.reading.clone(),

@@ -10,6 +10,7 @@ use crate::kinematics::data_field::{ClosedForm, DataField, JointMotion};
 use crate::kinematics::joint::Variable;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::platform::Platform;
+use crate::kinematics::platform_limits::PlatformLimits;
 use crate::kinematics::tolerance::Tolerance;
 use rug::Rational;
 
@@ -233,6 +234,8 @@ pub struct Entry {
     pub design: Design,
     /// Lower and upper joint limits, radians or lengths, in joint order; empty if none are given.
     pub limits: Vec<[f64; 2]>,
+    /// The limits of the legs and joints of a platform.
+    pub platform_limits: PlatformLimits,
     /// The poses or inputs.
     pub cases: Vec<Case>,
     /// Whether some number of the file had to be replaced by a nearby rational for exact work.

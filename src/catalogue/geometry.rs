@@ -3,19 +3,21 @@
 use super::entry::{Case, Design, Kind, Labels};
 use super::node::{Node, Value};
 use super::options::Chains;
-use super::platform::platform;
+use super::platform;
 use super::scope::{Scope, Table};
 use crate::algebra::number::{Angle, Number, Quantity};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::joint::Variable;
+use crate::kinematics::platform_limits::PlatformLimits;
 use rug::Rational;
 
 /// The mechanism of a file.
 pub(super) struct Mechanism {
     pub(super) design: Design,
     pub(super) limits: Vec<[f64; 2]>,
+    pub(super) platform_limits: PlatformLimits,
     /// The legs of a platform, if given beside its points.
     pub(super) case: Option<Case>,
     /// The names of its joints in the file.
@@ -24,15 +26,15 @@ pub(super) struct Mechanism {
 
 /// Reads the `[mechanism]` table.
 pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
-    let anything = ["kind", "convention", "joints", "base", "tool", "home", "limits", "plate", "legs", "legs_squared"];
+    let anything = [&["convention", "joints", "tool", "home"], &platform::KEYS[..]].concat();
     let table = scope.table(node, "[mechanism]", &anything)?;
     let kind = match scope.word(scope.need(&table, "kind")?, "kind", &["arm", "loop", "platform"])? {
         "arm" => Kind::Arm,
         "loop" => Kind::Loop,
         _ => {
-            let (platform, case) = platform(scope, node)?;
+            let (platform, platform_limits, case) = platform::platform(scope, node)?;
             let (design, labels) = (Design::Platform(Box::new(platform)), Labels::default());
-            return Ok(Mechanism { design, limits: Vec::new(), case, labels });
+            return Ok(Mechanism { design, limits: Vec::new(), platform_limits, case, labels });
         }
     };
     let table = match kind {
@@ -75,7 +77,7 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     let design = if kind == Kind::Arm { Design::Arm(chain) } else { Design::Loop(chain) };
     let joints =
         if nodes.iter().any(|node| label(node).is_some()) { nodes.iter().map(label).collect() } else { vec![] };
-    Ok(Mechanism { design, limits, case: None, labels: Labels { joints, ..Labels::default() } })
+    Ok(Mechanism { design, limits, platform_limits: PlatformLimits::default(), case: None, labels: Labels { joints, ..Labels::default() } })
 }
 
 /// Returns the name of a joint, if it has one.

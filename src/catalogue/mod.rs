@@ -24,6 +24,7 @@ mod node;
 mod options;
 pub mod planes;
 mod platform;
+mod platform_limits;
 pub mod poses;
 mod robot_chain;
 mod robot_tip;

@@ -7,17 +7,22 @@ use crate::algebra::number::{Number, Quantity};
 use crate::error::Result;
 use crate::kinematics::motion::{Vector, cross, dot};
 use crate::kinematics::platform::Platform;
+use crate::kinematics::platform_limits::PlatformLimits;
 use rug::Rational;
 
 /// The keys of the `[mechanism]` of a platform.
-const KEYS: [&str; 5] = ["kind", "base", "plate", "legs", "legs_squared"];
+pub(super) const KEYS: [&str; 8] =
+    ["kind", "base", "plate", "legs", "legs_squared", "limits", "base_cones", "plate_cones"];
 /// Points nearer to a line than this, relative to their extent, are taken to lie on it.
 const ON_A_LINE: f64 = 1e-12;
 /// Maximum deviation from 1 of the norm of a claimed quaternion.
 const NORM: f64 = 1e-3;
 
-/// Reads the points of a platform, and the legs if the `[mechanism]` gives them.
-pub(super) fn platform(scope: &Scope<'_>, node: &Node) -> Result<(Platform<Number>, Option<Case>)> {
+/// The points of a platform, its limits, and the legs if the `[mechanism]` gives them.
+type Read = (Platform<Number>, PlatformLimits, Option<Case>);
+
+/// Reads the `[mechanism]` of a platform.
+pub(super) fn platform(scope: &Scope<'_>, node: &Node) -> Result<Read> {
     let table = scope.table(node, "the [mechanism] of a platform", &KEYS)?;
     let base = points(scope, scope.need(&table, "base")?, "base")?;
     let plate_node = scope.need(&table, "plate")?;
@@ -39,7 +44,7 @@ pub(super) fn platform(scope: &Scope<'_>, node: &Node) -> Result<(Platform<Numbe
     } else {
         None
     };
-    Ok((platform, case))
+    Ok((platform, super::platform_limits::limits(scope, &table)?, case))
 }
 
 /// Reads the points of one body, which must not lie on a line.

@@ -271,23 +271,23 @@ fn power(form: Form, place: usize, unit: &str, reading: &Reading) -> Option<i32>
     }
 }
 
-/// Reads a pose of the command line: `x, y, z; w, x, y, z` or `x, y, z; roll, pitch, yaw`.
+/// Reads a pose of the command line, given by this option: `x, y, z; w, x, y, z` or `x, y, z; roll, pitch, yaw`.
 ///
 /// # Errors
 /// For anything else.
-pub fn typed_pose(text: &str, design: &Design, reading: &Reading) -> Result<Case> {
+pub fn typed_pose(text: &str, option: &str, design: &Design, reading: &Reading) -> Result<Case> {
     let fail = |found: &str| {
         Error::Invalid(format!("found {found}, expected \"x, y, z; w, x, y, z\" or \"x, y, z; roll, pitch, yaw\""))
     };
-    let Some((position, orientation)) = text.split_once(';') else { return Err(fail(&format!("--at \"{text}\""))) };
+    let Some((position, orientation)) = text.split_once(';') else { return Err(fail(&format!("{option} \"{text}\""))) };
     let values: Vec<String> = position.split(',').chain(orientation.split(',')).map(|v| v.trim().to_owned()).collect();
     let form = match (position.split(',').count(), orientation.split(',').count()) {
         (3, 4) => Form::Quaternion,
         (3, 3) => Form::Angles,
-        (lengths, others) => return Err(fail(&format!("{lengths} and {others} values in --at"))),
+        (lengths, others) => return Err(fail(&format!("{lengths} and {others} values in {option}"))),
     };
     let rows = PoseRows { path: "--at", design, reading: reading.clone(), form, columns: Vec::new(), powers: None, are_doubles: false };
-    let (placement, warning) = rows.placement(&values)?;
+    let (placement, warning) = rows.placement(&values).map_err(|fault| fault.of_option(option))?;
     let mut case = of_design(design, placement, 1);
     case.warnings.extend(warning);
     case.typed = Some(rows.typed(&values));

@@ -19,6 +19,7 @@ use crate::kinematics::freedom::Freedom;
 use crate::kinematics::known_motion::KnownMotion;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::placement::rotation_of;
+use crate::kinematics::platform_limits::PlatformLimits;
 use rug::Rational;
 
 /// Maximum number of joints between base and tip, fixed ones included; their exact rotations then have half a million digits.
@@ -201,6 +202,7 @@ pub(super) fn entry(scope: &Scope<'_>, steps: Vec<Step>, heading: Heading<'_>) -
         notes: None,
         design: Design::Arm(chain),
         limits,
+        platform_limits: PlatformLimits::default(),
         cases: Vec::new(),
         rounded: scope.is_rounded(),
         reading: scope.reading.clone(),

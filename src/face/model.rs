@@ -11,6 +11,7 @@ use crate::conditions::{four_bar, search};
 use crate::derivation::derive;
 use crate::error::{Error, Result};
 use crate::kinematics::joint::Variable;
+use crate::kinematics::platform_limits::PlatformLimits;
 use crate::mechanism::{Mechanism, Solution};
 use crate::report::sweep::Swept;
 use crate::report::text::View;
@@ -46,6 +47,7 @@ impl Model {
             notes: None,
             design,
             limits,
+            platform_limits: PlatformLimits::default(),
             cases: Vec::new(),
             rounded,
             reading: crate::algebra::number::Reading::default(),

@@ -20,6 +20,7 @@ pub mod linkage;
 pub mod motion_polynomial;
 pub mod placement;
 pub mod platform;
+pub mod platform_limits;
 pub mod screw_system;
 pub mod screws;
 pub mod space;

@@ -1,5 +1,6 @@
 //! Stewart platforms over any ring: six legs between points of a base and points of a plate.
 
+use super::dual_quaternion::Quaternion;
 use super::motion::{Motion, Vector, dot};
 use crate::algebra::ring::Ring;
 
@@ -39,4 +40,39 @@ impl<R: Ring> Platform<R> {
         };
         Some(Platform { base: points(&self.base)?, plate: points(&self.plate)? })
     }
+}
+
+impl Platform<f64> {
+    /// Returns the distance of two poses of the plate: the root mean square of the ways of its six points. It depends neither on the
+    /// frame of the plate nor on a choice of units for angles beside lengths.
+    #[must_use]
+    pub fn distance(&self, one: &Motion<f64>, other: &Motion<f64>) -> f64 {
+        let squares = self.plate.iter().map(|point| {
+            let (from, to) = (one.apply(point), other.apply(point));
+            (0..3).map(|k| (to[k] - from[k]).powi(2)).sum::<f64>()
+        });
+        (squares.sum::<f64>() / 6.0).sqrt()
+    }
+
+    /// Returns the size of the plate: the root mean square of the distances of its points from their centroid. A turn by a small
+    /// angle about an axis through the centroid moves the points by at most that angle times the size.
+    #[must_use]
+    pub fn plate_size(&self) -> f64 {
+        let centroid: Vector<f64> = std::array::from_fn(|k| self.plate.iter().map(|point| point[k] / 6.0).sum());
+        let square = |point: &Vector<f64>| (0..3).map(|k| (point[k] - centroid[k]).powi(2)).sum::<f64>();
+        (self.plate.iter().map(square).sum::<f64>() / 6.0).sqrt()
+    }
+}
+
+/// Returns the pose of the plate from a quaternion `w, x, y, z` of any norm and a position; `None` for other numbers of values and
+/// for the quaternion 0.
+#[must_use]
+pub fn pose_of(q: &[f64]) -> Option<Motion<f64>> {
+    let &[w, x, y, z, a, b, c] = q else { return None };
+    let norm = w * w + x * x + y * y + z * z;
+    if !norm.is_normal() {
+        return None;
+    }
+    let rotation = Quaternion { scalar: w, vector: [x, y, z] }.scaled_rotation();
+    Some(Motion { rotation: rotation.map(|row| row.map(|x| x / norm)), translation: [a, b, c] })
 }

@@ -27,6 +27,7 @@ pub use instant::{Moving, MovingChain, relative};
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
+use crate::kinematics::platform_limits::Part;
 use crate::kinematics::task::Demand;
 pub use crate::kinematics::tolerance::{PoseError, Tolerance};
 use crate::kinematics::velocity::Velocity;
@@ -62,7 +63,8 @@ pub struct FullMode {
     /// Error bound of every joint variable that is not given, angles in radians, distances in metres; infinite without
     /// proof.
     pub radius: f64,
-    /// Whether a real solution respects the joint limits; `None` for complex ones or without limits. Where it does, its
+    /// Whether a real solution respects the joint limits, of a platform those of its legs and joints; `None` for complex ones or
+    /// without limits. Where it does, its
     /// angles lie within them, which may be outside `(-pi, pi]`.
     pub within_limits: Option<bool>,
     /// Whether it reaches the pose within the tolerance, but not exactly.
@@ -80,6 +82,8 @@ pub struct PlatformMode {
     pub velocity: Option<Velocity>,
     /// Number, from 1, of the mode that is this one mirrored in the plane of the base.
     pub mirror: Option<usize>,
+    /// The legs and joints of a real mode that are outside their limits.
+    pub outside: Vec<Part>,
 }
 
 /// The answer to one case of a file.
@@ -119,6 +123,8 @@ pub struct PlatformAnswer {
     pub legs: [f64; 6],
     /// The route by which the modes were found, and its reason.
     pub route: String,
+    /// The legs whose lengths are outside their limits.
+    pub outside: Vec<Part>,
 }
 
 /// A mechanism file, prepared. Shared between threads; every thread brings its own [`Workspace`].
@@ -160,7 +166,9 @@ impl Mechanism {
             Design::Arm(chain) | Design::Loop(chain) => {
                 Solver::SingleLoop(Box::new(SingleLoop::prepare(entry, chain)?))
             }
-            Design::Platform(geometry) => Solver::Platform(Box::new(PreparedPlatform::prepare(geometry)?)),
+            Design::Platform(geometry) => {
+                Solver::Platform(Box::new(PreparedPlatform::prepare(geometry, &entry.platform_limits)?))
+            },
         };
         let turns = Turns::of(entry.chain(), &entry.limits);
         Ok(Self { solver, turns, tolerance: None })

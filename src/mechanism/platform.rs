@@ -13,9 +13,8 @@ use crate::elimination::border::DIMENSION;
 use crate::elimination::platform_incidence::most_poses;
 use crate::elimination::platform_polynomial::PlatformPolynomial;
 use crate::error::{Error, Result};
-use crate::kinematics::dual_quaternion::Quaternion;
-use crate::kinematics::motion::Motion;
-use crate::kinematics::platform::Platform;
+use crate::kinematics::platform::{Platform, pose_of};
+use crate::kinematics::platform_limits::{Part, PlatformLimits, listed};
 use crate::kinematics::velocity::velocity;
 use crate::verdict::{PlatformKnowledge, Status, platform_verdict};
 use exact::{ExactSide, Search};
@@ -29,6 +28,7 @@ pub(super) struct PreparedPlatform {
     /// A bound on the number of poses, whatever the legs are, and why.
     incidence: Option<(usize, &'static str)>,
     solver: PlatformSolver,
+    limits: PlatformLimits,
     prepare_us: f64,
 }
 
@@ -65,24 +65,31 @@ pub fn exact_modes(
     assembly.modes
 }
 
-/// The self-motion of a list as an answer. No leg is named: all of them turn on their joints.
-fn families(assembly: &PlatformAssembly, status: Status, dimension: usize) -> Vec<Family> {
+/// The self-motion of a list as an answer, with a sample within the limits if there is one. No leg is named: all of them turn on
+/// their joints.
+fn families(
+    assembly: &PlatformAssembly,
+    status: Status,
+    dimension: usize,
+    is_within: impl Fn(&[f64]) -> bool,
+) -> Vec<Family> {
     let all: Vec<Vec<f64>> = assembly.motion.iter().map(|pose| pose.to_vec()).collect();
-    let Some(sample) = all.first().cloned().filter(|_| status == Status::SelfMotion) else { return Vec::new() };
+    let sample = all.iter().find(|pose| is_within(pose)).or(all.first());
+    let Some(sample) = sample.cloned().filter(|_| status == Status::SelfMotion) else { return Vec::new() };
     let samples = if all.len() > 1 { all } else { Vec::new() };
     vec![Family { dimension, moving: Vec::new(), distance: 0.0, sample, samples }]
 }
 
 impl PreparedPlatform {
     /// Prepares the geometry.
-    pub(super) fn prepare(geometry: &Platform<Number>) -> Result<Self> {
+    pub(super) fn prepare(geometry: &Platform<Number>, limits: &PlatformLimits) -> Result<Self> {
         let exact: Platform<Rational> =
             over(geometry).ok_or_else(|| Error::Invalid("a coordinate without value".to_owned()))?;
         let start = Instant::now();
         let solver = PlatformSolver::prepare_exact(&exact);
         let prepare_us = start.elapsed().as_secs_f64() * 1e6;
         let (distances, incidence) = (Distances::new(&exact), most_poses(&exact));
-        Ok(Self { exact, distances, incidence, solver, prepare_us })
+        Ok(Self { exact, distances, incidence, solver, limits: limits.clone(), prepare_us })
     }
 
     /// Finds all poses with the legs of one case.
@@ -109,32 +116,39 @@ impl PreparedPlatform {
         knowledge.complex_asked = complex && roots == Roots::All;
         knowledge.no_real_pose = short.is_some();
         let verdict = platform_verdict(assembly, roots, &knowledge);
-        let modes = assembly.modes.iter().map(|mode| self.full(mode));
+        let outside = self.limits.legs_outside(&squares);
+        let modes = assembly.modes.iter().map(|mode| self.full(mode, &outside));
+        let is_within = |pose: &[f64]| self.joints_outside(pose).is_empty();
         let legs = case_squares.each_ref().map(|square| square.to_f64().sqrt());
         let short = short.map(|why| format!("no pose is real: {why}"));
+        let beyond = (!outside.is_empty()).then(|| beyond(&outside));
         Ok(Solution {
             arm: None,
-            families: families(assembly, verdict.status, verdict.self_motion),
+            families: families(assembly, verdict.status, verdict.self_motion, is_within),
             verdict,
             modes: modes.collect(),
-            warnings: case.warnings.iter().cloned().chain(short).collect(),
+            warnings: case.warnings.iter().cloned().chain(short).chain(beyond).collect(),
             prepare_us: self.prepare_us,
             solve_us,
-            platform: Some(PlatformAnswer { legs, route: assembly.route.to_string() }),
+            platform: Some(PlatformAnswer { legs, route: assembly.route.to_string(), outside }),
         })
     }
 
-    fn full(&self, mode: &platform::PlatformMode) -> FullMode {
-        let velocity = mode.real.then(|| {
-            let [w, x, y, z] = mode.quaternion.map(|z| z.re);
-            let rotation = Quaternion { scalar: w, vector: [x, y, z] }.scaled_rotation();
-            let norm = w * w + x * x + y * y + z * z;
-            let pose = Motion {
-                rotation: rotation.map(|row| row.map(|x| x / norm)),
-                translation: mode.position.map(|z| z.re),
-            };
-            velocity(self.solver.platform(), &pose)
-        });
+    /// Returns the joints whose legs leave their cones at a pose.
+    fn joints_outside(&self, pose: &[f64]) -> Vec<Part> {
+        if self.limits.is_empty() {
+            return Vec::new();
+        }
+        pose_of(pose).map_or_else(Vec::new, |pose| self.limits.joints_outside(self.solver.platform(), &pose))
+    }
+
+    /// Returns a mode as a user reads it; `legs` are those outside their limits.
+    fn full(&self, mode: &platform::PlatformMode, legs: &[Part]) -> FullMode {
+        let q: Vec<f64> = mode.quaternion.iter().chain(&mode.position).map(|z| z.re).collect();
+        let pose = pose_of(&q).filter(|_| mode.real);
+        let velocity = pose.map(|pose| velocity(self.solver.platform(), &pose));
+        let outside = if mode.real { [legs, &self.joints_outside(&q)].concat() } else { Vec::new() };
+        let is_limited = mode.real && !self.limits.is_empty();
         FullMode {
             q: mode.quaternion.into_iter().chain(mode.position).collect(),
             real: mode.real,
@@ -143,10 +157,16 @@ impl PreparedPlatform {
             condition: velocity.as_ref().map_or(mode.condition, |v| v.singular_values[0] / v.singular_values[5]),
             certified: mode.certificate.is_some(),
             radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius),
-            within_limits: None,
+            within_limits: is_limited.then_some(outside.is_empty()),
             near: false,
             error: None,
-            platform: Some(PlatformMode { velocity, mirror: mode.mirror.map(|index| index + 1) }),
+            platform: Some(PlatformMode { velocity, mirror: mode.mirror.map(|index| index + 1), outside }),
         }
     }
+}
+
+/// Describes legs outside their limits.
+fn beyond(outside: &[Part]) -> String {
+    let verb = if outside.len() == 1 { "is" } else { "are" };
+    format!("{} {verb} outside the limits of length, and so is every pose", listed(outside))
 }

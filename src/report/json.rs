@@ -3,6 +3,7 @@
 use super::model::asked;
 use super::text::View;
 use crate::catalogue::entry::{Case, Entry, Kind};
+use crate::kinematics::platform_limits::Part;
 use crate::kinematics::tolerance::PoseError;
 use crate::mechanism::{ArmAnswer, Family, FullMode, Solution};
 use crate::verdict::{Proof, Verdict};
@@ -57,6 +58,9 @@ pub fn result(number: usize, case: &Case, solution: &Solution, labels: &[String]
     if let Some(platform) = &solution.platform {
         result["legs"] = json!(platform.legs.map(self::number));
         result["route"] = json!(platform.route);
+        if !platform.outside.is_empty() {
+            result["outside"] = words(&platform.outside);
+        }
     }
     let numbered = (1..).zip(&solution.modes).filter(|(_, mode)| view.shows(mode));
     result["modes"] = numbered.map(|(id, mode)| self::mode(id, mode)).collect();
@@ -154,12 +158,22 @@ fn mode(id: usize, mode: &FullMode) -> Value {
         Some(platform) => {
             let velocity = platform.velocity.as_ref();
             object["mirror"] = json!(platform.mirror);
+            if let Some(within) = mode.within_limits {
+                object["within_limits"] = json!(within);
+                object["outside"] = words(&platform.outside);
+            }
             object["singular_values"] = json!(velocity.map(|v| v.singular_values.map(number)));
             object["twist"] = json!(velocity.and_then(|v| v.twist.map(|rows| rows.map(|row| row.map(number)))));
         }
         None => object["within_limits"] = json!(mode.within_limits),
     }
     object
+}
+
+/// The parts of a platform that are outside their limits.
+#[must_use]
+pub fn words(parts: &[Part]) -> Value {
+    parts.iter().map(Part::to_string).collect()
 }
 
 /// A finite number, else null; zero has no sign.

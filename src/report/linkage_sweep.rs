@@ -1,17 +1,17 @@
 //! Sweeps of linkages as text, CSV, JSON and a picture.
 
+pub use super::assembly_sweep::verdict;
+use super::assembly_sweep::{self, Input};
 use super::document::units;
 use super::json::number;
 use super::linkage::joint_variables;
 use super::model;
-use super::number::{counted, short};
-use super::picture::{COLOURS, Frame, Graph, escaped, graphs_svg};
-use super::table::{Columns, paragraph};
+use super::number::short;
+use super::picture::{COLOURS, Frame, escaped, graphs_svg};
 use crate::catalogue::LinkageFile;
 use crate::kinematics::linkage::Gaussian;
 use crate::linkage::answer::LinkageMode;
-use crate::sweep::{End, LinkageBranch, LinkageSweep};
-use crate::verdict::Status;
+use crate::sweep::{End, LinkageSweep};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -46,88 +46,16 @@ pub struct Asked<'a> {
     pub traced: Option<&'a Traced>,
 }
 
-const REASON: &str =
-    "not proved: the assemblies of every input are, but between the inputs branches are joined by their distances";
-
-/// `4 branches, 2 limit positions, 361 inputs, all complete; branches not proved`
-#[must_use]
-pub fn verdict(sweep: &LinkageSweep) -> String {
-    let branches =
-        if sweep.branches.len() == 1 { "1 branch".to_owned() } else { format!("{} branches", sweep.branches.len()) };
-    let (limits, inputs) = (counted(sweep.limits.len(), "limit position"), counted(sweep.samples.len(), "input"));
-    let complete = match sweep.incomplete() {
-        0 => "all complete".to_owned(),
-        n => format!("{n} not proved complete"),
-    };
-    let unresolved = match sweep.unresolved() {
-        0 => String::new(),
-        n => format!(", {} of branches not resolved", counted(n, "end")),
-    };
-    format!("{branches}, {limits}, {inputs}, {complete}{unresolved}; branches not proved")
-}
-
-fn shown(file: &LinkageFile, sweep: &LinkageSweep, x: f64) -> String {
-    if file.linkage.joints[sweep.joint].is_prismatic() {
-        format!("{:.6}", x + 0.0)
-    } else {
-        format!("{:.4}", x.to_degrees() + 0.0)
-    }
+/// Returns the joint that runs.
+fn input<'a>(file: &'a LinkageFile, sweep: &LinkageSweep) -> Input<'a> {
+    let joint = &file.linkage.joints[sweep.joint];
+    Input { title: &file.heading.title, name: &joint.name, is_length: joint.is_prismatic() }
 }
 
 /// The verdict, the branches and the limit positions.
 #[must_use]
 pub fn text(asked: Asked<'_>, sweep: &LinkageSweep) -> String {
-    let file = asked.file;
-    let joint = &file.linkage.joints[sweep.joint];
-    let unit = if joint.is_prismatic() { "m" } else { "deg" };
-    let mut text = format!("{}\n", verdict(sweep));
-    let range = [sweep.range.from, sweep.range.to]
-        .map(|x| if joint.is_prismatic() { short(x, 9) } else { short(x.to_degrees(), 6) });
-    let turn = if sweep.is_full_turn { ", a full turn" } else { "" };
-    let steps = counted(sweep.range.steps, "step");
-    let _ = writeln!(
-        text,
-        "{}, {} from {} to {} {unit} in {steps}{turn}",
-        file.heading.title, joint.name, range[0], range[1]
-    );
-    let words = |end: &End| match end {
-        End::Limit(limit) => format!("limit {}", limit + 1),
-        End::Range => "end of range".to_owned(),
-        End::Closed(turns) => format!("closed after {}", counted(*turns, "turn")),
-        End::Unresolved([one, two]) => {
-            format!("unresolved {} to {}", shown(file, sweep, *one), shown(file, sweep, *two))
-        }
-        End::Infinite(_) | End::Isolated => "isolated".to_owned(),
-    };
-    if !sweep.branches.is_empty() {
-        let (from, to) = (format!("from [{unit}]"), format!("to [{unit}]"));
-        let header = ["branch", "circuit", &from, "begins", &to, "ends", "inputs"];
-        let mut table = Columns::new(&header, &["begins", "ends"]);
-        for (index, branch) in sweep.branches.iter().enumerate() {
-            table.row([
-                (index + 1).to_string(),
-                branch.circuit.to_string(),
-                shown(file, sweep, branch.from),
-                words(&branch.begin),
-                shown(file, sweep, branch.to),
-                words(&branch.end),
-                branch.rows.len().to_string(),
-            ]);
-        }
-        let _ = write!(text, "\n{}", table.text());
-    }
-    if !sweep.limits.is_empty() {
-        let mut table = Columns::new(&["limit", "input", "branches", &format!("{} [{unit}]", joint.name)], &["input"]);
-        for (index, limit) in sweep.limits.iter().enumerate() {
-            let kind = if limit.is_largest { "largest" } else { "smallest" };
-            let meeting: Vec<String> = limit.branches.iter().map(|branch| (branch + 1).to_string()).collect();
-            table.row([(index + 1).to_string(), kind.to_owned(), meeting.join(", "), shown(file, sweep, limit.input)]);
-        }
-        let _ = write!(text, "\n{}", table.text());
-    }
-    text.push('\n');
-    paragraph(&mut text, REASON);
-    text
+    assembly_sweep::text(input(asked.file, sweep), sweep, None)
 }
 
 /// The values of a mode's joints, those that have one.
@@ -172,16 +100,6 @@ pub fn csv(asked: Asked<'_>, sweep: &LinkageSweep) -> String {
     text
 }
 
-fn end_json(end: &End) -> Value {
-    match end {
-        End::Limit(limit) => json!({ "kind": "limit", "limit": limit + 1 }),
-        End::Range => json!({ "kind": "range" }),
-        End::Closed(turns) => json!({ "kind": "closed", "turns": turns }),
-        End::Unresolved(between) => json!({ "kind": "unresolved", "between": between.map(number) }),
-        End::Infinite(_) | End::Isolated => json!({ "kind": "isolated" }),
-    }
-}
-
 /// Joints by name, all values in the order of the file, and the point.
 fn place(asked: Asked<'_>, mode: &LinkageMode) -> Map<String, Value> {
     let values = values(asked.file, mode);
@@ -201,37 +119,8 @@ fn place(asked: Asked<'_>, mode: &LinkageMode) -> Map<String, Value> {
 #[must_use]
 pub fn json(asked: Asked<'_>, sweep: &LinkageSweep) -> Value {
     let file = asked.file;
-    let joint = &file.linkage.joints[sweep.joint];
-    let branch = |branch: &LinkageBranch| {
-        let rows = branch.rows.iter().map(|row| {
-            let mut object = place(asked, &sweep.samples[row.step].modes[row.mode]);
-            object.insert("step".into(), json!(row.step));
-            object.insert("turn".into(), json!(row.turn));
-            Value::Object(object)
-        });
-        json!({
-            "circuit": branch.circuit,
-            "from": number(branch.from), "begins": end_json(&branch.begin),
-            "to": number(branch.to), "ends": end_json(&branch.end),
-            "rows": rows.collect::<Vec<_>>(),
-        })
-    };
-    let limits = sweep.limits.iter().map(|limit| {
-        let mut object = place(asked, &limit.mode);
-        object.insert("input".into(), number(limit.input));
-        object.insert("is".into(), json!(if limit.is_largest { "largest" } else { "smallest" }));
-        object.insert("branches".into(), limit.branches.iter().map(|branch| branch + 1).collect());
-        Value::Object(object)
-    });
-    let inputs = sweep.samples.iter().enumerate().map(|(step, sample)| {
-        json!({
-            "step": step, "input": number(sample.input), "status": sample.status.word(),
-            "real": sample.modes.len(), "reason": sample.reason,
-        })
-    });
     let variables = file.linkage.joints.iter().filter(|joint| !joint.is_gear()).map(|joint| joint.name.clone());
-    let self_motions = sweep.samples.iter().filter(|sample| sample.status == Status::SelfMotion).count();
-    json!({
+    let mut document = json!({
         "name": file.heading.name,
         "version": env!("CARGO_PKG_VERSION"),
         "units": units(),
@@ -239,77 +128,32 @@ pub fn json(asked: Asked<'_>, sweep: &LinkageSweep) -> Value {
         "mechanism": model::linkage_json(file),
         "title": file.heading.title,
         "kind": "linkage",
-        "joint": sweep.joint + 1,
-        "variable": joint.name,
-        "from": number(sweep.range.from),
-        "to": number(sweep.range.to),
-        "steps": sweep.range.steps,
-        "full_turn": sweep.is_full_turn,
-        "verdict": {
-            "status": "incomplete",
-            "proof": "none",
-            "code": if sweep.unresolved() > 0 { "branches-not-matched" } else { "no-exact-route" },
-            "reason": REASON,
-            "branches": sweep.branches.len(),
-            "limits": sweep.limits.len(),
-            "complex_limits": null,
-            "inputs": sweep.samples.len(),
-            "incomplete": sweep.incomplete(),
-            "self_motion": self_motions,
-            "unresolved": sweep.unresolved(),
-        },
+        "variable": file.linkage.joints[sweep.joint].name,
         "variables": variables.collect::<Vec<_>>(),
-        "branches": sweep.branches.iter().map(branch).collect::<Vec<_>>(),
-        "limits": limits.collect::<Vec<_>>(),
-        "standing": [],
-        "inputs": inputs.collect::<Vec<_>>(),
-    })
+    });
+    assembly_sweep::insert(&mut document, sweep, |mode| place(asked, mode));
+    document
 }
 
 /// Every joint against the input, one panel each.
 #[must_use]
 pub fn joints_svg(file: &LinkageFile, sweep: &LinkageSweep) -> String {
     let joints = &file.linkage.joints;
-    let is_turn = |joint: usize| !joints[joint].is_prismatic();
-    let unit = |joint: usize| if is_turn(joint) { "deg" } else { "m" };
-    let shown = |joint: usize, x: f64| if is_turn(joint) { x.to_degrees() } else { x };
+    let input = input(file, sweep);
     let graph = |joint: usize| {
-        let point = |input: f64, mode: &LinkageMode| {
-            [shown(sweep.joint, input), mode.joints[joint].map_or(f64::NAN, |value| shown(joint, value.re))]
+        let own = Input { title: "", name: &joints[joint].name, is_length: joints[joint].is_prismatic() };
+        let point = |x: f64, mode: &LinkageMode| {
+            [input.value(x), mode.joints[joint].map_or(f64::NAN, |value| own.value(value.re))]
         };
-        let line = |branch: &LinkageBranch| {
-            let limit = |end: &End| match end {
-                End::Limit(limit) => Some(point(sweep.limits[*limit].input, &sweep.limits[*limit].mode)),
-                _ => None,
-            };
-            let turns = branch.rows.iter().map(|row| row.turn).max().unwrap_or(0);
-            let points = |turn: usize| {
-                let rows = branch.rows.iter().filter(|row| row.turn == turn);
-                let rows = rows.map(|row| {
-                    let sample = &sweep.samples[row.step];
-                    point(sample.input, &sample.modes[row.mode])
-                });
-                let first = if turn == 0 { limit(&branch.begin) } else { None };
-                let last = if turn == turns { limit(&branch.end) } else { None };
-                first.into_iter().chain(rows).chain(last).collect()
-            };
-            (branch.circuit, (0..=turns).map(points).collect())
-        };
-        let circuit = |branches: &[usize]| branches.first().map_or(1, |branch| sweep.branches[*branch].circuit);
-        Graph {
-            label: format!("{} [{}]", joints[joint].name, unit(joint)),
-            is_turn: is_turn(joint),
-            lines: sweep.branches.iter().map(line).collect(),
-            dots: sweep.limits.iter().map(|limit| (point(limit.input, &limit.mode), circuit(&limit.branches))).collect(),
-        }
+        assembly_sweep::graph(sweep, format!("{} [{}]", own.name, own.unit()), !own.is_length, point)
     };
     let others = (0..joints.len()).filter(|joint| *joint != sweep.joint && !joints[*joint].is_gear());
     let frame = Frame {
-        title: &file.heading.title,
+        title: input.title,
         verdict: &verdict(sweep),
-        input: &format!("{} [{}]", joints[sweep.joint].name, unit(sweep.joint)),
-        is_turn: is_turn(sweep.joint),
-        range: [sweep.range.from, sweep.range.to].map(|x| shown(sweep.joint, x)),
+        input: &format!("{} [{}]", input.name, input.unit()),
+        is_turn: !input.is_length,
+        range: [sweep.range.from, sweep.range.to].map(|x| input.value(x)),
     };
     graphs_svg(&frame, &others.map(graph).collect::<Vec<_>>())
 }

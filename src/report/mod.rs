@@ -1,5 +1,6 @@
 //! Output for readers: the verdict in one line, tables, normalised models, JSON.
 
+pub mod assembly_sweep;
 pub mod atlas;
 pub mod axodes;
 pub mod calculus;
@@ -28,6 +29,7 @@ pub mod motion;
 pub mod number;
 pub mod paper;
 pub mod picture;
+pub mod platform_sweep;
 pub mod rotation;
 pub mod scene;
 pub mod score;

@@ -6,6 +6,7 @@ use super::table::{Columns, paragraph};
 use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::platform_limits::listed;
 use crate::mechanism::{Family, FullMode, PoseError, Solution};
 use crate::verdict::{Code, Status};
 use num_complex::Complex;
@@ -187,8 +188,8 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
     if let Some(platform) = &solution.platform {
         paragraph(&mut text, &format!("route: {}", platform.route));
     }
-    if !entry.limits.is_empty() {
-        paragraph(&mut text, &format!("joint limits: {}", limits(entry)));
+    if let Some(limits) = limits(entry) {
+        paragraph(&mut text, &limits);
         let real = solution.modes.iter().filter(|m| m.within_limits.is_some()).count();
         let outside = solution.modes.iter().filter(|m| m.within_limits == Some(false)).count();
         let fate = if view.drop_outside_limits && outside > 0 { ", the others are not listed" } else { "" };
@@ -250,7 +251,14 @@ pub fn reading(entry: &Entry) -> Vec<String> {
     entry.labels.remarks.iter().cloned().chain(taken).chain(noticed).collect()
 }
 
-fn limits(entry: &Entry) -> String {
+/// The limits of an arm, a loop or a platform, if it has any.
+fn limits(entry: &Entry) -> Option<String> {
+    if !entry.platform_limits.is_empty() {
+        return Some(super::model::platform_limits(&entry.platform_limits));
+    }
+    if entry.limits.is_empty() {
+        return None;
+    }
     let variables = labelled(entry);
     let pairs = entry.limits.iter().zip(&variables).map(|([low, high], (name, variable))| match variable {
         Variable::Rotation => {
@@ -258,7 +266,7 @@ fn limits(entry: &Entry) -> String {
         }
         Variable::Translation => format!("{name} {}..{} m", short(*low, 4), short(*high, 4)),
     });
-    pairs.collect::<Vec<_>>().join(", ")
+    Some(format!("joint limits: {}", pairs.collect::<Vec<_>>().join(", ")))
 }
 
 /// The label of every joint variable, as the file calls its joint, and what it measures.
@@ -334,6 +342,8 @@ fn modes(entry: &Entry, modes: &[&FullMode]) -> Columns {
     let limited = modes.iter().any(|mode| mode.within_limits.is_some());
     let mirror = |mode: &FullMode| mode.platform.as_ref().and_then(|platform| platform.mirror);
     let mirrored = modes.iter().any(|mode| mirror(mode).is_some());
+    let outside = |mode: &FullMode| mode.platform.as_ref().map_or_else(String::new, |own| listed(&own.outside));
+    let named = modes.iter().any(|mode| !outside(mode).is_empty());
     let mut header = vec!["#".to_owned()];
     header.extend(columns.iter().map(|(name, _)| name.clone()));
     if multiple {
@@ -346,7 +356,10 @@ fn modes(entry: &Entry, modes: &[&FullMode]) -> Columns {
     if mirrored {
         header.push("mirror of".to_owned());
     }
-    let mut table = Columns::new(&header, &["certified", "in limits"]);
+    if named {
+        header.push("outside".to_owned());
+    }
+    let mut table = Columns::new(&header, &["certified", "in limits", "outside"]);
     for (index, mode) in modes.iter().enumerate() {
         let mut row = vec![(index + 1).to_string()];
         row.extend(mode.q.iter().zip(&columns).map(|(value, (_, measure))| shown(value, *measure, mode.real)));
@@ -369,6 +382,9 @@ fn modes(entry: &Entry, modes: &[&FullMode]) -> Columns {
         }
         if mirrored {
             row.push(mirror(mode).map_or(String::new(), |number| number.to_string()));
+        }
+        if named {
+            row.push(outside(mode));
         }
         table.row(row);
     }

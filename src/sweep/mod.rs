@@ -5,6 +5,7 @@
 //! turns back. Both ways must agree with each other and with the two lists; where they do not, the step is halved, and
 //! what still does not add up is said to be unresolved. Complex modes show where a circuit may lie within a step.
 
+mod assemblies;
 mod branch;
 mod bridge;
 mod cells;
@@ -13,6 +14,7 @@ mod exact;
 mod hidden;
 mod linkage;
 mod nodes;
+mod platform;
 mod sample;
 mod sphere;
 mod track;
@@ -21,7 +23,9 @@ mod verdict;
 pub use branch::{Branch, End, Limit, Row};
 pub use cells::{Cell, CellMap, Cells, CellsVerdict, Column, Label, MapWanted, Zero, cell_map, cells, is_angle};
 pub use derivation::derive_any;
-pub use linkage::{LinkageBranch, LinkageLimit, LinkageRow, LinkageSample, LinkageSweep, sweep_linkage};
+pub use assemblies::{AssemblyBranch, AssemblyLimit, AssemblyRow, AssemblySample, AssemblySweep};
+pub use linkage::{LinkageSweep, sweep_linkage};
+pub use platform::{PlatformSweep, sweep_platform};
 pub use sample::{Sample, case};
 pub use sphere::{SphereNode, SphereSweep, place as sphere_place, sweep_sphere};
 pub use verdict::SweepVerdict;

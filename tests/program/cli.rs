@@ -3,6 +3,7 @@
 
 mod certificates;
 mod descriptions;
+mod platforms;
 mod score;
 
 use serde_json::Value;
@@ -156,6 +157,20 @@ fn the_document_follows_its_schema() {
             &["sweep", "cccr_1_angle", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
             &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
             &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json", "--scene"],
+            &[
+                "sweep",
+                "platform/points_6_3",
+                "--joint",
+                "leg1",
+                "--from",
+                "48",
+                "--to",
+                "48.2",
+                "--steps",
+                "2",
+                "--json",
+                "--scene",
+            ],
             &[
                 "sweep",
                 "linkage/coupler_curve",

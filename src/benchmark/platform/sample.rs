@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::kinematics::chain::Placement;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::platform::Platform;
+use crate::kinematics::platform_limits::PlatformLimits;
 use crate::kinematics::velocity::velocity;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
@@ -177,6 +178,7 @@ pub fn sample(set: PlatformSet, seed: u64, index: u64) -> Result<PlatformSample>
             notes: None,
             design: Design::Platform(Box::new(numbers)),
             limits: Vec::new(),
+            platform_limits: PlatformLimits::default(),
             cases: vec![case],
             rounded: false,
             reading: Reading::default(),

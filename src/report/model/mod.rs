@@ -15,6 +15,7 @@ pub use ansatz::json as ansatz_json;
 pub use framework::json as framework_json;
 pub use linkage::json as linkage_json;
 pub use space::json as space_json;
+pub use platform::limits as platform_limits;
 pub use sphere::json as sphere_json;
 pub use synthesis::json as synthesis_json;
 
@@ -104,8 +105,8 @@ pub fn case_noun(entry: &Entry) -> &'static str {
     match entry.kind() {
         Kind::Arm => "pose",
         Kind::Loop => "input",
-        // Legs that were computed from poses.
-        Kind::Platform if entry.cases.first().is_some_and(|case| case.pose.is_some()) => "pose",
+        // Legs that were computed from poses, of the file or of a table.
+        Kind::Platform if entry.cases.first().is_none_or(|case| case.pose.is_some()) => "pose",
         Kind::Platform => "leg set",
     }
 }
@@ -210,7 +211,7 @@ pub fn json(entry: &Entry) -> Value {
     remarks(&mut object, entry.source.as_ref(), entry.notes.as_deref());
     match &entry.design {
         Design::Arm(chain) | Design::Loop(chain) => chain::insert(&mut object, entry, chain),
-        Design::Platform(platform) => platform::insert(&mut object, platform),
+        Design::Platform(platform) => platform::insert(&mut object, entry, platform),
     }
     object.insert("exact".into(), json!(!entry.rounded));
     object.insert("cases".into(), json!(entry.cases.iter().map(case).collect::<Vec<_>>()));

@@ -223,7 +223,10 @@ pub struct SolveOptions {
     /// The rows of --poses are a path: which solution continues which one, jumps and singularities, the largest move of a joint
     #[arg(long, requires = "poses")]
     pub follow: bool,
-    /// Sort real solutions by their distance to these joint values
+    /// Platforms: the lengths of the legs at the poses of --at, --poses or the file, beside their limits; nothing is solved
+    #[arg(long, conflicts_with_all = ["complex", "real", "legs", "scene", "follow", "near", "turns", "derivatives", "tolerance", "certificate"])]
+    pub inverse: bool,
+    /// Sort real solutions by their distance to these joint values, of a platform to this pose of the plate, as in --at
     #[arg(long, value_name = "Q", allow_hyphen_values = true)]
     pub near: Option<String>,
     /// Every representative of an angle within the joint limits, not one alone
@@ -362,9 +365,10 @@ pub struct DeriveOptions {
 #[derive(Args)]
 #[command(after_help = help::SWEEP)]
 pub struct SweepOptions {
-    /// A file of a loop or a linkage, the name of a built-in entry, or - for standard input
+    /// A file of a loop, a linkage or a platform, the name of a built-in entry, or - for standard input
     pub mechanism: String,
-    /// The joint to sweep, counted from 1; of a C joint its angle (3 or q3) or its distance (d3); of a linkage its name
+    /// The joint to sweep, counted from 1; of a C joint its angle (3 or q3) or its distance (d3); of a linkage its name; of a platform
+    /// the leg (leg1 to leg6) whose length changes
     /// [default: the input of the file]
     #[arg(long, value_name = "JOINT")]
     pub joint: Option<String>,

@@ -1,9 +1,10 @@
 //! Poses as a path: matches the solutions of each row with those of the row before.
 
-use looproot::internal::catalogue::entry::Entry;
+use looproot::internal::catalogue::entry::{Design, Entry};
 use looproot::internal::kinematics::chain::Chain;
 use looproot::internal::kinematics::closed_loop::Variable;
-use looproot::internal::mechanism::Solution;
+use looproot::internal::kinematics::platform::{Platform, pose_of};
+use looproot::internal::mechanism::{Solution, platform_over};
 use looproot::internal::report::document;
 use looproot::internal::report::number::short;
 use looproot::internal::report::text::View;
@@ -11,7 +12,8 @@ use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// A joint that moves by more than this between successive rows jumps; half a radian is no step of a path.
+/// A joint that moves by more than this between successive rows jumps; half a radian is no step of a path, nor is a way of the
+/// points of a plate as long as that of half a radian about their centroid.
 const JUMP: f64 = 0.5;
 /// Condition numbers above this count as singular for a controller.
 const SINGULAR: f64 = 1e4;
@@ -27,11 +29,30 @@ struct Branch {
 
 /// The branches of a path.
 pub struct Follow {
-    variables: Vec<Variable>,
+    measure: Measure,
     labels: Vec<String>,
     branches: Vec<Branch>,
     /// The branches that reach the last row.
     open: Vec<usize>,
+}
+
+/// How moves are measured.
+enum Measure {
+    /// By the joint that moves most.
+    Joints(Vec<Variable>),
+    /// By the way of the points of a plate.
+    Plate(Box<Platform<f64>>),
+}
+
+/// A move from one row to the next.
+#[derive(Clone, Copy)]
+struct Move {
+    /// Radians or metres.
+    by: f64,
+    /// The same in radians, or of a plate in parts of its size: a turn by as many radians moves its points as far.
+    relative: f64,
+    /// The joint, or 0 for the plate.
+    joint: usize,
 }
 
 /// The results of a row for the path.
@@ -56,9 +77,16 @@ impl Row {
 impl Follow {
     /// Returns a path without rows.
     pub fn of(entry: &Entry) -> Self {
+        let plate = match &entry.design {
+            Design::Platform(geometry) => platform_over::<f64>(geometry),
+            Design::Arm(_) | Design::Loop(_) => None,
+        };
         let variables = entry.chain().map(Chain::variables).unwrap_or_default();
-        let variables = variables.iter().map(|own| own.variable).collect();
-        Self { variables, labels: document::labels(entry), branches: Vec::new(), open: Vec::new() }
+        let (measure, labels) = match plate {
+            Some(platform) => (Measure::Plate(Box::new(platform)), vec!["plate".to_owned()]),
+            None => (Measure::Joints(variables.iter().map(|own| own.variable).collect()), document::labels(entry)),
+        };
+        Self { measure, labels, branches: Vec::new(), open: Vec::new() }
     }
 
     /// Adds the solutions of a row.
@@ -66,31 +94,30 @@ impl Follow {
         let real = solution.modes.iter().enumerate().filter(|(_, mode)| mode.real);
         let modes: Vec<(usize, Vec<f64>)> =
             real.map(|(k, mode)| (k, mode.q.iter().map(|value| value.re).collect())).collect();
-        let mut pairs: Vec<(f64, usize, usize, usize)> = Vec::new();
+        let mut pairs: Vec<(Move, usize, usize)> = Vec::new();
         for &branch in &self.open {
             for (mode, (_, q)) in modes.iter().enumerate() {
-                let (move_by, joint) = self.largest_move(&self.branches[branch].q, q);
-                pairs.push((move_by, joint, branch, mode));
+                pairs.push((self.largest_move(&self.branches[branch].q, q), branch, mode));
             }
         }
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        pairs.sort_by(|a, b| a.0.relative.total_cmp(&b.0.relative));
         let mut row = Row { branches: vec![None; solution.modes.len()], events: Vec::new() };
         let mut taken: Vec<Option<usize>> = vec![None; modes.len()];
         let mut continued = Vec::new();
-        for (move_by, joint, branch, mode) in pairs {
+        for (Move { by, relative, joint }, branch, mode) in pairs {
             if taken[mode].is_some() || continued.contains(&branch) {
                 continue;
             }
-            if move_by > JUMP {
-                let joint = &self.labels[joint];
-                row.events.push(json!({ "event": "jump", "branch": branch + 1, "joint": joint, "move": move_by }));
+            if relative > JUMP {
+                let joint = self.labels.get(joint);
+                row.events.push(json!({ "event": "jump", "branch": branch + 1, "joint": joint, "move": by }));
             }
             taken[mode] = Some(branch);
             continued.push(branch);
             let own = &mut self.branches[branch];
             (own.rows[1], own.q) = (number, modes[mode].1.clone());
-            if move_by > own.largest.0 {
-                own.largest = (move_by, joint, number);
+            if by > own.largest.0 {
+                own.largest = (by, joint, number);
             }
         }
         for &branch in self.open.iter().filter(|branch| !continued.contains(branch)) {
@@ -114,15 +141,25 @@ impl Follow {
         row
     }
 
-    /// Returns the largest move of a joint between two configurations, and that joint.
-    fn largest_move(&self, one: &[f64], other: &[f64]) -> (f64, usize) {
-        let off = |(k, (a, b)): (usize, (&f64, &f64))| {
+    /// Returns the largest move of a joint between two configurations, or the move of the plate between two poses.
+    fn largest_move(&self, one: &[f64], other: &[f64]) -> Move {
+        let variables = match &self.measure {
+            Measure::Joints(variables) => variables,
+            Measure::Plate(platform) => {
+                let poses = pose_of(one).zip(pose_of(other));
+                let by = poses.map_or(f64::INFINITY, |(one, other)| platform.distance(&one, &other));
+                return Move { by, relative: by / platform.plate_size(), joint: 0 };
+            }
+        };
+        let off = |(joint, (a, b)): (usize, (&f64, &f64))| {
             let off = a - b;
-            let turns = self.variables.get(k) == Some(&Variable::Rotation);
-            (if turns { (off - TAU * (off / TAU).round()).abs() } else { off.abs() }, k)
+            let turns = variables.get(joint) == Some(&Variable::Rotation);
+            let by = if turns { (off - TAU * (off / TAU).round()).abs() } else { off.abs() };
+            Move { by, relative: by, joint }
         };
         let moves = one.iter().zip(other).enumerate().map(off);
-        moves.fold((0.0, 0), |best, own| if own.0 > best.0 { own } else { best })
+        let none = Move { by: 0.0, relative: 0.0, joint: 0 };
+        moves.fold(none, |best, own| if own.by > best.by { own } else { best })
     }
 
     /// Returns the branches at the end of the path as JSON.
@@ -144,7 +181,10 @@ impl Follow {
         let mut text = String::new();
         for (number, own) in (1..).zip(&self.branches) {
             let ([from, to], (move_by, joint, row)) = (own.rows, own.largest);
-            let is_angle = self.variables.get(joint) == Some(&Variable::Rotation);
+            let is_angle = match &self.measure {
+                Measure::Joints(variables) => variables.get(joint) == Some(&Variable::Rotation),
+                Measure::Plate(_) => false,
+            };
             let size = if is_angle {
                 format!("{} deg", short(move_by.to_degrees(), 3))
             } else {

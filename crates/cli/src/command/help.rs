@@ -5,7 +5,8 @@ pub const SOLVE: &str = "\
 Examples:
   looproot solve robot.urdf --at \"0.3, 0.1, 0.4; 1, 0, 0, 0\"     every way to reach a pose
   looproot solve robot.urdf --poses poses.csv --jsonl             one answer a line, for as many poses as there are
-  looproot solve iiwa.urdf --at \"...\" --lock joint_a3=\"10 deg\"   seven joints, one held";
+  looproot solve iiwa.urdf --at \"...\" --lock joint_a3=\"10 deg\"   seven joints, one held
+  looproot solve platform.toml --poses poses.csv --inverse        the leg lengths of a platform at every pose";
 
 /// Examples of `derive`.
 pub const DERIVE: &str = "\
@@ -20,7 +21,8 @@ pub const SWEEP: &str = "\
 Examples:
   looproot sweep loop.toml --from 0 --to \"360 deg\"             branches and limit positions
   looproot sweep bennett_a --from 0 --to \"360 deg\" --svg -o bennett.svg
-  looproot sweep loop.toml --joint 2 --from 0 --to 1 --csv      one row for every branch and step";
+  looproot sweep loop.toml --joint 2 --from 0 --to 1 --csv      one row for every branch and step
+  looproot sweep hexapod --joint leg1 --from \"5 cm\" --to \"8 cm\"   a platform: one leg changes its length";
 
 /// Examples of `mobility`.
 pub const MOBILITY: &str = "\

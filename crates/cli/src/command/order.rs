@@ -1,11 +1,14 @@
 //! The order in which solutions are listed, and the full turns added to their angles.
 
 use super::arguments::SolveOptions;
-use looproot::internal::catalogue::entry::{Entry, Kind};
+use looproot::internal::catalogue::entry::{Design, Entry, Kind};
+use looproot::internal::catalogue::poses::typed_pose;
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::closed_loop::Variable;
-use looproot::internal::mechanism::{FullMode, Solution, representatives};
-use looproot::internal::report::number::short;
+use looproot::internal::kinematics::motion::Motion;
+use looproot::internal::kinematics::platform::{Platform, pose_of};
+use looproot::internal::mechanism::{FullMode, Solution, platform_over, representatives};
+use looproot::internal::report::number::{counted, short};
 use looproot::internal::report::text::View;
 use looproot_algebra::number::{Angle, Number, Quantity};
 use serde_json::{Value, json};
@@ -17,8 +20,16 @@ use std::fmt::Write;
 pub struct Order {
     variables: Vec<Variable>,
     limits: Vec<[f64; 2]>,
-    near: Option<Vec<f64>>,
+    near: Option<Near>,
     turns: bool,
+}
+
+/// The value of `--near`.
+enum Near {
+    /// Joint values.
+    Joints(Vec<f64>),
+    /// A pose of the plate of a platform.
+    Pose(Box<Platform<f64>>, Motion<f64>),
 }
 
 impl Order {
@@ -26,18 +37,38 @@ impl Order {
     pub fn of(options: &SolveOptions, entry: &Entry) -> Result<Self, Error> {
         let variables: Vec<Variable> =
             entry.chain().map(|chain| chain.variables().iter().map(|own| own.variable).collect()).unwrap_or_default();
-        if (options.near.is_some() || options.turns) && entry.kind() == Kind::Platform {
-            let name = if options.turns { "--turns" } else { "--near" };
-            return Err(Error::Invalid(format!("found {name} for a platform, expected an arm or a loop")));
+        if options.turns && entry.kind() == Kind::Platform {
+            return Err(Error::Invalid("found --turns for a platform, expected an arm or a loop".to_owned()));
         }
-        let near = options.near.as_ref().map(|text| values(text, &variables, entry)).transpose()?;
+        let near = |text: &String| match &entry.design {
+            Design::Platform(geometry) => {
+                let case = typed_pose(text, "--near", &entry.design, &entry.reading)?;
+                let pose = case.pose.map(|pose| pose.float);
+                let pose =
+                    platform_over::<f64>(geometry).zip(pose).map(|(platform, pose)| Near::Pose(platform.into(), pose));
+                pose.ok_or_else(|| Error::Invalid(format!("found --near \"{text}\", expected a pose of the plate")))
+            }
+            Design::Arm(_) | Design::Loop(_) => {
+                values(text, &variables, entry).map(Near::Joints).map_err(|fault| fault.of_option("--near"))
+            }
+        };
+        let near = options.near.as_ref().map(near).transpose()?;
         Ok(Self { variables, limits: entry.limits.clone(), near, turns: options.turns })
     }
 
     /// Returns the solution with its real modes sorted by their distance to the values of `--near`.
     pub fn sorted<'a>(&self, solution: &'a Solution) -> Cow<'a, Solution> {
-        let Some(near) = &self.near else { return Cow::Borrowed(solution) };
         let mut sorted = solution.clone();
+        let near = match &self.near {
+            None => return Cow::Borrowed(solution),
+            Some(Near::Joints(near)) => near,
+            Some(Near::Pose(platform, near)) => {
+                let pose = |mode: &FullMode| pose_of(&real_parts(mode)).filter(|_| mode.real);
+                let key = |mode: &FullMode| pose(mode).map_or(f64::INFINITY, |pose| platform.distance(&pose, near));
+                sorted.modes.sort_by(|a, b| key(a).total_cmp(&key(b)));
+                return Cow::Owned(sorted);
+            }
+        };
         for mode in sorted.modes.iter_mut().filter(|mode| mode.real) {
             let all = representatives(mode, &self.variables, &self.limits);
             let best = all.into_iter().min_by(|a, b| self.distance(a, near).total_cmp(&self.distance(b, near)));
@@ -45,10 +76,7 @@ impl Order {
                 mode.q.iter_mut().zip(best).for_each(|(value, best)| value.re = best);
             }
         }
-        let key = |mode: &FullMode| {
-            let q: Vec<f64> = mode.q.iter().map(|value| value.re).collect();
-            if mode.real { self.distance(&q, near) } else { f64::INFINITY }
-        };
+        let key = |mode: &FullMode| if mode.real { self.distance(&real_parts(mode), near) } else { f64::INFINITY };
         sorted.modes.sort_by(|a, b| key(a).total_cmp(&key(b)));
         Cow::Owned(sorted)
     }
@@ -95,13 +123,18 @@ impl Order {
     }
 }
 
+fn real_parts(mode: &FullMode) -> Vec<f64> {
+    mode.q.iter().map(|value| value.re).collect()
+}
+
 /// Reads joint values, separated by commas.
 fn values(text: &str, variables: &[Variable], entry: &Entry) -> Result<Vec<f64>, Error> {
     let texts: Vec<&str> = text.split(',').map(str::trim).collect();
     if texts.len() != variables.len() {
         let (found, expected) = (texts.len(), variables.len());
         return Err(Error::Invalid(format!(
-            "found {found} values in --near, expected {expected}, separated by commas"
+            "found {} in --near, expected {expected}, separated by commas",
+            counted(found, "value")
         )));
     }
     let value = |(text, variable): (&str, &Variable)| match variable {

@@ -58,6 +58,9 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
         Any::Space(file) => return super::space::run(options, &file, open()?),
         other => return Err(unexpected(&options.mechanism, other.kind(), "an arm, a loop or a platform with numbers")),
     };
+    if options.inverse {
+        return super::inverse::run(options, &mut entry, open);
+    }
     plant(options.seed);
     let stage = staged(options, &entry)?;
     let mut keys = if options.json || stage.is_some() { document::keys(&entry) } else { Map::new() };
@@ -513,7 +516,7 @@ impl<'a> Report<'a> {
                 let time = duration(self.start.elapsed().as_secs_f64() * 1e6);
                 let missing = match self.total {
                     Some(total) if self.written < total => format!(" of {total}"),
-                    _ if self.refused > 0 => format!(" and {}", counted(self.refused, "row without a pose")),
+                    _ if self.refused > 0 => format!(" and {} without a pose", counted(self.refused, "row")),
                     _ => String::new(),
                 };
                 let gap = if self.view.quiet { "" } else { "\n" };

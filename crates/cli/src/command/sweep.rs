@@ -47,29 +47,27 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
             return Err(unexpected(
                 &options.mechanism,
                 other.kind(),
-                "a loop or a linkage, which has an input to sweep",
+                "a loop, a linkage or a platform, which has an input to sweep",
             ));
         }
     };
     if options.trace.is_some() {
         return Err(unexpected(&options.mechanism, entry.kind().into(), "a linkage, whose points have curves"));
     }
-    let Design::Loop(chain) = &entry.design else {
-        return Err(unexpected(&options.mechanism, entry.kind().into(), "a loop, which has an input to sweep"));
+    let chain = match &entry.design {
+        Design::Loop(chain) => chain,
+        Design::Platform(_) => return super::platform_sweep::run(options, &entry, open),
+        Design::Arm(_) => {
+            let expected = "a loop, a linkage or a platform, which has an input to sweep";
+            return Err(unexpected(&options.mechanism, entry.kind().into(), expected));
+        }
     };
     if options.centrodes.is_some() {
         return Err(Error::Invalid("found --centrodes for a loop, expected --axodes".to_owned()).into());
     }
     let rolling = options.axodes.as_ref().map(|name| link(name, chain.joint_kinds().len())).transpose()?;
     let swept = swept(options, &entry, chain)?;
-    let ends = [("--from", &options.from), ("--to", &options.to)];
-    let [from, to] = ends.map(|(name, text)| end(name, text, swept, &entry.reading));
-    let (from, to) = (from?, to?);
-    if from == to {
-        let message = format!("found --from and --to both {}, expected a range", options.from);
-        return Err(Error::Invalid(message).into());
-    }
-    let range = Range { from, to, steps: options.steps };
+    let range = range(options, swept.variable, &entry.reading)?;
     let output = open()?;
     let target = if output.is_terminal || options.quiet {
         ProgressDrawTarget::hidden()
@@ -173,14 +171,22 @@ fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, 
     Ok(Swept { joint, variable })
 }
 
+/// Reads the range of the input.
+pub fn range(options: &SweepOptions, variable: Variable, reading: &Reading) -> Result<Range, Error> {
+    let ends = [("--from", &options.from), ("--to", &options.to)];
+    let [from, to] = ends.map(|(name, text)| end(name, text, variable, reading));
+    let (from, to) = (from?, to?);
+    if from == to {
+        return Err(Error::Invalid(format!("found --from and --to both {}, expected a range", options.from)));
+    }
+    Ok(Range { from, to, steps: options.steps })
+}
+
 /// Reads an end of the range; a number without a unit has that of the file.
-fn end(name: &str, text: &str, swept: Swept, reading: &Reading) -> Result<f64, Error> {
-    let value = match swept.variable {
+fn end(name: &str, text: &str, variable: Variable, reading: &Reading) -> Result<f64, Error> {
+    let value = match variable {
         Variable::Rotation => Angle::parse(text, reading).map(|angle| angle.radians()),
         Variable::Translation => Number::parse(text, Quantity::Length, reading).map(|length| length.to_f64()),
     };
-    value.map_err(|error| match error.into() {
-        Error::Invalid(message) => Error::Invalid(format!("{name}: {message}")),
-        other => other,
-    })
+    value.map_err(|fault| Error::from(fault).of_option(name))
 }

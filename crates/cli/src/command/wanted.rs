@@ -10,6 +10,7 @@ use looproot::internal::kinematics::freedom::Freedom;
 use looproot::internal::kinematics::tolerance::Tolerance;
 use looproot::internal::report::document;
 use looproot::internal::report::model::case_noun;
+use looproot::internal::report::number::counted;
 use looproot::internal::report::text::reading;
 use looproot_algebra::number::{Angle, Number, Quantity, Reading};
 use std::ops::Range;
@@ -21,18 +22,23 @@ pub fn wanted(options: &CaseOptions, mechanism: &str, entry: &mut Entry) -> Resu
     let reading = &entry.reading;
     let (own, number) = match &entry.design {
         Design::Arm(chain) => {
-            let joints = options.joints.as_ref().map(|joints| reached(chain, joints, reading));
-            let at = options.at.as_ref().map(|pose| typed_pose(pose, &entry.design, reading));
+            let joints = options
+                .joints
+                .as_ref()
+                .map(|joints| reached(chain, joints, reading).map_err(|fault| fault.of_option("--joints")));
+            let at = options.at.as_ref().map(|pose| typed_pose(pose, "--at", &entry.design, reading));
             (joints.or(at), options.pose)
         }
         Design::Loop(chain) => match options.input.as_ref().map(|input| (input, input.split_once('='))) {
-            Some((_, Some((joint, value)))) => (Some(given(chain, joint, value, reading)), None),
+            Some((_, Some((joint, value)))) => {
+                (Some(given(chain, joint, value, reading).map_err(|fault| fault.of_option("--input"))), None)
+            }
             Some((input, None)) => (None, Some(number_of(input)?)),
             None => (None, None),
         },
         Design::Platform(_) => match (&options.legs, &options.at) {
-            (Some(legs), _) => (Some(of_lengths(legs, reading)), None),
-            (None, Some(pose)) => (Some(typed_pose(pose, &entry.design, reading)), None),
+            (Some(legs), _) => (Some(of_lengths(legs, reading).map_err(|fault| fault.of_option("--legs"))), None),
+            (None, Some(pose)) => (Some(typed_pose(pose, "--at", &entry.design, reading)), None),
             (None, None) => (None, options.pose),
         },
     };
@@ -143,7 +149,8 @@ fn reached(chain: &Chain, joints: &str, reading: &Reading) -> Result<Case, Error
     if texts.len() != variables.len() {
         let (found, expected) = (texts.len(), variables.len());
         return Err(Error::Invalid(format!(
-            "found {found} values in --joints, expected {expected}, separated by commas"
+            "found {} in --joints, expected {expected}, separated by commas",
+            counted(found, "value")
         )));
     }
     let mut values = Vec::new();
@@ -163,7 +170,7 @@ pub fn tolerance(text: Option<&str>, entry: &Entry) -> Result<Option<Tolerance>,
         let message = "found --tolerance for a mechanism without a pose of its tool, expected an arm";
         return Err(Error::Invalid(message.to_owned()));
     }
-    Tolerance::parse(text, &entry.reading).map(Some)
+    Tolerance::parse(text, &entry.reading).map(Some).map_err(|fault| fault.of_option("--tolerance"))
 }
 
 /// Reads N numbers, separated by commas.
@@ -177,7 +184,7 @@ fn numbers<const N: usize>(
         text.split(',').map(|part| Number::parse(part.trim(), quantity, reading)).collect::<Result<_, _>>()?;
     numbers.try_into().map_err(|numbers: Vec<_>| {
         let found = numbers.len();
-        Error::Invalid(format!("found {found} values in {option}, expected {N}, separated by commas"))
+        Error::Invalid(format!("found {} in {option}, expected {N}, separated by commas", counted(found, "value")))
     })
 }
 
