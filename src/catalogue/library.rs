@@ -189,7 +189,12 @@ pub(super) fn file(name: &str) -> Option<&'static str> {
 /// Returns the error for a name that the library does not have, with similar names.
 pub(super) fn unknown(name: &str) -> Error {
     let names = [all_names(), robots::robot_names()].concat();
-    let near = nearest(name, names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]));
+    let known = || names.iter().flat_map(|full| [full.as_str(), full.rsplit('/').next().unwrap_or(full)]);
+    let mut near = nearest(name, known());
+    // Robots stand in no folder.
+    if let (true, Some((_, own))) = (near.is_empty(), name.rsplit_once('/')) {
+        near = nearest(own, known());
+    }
     Error::UnknownEntry { name: name.to_owned(), near }
 }
 

@@ -68,8 +68,10 @@ pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &'a Tree, base: Option<&str>) 
         return Ok(Tip { link, remark: format!("the tip is link `{link}`, {why}; --tip-link names another one") });
     }
     let leaves = tree.leaves();
-    let message = format!("found {} end links ({}), expected a tip link to be named", leaves.len(), leaves.join(", "));
-    Err(scope.fail(tree.line, format!("{message}: --tip-link LINK")))
+    let of_arms = arms.iter().flat_map(|arm| arm.leaves.iter()).next();
+    let example = of_arms.or(leaves.first()).copied().unwrap_or("LINK");
+    let message = format!("found {} end links ({})", leaves.len(), leaves.join(", "));
+    Err(scope.fail(tree.line, format!("{message}, expected a tip link to be named: --tip-link {example}")))
 }
 
 /// Returns the link of an arm farthest from the root; `None` if there are several.

@@ -194,7 +194,7 @@ fn pose(real: bool, mirror: Option<usize>) -> FullMode {
         within_limits: None,
         near: false,
         error: None,
-        platform: Some(PlatformMode { velocity: real.then_some(velocity), mirror }),
+        platform: Some(PlatformMode { velocity: real.then_some(velocity), mirror, outside: Vec::new() }),
         ..mode(real, 1, true)
     }
 }
@@ -206,7 +206,7 @@ fn platforms_read_as_agreed() {
     let answered = |status, modes, reason: &str| Solution {
         arm: None,
         families: Vec::new(),
-        platform: Some(PlatformAnswer { legs, route: "the only one".to_owned() }),
+        platform: Some(PlatformAnswer { legs, route: "the only one".to_owned(), outside: Vec::new() }),
         ..answer(status, modes, reason)
     };
     let proved = "3 distinct certified roots of a test";

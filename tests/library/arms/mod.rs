@@ -9,6 +9,7 @@ use looproot::internal::kinematics::closed_loop::{
     ClosedLoop, Layout, OpenLoop, Variable, angle_motion, distance_motion,
 };
 use looproot::internal::kinematics::motion::{Motion, cross};
+use looproot::internal::kinematics::platform_limits::PlatformLimits;
 use looproot::internal::mechanism::{Mechanism, Solution};
 use looproot_algebra::determinant::determinant;
 use looproot_algebra::number::{Angle, HalfTangent, Number, Reading};
@@ -175,6 +176,7 @@ pub fn entry(design: Design, cases: Vec<Case>) -> Entry {
         notes: None,
         design,
         limits: Vec::new(),
+        platform_limits: PlatformLimits::default(),
         cases,
         rounded: false,
         reading: Reading::default(),

@@ -25,7 +25,7 @@ pub fn demand(options: &DemandOptions, entry: &Entry) -> Result<Demand, Error> {
     };
     let mut held: Vec<(usize, Held)> = Vec::new();
     for text in &options.lock {
-        let (joint, value) = locked(text, entry)?;
+        let (joint, value) = locked(text, entry).map_err(|fault| fault.of_option(&format!("--lock {text}")))?;
         if held.iter().any(|(own, _)| *own == joint) {
             return Err(Error::Invalid(format!("found --lock {text}, expected every joint once")));
         }

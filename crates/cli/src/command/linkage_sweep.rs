@@ -4,14 +4,15 @@ use super::arguments::SweepOptions;
 use super::exit::{Exit, Fault};
 use super::instant::named;
 use super::output::{Output, pool};
+use super::sweep::range;
 use looproot::internal::catalogue::LinkageFile;
 use looproot::internal::error::Error;
+use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::kinematics::linkage::Given;
 use looproot::internal::report::axodes;
 use looproot::internal::report::linkage_sweep::{self as report, Asked, Traced};
-use looproot::internal::sweep::{Range, sweep_linkage};
+use looproot::internal::sweep::sweep_linkage;
 use looproot::internal::view::drawable;
-use looproot_algebra::number::{Angle, Number, Quantity};
 use std::io::Write;
 
 /// Sweeps a joint through its range and prints the branches.
@@ -33,9 +34,9 @@ pub fn run(
     let rolling = options.centrodes.as_ref().map(|name| named(file, name)).transpose()?;
     let case = &file.cases[0];
     let joint = joint_of(options, file, &case.given)?;
-    let ends = [("--from", &options.from), ("--to", &options.to)];
-    let [from, to] = ends.map(|(name, text)| end(name, text, file, joint));
-    let range = Range { from: from?, to: to?, steps: options.steps };
+    let is_length = file.linkage.joints[joint].is_prismatic();
+    let variable = if is_length { Variable::Translation } else { Variable::Rotation };
+    let range = range(options, variable, &file.reading)?;
     let pool = pool(options.threads)?;
     let found = pool.install(|| sweep_linkage(&file.linkage, &case.given, joint, range, || ()));
     let found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
@@ -79,18 +80,5 @@ fn joint_of(options: &SweepOptions, file: &LinkageFile, given: &[Given]) -> Resu
         let known: Vec<&str> =
             joints.iter().filter(|joint| !joint.is_gear()).take(12).map(|joint| joint.name.as_str()).collect();
         Error::Invalid(format!("found --joint {name}, expected one of {}", known.join(", ")))
-    })
-}
-
-/// Reads an end of the range; a number without a unit has that of the file.
-fn end(name: &str, text: &str, file: &LinkageFile, joint: usize) -> Result<f64, Error> {
-    let value = if file.linkage.joints[joint].is_prismatic() {
-        Number::parse(text, Quantity::Length, &file.reading).map(|length| length.to_f64())
-    } else {
-        Angle::parse(text, &file.reading).map(|angle| angle.radians())
-    };
-    value.map_err(|error| match error.into() {
-        Error::Invalid(message) => Error::Invalid(format!("{name}: {message}")),
-        other => other,
     })
 }
