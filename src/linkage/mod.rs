@@ -8,6 +8,7 @@
 
 pub mod answer;
 pub mod assembly;
+pub mod defects;
 pub mod dynamics;
 pub mod equations;
 pub mod geared_groups;

@@ -1,5 +1,6 @@
 //! The dyads of a synthesis as text and JSON.
 
+pub mod defects;
 pub mod linkage;
 pub mod picture;
 

@@ -554,6 +554,10 @@ pub struct SynthesizeOptions {
     /// A linkage as a mechanism file; `--linkage` names its dyads
     #[arg(long, requires = "linkage", conflicts_with_all = ["json", "quiet", "svg"])]
     pub toml: bool,
+    /// Dyads RR in the plane: the four-bars of two dyads that have all positions on one circuit and, where their crank turns fully, in
+    /// their order
+    #[arg(long, conflicts_with_all = ["toml", "svg", "quiet"])]
+    pub no_defects: bool,
     /// A drawing of the positions, the dyads and the curves of their points, in the plane
     #[arg(long, conflicts_with_all = ["json", "quiet"])]
     pub svg: bool,

@@ -3,9 +3,9 @@
 use super::arguments::SynthesizeOptions;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
-use looproot::internal::catalogue::{Any, load_any};
+use looproot::internal::catalogue::{Any, DyadKind, Space, Task, load_any};
 use looproot::internal::error::Error;
-use looproot::internal::report::synthesis::{json, linkage, picture, text, verdict};
+use looproot::internal::report::synthesis::{defects, json, linkage, picture, text, verdict};
 use looproot::internal::synthesis::{Answer, synthesize};
 use looproot::internal::verdict::Status;
 use std::io::Write;
@@ -20,16 +20,27 @@ pub fn run(options: &SynthesizeOptions) -> Result<Exit, Fault> {
     if let Some(near) = &options.near {
         answer.sort_near(&numbers(near)?)?;
     }
+    let is_planar = matches!(file.task, Task::Motion(DyadKind::RR, _)) && file.space == Space::Plane;
+    if options.no_defects && !is_planar {
+        let message =
+            "found --no-defects, expected it for positions and RR dyads in the plane, two of which make a four-bar";
+        return Err(Error::Invalid(message.to_owned()).into());
+    }
     let written = if let Some(list) = &options.linkage {
         linkage::toml(&file, &answer, &numbered(list)?)?
     } else if options.svg {
         picture::svg(&file, &answer)?
     } else if options.json {
-        format!("{:#}\n", json(&file, &answer, options.complex))
+        let mut document = json(&file, &answer, options.complex);
+        if options.no_defects {
+            defects::add(&mut document, &file, &answer);
+        }
+        format!("{document:#}\n")
     } else if options.quiet {
         verdict(&file, &answer) + "\n"
     } else {
-        text(&file, &answer, options.complex)
+        let table = if options.no_defects { defects::text(&file, &answer) } else { String::new() };
+        text(&file, &answer, options.complex) + &table
     };
     let mut output = Output::open(&options.output, &options.mechanism)?;
     output.writer.write_all(written.as_bytes())?;
