@@ -174,6 +174,50 @@ fn the_cross_of_a_hooke_joint_rolls_on_cones() {
     }
 }
 
+/// All rows of the branches of a sweep.
+fn rows(document: &Value) -> Vec<&Value> {
+    let branches = document["branches"].as_array().unwrap();
+    branches.iter().flat_map(|branch| branch["rows"].as_array().unwrap()).collect()
+}
+
+#[test]
+fn sweeps_have_the_poles_and_axes_of_single_instants() {
+    let range = ["--from", "90 deg", "--to", "100 deg", "--steps", "1"];
+    let of = |name: &str, more: [&str; 2], code: i32| run(&[&["sweep", name][..], &range, &more].concat(), code);
+    let plane = of("linkage/coupler_instant", ["--centrodes", "coupler"], 2);
+    let first: Vec<&Value> = rows(&plane).into_iter().filter(|row| row["step"] == 0).collect();
+    assert_eq!(first.len(), 2);
+    let upper = first.iter().find(|row| row["centrodes"]["coupler"]["fixed"][1].as_f64().unwrap() > 0.0).unwrap();
+    for (k, expected) in [6.4, 4.8].into_iter().enumerate() {
+        near(&upper["centrodes"]["coupler"]["moving"][k], expected);
+    }
+    // The cross turns at unit rate about the first shaft: its axis is not across it.
+    let sphere = of("linkage/hooke_series", ["--axodes", "cross1"], 2);
+    for row in rows(&sphere) {
+        assert!(row["axodes"]["cross1"]["fixed"]["direction"][0].as_f64().unwrap() > 0.1);
+    }
+    let bennett = run(&["sweep", "bennett_a", "--from", "0 deg", "--to", "90 deg", "--steps", "2", "--axodes", "2"], 0);
+    let last = rows(&bennett).into_iter().find(|row| row["step"] == 2).unwrap();
+    let single = run(&["instant", "bennett_a", "--input", "1=90 deg", "--body", "2"], 0);
+    let screw = &single["results"][0]["modes"][0]["instant"]["screw"];
+    near(&last["axodes"]["link 2"]["pitch"], screw["pitch"].as_f64().unwrap());
+    for k in 0..3 {
+        near(&last["axodes"]["link 2"]["fixed"]["direction"][k], screw["direction"][k].as_f64().unwrap());
+        near(&last["axodes"]["link 2"]["fixed"]["point"][k], screw["point"][k].as_f64().unwrap());
+    }
+}
+
+#[test]
+fn four_bars_of_dyads_are_sorted_by_circuit_and_order() {
+    let document = run(&["synthesize", "burmester5_in_order", "--no-defects"], 0);
+    let list = document["results"][0]["linkages"].as_array().unwrap();
+    let ordered: Vec<&Value> = list.iter().filter(|own| own["in_order"] == true).map(|own| &own["dyads"]).collect();
+    assert_eq!((list.len(), ordered), (8, vec![&serde_json::json!([3, 4]), &serde_json::json!([4, 3])]));
+    // The same positions in another order: the crank turns fully, and passes them in another one.
+    let other = run(&["synthesize", "burmester5_4real_a", "--no-defects"], 0);
+    assert_eq!(other["results"][0]["linkages"].as_array().unwrap().len(), 6);
+}
+
 #[test]
 fn limits_and_wrong_words_are_answers() {
     let message = |arguments: &[&str]| run(arguments, 1).as_str().unwrap().to_owned();

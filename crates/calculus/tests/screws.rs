@@ -141,3 +141,11 @@ fn pivots_lie_on_the_cubic_and_have_the_frame_pivots_as_centres() {
     let twice = instant.inverse().inverse();
     assert!((twice.third - instant.third).norm() < 1e-12);
 }
+
+#[path = "../examples/strapdown.rs"]
+mod strapdown;
+
+#[test]
+fn an_orientation_is_found_from_gyroscopes() {
+    strapdown::main();
+}

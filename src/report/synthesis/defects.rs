@@ -27,7 +27,7 @@ pub fn add(document: &mut Value, file: &SynthesisFile, answer: &Answer) {
 pub fn text(file: &SynthesisFile, answer: &Answer) -> String {
     let (count, list) = sound(file, answer);
     let mut text = "\n".to_owned();
-    paragraph(&mut text, &format!("{} of {count} four-bars of two dyads have all positions on one circuit, in their order", list.len()));
+    paragraph(&mut text, &format!("{} of {count} four-bars of two dyads have all positions on one circuit, and in their order where the crank turns fully", list.len()));
     if list.is_empty() {
         return text;
     }

@@ -134,8 +134,7 @@ pub struct CaseOptions {
     /// Platform: legs of these lengths: "1, 1.2, 900 mm, ..."
     #[arg(long, value_name = "L", conflicts_with = "pose", allow_hyphen_values = true)]
     pub legs: Option<String>,
-    /// This pose of the tool, of a platform of its plate: "x, y, z; w, x, y, z", position and quaternion, or
-    /// "x, y, z; roll, pitch, yaw"
+    /// This pose of the tool or plate: "x, y, z; w, x, y, z", position and quaternion, or "x, y, z; roll, pitch, yaw"
     #[arg(long, value_name = "POSE", conflicts_with_all = ["pose", "input", "joints", "legs"], allow_hyphen_values = true)]
     pub at: Option<String>,
 }
@@ -393,8 +392,7 @@ pub struct SweepOptions {
     /// JSON of linkages in the plane: the pole of a body at every step, in axes of the ground and of the body
     #[arg(long, value_name = "BODY", requires = "json")]
     pub centrodes: Option<String>,
-    /// JSON of loops and of linkages on the sphere: the axis of the velocity screw of a body at every step, in axes of the ground
-    /// and of the body; bodies of a loop have the number of the joint before them
+    /// JSON of loops (the body behind this joint) and of linkages on the sphere: the axis of the velocity screw, in the same axes
     #[arg(long, value_name = "BODY", requires = "json")]
     pub axodes: Option<String>,
     /// One JSON document
@@ -554,8 +552,7 @@ pub struct SynthesizeOptions {
     /// A linkage as a mechanism file; `--linkage` names its dyads
     #[arg(long, requires = "linkage", conflicts_with_all = ["json", "quiet", "svg"])]
     pub toml: bool,
-    /// Dyads RR in the plane: the four-bars of two dyads that have all positions on one circuit and, where their crank turns fully, in
-    /// their order
+    /// Dyads RR in the plane: the four-bars with all positions on one circuit, in the order of a crank that turns fully
     #[arg(long, conflicts_with_all = ["toml", "svg", "quiet"])]
     pub no_defects: bool,
     /// A drawing of the positions, the dyads and the curves of their points, in the plane

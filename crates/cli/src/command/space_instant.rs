@@ -52,15 +52,12 @@ pub fn of_chain(options: &InstantOptions, mut entry: Entry) -> Result<Exit, Faul
         let case = &entry.cases[index];
         let solution = mechanism.solve(case, Roots::Real, &mut workspace, &mut assembly).map_err(place)?;
         exit = exit.max(Exit::of(&solution));
-        let motions: Vec<Option<Derivatives>> = match &rate {
-            Some(rate) => {
-                let own = Derivatives { velocity: rate.clone(), acceleration: vec![0.0; rate.len()] };
-                vec![Some(own); solution.modes.len()]
-            }
-            None => {
-                let curve = InputCurve::of(&entry, case).map_err(place)?;
-                solution.modes.iter().map(|mode| curve.derivatives(mode)).collect()
-            }
+        let motions: Vec<Option<Derivatives>> = if let Some(rate) = &rate {
+            let own = Derivatives { velocity: rate.clone(), acceleration: vec![0.0; rate.len()] };
+            vec![Some(own); solution.modes.len()]
+        } else {
+            let curve = InputCurve::of(&entry, case).map_err(place)?;
+            solution.modes.iter().map(|mode| curve.derivatives(mode)).collect()
         };
         let found = chain_result(&entry, (index + 1, case), &solution, &motions, pair);
         if options.json {
