@@ -1,6 +1,9 @@
 //! One file per verb, and their common parts.
 
+mod answer_file;
 pub mod arguments;
+#[cfg(not(target_family = "wasm"))]
+mod arrow_table;
 pub mod bench;
 pub mod bless;
 pub mod calculus;

@@ -1,12 +1,12 @@
 //! `looproot solve`
 
+use super::answer_file::AnswerFile;
 use super::arguments::{Limits, OutputOptions, SolveOptions};
 use super::calculus;
 use super::certificates::Certificates;
 use super::demand::demand;
 use super::exit::{Exit, Fault, complain, unexpected};
 use super::follow::Follow;
-use super::npz::Arrays;
 use super::order::Order;
 use super::output::{Output, pool};
 use super::rows::{self, Row};
@@ -33,7 +33,6 @@ use looproot_algebra::drawn::seed_used;
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
 use std::io::Write;
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -41,8 +40,10 @@ use std::time::Instant;
 /// Finds every solution of every case, or of the requested one, and prints them in the order of the file.
 pub fn run(options: &SolveOptions) -> Result<Exit, Fault> {
     // Arrays have a file of their own, and what else there is to say is printed.
-    let output =
-        OutputOptions { output: options.output.output.clone().filter(|path| !is_arrays(path)), ..options.output };
+    let output = OutputOptions {
+        output: options.output.output.clone().filter(|path| !AnswerFile::is_named(path)),
+        ..options.output
+    };
     run_to(options, || Output::open(&output, &options.mechanism))
 }
 
@@ -84,7 +85,7 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
     let (reader, rows) = table.unzip();
     let total = reader.is_none().then_some(wanted.len());
     let mut report = Report::new(options, &entry, keys, (stage, order), total, open()?);
-    report.arrays = arrays(options, &entry, &report.labels)?;
+    report.answers = answer_file(options, &entry, &report.labels)?;
     let prepared = Mechanism::prepare_for(&entry, &demand).map(|mechanism| mechanism.with_tolerance(tolerance));
     let exit = match prepared {
         Ok(mechanism) => {
@@ -111,14 +112,9 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
     Ok(exit)
 }
 
-/// Says whether the output is a file of arrays, by its name.
-fn is_arrays(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npz"))
-}
-
-/// Begins the arrays that are asked for.
-fn arrays(options: &SolveOptions, entry: &Entry, labels: &[String]) -> Result<Option<Arrays>, Error> {
-    let Some(path) = options.output.output.as_ref().filter(|path| is_arrays(path)) else { return Ok(None) };
+/// Begins the file of arrays or the table that is asked for.
+fn answer_file(options: &SolveOptions, entry: &Entry, labels: &[String]) -> Result<Option<AnswerFile>, Error> {
+    let Some(path) = options.output.output.as_ref().filter(|path| AnswerFile::is_named(path)) else { return Ok(None) };
     let unfit = [("--json", options.json), ("--jsonl", options.jsonl), ("--complex", options.complex)];
     let what = unfit.iter().find(|(_, is_there)| *is_there).map(|(name, _)| *name);
     let what = what.or((entry.kind() != Kind::Arm).then_some("a mechanism that is no arm"));
@@ -126,7 +122,7 @@ fn arrays(options: &SolveOptions, entry: &Entry, labels: &[String]) -> Result<Op
         Some(what) => {
             Err(Error::Invalid(format!("found {what} with `-o {}`, expected real solutions of an arm", path.display())))
         }
-        None => Arrays::create(path, labels, !entry.limits.is_empty()).map(Some),
+        None => AnswerFile::create(path, labels, !entry.limits.is_empty()).map(Some),
     }
 }
 
@@ -321,7 +317,7 @@ struct Report<'a> {
     start: Instant,
     progress: ProgressBar,
     certificates: Option<Certificates>,
-    arrays: Option<Arrays>,
+    answers: Option<AnswerFile>,
 }
 
 impl<'a> Report<'a> {
@@ -376,7 +372,7 @@ impl<'a> Report<'a> {
             start,
             progress,
             certificates,
-            arrays: None,
+            answers: None,
         }
     }
 
@@ -397,8 +393,8 @@ impl<'a> Report<'a> {
         let sorted = self.order.sorted(solution);
         let solution = sorted.as_ref();
         let row = self.follow.as_mut().map(|follow| follow.add(number, solution));
-        if let Some(arrays) = &mut self.arrays {
-            arrays.add(solution)?;
+        if let Some(answers) = &mut self.answers {
+            answers.add(solution)?;
         }
         let document = || {
             let mut result = json::result(number, case, solution, &self.labels, &self.view);
@@ -415,7 +411,7 @@ impl<'a> Report<'a> {
             result
         };
         match self.form {
-            Form::Text if self.arrays.is_some() => {}
+            Form::Text if self.answers.is_some() => {}
             Form::Text => {
                 let mut text = String::new();
                 if self.written > 0 && !self.view.quiet {
@@ -470,8 +466,8 @@ impl<'a> Report<'a> {
         } else {
             complain(&error.to_string());
         }
-        if let Some(arrays) = &mut self.arrays {
-            arrays.refuse(&message)?;
+        if let Some(answers) = &mut self.answers {
+            answers.refuse(&message)?;
         }
         self.written += usize::from(self.is_json());
         self.refused += 1;
@@ -488,8 +484,8 @@ impl<'a> Report<'a> {
         if let Some(certificates) = &mut self.certificates {
             certificates.close()?;
         }
-        if let Some(arrays) = self.arrays.take() {
-            arrays.close()?;
+        if let Some(answers) = self.answers.take() {
+            answers.close()?;
         }
         self.progress.finish_and_clear();
         let out = &mut self.output.writer;
