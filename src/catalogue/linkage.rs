@@ -9,7 +9,7 @@ use super::scope::{Scope, Table, nearest};
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::algebra::ring::{Ring, exact_cos_sin};
 use crate::error::Result;
-use crate::kinematics::linkage::{Body, Gaussian, Given, Linkage, LinkageJoint, Pair};
+use crate::kinematics::linkage::{Accuracy, Body, Gaussian, Given, Linkage, LinkageJoint, Pair};
 use rug::{Integer, Rational};
 use std::collections::{HashMap, HashSet};
 
@@ -37,6 +37,14 @@ pub struct LinkageFile {
     pub reading: Reading,
 }
 
+impl LinkageFile {
+    /// Returns what is known of all numbers of a case.
+    #[must_use]
+    pub fn accuracy(&self, case: &LinkageCase) -> Accuracy {
+        if self.exact { case.accuracy } else { Accuracy::Rounded }
+    }
+}
+
 /// A claim about the curve of a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TraceClaim {
@@ -55,8 +63,8 @@ pub struct TraceClaim {
 pub struct LinkageCase {
     /// The given values.
     pub given: Vec<Given>,
-    /// Whether all of them are exact.
-    pub exact: bool,
+    /// What is known of them.
+    pub accuracy: Accuracy,
     /// The claims.
     pub expected: LinkageClaims,
     /// Line of the file at which the case begins, from 1.
@@ -127,7 +135,7 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
         }
     } else {
         let line = mechanism.line();
-        cases.push(LinkageCase { given: Vec::new(), exact: true, expected: LinkageClaims::default(), line });
+        cases.push(LinkageCase { given: Vec::new(), accuracy: Accuracy::Exact, expected: LinkageClaims::default(), line });
     }
     // Claims at the top of a file concern its first case.
     let top = claims(scope, &table, &linkage)?;
@@ -489,7 +497,7 @@ impl Reader<'_, '_> {
     }
 
     fn turn(&self, node: &Node, what: &str) -> Result<(Gaussian, bool)> {
-        turn(self.scope, node, what)
+        Ok(rotation(&angle(self.scope, node, what)?))
     }
 }
 
@@ -511,22 +519,29 @@ pub(super) fn rotation(angle: &Angle) -> (Gaussian, bool) {
     (Gaussian { re, im }, angle.is_exact())
 }
 
-/// Reads an angle, or a table with `angle` or `tan_half`, as a rotation, and whether it is exact.
-fn turn(scope: &Scope<'_>, node: &Node, what: &str) -> Result<(Gaussian, bool)> {
+/// Reads an angle, or a table with `angle` or `tan_half`.
+fn angle(scope: &Scope<'_>, node: &Node, what: &str) -> Result<Angle> {
     if !matches!(node.value, Value::Table(_)) {
-        return Ok(rotation(&scope.angle(node, what)?));
+        return scope.angle(node, what);
     }
-    turn_of(scope, &scope.table(node, what, &["angle", "tan_half"])?, what)
+    angle_of(scope, &scope.table(node, what, &["angle", "tan_half"])?, what)
 }
 
-/// The rotation of a table with `angle` or `tan_half`, and whether it is exact.
-pub(super) fn turn_of(scope: &Scope<'_>, table: &Table<'_>, what: &str) -> Result<(Gaussian, bool)> {
+/// Returns the angle of a table with `angle` or `tan_half`.
+pub(super) fn angle_of(scope: &Scope<'_>, table: &Table<'_>, what: &str) -> Result<Angle> {
     match (table.get("angle"), table.get("tan_half")) {
-        (Some(node), None) => Ok(rotation(&scope.angle(node, "angle")?)),
-        (None, Some(node)) => Ok(rotation(&scope.half_tangent(node, "tan_half")?)),
+        (Some(node), None) => scope.angle(node, "angle"),
+        (None, Some(node)) => scope.half_tangent(node, "tan_half"),
         _ => Err(scope
             .fail(table.line(), format!("found `{what}` without exactly one of `angle` and `tan_half`, expected one"))),
     }
+}
+
+/// Returns the given angle of a revolute joint, and whether it is exact.
+pub(super) fn given_turn(joint: usize, angle: &Angle, line: usize) -> (Given, bool) {
+    let (turn, exact) = rotation(angle);
+    let within = angle.enclosed().filter(|_| !exact).map(|pair| Box::new(pair.clone()));
+    (Given::Turn { joint, turn, within, line }, exact)
 }
 
 /// Reads a length, or a table with `distance`.
@@ -572,8 +587,7 @@ fn given_joint(scope: &Scope<'_>, linkage: &Linkage, joint: usize, node: &Node, 
             scope.fail(line, format!("found an input of the gears {}, expected one of a joint with a value", own.name))
         );
     }
-    let (turn, exact) = turn(scope, node, &own.name)?;
-    Ok((Given::Turn { joint, turn, line }, exact))
+    Ok(given_turn(joint, &angle(scope, node, &own.name)?, line))
 }
 
 /// Reads an `[[input]]`.
@@ -582,9 +596,9 @@ fn case(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -> Result<LinkageCase
     let table = scope.table(node, "[[input]]", &keys)?;
     let line = table.line();
     let mut given = Vec::new();
-    let mut exact = true;
+    let mut accuracy = Accuracy::Exact;
     let mut add = |(one, is_exact): (Given, bool)| {
-        exact &= is_exact;
+        accuracy = accuracy.max(one.accuracy(is_exact));
         given.push(one);
     };
     if let Some(list) = table.get("given") {
@@ -628,14 +642,14 @@ fn case(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -> Result<LinkageCase
                 return Err(scope.fail(line, message));
             }
             let one = if table.get("tan_half").is_some() {
-                let (turn, exact) = rotation(&scope.half_tangent(value, "tan_half")?);
+                let angle = scope.half_tangent(value, "tan_half")?;
                 if own.is_gear() {
                     return Err(scope.fail(
                         line,
                         format!("found an input of the gears {}, expected a joint with a value", own.name),
                     ));
                 }
-                (Given::Turn { joint, turn, line: joint_line }, exact)
+                given_turn(joint, &angle, joint_line)
             } else {
                 given_joint(scope, linkage, joint, value, joint_line)?
             };
@@ -667,7 +681,7 @@ fn case(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -> Result<LinkageCase
             return Err(scope.fail(line, message));
         }
     }
-    Ok(LinkageCase { given, exact, expected: claims(scope, &table, linkage)?, line })
+    Ok(LinkageCase { given, accuracy, expected: claims(scope, &table, linkage)?, line })
 }
 
 /// Reads the claims beside a case or at the top of the file.

@@ -1,6 +1,6 @@
 //! A configuration of a planar linkage: the angle of every body against the ground, and positions where slides need them.
 
-use super::linkage::{body_named, turn_of};
+use super::linkage::{angle_of, body_named, rotation};
 use super::node::{Node, Value};
 use super::scope::Scope;
 use crate::error::Result;
@@ -39,7 +39,7 @@ pub(super) fn configuration(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -
         }
         let what = format!("configuration.{}", field.key);
         let table = scope.table(&field.node, &what, &["angle", "tan_half", "position"])?;
-        let (rotation, is_exact) = turn_of(scope, &table, &what)?;
+        let (rotation, is_exact) = rotation(&angle_of(scope, &table, &what)?);
         turns[body] = Some(rotation);
         exact &= is_exact;
         if let Some(node) = table.get("position") {

@@ -1,7 +1,7 @@
 //! Inputs of linkages as typed on the command line: `A=60 deg, leg1=4`.
 
 use super::entry::InputValue;
-use super::linkage::{LinkageCase, LinkageClaims, LinkageFile, root, rotation};
+use super::linkage::{LinkageCase, LinkageClaims, LinkageFile, given_turn, root};
 use super::space::{SpaceCase, SpaceFile};
 use super::sphere::{SphereCase, SphereClaims, SphereFile, turned};
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
@@ -76,8 +76,7 @@ impl LinkageFile {
                     (Given::Shift { joint, shift: Rational::from(distance.rational() / length), line }, exact)
                 }
                 (Pair::Revolute, InputValue::Angle(angle)) => {
-                    let (turn, exact) = rotation(angle);
-                    (Given::Turn { joint, turn, line }, exact)
+                    given_turn(joint, angle, line)
                 }
                 _ => return Err(Error::Invalid(format!("found a value of another kind for the joint {name}"))),
             };
@@ -85,8 +84,8 @@ impl LinkageFile {
                 !matches!(one, Given::Turn { joint: old, .. } | Given::Shift { joint: old, .. } if *old == joint)
             };
             case.given.retain(is_other);
+            case.accuracy = case.accuracy.max(given.accuracy(exact));
             case.given.push(given);
-            case.exact &= exact;
         }
         Ok(case)
     }

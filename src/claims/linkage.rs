@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 pub(super) fn linkage(file: &LinkageFile) -> Result<Judgement> {
     let mut judgement = Judgement { cases: file.cases.len(), ..Judgement::default() };
     for (number, case) in (1..).zip(&file.cases) {
-        let answer = solve(&file.linkage, &case.given, file.exact && case.exact)?;
+        let answer = solve(&file.linkage, &case.given, file.accuracy(case))?;
         match answer.verdict.status {
             Status::Complete | Status::Unreachable => judgement.complete += 1,
             Status::SelfMotion => judgement.self_motions += 1,

@@ -106,7 +106,7 @@ impl Linkage {
         let mut document = match &self.file {
             Kind::Plane(file) => {
                 let case = self.plane_case(file, given)?;
-                let answer = crate::linkage::answer::solve(&file.linkage, &case.given, file.exact && case.exact)?;
+                let answer = crate::linkage::answer::solve(&file.linkage, &case.given, file.accuracy(&case))?;
                 linkage::json(file, &[linkage::result(file, &case, 1, &answer, complex)])
             }
             Kind::Sphere(file) => {

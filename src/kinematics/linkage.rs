@@ -1,5 +1,6 @@
 //! Planar linkages: a graph of bodies with points and of joints between them.
 
+use crate::algebra::enclosure::Enclosure;
 use num_complex::Complex;
 use rug::Rational;
 
@@ -90,6 +91,17 @@ pub struct Linkage {
     pub joints: Vec<LinkageJoint>,
 }
 
+/// A measure of what is known of the numbers of a linkage and its inputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Accuracy {
+    /// All are exact.
+    Exact,
+    /// All are exact but angles of inputs, which are enclosed.
+    Enclosed,
+    /// Some were rounded.
+    Rounded,
+}
+
 /// A value of a linkage that is given as input.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Given {
@@ -99,6 +111,8 @@ pub enum Given {
         joint: usize,
         /// The rotation, of norm 1.
         turn: Gaussian,
+        /// What holds cosine and sine, where the rotation is rounded.
+        within: Option<Box<(Enclosure, Enclosure)>>,
         /// Line of the file, from 1.
         line: usize,
     },
@@ -125,6 +139,16 @@ pub enum Given {
 }
 
 impl Given {
+    /// Returns what is known of the value, where `is_exact` says whether it is exact.
+    #[must_use]
+    pub fn accuracy(&self, is_exact: bool) -> Accuracy {
+        match self {
+            _ if is_exact => Accuracy::Exact,
+            Self::Turn { within: Some(_), .. } => Accuracy::Enclosed,
+            Self::Turn { .. } | Self::Shift { .. } | Self::Place { .. } => Accuracy::Rounded,
+        }
+    }
+
     /// Line of the file, from 1.
     #[must_use]
     pub fn line(&self) -> usize {

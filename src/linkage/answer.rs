@@ -1,11 +1,11 @@
 //! The answer to one case of a linkage: its assemblies as numbers, and the verdict on their list.
 
-use super::assembly::{Assemblies, Route, Solution, assemblies};
+use super::assembly::{Assemblies, Route, Solution, assemblies, assemblies_within};
 use super::isotropic::middle;
 use super::state::{Number, State, number};
 use crate::algebra::ring::Ring;
 use crate::error::Result;
-use crate::kinematics::linkage::{Given, Linkage, Pair};
+use crate::kinematics::linkage::{Accuracy, Given, Linkage, Pair};
 use crate::verdict::{Code, Proof, Status, Verdict};
 use num_complex::Complex;
 use rug::Float;
@@ -68,13 +68,17 @@ pub struct LinkageAnswer {
     pub solve_us: f64,
 }
 
-/// Finds all assemblies with these inputs; `exact` says whether no number of file and inputs was rounded.
+/// Finds all assemblies with these inputs.
 ///
 /// # Errors
 /// Where inputs are too few, too many or meet a rigid part, and for groups that are beyond what is implemented.
-pub fn solve(linkage: &Linkage, given: &[Given], exact: bool) -> Result<LinkageAnswer> {
+pub fn solve(linkage: &Linkage, given: &[Given], accuracy: Accuracy) -> Result<LinkageAnswer> {
     let start = Instant::now();
-    let found = assemblies(linkage, given)?;
+    // What discs decide holds for the angles themselves; where they leave a doubt, or ends coincide, the rounded ones are taken.
+    let within = if accuracy == Accuracy::Enclosed { Some(assemblies_within(linkage, given)?) } else { None };
+    let within = within.filter(|found| found.doubt.is_none() && found.curves.is_empty());
+    let exact = within.is_some() || accuracy == Accuracy::Exact;
+    let found = within.map_or_else(|| assemblies(linkage, given), Ok)?;
     let mut modes: Vec<LinkageMode> = found.modes.iter().map(|state| mode(linkage, state)).collect();
     let key = |mode: &LinkageMode| mode.bodies.iter().map(|(angle, _)| angle.re).collect::<Vec<f64>>();
     modes.sort_by(|a, b| {

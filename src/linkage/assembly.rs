@@ -8,7 +8,7 @@ use super::groups::{Group, Groups, MOST_CLUSTERS, Merged};
 use super::isotropic::{Isotropic, Value};
 use super::krawczyk::conjugate;
 use super::quadratic::{Root, Solved, one_cycle};
-use super::state::{Number, State, place_of};
+use super::state::{Number, Place, State, place_of, place_within};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Given, Linkage, Pair};
@@ -158,11 +158,28 @@ fn freedoms(count: usize) -> String {
 /// # Errors
 /// As [`groups_of`].
 pub fn assemblies(linkage: &Linkage, given: &[Given]) -> Result<Assemblies> {
+    placed(linkage, given, place_of)
+}
+
+/// All assemblies with inputs of which enclosures are known: what is found holds for all values within them. It is in doubt where
+/// an equality decides.
+///
+/// # Errors
+/// As [`groups_of`].
+pub fn assemblies_within(linkage: &Linkage, given: &[Given]) -> Result<Assemblies> {
+    placed(linkage, given, place_within)
+}
+
+/// A place of the second body of an input against the first.
+type Placing = fn(&Linkage, &Given) -> Option<Place>;
+
+fn placed(linkage: &Linkage, given: &[Given], place: Placing) -> Result<Assemblies> {
     let groups = groups_of(linkage, given)?;
-    let shallow = attempt(linkage, given, &groups, SHALLOW)?;
+    let start = started(linkage, given, place)?;
+    let shallow = attempt(linkage, &start, &groups, SHALLOW)?;
     // Square roots are kept as such only where a disc about zero decides nothing.
     if shallow.doubt.is_some() && groups.list.iter().any(|group| group.clusters.len() <= 3) {
-        let deep = attempt(linkage, given, &groups, DEEP)?;
+        let deep = attempt(linkage, &start, &groups, DEEP)?;
         if deep.doubt.is_none() {
             return Ok(deep);
         }
@@ -170,15 +187,22 @@ pub fn assemblies(linkage: &Linkage, given: &[Given]) -> Result<Assemblies> {
     Ok(shallow)
 }
 
-fn attempt(linkage: &Linkage, given: &[Given], groups: &Groups, highest: usize) -> Result<Assemblies> {
-    let mut start = State::new(linkage.bodies.len(), highest);
+/// The bodies that the inputs glue.
+fn started(linkage: &Linkage, given: &[Given], place: Placing) -> Result<State> {
+    let mut start = State::new(linkage.bodies.len(), SHALLOW);
     for one in given {
         let [a, b] = one.bodies(linkage);
-        let Some(place) = place_of(linkage, one) else {
+        let Some(place) = place(linkage, one) else {
             return Err(Error::Invalid("found a distance for a joint that has none".to_owned()));
         };
         start.glue(a, b, &place);
     }
+    Ok(start)
+}
+
+fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize) -> Result<Assemblies> {
+    let mut start = start.clone();
+    start.top.highest = highest;
     let mut found = Assemblies { modes: Vec::new(), curves: Vec::new(), groups: Vec::new(), doubt: None, gap: None };
     let mut branches = vec![start];
     for group in &groups.list {

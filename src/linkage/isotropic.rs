@@ -4,6 +4,7 @@
 //! of numbers z = x + i y and w = x - i y, which are independent. \[Wampler2001\]
 
 use crate::algebra::disc::Disc;
+use crate::algebra::enclosure::Enclosure;
 use crate::algebra::ring::Ring;
 use crate::kinematics::linkage::Gaussian;
 use crate::linkage::tower::Surd;
@@ -86,6 +87,17 @@ pub struct Value {
 pub fn disc_of(z: &Gaussian) -> Disc {
     let i = Disc::point(Float::new(BITS), Float::with_val(BITS, 1));
     Disc::of(&z.re, BITS).add(&Disc::of(&z.im, BITS).mul(&i))
+}
+
+/// All rotations whose cosine and sine are enclosed.
+#[must_use]
+pub fn turn_within((cos, sin): &(Enclosure, Enclosure)) -> Isotropic<Value> {
+    let real = |one: &Enclosure| {
+        Disc::of(&one.middle().to_rational().unwrap_or_default(), BITS).widened(&one.error())
+    };
+    let i = Disc::point(Float::new(BITS), Float::with_val(BITS, 1));
+    let (cos, sin) = (real(cos), real(sin).mul(&i));
+    Isotropic { z: Value::within(cos.add(&sin)), w: Value::within(cos.sub(&sin)) }
 }
 
 impl Value {

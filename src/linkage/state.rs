@@ -1,6 +1,6 @@
 //! One branch of an assembly: the clusters of bodies that are glued so far, and where the bodies stand in them.
 
-use super::isotropic::{Isotropic, Value};
+use super::isotropic::{Isotropic, Value, turn_within};
 use super::quadratic::Top;
 use super::tower::Surd;
 use crate::algebra::ring::Ring;
@@ -106,16 +106,26 @@ impl State {
     }
 }
 
+/// The place of the second body against the first that a given value means, where it stands for all values within what encloses it.
+#[must_use]
+pub fn place_within(linkage: &Linkage, given: &Given) -> Option<Place> {
+    let Given::Turn { joint, within: Some(within), .. } = given else { return place_of(linkage, given) };
+    let turn = turn_within(within);
+    Some(turned(linkage, *joint, turn))
+}
+
+/// The place of the second body of a revolute joint against the first.
+fn turned(linkage: &Linkage, joint: usize, turn: Number) -> Place {
+    let at = &linkage.joints[joint].at;
+    let origin = number(&at[0]).sub(&turn.mul(&number(&at[1])));
+    Place { turn, origin }
+}
+
 /// The place of the second body against the first that a given value means.
 #[must_use]
 pub fn place_of(linkage: &Linkage, given: &Given) -> Option<Place> {
     Some(match given {
-        Given::Turn { joint, turn, .. } => {
-            let at = &linkage.joints[*joint].at;
-            let turn = number(turn);
-            let origin = number(&at[0]).sub(&turn.mul(&number(&at[1])));
-            Place { turn, origin }
-        }
+        Given::Turn { joint, turn, .. } => turned(linkage, *joint, number(turn)),
         Given::Shift { joint, shift, .. } => {
             let joint = &linkage.joints[*joint];
             let Pair::Prismatic { turn, along, .. } = &joint.pair else { return None };

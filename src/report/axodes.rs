@@ -77,7 +77,7 @@ pub fn of_plane(document: &mut Value, file: &LinkageFile, sweep: &LinkageSweep, 
     given.push(if linkage.joints[sweep.joint].is_prismatic() {
         Given::Shift { joint: sweep.joint, shift: Rational::new(), line: 0 }
     } else {
-        Given::Turn { joint: sweep.joint, turn: Gaussian { re: Rational::from(1), im: Rational::new() }, line: 0 }
+        Given::Turn { joint: sweep.joint, turn: Gaussian { re: Rational::from(1), im: Rational::new() }, within: None, line: 0 }
     });
     let found = |mode: &LinkageMode| {
         let mut runs = vec![Plane::zero(); freedoms(&given)];

@@ -6,7 +6,7 @@ use crate::algebra::number::Angle;
 use crate::algebra::ring::exact_cos_sin;
 use crate::assembly::wrapped;
 use crate::error::{Error, Result};
-use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
+use crate::kinematics::linkage::{Accuracy, Gaussian, Given, Linkage, Pair};
 use crate::linkage::answer::{LinkageMode, solve};
 use num_complex::Complex;
 use rug::Rational;
@@ -30,7 +30,7 @@ impl Run<'_> {
         let own = match &self.linkage.joints[joint].pair {
             Pair::Revolute => {
                 let (re, im) = exact_cos_sin(&Angle::from_radians(input));
-                Given::Turn { joint, turn: Gaussian { re, im }, line }
+                Given::Turn { joint, turn: Gaussian { re, im }, within: None, line }
             }
             Pair::Prismatic { length, .. } => {
                 let metres = Rational::from_f64(input);
@@ -51,7 +51,7 @@ impl Running for Run<'_> {
     type Memory = ();
 
     fn sample(&self, input: f64, (): &mut ()) -> Result<AssemblySample<LinkageMode>> {
-        let answer = solve(self.linkage, &self.given(input)?, true)?;
+        let answer = solve(self.linkage, &self.given(input)?, Accuracy::Exact)?;
         let status = answer.verdict.status;
         let modes: Vec<LinkageMode> = answer.modes.into_iter().filter(|mode| mode.real).collect();
         let is_regular = is_listed(status) && modes.iter().all(|mode| mode.multiplicity == 1);

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text};
+use looproot::internal::kinematics::linkage::Accuracy;
 use looproot::internal::linkage::answer::{LinkageAnswer, solve};
 use looproot::internal::verdict::{Proof, Status};
 use num_complex::Complex;
@@ -20,13 +21,13 @@ fn read(text: &str) -> Box<LinkageFile> {
 
 fn solved(text: &str) -> LinkageAnswer {
     let file = read(text);
-    solve(&file.linkage, &file.cases[0].given, file.exact && file.cases[0].exact).unwrap()
+    solve(&file.linkage, &file.cases[0].given, file.accuracy(&file.cases[0])).unwrap()
 }
 
 fn refused(text: &str) -> String {
     match any_from_text(text, "test.toml", Format::Toml, &Options::default()) {
         Err(error) => error.to_string(),
-        Ok(Any::Linkage(file)) => match solve(&file.linkage, &file.cases[0].given, true) {
+        Ok(Any::Linkage(file)) => match solve(&file.linkage, &file.cases[0].given, Accuracy::Exact) {
             Err(error) => error.to_string(),
             Ok(answer) => answer.verdict.reason,
         },

@@ -4,6 +4,7 @@
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text, builtin_any};
 use looproot::internal::derivation::{Curve, LinkageDerivation, derive_linkage, trace, trace_mass};
 use looproot::internal::error::Error;
+use looproot::internal::kinematics::linkage::Accuracy;
 use looproot::internal::linkage::answer::solve;
 use looproot_algebra::int::Int;
 use looproot_algebra::polynomial::Polynomial;
@@ -307,7 +308,7 @@ fn the_curve_of_a_centre_of_mass_holds_its_places() {
     let size = polynomial.coefficients().iter().fold(0.0_f64, |most, c| most.max(c.abs()));
     for input in ["A=10 deg", "A=75 deg", "A=-100 deg"] {
         let case = file.case_with(input).unwrap();
-        let answer = solve(&file.linkage, &case.given, false).unwrap();
+        let answer = solve(&file.linkage, &case.given, Accuracy::Rounded).unwrap();
         for mode in answer.modes.iter().filter(|mode| mode.real) {
             let mut centre = [0.0; 2];
             let mut total = 0.0;

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text};
+use looproot::internal::kinematics::linkage::Accuracy;
 use looproot::internal::linkage::answer::solve;
 use looproot::internal::report::linkage_sweep::Traced;
 use looproot::internal::sweep::{End, LinkageSweep, Range, sweep_linkage};
@@ -80,7 +81,7 @@ fn a_traced_point_keeps_its_distance_from_the_crank() {
 fn an_input_out_of_reach_says_by_how_much() {
     // The crank points away from the rocker: its end is 3 + 6 = 9 from D, and coupler and rocker reach 7.
     let file = four_bar([3, 4, 3, 6], "inf");
-    let answer = solve(&file.linkage, &file.cases[0].given, true).unwrap();
+    let answer = solve(&file.linkage, &file.cases[0].given, Accuracy::Exact).unwrap();
     assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Unreachable, Proof::Proved));
     assert!(answer.verdict.reason.contains("2.000000 m"), "{}", answer.verdict.reason);
 }

@@ -16,6 +16,7 @@ mod gears;
 mod golden;
 mod house;
 mod laws;
+mod linkage_accuracy;
 mod linkage_derive;
 mod linkage_sweep;
 mod metamorphic;

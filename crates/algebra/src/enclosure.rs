@@ -98,6 +98,12 @@ impl Enclosure {
         self.off
     }
 
+    /// Returns a bound of the distance of the number from the middle: 0 for an exact number.
+    #[must_use]
+    pub fn error(&self) -> Float {
+        if self.off == NONE { Float::new(BITS) } else { Float::with_val(BITS, 1) << self.off }
+    }
+
     /// Returns the exponent k of a bound `2^k` of the size of the middle; the least there is of zero.
     #[must_use]
     pub fn size(&self) -> i32 {

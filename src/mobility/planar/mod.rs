@@ -5,7 +5,7 @@ mod system;
 
 use crate::catalogue::{LinkageConfiguration, LinkageFile};
 use crate::error::{Error, Result};
-use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
+use crate::kinematics::linkage::{Accuracy, Gaussian, Given, Linkage, Pair};
 use crate::linkage::answer::solve;
 use crate::linkage::groups::{Groups, groups};
 use crate::linkage::assembly::{Link, glued};
@@ -199,7 +199,7 @@ fn somewhere(linkage: &Linkage, exact: bool) -> Result<LinkageMobility> {
     }
     for k in 0..TRIED.len() {
         let given: Vec<Given> = held.iter().enumerate().map(|(place, joint)| given(linkage, *joint, k + 3 * place)).collect();
-        let Ok(found) = solve(linkage, &given, true) else { continue };
+        let Ok(found) = solve(linkage, &given, Accuracy::Exact) else { continue };
         if found.modes.iter().any(|mode| mode.real && mode.multiplicity == 1) {
             return Ok(regular(linkage, freedoms, exact, &answer));
         }
@@ -251,5 +251,5 @@ fn given(linkage: &Linkage, joint: usize, number: usize) -> Given {
     let square = Rational::from(value.square_ref());
     let whole = Rational::from(&square + 1);
     let turn = Gaussian { re: (1 - square) / &whole, im: value * 2 / whole };
-    Given::Turn { joint, turn, line: 1 }
+    Given::Turn { joint, turn, within: None, line: 1 }
 }

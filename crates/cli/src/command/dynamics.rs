@@ -35,7 +35,7 @@ pub fn run(options: &DynamicsOptions) -> Result<Exit, Fault> {
             let message = "found no input of the linkage, expected an [[input]], which is the coordinate";
             return Err(Error::Invalid(message.to_owned()).at(&options.mechanism, case.line).into());
         }
-        let answer = solve(&file.linkage, &case.given, file.exact && case.exact)
+        let answer = solve(&file.linkage, &case.given, file.accuracy(case))
             .map_err(|error| error.at(&options.mechanism, case.line))?;
         exit = exit.max(code(&answer.verdict));
         if asked.motion.is_some() {

@@ -30,9 +30,9 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
             break;
         }
         let case = &file.cases[index];
-        let exact = file.exact && case.exact;
         let line = case.given.first().map_or(case.line, looproot::internal::kinematics::linkage::Given::line);
-        let answer = solve(&file.linkage, &case.given, exact).map_err(|error| error.at(&options.mechanism, line))?;
+        let answer = solve(&file.linkage, &case.given, file.accuracy(case))
+            .map_err(|error| error.at(&options.mechanism, line))?;
         exit = exit.max(code(&answer.verdict));
         if options.json || options.jsonl {
             let result = report::result(file, case, index + 1, &answer, options.complex);

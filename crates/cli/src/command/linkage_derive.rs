@@ -7,7 +7,7 @@ use super::output::Output;
 use looproot::internal::catalogue::LinkageFile;
 use looproot::internal::derivation::{derive_linkage, trace, trace_mass};
 use looproot::internal::error::Error;
-use looproot::internal::kinematics::linkage::{Gaussian, Given};
+use looproot::internal::kinematics::linkage::{Accuracy, Gaussian, Given};
 use looproot::internal::report::linkage_derivation as report;
 use rug::Rational;
 use std::io::Write;
@@ -46,7 +46,7 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
             report::text(file, case, index + 1, &derivation)
         };
         let best = derivation.polynomials.first();
-        let is_exact = file.exact && case.exact;
+        let is_exact = file.accuracy(case) == Accuracy::Exact;
         let exit = match best {
             Some(best) if best.is_proved() && is_exact => {
                 let is_reached = best.at_pi > 0 || !best.coefficients.real_roots().is_empty();
