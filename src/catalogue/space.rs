@@ -61,13 +61,16 @@ pub struct SpaceClaims {
     pub solutions: Vec<SpaceClaim>,
 }
 
+/// A body with its quaternion and the position of its origin relative to the ground, as far as claimed.
+pub type ClaimedPlace = (usize, Option<[f64; 4]>, Option<[f64; 3]>);
+
 /// A claimed assembly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SpaceClaim {
     /// Joints with their values, radians or metres.
     pub joints: Vec<(usize, f64)>,
-    /// Bodies with their quaternions and the positions of their origins relative to the ground, as far as claimed.
-    pub bodies: Vec<(usize, Option<[f64; 4]>, Option<[f64; 3]>)>,
+    /// The places of bodies.
+    pub bodies: Vec<ClaimedPlace>,
     /// Correct decimal digits.
     pub digits: u32,
     /// Line of the file, from 1.
@@ -92,16 +95,13 @@ pub(super) fn space(scope: &mut Scope<'_>, top: &Node, name: &str) -> Result<Spa
     joined(scope, &linkage)?;
     let exact = !scope.is_rounded();
     let mut cases = Vec::new();
-    match table.get("input") {
-        Some(inputs) => {
-            for input in scope.list(inputs, "input")? {
-                cases.push(case(scope, input, &linkage)?);
-            }
+    if let Some(inputs) = table.get("input") {
+        for input in scope.list(inputs, "input")? {
+            cases.push(case(scope, input, &linkage)?);
         }
-        None => {
-            let (given, expected) = (Vec::new(), SpaceClaims::default());
-            cases.push(SpaceCase { given, exact: true, expected, line: mechanism.line() });
-        }
+    } else {
+        let (given, expected) = (Vec::new(), SpaceClaims::default());
+        cases.push(SpaceCase { given, exact: true, expected, line: mechanism.line() });
     }
     let top = claims(scope, &table, &linkage)?;
     if let (Some(first), true) = (cases.first_mut(), top != SpaceClaims::default()) {
@@ -319,13 +319,13 @@ fn given(linkage: &SpaceLinkage, joint: usize, value: &InputValue, line: usize) 
         (SpacePair::Revolute(axis), InputValue::Angle(angle)) => {
             let (rotation, exact) = turned(&axis.sphere, angle);
             let still = std::array::from_fn(|_| Rational::new());
-            (Known::Motion(moved(own, rotation, &still)), angle.radians(), exact)
+            (Known::Motion(Box::new(moved(own, rotation, &still))), angle.radians(), exact)
         }
         (SpacePair::Prismatic(axis), InputValue::Distance(distance)) => {
             let along = &axis.sphere.at[0];
             let (part, exact) = part_of(distance, &dot(along, along));
             let way = along.each_ref().map(|c| Rational::from(c * &part));
-            (Known::Motion(moved(own, axis.home.rotation.clone(), &way)), distance.to_f64(), exact)
+            (Known::Motion(Box::new(moved(own, axis.home.rotation.clone(), &way))), distance.to_f64(), exact)
         }
         (SpacePair::Leg, InputValue::Distance(distance)) => {
             let square = distance.squared();
@@ -353,7 +353,7 @@ fn part_of(distance: &Number, square: &Rational) -> (Rational, bool) {
             return (if distance.to_f64() < 0.0 { -part } else { part }, true);
         }
     }
-    (Rational::from(distance.rational() / root(square).0), false)
+    (distance.rational() / root(square).0, false)
 }
 
 /// Reads the value of a joint, a number or a table.
@@ -426,7 +426,7 @@ fn case(scope: &Scope<'_>, node: &Node, linkage: &SpaceLinkage) -> Result<SpaceC
             let position = scope.vector(scope.need(&table, "position")?, Quantity::Length, "position")?;
             exact &= position.iter().all(Number::is_exact);
             let translation = position.each_ref().map(|c| c.rational().clone());
-            let known = Known::Motion(Motion { rotation, translation });
+            let known = Known::Motion(Box::new(Motion { rotation, translation }));
             list.push(SpaceGiven { of: [linkage.ground, index], known, joint: None, value: None, line: node.line });
         }
         (None, None) if !list.is_empty() => {}

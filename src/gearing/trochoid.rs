@@ -176,7 +176,7 @@ mod tests {
                 let (s, r) = (n as f64 * t, m as f64 * t);
                 let (x, y) = (a * s.cos() + b * r.cos(), a * s.sin() + b * r.sin());
                 let (sum, size) = polynomial.terms().fold((0.0, 0.0), |(sum, size): (f64, f64), (e, c)| {
-                    let term = c.to_integer().to_f64() * x.powi(e[0] as i32) * y.powi(e.get(1).copied().unwrap_or(0) as i32);
+                    let term = c.to_integer().to_f64() * x.powi(e[0].cast_signed()) * y.powi(e.get(1).copied().unwrap_or(0).cast_signed());
                     (sum + term, size + term.abs())
                 });
                 assert!(sum.abs() <= 1e-11 * size, "{radii:?}: {sum} of {size}");

@@ -121,7 +121,7 @@ pub struct SpaceLinkage {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Known {
     /// The motion of the second body against the first.
-    Motion(Motion<Rational>),
+    Motion(Box<Motion<Rational>>),
     /// The square of the length of a leg.
     Square(Rational),
 }

@@ -259,7 +259,7 @@ impl SingleLoop {
                 if !(near.modes.is_empty() && near.families.is_empty()) {
                     verdict.status = Status::Complete;
                 } else if solver.structural_rank() < 6 && !question.is_clear(tolerance) {
-                    verdict = perhaps_near(verdict);
+                    verdict = perhaps_near(&verdict);
                 }
             }
         }

@@ -30,10 +30,10 @@ pub(super) fn not_denied(verdict: Verdict) -> Verdict {
 }
 
 /// Returns the verdict on a pose that dependent joints do not reach exactly, where it is not proved that nothing comes near it.
-pub(super) fn perhaps_near(verdict: Verdict) -> Verdict {
+pub(super) fn perhaps_near(verdict: &Verdict) -> Verdict {
     let reason = format!("not proved: nothing was found near the pose, but rounding decides what reaches it exactly; {}", verdict.reason);
     let (status, proof, code) = (Status::Incomplete, Proof::None, Code::StructurallyDeficient);
-    Verdict { status, proof, code, complex_complete: false, reason, ..verdict }
+    Verdict { status, proof, code, complex_complete: false, reason, ..verdict.clone() }
 }
 
 /// Corrects the dimension of self-motions where all unknowns but so many have finitely many values. There are fewer dimensions

@@ -25,14 +25,13 @@ fn placed(given: &SpaceGiven) -> ([f64; 4], [f64; 3]) {
 /// Returns the inputs in words.
 fn asked(file: &SpaceFile, given: &[SpaceGiven]) -> String {
     let linkage = &file.linkage;
-    let one = |given: &SpaceGiven| match (given.joint, given.value) {
-        (Some(joint), Some(value)) => {
+    let one = |given: &SpaceGiven| {
+        if let (Some(joint), Some(value)) = (given.joint, given.value) {
             let joint = &linkage.joints[joint];
             let is_distance = joint.is_distance() == Some(true);
             let (value, unit) = if is_distance { (value, "m") } else { (value.to_degrees(), "deg") };
             format!("{} = {} {unit}", joint.name, short(value, 6))
-        }
-        _ => {
+        } else {
             let (q, p) = placed(given);
             let list = |parts: &[f64]| parts.iter().map(|part| short(*part, 6)).collect::<Vec<_>>().join(", ");
             format!("{} at ({}) m turned by ({})", linkage.bodies[given.of[1]].name, list(&p), list(&q))
