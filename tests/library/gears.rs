@@ -75,7 +75,7 @@ fn written(a: &Gaussian) -> String {
 }
 
 fn tangent(a: &Gaussian) -> String {
-    if a.0 == -1 { "inf".to_owned() } else { Rational::from(&a.1 / Rational::from(&a.0 + 1)).to_string() }
+    if a.0 == -1 { "inf".to_owned() } else { (&a.1 / Rational::from(&a.0 + 1)).to_string() }
 }
 
 fn angle(a: &Gaussian) -> f64 {

@@ -76,9 +76,12 @@ fn square(v: &Vector) -> Rational {
     dot(v, v)
 }
 
+/// A body with its planted pose and its points.
+type Body = (String, Motion<Rational>, Vec<(String, Vector)>);
+
 /// A file being written: bodies with their planted poses and points, joints and given values.
 struct Draft {
-    bodies: Vec<(String, Motion<Rational>, Vec<(String, Vector)>)>,
+    bodies: Vec<Body>,
     joints: Vec<String>,
     given: Vec<String>,
     /// The rotation whose columns every revolute joint has for axis and references; random ones without.
@@ -129,7 +132,9 @@ impl Draft {
             own(of[1], &f)
         );
         self.joints.push(joint);
-        of.iter().for_each(|body| self.mark(body, name, at));
+        for body in of {
+            self.mark(body, name, at);
+        }
         t
     }
 
@@ -148,7 +153,9 @@ impl Draft {
 
     fn spherical(&mut self, name: &str, of: [&str; 2], at: &Vector) {
         self.joints.push(format!("{{ name = \"{name}\", type = \"S\", of = [\"{}\", \"{}\"] }}", of[0], of[1]));
-        of.iter().for_each(|body| self.mark(body, name, at));
+        for body in of {
+            self.mark(body, name, at);
+        }
     }
 
     fn rod(&mut self, name: &str, of: [&str; 2], ends: [&Vector; 2]) {

@@ -106,121 +106,93 @@ fn the_document_follows_its_schema() {
     follows(
         "result.schema.json",
         &[
-            &["solve", "general_7r", "--json"],
-            &["solve", "general_02real", "--json", "--complex"],
-            &["solve", "ur5", "--json", "--complex"],
-            &["solve", "general_12real", "--json", "--real"],
-            &["solve", "three_parallel", "--json"],
-            &["solve", "dietmaier_40real", "--json"],
-            &["solve", "platform/hexapod", "--json", "--complex"],
-            &["solve", "platform/circle", "--json"],
-            &["solve", "general_7r", "--json", "--scene"],
-            &["solve", "dietmaier_40real", "--json", "--scene"],
-            &["solve", "linkage/3prr", "--json", "--complex", "--scene"],
-            &["solve", "linkage/peaucellier", "--json"],
-            &["solve", "linkage/spherical_watt", "--json", "--complex", "--scene"],
-            &["solve", "crcrr_2_angle", "--json", "--complex", "--derivatives"],
+            "solve general_7r --json",
+            "solve general_02real --json --complex",
+            "solve ur5 --json --complex",
+            "solve general_12real --json --real",
+            "solve three_parallel --json",
+            "solve dietmaier_40real --json",
+            "solve platform/hexapod --json --complex",
+            "solve platform/circle --json",
+            "solve general_7r --json --scene",
+            "solve dietmaier_40real --json --scene",
+            "solve linkage/3prr --json --complex --scene",
+            "solve linkage/peaucellier --json",
+            "solve linkage/spherical_watt --json --complex --scene",
+            "solve crcrr_2_angle --json --complex --derivatives",
         ],
     );
     follows(
         "derivation.schema.json",
         &[
-            &["derive", "puma560", "--json"],
-            &["derive", "rsrc", "--json"],
-            &["derive", "rsrc", "--by", "half-angle", "--json"],
-            &["derive", "bricard_line_symmetric", "--json"],
-            &["derive", "platform/hexapod", "--json"],
-            &["derive", "crcrr_4_angle", "--symbolic", "--json"],
-            &["derive", "linkage/stephenson_3_triad", "--json"],
-            &["derive", "linkage/coupler_curve", "--trace", "coupler.P", "--json"],
-            &["derive", "linkage/spherical_cusp", "--trace", "coupler.P", "--json"],
-            &["derive", "linkage/double_hooke", "--json"],
-            &["derive", "arm/chain_rr", "--trace", "tool", "--json"],
+            "derive puma560 --json",
+            "derive rsrc --json",
+            "derive rsrc --by half-angle --json",
+            "derive bricard_line_symmetric --json",
+            "derive platform/hexapod --json",
+            "derive crcrr_4_angle --symbolic --json",
+            "derive linkage/stephenson_3_triad --json",
+            "derive linkage/coupler_curve --trace coupler.P --json",
+            "derive linkage/spherical_cusp --trace coupler.P --json",
+            "derive linkage/double_hooke --json",
+            "derive arm/chain_rr --trace tool --json",
         ],
     );
     follows(
         "mobility.schema.json",
         &[
-            &["mobility", "bennett_a", "--json"],
-            &["mobility", "bennett_broken", "--json"],
-            &["mobility", "rscr", "--json"],
-            &["mobility", "planar_4r", "--json"],
-            &["mobility", "puma560", "--json"],
-            &["mobility", "platform/hexapod", "--json"],
-            &["mobility", "framework/heureka", "--json"],
-            &["mobility", "linkage/coupler_curve", "--json"],
+            "mobility bennett_a --json",
+            "mobility bennett_broken --json",
+            "mobility rscr --json",
+            "mobility planar_4r --json",
+            "mobility puma560 --json",
+            "mobility platform/hexapod --json",
+            "mobility framework/heureka --json",
+            "mobility linkage/coupler_curve --json",
         ],
     );
     follows(
         "sweep.schema.json",
         &[
-            &["sweep", "cccr_1_angle", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
-            &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json"],
-            &["sweep", "rrsrr", "--from", "-pi", "--to", "pi", "--steps", "24", "--json", "--scene"],
-            &[
-                "sweep",
-                "platform/points_6_3",
-                "--joint",
-                "leg1",
-                "--from",
-                "48",
-                "--to",
-                "48.2",
-                "--steps",
-                "2",
-                "--json",
-                "--scene",
-            ],
-            &[
-                "sweep",
-                "linkage/coupler_curve",
-                "--from",
-                "-2",
-                "--to",
-                "2",
-                "--steps",
-                "4",
-                "--trace",
-                "coupler.P",
-                "--json",
-            ],
+            "sweep cccr_1_angle --from -pi --to pi --steps 24 --json",
+            "sweep rrsrr --from -pi --to pi --steps 24 --json",
+            "sweep rrsrr --from -pi --to pi --steps 24 --json --scene",
+            "sweep platform/points_6_3 --joint leg1 --from 48 --to 48.2 --steps 2 --json --scene",
+            "sweep linkage/coupler_curve --from -2 --to 2 --steps 4 --trace coupler.P --json",
         ],
     );
     follows(
         "cells.schema.json",
         &[
-            &["derive", "cccr_1_angle", "--discriminant", "theta1", "--json"],
-            &["derive", "rssr", "--discriminant", "a1,theta1", "--columns", "3", "--json"],
+            "derive cccr_1_angle --discriminant theta1 --json",
+            "derive rssr --discriminant a1,theta1 --columns 3 --json",
         ],
     );
     follows(
         "synthesis.schema.json",
         &[
-            &["synthesize", "burmester5_2real_a", "--json", "--complex"],
-            &["synthesize", "burmester4_a", "--json"],
-            &["synthesize", "function5_1real_a", "--json", "--complex"],
-            &["synthesize", "cc5_a", "--json"],
+            "synthesize burmester5_2real_a --json --complex",
+            "synthesize burmester4_a --json",
+            "synthesize function5_1real_a --json --complex",
+            "synthesize cc5_a --json",
         ],
     );
-    follows("conditions.schema.json", &[&["conditions", "4R", "--json"], &["conditions", "bennett", "--json"]]);
+    follows("conditions.schema.json", &["conditions 4R --json", "conditions bennett --json"]);
     follows(
         "conditions_search.schema.json",
-        &[
-            &["conditions", "goldberg_5r", "--json"],
-            &["conditions", "dietmaier_6r", "--json"],
-            &["conditions", "trihedral_6r", "--json"],
-        ],
+        &["conditions goldberg_5r --json", "conditions dietmaier_6r --json", "conditions trihedral_6r --json"],
     );
 }
 
-fn follows(schema: &str, runs: &[&[&str]]) {
+fn follows(schema: &str, runs: &[&str]) {
     let schema = fs::read_to_string(format!("{}/equations/{schema}", crate::ROOT)).unwrap();
     let schema = json(&schema);
     for arguments in runs {
-        let run = run(arguments);
-        assert_eq!(run.err, "", "{arguments:?}");
+        let words: Vec<&str> = arguments.split_whitespace().collect();
+        let run = run(&words);
+        assert_eq!(run.err, "", "{arguments}");
         let fault = fault(&json(&run.out), &schema, &schema, "document");
-        assert_eq!(fault, None, "{arguments:?}");
+        assert_eq!(fault, None, "{arguments}");
     }
 }
 

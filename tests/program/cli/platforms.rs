@@ -19,7 +19,7 @@ quaternion = [1, 0, 0, 0]
 "#;
 
 fn hexapod(name: &str) -> String {
-    file(name, HEXAPOD.to_owned())
+    file(name, HEXAPOD)
 }
 
 /// Returns the real modes of the first result.
@@ -176,7 +176,7 @@ fn the_legs_of_many_poses_are_listed_without_solving() {
 #[test]
 fn the_poses_of_a_path_are_connected() {
     let path = hexapod("follow_hexapod.toml");
-    let rows: String = (0..6).map(|k| format!("{},0,{},1,0,0,0\n", 4 * k, 550 + k)).collect();
+    let rows = (0..6).fold(String::new(), |text, k| text + &format!("{},0,{},1,0,0,0\n", 4 * k, 550 + k));
     let poses = file("follow_poses.csv", format!("x,y,z,qw,qx,qy,qz\n{rows}0,300,300,0,1,0,0\n"));
     let found = run(&["solve", &path, "--poses", &poses, "--follow", "--jsonl"]);
     let lines: Vec<Value> = found.out.lines().map(json).collect();
@@ -222,7 +222,7 @@ fn a_leg_runs_through_its_range() {
     let home =
         json(&run(&["solve", &path, "--at", "0, 0, 550; 0, 0, 0", "--inverse", "--json"]).out)["results"][0]["legs"]
             .clone();
-    let input = document["inputs"][row["step"].as_u64().unwrap() as usize]["input"].as_f64().unwrap();
+    let input = document["inputs"][usize::try_from(row["step"].as_u64().unwrap()).unwrap()]["input"].as_f64().unwrap();
     for (leg, (own, held)) in numbers(&legs).into_iter().zip(numbers(&home)).enumerate() {
         let expected = if leg == 1 { input } else { held };
         assert!((own - expected).abs() < 1e-9, "leg {leg}: {own} {expected}");

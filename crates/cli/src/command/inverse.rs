@@ -125,12 +125,11 @@ impl Report<'_> {
         if self.options.json {
             write!(out, "{}", head(self.entry, &document::keys(self.entry)))?;
         } else if !self.options.jsonl && !self.options.quiet {
-            writeln!(
-                out,
-                "{:>8} {}",
-                "pose",
-                (1..=6).map(|leg| format!("{:>14}", format!("leg {leg} [m]"))).collect::<String>()
-            )?;
+            write!(out, "{:>8} ", "pose")?;
+            for leg in 1..=6 {
+                write!(out, "{:>14}", format!("leg {leg} [m]"))?;
+            }
+            writeln!(out)?;
         }
         Ok(())
     }
@@ -157,7 +156,8 @@ impl Report<'_> {
         if self.options.quiet {
             return Ok(());
         }
-        let lengths: String = legs.lengths.iter().map(|length| format!("{:>14}", short(*length, 9))).collect();
+        let lengths =
+            legs.lengths.iter().fold(String::new(), |text, length| text + &format!("{:>14}", short(*length, 9)));
         let outside = listed(&legs.outside);
         let outside = if outside.is_empty() { outside } else { format!("  outside: {outside}") };
         writeln!(self.output.writer, "{case:>8} {lengths}{outside}")?;
