@@ -299,7 +299,7 @@ fn what_cannot_be_swept_is_said() {
         (&["rrsrr", "--steps", "100001"], "expected 1 to 100000"),
         (&["rrsrr", "--steps", "some"], "expected 1 to 100000"),
         (&["puma560"], "found an arm, expected a loop"),
-        (&["platform/hexapod"], "found a platform, expected a loop"),
+        (&["platform/hexapod"], "found a platform and no --joint, expected a leg, leg1 to leg6"),
         (&["rrsrr", "--csv", "--json"], "cannot be used with"),
     ] {
         let output = run(&[&["sweep"][..], arguments, &range].concat());
