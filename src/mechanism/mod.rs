@@ -191,6 +191,23 @@ impl Mechanism {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
+        let mut solution = self.sample(case, roots, workspace, assembly)?;
+        // Every answer goes through here: nothing is denied without proof.
+        solution.verdict = unproved::not_denied(solution.verdict);
+        Ok(solution)
+    }
+
+    /// Solves one case of a sweep, whose proof is about all of its inputs together: `unreachable` may be unproved here.
+    ///
+    /// # Errors
+    /// As [`Mechanism::solve`].
+    pub(crate) fn sample(
+        &self,
+        case: &Case,
+        roots: Roots,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> Result<Solution> {
         let mut solution = match &self.solver {
             Solver::SingleLoop(solver) => {
                 solver.solve(case, roots, self.tolerance.unwrap_or_default(), workspace, assembly)
@@ -200,8 +217,6 @@ impl Mechanism {
             Solver::TaskArm(solver) => solver.solve(case, roots, self.tolerance, workspace, assembly),
         }?;
         solution.modes.iter_mut().for_each(|mode| self.turns.apply(mode));
-        // Every answer goes through here: nothing is denied without proof.
-        solution.verdict = unproved::not_denied(solution.verdict);
         Ok(solution)
     }
 }

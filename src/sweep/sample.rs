@@ -88,7 +88,7 @@ impl Swept<'_> {
     /// Solves the loop at one input.
     pub(super) fn sample(&self, input: f64, memory: &mut (Workspace, Assembly)) -> Result<Sample> {
         let case = case(self.joint, self.variable, input);
-        let solution = self.mechanism.solve(&case, Roots::All, &mut memory.0, &mut memory.1)?;
+        let solution = self.mechanism.sample(&case, Roots::All, &mut memory.0, &mut memory.1)?;
         let real = || solution.modes.iter().filter(|mode| mode.real);
         // An empty list without a proof says nothing.
         let is_known = solution.verdict.status != Status::Incomplete || !solution.modes.is_empty();
