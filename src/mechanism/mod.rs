@@ -192,8 +192,11 @@ impl Mechanism {
         assembly: &mut Assembly,
     ) -> Result<Solution> {
         let mut solution = self.sample(case, roots, workspace, assembly)?;
-        // Every answer goes through here: nothing is denied without proof.
-        solution.verdict = unproved::not_denied(solution.verdict);
+        // Every answer goes through here: nothing is denied without proof. An overconstrained loop of rounded numbers closes
+        // nowhere, as a rule, and says so without proof.
+        if !matches!(self.solver, Solver::OverconstrainedLoop(_)) {
+            solution.verdict = unproved::not_denied(solution.verdict);
+        }
         Ok(solution)
     }
 
