@@ -40,6 +40,8 @@ const CONTRADICTION: f64 = 0.5;
 fn miss(links: f64, tolerance: Tolerance) -> f64 {
     let turned = tolerance.angle;
     let moved = tolerance.length + turned * links;
+    // The moved point is farther away than the links reach, by this at most: terms of second order count as well.
+    let links = links + moved;
     // Of the direction, of the moment and `p . l`, and of `(p . p) l - 2 (p . l) p`, the largest of all.
     let coordinates = [turned, moved + links * turned, 6.0 * links * moved + 3.0 * links * links * turned];
     coordinates.into_iter().fold(2.0 * links * moved, f64::max)

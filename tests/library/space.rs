@@ -361,7 +361,7 @@ fn planted_assemblies_in_space_are_listed() {
 
 /// Three hundred members of every kind.
 #[test]
-#[ignore = "minutes"]
+#[ignore = "takes many minutes: cargo test --test library space:: -- --ignored"]
 fn three_hundred_of_every_kind() {
     for kind in KINDS {
         let start = std::time::Instant::now();
