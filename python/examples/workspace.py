@@ -3,7 +3,7 @@
     python workspace.py [poses] [folder] [--kill]
 
 With --kill one of the workers is killed on the way: nothing is lost, and nothing is done twice. Whatever is stopped goes on where it was when
-the same line is run again. Needs numpy, dask and distributed.
+the same line is run again. Without a number there are a million poses. Needs numpy, dask and distributed.
 """
 
 from __future__ import annotations
@@ -19,17 +19,19 @@ import numpy as np
 
 import looproot as lr
 
-ARM = "puma560"
+ARM = "ur5"
+REACH = 1.1
 CELLS = 60
+# Side of a cell, and the margin for the numbers beside the map, in units of the picture.
+SIDE, MARGIN = 8, 60
 
 
 def poses(count: int, place: Path) -> None:
-    """Writes poses above and around the arm: positions of a plane through its axis, the tool in random directions."""
+    """Writes poses: positions of the plane y = 0 through the axis of the arm, the tool in random directions."""
     if place.exists():
         return
     random = np.random.default_rng(1)
-    reach = 1.2
-    x, z = random.uniform(-reach, reach, (2, count))
+    x, z = random.uniform(-REACH, REACH, (2, count))
     w = random.normal(size=(count, 4))
     w /= np.linalg.norm(w, axis=1, keepdims=True)
     q, a, b, c = w.T
@@ -44,32 +46,49 @@ def poses(count: int, place: Path) -> None:
 
 
 def kill_one(client: object, folder: Path) -> None:
-    """Kills a worker when some chunks are done."""
-    while len(list(folder.glob("chunk-*.npz"))) < 3:
+    """Kills a worker when it and the other one have done three chunks."""
+    done = lambda: len(list(folder.glob("chunk-*.npz")))  # noqa: E731
+    before = done()
+    while done() < before + 3:
         time.sleep(0.05)
     process = next(iter(client.run(os.getpid).values()))  # type: ignore[attr-defined]
-    print(f"worker {process} is killed")
     os.kill(process, signal.SIGKILL)
+    print(f"worker {process} is killed")
 
 
 def picture(place: Path, x: np.ndarray, z: np.ndarray, counts: np.ndarray) -> None:
-    """Draws the mean number of solutions in every cell, as SVG."""
-    edges = np.linspace(-1.2, 1.2, CELLS + 1)
+    """Draws the mean number of solutions in every cell, to a half, as SVG: the darker, the more."""
+    edges = np.linspace(-REACH, REACH, CELLS + 1)
     total = np.histogram2d(x, z, bins=(edges, edges), weights=counts)[0]
     number = np.histogram2d(x, z, bins=(edges, edges))[0]
-    mean = np.divide(total, number, out=np.zeros_like(total), where=number > 0)
-    cells = [
-        f'<rect x="{8 * i}" y="{8 * (CELLS - 1 - j)}" width="8.2" height="8.2" fill="#2f6fb0" fill-opacity="{mean[i, j] / max(mean.max(), 1):.3f}"/>'
-        for i in range(CELLS)
-        for j in range(CELLS)
-        if mean[i, j] > 0
+    halves = np.rint(2 * np.divide(total, number, out=np.zeros_like(total), where=number > 0)).astype(int)
+    most = max(int(halves.max()), 1)
+    size = SIDE * CELLS
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{-MARGIN} {-MARGIN / 2} {size + 2.5 * MARGIN} {size + 1.5 * MARGIN}" role="img" '
+        'shape-rendering="crispEdges" font-family="sans-serif" font-size="13" aria-label="Mean number of solutions over the plane y = 0">'
     ]
-    size = 8 * CELLS
-    place.write_text(
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size} {size}" role="img" aria-label="Mean number of solutions">'
-        + "".join(cells)
-        + "</svg>\n"
-    )
+    for half in range(1, most + 1):
+        # Neighbours in a row are one rectangle.
+        pieces = []
+        for j in range(CELLS):
+            step = np.diff(np.concatenate([[0], halves[:, j] == half, [0]]).astype(int))
+            for first, end in zip(np.flatnonzero(step == 1), np.flatnonzero(step == -1)):
+                pieces.append(f"M{SIDE * first} {SIDE * (CELLS - 1 - j)}h{SIDE * (end - first)}v{SIDE}h{-SIDE * (end - first)}z")
+        parts.append(f'<path fill="#1f4e79" fill-opacity="{half / most:.3f}" d="{"".join(pieces)}"/>')
+        if half % 2 == 0:
+            y = size - 10 * half
+            parts.append(f'<rect x="{size + 20}" y="{y - 20}" width="16" height="20" fill="#1f4e79" fill-opacity="{half / most:.3f}"/>')
+            parts.append(f'<text x="{size + 42}" y="{y - 5}">{half // 2}</text>')
+    parts.append(f'<text x="{size + 20}" y="{size - 10 * most - 30}">solutions</text>')
+    parts.append(f'<rect width="{size}" height="{size}" fill="none" stroke="#888"/>')
+    for value in (-1.0, -0.5, 0.0, 0.5, 1.0):
+        at = size * (value + REACH) / (2 * REACH)
+        parts.append(f'<path stroke="#888" d="M{at:.1f} {size}v5M0 {size - at:.1f}h-5"/>')
+        parts.append(f'<text x="{at:.1f}" y="{size + 20}" text-anchor="middle">{value}</text>')
+        parts.append(f'<text x="-9" y="{size - at + 4:.1f}" text-anchor="end">{value}</text>')
+    parts.append(f'<text x="{size / 2}" y="{size + 42}" text-anchor="middle">x [m]</text><text x="-9" y="{0.39 * size}" text-anchor="end">z [m]</text></svg>')
+    place.write_text("\n".join(parts) + "\n")
 
 
 def main() -> None:
@@ -92,6 +111,7 @@ def main() -> None:
     answer = lr.batch.joined(folder / "answers")
     matrices = np.load(folder / "poses.npy", mmap_mode="r")
     assert len(answer) == len(matrices), "every pose has one answer"
+    assert set(answer.status) <= {"complete", "unreachable"}, "no list is doubtful"
     picture(folder / "map.svg", matrices[:, 0, 3], matrices[:, 2, 3], answer.counts)
     print(f"{answer}; the map is {folder / 'map.svg'}")
 

@@ -81,7 +81,9 @@ def _one(job: Job, folder: str, chunk: int) -> tuple[int, str]:
     return chunk, "done"
 
 
-def run(job: Job, chunks: int, folder: str | os.PathLike[str], client: Any = None) -> Report:
+def run(
+    job: Job, chunks: int, folder: str | os.PathLike[str], client: Any = None, *, part: tuple[int, int] | None = None
+) -> Report:
     """Runs ``job(0)`` to ``job(chunks - 1)`` and keeps each result as a file of ``folder``.
 
     Parameters
@@ -96,6 +98,8 @@ def run(job: Job, chunks: int, folder: str | os.PathLike[str], client: Any = Non
     client
         None for this process, a number of processes, or anything with ``map``: a Dask client, an executor of ``concurrent.futures``,
         ``mpi4py.futures`` or ``executorlib``.
+    part
+        ``(k, n)`` runs every n-th chunk, from chunk k on: task k of an array of n jobs on a shared folder. The report is about these.
 
     Returns
     -------
@@ -107,9 +111,10 @@ def run(job: Job, chunks: int, folder: str | os.PathLike[str], client: Any = Non
     own = Path(folder)
     own.mkdir(parents=True, exist_ok=True)
     _labelled(own, chunks, getattr(job, "label", None))
-    missing = [chunk for chunk in range(chunks) if not _place(own, chunk).exists()]
+    wanted = _part(chunks, part)
+    missing = [chunk for chunk in wanted if not _place(own, chunk).exists()]
     one = partial(_one, job, str(own.resolve()))
-    done, failed, kept = 0, {}, chunks - len(missing)
+    done, failed, kept = 0, {}, len(wanted) - len(missing)
     for chunk, word in _mapped(one, missing, client):
         if word == "done":
             done += 1
@@ -117,7 +122,15 @@ def run(job: Job, chunks: int, folder: str | os.PathLike[str], client: Any = Non
             kept += 1
         else:
             failed[chunk] = word
-    return Report(chunks, done, kept, failed)
+    return Report(len(wanted), done, kept, failed)
+
+
+def _part(chunks: int, part: tuple[int, int] | None) -> range:
+    if part is None:
+        return range(chunks)
+    if len(part) != 2 or not 0 <= part[0] < part[1]:
+        raise ValueError(f"found the part {part!r}, expected (k, n) with 0 <= k < n")
+    return range(part[0], chunks, part[1])
 
 
 def _labelled(folder: Path, chunks: int, label: str | None) -> None:
