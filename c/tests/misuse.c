@@ -74,7 +74,10 @@ static void arms(void) {
     EXPECT(LR_STATUS_INVALID, lr_arm_joint_name(NULL, 0, name, 3));
     EXPECT(LR_STATUS_OK, lr_arm_limits(arm, limits, 12));
     EXPECT(LR_STATUS_TRUNCATED, lr_arm_limits(arm, limits, 11));
+    EXPECT(LR_STATUS_TRUNCATED, lr_arm_limits(arm, NULL, 0));
     EXPECT(LR_STATUS_INVALID, lr_arm_limits(arm, NULL, 12));
+    EXPECT(LR_STATUS_INVALID, lr_arm_limits(arm, limits, (size_t)-1));
+    EXPECT(LR_STATUS_INVALID, lr_arm_limits(NULL, limits, 12));
 
     double *q = numbers(6), *pose = numbers(16), *jacobian = numbers(36);
     for (int k = 0; k < 6; k++) q[k] = 0.2 + 0.3 * k;
@@ -87,6 +90,18 @@ static void arms(void) {
     EXPECT(LR_STATUS_OK, lr_arm_jacobian(arm, q, 6, jacobian));
     EXPECT(LR_STATUS_INVALID, lr_arm_jacobian(arm, q, 3, jacobian));
     EXPECT(LR_STATUS_INVALID, lr_arm_jacobian(arm, q, 6, NULL));
+    EXPECT(LR_STATUS_INVALID, lr_arm_jacobian(arm, NULL, 6, jacobian));
+    EXPECT(LR_STATUS_INVALID, lr_arm_jacobian(NULL, q, 6, jacobian));
+    for (int k = 0; k < 6; k++) {
+        static const double UNUSABLE[] = {NAN, INFINITY, -INFINITY};
+        double kept = q[k];
+        for (int n = 0; n < 3; n++) {
+            q[k] = UNUSABLE[n];
+            EXPECT(LR_STATUS_INVALID, lr_arm_forward(arm, q, 6, pose));
+            EXPECT(LR_STATUS_INVALID, lr_arm_jacobian(arm, q, 6, jacobian));
+        }
+        q[k] = kept;
+    }
 
     lr_workspace *workspace = NULL;
     EXPECT(LR_STATUS_INVALID, lr_workspace_new(NULL));
@@ -113,6 +128,7 @@ static void arms(void) {
     EXPECT(LR_STATUS_INVALID, lr_arm_ik(arm, workspace, pose, NULL, 3, &count, NULL, NULL));
     EXPECT(LR_STATUS_INVALID, lr_arm_ik(arm, workspace, pose, rows, (size_t)-1, &count, NULL, NULL));
     EXPECT(LR_STATUS_INVALID, lr_arm_ik(arm, workspace, pose, rows, (size_t)-1 / 6, &count, NULL, NULL));
+    EXPECT(LR_STATUS_INVALID, lr_arm_ik(arm, workspace, pose, NULL, 8, &count, modes, NULL));
     EXPECT(LR_STATUS_INVALID, lr_arm_ik(arm, workspace, pose, rows, 8, NULL, NULL, NULL));
     EXPECT(LR_STATUS_INVALID, lr_arm_ik(arm, NULL, pose, rows, 8, &count, NULL, NULL));
     EXPECT(LR_STATUS_INVALID, lr_arm_ik(NULL, workspace, pose, rows, 8, &count, NULL, NULL));
@@ -155,6 +171,13 @@ static void platforms(void) {
     EXPECT(LR_STATUS_INVALID, lr_platform_legs(platform, NULL, legs));
     EXPECT(LR_STATUS_INVALID, lr_platform_legs(platform, pose, NULL));
     EXPECT(LR_STATUS_INVALID, lr_platform_legs(NULL, pose, legs));
+    for (int k = 0; k < 16; k++) {
+        double kept = pose[k];
+        pose[k] = NAN;
+        EXPECT(LR_STATUS_INVALID, lr_platform_legs(platform, pose, legs));
+        pose[k] = kept;
+    }
+    EXPECT(LR_STATUS_OK, lr_platform_legs(platform, pose, legs));
     size_t count = 0;
     lr_verdict verdict;
     EXPECT(LR_STATUS_OK, lr_platform_poses(platform, legs, poses, 40, &count, NULL, &verdict));
@@ -168,6 +191,10 @@ static void platforms(void) {
     HOLDS(found == 1);
     double *one = numbers(16);
     if (count > 1) EXPECT(LR_STATUS_TRUNCATED, lr_platform_poses(platform, legs, one, 1, &count, NULL, NULL));
+    EXPECT(LR_STATUS_INVALID, lr_platform_poses(platform, legs, poses, 40, NULL, NULL, NULL));
+    EXPECT(LR_STATUS_INVALID, lr_platform_poses(platform, legs, NULL, 40, &count, NULL, NULL));
+    EXPECT(LR_STATUS_INVALID, lr_platform_poses(platform, legs, poses, (size_t)-1, &count, NULL, NULL));
+    EXPECT(LR_STATUS_TRUNCATED, lr_platform_poses(platform, legs, NULL, 0, &count, NULL, NULL));
     legs[2] = -1;
     EXPECT(LR_STATUS_INVALID, lr_platform_poses(platform, legs, poses, 40, &count, NULL, NULL));
     legs[2] = NAN;
@@ -175,7 +202,10 @@ static void platforms(void) {
     EXPECT(LR_STATUS_INVALID, lr_platform_poses(platform, NULL, poses, 40, &count, NULL, NULL));
     EXPECT(LR_STATUS_INVALID, lr_platform_poses(NULL, legs, poses, 40, &count, NULL, NULL));
     lr_platform_free(platform);
+    EXPECT(LR_STATUS_INVALID, lr_platform_load(NULL, &platform));
+    EXPECT(LR_STATUS_INVALID, lr_platform_load("dietmaier_40real", NULL));
     EXPECT(LR_STATUS_INVALID, lr_platform_load("puma560", &platform));
+    lr_platform_free(NULL);
     HOLDS(platform == NULL);
     free(base), free(plate), free(legs), free(poses), free(one);
 }
@@ -183,7 +213,9 @@ static void platforms(void) {
 static void loops(void) {
     lr_loop *loop = NULL;
     EXPECT(LR_STATUS_INVALID, lr_loop_load(NULL, &loop));
+    EXPECT(LR_STATUS_INVALID, lr_loop_load("crcrr_2_angle", NULL));
     EXPECT(LR_STATUS_INVALID, lr_loop_load("puma560", &loop));
+    lr_loop_free(NULL);
     EXPECT(LR_STATUS_OK, lr_loop_load("crcrr_2_angle", &loop));
     size_t joints = lr_loop_joints(loop), count = 0;
     HOLDS(joints == 7 && lr_loop_joints(NULL) == 0);
@@ -191,6 +223,10 @@ static void loops(void) {
     lr_status status = lr_loop_solve(loop, 0.7, q, 16, &count, NULL, NULL);
     HOLDS(status == LR_STATUS_OK || status == LR_STATUS_UNREACHABLE);
     EXPECT(LR_STATUS_INVALID, lr_loop_solve(loop, NAN, q, 16, &count, NULL, NULL));
+    EXPECT(LR_STATUS_INVALID, lr_loop_solve(loop, INFINITY, q, 16, &count, NULL, NULL));
+    EXPECT(LR_STATUS_INVALID, lr_loop_solve(loop, 0.7, NULL, 16, &count, NULL, NULL));
+    EXPECT(LR_STATUS_INVALID, lr_loop_solve(loop, 0.7, q, 16, NULL, NULL, NULL));
+    EXPECT(LR_STATUS_INVALID, lr_loop_solve(loop, 0.7, q, (size_t)-1, &count, NULL, NULL));
     EXPECT(LR_STATUS_INVALID, lr_loop_solve(NULL, 0.7, q, 16, &count, NULL, NULL));
     status = lr_loop_solve(loop, 0.7, NULL, 0, &count, NULL, NULL);
     HOLDS(status == (count > 0 ? LR_STATUS_TRUNCATED : LR_STATUS_UNREACHABLE));

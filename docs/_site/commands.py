@@ -1,7 +1,8 @@
 """Runs the commands of pages whose blocks are no directives: those that people read on a code host, too.
 
 Every line of a block of text or shell that begins with `looproot` is run in a folder with the files that pages name. It must end with one
-of the exit codes of an answer, and where a page shows what is printed, the first line must still be that, times apart.
+of the exit codes of an answer, and where a page shows what is printed, the first line must still be that, times apart. Every other line of a
+block of shell must be one that a check runs elsewhere, or be left out for a reason that stands here.
 """
 
 from __future__ import annotations
@@ -48,6 +49,27 @@ LEFT_OUT = {
     "bench speed --set robots": "times a hundred robots: minutes without optimisation",
     "bench speed --set special-loops": "minutes without optimisation",
 }
+# Lines of shell that build, install or test, by their first words, with the check that runs the same.
+ELSEWHERE = {
+    "apt-get install -y m4 make gcc": ".ci/run",
+    ".ci/run": ".ci/run",
+    "pip wheel ./python --no-deps -w dist": ".ci/python",
+    'pip install "pytest>=8"': ".ci/python",
+    "pip install dask distributed": ".ci/python",
+    "python python/examples/workspace.py": ".ci/python",
+    "cargo build --release -p looproot-c": ".ci/c",
+    "cmake -S c -B target/c": ".ci/c",
+    "target/c/every_posture": ".ci/c",
+    "web/build": ".ci/web",
+    "cd assets/viewer && npm ci": ".ci/view",
+}
+NOT_RUN = {
+    "cargo install --path crates/cli": "compiles everything a second time, in one more profile",
+    "cargo build --release": "the same",
+    "python3 -m venv venv && venv/bin/pip install python-flint symbolica": "needs other systems for algebra",
+    "venv/bin/python benches/algebra/compare.py": "the same",
+    "python benches/peers/answers_eaik.py": "needs another solver",
+}
 # Pages show what a mistake is answered with.
 MISTAKES = {
     'looproot poly expand "x + 2y"',
@@ -86,6 +108,22 @@ def commands(page: str) -> list[Command]:
             after = lines[number] if prompt else None
             found.append(Command(page, number, text.strip(), after))
     return found
+
+
+def others(page: str) -> list[str]:
+    """Lines of shell that no check is known to run."""
+    faults = []
+    block: str | None = None
+    for number, line in enumerate((ROOT / page).read_text().split("\n"), 1):
+        if fence := re.match(r"\s*```(\S*)", line):
+            block = None if block is not None else fence[1]
+        elif block in ("sh", "console") and line.strip():
+            text = line.strip().removeprefix("$ ")
+            known = [*ELSEWHERE, *NOT_RUN, "looproot "]
+            if block == "sh" or line.lstrip().startswith("$ "):
+                if not any(text.startswith(first) for first in known):
+                    faults.append(f"{page}:{number}: found `{text}`, expected a line that a check runs")
+    return faults
 
 
 def plain(line: str) -> str:
@@ -140,6 +178,9 @@ def main() -> int:
         done = pool.map(lambda page: [(command, *run(command, place, program)) for command in by_page[page]], by_page)
     results = [result for page in done for result in page]
     faults = [f"{command.page}:{command.line}: {fault}" for command, _, fault in results if fault]
+    everywhere = PAGES + [str(path.relative_to(ROOT)) for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.md"))]
+    faults += [fault for page in everywhere for fault in others(page)]
+    faults += [f"found no {check}, expected the check that runs `{line}`" for line, check in ELSEWHERE.items() if not (ROOT / check).is_file()]
     slowest = sorted(results, key=lambda result: -result[1])[:5]
     print(f"{len(results)} commands of {len(by_page)} pages run, {len(found) - len(chosen)} left out; the slowest:")
     for command, took, _ in slowest:
