@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import dataclass, field
-from pathlib import Path
+from functools import cached_property
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Callable, Iterator, NoReturn
 
 import numpy as np
@@ -62,36 +64,96 @@ def _refuse(name: str) -> NoReturn:
     raise TypeError(f"the truth of {name} is ambiguous: ask .reachable or .complete")
 
 
-def _drawn(document: Document, path: str | Path | None, svg: bool) -> str:
+def _drawn(document: Document, path: str | os.PathLike[str] | None, svg: bool) -> str:
     text = _core.page(json.dumps(document), svg)
     if path is not None:
-        Path(path).write_text(text, encoding="utf-8")
+        with open(os.fspath(path), "w", encoding="utf-8") as file:
+            file.write(text)
     return text
 
 
-@dataclass(frozen=True, eq=False)
 class Solutions:
-    """The real solutions of one question, an array for each of their properties."""
+    """The real solutions of one question, an array for each of their properties, made when it is asked for."""
 
-    q: Floats
-    """(k, n): joint values, in the order of ``names``."""
-    certified: NDArray[np.bool_]
-    radius: Floats
-    """Error bound of every joint value."""
-    condition: Floats
-    within_limits: NDArray[np.bool_] | None
-    """None where there are no limits."""
-    near: NDArray[np.bool_]
-    """Whether a solution reaches the pose within the tolerance but not exactly."""
     names: list[str]
-    verdict: Verdict
-    families: list[Family] = field(default_factory=list)
-    warnings: list[str] = field(default_factory=list)
-    matrix: Floats | None = None
-    """(k, 4, 4): poses of the plate of a platform."""
-    bodies: dict[str, Floats] | None = None
-    """Of a linkage for every body (k, 3): angle and position in the plane, or (k, 4): quaternions, w first, on the sphere."""
-    _document: Callable[[], Document] | None = field(default=None, repr=False)
+    """The joints, in the order of the columns of ``q``."""
+    _answer: Any
+    _document: Callable[[], Document] | None
+
+    def __init__(self, answer: Any, names: list[str], document: Callable[[], Document] | None = None) -> None:
+        # What cannot be set is set here.
+        own = self.__dict__
+        own["names"] = names
+        own["_answer"] = answer
+        own["_document"] = document
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"found an assignment to {name} of solutions, which do not change")
+
+    @cached_property
+    def q(self) -> Floats:
+        """(k, n): joint values, in the order of ``names``."""
+        found: Floats = self._answer.q
+        return found
+
+    @cached_property
+    def certified(self) -> NDArray[np.bool_]:
+        """Whether a solution is proved to exist, and to be the only one within its radius."""
+        found: NDArray[np.bool_] = self._answer.certified
+        return found
+
+    @cached_property
+    def radius(self) -> Floats:
+        """Error bound of every joint value."""
+        found: Floats = self._answer.radius
+        return found
+
+    @cached_property
+    def condition(self) -> Floats:
+        """How many times an error of the data is greater in a solution."""
+        found: Floats = self._answer.condition
+        return found
+
+    @cached_property
+    def within_limits(self) -> NDArray[np.bool_] | None:
+        """None where there are no limits."""
+        found: NDArray[np.bool_] | None = self._answer.within_limits
+        return found
+
+    @cached_property
+    def near(self) -> NDArray[np.bool_]:
+        """Whether a solution reaches the pose within the tolerance but not exactly."""
+        found: NDArray[np.bool_] = self._answer.near
+        return found
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """Is the list complete, and what that rests on."""
+        return Verdict.of(self._answer.verdict)
+
+    @cached_property
+    def families(self) -> list[Family]:
+        """Solutions that are not isolated."""
+        return [
+            Family(one["dimension"], one["moving"], one["distance"], np.array(one["sample"]), np.array(one["samples"]))
+            for one in self._answer.families
+        ]
+
+    @cached_property
+    def warnings(self) -> list[str]:
+        """What is noted about the data, a sentence each."""
+        found: list[str] = self._answer.warnings
+        return found
+
+    @cached_property
+    def matrix(self) -> Floats | None:
+        """(k, 4, 4): poses of the plate of a platform."""
+        return getattr(self._answer, "matrix", None)
+
+    @cached_property
+    def bodies(self) -> dict[str, Floats] | None:
+        """Of a linkage for every body (k, 3): angle and position in the plane, or (k, 4): quaternions, w first, on the sphere."""
+        return getattr(self._answer, "bodies", None)
 
     def __len__(self) -> int:
         return len(self.q)
@@ -113,13 +175,21 @@ class Solutions:
         return self.verdict.status in ("complete", "unreachable") and self.verdict.proved
 
     def _taken(self, order: Any) -> Solutions:
-        within = None if self.within_limits is None else self.within_limits[order]
-        matrix = None if self.matrix is None else self.matrix[order]
-        bodies = None if self.bodies is None else {name: places[order] for name, places in self.bodies.items()}
-        return type(self)(
-            self.q[order], self.certified[order], self.radius[order], self.condition[order], within, self.near[order],
-            self.names, self.verdict, self.families, self.warnings, matrix, bodies, self._document,
-        )  # fmt: skip
+        within, matrix, bodies = self.within_limits, self.matrix, self.bodies
+        answer = SimpleNamespace(
+            q=self.q[order],
+            certified=self.certified[order],
+            radius=self.radius[order],
+            condition=self.condition[order],
+            within_limits=None if within is None else within[order],
+            near=self.near[order],
+            verdict=self._answer.verdict,
+            families=self._answer.families,
+            warnings=self.warnings,
+            matrix=None if matrix is None else matrix[order],
+            bodies=None if bodies is None else {name: places[order] for name, places in bodies.items()},
+        )
+        return type(self)(answer, self.names, self._document)
 
     def nearest(self, q0: Any) -> Solutions:
         """The same, the solution nearest to q0 first; angles are compared modulo full turns."""
@@ -134,11 +204,11 @@ class Solutions:
             raise ValueError("found no document of these solutions, expected those of a single question")
         return self._document()
 
-    def view(self, path: str | Path | None = None) -> str:
+    def view(self, path: str | os.PathLike[str] | None = None) -> str:
         """The page of these solutions, written to a file where one is named."""
         return _drawn(self.document(), path, False)
 
-    def svg(self, path: str | Path | None = None) -> str:
+    def svg(self, path: str | os.PathLike[str] | None = None) -> str:
         """Stick figures of these solutions."""
         return _drawn(self.document(), path, True)
 
@@ -187,29 +257,32 @@ def of_document(text: str) -> Solutions:
     limits = [mode.get("within_limits") for mode in real]
     within = np.array(limits, dtype=np.bool_) if limits and all(limit is not None for limit in limits) else None
 
-    def family(one: Document) -> Family:
+    def family(one: Document) -> Document:
         def numbers(sample: Document) -> list[float]:
             return list(sample["q"] if "q" in sample else sample["quaternion"] + sample["position"])
 
-        samples = np.array([numbers(sample) for sample in one["samples"]], dtype=np.float64)
-        moving = [joint - 1 for joint in one["joints"]]
-        return Family(one["dimension"], moving, one["distance"] or 0.0, np.array(numbers(one["sample"])), samples)
+        return {
+            "dimension": one["dimension"],
+            "moving": [joint - 1 for joint in one["joints"]],
+            "distance": one["distance"] or 0.0,
+            "sample": numbers(one["sample"]),
+            "samples": [numbers(sample) for sample in one["samples"]],
+        }
 
-    return Solutions(
-        q,
-        np.array([mode["certified"] for mode in real], dtype=np.bool_),
-        column("radius", np.inf),
-        column("condition", np.inf),
-        within,
-        np.array([mode.get("near", False) for mode in real], dtype=np.bool_),
-        names,
-        Verdict.of(result["verdict"]),
-        [family(one) for one in result["families"]],
-        list(result["warnings"]),
-        matrix,
-        _places(document, real) if document["kind"] == "linkage" else None,
-        lambda: document,
+    answer = SimpleNamespace(
+        q=q,
+        certified=np.array([mode["certified"] for mode in real], dtype=np.bool_),
+        radius=column("radius", np.inf),
+        condition=column("condition", np.inf),
+        within_limits=within,
+        near=np.array([mode.get("near", False) for mode in real], dtype=np.bool_),
+        verdict=result["verdict"],
+        families=[family(one) for one in result["families"]],
+        warnings=list(result["warnings"]),
+        matrix=matrix,
+        bodies=_places(document, real) if document["kind"] == "linkage" else None,
     )
+    return Solutions(answer, names, lambda: document)
 
 
 def _places(document: Document, modes: list[Document]) -> dict[str, Floats]:
@@ -338,6 +411,6 @@ class Sweep:
         branches = [rows(branch["rows"]) for branch in document["branches"]]
         return Sweep(document, verdict["status"], verdict["proof"], names, branches, rows(document["limits"]))
 
-    def view(self, path: str | Path | None = None) -> str:
+    def view(self, path: str | os.PathLike[str] | None = None) -> str:
         """The page of this sweep, written to a file where one is named."""
         return _drawn(self.document, path, False)

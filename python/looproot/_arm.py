@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 import os
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from . import _core
-from ._answers import Batch, Derivation, Document, Family, Solutions, Polynomial, Verdict, _drawn
+from ._answers import Batch, Derivation, Document, Polynomial, Solutions, _drawn
 from ._arrays import Floats, finite, floats, shaped
 from ._certificate import Certificate, read
 from ._pose import Pose, checked
@@ -69,23 +68,12 @@ class Arm:
         """
         matrix = checked(pose, "pose")
         start = None if near is None else shaped(near, (len(self.names),), "near")
-        (q, certified, radius, condition, within, close, _), verdict, families, warnings = self._core.ik(matrix)
-        bounded = None if self.limits is None else within == 1
-        found = [
-            Family(one["dimension"], one["moving"], one["distance"], np.array(one["sample"]), np.array(one["samples"]))
-            for one in families
-        ]
-        core = self._core
-
-        def document() -> Document:
-            read: Document = json.loads(core.document(matrix[None], False))
-            return read
-
-        answer = Solutions(
-            q, certified, radius, condition, bounded, close, self.names, Verdict(**verdict), found, warnings,
-            _document=document,
-        )
+        answer = Solutions(self._core.ik(matrix), self.names, lambda: self._document(matrix))
         return answer if start is None else answer.nearest(start)
+
+    def _document(self, matrix: Floats) -> Document:
+        document: Document = json.loads(self._core.document(matrix[None], False))
+        return document
 
     def ik_batch(self, poses: Any) -> Batch:
         """The same for many poses, (n, 4, 4), on all cores and without the interpreter's lock.
@@ -110,7 +98,7 @@ class Arm:
         """The proof of the list at a pose. An answer of which there is none is an UnsupportedError that says why."""
         return read(self._core.certificate(checked(pose, "pose")))
 
-    def view(self, poses: Any, path: str | Path | None = None) -> str:
+    def view(self, poses: Any, path: str | os.PathLike[str] | None = None) -> str:
         """The page of the solutions of one pose or of several."""
         values = np.array([checked(poses, "pose")]) if np.ndim(_matrix(poses)) == 2 else shaped(poses, (None, 4, 4), "poses")
         return _drawn(json.loads(self._core.document(values, False)), path, False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,15 +16,20 @@ else:
     Floats = np.ndarray
 
 
+_DOUBLE = np.dtype(np.float64)
+
+
 def floats(value: Any, what: str) -> Floats:
     """An array of finite doubles; everything else is a TypeError or a ValueError."""
+    if type(value) is np.ndarray and value.dtype is _DOUBLE and value.flags.c_contiguous:
+        return value
     if isinstance(value, (str, bytes)):
         raise TypeError(f"found {value!r} as {what}, expected numbers")
     try:
         array = np.asarray(value)
     except ValueError as fault:
         raise ValueError(f"found lists of unequal length as {what}, expected an array: {fault}") from None
-    if array.dtype == object or array.dtype.kind not in "fiu":
+    if array.dtype.kind not in "fiu":
         kind = ragged(value)
         if kind is not None:
             raise ValueError(f"found lists of unequal length as {what} ({kind}), expected an array")
@@ -44,6 +50,9 @@ def ragged(value: Any) -> str | None:
 
 def finite(array: Floats, what: str) -> Floats:
     """The array, if all of it is finite."""
+    # One product tells most arrays from those with an infinity or a NaN; that of large numbers may overflow.
+    if math.isfinite(np.vdot(array, array)):
+        return array
     bad = np.argwhere(~np.isfinite(array))
     if len(bad):
         index = ", ".join(str(int(k)) for k in bad[0])
@@ -51,11 +60,15 @@ def finite(array: Floats, what: str) -> Floats:
     return array
 
 
+def fits(found: tuple[int, ...], shape: tuple[int | None, ...]) -> bool:
+    """Whether a shape is the expected one, in which None stands for any length."""
+    return len(found) == len(shape) and all(want is None or have == want for have, want in zip(found, shape))
+
+
 def shaped(value: Any, shape: tuple[int | None, ...], what: str) -> Floats:
     """A finite array of this shape; None stands for any length."""
     array = floats(value, what)
-    fits = array.ndim == len(shape) and all(want is None or have == want for have, want in zip(array.shape, shape))
-    if not fits:
+    if array.shape != shape and not fits(array.shape, shape):
         wanted = "(" + ", ".join("n" if want is None else str(want) for want in shape) + ("," if len(shape) == 1 else "") + ")"
         raise ValueError(f"found the shape {array.shape} of {what}, expected {wanted}")
     return finite(array, what)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from . import _core
@@ -42,7 +41,8 @@ class Certificate:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the file that ``looproot verify`` and ``verify/verify.py`` check."""
-        Path(path).write_text(json.dumps(self.document) + "\n", encoding="utf-8")
+        with open(os.fspath(path), "w", encoding="utf-8") as file:
+            file.write(json.dumps(self.document) + "\n")
 
     def verify(self, *, file: str | os.PathLike[str] | None = None) -> Verification:
         """Checks every item anew; solves nothing. With ``file`` the data are compared with those of a mechanism file."""
@@ -60,7 +60,8 @@ def verify(
     if isinstance(certificate, Certificate):
         text = json.dumps(certificate.document)
     elif isinstance(certificate, (str, os.PathLike)):
-        text = Path(certificate).read_text(encoding="utf-8")
+        with open(os.fspath(certificate), encoding="utf-8") as lines:
+            text = lines.read()
     else:
         raise TypeError(f"found {type(certificate).__name__} as certificate, expected a Certificate or a path")
     found: list[dict[str, Any]] = json.loads(_core.verify(text, None if file is None else str(os.fspath(file))))

@@ -1,9 +1,9 @@
 //! Arms.
 
-use crate::answers::{Modes, families, modes, rows, stack, verdict};
+use crate::answers::{Answer, rows, stack};
 use crate::faults::{guarded, panic_text};
 use looproot::internal::error::Error;
-use looproot::internal::face::{self, Convention, DhRow, Matrix, ScrewRow};
+use looproot::internal::face::{self, Convention, DhRow, Matrix, ScrewRow, Workspace};
 use looproot::internal::kinematics::chain::JointKind;
 use looproot::internal::mechanism::Solution;
 use numpy::ndarray::ArrayView1;
@@ -11,13 +11,16 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyReado
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+
+thread_local! {
+    /// The memory in which poses are solved one by one. It is taken for every pose: what panics leaves a fresh one.
+    static WORKSPACE: Cell<Option<Box<Workspace>>> = const { Cell::new(None) };
+}
 
 /// Poses solved between two looks for Ctrl-C: some milliseconds of work.
 const CHUNK: usize = 256;
-
-/// An answer: modes, verdict, families, warnings.
-type Answer<'py> = (Modes<'py>, Bound<'py, PyDict>, Vec<Bound<'py, PyDict>>, Vec<String>);
 
 /// Many answers: q, offsets, certified, near, within limits, words of status, words of proof, errors by index, self-motions.
 type Answers<'py> = (
@@ -183,12 +186,17 @@ impl Arm {
         Ok(rows(poses.as_flattened().to_vec(), 7)?.into_pyarray(python))
     }
 
-    fn ik<'py>(&self, python: Python<'py>, pose: PyReadonlyArray2<'_, f64>) -> PyResult<Answer<'py>> {
+    fn ik(&self, python: Python<'_>, pose: PyReadonlyArray2<'_, f64>) -> PyResult<Answer> {
         let pose = matrix(&pose);
-        let solution = python.detach(|| guarded(|| self.0.ik(&pose)))?;
-        let verdict = verdict(python, &solution.verdict, solution.near())?;
-        let families = families(python, &solution)?;
-        Ok((modes(python, &solution, self.0.freedoms())?, verdict, families, solution.warnings))
+        let solution = python.detach(|| {
+            guarded(|| {
+                let mut workspace = WORKSPACE.take().unwrap_or_default();
+                let solution = self.0.ik_with(&pose, &mut workspace);
+                WORKSPACE.set(Some(workspace));
+                solution
+            })
+        })?;
+        Ok(Answer { solution, freedoms: self.0.freedoms(), limited: !self.0.model.entry.limits.is_empty() })
     }
 
     /// Solves chunk by chunk; Ctrl-C ends it with what is done.
