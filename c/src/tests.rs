@@ -16,7 +16,7 @@ fn the_header_is_that_of_the_sources() {
     builder.generate().expect("a header").write(&mut written);
     let written = String::from_utf8(written).expect("text");
     // Rust's heading of what is unsafe says to C what it must promise.
-    let written = written.replace("// # Safety\n", "// Promised by the caller:\n").replace("`", "");
+    let written = written.replace("// # Safety\n", "// Promised by the caller:\n").replace('`', "");
     let path = root.join("include/looproot.h");
     if std::env::var_os("LOOPROOT_BLESS").is_some() {
         fs::write(&path, &written).expect("a file");
