@@ -2,14 +2,17 @@
 
 use super::calculus::write_values;
 use super::json::number;
-use super::{json, sphere};
+use super::{json, space, sphere};
 use crate::catalogue::entry::{Case, Entry};
-use crate::catalogue::{SphereCase, SphereFile};
+use crate::catalogue::{SpaceCase, SpaceFile, SphereCase, SphereFile};
 use crate::displacement::answer::list;
-use crate::kinematics::motion::{Vector, dot};
+use crate::algebra::number::nearest_f64;
+use crate::kinematics::motion::{Vector, cross, dot};
+use crate::linkage::space::{SpaceAnswer, rates as rates_in_space};
 use crate::linkage::sphere::{SphereAnswer, rates};
 use crate::mechanism::{Derivatives, Moving, MovingChain, Solution, relative};
 use crate::report::text::View;
+use crate::sweep::sphere_place;
 use looproot_calculus::displacement::velocity::State;
 use serde_json::{Map, Value, json};
 
@@ -107,9 +110,16 @@ pub fn of_chain(
     result
 }
 
-/// Returns the answer to a case of a linkage on the sphere: all real assemblies with `instant`.
+/// Returns the answer to a case of a linkage on the sphere: all real assemblies with `instant`, with one point of the body alone
+/// where it is asked for. Points lie as far away as the file says.
 #[must_use]
-pub fn of_sphere(file: &SphereFile, case: &SphereCase, number: usize, answer: &SphereAnswer, pair: Pair) -> Value {
+pub fn of_sphere(
+    file: &SphereFile,
+    (number, case): (usize, &SphereCase),
+    answer: &SphereAnswer,
+    pair: Pair,
+    point: Option<&str>,
+) -> Value {
     let mut result = sphere::result(file, case, number, answer, false);
     let linkage = &file.linkage;
     let real = answer.modes.iter().filter(|mode| mode.real);
@@ -120,6 +130,11 @@ pub fn of_sphere(file: &SphereFile, case: &SphereCase, number: usize, answer: &S
                 let state = relative(&found.bodies[pair.body], &found.bodies[pair.against]);
                 let names = [pair.body, pair.against].map(|body| linkage.bodies[body].name.as_str());
                 let mut object = values(names, &state, &found.bodies);
+                let state = rounded(&state, &found.bodies);
+                let own = &linkage.bodies[pair.body].points;
+                let points = own.iter().filter(|(name, _)| point.is_none_or(|asked| asked == name));
+                let points = points.map(|(name, at)| (name.clone(), path(&state, &sphere_place(mode, pair.body, at))));
+                object.insert("points".into(), Value::Object(points.collect()));
                 let joints = linkage.joints.iter().zip(&found.joints);
                 let joints = joints.map(|(joint, rates)| (joint.name.clone(), list(rates)));
                 object.insert("joint_rates".into(), Value::Object(joints.collect()));
@@ -128,6 +143,67 @@ pub fn of_sphere(file: &SphereFile, case: &SphereCase, number: usize, answer: &S
         }
     }
     result
+}
+
+/// Returns the answer to a case of a linkage in space: all real assemblies with `instant`, with one point of the body alone where
+/// it is asked for.
+#[must_use]
+pub fn of_space(
+    file: &SpaceFile,
+    (number, case): (usize, &SpaceCase),
+    answer: &SpaceAnswer,
+    pair: Pair,
+    point: Option<&str>,
+) -> Value {
+    let mut result = space::result(file, case, number, answer, false);
+    let linkage = &file.linkage;
+    let real = answer.modes.iter().filter(|mode| mode.real);
+    if let Some(modes) = result["modes"].as_array_mut() {
+        for (shown, mode) in modes.iter_mut().zip(real) {
+            let found = rates_in_space(linkage, &case.given, mode);
+            shown["instant"] = found.map_or(Value::Null, |found| {
+                let state = relative(&found.bodies[pair.body], &found.bodies[pair.against]);
+                let state = rounded(&state, &found.bodies);
+                let names = [pair.body, pair.against].map(|body| linkage.bodies[body].name.as_str());
+                let mut object = values(names, &state, &found.bodies);
+                let place = mode.bodies[pair.body].map(|z| Some(z.re));
+                let wanted = |name: &str| point.is_none_or(|asked| asked == name);
+                let points = linkage.bodies[pair.body].points.iter().filter(|(name, _)| wanted(name));
+                let points = points.filter_map(|(name, at)| {
+                    Some((name.clone(), path(&state, &place.as_ref()?.apply(&at.each_ref().map(nearest_f64)))))
+                });
+                object.insert("points".into(), Value::Object(points.collect()));
+                let joints = linkage.joints.iter().zip(cleaned(&found.joints));
+                let joints = joints.filter_map(|(joint, rates)| Some((joint.name.clone(), list(&rates?))));
+                object.insert("joint_rates".into(), Value::Object(joints.collect()));
+                Value::Object(object)
+            });
+        }
+    }
+    result
+}
+
+/// The rates and accelerations of joints, where rounding beside the largest of each is 0.
+fn cleaned(joints: &[Option<[f64; 2]>]) -> Vec<Option<[f64; 2]>> {
+    let largest = |part: usize| joints.iter().flatten().map(|rates| rates[part].abs()).fold(0.0, f64::max);
+    let rate = largest(0);
+    let scale = [rate, largest(1).max(rate * rate)];
+    let clean = |rates: [f64; 2]| [0, 1].map(|k| if rates[k].abs() <= ROUNDED * scale[k] { 0.0 } else { rates[k] });
+    joints.iter().map(|rates| rates.map(clean)).collect()
+}
+
+/// Returns velocity and acceleration of a point of a body where it stands, and the curvature of its path; null where the point rests.
+fn path(state: &State<f64>, position: &Vector<f64>) -> Value {
+    let (velocity, acceleration) = (state.velocity_at(position), state.acceleration_at(position));
+    let bend = cross(&velocity, &acceleration);
+    let speed = dot(&velocity, &velocity).sqrt();
+    let curvature = dot(&bend, &bend).sqrt() / speed.powi(3);
+    json!({
+        "position": list(position),
+        "velocity": list(&velocity),
+        "acceleration": list(&acceleration),
+        "curvature": if speed > 0.0 { number(curvature) } else { Value::Null },
+    })
 }
 
 /// A result for a reader, behind its verdict.

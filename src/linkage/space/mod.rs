@@ -6,6 +6,8 @@
 mod answer;
 mod clusters;
 mod equations;
+mod rates;
 mod values;
 
 pub use answer::{Coordinate, SpaceAnswer, SpaceGroup, SpaceMode, solve};
+pub use rates::{SpaceRates, rates};

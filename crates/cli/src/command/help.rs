@@ -67,7 +67,8 @@ Examples:
   looproot instant linkage/coupler_instant --body rocker --against crank --json
   looproot instant bennett_a --body 2                    a loop: the body behind its second joint
   looproot instant puma560 --pose 1 --body 6 --rate \"1,0,0,0,0,0\"
-  looproot instant linkage/hooke_series --body cross1    about a point";
+  looproot instant linkage/hooke_series --body cross1    about a point
+  looproot instant linkage/rssr_ssr --body rocker2       in space";
 
 /// Examples of `dynamics`.
 pub const DYNAMICS: &str = "\

@@ -19,6 +19,7 @@ pub fn run(options: &InstantOptions) -> Result<Exit, Fault> {
         Any::Linkage(file) => file,
         Any::Entry(entry) => return space_instant::of_chain(options, *entry),
         Any::Sphere(file) => return space_instant::of_sphere(options, &file),
+        Any::Space(file) => return space_instant::of_space(options, &file),
         other => return Err(unexpected(&options.mechanism, other.kind(), "a linkage, a loop or an arm")),
     };
     if options.rate.is_some() {
@@ -30,7 +31,9 @@ pub fn run(options: &InstantOptions) -> Result<Exit, Fault> {
         let message = format!("found --body {} against itself, expected two bodies", options.body);
         return Err(Error::Invalid(message).into());
     }
-    let point = options.point.as_ref().map(|point| point_of(&file, body, point)).transpose()?;
+    let own = &file.linkage.bodies[body];
+    let points = own.points.iter().map(|(name, _)| name.as_str());
+    let point = options.point.as_ref().map(|asked| point_of(&own.name, points, asked)).transpose()?;
     let asked = Asked { body, against, point, inverse: options.inverse };
     let mut output = Output::open(&options.output, &options.mechanism)?;
     let mut exit = Exit::Complete;
@@ -59,22 +62,29 @@ pub fn run(options: &InstantOptions) -> Result<Exit, Fault> {
     Ok(exit)
 }
 
-/// Returns the index of a body by its name.
+/// Returns the index of a body of a linkage in the plane by its name.
 pub fn named(file: &LinkageFile, name: &str) -> Result<usize, Error> {
-    let found = file.linkage.bodies.iter().position(|body| body.name == name);
-    found.ok_or_else(|| {
-        let known: Vec<&str> = file.linkage.bodies.iter().take(12).map(|body| body.name.as_str()).collect();
+    among(file.linkage.bodies.iter().map(|body| body.name.as_str()), name)
+}
+
+/// Returns the index of a body by its name.
+pub fn among<'a>(bodies: impl Iterator<Item = &'a str> + Clone, name: &str) -> Result<usize, Error> {
+    bodies.clone().position(|body| body == name).ok_or_else(|| {
+        let known: Vec<&str> = bodies.take(12).collect();
         let name: String = name.chars().take(40).collect();
         Error::Invalid(format!("found the unknown body `{name}`, expected one of {}", known.join(", ")))
     })
 }
 
-/// Returns the point of `BODY.P`, which must belong to the requested body.
-fn point_of<'a>(file: &LinkageFile, body: usize, asked: &'a str) -> Result<&'a str, Error> {
-    let own = &file.linkage.bodies[body];
-    let found = asked.strip_prefix(own.name.as_str()).and_then(|rest| rest.strip_prefix('.'));
-    found.filter(|name| own.point(name).is_some()).ok_or_else(|| {
-        let known: Vec<String> = own.points.iter().take(12).map(|(name, _)| format!("{}.{name}", own.name)).collect();
+/// Returns the point of `BODY.P`, which must be one of these points of the requested body.
+pub fn point_of<'a, 'p>(
+    body: &str,
+    points: impl Iterator<Item = &'p str> + Clone,
+    asked: &'a str,
+) -> Result<&'a str, Error> {
+    let found = asked.strip_prefix(body).and_then(|rest| rest.strip_prefix('.'));
+    found.filter(|name| points.clone().any(|own| own == *name)).ok_or_else(|| {
+        let known: Vec<String> = points.take(12).map(|name| format!("{body}.{name}")).collect();
         let asked: String = asked.chars().take(40).collect();
         Error::Invalid(format!("found --point {asked}, expected one of {}", known.join(", ")))
     })

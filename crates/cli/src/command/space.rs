@@ -12,7 +12,7 @@ use std::borrow::Cow;
 use std::io::Write;
 
 /// Returns the file, with the case of `--input JOINT=VALUE` instead of its own if that is given.
-fn posed<'f>(input: Option<&str>, file: &'f SpaceFile) -> Result<Cow<'f, SpaceFile>, Error> {
+pub fn posed<'f>(input: Option<&str>, file: &'f SpaceFile) -> Result<Cow<'f, SpaceFile>, Error> {
     match input {
         Some(text) if text.contains('=') => {
             Ok(Cow::Owned(SpaceFile { cases: vec![file.case_with(text)?], ..file.clone() }))
@@ -22,7 +22,7 @@ fn posed<'f>(input: Option<&str>, file: &'f SpaceFile) -> Result<Cow<'f, SpaceFi
 }
 
 /// Returns the requested cases: all, or the one of `--input`.
-fn wanted(input: Option<&str>, file: &SpaceFile) -> Result<std::ops::Range<usize>, Error> {
+pub fn wanted(input: Option<&str>, file: &SpaceFile) -> Result<std::ops::Range<usize>, Error> {
     let Some(asked) = input else { return Ok(0..file.cases.len()) };
     if asked.contains('=') {
         return Ok(0..1);

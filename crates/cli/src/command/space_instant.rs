@@ -1,19 +1,23 @@
-//! `looproot instant` for loops, arms and linkages on the sphere.
+//! `looproot instant` for loops, arms and linkages on the sphere and in space.
 
 use super::arguments::InstantOptions;
 use super::exit::{Exit, Fault, unexpected};
+use super::instant::{among, point_of};
 use super::output::Output;
 use super::wanted::{in_place, wanted};
-use super::{linkage, sphere};
+use super::{linkage, space, sphere};
 use looproot::internal::assembly::{Assembly, Roots, Workspace};
-use looproot::internal::catalogue::SphereFile;
 use looproot::internal::catalogue::entry::{Design, Entry, Kind};
+use looproot::internal::catalogue::{SpaceFile, SphereFile};
 use looproot::internal::error::Error;
+use looproot::internal::linkage::space::solve as solve_in_space;
 use looproot::internal::linkage::sphere::solve;
 use looproot::internal::mechanism::{Derivatives, InputCurve, Mechanism};
 use looproot::internal::report::document::complete;
-use looproot::internal::report::space_instant::{Pair, of_chain as chain_result, of_sphere as sphere_result, text};
-use looproot::internal::report::{sphere as spheres, text as texts};
+use looproot::internal::report::space_instant::{
+    Pair, of_chain as chain_result, of_space as space_result, of_sphere as sphere_result, text,
+};
+use looproot::internal::report::{space as spaces, sphere as spheres, text as texts};
 use serde_json::json;
 use std::io::Write;
 
@@ -79,13 +83,15 @@ pub fn of_chain(options: &InstantOptions, mut entry: Entry) -> Result<Exit, Faul
 
 /// Finds every assembly of the requested cases of a linkage on the sphere, and the motion of a body there.
 pub fn of_sphere(options: &InstantOptions, file: &SphereFile) -> Result<Exit, Fault> {
-    refuse(options)?;
     if options.rate.is_some() {
         return Err(Error::Invalid("found --rate for a linkage, whose input runs at unit rate".to_owned()).into());
     }
     let named = |name: &str| on_sphere(file, name);
     let against = options.against.as_ref().map_or(Ok(file.linkage.ground), |name| named(name))?;
     let pair = apart(options, Pair { body: named(&options.body)?, against })?;
+    let own = &file.linkage.bodies[pair.body];
+    let points = own.points.iter().map(|(name, _)| name.as_str());
+    let point = options.point.as_ref().map(|asked| point_of(&own.name, points, asked)).transpose()?;
     let asked = options.asked.input.as_deref();
     let file = &*sphere::posed(asked, file)?;
     let mut output = Output::open(&options.output, &options.mechanism)?;
@@ -101,7 +107,7 @@ pub fn of_sphere(options: &InstantOptions, file: &SphereFile) -> Result<Exit, Fa
         let answer = solve(&file.linkage, &case.given, file.exact && case.exact)
             .map_err(|error| error.at(&options.mechanism, line))?;
         exit = exit.max(linkage::code(&answer.verdict));
-        let found = sphere_result(file, case, index + 1, &answer, pair);
+        let found = sphere_result(file, (index + 1, case), &answer, pair, point);
         if options.json {
             results.push(found);
         } else {
@@ -115,22 +121,58 @@ pub fn of_sphere(options: &InstantOptions, file: &SphereFile) -> Result<Exit, Fa
     Ok(exit)
 }
 
-/// Returns the index of a body of a linkage on the sphere by its name.
-pub fn on_sphere(file: &SphereFile, name: &str) -> Result<usize, Error> {
-    let found = file.linkage.bodies.iter().position(|body| body.name == name);
-    found.ok_or_else(|| {
-        let known: Vec<&str> = file.linkage.bodies.iter().take(12).map(|body| body.name.as_str()).collect();
-        let name: String = name.chars().take(40).collect();
-        Error::Invalid(format!("found the unknown body `{name}`, expected one of {}", known.join(", ")))
-    })
+/// Finds every assembly of the requested cases of a linkage in space, and the motion of a body there.
+pub fn of_space(options: &InstantOptions, file: &SpaceFile) -> Result<Exit, Fault> {
+    if options.rate.is_some() {
+        return Err(Error::Invalid("found --rate for a linkage, whose input runs at unit rate".to_owned()).into());
+    }
+    let bodies = &file.linkage.bodies;
+    let named = |name: &str| among(bodies.iter().map(|body| body.name.as_str()), name);
+    let against = options.against.as_ref().map_or(Ok(file.linkage.ground), |name| named(name))?;
+    let pair = apart(options, Pair { body: named(&options.body)?, against })?;
+    let own = &bodies[pair.body];
+    let points = own.points.iter().map(|(name, _)| name.as_str());
+    let point = options.point.as_ref().map(|asked| point_of(&own.name, points, asked)).transpose()?;
+    let asked = options.asked.input.as_deref();
+    let file = &*space::posed(asked, file)?;
+    let mut output = Output::open(&options.output, &options.mechanism)?;
+    let mut exit = Exit::Complete;
+    let mut results = Vec::new();
+    for index in space::wanted(asked, file)? {
+        let case = &file.cases[index];
+        let line = case.given.first().map_or(case.line, |given| given.line);
+        if case.given.first().is_none_or(|given| given.joint.is_none()) {
+            let message = "found no input of the linkage, expected an [[input]] with a joint, which runs at unit rate";
+            return Err(Error::Invalid(message.to_owned()).at(&options.mechanism, line).into());
+        }
+        let answer = solve_in_space(&file.linkage, &case.given, file.exact && case.exact)
+            .map_err(|error| error.at(&options.mechanism, line))?;
+        exit = exit.max(linkage::code(&answer.verdict));
+        let found = space_result(file, (index + 1, case), &answer, pair, point);
+        if options.json {
+            results.push(found);
+        } else {
+            write!(output.writer, "{}", text(&file.heading.title, &spaces::verdict(&answer), &found))?;
+        }
+    }
+    if options.json {
+        writeln!(output.writer, "{:#}", spaces::json(file, &results))?;
+    }
+    output.writer.flush()?;
+    Ok(exit)
 }
 
-/// Refuses what only bodies in the plane have.
+/// Returns the index of a body of a linkage on the sphere by its name.
+pub fn on_sphere(file: &SphereFile, name: &str) -> Result<usize, Error> {
+    among(file.linkage.bodies.iter().map(|body| body.name.as_str()), name)
+}
+
+/// Refuses what only bodies of linkages have.
 fn refuse(options: &InstantOptions) -> Result<(), Error> {
     match &options.point {
         Some(point) => {
             let point: String = point.chars().take(40).collect();
-            let message = format!("found --point {point}, expected it for a linkage in the plane only");
+            let message = format!("found --point {point}, expected it for a linkage");
             Err(Error::Invalid(message))
         }
         None => Ok(()),
