@@ -13,7 +13,8 @@ use looproot_calculus::rotation::vectors::{
 };
 
 fn main() {
-    divan::main();
+    // A single conversion is shorter than the grain of the timer.
+    divan::Divan::from_args().sample_count(1000).sample_size(100).main();
 }
 
 fn rotation() -> Quaternion<f64> {
@@ -58,6 +59,12 @@ fn matrix_of_angles(bencher: Bencher, order: &str) {
     let order = Order::parse(order).unwrap();
     let given = angles(order, &rows()).unwrap();
     bencher.bench(|| order.matrix(&black_box(&given).each_ref().map(Turn::of_angle)));
+}
+
+#[divan::bench]
+fn euler_rodrigues_parameters_of_quaternion(bencher: Bencher) {
+    let q = Quaternion { scalar: 0.3, vector: [-0.5, 0.7, 0.2] };
+    bencher.bench(|| unit(black_box(&q)));
 }
 
 #[divan::bench]

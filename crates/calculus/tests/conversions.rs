@@ -9,7 +9,8 @@ use looproot_calculus::rotation::euler::{Angles, Order};
 use looproot_calculus::rotation::matrix::{Matrix, from_matrix, matrix};
 use looproot_calculus::rotation::turn::Turn;
 use looproot_calculus::rotation::vectors::{
-    axis_angle, euler_vectors, from_axis_angle, from_euler_vector, from_rodrigues, from_wiener, rodrigues, unit, wiener,
+    axis_angle, axis_turn, euler_vectors, from_axis_angle, from_euler_vector, from_rodrigues, from_wiener, rodrigues,
+    unit, wiener,
 };
 use looproot_calculus::unit::{Analytic, Root};
 use proptest::prelude::*;
@@ -66,6 +67,8 @@ fn round_trips<R: Analytic>(q: &Quaternion<R>, parts: impl Fn(&R) -> Vec<f64> + 
     prop_assert!(same(&CayleyKlein::of(&q).quaternion()), "Cayley-Klein");
     if let Some((axis, angle)) = axis_angle(&q) {
         prop_assert!(same(&from_axis_angle(&axis, &angle).unwrap()), "axis");
+        let (axis, turn) = axis_turn(&q).unwrap();
+        prop_assert!(same(&turn.about(&axis)), "axis and turn");
         for vector in euler_vectors(&q) {
             prop_assert!(same(&from_euler_vector(&vector).unwrap()), "Euler vector");
         }
@@ -123,6 +126,23 @@ proptest! {
             prop_assert_eq!(matrix(&from_rodrigues(&vector)).unwrap(), rows);
         } else {
             prop_assert_eq!(q.scalar, 0);
+        }
+    }
+
+    /// Euler vectors have no part in it: but for 0 no rotation with a rational matrix has a rational one.
+    #[test]
+    fn rational_axes_and_angles_come_back_exactly(p in quaternion(), half in fraction()) {
+        let axis = matrix(&exact(&p)).unwrap().map(|row| row[2].clone());
+        let half = Turn::from_half(&Rational::from(1), &rational(half)).unwrap();
+        let q = Quaternion { scalar: half.cos.clone(), vector: axis.each_ref().map(|c| Rational::from(c * &half.sin)) };
+        prop_assert_eq!(matrix(&half.plus(&half).about(&axis)).unwrap(), matrix(&q).unwrap());
+        if let Some((found, turn)) = axis_turn(&unit(&q).unwrap()) {
+            prop_assert_eq!(matrix(&turn.about(&found)).unwrap(), matrix(&q).unwrap());
+            let same = found == axis && turn == half.plus(&half);
+            let opposite = found.each_ref().map(|c| Rational::from(-c)) == axis && turn == half.plus(&half).negated();
+            prop_assert!(same || opposite);
+        } else {
+            prop_assert_eq!(half.sin, 0);
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! `zxz` are Euler angles as in \[Wittenburg2016, 1.3\], `xyz` his Bryan angles.
 
-use super::matrix::{Matrix, from_matrix, product};
+use super::matrix::{Matrix, from_matrix};
 use super::turn::Turn;
 use crate::quaternion::Quaternion;
 use crate::unit::{Root, Unit};
@@ -67,8 +67,9 @@ impl Order {
     /// ```
     #[must_use]
     pub fn matrix<R: Ring>(self, angles: &[Turn<R>; 3]) -> Matrix<R> {
-        let [a, b, c] = std::array::from_fn(|k| about_axis(self.axes[k], &angles[k]));
-        product(&product(&a, &b), &c)
+        let [i, j, k] = self.axes;
+        let [a, b, c] = angles;
+        turned(turned(about_axis(i, a), j, b), k, c)
     }
 
     /// Returns a quaternion of the rotation by three angles, up to a factor.
@@ -119,6 +120,17 @@ impl Order {
         };
         Some(Angles::Two([branch(&size)?, branch(&size.neg())?]))
     }
+}
+
+/// Returns the product of a matrix and the rotation about a coordinate axis, which changes two columns.
+fn turned<R: Ring>(mut m: Matrix<R>, axis: usize, turn: &Turn<R>) -> Matrix<R> {
+    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+    for row in &mut m {
+        let first = row[next].mul(&turn.cos).add(&row[last].mul(&turn.sin));
+        row[last] = row[last].mul(&turn.cos).sub(&row[next].mul(&turn.sin));
+        row[next] = first;
+    }
+    m
 }
 
 /// Returns the rotation about a coordinate axis.

@@ -8,7 +8,7 @@
 //! | direction cosines, rotation tensor | [`matrix::matrix`], [`matrix::from_matrix`] | nowhere |
 //! | Euler-Rodrigues parameters | [`Quaternion`](crate::quaternion::Quaternion), [`vectors::unit`] | nowhere, two for a rotation |
 //! | Euler angles, Bryan angles, any order of axes | [`euler::Order`] | middle angle 0 or pi, or +-pi/2 |
-//! | axis and angle, Euler vector | [`vectors::axis_angle`], [`vectors::euler_vectors`] | identity, two at pi |
+//! | axis and angle, Euler vector | [`vectors::axis_angle`], [`vectors::axis_turn`], [`vectors::euler_vectors`] | identity, two at pi |
 //! | Rodrigues vector | [`vectors::rodrigues`] | infinite at pi |
 //! | Wiener vector | [`vectors::wiener`] | two, one of them infinite at the identity |
 //! | Cayley-Klein parameters | [`cayley_klein::CayleyKlein`] | nowhere, two for a rotation |

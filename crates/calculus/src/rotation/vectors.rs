@@ -1,5 +1,6 @@
 //! Rotations by one vector: axis and angle, Euler vector, Rodrigues vector, Wiener vector.
 
+use super::turn::Turn;
 use crate::motion::Vector;
 use crate::quaternion::Quaternion;
 use crate::unit::{Analytic, Root, Unit, length};
@@ -39,6 +40,23 @@ pub fn axis_angle<R: Analytic>(q: &Quaternion<R>) -> Option<(Vector<R>, R)> {
     let (axis, cos, sin) = axis_and_half(q)?;
     let half = R::atan2(&sin, &cos)?;
     Some((axis, half.add(&half)))
+}
+
+/// Returns unit axis and angle of a unit quaternion, the angle by cosine and sine, which may be rational; `None` at the identity.
+/// [`Turn::about`] leads back.
+///
+/// # Example
+/// ```
+/// use looproot_calculus::{quaternion::Quaternion, rotation::vectors::axis_turn};
+/// use rug::Rational;
+/// let q = Quaternion { scalar: Rational::from((4, 5)), vector: [(0, 1), (0, 1), (3, 5)].map(Rational::from) };
+/// let (axis, turn) = axis_turn(&q).unwrap();
+/// assert_eq!((&axis[2], turn.cos, turn.sin), (&Rational::from(1), Rational::from((7, 25)), Rational::from((24, 25))));
+/// ```
+#[must_use]
+pub fn axis_turn<R: Root>(q: &Quaternion<R>) -> Option<(Vector<R>, Turn<R>)> {
+    let (axis, cos, sin) = axis_and_half(q)?;
+    Some((axis, Turn::from_half(&cos, &sin)?))
 }
 
 /// Returns a quaternion of the rotation about an axis of any length; `None` for the zero vector.
