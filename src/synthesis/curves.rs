@@ -56,6 +56,13 @@ impl Curve {
         text
     }
 
+    /// The exact value at a point.
+    #[cfg(test)]
+    pub(super) fn exact(&self, x: &Rational, y: &Rational) -> Rational {
+        let power = |base: &Rational, exponent: usize| (0..exponent).fold(Rational::from(1), |product, _| product * base);
+        self.terms.iter().map(|([i, j], c)| power(x, *i) * power(y, *j) * c).sum()
+    }
+
     /// The value at a point.
     #[must_use]
     pub fn value(&self, x: f64, y: f64) -> f64 {

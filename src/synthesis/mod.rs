@@ -15,6 +15,7 @@ mod krawczyk;
 mod linear;
 mod lines;
 mod moments;
+mod poles;
 mod remarks;
 mod sample;
 mod skew;
@@ -23,6 +24,7 @@ mod solved;
 pub use answer::{Answer, Family, Mode};
 pub use curves::Curve;
 pub use dyad::{Dyad, Part};
+pub use poles::{Pole, poles};
 
 use crate::catalogue::{DyadKind, Space, SynthesisFile, Task};
 use answer::{found, undecided};

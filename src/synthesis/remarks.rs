@@ -1,6 +1,7 @@
 //! Remarks in words on special positions.
 
 use super::equations::Wanted;
+use super::poles::pole;
 use crate::catalogue::Space;
 use crate::kinematics::motion::Motion;
 use rug::Rational;
@@ -35,20 +36,4 @@ fn common_pole(positions: &[Motion<Rational>]) -> Option<[Rational; 2]> {
     let mut others = positions.iter().skip(1).filter(|motion| *motion != first).map(|motion| pole(first, motion));
     let pole = others.next()??;
     others.all(|other| other.as_ref() == Some(&pole)).then_some(pole)
-}
-
-/// The point of the body that stands at the same place of the ground in two positions, in the ground's coordinates.
-fn pole(one: &Motion<Rational>, other: &Motion<Rational>) -> Option<[Rational; 2]> {
-    // From the first position to the second: x -> R x + t, and (I - R) x = t.
-    let relative = other.then_after(&one.inverse());
-    let (cos, sin) = (&relative.rotation[0][0], &relative.rotation[1][0]);
-    let [x, y, _] = &relative.translation;
-    let off = Rational::from(1 - cos);
-    let square = Rational::from(&off * &off) + Rational::from(sin * sin);
-    if square == 0 {
-        return None;
-    }
-    let first = Rational::from(&off * x) - Rational::from(sin * y);
-    let second = Rational::from(sin * x) + Rational::from(&off * y);
-    Some([first / &square, second / square])
 }

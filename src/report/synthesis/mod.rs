@@ -10,10 +10,15 @@ use super::model;
 use super::number::{at_most, digits};
 use super::table::{Columns, paragraph};
 use crate::catalogue::{SynthesisFile, Task};
-use crate::synthesis::{Answer, Dyad, Mode, Part};
+use crate::synthesis::{Answer, Dyad, Mode, Part, Pole, poles};
+use crate::algebra::number::nearest_f64;
 use num_complex::Complex;
+use rug::Rational;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
+
+/// Most poles that are printed as text: those of five positions.
+const MOST_POLES: usize = 10;
 
 /// The verdict in a line.
 #[must_use]
@@ -69,7 +74,21 @@ pub fn text(file: &SynthesisFile, answer: &Answer, complex: bool) -> String {
         text.push('\n');
         paragraph(&mut text, &format!("curve of {} (degree {}): {} = 0", curve.name, curve.degree, curve.polynomial()));
     }
-    text
+    text + &pole_table(&poles(file))
+}
+
+/// A table of poles; empty where there are none, or more than can be taken in at a glance.
+fn pole_table(poles: &[Pole]) -> String {
+    if poles.is_empty() || poles.len() > MOST_POLES {
+        return String::new();
+    }
+    let mut table = Columns::new(&["pole of positions", "in the ground", "in the body"], &[]);
+    for pole in poles {
+        let [i, j] = pole.positions.map(|k| k + 1);
+        let place = |[x, y]: &[Rational; 2]| format!("({}, {})", digits(nearest_f64(x)), digits(nearest_f64(y)));
+        table.row([format!("{i}, {j}"), place(&pole.fixed), place(&pole.moving)]);
+    }
+    format!("\n{}", table.text())
 }
 
 fn written(part: &Part, is_real: bool) -> String {
@@ -129,6 +148,10 @@ pub fn json(file: &SynthesisFile, answer: &Answer, complex: bool) -> Value {
     let curves = answer.curves.iter().map(
         |curve| json!({ "of": curve.of, "name": curve.name, "degree": curve.degree, "polynomial": curve.polynomial() }),
     );
+    let poles = poles(file).into_iter().map(|pole| {
+        let place = |point: &[Rational; 2]| -> Value { point.iter().map(|c| number(nearest_f64(c))).collect() };
+        json!({ "positions": pole.positions.map(|k| k + 1), "fixed": place(&pole.fixed), "moving": place(&pole.moving) })
+    });
     json!({
         "title": file.heading.title,
         "kind": "synthesis",
@@ -154,6 +177,7 @@ pub fn json(file: &SynthesisFile, answer: &Answer, complex: bool) -> Value {
             "modes": modes.collect::<Vec<_>>(),
             "families": families.collect::<Vec<_>>(),
             "curves": curves.collect::<Vec<_>>(),
+            "poles": poles.collect::<Vec<_>>(),
             "warnings": answer.warnings,
         }],
     })
