@@ -1,4 +1,4 @@
-//! Four-bars of two dyads of a synthesis in the plane: whether one circuit, and one turn of the crank, takes the coupler through all
+//! Four-bars of two dyads of a synthesis in the plane: whether one circuit, and one round of it, takes the coupler through all
 //! positions in their order. \[Wittenburg2016, 17.14.4\]
 
 use crate::catalogue::{DyadKind, Space, SynthesisFile, Task};
@@ -18,15 +18,19 @@ pub struct FourBar {
     pub class: &'static str,
     /// Whether all positions lie on one circuit; `None` where a position is too close to a limit to say.
     pub one_circuit: Option<bool>,
-    /// Whether the crank, if it turns fully, passes the positions in their order in one turn; `None` if it does not turn fully.
+    /// Whether one round of their circuit passes the positions in their order; `None` where they are not known to lie on one, or
+    /// one of them is too close to a limit to say.
     pub in_order: Option<bool>,
+    /// Whether the crank takes the coupler from the first position to the last, in their order, without a limit on the way; `None`
+    /// where `in_order` is.
+    pub without_limit: Option<bool>,
 }
 
 impl FourBar {
-    /// Returns whether nothing is against it: a circuit defect, or a wrong order of a crank that turns.
+    /// Returns whether it has neither a circuit defect nor an order defect.
     #[must_use]
     pub fn is_sound(&self) -> bool {
-        self.one_circuit == Some(true) && self.in_order != Some(false)
+        self.one_circuit == Some(true) && self.in_order == Some(true)
     }
 }
 
@@ -138,10 +142,43 @@ fn four_bar(dyads: [usize; 2], crank: &Arm, rocker: &Arm) -> Option<FourBar> {
             is_clear.then(|| sines.iter().all(|sine| *sine > 0.0) || sines.iter().all(|sine| *sine < 0.0))
         }
     };
-    Some(FourBar { dyads, class, one_circuit, in_order: turns.then(|| in_order(&crank.angles())) })
+    let passed = if one_circuit == Some(true) {
+        if turns { Some([in_order(&crank.angles()), true]) } else { swung(crank, rocker, &lengths) }
+    } else {
+        None
+    };
+    let in_order = passed.map(|[in_order, _]| in_order);
+    Some(FourBar { dyads, class, one_circuit, in_order, without_limit: passed.map(|[order, free]| order && free) })
 }
 
-/// Whether these angles follow one another within one turn one way.
+/// Of a crank that does not turn fully: whether one round of the circuit passes the positions in their order, and whether the crank
+/// takes them one after the other without a limit. Lengths are those of frame, crank, coupler and rocker.
+///
+/// Coupler and rocker lie in a line at the two limits of the crank, which part the circuit in two: on either part the sine of their
+/// angle keeps its sign and the angle of the crank tells the positions apart. One round takes the crank forth on the one and back on
+/// the other.
+fn swung(crank: &Arm, rocker: &Arm, lengths: &[f64; 4]) -> Option<[bool; 2]> {
+    let [frame, arm, coupler, other] = lengths;
+    let turn = std::f64::consts::TAU;
+    let [x, y] = minus(&rocker.fixed, &crank.fixed);
+    // A crank that cannot point away from the rocker's pivot swings between angles of (-pi, pi) against the frame, another one between
+    // angles of (0, 2 pi).
+    let start = if arm + frame > coupler + other { -turn / 2.0 } else { 0.0 };
+    let mut places = Vec::new();
+    for ((angle, b), c) in crank.angles().iter().zip(&crank.moving).zip(&rocker.moving) {
+        let (u, v) = (minus(b, c), minus(&rocker.fixed, c));
+        let sine = across(&u, &v) / (length(&u) * length(&v));
+        let swing = (angle - y.atan2(x) - start).rem_euclid(turn);
+        (sine.abs() > CLOSE).then(|| places.push((sine > 0.0, swing)))?;
+    }
+    let round: Vec<f64> =
+        places.iter().map(|(is_forth, swing)| if *is_forth { swing / 2.0 } else { turn - swing / 2.0 }).collect();
+    let one_part = places.iter().all(|(is_forth, _)| *is_forth) || places.iter().all(|(is_forth, _)| !*is_forth);
+    let one_way = places.is_sorted_by(|a, b| a.1 <= b.1) || places.is_sorted_by(|a, b| a.1 >= b.1);
+    Some([in_order(&round), one_part && one_way])
+}
+
+/// Returns whether these angles follow one another within one turn one way.
 fn in_order(angles: &[f64]) -> bool {
     let turn = std::f64::consts::TAU;
     let way = |sign: f64| {
@@ -184,5 +221,60 @@ mod tests {
         let sound = of([1.0; 4]);
         assert_eq!((sound.class, sound.one_circuit, sound.in_order), ("crank-rocker", Some(true), Some(true)));
         assert!(!of([1.0, 1.0, -1.0, 1.0]).is_sound());
+    }
+
+    /// The rounds of two four-bars whose cranks swing, walked along the circuit by steps of another joint, and the same positions in
+    /// another order.
+    #[test]
+    fn a_circuit_is_walked_in_its_order() {
+        // Frame, crank, coupler, rocker: the coupler is the shortest link, then there is no short one, with either limit of the crank.
+        for [frame, crank, coupler, rocker] in [[4.0, 3.0, 1.0, 3.5], [4.0, 3.0, 2.0, 2.5], [2.0, 3.0, 4.0, 2.5], [4.0, 2.5, 2.0, 3.0]] {
+            // Newton's method keeps the coupler's length while the walk goes on at right angles to its gradient.
+            let points = |[a, d]: [f64; 2]| ([crank * a.cos(), crank * a.sin()], [frame + rocker * d.cos(), rocker * d.sin()]);
+            let open = |at: [f64; 2]| {
+                let (b, c) = points(at);
+                let [x, y] = minus(&c, &b);
+                let slope = [2.0 * crank * (x * at[0].sin() - y * at[0].cos()), 2.0 * rocker * (y * at[1].cos() - x * at[1].sin())];
+                (x * x + y * y - coupler * coupler, slope)
+            };
+            let settled = |mut at: [f64; 2]| {
+                for _ in 0..40 {
+                    let (value, slope) = open(at);
+                    let square = slope[0] * slope[0] + slope[1] * slope[1];
+                    at = [at[0] - value * slope[0] / square, at[1] - value * slope[1] / square];
+                }
+                at
+            };
+            let mut at = settled([0.9, 1.2]);
+            let first = at;
+            let mut walk = Vec::new();
+            loop {
+                walk.push(at);
+                let (_, slope) = open(at);
+                let size = slope[0].hypot(slope[1]);
+                at = settled([at[0] - 0.01 * slope[1] / size, at[1] + 0.01 * slope[0] / size]);
+                let back = [0, 1].map(|k| (at[k] - first[k]).sin().abs());
+                if walk.len() > 20 && back[0].hypot(back[1]) < 0.008 && (at[0] - first[0]).cos() > 0.0 {
+                    break;
+                }
+                assert!(walk.len() < 4000, "the circuit is closed");
+            }
+            let of = |shares: [usize; 5]| {
+                let (moving, other): (Vec<Point>, Vec<Point>) = shares.map(|k| points(walk[walk.len() * k / 10 + 3])).into_iter().unzip();
+                let (one, two) = (Arm { fixed: [0.0, 0.0], moving }, Arm { fixed: [frame, 0.0], moving: other });
+                four_bar([0, 1], &one, &two).unwrap()
+            };
+            let forth = of([0, 2, 4, 6, 8]);
+            assert_eq!((forth.one_circuit, forth.in_order, forth.without_limit), (Some(true), Some(true), Some(false)), "{}", forth.class);
+            assert!(of([8, 6, 4, 2, 0]).is_sound() && of([4, 6, 8, 0, 2]).is_sound());
+            assert!(!of([0, 4, 2, 6, 8]).is_sound() && !of([0, 2, 4, 8, 6]).is_sound());
+            // Positions between two limits of the crank, where its angle goes one way.
+            let limit = |k: usize| (walk[k][0] - walk[k - 1][0]) * (walk[(k + 1) % walk.len()][0] - walk[k][0]) < 0.0;
+            let limits: Vec<usize> = (1..walk.len() - 1).filter(|k| limit(*k)).collect();
+            let [from, to, ..] = limits[..] else { panic!("two limits: {limits:?}") };
+            let (moving, other) = [1, 3, 5, 8].map(|k| points(walk[from + (to - from) * k / 10])).into_iter().unzip();
+            let (one, two) = (Arm { fixed: [0.0, 0.0], moving }, Arm { fixed: [frame, 0.0], moving: other });
+            assert_eq!(four_bar([0, 1], &one, &two).unwrap().without_limit, Some(true));
+        }
     }
 }

@@ -17,7 +17,7 @@ fn sound(file: &SynthesisFile, answer: &Answer) -> (usize, Vec<FourBar>) {
 pub fn add(document: &mut Value, file: &SynthesisFile, answer: &Answer) {
     let (_, list) = sound(file, answer);
     let one = |own: &FourBar| {
-        json!({ "dyads": own.dyads.map(|k| k + 1), "class": own.class, "one_circuit": own.one_circuit, "in_order": own.in_order })
+        json!({ "dyads": own.dyads.map(|k| k + 1), "class": own.class, "one_circuit": own.one_circuit, "in_order": own.in_order, "without_limit": own.without_limit })
     };
     document["results"][0]["linkages"] = list.iter().map(one).collect();
 }
@@ -27,15 +27,15 @@ pub fn add(document: &mut Value, file: &SynthesisFile, answer: &Answer) {
 pub fn text(file: &SynthesisFile, answer: &Answer) -> String {
     let (count, list) = sound(file, answer);
     let mut text = "\n".to_owned();
-    paragraph(&mut text, &format!("{} of {count} four-bars of two dyads have all positions on one circuit, and in their order where the crank turns fully", list.len()));
+    paragraph(&mut text, &format!("{} of {count} four-bars of two dyads have all positions on one circuit, in their order", list.len()));
     if list.is_empty() {
         return text;
     }
-    let mut table = Columns::new(&["crank", "rocker", "class", "crank turns through them"], &["class", "crank turns through them"]);
+    let mut table = Columns::new(&["crank", "rocker", "class", "crank passes them"], &["class", "crank passes them"]);
     for own in &list {
         let [crank, rocker] = own.dyads.map(|k| (k + 1).to_string());
-        let turns = if own.in_order == Some(true) { "in their order" } else { "no full turn" };
-        table.row([crank, rocker, own.class.to_owned(), turns.to_owned()]);
+        let passes = if own.without_limit == Some(true) { "without a limit" } else { "with a limit on the way" };
+        table.row([crank, rocker, own.class.to_owned(), passes.to_owned()]);
     }
     let _ = write!(text, "\n{}", table.text());
     text

@@ -552,7 +552,7 @@ pub struct SynthesizeOptions {
     /// A linkage as a mechanism file; `--linkage` names its dyads
     #[arg(long, requires = "linkage", conflicts_with_all = ["json", "quiet", "svg"])]
     pub toml: bool,
-    /// Dyads RR in the plane: the four-bars with all positions on one circuit, in the order of a crank that turns fully
+    /// Dyads RR in the plane: the four-bars that pass all positions in their order on one circuit
     #[arg(long, conflicts_with_all = ["toml", "svg", "quiet"])]
     pub no_defects: bool,
     /// A drawing of the positions, the dyads and the curves of their points, in the plane
