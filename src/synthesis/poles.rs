@@ -54,13 +54,13 @@ pub(super) fn pole(one: &Motion<Rational>, other: &Motion<Rational>) -> Option<[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue::{Any, builtin_any};
+    use crate::catalogue::{Any, Options, builtin_any};
     use crate::synthesis::synthesize;
 
     /// Circle points and centre points of four positions run through their poles, seen from the body and from the ground.
     #[test]
     fn curves_of_four_positions_run_through_their_poles() {
-        let Ok(Any::Synthesis(file)) = builtin_any("synthesis/burmester4_a", &Default::default()) else {
+        let Ok(Any::Synthesis(file)) = builtin_any("synthesis/burmester4_a", &Options::default()) else {
             panic!("a synthesis");
         };
         let found = poles(&file);
