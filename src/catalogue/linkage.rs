@@ -43,6 +43,12 @@ impl LinkageFile {
     pub fn accuracy(&self, case: &LinkageCase) -> Accuracy {
         if self.exact { case.accuracy } else { Accuracy::Rounded }
     }
+
+    /// Returns the given values of a case, and what is known of these and of the numbers of the linkage.
+    #[must_use]
+    pub fn given<'c>(&self, case: &'c LinkageCase) -> (&'c [Given], Accuracy) {
+        (&case.given, self.accuracy(case))
+    }
 }
 
 /// A claim about the curve of a point.

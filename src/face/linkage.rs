@@ -148,7 +148,7 @@ impl Linkage {
                     name: format!("{}.{name}", file.linkage.bodies[body].name),
                     place,
                 });
-                let found = sweep_linkage(&file.linkage, &file.cases[0].given, number, range, || ())?;
+                let found = sweep_linkage(&file.linkage, file.given(&file.cases[0]), number, range, || ())?;
                 linkage_sweep::json(Asked { file, traced: traced.as_ref() }, &found)
             }
             Kind::Sphere(file) => {

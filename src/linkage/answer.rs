@@ -1,7 +1,7 @@
 //! The answer to one case of a linkage: its assemblies as numbers, and the verdict on their list.
 
 use super::assembly::{Assemblies, Route, Solution, assemblies, assemblies_within};
-use super::isotropic::middle;
+use super::isotropic::{Value, middle};
 use super::state::{Number, State, number};
 use crate::algebra::ring::Ring;
 use crate::error::Result;
@@ -207,7 +207,7 @@ fn mode(linkage: &Linkage, state: &State) -> LinkageMode {
             Pair::Revolute => Some(clean(angle(&place.turn))),
             Pair::Prismatic { along, length, .. } => {
                 let gap = place.apply(&number(&joint.at[1])).sub(&number(&joint.at[0]));
-                let shift = gap.z.mul(&number(along).z.inverse()?);
+                let shift = gap.z.mul(&number::<Value>(along).z.inverse()?);
                 Some(clean(shift.middle() * length.to_f64()))
             }
             Pair::Gear { .. } => None,

@@ -5,8 +5,8 @@
 //! its conjugate. \[Wampler2001\]
 
 use super::groups::Group;
-use super::isotropic::Isotropic;
-use super::state::{Number, Place, State, number};
+use super::isotropic::{Isotropic, Value};
+use super::state::{Half, Number, Place, State, number};
 use crate::algebra::ring::Ring;
 use crate::kinematics::linkage::{Linkage, Pair};
 
@@ -34,66 +34,66 @@ pub struct Equations<N> {
 
 /// The equations of a group of one branch, and what leads back from their solutions to the clusters.
 #[derive(Clone, Debug)]
-pub struct Closure {
+pub struct Closure<R = Value> {
     /// The equations.
-    pub equations: Equations<Number>,
+    pub equations: Equations<Isotropic<R>>,
     /// The clusters, in the order of a tree.
-    clusters: Vec<Node>,
+    clusters: Vec<Node<R>>,
 }
 
 /// A cluster in the tree.
 #[derive(Clone, Debug)]
-struct Node {
+struct Node<R> {
     name: usize,
     class: usize,
     /// Its rotation is this times that of its class.
-    turn: Number,
+    turn: Isotropic<R>,
     /// The place of its origin against that of the first cluster: coefficients of the classes and of the slides.
-    origin: Linear,
+    origin: Linear<R>,
 }
 
 /// A linear form in the rotations of the classes and the products of slides with those of their classes.
 #[derive(Clone, Debug)]
-struct Linear {
-    classes: Vec<Number>,
-    slides: Vec<Number>,
+struct Linear<R> {
+    classes: Vec<Isotropic<R>>,
+    slides: Vec<Isotropic<R>>,
 }
 
-impl Linear {
+impl<R: Ring> Linear<R> {
     fn zero(classes: usize, slides: usize) -> Self {
-        Self { classes: vec![Number::zero(); classes], slides: vec![Number::zero(); slides] }
+        Self { classes: vec![Isotropic::zero(); classes], slides: vec![Isotropic::zero(); slides] }
     }
 
-    fn add_class(&mut self, class: usize, factor: &Number) {
+    fn add_class(&mut self, class: usize, factor: &Isotropic<R>) {
         self.classes[class] = self.classes[class].add(factor);
     }
 
-    fn add_slide(&mut self, slide: usize, factor: &Number) {
+    fn add_slide(&mut self, slide: usize, factor: &Isotropic<R>) {
         self.slides[slide] = self.slides[slide].add(factor);
     }
 
     fn sub(&self, other: &Self) -> Self {
-        let difference = |a: &[Number], b: &[Number]| a.iter().zip(b).map(|(x, y)| x.sub(y)).collect();
+        let difference = |a: &[Isotropic<R>], b: &[Isotropic<R>]| a.iter().zip(b).map(|(x, y)| x.sub(y)).collect();
         Self { classes: difference(&self.classes, &other.classes), slides: difference(&self.slides, &other.slides) }
     }
 }
 
-impl Closure {
+impl<R: Half> Closure<R> {
     /// The equations of a group; `None` for gears, which have others.
     #[must_use]
-    pub fn new(linkage: &Linkage, group: &Group, state: &State) -> Option<Self> {
+    pub fn new(linkage: &Linkage, group: &Group, state: &State<R>) -> Option<Self> {
         let mut names: Vec<usize> = group.clusters.iter().map(|body| state.bodies[*body].0).collect();
         names.sort_unstable();
         names.dedup();
         let cluster_of = |body: usize| names.iter().position(|name| *name == state.bodies[body].0);
         // Classes by prismatic joints, with the rotation of every cluster against its class.
-        let mut class: Vec<Option<(usize, Number)>> = vec![None; names.len()];
+        let mut class: Vec<Option<(usize, Isotropic<R>)>> = vec![None; names.len()];
         let mut classes = 0;
         for start in 0..names.len() {
             if class[start].is_some() {
                 continue;
             }
-            class[start] = Some((classes, Number::one()));
+            class[start] = Some((classes, Isotropic::one()));
             let mut open = vec![start];
             while let Some(here) = open.pop() {
                 for index in &group.joints {
@@ -122,16 +122,16 @@ impl Closure {
             }
             classes += 1;
         }
-        let class: Vec<(usize, Number)> = class.into_iter().collect::<Option<_>>()?;
+        let class: Vec<(usize, Isotropic<R>)> = class.into_iter().collect::<Option<_>>()?;
         let sliding: Vec<usize> =
             group.joints.iter().copied().filter(|index| linkage.joints[*index].is_prismatic()).collect();
-        let mut slides: Vec<Slide<Number>> = Vec::new();
+        let mut slides: Vec<Slide<Isotropic<R>>> = Vec::new();
         for index in &sliding {
             let a = cluster_of(linkage.joints[*index].of[0])?;
             slides.push(Slide { joint: *index, class: class[a].0, coefficients: Vec::new() });
         }
         // The step from the origin of the cluster of the first body of a joint to that of the second.
-        let step = |index: usize| -> Option<(usize, usize, Linear)> {
+        let step = |index: usize| -> Option<(usize, usize, Linear<R>)> {
             let joint = &linkage.joints[index];
             let [a, b] = [cluster_of(joint.of[0])?, cluster_of(joint.of[1])?];
             let point = |k: usize| state.bodies[joint.of[k]].1.apply(&number(&joint.at[k]));
@@ -149,7 +149,7 @@ impl Closure {
             }
             Some((a, b, linear))
         };
-        let mut origins: Vec<Option<Linear>> = vec![None; names.len()];
+        let mut origins: Vec<Option<Linear<R>>> = vec![None; names.len()];
         origins[0] = Some(Linear::zero(classes, sliding.len()));
         let mut tree: Vec<usize> = Vec::new();
         loop {
@@ -170,7 +170,7 @@ impl Closure {
                 break;
             }
         }
-        let origins: Vec<Linear> = origins.into_iter().collect::<Option<_>>()?;
+        let origins: Vec<Linear<R>> = origins.into_iter().collect::<Option<_>>()?;
         let mut cycles = Vec::new();
         for index in group.joints.iter().filter(|index| !tree.contains(index)) {
             let (a, b, linear) = step(*index)?;
@@ -188,7 +188,7 @@ impl Closure {
 
     /// The class of the cluster in which a body is, and the rotation of the body against its class.
     #[must_use]
-    pub fn class_of(&self, state: &State, body: usize) -> Option<(usize, Number)> {
+    pub fn class_of(&self, state: &State<R>, body: usize) -> Option<(usize, Isotropic<R>)> {
         let (name, place) = &state.bodies[body];
         let node = self.clusters.iter().find(|node| node.name == *name)?;
         Some((node.class, node.turn.mul(&place.turn)))
@@ -197,7 +197,7 @@ impl Closure {
     /// The equations with one cycle more: the place of a point of a body in coordinates of the body `base`, whose class
     /// rests so that `base` has the rotation 1. Less a point of the plane, it is zero where the point of the body is there.
     #[must_use]
-    pub fn traced(&self, state: &State, base: usize, body: usize, point: &Number) -> Option<Equations<Number>> {
+    pub fn traced(&self, state: &State<R>, base: usize, body: usize, point: &Isotropic<R>) -> Option<Equations<Isotropic<R>>> {
         let node_of = |body: usize| self.clusters.iter().find(|node| node.name == state.bodies[body].0);
         let (ground, carrier) = (node_of(base)?, node_of(body)?);
         let place = |body: usize| &state.bodies[body].1;
@@ -207,7 +207,7 @@ impl Closure {
         to.add_class(carrier.class, &carrier.turn.mul(&place(body).apply(point)));
         let step = to.sub(&from);
         let back = ground.turn.mul(&place(base).turn).mirrored();
-        let turned = |list: &[Number]| list.iter().map(|n| n.mul(&back)).collect::<Vec<Number>>();
+        let turned = |list: &[Isotropic<R>]| list.iter().map(|n| n.mul(&back)).collect::<Vec<Isotropic<R>>>();
         let mut equations = self.equations.clone();
         equations.cycles.push(turned(&step.classes));
         for (slide, coefficient) in equations.slides.iter_mut().zip(turned(&step.slides)) {
@@ -219,11 +219,11 @@ impl Closure {
     /// Moves the clusters of a branch to where a solution puts them: one rotation for every class, one displacement for
     /// every slide, in parts of the length of its direction.
     #[must_use]
-    pub fn assembled(&self, state: &State, turns: &[Number], shifts: &[Number]) -> State {
+    pub fn assembled(&self, state: &State<R>, turns: &[Isotropic<R>], shifts: &[Isotropic<R>]) -> State<R> {
         let mut next = state.clone();
         let Some(first) = self.clusters.first() else { return next };
-        let place = |node: &Node| {
-            let mut origin = Number::zero();
+        let place = |node: &Node<R>| {
+            let mut origin = Isotropic::zero();
             for (factor, turn) in node.origin.classes.iter().zip(turns) {
                 origin = origin.add(&factor.mul(turn));
             }

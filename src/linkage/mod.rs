@@ -9,6 +9,7 @@
 pub mod answer;
 pub mod assembly;
 pub mod defects;
+pub mod dyads;
 pub mod dynamics;
 pub mod equations;
 pub mod geared_groups;
@@ -19,6 +20,7 @@ pub mod groups;
 pub mod instant;
 pub mod isotropic;
 pub mod krawczyk;
+pub mod laurent;
 pub mod parts;
 pub mod pencil;
 mod points;

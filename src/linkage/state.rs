@@ -10,38 +10,50 @@ use rug::Rational;
 /// A number of an assembly and what stands for its conjugate.
 pub type Number = Isotropic<Value>;
 
+/// Half a number of an assembly: a value, or a function of an input and of unknown rotations.
+pub trait Half: Ring {
+    /// An exact complex number.
+    fn exactly(z: &Gaussian) -> Self;
+}
+
+impl Half for Value {
+    fn exactly(z: &Gaussian) -> Self {
+        Self::exactly(z)
+    }
+}
+
 /// An exact complex number as one of an assembly.
 #[must_use]
-pub fn number(z: &Gaussian) -> Number {
+pub fn number<R: Half>(z: &Gaussian) -> Isotropic<R> {
     let both = Isotropic::of(z);
-    both.map(Value::exactly)
+    both.map(R::exactly)
 }
 
 /// A rational number as one of an assembly.
 #[must_use]
-pub fn real(q: &Rational) -> Number {
+pub fn real<R: Half>(q: &Rational) -> Isotropic<R> {
     number(&Gaussian { re: q.clone(), im: Rational::new() })
 }
 
 /// The place of a body or a cluster: p goes to `origin + turn p`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct Place<R = Value> {
     /// The rotation.
-    pub turn: Number,
+    pub turn: Isotropic<R>,
     /// The place of the origin.
-    pub origin: Number,
+    pub origin: Isotropic<R>,
 }
 
-impl Place {
+impl<R: Ring> Place<R> {
     /// No displacement.
     #[must_use]
     pub fn identity() -> Self {
-        Self { turn: Number::one(), origin: Number::zero() }
+        Self { turn: Isotropic::one(), origin: Isotropic::zero() }
     }
 
     /// The image of a point.
     #[must_use]
-    pub fn apply(&self, point: &Number) -> Number {
+    pub fn apply(&self, point: &Isotropic<R>) -> Isotropic<R> {
         self.origin.add(&self.turn.mul(point))
     }
 
@@ -62,9 +74,9 @@ impl Place {
 
 /// Clusters and places.
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct State<R = Value> {
     /// For every body, the body that names its cluster, and its place there.
-    pub bodies: Vec<(usize, Place)>,
+    pub bodies: Vec<(usize, Place<R>)>,
     /// The tower of square roots that holds all numbers.
     pub top: Top,
     /// Whether every number belongs to a real assembly.
@@ -73,7 +85,7 @@ pub struct State {
     pub multiplicity: usize,
 }
 
-impl State {
+impl<R: Ring> State<R> {
     /// Returns the state with every body on its own; square roots are kept exactly in towers of at most `highest` generators.
     #[must_use]
     pub fn new(bodies: usize, highest: usize) -> Self {
@@ -84,14 +96,14 @@ impl State {
 
     /// Moves the cluster of `second` so that the body `second` stands at `place` against the body `first`, and makes
     /// one cluster of theirs.
-    pub fn glue(&mut self, first: usize, second: usize, place: &Place) {
+    pub fn glue(&mut self, first: usize, second: usize, place: &Place<R>) {
         let (cluster, own) = self.bodies[first].clone();
         let (other, back) = (self.bodies[second].0, self.bodies[second].1.inverse());
         self.move_cluster(other, cluster, &own.after(place).after(&back));
     }
 
     /// Puts the bodies of a cluster into another one, moved by `place`.
-    pub fn move_cluster(&mut self, cluster: usize, to: usize, place: &Place) {
+    pub fn move_cluster(&mut self, cluster: usize, to: usize, place: &Place<R>) {
         for body in &mut self.bodies {
             if body.0 == cluster {
                 *body = (to, place.after(&body.1));
@@ -101,7 +113,7 @@ impl State {
 
     /// Returns the place of a body relative to another one of the same cluster.
     #[must_use]
-    pub fn against(&self, body: usize, base: usize) -> Place {
+    pub fn against(&self, body: usize, base: usize) -> Place<R> {
         self.bodies[base].1.inverse().after(&self.bodies[body].1)
     }
 }
@@ -115,7 +127,8 @@ pub fn place_within(linkage: &Linkage, given: &Given) -> Option<Place> {
 }
 
 /// The place of the second body of a revolute joint against the first.
-fn turned(linkage: &Linkage, joint: usize, turn: Number) -> Place {
+#[must_use]
+pub fn turned<R: Half>(linkage: &Linkage, joint: usize, turn: Isotropic<R>) -> Place<R> {
     let at = &linkage.joints[joint].at;
     let origin = number(&at[0]).sub(&turn.mul(&number(&at[1])));
     Place { turn, origin }
@@ -123,17 +136,21 @@ fn turned(linkage: &Linkage, joint: usize, turn: Number) -> Place {
 
 /// The place of the second body against the first that a given value means.
 #[must_use]
-pub fn place_of(linkage: &Linkage, given: &Given) -> Option<Place> {
+pub fn place_of<R: Half>(linkage: &Linkage, given: &Given) -> Option<Place<R>> {
     Some(match given {
         Given::Turn { joint, turn, .. } => turned(linkage, *joint, number(turn)),
-        Given::Shift { joint, shift, .. } => {
-            let joint = &linkage.joints[*joint];
-            let Pair::Prismatic { turn, along, .. } = &joint.pair else { return None };
-            let turn = number(turn);
-            let target = number(&joint.at[0]).add(&number(along).mul(&real(shift)));
-            let origin = target.sub(&turn.mul(&number(&joint.at[1])));
-            Place { turn, origin }
-        }
+        Given::Shift { joint, shift, .. } => shifted(linkage, *joint, &real(shift))?,
         Given::Place { turn, origin, .. } => Place { turn: number(turn), origin: number(origin) },
     })
+}
+
+/// The place of the second body of a prismatic joint against the first; `None` for other joints.
+#[must_use]
+pub fn shifted<R: Half>(linkage: &Linkage, joint: usize, shift: &Isotropic<R>) -> Option<Place<R>> {
+    let joint = &linkage.joints[joint];
+    let Pair::Prismatic { turn, along, .. } = &joint.pair else { return None };
+    let turn: Isotropic<R> = number(turn);
+    let target = number(&joint.at[0]).add(&number(along).mul(shift));
+    let origin = target.sub(&turn.mul(&number(&joint.at[1])));
+    Some(Place { turn, origin })
 }

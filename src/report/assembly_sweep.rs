@@ -3,15 +3,12 @@
 use super::json::number;
 use super::number::{counted, short};
 use super::picture::Graph;
+use super::sweep::proof_words;
 use super::table::{Columns, paragraph};
 use crate::sweep::{AssemblyBranch, AssemblySweep, End};
 use crate::verdict::Status;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
-
-/// The reason why the branches are not proved.
-const REASON: &str =
-    "not proved: the assemblies of every input are, but between the inputs branches are joined by their distances";
 
 /// `4 branches, 2 limit positions, 361 inputs, all complete; branches not proved`
 #[must_use]
@@ -27,7 +24,7 @@ pub fn verdict<M>(sweep: &AssemblySweep<M>) -> String {
         0 => String::new(),
         n => format!(", {} of branches not resolved", counted(n, "end")),
     };
-    format!("{branches}, {limits}, {inputs}, {complete}{unresolved}; branches not proved")
+    format!("{branches}, {limits}, {inputs}, {complete}{unresolved}{}", proof_words(sweep.verdict.proof))
 }
 
 /// The input that runs.
@@ -114,7 +111,7 @@ pub fn text<M>(input: Input<'_>, sweep: &AssemblySweep<M>, more: Option<(&str, &
         let _ = write!(text, "\n{}", table.text());
     }
     text.push('\n');
-    paragraph(&mut text, REASON);
+    paragraph(&mut text, &sweep.verdict.reason);
     text
 }
 
@@ -200,10 +197,10 @@ pub fn insert<M>(document: &mut Value, sweep: &AssemblySweep<M>, place: impl Fn(
     document["steps"] = json!(sweep.range.steps);
     document["full_turn"] = json!(sweep.is_full_turn);
     document["verdict"] = json!({
-        "status": "incomplete",
-        "proof": "none",
-        "code": if sweep.unresolved() > 0 { "branches-not-matched" } else { "no-exact-route" },
-        "reason": REASON,
+        "status": sweep.verdict.status.word(),
+        "proof": sweep.verdict.proof.word(),
+        "code": sweep.verdict.code.word(),
+        "reason": sweep.verdict.reason,
         "branches": sweep.branches.len(),
         "limits": sweep.limits.len(),
         "complex_limits": null,

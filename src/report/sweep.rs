@@ -43,12 +43,16 @@ pub fn verdict(sweep: &Sweep) -> String {
     if sweep.unresolved() > 0 {
         let _ = write!(text, ", {} of branches not resolved", counted(sweep.unresolved(), "end"));
     }
-    let proof = match sweep.verdict.proof {
+    text + proof_words(sweep.verdict.proof)
+}
+
+/// Whether the branches are proved.
+pub(super) fn proof_words(proof: Proof) -> &'static str {
+    match proof {
         Proof::Proved => "; branches proved",
         Proof::RoundedData => "; branches proved for the rounded numbers",
         _ => "; branches not proved",
-    };
-    text + proof
+    }
 }
 
 /// Degrees or metres.

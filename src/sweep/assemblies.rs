@@ -1,12 +1,12 @@
-//! All assemblies of a mechanism while one of its inputs runs through a range, joined by their distances.
+//! All assemblies of a mechanism while one of its inputs runs through a range, joined by a proof or by their distances.
 //!
-//! The list of assemblies at every step comes from the solver, with its verdict. Assemblies of neighbouring inputs are
+//! The list of assemblies at every step comes from the solver, with its verdict. Without a proof assemblies of neighbouring inputs are
 //! joined where each is by far the nearest to the other; where they are not, the step is halved. Where two of them come
 //! together and there are none beyond, the input turns back: the halving ends at that limit position.
 
-use super::{End, Range};
+use super::{End, Range, SweepVerdict};
 use crate::error::{Error, Result};
-use crate::verdict::Status;
+use crate::verdict::{Code, Status};
 use rayon::prelude::*;
 
 /// Steps in which assemblies appear or vanish are halved until they are this part of the range: limit positions are as
@@ -92,6 +92,8 @@ pub struct AssemblySweep<M> {
     pub limits: Vec<AssemblyLimit<M>>,
     /// Whether the range is a full turn, whose end is its beginning.
     pub is_full_turn: bool,
+    /// Is every branch found.
+    pub verdict: SweepVerdict,
 }
 
 impl<M> AssemblySweep<M> {
@@ -129,7 +131,20 @@ pub(super) trait Running: Sync {
 
     /// Returns the assembly between two that are nearly one.
     fn middle(&self, one: &Self::Mode, two: &Self::Mode) -> Self::Mode;
+
+    /// Returns how the assemblies of the samples, with more samples between them, are proved to pass into one another.
+    fn proved(
+        &self,
+        _range: Range,
+        _is_full_turn: bool,
+        _samples: &[AssemblySample<Self::Mode>],
+    ) -> Result<Proved<Self::Mode>> {
+        Ok(Err(Code::NoExactRoute))
+    }
 }
+
+/// Samples, with the steps that some of them are, and the links between them, or the reason why they are not proved.
+pub(super) type Proved<M> = std::result::Result<(Vec<(AssemblySample<M>, Option<usize>)>, Vec<Link>), Code>;
 
 /// The assemblies of samples of a running mechanism, compared.
 struct Compared<'a, R: Running>(&'a R);
@@ -216,13 +231,13 @@ struct Between<M> {
 }
 
 /// The connections of the assemblies of a sample to those of the next one.
-struct Link {
+pub(super) struct Link {
     /// For every assembly, the one of the next sample into which it passes.
-    passes: Vec<Option<usize>>,
+    pub passes: Vec<Option<usize>>,
     /// Pairs that come together behind the sample, and pairs that come from one before the next sample.
-    folds: [Vec<[usize; 2]>; 2],
+    pub folds: [Vec<[usize; 2]>; 2],
     /// Whether it leads from the end of a full turn to its beginning.
-    is_ring: bool,
+    pub is_ring: bool,
 }
 
 /// Runs an input through its range, on all threads of the current pool. `tick` is called for every step.
@@ -246,6 +261,33 @@ pub(super) fn follow<R: Running>(
         sample
     });
     let samples: Vec<Sample<R>> = solved.collect::<Result<_>>()?;
+    let (nodes, links, unproved) = match run.proved(range, is_full_turn, &samples)? {
+        Ok((nodes, links)) => (nodes, links, None),
+        Err(code) => {
+            let (nodes, links) = joined(run, range, is_full_turn, &samples)?;
+            (nodes, links, Some(code))
+        }
+    };
+    let step = |node: Option<&Node<R>>| node.and_then(|(_, step)| *step);
+    let ends = [step(nodes.first()) == Some(0), step(nodes.last()) == Some(range.steps)];
+    let web = Web { run, nodes, links, range };
+    let (branches, limits) = web.branches(ends);
+    let verdict = SweepVerdict::none();
+    let mut sweep = AssemblySweep { joint, range, samples, branches, limits, is_full_turn, verdict };
+    sweep.verdict = SweepVerdict::of_assemblies(&sweep, unproved);
+    Ok(sweep)
+}
+
+/// A sample and the step that it is, if it is one.
+type Node<R> = (Sample<R>, Option<usize>);
+
+/// Joins assemblies by their distances.
+fn joined<R: Running>(
+    run: &R,
+    range: Range,
+    is_full_turn: bool,
+    samples: &[Sample<R>],
+) -> Result<(Vec<Node<R>>, Vec<Link>)> {
     let compared = Compared(run);
     let regular: Vec<usize> = (0..samples.len()).filter(|step| samples[*step].is_regular).collect();
     let least = SMALLEST * (range.to - range.from).abs().max(1.0);
@@ -272,9 +314,7 @@ pub(super) fn follow<R: Running>(
         let passes = compared.passes(last, first);
         links.push(Link { passes, folds: [Vec::new(), Vec::new()], is_ring: true });
     }
-    let web = Web { run, nodes, links, range };
-    let (branches, limits) = web.branches(ends);
-    Ok(AssemblySweep { joint, range, samples, branches, limits, is_full_turn })
+    Ok((nodes, links))
 }
 
 /// An assembly of a node.
@@ -393,12 +433,14 @@ impl<R: Running> Web<'_, R> {
     }
 
     fn limit(&self, (link, side, number): (usize, usize, usize)) -> AssemblyLimit<R::Mode> {
-        let (one, two) = (&self.nodes[link].0, &self.nodes[link + 1].0);
+        let is_ring = self.links[link].is_ring;
+        let (one, two) = (&self.nodes[link].0, &self.nodes[if is_ring { 0 } else { link + 1 }].0);
+        let next = two.input + if is_ring { self.range.to - self.range.from } else { 0.0 };
         let sample = if side == 0 { one } else { two };
         let [a, b] = self.links[link].folds[side][number].map(|mode| &sample.modes[mode]);
         let is_upwards = self.range.to > self.range.from;
         AssemblyLimit {
-            input: 0.5 * (one.input + two.input),
+            input: 0.5 * (one.input + next),
             is_largest: (side == 0) == is_upwards,
             mode: self.run.middle(a, b),
             branches: Vec::new(),

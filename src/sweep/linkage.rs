@@ -1,13 +1,15 @@
 //! All assemblies of a linkage while one of its joints runs through a range.
 
 use super::Range;
-use super::assemblies::{AssemblySample, AssemblySweep, Running, follow, is_listed};
+use super::assemblies::{AssemblySample, AssemblySweep, Proved, Running, follow, is_listed};
+use super::dyads::Proof;
 use crate::algebra::number::Angle;
 use crate::algebra::ring::exact_cos_sin;
 use crate::assembly::wrapped;
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Accuracy, Gaussian, Given, Linkage, Pair};
 use crate::linkage::answer::{LinkageMode, solve};
+use crate::verdict::Code;
 use num_complex::Complex;
 use rug::Rational;
 use std::f64::consts::TAU;
@@ -22,6 +24,8 @@ struct Run<'a> {
     held: Vec<Given>,
     /// The size of the linkage: places are compared in parts of it.
     size: f64,
+    /// Where the linkage consists of dyads.
+    proof: Option<Proof>,
 }
 
 impl Run<'_> {
@@ -86,25 +90,42 @@ impl Running for Run<'_> {
         }
         mode
     }
+
+    fn proved(&self, range: Range, is_full_turn: bool, samples: &[AssemblySample<LinkageMode>]) -> Result<Proved<LinkageMode>> {
+        match &self.proof {
+            Some(proof) => proof.links(range, is_full_turn, samples, |input| self.sample(input, &mut ())),
+            None => Ok(Err(Code::NoExactRoute)),
+        }
+    }
 }
 
-/// Sweeps a joint of a linkage, on all threads of the current pool, while the other given values are held.
+/// Sweeps a joint of a linkage, on all threads of the current pool, while the other given values are held. `accuracy` says what is
+/// known of the numbers of the linkage and of the values.
 ///
 /// # Errors
 /// [`Error::Invalid`] for empty ranges and gears; as [`solve`].
 pub fn sweep_linkage(
     linkage: &Linkage,
-    given: &[Given],
+    (given, accuracy): (&[Given], Accuracy),
     joint: usize,
     range: Range,
     tick: impl Fn() + Sync,
 ) -> Result<LinkageSweep> {
     let is_other = |one: &&Given| !matches!(one, Given::Turn { joint: own, .. } | Given::Shift { joint: own, .. } if *own == joint);
-    let held = given.iter().filter(is_other).cloned().collect();
+    let held: Vec<Given> = given.iter().filter(is_other).cloned().collect();
+    let proof = Proof::of(linkage, &held, joint);
     let points = linkage.bodies.iter().flat_map(|body| &body.points);
     let size = points.map(|(_, at)| at.re.to_f64().hypot(at.im.to_f64())).fold(1e-9, f64::max);
-    let run = Run { linkage, joint, held, size };
+    let run = Run { linkage, joint, held, size, proof };
     let turn = !linkage.joints[joint].is_prismatic();
     let is_full_turn = turn && ((range.to - range.from).abs() - TAU).abs() < 1e-12;
-    follow(&run, joint, range, is_full_turn, tick)
+    let is_held = |one: &Given| matches!(one, Given::Turn { within: Some(_), .. });
+    let is_rounded = match accuracy {
+        Accuracy::Exact => false,
+        Accuracy::Enclosed => run.held.iter().any(is_held),
+        Accuracy::Rounded => true,
+    };
+    let mut sweep = follow(&run, joint, range, is_full_turn, tick)?;
+    sweep.verdict.proof = sweep.verdict.proof.of_rounded(is_rounded);
+    Ok(sweep)
 }

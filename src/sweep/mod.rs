@@ -10,6 +10,7 @@ mod branch;
 mod bridge;
 mod cells;
 mod derivation;
+mod dyads;
 mod exact;
 mod hidden;
 mod linkage;

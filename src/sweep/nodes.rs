@@ -46,7 +46,7 @@ impl Range {
     }
 
     /// Inputs of which one of every turn is given, from a turn before the range to a turn behind it.
-    fn turned(&self, given: &[f64], variable: Variable) -> Vec<f64> {
+    pub(super) fn turned(&self, given: &[f64], variable: Variable) -> Vec<f64> {
         let (low, high) = (self.from.min(self.to), self.from.max(self.to));
         let mut all: Vec<f64> = Vec::new();
         for input in given {

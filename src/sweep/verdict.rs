@@ -1,6 +1,6 @@
 //! The proof of a sweep.
 
-use super::Sweep;
+use super::{AssemblySweep, Sweep};
 use crate::verdict::{Code, Proof, Status};
 
 /// Is every branch found, and why, or why not.
@@ -34,6 +34,13 @@ fn reason(code: Code) -> &'static str {
     }
 }
 
+/// The reason why branches of assemblies are proved.
+const BY_DYADS: &str = "between all critical inputs, the real roots of exact polynomials, no dyad is stretched or folded, so that the \
+                        signs of its dyads name every assembly; at each critical input the multiplicity of the root says which end";
+/// The reason why they are not proved.
+const BY_DISTANCES: &str =
+    "not proved: the assemblies of every input are, but between the inputs branches are joined by their distances";
+
 impl SweepVerdict {
     /// The verdict before anything is known.
     pub(super) fn none() -> Self {
@@ -55,5 +62,25 @@ impl SweepVerdict {
             _ => (Status::Incomplete, Proof::None),
         };
         Self { status, proof: proof.of_rounded(is_rounded), code, reason: reason(code).to_owned() }
+    }
+
+    /// The verdict on a sweep of assemblies whose links are all proved, or not, for this reason.
+    pub(super) fn of_assemblies<M>(sweep: &AssemblySweep<M>, unproved: Option<Code>) -> Self {
+        let code = match unproved {
+            _ if sweep.unresolved() > 0 => Code::BranchesNotMatched,
+            None => Code::BranchesProved,
+            Some(code) => code,
+        };
+        let (status, proof) = match code {
+            Code::BranchesProved if sweep.branches.is_empty() => (Status::Unreachable, Proof::Proved),
+            Code::BranchesProved => (Status::Complete, Proof::Proved),
+            _ => (Status::Incomplete, Proof::None),
+        };
+        let reason = match code {
+            Code::BranchesProved => BY_DYADS,
+            Code::NoExactRoute => BY_DISTANCES,
+            _ => reason(code),
+        };
+        Self { status, proof, code, reason: reason.to_owned() }
     }
 }

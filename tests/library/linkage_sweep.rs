@@ -25,7 +25,7 @@ fn four_bar([a, b, c, d]: [i32; 4], tan_half: &str) -> Box<LinkageFile> {
 fn turn(file: &LinkageFile, steps: usize) -> LinkageSweep {
     let joint = file.linkage.joints.iter().position(|joint| joint.name == "A").unwrap();
     let range = Range { from: -PI, to: PI, steps };
-    sweep_linkage(&file.linkage, &file.cases[0].given, joint, range, || ()).unwrap()
+    sweep_linkage(&file.linkage, file.given(&file.cases[0]), joint, range, || ()).unwrap()
 }
 
 /// In a limit position coupler and rocker are in line: cos = (a^2 + d^2 - (b +- c)^2)/(2 a d).

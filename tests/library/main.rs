@@ -18,6 +18,7 @@ mod house;
 mod laws;
 mod linkage_accuracy;
 mod linkage_derive;
+mod linkage_proof;
 mod linkage_sweep;
 mod metamorphic;
 mod mjcf;

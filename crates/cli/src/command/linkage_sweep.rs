@@ -4,7 +4,7 @@ use super::arguments::SweepOptions;
 use super::exit::{Exit, Fault};
 use super::instant::named;
 use super::output::{Output, pool};
-use super::sweep::range;
+use super::sweep::{judged, range};
 use looproot::internal::catalogue::LinkageFile;
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::closed_loop::Variable;
@@ -38,7 +38,7 @@ pub fn run(
     let variable = if is_length { Variable::Translation } else { Variable::Rotation };
     let range = range(options, variable, &file.reading)?;
     let pool = pool(options.threads)?;
-    let found = pool.install(|| sweep_linkage(&file.linkage, &case.given, joint, range, || ()));
+    let found = pool.install(|| sweep_linkage(&file.linkage, file.given(case), joint, range, || ()));
     let found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
     let asked = Asked { file, traced: traced.as_ref() };
     let mut output = open()?;
@@ -61,8 +61,7 @@ pub fn run(
         _ => write!(out, "{}", report::text(asked, &found))?,
     }
     out.flush()?;
-    // Between the inputs nothing is proved.
-    Ok(Exit::NotProved)
+    Ok(judged(&found.verdict))
 }
 
 /// Returns the requested joint, by name, or the first given one of the file.

@@ -20,7 +20,7 @@ use looproot::internal::report::picture::svg;
 use looproot::internal::report::scene;
 use looproot::internal::report::sweep::{self as report, Swept};
 use looproot::internal::scene::Stage;
-use looproot::internal::sweep::{Range, Sweep, sweep};
+use looproot::internal::sweep::{Range, Sweep, SweepVerdict, sweep};
 use looproot::internal::verdict::Status;
 use looproot_algebra::number::{Angle, Number, Quantity, Reading};
 use std::io::Write;
@@ -127,7 +127,12 @@ fn exit(found: &Sweep) -> Exit {
     if found.samples.len() <= found.range.steps {
         return Exit::Interrupted;
     }
-    match (found.verdict.proof.is_proved(), found.verdict.status) {
+    judged(&found.verdict)
+}
+
+/// The exit code of the verdict on a whole sweep.
+pub fn judged(verdict: &SweepVerdict) -> Exit {
+    match (verdict.proof.is_proved(), verdict.status) {
         (true, Status::Unreachable) => Exit::Unreachable,
         (true, _) => Exit::Complete,
         _ => Exit::NotProved,
