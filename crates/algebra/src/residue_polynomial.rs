@@ -1,6 +1,6 @@
 //! Dense polynomials in one variable modulo a prime: residues in Montgomery form, constant term first, none zero at the end.
 
-use super::modp::Modulus;
+use super::modp::{Modulus, product as wide_product};
 
 /// A polynomial without zeros at its end; the zero polynomial has no coefficients.
 pub(super) type Residues = Vec<u64>;
@@ -36,7 +36,7 @@ pub(super) fn product(a: &[u64], b: &[u64], modulus: &Modulus) -> Residues {
         let factors = reversed[b.len() - 1 + first - k..].chunks(4);
         a[first..=last].chunks(4).zip(factors).fold(0, |sum, (a, b)| {
             // Four products of residues below 2^62 stay below 2^64 times the prime.
-            let products: u128 = a.iter().zip(b).map(|(&a, &b)| u128::from(a) * u128::from(b)).sum();
+            let products: u128 = a.iter().zip(b).map(|(&a, &b)| wide_product(a, b)).sum();
             modulus.add(sum, modulus.fold(products))
         })
     };
@@ -88,24 +88,21 @@ pub(super) fn reduce(a: &mut Residues, b: &[u64], modulus: &Modulus) {
             let negative = p - top;
             for (x, &y) in a.iter_mut().zip(lower) {
                 // Two products of residues below 2^62 stay below 2^64 times the prime, and so do three.
-                *x = modulus.fold(u128::from(*x) * u128::from(leading) + u128::from(y) * u128::from(negative));
+                *x = modulus.fold(wide_product(*x, leading) + wide_product(y, negative));
             }
         } else {
             // Two steps of the division at once: remainder sequences mostly fall by one degree each.
             let Some(next) = a.pop() else { return };
             let first = p - modulus.mul(top, leading);
-            let products =
-                u128::from(next) * u128::from(leading) + u128::from(p - top) * u128::from(lower[lower.len() - 1]);
+            let products = wide_product(next, leading) + wide_product(p - top, lower[lower.len() - 1]);
             let second = p - modulus.fold(products);
             let (low, high) = a.split_at_mut(shift - 1);
             for x in low {
                 *x = modulus.mul(*x, square);
             }
-            let (first, second) = (u128::from(first), u128::from(second));
             let mut before = 0;
             for (x, &y) in high.iter_mut().zip(lower) {
-                *x = modulus
-                    .fold(u128::from(*x) * u128::from(square) + u128::from(y) * second + u128::from(before) * first);
+                *x = modulus.fold(wide_product(*x, square) + wide_product(y, second) + wide_product(before, first));
                 before = y;
             }
         }

@@ -4,7 +4,7 @@ use super::echelon;
 use super::orthogonal;
 use super::pivoted;
 use crate::algebra::long_float::LongNumber;
-use crate::algebra::modp::Modulus;
+use crate::algebra::modp::{Modulus, product};
 use crate::algebra::ring::Ring;
 
 /// Largest number of candidates for the basis of a level: 27 products and 6 of two `tau`.
@@ -224,7 +224,7 @@ impl Arithmetic for Modulus {
                 continue;
             }
             for (sum, &s) in sums.iter_mut().zip(source) {
-                *sum += u128::from(factor) * u128::from(s);
+                *sum += product(factor, s);
             }
             open += 1;
             if open == PRODUCTS {
