@@ -28,6 +28,9 @@ pub(super) struct Neighbourhood<'a> {
     pub tolerance: Tolerance,
     /// Whether the joints are dependent in every position.
     pub is_deficient: bool,
+    /// Whether the exact data leave no solution to start from, not even a complex one, and reach alone does not deny the pose:
+    /// rounding may have sent all of a self-motion to infinity.
+    pub is_empty: bool,
 }
 
 /// A solution as far as a neighbourhood looks at it.
@@ -106,6 +109,16 @@ impl Neighbourhood<'_> {
         if self.is_deficient && families.is_empty() && near.families.is_empty() {
             for trial in 1..=STARTS {
                 self.look(&spread(&self.closed.variables, trial), families, within, &mut near);
+            }
+        } else if self.is_empty && families.is_empty() && near.families.is_empty() {
+            for trial in 1..=STARTS {
+                let start = spread(&self.closed.variables, trial);
+                if self.look(&start, families, within, &mut near) {
+                    continue;
+                }
+                if let Some(point) = nearest(self.closed, &approach(self.closed, &start), within) {
+                    self.admit_mode(&point, &[], &mut near);
+                }
             }
         }
         near

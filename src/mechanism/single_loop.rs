@@ -253,7 +253,7 @@ impl SingleLoop {
         let is_moving = verdict.status == Status::SelfMotion;
         let mut families = if is_moving { vicinity.families(&assembly.families) } else { Vec::new() };
         if let Some(pose) = &case.pose {
-            let near = vicinity.near(pose, tolerance, verdict.status, assembly);
+            let near = vicinity.near(pose, tolerance, &verdict, assembly);
             vicinity.list(&near, tolerance, &mut modes, &mut families);
             if verdict.status == Status::Unreachable {
                 if !(near.modes.is_empty() && near.families.is_empty()) {

@@ -12,7 +12,7 @@ use crate::solve::curve::CLOSES_WITHIN;
 use crate::solve::dense;
 use crate::solve::newton::{Six, closure};
 use crate::solve::self_motion::SelfMotion;
-use crate::verdict::Status;
+use crate::verdict::{Code, Status, Verdict};
 use num_complex::Complex;
 
 /// One case of a loop of six unknowns.
@@ -67,7 +67,8 @@ impl Vicinity<'_> {
 
     /// Returns the configurations near the pose of an arm. Where the list of solutions is unknown, only the families met are
     /// used.
-    pub fn near(&self, pose: &Placement, tolerance: Tolerance, status: Status, assembly: &Assembly) -> Near {
+    pub fn near(&self, pose: &Placement, tolerance: Tolerance, verdict: &Verdict, assembly: &Assembly) -> Near {
+        let status = verdict.status;
         let is_moving = status == Status::SelfMotion;
         let (closed, scale) = self.closed();
         let unit = |variable: Variable| if variable == Variable::Rotation { 1.0 } else { scale };
@@ -83,7 +84,8 @@ impl Vicinity<'_> {
         let (exact, seen) = if is_moving { (inside, Vec::new()) } else { (Vec::new(), inside) };
         let (chain, layout) = (&self.of.chain, &self.prepared.layout);
         let is_deficient = self.prepared.solver.structural_rank() < 6;
-        let here = Neighbourhood { chain, layout, pose, closed: &closed, scale, tolerance, is_deficient };
+        let is_empty = status == Status::Unreachable && starts.is_empty() && verdict.code != Code::OutOfReach;
+        let here = Neighbourhood { chain, layout, pose, closed: &closed, scale, tolerance, is_deficient, is_empty };
         here.run(&starts, &exact, &seen)
     }
 

@@ -487,3 +487,19 @@ fn seven_lengths_give_the_same_pose() {
     let pose = steps.iter().fold(moved([0.0; 3]), |pose, step| product(&pose, step));
     assert!(defect(&pose, &asked("kr6_r900", &theta, &["rad"; 6])) < 1e-9, "{text}");
 }
+
+#[test]
+fn a_stretched_arm_whose_twist_is_rounded_reaches_its_own_pose() {
+    // Rounding of pi - 0.5 leaves of the self-motion not even complex solutions.
+    for q in ["0,0,0,0,0,0", "0.3,0,0,0,0,0.1"] {
+        let output = run(&["solve", "iiwa14", "--joints", q, "--json"]);
+        let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let result = &document["results"][0];
+        assert_eq!((&result["verdict"]["status"], &result["verdict"]["real"]), (&"complete".into(), &0.into()), "{q}");
+        let families = result["families"].as_array().unwrap();
+        assert_eq!(
+            (families.len(), &families[0]["dimension"], &families[0]["joints"]),
+            (1, &2.into(), &serde_json::json!([1, 4, 6]))
+        );
+    }
+}
