@@ -1,20 +1,27 @@
-// Live pages hold the program and the viewer gzipped, as texts of seven bits a character (src/view/encode.rs).
+// Live pages hold the program and the viewer gzipped, as texts of seven bits a byte (src/view/encode.rs).
 'use strict';
 
-/** The bytes of such a text. */
+/** The bytes of such a text: a character of one byte is seven bits, one of two bytes an unsafe group and the next, or the last. */
 globalThis.unpacked = (text) => {
-  const bytes = new Uint8Array(Math.floor((text.length * 7) / 8));
+  const unsafe = [0, 10, 13, 60];
+  const bytes = new Uint8Array(Math.ceil((text.length * 14) / 8));
   let [at, bits, count] = [0, 0, 0];
-  for (let k = 0; k < text.length; k += 1) {
-    bits = ((bits << 7) | (text.charCodeAt(k) & 127)) & 0xffff;
+  const put = (group) => {
+    bits = ((bits << 7) | group) & 0xffff;
     count += 7;
     if (count >= 8) {
       count -= 8;
       bytes[at] = bits >> count;
       at += 1;
     }
+  };
+  for (let k = 0; k < text.length; k += 1) {
+    const code = text.charCodeAt(k);
+    const place = code >> 7;
+    if (place > 0 && place <= unsafe.length) put(unsafe[place - 1]);
+    put(code & 127);
   }
-  return bytes;
+  return bytes.slice(0, at);
 };
 
 /** Runs the viewer, which stands in the page. */

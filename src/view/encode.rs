@@ -1,4 +1,4 @@
-//! Encodings inside a page: numbers as base64, files as seven bits a character, JSON inside a script.
+//! Encodings inside a page: numbers as base64, files as seven bits a byte, JSON inside a script.
 
 use serde_json::Value;
 
@@ -32,13 +32,26 @@ pub(super) fn base64(bytes: &[u8]) -> String {
     text
 }
 
-/// Packs bytes into a text of seven bits a character, for a script element: base64 takes a seventh more. The characters that HTML or an
-/// editor may change stand 128 places further on, where their last seven bits are the same.
+/// The groups of seven bits that are no character of a text: HTML or an editor may change them.
+const UNSAFE: [u8; 4] = [0, b'\n', b'\r', b'<'];
+
+/// Packs bytes into a text of seven bits a byte, for a script element: base64 takes a seventh more. A group of seven bits is the ASCII
+/// character with that code. The k-th one that is unsafe and the group after it are the one character with the code 128 (k + 1) plus
+/// the second group, which has two bytes in UTF-8: nothing is lost. An unsafe group at the end is that of 128 * 5.
 pub(super) fn packed(bytes: &[u8]) -> String {
-    let mut text = String::with_capacity(bytes.len() * 6 / 5 + 2);
-    let mut put = |bits: u32| {
-        let code = (bits & 0x7f) as u8;
-        text.push(char::from(if matches!(code, 0 | b'\n' | b'\r' | b'<') { code | 0x80 } else { code }));
+    let mut text = String::with_capacity(bytes.len() * 8 / 7 + 2);
+    let mut held = None;
+    let mut put = |group: u32| {
+        let safe = u8::try_from(group).ok().and_then(|code| UNSAFE.iter().position(|own| *own == code));
+        let code = match (held.take(), safe) {
+            (Some(place), _) => 128 * (place + 1) + group,
+            (None, Some(place)) => {
+                held = u32::try_from(place).ok();
+                return;
+            }
+            (None, None) => group,
+        };
+        text.extend(char::from_u32(code));
     };
     let (mut bits, mut count) = (0_u32, 0);
     for byte in bytes {
@@ -46,12 +59,15 @@ pub(super) fn packed(bytes: &[u8]) -> String {
         count += 8;
         while count >= 7 {
             count -= 7;
-            put(bits >> count);
+            put(bits >> count & 0x7f);
         }
         bits &= (1 << count) - 1;
     }
     if count > 0 {
-        put(bits << (7 - count));
+        put(bits << (7 - count) & 0x7f);
+    }
+    if let Some(place) = held {
+        text.extend(char::from_u32(128 * 5 + u32::from(UNSAFE[place as usize])));
     }
     text
 }
@@ -75,15 +91,28 @@ mod tests {
     }
 
     #[test]
-    fn files_are_texts_of_seven_bits_a_character() {
-        let bytes: Vec<u8> = (0..=255).chain([0, 0, 10, 13, 60, 255, 7]).collect();
-        let text = packed(&bytes);
-        assert!(!text.contains(['\0', '\n', '\r', '<']));
-        // As the script reads them: the last seven bits of every character.
-        let bits: Vec<bool> = text.chars().flat_map(|c| (0..7).rev().map(move |k| u32::from(c) >> k & 1 == 1)).collect();
-        let read = bits.chunks_exact(8).map(|own| own.iter().fold(0, |byte, bit| byte << 1 | u8::from(*bit)));
-        assert_eq!(read.collect::<Vec<u8>>(), bytes);
-        assert_eq!(text.chars().count(), (8 * bytes.len()).div_ceil(7));
+    fn files_are_texts_of_seven_bits_a_byte() {
+        let all: Vec<u8> = (0..=255).chain([0, 0, 10, 13, 60, 255, 7]).collect();
+        // All lengths, so that every group is once the last one; zeros alone, of which every group is unsafe.
+        for bytes in (0..all.len()).map(|length| &all[..length]).chain([&all[..], &[0; 7], &[0; 8], &[0; 14], &[0; 15]]) {
+            let text = packed(bytes);
+            assert!(!text.contains(['\0', '\n', '\r', '<']));
+            assert!(text.len() <= (8 * bytes.len()).div_ceil(7) + 1, "{} bytes of {}", text.len(), bytes.len());
+            assert_eq!(unpacked(&text), bytes);
+        }
+    }
+
+    /// Returns the bytes of a text, as the script of a live page reads them.
+    fn unpacked(text: &str) -> Vec<u8> {
+        let mut bits: Vec<bool> = Vec::new();
+        let mut put = |group: u32| bits.extend((0..7).rev().map(|k| group >> k & 1 == 1));
+        for code in text.chars().map(u32::from) {
+            if let 1..=4 = code >> 7 {
+                put(u32::from(UNSAFE[(code >> 7) as usize - 1]));
+            }
+            put(code & 127);
+        }
+        bits.chunks_exact(8).map(|own| own.iter().fold(0, |byte, bit| byte << 1 | u8::from(*bit))).collect()
     }
 
     #[test]
