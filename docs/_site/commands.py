@@ -19,7 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PAGES = ["README.md", "equations/README.md", "python/README.md", "c/README.md", "CONTRIBUTING.md"]
-# The build itself runs the commands of tutorials and how-tos.
+# The build itself runs the blocks that are directives, such as those of tutorials and how-tos.
 FOLDERS = ["docs"]
 SECONDS = 300
 # The answers of a verdict. A command that shows a mistake stands in MISTAKES.
@@ -167,7 +167,7 @@ def main() -> int:
     shutil.copy(ROOT / "web" / "robot.urdf", place)
     for name, text in FILES.items():
         (place / name).write_text(text)
-    pages = PAGES + [str(path.relative_to(ROOT)) for folder in FOLDERS for path in sorted((ROOT / folder).glob("*.md"))]
+    pages = PAGES + [str(path.relative_to(ROOT)) for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.md"))]
     found = [command for page in pages for command in commands(page)]
     chosen = [command for command in found if not any(word in command.text for word in LEFT_OUT)]
     # Commands of one page follow each other: one may read what another has written.
@@ -178,8 +178,7 @@ def main() -> int:
         done = pool.map(lambda page: [(command, *run(command, place, program)) for command in by_page[page]], by_page)
     results = [result for page in done for result in page]
     faults = [f"{command.page}:{command.line}: {fault}" for command, _, fault in results if fault]
-    everywhere = PAGES + [str(path.relative_to(ROOT)) for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.md"))]
-    faults += [fault for page in everywhere for fault in others(page)]
+    faults += [fault for page in pages for fault in others(page)]
     faults += [f"found no {check}, expected the check that runs `{line}`" for line, check in ELSEWHERE.items() if not (ROOT / check).is_file()]
     slowest = sorted(results, key=lambda result: -result[1])[:5]
     print(f"{len(results)} commands of {len(by_page)} pages run, {len(found) - len(chosen)} left out; the slowest:")
