@@ -12,10 +12,10 @@ const CLOSED: f64 = 2e-15;
 impl Search<'_> {
     /// Lists the candidates of the closed form, if there is one. Returns whether as many are proved as the loop can have;
     /// otherwise it lists nothing and the pencils decide.
-    pub(super) fn by_closed_form(&mut self, most: &dyn Fn() -> usize) -> bool {
+    pub(super) fn by_closed_form(&mut self, most: &dyn Fn(usize) -> usize) -> bool {
         let Some(decoupled) = self.decoupled else { return false };
         let candidates = decoupled.candidates(self.closed);
-        if candidates.count() < most() {
+        if candidates.count() < most(candidates.count()) {
             return false;
         }
         let (real, complex) = (candidates.real(), candidates.complex());
@@ -102,9 +102,9 @@ mod tests {
                 let gap = solver.gap(&reached.inverse());
                 let (mut workspace, mut fast, mut slow) = (Workspace::default(), Assembly::default(), Assembly::default());
                 let most = if solver.is_decoupled() { 8 } else { 16 };
-                solver.solve_up_to(&gap, Roots::All, &|| most, &mut workspace, &mut fast);
+                solver.solve_up_to(&gap, Roots::All, &|_| most, &mut workspace, &mut fast);
                 // No bound is known, so the pencils decide.
-                solver.solve_up_to(&gap, Roots::All, &|| usize::MAX, &mut workspace, &mut slow);
+                solver.solve_up_to(&gap, Roots::All, &|_| usize::MAX, &mut workspace, &mut slow);
                 assert_eq!(fast.tries == 0, solver.is_decoupled(), "{kinds}, pose {pose}");
                 assert!(slow.tries > 0, "{kinds}, pose {pose}");
                 assert_eq!((fast.total(), fast.real()), (slow.total(), slow.real()), "{kinds}, pose {pose}");

@@ -42,7 +42,7 @@ impl Search<'_> {
 
     /// Admits the eight solutions of a spherical four-bar whose translations have to bridge the links. It starts from the
     /// best link and goes on to the others until the search is done.
-    pub fn four_bars(&mut self, most: &dyn Fn() -> usize) {
+    pub fn four_bars(&mut self, most: &dyn Fn(usize) -> usize) {
         let Some(form) = LinkForm::of(self.closed) else { return };
         if self.opposite_axes(&form) {
             return;

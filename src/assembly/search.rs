@@ -39,9 +39,9 @@ pub(super) enum Effort<'a> {
     OnePencil,
     /// Pencil after pencil, up to a number of solutions, with proofs of pairs that f64 hardly distinguishes. Unresolved roots
     /// are left undecided.
-    Pencils(&'a dyn Fn() -> usize),
+    Pencils(&'a dyn Fn(usize) -> usize),
     /// Pencils up to a number of solutions, multistart if they leave roots unresolved, and a decision on modes without certificate.
-    All(&'a dyn Fn() -> usize),
+    All(&'a dyn Fn(usize) -> usize),
 }
 
 /// The search for the solutions of one pose.
@@ -74,7 +74,7 @@ impl Search<'_> {
     /// Finds all solutions.
     pub fn run(&mut self) {
         let most = match self.effort {
-            Effort::OnePencil => &|| usize::MAX,
+            Effort::OnePencil => &|_| usize::MAX,
             Effort::Pencils(most) | Effort::All(most) => most,
         };
         let is_asked = self.roots == Roots::All && !matches!(self.effort, Effort::OnePencil);
@@ -101,7 +101,7 @@ impl Search<'_> {
     }
 
     /// Solves one pencil after the other, the prepared ones first, until the search is done.
-    fn all_cuts(&mut self, most: &dyn Fn() -> usize) {
+    fn all_cuts(&mut self, most: &dyn Fn(usize) -> usize) {
         if self.cuts_of_this(most) || !self.closed.variables.contains(&Variable::Translation) {
             return;
         }
@@ -116,7 +116,7 @@ impl Search<'_> {
     }
 
     /// Solves the cuts of the loop in its present arrangement. Returns whether the search is done.
-    fn cuts_of_this(&mut self, most: &dyn Fn() -> usize) -> bool {
+    fn cuts_of_this(&mut self, most: &dyn Fn(usize) -> usize) -> bool {
         for prepared in self.prepared {
             let cut = prepared.cut.of(self.closed);
             let carried;
@@ -135,7 +135,7 @@ impl Search<'_> {
     }
 
     /// Solves cuts whose elimination is not prepared, best first. Returns whether the search is done.
-    fn cuts_inside(&mut self, closed: &ClosedLoop<f64>, cuts: &[Cut], most: &dyn Fn() -> usize) -> bool {
+    fn cuts_inside(&mut self, closed: &ClosedLoop<f64>, cuts: &[Cut], most: &dyn Fn(usize) -> usize) -> bool {
         let ready = |cut: &Cut| {
             let view = cut.of(closed);
             let form = half_angle_form(&view).filter(|form| form.score > limits::SCORE)?;
@@ -159,7 +159,7 @@ impl Search<'_> {
         view: &ClosedLoop<f64>,
         form: &HalfAngleForm<f64>,
         rows: &[MarkedLine<f64>; 8],
-        most: &dyn Fn() -> usize,
+        most: &dyn Fn(usize) -> usize,
     ) -> bool {
         let equations = bilinear(rows, view);
         let first = Shifted::best(&equations, Hidden::First);
@@ -185,7 +185,7 @@ impl Search<'_> {
     }
 
     /// Returns whether further pencils are of no use.
-    pub fn done(&self, most: &dyn Fn() -> usize, all_resolved: bool) -> bool {
+    pub fn done(&self, most: &dyn Fn(usize) -> usize, all_resolved: bool) -> bool {
         match self.roots {
             _ if matches!(self.effort, Effort::OnePencil) => true,
             Roots::Real => all_resolved,
@@ -194,7 +194,7 @@ impl Search<'_> {
                 // Modes without a certificate are double as a rule; the verdict decides later.
                 let likely = 2 * self.assembly.modes.len() - proved;
                 let general = general_degree(self.closed.variables).unwrap_or(0);
-                proved >= general || self.is_full(proved, most) || (all_resolved && (likely >= general || likely >= most()))
+                proved >= general || self.is_full(proved, most) || (all_resolved && (likely >= general || likely >= most(likely)))
             }
         }
     }
@@ -202,8 +202,8 @@ impl Search<'_> {
     /// Returns whether as many solutions are proved as the loop can have; then the other roots are extraneous.
     ///
     /// The bound is computed only if a special geometry is likely: at half of the general number or a quarter of it.
-    pub(super) fn is_full(&self, proved: usize, most: &dyn Fn() -> usize) -> bool {
-        self.roots == Roots::All && proved >= FEWEST_OF_SPECIAL && proved >= most()
+    pub(super) fn is_full(&self, proved: usize, most: &dyn Fn(usize) -> usize) -> bool {
+        self.roots == Roots::All && proved >= FEWEST_OF_SPECIAL && proved >= most(proved)
     }
 
     /// Returns the number of proved solutions.
@@ -219,7 +219,7 @@ impl Search<'_> {
         view: &ClosedLoop<f64>,
         form: &HalfAngleForm<f64>,
         shifted: &Shifted,
-        most: &dyn Fn() -> usize,
+        most: &dyn Fn(usize) -> usize,
     ) -> bool {
         let Some((constant, linear)) = shifted.monic() else { return false };
         // The fast routine comes first; if it leaves a root unresolved, the reference routine decides.

@@ -255,16 +255,16 @@ impl Solver {
     /// Finds the solutions at one pose or input, given as the closing transformation of the loop. Allocates nothing once
     /// `assembly` has grown to its size, except for degenerate poses.
     pub fn solve(&self, closing: &Motion<f64>, roots: Roots, workspace: &mut Workspace, assembly: &mut Assembly) {
-        self.solve_up_to(&self.gap(closing), roots, &|| usize::MAX, workspace, assembly);
+        self.solve_up_to(&self.gap(closing), roots, &|_| usize::MAX, workspace, assembly);
     }
 
-    /// As [`Solver::solve`], for a geometry known to have at most `most()` solutions, at which the search stops. `most` is
-    /// called only if fewer than 16 are found.
+    /// As [`Solver::solve`], for a geometry known to have at most `most(n)` solutions, at which the search stops; whether there
+    /// are more than n is what is asked. `most` is called only if fewer than 16 are found.
     pub fn solve_up_to(
         &self,
         gap: &Gap,
         roots: Roots,
-        most: &dyn Fn() -> usize,
+        most: &dyn Fn(usize) -> usize,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) {
@@ -276,7 +276,7 @@ impl Solver {
     pub fn solve_by_pencils(
         &self,
         gap: &Gap,
-        most: &dyn Fn() -> usize,
+        most: &dyn Fn(usize) -> usize,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) {

@@ -8,6 +8,7 @@ use super::scope::nearest;
 use super::text::{Any, Format, ansatz_from_text, any_from_text, load_text};
 use crate::error::{Error, Result};
 use include_dir::{Dir, DirEntry, include_dir};
+use std::sync::OnceLock;
 
 static LIBRARY: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/equations");
 
@@ -26,7 +27,12 @@ const MOVED: [(&str, &str); 2] = [("loop/structure_", "chain/structure_"), ("loo
 /// Returns the names of all built-in frameworks, linkages, rational motions and syntheses, such as `framework/steffen`, in order.
 #[must_use]
 pub fn moving_names() -> Vec<String> {
-    all_names().into_iter().filter(|name| is_moving(name)).collect()
+    chosen(is_moving)
+}
+
+/// Returns the names that are chosen, in order.
+fn chosen(is_chosen: impl Fn(&str) -> bool) -> Vec<String> {
+    names().iter().filter(|name| is_chosen(name)).cloned().collect()
 }
 
 fn is_moving(name: &str) -> bool {
@@ -36,7 +42,7 @@ fn is_moving(name: &str) -> bool {
 /// Returns the names of all built-in questions about displacements and lines, such as `lines/transversals`, in order.
 #[must_use]
 pub fn calculus_names() -> Vec<String> {
-    all_names().into_iter().filter(|name| is_calculus(name)).collect()
+    chosen(is_calculus)
 }
 
 fn is_calculus(name: &str) -> bool {
@@ -46,23 +52,38 @@ fn is_calculus(name: &str) -> bool {
 /// Returns the names of all built-in entries, such as `arm/puma560`, in order.
 #[must_use]
 pub fn builtin_names() -> Vec<String> {
-    let is_entry = |name: &String| !name.starts_with(CONDITIONS) && !is_moving(name) && !is_calculus(name);
-    all_names().into_iter().filter(is_entry).collect()
+    chosen(is_entry)
+}
+
+fn is_entry(name: &str) -> bool {
+    !is_ansatz(name) && !is_moving(name) && !is_calculus(name)
 }
 
 /// Returns the names of all built-in loops with symbols, such as `conditions/bennett`, in order.
 #[must_use]
 pub fn ansatz_names() -> Vec<String> {
-    all_names().into_iter().filter(|name| name.starts_with(CONDITIONS)).collect()
+    chosen(is_ansatz)
+}
+
+fn is_ansatz(name: &str) -> bool {
+    name.starts_with(CONDITIONS)
 }
 
 /// Returns the names of everything in the library, such as `motion/bennett`, in order.
 #[must_use]
 pub fn all_names() -> Vec<String> {
-    let mut names = Vec::new();
-    collect(&LIBRARY, &mut names);
-    names.sort();
-    names
+    names().to_vec()
+}
+
+/// The names of everything in the library, in order, collected once.
+fn names() -> &'static [String] {
+    static NAMES: OnceLock<Vec<String>> = OnceLock::new();
+    NAMES.get_or_init(|| {
+        let mut names = Vec::new();
+        collect(&LIBRARY, &mut names);
+        names.sort();
+        names
+    })
 }
 
 fn collect(folder: &Dir<'_>, names: &mut Vec<String>) {
@@ -70,9 +91,8 @@ fn collect(folder: &Dir<'_>, names: &mut Vec<String>) {
         match entry {
             DirEntry::Dir(folder) => collect(folder, names),
             DirEntry::File(file) => {
-                let path = file.path().to_string_lossy().replace('\\', "/");
-                if let Some(name) = path.strip_suffix(".toml") {
-                    names.push(name.to_owned());
+                if let Some(name) = file.path().to_str().and_then(|path| path.strip_suffix(".toml")) {
+                    names.push(name.replace('\\', "/"));
                 }
             }
         }
@@ -89,7 +109,7 @@ fn collect(folder: &Dir<'_>, names: &mut Vec<String>) {
 #[must_use]
 pub fn namesakes(name: &str) -> Vec<String> {
     let name = today(name.strip_suffix(".toml").unwrap_or(name));
-    all_names().into_iter().filter(|full| is_called(full, &name)).collect()
+    chosen(|full| is_called(full, &name))
 }
 
 /// Returns the present name of an entry that was once in another folder.
@@ -106,15 +126,16 @@ fn is_called(full: &str, name: &str) -> bool {
 /// Returns the text in the library for this name, with or without its folder, and its full name. Entries come first, as
 /// other files may share their names.
 fn find(name: &str) -> Option<(String, &'static str)> {
-    [builtin_names, moving_names, calculus_names, ansatz_names].into_iter().find_map(|names| find_in(names(), name))
+    [is_entry, is_moving, is_calculus, is_ansatz].into_iter().find_map(|is_kind| find_in(is_kind, name))
 }
 
-fn find_in(names: Vec<String>, name: &str) -> Option<(String, &'static str)> {
+/// [`find`] among the names of one kind.
+fn find_in(is_kind: fn(&str) -> bool, name: &str) -> Option<(String, &'static str)> {
     let name = name.strip_suffix(".toml").unwrap_or(name);
     let name = &today(name);
-    let full = names.into_iter().find(|full| is_called(full, name))?;
+    let full = names().iter().find(|full| is_called(full, name) && is_kind(full))?;
     let text = LIBRARY.get_file(format!("{full}.toml"))?.contents_utf8()?;
-    Some((full, text))
+    Some((full.clone(), text))
 }
 
 /// Returns the text of a file of the library, with or without its folder; `None` for an unknown name.
@@ -154,7 +175,7 @@ pub fn citation(key: &str) -> Option<String> {
 
 /// Returns the built-in loop with symbols of this name, with or without its folder, else any other file of that name.
 pub(super) fn builtin_ansatz(name: &str, options: &Options) -> Option<Result<Ansatz>> {
-    let (full, text) = find_in(ansatz_names(), name).or_else(|| find(name))?;
+    let (full, text) = find_in(is_ansatz, name).or_else(|| find(name))?;
     Some(ansatz_from_text(text, &format!("equations/{full}.toml"), Format::Toml, options))
 }
 

@@ -718,14 +718,14 @@ fn claims(scope: &Scope<'_>, table: &Table<'_>, linkage: &Linkage) -> Result<Lin
             let value = if linkage.joints[joint].is_prismatic() {
                 own.length(&field.node, &field.key)?.to_f64()
             } else {
-                own.angle(&field.node, &field.key)?.radians()
+                own.radians(&field.node, &field.key)?
             };
             joints.push((joint, value));
         }
         for field in fields("bodies")? {
             let body = body_named(&own, linkage, &field.key, field.line)?;
             let place = own.table(&field.node, &field.key, &["angle", "position"])?;
-            let angle = place.get("angle").map(|node| own.angle(node, "angle")).transpose()?;
+            let angle = place.get("angle").map(|node| own.radians(node, "angle")).transpose()?;
             let position = match place.get("position") {
                 None => None,
                 Some(node) => {
@@ -733,7 +733,7 @@ fn claims(scope: &Scope<'_>, table: &Table<'_>, linkage: &Linkage) -> Result<Lin
                     Some([own.length(x, "position")?.to_f64(), own.length(y, "position")?.to_f64()])
                 }
             };
-            bodies.push((body, angle.map(|angle| angle.radians()), position));
+            bodies.push((body, angle, position));
         }
         if joints.is_empty() && bodies.is_empty() {
             return Err(own.fail(node.line, "found a [[solution]] without `joints` and `bodies`, expected one of them"));

@@ -496,7 +496,7 @@ fn claims(scope: &Scope<'_>, table: &Table<'_>, linkage: &SpaceLinkage) -> Resul
             let joint = joint_named(&own, linkage, &field.key, field.line)?;
             let value = match linkage.joints[joint].is_distance() {
                 Some(true) => own.length(&field.node, &field.key)?.to_f64(),
-                _ => own.angle(&field.node, &field.key)?.radians(),
+                _ => own.radians(&field.node, &field.key)?,
             };
             claim.joints.push((joint, value));
         }

@@ -461,7 +461,7 @@ fn claims(scope: &Scope<'_>, table: &Table<'_>, linkage: &SphereLinkage) -> Resu
         if let Some(list) = table.get("joints") {
             for field in fields(&own, list, "joints")? {
                 let joint = joint_named(&own, linkage, &field.key, field.line)?;
-                claim.joints.push((joint, own.angle(&field.node, &field.key)?.radians()));
+                claim.joints.push((joint, own.radians(&field.node, &field.key)?));
             }
         }
         if let Some(list) = table.get("bodies") {

@@ -104,12 +104,17 @@ pub fn closure_polynomial<F: Field + Domain>(
 }
 
 /// Returns the least bound over all cuts; `None` if all are degenerate. `other` is the same arm at another general pose, which
-/// reveals the roots independent of the pose; `None` for a loop, or where the count at one special pose is requested.
+/// reveals the roots independent of the pose; `None` for a loop, or where the count at one special pose is requested. Where a
+/// bound is at most `enough`, further cuts are not tried.
 #[must_use]
-pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>) -> Option<Degree> {
+pub fn degree<F: Field + Domain>(
+    closed: &ClosedLoop<F>,
+    other: Option<&ClosedLoop<F>>,
+    enough: usize,
+) -> Option<Degree> {
     let general = general_degree(closed.variables)?;
     if general == 16 {
-        return degree_by_cuts(closed, other);
+        return degree_by_cuts(closed, other, enough);
     }
     let solutions = if general == 2 {
         spherical_triangle::count(&LinkForm::of(closed)?)?
@@ -120,11 +125,18 @@ pub fn degree<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLo
 }
 
 /// [`degree`] of a loop with five or six rotations.
-fn degree_by_cuts<F: Field + Domain>(closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>) -> Option<Degree> {
+fn degree_by_cuts<F: Field + Domain>(
+    closed: &ClosedLoop<F>,
+    other: Option<&ClosedLoop<F>>,
+    enough: usize,
+) -> Option<Degree> {
     let mut best: Option<Degree> = None;
     let mut all = |closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>| {
         for cut in Cut::ALL {
             for hidden in [Hidden::First, Hidden::Second] {
+                if best.is_some_and(|best| best.solutions <= enough) {
+                    return;
+                }
                 let Some(found) = closure_polynomial(closed, cut, hidden) else { continue };
                 let standing = other
                     .and_then(|other| closure_polynomial(other, cut, hidden))

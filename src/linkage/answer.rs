@@ -182,14 +182,14 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     }
 }
 
-/// The complex angle of a rotation: `-i log z`.
-fn angle(turn: &Number) -> Coordinate {
+/// The complex angle of a rotation: `-i log z`, real where z is on the unit circle.
+fn angle(turn: &Number, is_real: bool) -> Coordinate {
     let (re, im) = (&turn.z.disc.re, &turn.z.disc.im);
     let angle = Float::with_val(re.prec(), im.atan2_ref(re)).to_f64();
-    let size = Float::with_val(re.prec(), re.hypot_ref(im));
     // The half turn is pi and not -pi.
     let angle = if angle <= -std::f64::consts::PI { std::f64::consts::PI } else { angle };
-    Complex::new(angle, -size.ln().to_f64())
+    let growth = if is_real { 0.0 } else { -Float::with_val(re.prec(), re.hypot_ref(im)).ln().to_f64() };
+    Complex::new(angle, growth)
 }
 
 /// The coordinates x and y of a point.
@@ -204,7 +204,7 @@ fn mode(linkage: &Linkage, state: &State) -> LinkageMode {
     let joints = linkage.joints.iter().map(|joint| {
         let place = state.against(joint.of[1], joint.of[0]);
         match &joint.pair {
-            Pair::Revolute => Some(clean(angle(&place.turn))),
+            Pair::Revolute => Some(clean(angle(&place.turn, state.real))),
             Pair::Prismatic { along, length, .. } => {
                 let gap = place.apply(&number(&joint.at[1])).sub(&number(&joint.at[0]));
                 let shift = gap.z.mul(&number::<Value>(along).z.inverse()?);
@@ -221,7 +221,7 @@ fn mode(linkage: &Linkage, state: &State) -> LinkageMode {
         for value in [&place.turn.z, &place.origin.z] {
             radius = radius.max(value.disc.radius().to_f64());
         }
-        bodies.push((clean(angle(&place.turn)), coordinates(&place.origin).map(clean)));
+        bodies.push((clean(angle(&place.turn, state.real)), coordinates(&place.origin).map(clean)));
     }
     let open = linkage.joints.iter().filter(|joint| matches!(joint.pair, Pair::Revolute)).map(|joint| {
         let point = |k: usize| state.bodies[joint.of[k]].1.apply(&number(&joint.at[k]));

@@ -148,13 +148,13 @@ fn reduced(places: &Places, motion: &Motion<Algebraic>) -> Option<Motion<Residue
 }
 
 impl Modular {
-    /// The number of solutions by all cuts; `other` is the same arm at another general pose.
-    pub(super) fn degree(&self, other: Option<&Self>) -> Option<Degree> {
+    /// The number of solutions by cuts, until it is at most `enough`; `other` is the same arm at another general pose.
+    pub(super) fn degree(&self, other: Option<&Self>, enough: usize) -> Option<Degree> {
         match (self, other) {
-            (Self::Drawn(own), Some(Self::Drawn(other))) => degree(own, Some(other)),
-            (Self::Field(own), Some(Self::Field(other))) => degree(own, Some(other)),
-            (Self::Drawn(own), _) => degree(own, None),
-            (Self::Field(own), _) => degree(own, None),
+            (Self::Drawn(own), Some(Self::Drawn(other))) => degree(own, Some(other), enough),
+            (Self::Field(own), Some(Self::Field(other))) => degree(own, Some(other), enough),
+            (Self::Drawn(own), _) => degree(own, None, enough),
+            (Self::Field(own), _) => degree(own, None, enough),
         }
     }
 

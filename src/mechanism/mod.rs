@@ -1,5 +1,6 @@
 //! A mechanism ready to solve: what a file says, prepared once, answered case by case.
 
+mod bounds;
 mod by_input;
 mod data;
 mod dependence;

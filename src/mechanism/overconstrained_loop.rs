@@ -497,7 +497,7 @@ impl OverconstrainedLoop {
             let [.., last] = open.close(&super::single_loop::closing_transformation(case)?).constants;
             gap = last.map(|x| Some(nearest_f64(x))).map_or(gap, |last| solver.exact_gap(&last));
         }
-        solver.solve_up_to(&gap, roots, &|| most.unwrap_or(usize::MAX), workspace, assembly);
+        solver.solve_up_to(&gap, roots, &|_| most.unwrap_or(usize::MAX), workspace, assembly);
         let setting = self.setting(layout, open, case)?;
         let candidate = |mode: &Mode| {
             let own = std::array::from_fn(|k| mode.unknowns[k] / setting.units[k]);
@@ -565,7 +565,7 @@ impl OverconstrainedLoop {
         let Some(locked) = layout.locked.map(|k| layout.variables[k]) else { return Some(usize::MAX) };
         let open = self.chain.try_open_loop::<Mod>(layout).ok().flatten();
         let Some((open, closing)) = open.zip(general_closing(Some(locked), 0)) else { return Some(usize::MAX) };
-        Some(degree(&open.close(&closing), None)?.solutions)
+        Some(degree(&open.close(&closing), None, 0)?.solutions)
     }
 
     /// Two choices of idle axes beside those of a layout.

@@ -1,5 +1,6 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
+use super::bounds::{MODULO, of_cuts, of_ring, of_triple};
 use super::by_input::{ByInput, Prepared};
 use super::unproved::{cap, is_left_to_equations, is_settled, moving, perhaps_near, probable};
 use super::data::{Data, Modular, is_rational};
@@ -50,6 +51,9 @@ pub(super) struct SixUnknowns {
     modular: OnceLock<Option<OpenLoop<Drawn>>>,
     /// The loop, enclosed, computed at its first use.
     enclosed: OnceLock<Option<OpenLoop<Enclosure>>>,
+    /// A bound on the number of solutions, and what would have been enough when it was computed.
+    first_bound: OnceLock<(Bound, usize)>,
+    /// The least bound, where the first one is not.
     bound: OnceLock<Bound>,
     /// The exactness of the numbers of the mechanism.
     data: OnceLock<Data>,
@@ -66,46 +70,8 @@ struct SphericalPair {
 /// Modes of a lower condition number are those of the mechanism that rounded data stand for: these are off by 1e-17.
 const FIRM: f64 = 1e10;
 
-/// The phrase that says on which computation counts rest.
-const MODULO: &str = "modulo a prime drawn at run time";
-
 /// A solution in spherical joints.
 type ExactSolution = exact::Solution<BALL_BITS>;
-
-fn bound_from(degree: Degree, place: &str) -> Bound {
-    let all = degree.solutions + degree.left_out;
-    let because = if degree.left_out == 0 {
-        format!("a closure polynomial of degree {all} {place}")
-    } else {
-        format!(
-            "a closure polynomial of degree {all}, of whose roots {} belong to no solution {place} ({MODULO})",
-            degree.left_out
-        )
-    };
-    Bound { count: degree.solutions, proof: Proof::None, code: Code::CountMet, because }
-}
-
-/// The bound of arms with three neighbouring axes that are parallel or meet in a point.
-fn of_triple() -> Bound {
-    Bound {
-        count: MOST_WITH_TRIPLE,
-        proof: Proof::Proved,
-        code: Code::GeometryBoundMet,
-        because: format!(
-            "at most {MOST_WITH_TRIPLE} that an arm with three neighbouring axes parallel or through one point can have"
-        ),
-    }
-}
-
-/// The dimension of the ring of a loop as a bound.
-fn of_ring(count: usize) -> Bound {
-    let because = if count == 0 {
-        format!("the closure equations, of which 1 is a combination at this pose ({MODULO})")
-    } else {
-        format!("the closure equations, whose ring has dimension {count} at this pose ({MODULO})")
-    };
-    Bound { count, proof: Proof::None, code: Code::CountMet, because }
-}
 
 impl SixUnknowns {
     /// The loop modulo the prime of the run.
@@ -124,24 +90,30 @@ impl SixUnknowns {
         open.as_ref().map(|open| Ok(open.close(&closing_transformation(case)?))).transpose()
     }
 
-    /// Returns the bound on the number of solutions at every pose or input, computed at its first use.
-    fn bound(&self, chain: &Chain) -> &Bound {
-        self.bound.get_or_init(|| {
-            let locked = self.layout.locked.map(|k| self.layout.variables[k]);
-            let general = |choice| self.data(chain).general(self.modular(chain), locked, choice);
-            let other = if locked.is_none() { general(1) } else { None };
-            let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref()));
-            let bound = counted.map_or_else(|| Bound::general(self.general()), |d| bound_from(d, "at general poses"));
-            let has_triple =
-                || self.layout.spherical_unknown().is_none() && self.data(chain).has_triple(chain, &self.layout);
-            let is_met = || bound.count == MOST_WITH_TRIPLE && has_triple();
-            if bound.code == Code::CountMet && is_met() { of_triple() } else { bound }
-        })
+    /// Returns a bound on the number of solutions at every pose or input: the least one that is known, unless it is at most
+    /// `enough`.
+    fn bound(&self, chain: &Chain, enough: usize) -> &Bound {
+        let (first, asked) = self.first_bound.get_or_init(|| (self.counted(chain, enough), enough));
+        let is_least = first.count > *asked;
+        if is_least || first.count <= enough { first } else { self.bound.get_or_init(|| self.counted(chain, 0)) }
+    }
+
+    /// The bound on the number of solutions at every pose or input by cuts that are tried until one is at most `enough`.
+    fn counted(&self, chain: &Chain, enough: usize) -> Bound {
+        let locked = self.layout.locked.map(|k| self.layout.variables[k]);
+        let general = |choice| self.data(chain).general(self.modular(chain), locked, choice);
+        let other = if locked.is_none() { general(1) } else { None };
+        let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref(), enough));
+        let bound = counted.map_or_else(|| Bound::general(self.general()), |d| of_cuts(d, "at general poses"));
+        let has_triple =
+            || self.layout.spherical_unknown().is_none() && self.data(chain).has_triple(chain, &self.layout);
+        let is_met = || bound.count == MOST_WITH_TRIPLE && has_triple();
+        if bound.code == Code::CountMet && is_met() { of_triple() } else { bound }
     }
 
     /// The number of solutions, exactly.
-    fn degree(&self, closed: &Modular, other: Option<&Modular>) -> Option<Degree> {
-        let Some(spherical) = self.layout.spherical_unknown() else { return closed.degree(other) };
+    fn degree(&self, closed: &Modular, other: Option<&Modular>, enough: usize) -> Option<Degree> {
+        let Some(spherical) = self.layout.spherical_unknown() else { return closed.degree(other, enough) };
         let solutions = closed.reach(spherical)?;
         Some(Degree { solutions, left_out: self.general().saturating_sub(solutions) })
     }
@@ -390,8 +362,8 @@ impl Question<'_> {
 
     /// A bound at this pose: the ring is asked where the cuts know of nothing, or of more than `found`.
     fn count_here(&self, found: usize) -> Option<Bound> {
-        let degree = *self.by_cuts.get_or_init(|| self.prepared.degree(&self.modular()?, None));
-        let bound = degree.map(|degree| bound_from(degree, "at this pose"));
+        let degree = *self.by_cuts.get_or_init(|| self.prepared.degree(&self.modular()?, None, 0));
+        let bound = degree.map(|degree| of_cuts(degree, "at this pose"));
         if bound.as_ref().is_some_and(|bound| bound.count <= found) {
             return bound;
         }
@@ -404,7 +376,8 @@ impl Question<'_> {
         let everywhere = || {
             // The exact count costs more than a search for real roots, and rarely helps one.
             let skip = self.only_lists || self.roots == Roots::Real && !solver.is_special();
-            if skip { Bound::general(self.prepared.general()) } else { self.prepared.bound(&self.of.chain).clone() }
+            let all = || self.prepared.bound(&self.of.chain, assembly.total()).clone();
+            if skip { Bound::general(self.prepared.general()) } else { all() }
         };
         let (rank, general) = (self.rank(), self.prepared.general());
         let here = || if self.only_lists { None } else { self.count_here(assembly.total()) };
@@ -425,7 +398,7 @@ impl Question<'_> {
         let here = || self.count_here(0).map(|here| here.count);
         match verdict.status {
             Status::Incomplete => {
-                let everywhere = self.prepared.bound(&self.of.chain).count;
+                let everywhere = self.prepared.bound(&self.of.chain, 0).count;
                 Some(here().map_or(everywhere, |here| here.min(everywhere)))
             }
             // The exact count of three rotations detects every self-motion: if it finds none, f64 was mistaken.
@@ -487,7 +460,9 @@ impl Question<'_> {
         if let Some(verdict) = self.by_longer_numbers(workspace, assembly) {
             return self.by_exact_roots(verdict, assembly).0;
         }
-        let most = || if self.only_lists { self.prepared.general() } else { self.prepared.bound(&self.of.chain).count };
+        let most = |known| {
+            if self.only_lists { self.prepared.general() } else { self.prepared.bound(&self.of.chain, known).count }
+        };
         let SixUnknowns { solver, .. } = self.prepared;
         if self.has_eliminants() {
             solver.solve_by_pencils(self.gap, &most, workspace, assembly);
@@ -768,8 +743,9 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
             Freedom::of(chain)
         )));
     }
-    let (modular, enclosed, bound, data) = (OnceLock::new(), OnceLock::new(), OnceLock::new(), OnceLock::new());
-    Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular, enclosed, bound, data })))
+    let (modular, enclosed, data) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+    let (first_bound, bound) = (OnceLock::new(), OnceLock::new());
+    Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular, enclosed, first_bound, bound, data })))
 }
 
 /// At which position of the idle degree of freedom a loop of two spherical joints is shown, of which the second one begins at this variable.

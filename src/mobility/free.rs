@@ -340,7 +340,7 @@ impl<'a> Assembler<'a> {
         let mut assembly = Assembly::default();
         if !solver.is_out_of_reach() {
             let gap = solver.exact_gap(&last);
-            solver.solve_up_to(&gap, Roots::All, &|| usize::MAX, &mut Workspace::default(), &mut assembly);
+            solver.solve_up_to(&gap, Roots::All, &|_| usize::MAX, &mut Workspace::default(), &mut assembly);
         }
         Some((pairs.iter().map(value).collect(), closed, assembly))
     }

@@ -117,7 +117,7 @@ fn no_robot_of_six_joints_allocates() {
             });
             let gap = solver.gap(&chain.forward::<f64>(&turns).unwrap().inverse());
             let before = requests();
-            solver.solve_up_to(&gap, Roots::All, &|| most, &mut workspace, &mut assembly);
+            solver.solve_up_to(&gap, Roots::All, &|_| most, &mut workspace, &mut assembly);
             assert_eq!(requests() - before, 0, "{name}, pose {pose}");
             // A closed form needs no pencil.
             assert!(assembly.tries == 0 || !solver.is_decoupled(), "{name}, pose {pose}: {} pencils", assembly.tries);

@@ -103,7 +103,7 @@ fn general_chains_have_the_degrees_of_the_table_modulo_a_prime() {
         let layout = Layout::of(&chain, None).unwrap();
         let found = match layout.spherical_unknown() {
             Some(spherical) => point_reach::count(&closed, spherical),
-            None => degree(&closed, None).map(|degree| degree.solutions),
+            None => degree(&closed, None, 0).map(|degree| degree.solutions),
         };
         assert_eq!(found, Some(count), "{name}");
     }
@@ -195,7 +195,7 @@ fn rotating_and_reversing_a_loop_changes_no_count_and_no_solution() {
         assert!(general_degree(numeric.variables).is_some());
         let mut real = None;
         for cut in Cut::ALL {
-            let solutions = degree(&cut.of(&exact), None).map(|degree| degree.solutions);
+            let solutions = degree(&cut.of(&exact), None, 0).map(|degree| degree.solutions);
             assert_eq!(solutions, Some(count), "{name}, {cut:?}");
             let view = cut.of(&numeric);
             let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
@@ -268,7 +268,7 @@ fn dependent_translations_are_never_called_complete() {
     let solution = at_pose(&chain, pose(&chain, &values));
     assert_ne!(solution.verdict.status, Status::Complete, "{}", solution.verdict.reason);
     assert_ne!(solution.verdict.status, Status::Unreachable, "{}", solution.verdict.reason);
-    assert_eq!(degree(&closed_at::<Mod>(&chain, &values), None), None);
+    assert_eq!(degree(&closed_at::<Mod>(&chain, &values), None, 0), None);
     let chain = gantry(&ratio(1, 2));
     let solution = at_pose(&chain, pose(&chain, &values));
     assert_eq!((solution.verdict.status, solution.verdict.complex), (Status::Complete, 2));

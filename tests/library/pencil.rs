@@ -205,7 +205,7 @@ fn special_arms_have_the_known_degrees() {
         ("general", arm(0).0, 16),
     ] {
         let at = |choice| open::<Mod>(&chain).close(&general_closing(None, choice).unwrap());
-        let found = degree(&at(0), Some(&at(1))).unwrap();
+        let found = degree(&at(0), Some(&at(1)), 0).unwrap();
         assert_eq!((found.solutions, found.left_out), (solutions, 16 - solutions), "{name}");
     }
 }

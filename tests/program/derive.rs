@@ -328,7 +328,7 @@ fn false_roots_of_three_and_four_rotations_are_divided_out() {
             let entry = special_loop(kinds, number);
             let derivation = derive(&entry, &entry.cases[0]).unwrap();
             let (_, closed) = closed_loop::<ModP<PRIME_61>>(entry.chain().unwrap(), &entry.cases[0]).unwrap().unwrap();
-            let (Some(polynomial), Some(count)) = (&derivation.polynomial, degree(&closed, None)) else { continue };
+            let (Some(polynomial), Some(count)) = (&derivation.polynomial, degree(&closed, None, 0)) else { continue };
             let what = format!("{kinds} {number}: {}", verdict(&derivation));
             assert_eq!(polynomial.degree() + polynomial.at_pi, count.solutions, "{what}");
             let removed: usize = polynomial.removed.iter().map(|one| one.multiplicity * degree_of(one)).sum();

@@ -118,7 +118,7 @@ impl Ring for Drawn {
     }
     fn from_rational(q: &Rational) -> Option<Self> {
         let modulus = &draw().modulus;
-        // An inverse costs more than a hundred products, and most constants of mechanisms are 0 and 1.
+        // An inverse costs dozens of products, and most constants of mechanisms are 0 and 1.
         if *q.denom() == 1 {
             return Some(Self(modulus.reduce(q.numer())));
         }

@@ -6,6 +6,7 @@
 
 use super::number::{Angle, Number};
 use super::ring::{Ring, exact_cos_sin};
+use rug::ops::AssignRound;
 use rug::{Float, Rational, float::Constant, float::Round};
 use std::cmp::Ordering;
 
@@ -171,7 +172,10 @@ impl Enclosure {
     /// Returns cosine and sine of an angle in radians: neither changes faster than the angle.
     #[must_use]
     pub fn cos_sin_of(&self) -> (Self, Self) {
-        (Self::new(nearest!(self.middle.cos_ref()), [self.off]), Self::new(nearest!(self.middle.sin_ref()), [self.off]))
+        let (mut sin, mut cos) = (Float::new(BITS), Float::new(BITS));
+        // Both together take half the time.
+        let (sin_is, cos_is) = (&mut sin, &mut cos).assign_round(self.middle.sin_cos_ref(), Round::Nearest);
+        (Self::new(rounded((cos, cos_is)), [self.off]), Self::new(rounded((sin, sin_is)), [self.off]))
     }
 
     /// Returns the angle of the direction (other, self) in (-pi, pi]; `None` if there may be none.

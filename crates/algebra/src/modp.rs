@@ -110,10 +110,24 @@ impl Modulus {
         result
     }
 
-    /// Returns `1/a` by Fermat's little theorem; 0 for 0.
+    /// Returns `1/a` by Euclid's algorithm; 0 for 0.
     #[must_use]
     pub const fn inverse(&self, a: u64) -> u64 {
-        self.pow(a, self.p - 2)
+        // Each remainder is `a` times its factor modulo p, where the factors have alternating signs and grow to p at most.
+        let (mut last, mut rest) = (self.p, a);
+        let (mut last_factor, mut factor, mut is_negative) = (0_u64, 1_u64, false);
+        while rest > 1 {
+            let quotient = last / rest;
+            (last, rest) = (rest, last - quotient * rest);
+            (last_factor, factor) = (factor, last_factor + quotient * factor);
+            is_negative = !is_negative;
+        }
+        if rest == 0 {
+            return 0;
+        }
+        // The inverse of `x 2^64` is `2^-64 / x`: `2^128` is missing.
+        let inverse = if is_negative { self.p - factor } else { factor };
+        self.mul(self.mul(inverse, self.square), self.square)
     }
 }
 
@@ -264,7 +278,7 @@ impl<const P: u64> Ring for ModP<P> {
         self.0 == 0
     }
     fn from_rational(q: &Rational) -> Option<Self> {
-        // An inverse costs more than a hundred products, and most constants of mechanisms are 0 and 1.
+        // An inverse costs dozens of products, and most constants of mechanisms are 0 and 1.
         if *q.denom() == 1 {
             return Some(Self(Self::MODULUS.reduce(q.numer())));
         }
@@ -318,6 +332,20 @@ mod tests {
     fn a_denominator_divisible_by_the_prime_has_no_image() {
         assert_eq!(ModP::<7>::from_rational(&Rational::from((1, 14))), None);
         assert_eq!(ModP::<7>::from_rational(&Rational::from((-1, 2))).map(ModP::value), Some(3));
+    }
+
+    #[test]
+    fn a_number_times_its_inverse_is_one() {
+        for p in [3, 7, 65_537, PRIME_61, PRIME_62, (1 << 63) - 25] {
+            let modulus = Modulus::new(p);
+            for a in [1, 2, 3, 5, 77, 123_456_789, 1 << 40, (1 << 61) - 3, p / 2, p / 3 + 1, p - 2, p - 1] {
+                let own = modulus.enter(a % p);
+                let expected = if own == 0 { 0 } else { modulus.enter(1) };
+                assert_eq!(modulus.mul(own, modulus.inverse(own)), expected, "{a} modulo {p}");
+                assert_eq!(modulus.inverse(own), modulus.pow(own, p - 2), "{a} modulo {p}");
+            }
+            assert_eq!(modulus.inverse(0), 0);
+        }
     }
 
     #[test]

@@ -140,9 +140,15 @@ impl<F: Field> Univariate<F> {
     pub fn interpolate(points: &[(F, F)]) -> Self {
         let mut differences: Vec<F> = points.iter().map(|(_, value)| value.clone()).collect();
         for order in 1..points.len() {
+            // Abscissae of equal distances need one inverse an order.
+            let (mut distance, mut inverse) = (F::zero(), F::zero());
             for i in (order..points.len()).rev() {
-                let step = points[i].0.sub(&points[i - order].0).inverse().expect("the abscissae are distinct");
-                differences[i] = differences[i].sub(&differences[i - 1]).mul(&step);
+                let own = points[i].0.sub(&points[i - order].0);
+                if own != distance || own.is_zero() {
+                    inverse = own.inverse().expect("the abscissae are distinct");
+                    distance = own;
+                }
+                differences[i] = differences[i].sub(&differences[i - 1]).mul(&inverse);
             }
         }
         let add_node = |poly: Self, (difference, (x, _)): (&F, &(F, F))| {

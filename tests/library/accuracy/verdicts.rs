@@ -25,8 +25,8 @@ fn list(name: &str, chain: &Chain, values: &[Rational; 6]) -> List {
     Solver::prepare(&open(chain)).solve(&rounded(&closing), Roots::All, &mut Workspace::default(), &mut assembly);
     let at = |closing: &Motion<Mod>| open::<Mod>(chain).close(closing);
     let general = |choice| at(&general_closing(None, choice).unwrap());
-    let everywhere = degree(&general(0), Some(&general(1))).unwrap().solutions;
-    let here = degree(&at(&pose::<Mod>(chain, values).inverse()), None).unwrap().solutions;
+    let everywhere = degree(&general(0), Some(&general(1)), 0).unwrap().solutions;
+    let here = degree(&at(&pose::<Mod>(chain, values).inverse()), None, 0).unwrap().solutions;
     List { name: name.to_owned(), assembly, everywhere, here }
 }
 

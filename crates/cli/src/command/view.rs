@@ -58,12 +58,14 @@ fn document(options: &ViewOptions) -> Result<(Exit, Value), Fault> {
     let memory = Memory::default();
     let exit = if options.sweep {
         sweep::run_to(&sweep_options(options), || Ok(memory.output()))?
-    } else if let Some((exit, document)) = framework(options)? {
-        return Ok((exit, document));
     } else {
         let mut solve = options.solve.clone();
         (solve.json, solve.jsonl, solve.scene) = (true, false, true);
-        solve::run_to(&solve, || Ok(memory.output()))?
+        match solve::run_to(&solve, || Ok(memory.output())) {
+            Ok(exit) => exit,
+            // A framework is refused there. Other files are read once, as live pages read one for every answer.
+            Err(fault) => return framework(options)?.ok_or(fault),
+        }
     };
     let document = serde_json::from_slice(&memory.take());
     let document = document.map_err(|error| Error::Invalid(format!("the answer is no document: {error}")))?;
