@@ -4,8 +4,9 @@
 //      { id, args: [text], files: { name: text } }  for every command    out: { id, code, stdout, stderr, ms }
 //
 // A command has a memory of its own, which is thrown away: nothing is kept from one to the next, and a command that traps harms no
-// other. The program asks for what a system offers by WASI (wasi_snapshot_preview1); of that there is here what it uses: arguments,
-// clocks, random numbers, and one folder of files that are in memory.
+// other. That of the next command is made while the page shows the last answer. The program asks for what a system offers by WASI
+// (wasi_snapshot_preview1); of that there is here what it uses: arguments, clocks, random numbers, and one folder of files that are
+// in memory.
 'use strict';
 
 const [OK, BAD, EXISTS, INVALID, MISSING, UNKNOWN] = [0, 8, 20, 28, 44, 52];
@@ -189,19 +190,26 @@ function system(args, files) {
   return own;
 }
 
-/** Runs one command to its end. */
-async function run(module, args, files) {
-  const own = system(args, files);
+/** A program that has not begun, and the system that it will ask: `system` is set by the command. */
+async function instance(module) {
+  const own = { system: null };
   const imports = {};
   for (const { module: space, name } of WebAssembly.Module.imports(module)) {
     imports[space] ??= {};
-    imports[space][name] = own.calls[name] || (() => UNKNOWN);
+    imports[space][name] = (...values) => (own.system.calls[name] ? own.system.calls[name](...values) : UNKNOWN);
   }
-  const instance = await WebAssembly.instantiate(module, imports);
-  own.memory = instance.exports.memory;
+  own.program = await WebAssembly.instantiate(module, imports);
+  return own;
+}
+
+/** Runs one command to its end. */
+function run(instance, args, files) {
+  const own = system(args, files);
+  instance.system = own;
+  own.memory = instance.program.exports.memory;
   let code = 0;
   try {
-    instance.exports._start();
+    instance.program.exports._start();
   } catch (error) {
     if (!(error instanceof Exit)) return { code: 70, stdout: own.stdout.text, stderr: `${own.stderr.text}${error}\n` };
     code = error.code;
@@ -210,11 +218,14 @@ async function run(module, args, files) {
 }
 
 let module = null;
+/** The program of the next command. */
+let next = null;
 
 async function load({ module: bytes, gzipped }) {
   if (!gzipped) return WebAssembly.compile(bytes);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+  // Compiled while it is unpacked.
+  return WebAssembly.compileStreaming(new Response(stream, { headers: { 'content-type': 'application/wasm' } }));
 }
 
 self.onmessage = async ({ data }) => {
@@ -222,12 +233,17 @@ self.onmessage = async ({ data }) => {
   if (data.module) {
     try {
       module = await load(data);
+      next = instance(module);
       self.postMessage({ ready: true, ms: performance.now() - start });
     } catch (error) {
       self.postMessage({ ready: false, error: String(error) });
     }
     return;
   }
-  const answer = await run(module, data.args, data.files || {});
+  // Another command may come before this one has its program.
+  const own = next || instance(module);
+  next = null;
+  const answer = run(await own, data.args, data.files || {});
   self.postMessage({ id: data.id, ...answer, ms: performance.now() - start });
+  next ||= instance(module);
 };
