@@ -169,25 +169,7 @@ impl Loaded<'_> {
     #[must_use]
     pub fn reactions(&self, given: &[Given], rest: &[Body], rates: &[f64]) -> Option<Vec<Option<Reaction>>> {
         let (_, multipliers, bodies) = self.start(given, rest, rates)?;
-        let mut at = 0;
-        let one = |joint: &crate::kinematics::linkage::LinkageJoint| {
-            let own = [multipliers.get(at).copied(), multipliers.get(at + 1).copied()];
-            match (&joint.pair, own) {
-                (Pair::Revolute, [Some(x), Some(y)]) => {
-                    at += 2;
-                    Some(Reaction { force: [x, y], moment: 0.0 })
-                }
-                (Pair::Prismatic { along, length, .. }, [Some(moment), Some(across)]) => {
-                    at += 2;
-                    let size = crate::algebra::number::nearest_f64(length);
-                    let [x, y] = super::rates::pair(along).map(|c| c / size);
-                    let [x, y] = bodies[joint.of[0]].turned([x, y]).map(|part| part.coefficients[0]);
-                    Some(Reaction { force: [-y * across, x * across], moment })
-                }
-                _ => None,
-            }
-        };
-        Some(self.linkage.joints.iter().map(one).collect())
+        Some(of_joints(self.linkage, &bodies, &multipliers))
     }
 
     /// Accelerations, multipliers and bodies where the inputs run at these rates.
@@ -282,6 +264,34 @@ impl Loaded<'_> {
         }
         Some(self.state(bodies, &next, &rate))
     }
+}
+
+/// Returns the forces and moments in all joints by the multipliers of their equations, in the order of these.
+pub(super) fn of_joints(linkage: &Linkage, bodies: &[Body], multipliers: &DVector<f64>) -> Vec<Option<Reaction>> {
+    let mut at = 0;
+    let one = |joint: &crate::kinematics::linkage::LinkageJoint| {
+        let own = [multipliers.get(at).copied(), multipliers.get(at + 1).copied()];
+        match (&joint.pair, own) {
+            (Pair::Revolute, [Some(x), Some(y)]) => {
+                at += 2;
+                Some(Reaction { force: [x, y], moment: 0.0 })
+            }
+            (Pair::Prismatic { along, length, .. }, [Some(moment), Some(across)]) => {
+                at += 2;
+                let size = crate::algebra::number::nearest_f64(length);
+                let [x, y] = super::rates::pair(along).map(|c| c / size);
+                let [x, y] = bodies[joint.of[0]].turned([x, y]).map(|part| part.coefficients[0]);
+                Some(Reaction { force: [-y * across, x * across], moment })
+            }
+            // Gears have one equation: their force is that of the mesh, which the file does not place.
+            (Pair::Gear { .. }, _) => {
+                at += 1;
+                None
+            }
+            _ => None,
+        }
+    };
+    linkage.joints.iter().map(one).collect()
 }
 
 /// The equations of motion of first order: places, then rates.

@@ -21,6 +21,7 @@ pub mod instant;
 pub mod isotropic;
 pub mod krawczyk;
 pub mod laurent;
+pub mod loads;
 pub mod parts;
 pub mod pencil;
 mod points;

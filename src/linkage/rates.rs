@@ -120,7 +120,8 @@ pub fn joint_value(linkage: &Linkage, bodies: &[Body], joint: usize) -> Option<M
 }
 
 /// Returns the values that inputs prescribe: one joint value each, or three numbers for a body that is placed.
-fn prescribed(linkage: &Linkage, given: &[Given], bodies: &[Body]) -> Vec<Moving> {
+#[must_use]
+pub fn prescribed(linkage: &Linkage, given: &[Given], bodies: &[Body]) -> Vec<Moving> {
     let one = |given: &Given| match given {
         Given::Turn { joint, .. } | Given::Shift { joint, .. } => {
             joint_value(linkage, bodies, *joint).into_iter().collect::<Vec<_>>()

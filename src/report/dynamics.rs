@@ -80,7 +80,7 @@ fn dynamics(loaded: &Loaded<'_>, case: &LinkageCase, mode: &LinkageMode, asked: 
     object.insert("holding".into(), numbers(&found.potential));
     if asked.forces {
         let reactions = loaded.reactions(&case.given, &rest, &asked.rates);
-        let joints = reactions.map_or(Value::Null, |list| reactions_json(loaded.linkage, &list));
+        let joints = reactions.map_or(Value::Null, |list| self::reactions(loaded.linkage, &list));
         object.insert("joints".into(), joints);
     }
     if let Some(tree) = tree(loaded.linkage, case, &rest, &asked.rates) {
@@ -89,7 +89,8 @@ fn dynamics(loaded: &Loaded<'_>, case: &LinkageCase, mode: &LinkageMode, asked: 
     Value::Object(object)
 }
 
-fn reactions_json(linkage: &Linkage, reactions: &[Option<crate::linkage::dynamics::Reaction>]) -> Value {
+/// The forces in the joints by name; sliders have a moment, too.
+pub(super) fn reactions(linkage: &Linkage, reactions: &[Option<crate::linkage::dynamics::Reaction>]) -> Value {
     let one = |(joint, reaction): (&crate::kinematics::linkage::LinkageJoint, &Option<_>)| {
         let reaction: &crate::linkage::dynamics::Reaction = reaction.as_ref()?;
         let mut own = Map::new();

@@ -2,21 +2,32 @@
 
 use super::calculus::write_values;
 use super::json::number;
+use super::dynamics::reactions;
 use super::linkage;
 use crate::algebra::ring::Ring;
 use crate::catalogue::{LinkageCase, LinkageFile};
 use crate::displacement::answer::list;
 use crate::kinematics::linkage::Linkage;
 use crate::linkage::answer::{LinkageAnswer, LinkageMode};
+use crate::linkage::loads::{PlaneLoad, balance};
 use crate::linkage::instant::{Relative, against, derivatives, pole, relative};
 use crate::linkage::rates::{Body, Moving, freedoms, joint_value, moving, pair, resting};
 use looproot_calculus::instant::plane::{Instant, curvature};
 use num_complex::Complex;
 use serde_json::{Map, Value, json};
 
-/// The body that is requested, its reference body, and its points.
+/// What is requested: the motion of a body, the balance of loads, or both.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
+    /// The body.
+    pub body: Option<AskedBody<'a>>,
+    /// The loads, where balance is requested.
+    pub loads: Option<&'a [PlaneLoad]>,
+}
+
+/// The body that is requested, its reference body, and its points.
+#[derive(Clone, Copy, Debug)]
+pub struct AskedBody<'a> {
     /// The body.
     pub body: usize,
     /// The body that is held to stand still.
@@ -40,8 +51,11 @@ pub fn result(
     let real: Vec<&LinkageMode> = answer.modes.iter().filter(|mode| mode.real).collect();
     if let Some(modes) = result.get_mut("modes").and_then(Value::as_array_mut) {
         for (shown, mode) in modes.iter_mut().zip(real) {
-            if let Value::Object(fields) = shown {
-                fields.insert("instant".into(), instant(&file.linkage, case, mode, asked));
+            if let (Value::Object(fields), Some(body)) = (&mut *shown, &asked.body) {
+                fields.insert("instant".into(), instant(&file.linkage, case, mode, body));
+            }
+            if let (Value::Object(fields), Some(loads)) = (shown, asked.loads) {
+                fields.insert("balance".into(), balance_json(&file.linkage, case, mode, loads));
             }
         }
     }
@@ -49,7 +63,7 @@ pub fn result(
 }
 
 /// Returns the instantaneous motion of an assembly where the first input runs at unit rate and the others stand.
-fn instant(linkage: &Linkage, case: &LinkageCase, mode: &LinkageMode, asked: &Asked<'_>) -> Value {
+fn instant(linkage: &Linkage, case: &LinkageCase, mode: &LinkageMode, asked: &AskedBody<'_>) -> Value {
     let mut runs = vec![Moving::zero(); freedoms(&case.given)];
     if let Some(first) = runs.first_mut() {
         first.coefficients[1] = 1.0;
@@ -142,6 +156,19 @@ fn stationary(instant: &Instant<f64>, at: &Complex<f64>) -> f64 {
     if value.abs() <= 1e-12 * size { 0.0 } else { value }
 }
 
+/// The drives that hold the loads, and the forces in the joints.
+fn balance_json(linkage: &Linkage, case: &LinkageCase, mode: &LinkageMode, loads: &[PlaneLoad]) -> Value {
+    let Some(found) = balance(linkage, &case.given, &resting(mode), loads) else { return Value::Null };
+    let holding = match found.holding.as_slice() {
+        [one] => number(*one),
+        several => list(several),
+    };
+    json!({
+        "holding": holding,
+        "joints": found.joints.map_or(Value::Null, |joints| reactions(linkage, &joints)),
+    })
+}
+
 /// The poles of every two bodies, in axes of the ground.
 fn poles(linkage: &Linkage, bodies: &[Body]) -> Value {
     let mut object = Map::new();
@@ -160,9 +187,12 @@ pub fn text(file: &LinkageFile, answer: &LinkageAnswer, result: &Value) -> Strin
     let mut text = format!("{}, case {}\n{}\n", file.heading.title, result["case"], linkage::verdict(answer));
     for mode in result["modes"].as_array().into_iter().flatten() {
         text += &format!("\nmode {}\n", mode["id"]);
-        match mode["instant"].as_object() {
-            Some(fields) => write_values(&mut text, fields),
-            None => text += "  a limit position of the input: rates are not determined\n",
+        for key in ["instant", "balance"] {
+            match mode.get(key) {
+                Some(Value::Object(fields)) => write_values(&mut text, fields),
+                Some(_) => text += "  a limit position of the input: rates are not determined\n",
+                None => {}
+            }
         }
     }
     text

@@ -8,6 +8,8 @@ use crate::catalogue::{SpaceCase, SpaceFile, SphereCase, SphereFile};
 use crate::displacement::answer::list;
 use crate::algebra::number::nearest_f64;
 use crate::kinematics::motion::{Vector, cross, dot};
+use crate::algebra::series::Series;
+use crate::linkage::loads::{Load, SpaceLoad};
 use crate::linkage::space::{SpaceAnswer, rates as rates_in_space};
 use crate::linkage::sphere::{SphereAnswer, rates};
 use crate::mechanism::{Derivatives, Moving, MovingChain, Solution, relative};
@@ -15,6 +17,40 @@ use crate::report::text::View;
 use crate::sweep::sphere_place;
 use looproot_calculus::displacement::velocity::State;
 use serde_json::{Map, Value, json};
+
+/// What is requested of a linkage: the motion of a body, with one point of it alone where that is asked for, the balance of loads,
+/// or both.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// The body.
+    pub body: Option<(Pair, Option<&'a str>)>,
+    /// The loads, where balance is requested.
+    pub loads: Option<&'a [SpaceLoad]>,
+}
+
+impl Asked<'_> {
+    /// Adds what is requested to a mode; `motion` writes the motion of the body.
+    fn insert(&self, shown: &mut Value, bodies: Option<&[Moving]>, motion: impl FnOnce(Pair, Option<&str>) -> Option<Map<String, Value>>) {
+        if let Some((pair, point)) = self.body {
+            shown["instant"] = motion(pair, point).map_or(Value::Null, Value::Object);
+        }
+        if let Some(loads) = self.loads {
+            shown["balance"] = bodies.map_or(Value::Null, |bodies| json!({ "holding": number(holding(loads, bodies)) }));
+        }
+    }
+}
+
+/// The drive at the first input that holds the loads: it takes the power that they have where that input runs at unit rate.
+fn holding(loads: &[SpaceLoad], bodies: &[Moving]) -> f64 {
+    let power = |load: &SpaceLoad| match load {
+        Load::Force { body, at, force } => {
+            let place = bodies[*body].apply(&at.map(Series::constant));
+            dot(force, &place.each_ref().map(|c| c.coefficients[1]))
+        }
+        Load::Moment { body, moment } => dot(moment, &State::of(&bodies[*body]).omega),
+    };
+    -loads.iter().map(power).sum::<f64>() + 0.0
+}
 
 /// A number below this share of those that it is made of stands for 0.
 const ROUNDED: f64 = 1e-12;
@@ -110,15 +146,14 @@ pub fn of_chain(
     result
 }
 
-/// Returns the answer to a case of a linkage on the sphere: all real assemblies with `instant`, with one point of the body alone
-/// where it is asked for. Points lie as far away as the file says.
+/// Returns the answer to a case of a linkage on the sphere: all real assemblies with what is requested. Points lie as far away as the
+/// file says.
 #[must_use]
 pub fn of_sphere(
     file: &SphereFile,
     (number, case): (usize, &SphereCase),
     answer: &SphereAnswer,
-    pair: Pair,
-    point: Option<&str>,
+    asked: Asked<'_>,
 ) -> Value {
     let mut result = sphere::result(file, case, number, answer, false);
     let linkage = &file.linkage;
@@ -126,7 +161,8 @@ pub fn of_sphere(
     if let Some(modes) = result["modes"].as_array_mut() {
         for (shown, mode) in modes.iter_mut().zip(real) {
             let found = rates(linkage, &case.given, mode);
-            shown["instant"] = found.map_or(Value::Null, |found| {
+            asked.insert(shown, found.as_ref().map(|found| found.bodies.as_slice()), |pair, point| {
+                let found = found.as_ref()?;
                 let state = relative(&found.bodies[pair.body], &found.bodies[pair.against]);
                 let names = [pair.body, pair.against].map(|body| linkage.bodies[body].name.as_str());
                 let mut object = values(names, &state, &found.bodies);
@@ -138,22 +174,20 @@ pub fn of_sphere(
                 let joints = linkage.joints.iter().zip(&found.joints);
                 let joints = joints.map(|(joint, rates)| (joint.name.clone(), list(rates)));
                 object.insert("joint_rates".into(), Value::Object(joints.collect()));
-                Value::Object(object)
+                Some(object)
             });
         }
     }
     result
 }
 
-/// Returns the answer to a case of a linkage in space: all real assemblies with `instant`, with one point of the body alone where
-/// it is asked for.
+/// Returns the answer to a case of a linkage in space: all real assemblies with what is requested.
 #[must_use]
 pub fn of_space(
     file: &SpaceFile,
     (number, case): (usize, &SpaceCase),
     answer: &SpaceAnswer,
-    pair: Pair,
-    point: Option<&str>,
+    asked: Asked<'_>,
 ) -> Value {
     let mut result = space::result(file, case, number, answer, false);
     let linkage = &file.linkage;
@@ -161,7 +195,8 @@ pub fn of_space(
     if let Some(modes) = result["modes"].as_array_mut() {
         for (shown, mode) in modes.iter_mut().zip(real) {
             let found = rates_in_space(linkage, &case.given, mode);
-            shown["instant"] = found.map_or(Value::Null, |found| {
+            asked.insert(shown, found.as_ref().map(|found| found.bodies.as_slice()), |pair, point| {
+                let found = found.as_ref()?;
                 let state = relative(&found.bodies[pair.body], &found.bodies[pair.against]);
                 let state = rounded(&state, &found.bodies);
                 let names = [pair.body, pair.against].map(|body| linkage.bodies[body].name.as_str());
@@ -176,7 +211,7 @@ pub fn of_space(
                 let joints = linkage.joints.iter().zip(cleaned(&found.joints));
                 let joints = joints.filter_map(|(joint, rates)| Some((joint.name.clone(), list(&rates?))));
                 object.insert("joint_rates".into(), Value::Object(joints.collect()));
-                Value::Object(object)
+                Some(object)
             });
         }
     }
@@ -212,9 +247,12 @@ pub fn text(title: &str, verdict: &str, result: &Value) -> String {
     let mut text = format!("{title}, case {}\n{verdict}\n", result["case"]);
     for mode in result["modes"].as_array().into_iter().flatten() {
         text += &format!("\nmode {}\n", mode["id"]);
-        match mode["instant"].as_object() {
-            Some(fields) => write_values(&mut text, fields),
-            None => text += "  singular: the input does not determine rates\n",
+        for key in ["instant", "balance"] {
+            match mode.get(key) {
+                Some(Value::Object(fields)) => write_values(&mut text, fields),
+                Some(_) => text += "  singular: the input does not determine rates\n",
+                None => {}
+            }
         }
     }
     text

@@ -147,6 +147,47 @@ fn links_of_loops_have_the_velocity_screws_of_differentiation() {
 }
 
 /// Rates of an arm of two cylindrical joints about (0, 0, 1) and (0, 3/5, 4/5).
+/// The drive and the forces of the joints against figures by hand: C moves by (-1, -3/4) for a unit rate of the crank, and the rod on
+/// which nothing acts between its joints pulls along (3, 4).
+#[test]
+fn loads_are_held_by_virtual_power() {
+    let loads = ["instant", "linkage/coupler_instant", "--loads", "coupler.C: 0, -10; rocker: 5"];
+    let document = run(&loads, 0);
+    let modes = document["results"][0]["modes"].as_array().unwrap();
+    let mode = modes.iter().find(|mode| mode["balance"]["holding"].as_f64().unwrap() < 0.0).unwrap();
+    assert!(mode.get("instant").is_none());
+    near(&mode["balance"]["holding"], -8.75);
+    for (joint, [x, y]) in [("A", [4.375, 35.0 / 6.0]), ("B", [4.375, 35.0 / 6.0]), ("C", [4.375, -25.0 / 6.0])] {
+        near(&mode["balance"]["joints"][joint]["force"][0], x);
+        near(&mode["balance"]["joints"][joint]["force"][1], y);
+    }
+    // Weights as loads need the drive that masses and gravity need.
+    let own = ["crank: -9.81; coupler.B: 0, -14.715; coupler.C: 0, -14.715; rocker: -9.81"];
+    let level = run(&["instant", "linkage/level_four_bar", "--loads", own[0], "--body", "coupler"], 0);
+    let dynamics = run(&["dynamics", "linkage/level_four_bar"], 0);
+    for (mode, other) in [0, 1].map(|k| (&level["results"][0]["modes"][k], &dynamics["results"][0]["modes"][k])) {
+        assert!(mode["instant"]["points"]["B"].is_object());
+        // The crank and the rocker stand at 2 atan(1/2): their weights have arms of 3/10.
+        if mode["bodies"]["coupler"]["angle"].as_f64().unwrap().abs() < 1e-9 {
+            near(&mode["balance"]["holding"], 9.81 * 2.0 + 14.715 * 2.0 * 0.6);
+            near(&other["dynamics"]["holding"], 9.81 * 2.0 * 0.6 + 14.715 * 2.0 * 0.6);
+        }
+    }
+    // A unit moment on the last shaft needs the ratio of the shafts.
+    let shafts = run(&["instant", "linkage/hooke_series", "--loads", "out: 36/85, 77/85, 0"], 1);
+    assert!(shafts.as_str().unwrap().contains("3 numbers"));
+    let axis = format!("out: {}, {}, 0", 36.0 / 85.0, 77.0 / 85.0);
+    let shafts = run(&["instant", "linkage/hooke_series", "--loads", &axis, "--body", "out"], 0);
+    for mode in shafts["results"][0]["modes"].as_array().unwrap() {
+        near(&mode["balance"]["holding"], -mode["instant"]["joint_rates"]["S2"][0].as_f64().unwrap());
+    }
+    let rods = run(&["instant", "linkage/rssr_ssr", "--loads", "rocker2.F: 1, 2, 3", "--body", "rocker2"], 0);
+    for mode in rods["results"][0]["modes"].as_array().unwrap() {
+        let velocity = |k: usize| mode["instant"]["points"]["F"]["velocity"][k].as_f64().unwrap();
+        near(&mode["balance"]["holding"], -(velocity(0) + 2.0 * velocity(1) + 3.0 * velocity(2)));
+    }
+}
+
 #[test]
 fn links_of_arms_move_with_the_rates_of_their_joints() {
     let document = run(&["instant", "arm/chain_cc", "--body", "tool", "--rate", "1, 2, 1, 3"], 0);
@@ -235,6 +276,10 @@ fn limits_and_wrong_words_are_answers() {
     assert!(message(&["instant", "linkage/hooke_series", "--body", "nobody"]).contains("unknown body"));
     assert!(message(&["instant", "linkage/hooke_series", "--body", "in", "--point", "in.X"]).contains("in.F1"));
     assert!(message(&["instant", "bennett_a", "--body", "2", "--point", "a.b"]).contains("linkage"));
+    for wrong in ["coupler.P: 1, 2", "rocker 5", "rocker: 5, 6", "coupler.C: 1, x"] {
+        assert!(message(&["instant", "linkage/coupler_instant", "--loads", wrong]).contains("expected"), "{wrong}");
+    }
+    assert!(message(&["instant", "bennett_a", "--loads", "2: 1, 2, 3", "--body", "2"]).contains("linkage"));
     assert!(message(&["dynamics", "linkage/coupler_instant"]).contains("mass"));
     assert!(message(&["dynamics", "linkage/weighted_four_bar", "--rate", "x"]).contains("--rate"));
 }

@@ -637,10 +637,10 @@ pub struct InstantOptions {
     /// A file of a linkage, a loop or an arm, the name of a built-in one, or - for standard input
     pub mechanism: String,
     /// The body whose motion is asked for; of a loop or an arm the number of the joint before it
-    #[arg(long, value_name = "BODY")]
-    pub body: String,
+    #[arg(long, value_name = "BODY", required_unless_present = "loads")]
+    pub body: Option<String>,
     /// The body that is held to stand still [default: the ground]
-    #[arg(long, value_name = "BODY")]
+    #[arg(long, value_name = "BODY", requires = "body")]
     pub against: Option<String>,
     /// The rates of the joint variables of an arm: "1, 0, -2 ..."; the input of anything else runs at unit rate
     #[arg(long, value_name = "W", allow_hyphen_values = true)]
@@ -648,11 +648,15 @@ pub struct InstantOptions {
     #[command(flatten)]
     pub asked: CaseOptions,
     /// This point of the body only: coupler.P
-    #[arg(long, value_name = "BODY.POINT", conflicts_with = "inverse")]
+    #[arg(long, value_name = "BODY.POINT", conflicts_with = "inverse", requires = "body")]
     pub point: Option<String>,
     /// The inverse motion: that of the other body against this one
-    #[arg(long)]
+    #[arg(long, requires = "body")]
     pub inverse: bool,
+    /// Linkages at rest: the drive at the input that holds these forces at points and moments on bodies, in newtons, newton metres
+    /// and axes of the ground, and in the plane the forces in the joints: "coupler.P: 0, -10; rocker: 5"
+    #[arg(long, value_name = "LOADS", allow_hyphen_values = true)]
+    pub loads: Option<String>,
     /// One JSON document
     #[arg(long)]
     pub json: bool,

@@ -65,6 +65,7 @@ pub const INSTANT: &str = "\
 Examples:
   looproot instant linkage/coupler_instant --body coupler
   looproot instant linkage/coupler_instant --body rocker --against crank --json
+  looproot instant linkage/coupler_instant --loads \"coupler.C: 0, -10; rocker: 5\"   what holds these loads
   looproot instant bennett_a --body 2                    a loop: the body behind its second joint
   looproot instant puma560 --pose 1 --body 6 --rate \"1,0,0,0,0,0\"
   looproot instant linkage/hooke_series --body cross1    about a point

@@ -3,12 +3,14 @@
 use super::arguments::InstantOptions;
 use super::exit::{Exit, Fault, unexpected};
 use super::linkage::{code, posed, wanted};
+use super::loads::{Named, loads};
 use super::output::Output;
 use super::space_instant;
 use looproot::internal::catalogue::{Any, LinkageFile, Options, load_any};
 use looproot::internal::error::Error;
 use looproot::internal::linkage::answer::solve;
-use looproot::internal::report::instant::{Asked, result, text};
+use looproot::internal::linkage::rates::pair;
+use looproot::internal::report::instant::{Asked, AskedBody, result, text};
 use looproot::internal::report::linkage as report;
 use std::io::Write;
 
@@ -25,16 +27,28 @@ pub fn run(options: &InstantOptions) -> Result<Exit, Fault> {
     if options.rate.is_some() {
         return Err(Error::Invalid("found --rate for a linkage, expected it for an arm".to_owned()).into());
     }
-    let body = named(&file, &options.body)?;
-    let against = options.against.as_ref().map_or(Ok(file.linkage.ground), |name| named(&file, name))?;
-    if body == against {
-        let message = format!("found --body {} against itself, expected two bodies", options.body);
-        return Err(Error::Invalid(message).into());
-    }
-    let own = &file.linkage.bodies[body];
-    let points = own.points.iter().map(|(name, _)| name.as_str());
-    let point = options.point.as_ref().map(|asked| point_of(&own.name, points, asked)).transpose()?;
-    let asked = Asked { body, against, point, inverse: options.inverse };
+    let bodies = &file.linkage.bodies;
+    let body = match &options.body {
+        Some(name) => {
+            let body = named(&file, name)?;
+            let against = options.against.as_ref().map_or(Ok(file.linkage.ground), |name| named(&file, name))?;
+            if body == against {
+                let message = format!("found --body {name} against itself, expected two bodies");
+                return Err(Error::Invalid(message).into());
+            }
+            let own = &bodies[body];
+            let points = own.points.iter().map(|(name, _)| name.as_str());
+            let point = options.point.as_ref().map(|asked| point_of(&own.name, points, asked)).transpose()?;
+            Some(AskedBody { body, against, point, inverse: options.inverse })
+        }
+        None => None,
+    };
+    let names: Vec<Named<'_, 2>> = bodies
+        .iter()
+        .map(|body| (body.name.as_str(), body.points.iter().map(|(name, at)| (name.as_str(), pair(at))).collect()))
+        .collect();
+    let loads = options.loads.as_ref().map(|text| loads(text, &names)).transpose()?;
+    let asked = Asked { body, loads: loads.as_deref() };
     let mut output = Output::open(&options.output, &options.mechanism)?;
     let mut exit = Exit::Complete;
     let mut results = Vec::new();

@@ -27,6 +27,7 @@ pub mod linkage;
 pub mod linkage_derive;
 pub mod linkage_sweep;
 pub mod list;
+mod loads;
 pub mod mobility;
 pub mod motion;
 mod npy;

@@ -3,6 +3,7 @@
 use super::arguments::InstantOptions;
 use super::exit::{Exit, Fault, unexpected};
 use super::instant::{among, point_of};
+use super::loads::{Named, loads};
 use super::output::Output;
 use super::wanted::{in_place, wanted};
 use super::{linkage, space, sphere};
@@ -15,9 +16,10 @@ use looproot::internal::linkage::sphere::solve;
 use looproot::internal::mechanism::{Derivatives, InputCurve, Mechanism};
 use looproot::internal::report::document::complete;
 use looproot::internal::report::space_instant::{
-    Pair, of_chain as chain_result, of_space as space_result, of_sphere as sphere_result, text,
+    Asked, Pair, of_chain as chain_result, of_space as space_result, of_sphere as sphere_result, text,
 };
 use looproot::internal::report::{space as spaces, sphere as spheres, text as texts};
+use rug::Rational;
 use serde_json::json;
 use std::io::Write;
 
@@ -28,11 +30,10 @@ pub fn of_chain(options: &InstantOptions, mut entry: Entry) -> Result<Exit, Faul
     };
     refuse(options)?;
     let bodies = chain.joint_kinds().len();
-    let pair = Pair {
-        body: link(&options.body, bodies)?,
-        against: options.against.as_ref().map_or(Ok(0), |name| link(name, bodies))?,
-    };
-    let pair = apart(options, pair)?;
+    let name = options.body.as_deref().unwrap_or_default();
+    let pair =
+        Pair { body: link(name, bodies)?, against: options.against.as_ref().map_or(Ok(0), |name| link(name, bodies))? };
+    let pair = apart(options, name, pair)?;
     let variables = chain.variables().len();
     let rate = match (entry.kind(), &options.rate) {
         (Kind::Arm, Some(rate)) => Some(rates(rate, variables)?),
@@ -86,12 +87,10 @@ pub fn of_sphere(options: &InstantOptions, file: &SphereFile) -> Result<Exit, Fa
     if options.rate.is_some() {
         return Err(Error::Invalid("found --rate for a linkage, whose input runs at unit rate".to_owned()).into());
     }
-    let named = |name: &str| on_sphere(file, name);
-    let against = options.against.as_ref().map_or(Ok(file.linkage.ground), |name| named(name))?;
-    let pair = apart(options, Pair { body: named(&options.body)?, against })?;
-    let own = &file.linkage.bodies[pair.body];
-    let points = own.points.iter().map(|(name, _)| name.as_str());
-    let point = options.point.as_ref().map(|asked| point_of(&own.name, points, asked)).transpose()?;
+    let bodies: Vec<Named<'_, 3>> =
+        file.linkage.bodies.iter().map(|body| (body.name.as_str(), places(&body.points))).collect();
+    let loads = options.loads.as_ref().map(|text| loads(text, &bodies)).transpose()?;
+    let requested = Asked { body: body(options, file.linkage.ground, &bodies)?, loads: loads.as_deref() };
     let asked = options.asked.input.as_deref();
     let file = &*sphere::posed(asked, file)?;
     let mut output = Output::open(&options.output, &options.mechanism)?;
@@ -107,7 +106,7 @@ pub fn of_sphere(options: &InstantOptions, file: &SphereFile) -> Result<Exit, Fa
         let answer = solve(&file.linkage, &case.given, file.exact && case.exact)
             .map_err(|error| error.at(&options.mechanism, line))?;
         exit = exit.max(linkage::code(&answer.verdict));
-        let found = sphere_result(file, (index + 1, case), &answer, pair, point);
+        let found = sphere_result(file, (index + 1, case), &answer, requested);
         if options.json {
             results.push(found);
         } else {
@@ -126,13 +125,10 @@ pub fn of_space(options: &InstantOptions, file: &SpaceFile) -> Result<Exit, Faul
     if options.rate.is_some() {
         return Err(Error::Invalid("found --rate for a linkage, whose input runs at unit rate".to_owned()).into());
     }
-    let bodies = &file.linkage.bodies;
-    let named = |name: &str| among(bodies.iter().map(|body| body.name.as_str()), name);
-    let against = options.against.as_ref().map_or(Ok(file.linkage.ground), |name| named(name))?;
-    let pair = apart(options, Pair { body: named(&options.body)?, against })?;
-    let own = &bodies[pair.body];
-    let points = own.points.iter().map(|(name, _)| name.as_str());
-    let point = options.point.as_ref().map(|asked| point_of(&own.name, points, asked)).transpose()?;
+    let bodies: Vec<Named<'_, 3>> =
+        file.linkage.bodies.iter().map(|body| (body.name.as_str(), places(&body.points))).collect();
+    let loads = options.loads.as_ref().map(|text| loads(text, &bodies)).transpose()?;
+    let requested = Asked { body: body(options, file.linkage.ground, &bodies)?, loads: loads.as_deref() };
     let asked = options.asked.input.as_deref();
     let file = &*space::posed(asked, file)?;
     let mut output = Output::open(&options.output, &options.mechanism)?;
@@ -148,7 +144,7 @@ pub fn of_space(options: &InstantOptions, file: &SpaceFile) -> Result<Exit, Faul
         let answer = solve_in_space(&file.linkage, &case.given, file.exact && case.exact)
             .map_err(|error| error.at(&options.mechanism, line))?;
         exit = exit.max(linkage::code(&answer.verdict));
-        let found = space_result(file, (index + 1, case), &answer, pair, point);
+        let found = space_result(file, (index + 1, case), &answer, requested);
         if options.json {
             results.push(found);
         } else {
@@ -162,6 +158,27 @@ pub fn of_space(options: &InstantOptions, file: &SpaceFile) -> Result<Exit, Faul
     Ok(exit)
 }
 
+/// Points of a body in coordinates of its own.
+fn places(points: &[(String, [Rational; 3])]) -> Vec<(&str, [f64; 3])> {
+    points.iter().map(|(name, at)| (name.as_str(), at.each_ref().map(Rational::to_f64))).collect()
+}
+
+/// Returns the requested body of a linkage, and the requested one of its points.
+fn body<'a>(
+    options: &'a InstantOptions,
+    ground: usize,
+    bodies: &[Named<'_, 3>],
+) -> Result<Option<(Pair, Option<&'a str>)>, Error> {
+    let Some(name) = &options.body else { return Ok(None) };
+    let named = |name: &str| among(bodies.iter().map(|(own, _)| *own), name);
+    let against = options.against.as_ref().map_or(Ok(ground), |name| named(name))?;
+    let pair = apart(options, name, Pair { body: named(name)?, against })?;
+    let (own, points) = &bodies[pair.body];
+    let points = points.iter().map(|(name, _)| *name);
+    let point = options.point.as_ref().map(|asked| point_of(own, points, asked)).transpose()?;
+    Ok(Some((pair, point)))
+}
+
 /// Returns the index of a body of a linkage on the sphere by its name.
 pub fn on_sphere(file: &SphereFile, name: &str) -> Result<usize, Error> {
     among(file.linkage.bodies.iter().map(|body| body.name.as_str()), name)
@@ -169,6 +186,9 @@ pub fn on_sphere(file: &SphereFile, name: &str) -> Result<usize, Error> {
 
 /// Refuses what only bodies of linkages have.
 fn refuse(options: &InstantOptions) -> Result<(), Error> {
+    if options.loads.is_some() {
+        return Err(Error::Invalid("found --loads, expected it for a linkage".to_owned()));
+    }
     match &options.point {
         Some(point) => {
             let point: String = point.chars().take(40).collect();
@@ -180,9 +200,9 @@ fn refuse(options: &InstantOptions) -> Result<(), Error> {
 }
 
 /// Returns the pair, exchanged for the inverse motion; a body has no motion against itself.
-fn apart(options: &InstantOptions, pair: Pair) -> Result<Pair, Error> {
+fn apart(options: &InstantOptions, name: &str, pair: Pair) -> Result<Pair, Error> {
     if pair.body == pair.against {
-        let message = format!("found --body {} against itself, expected two bodies", options.body);
+        let message = format!("found --body {name} against itself, expected two bodies");
         return Err(Error::Invalid(message));
     }
     Ok(if options.inverse { Pair { body: pair.against, against: pair.body } } else { pair })
