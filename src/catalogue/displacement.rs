@@ -15,6 +15,9 @@ use looproot_calculus::line::pluecker::Line;
 use looproot_calculus::rotation::matrix::Matrix;
 use rug::Rational;
 
+/// Maximum number of positions, every two of which are compared.
+const MOST_POSITIONS: usize = 100;
+
 /// A question about displacements.
 #[derive(Clone, Debug)]
 pub enum Displacement {
@@ -34,6 +37,8 @@ pub enum Displacement {
     Circle([Vector<Rational>; 3]),
     /// The rotation at a share of the way from one to another.
     Between(Box<[Matrix<Rational>; 2]>, Rational),
+    /// The rotations from every position to every later one.
+    Relative(Vec<Matrix<Rational>>),
     /// The product of reflections in planes, in their order.
     Reflections(Vec<Plane<Rational>>),
     /// The lines of Roth's theorem of a screw and of points.
@@ -86,6 +91,7 @@ impl Displacement {
             Self::Line(..) => "line",
             Self::Circle(_) => "circle",
             Self::Between(..) => "between",
+            Self::Relative(_) => "relative",
             Self::Reflections(_) => "reflections",
             Self::Midpoints(..) => "midpoints",
             Self::Velocities(_) => "velocities",
@@ -105,6 +111,7 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
         "line",
         "circle",
         "between",
+        "relative",
         "reflections",
         "midpoints",
         "velocities",
@@ -149,6 +156,14 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
             let both =
                 found.try_into().map_err(|_| scope.fail(line, "found another number of rotations, expected two"))?;
             Ok(Displacement::Between(Box::new(both), share))
+        }
+        "relative" => {
+            let found = rotations(scope, table)?;
+            if !(2..=MOST_POSITIONS).contains(&found.len()) {
+                let message = format!("found {} [[rotation]], expected 2 to {MOST_POSITIONS} positions", found.len());
+                return Err(scope.fail(line_of(table, "rotation"), message));
+            }
+            Ok(Displacement::Relative(found))
         }
         "reflections" => {
             let found = planes(scope, table, &[])?;

@@ -34,6 +34,7 @@ pub fn answers(question: &Displacement) -> Result<Vec<Answer>> {
         Displacement::Line(lines, through) => vec![line::answer(lines, *through)],
         Displacement::Circle(points) => vec![positions::circle(points)],
         Displacement::Between(both, share) => vec![positions::slerp(both, share)],
+        Displacement::Relative(positions) => vec![positions::relative(positions)],
         Displacement::Reflections(planes) => vec![positions::reflections(planes)],
         Displacement::Midpoints(screw, points) => vec![positions::midpoints(screw, points)],
         Displacement::Surface(motion) => vec![surface::answer(motion)],

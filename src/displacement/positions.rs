@@ -77,6 +77,31 @@ pub fn slerp([from, to]: &[Matrix<Rational>; 2], share: &Rational) -> Answer {
     Answer::complete(modes, counted)
 }
 
+/// Returns the rotations that take every position to every later one: `R_j R_i^T`, with axes in space. Of four positions there are six.
+pub fn relative(positions: &[Matrix<Rational>]) -> Answer {
+    let mut named = Named::default();
+    let mut list = Vec::new();
+    for (from, start) in positions.iter().enumerate() {
+        for (to, end) in positions.iter().enumerate().skip(from + 1) {
+            let step: Matrix<Rational> = std::array::from_fn(|i| std::array::from_fn(|j| dot(&end[i], &start[j])));
+            let rotation = step.each_ref().map(|row| named.rounded(row));
+            let motion = Motion { rotation, translation: [0.0; 3] };
+            let turn = screw(&motion);
+            let mut values = Map::new();
+            values.insert("from".into(), json!(from + 1));
+            values.insert("to".into(), json!(to + 1));
+            // The identity has no axis.
+            let is_identity = step == Motion::<Rational>::identity().rotation;
+            values.insert("axis".into(), if is_identity { Value::Null } else { turn["direction"].clone() });
+            values.insert("angle".into(), turn["angle"].clone());
+            insert_rotation(&mut values, &rotation);
+            list.push(Value::Object(values));
+        }
+    }
+    named.put("relative", Value::Array(list));
+    named.answer("the rotation from one position to another is the second one after the inverse of the first")
+}
+
 /// Returns the product of reflections: a displacement for an even number, else one behind a reflection.
 pub fn reflections(planes: &[Plane<Rational>]) -> Answer {
     let all = planes.iter().try_fold(Motion::<Rational>::identity(), |all, p| Some(p.mirror()?.then_after(&all)));

@@ -27,13 +27,9 @@ use serde_json::{Value, json};
 ///
 /// # Errors
 /// As [`InputCurve::of`].
-pub fn of_loop(document: &mut Value, entry: &Entry, (joint, variable): (usize, Variable), body: usize) -> Result<()> {
+pub fn of_loop(document: &mut Value, entry: &Entry, input: (usize, Variable), body: usize) -> Result<()> {
     let Some(chain) = entry.chain() else { return Ok(()) };
-    let value = match variable {
-        Variable::Rotation => InputValue::Angle(Angle::from_half_tangent(HalfTangent::Finite(Rational::new()))),
-        Variable::Translation => InputValue::Distance(Number::exact(Rational::new())),
-    };
-    let curve = InputCurve::of(entry, &Case::given(Input { joint, value }, 0))?;
+    let curve = InputCurve::of(entry, &input_of_loop(input))?;
     for row in rows(document) {
         let q: Vec<f64> = row["q"].as_array().into_iter().flatten().filter_map(Value::as_f64).collect();
         let found = (q.len() == curve.variables().len()).then(|| {
@@ -46,18 +42,41 @@ pub fn of_loop(document: &mut Value, entry: &Entry, (joint, variable): (usize, V
     Ok(())
 }
 
+/// Returns the case in which a joint variable is the input.
+pub(super) fn input_of_loop((joint, variable): (usize, Variable)) -> Case {
+    let value = match variable {
+        Variable::Rotation => InputValue::Angle(Angle::from_half_tangent(HalfTangent::Finite(Rational::new()))),
+        Variable::Translation => InputValue::Distance(Number::exact(Rational::new())),
+    };
+    Case::given(Input { joint, value }, 0)
+}
+
+/// Returns the given values of a linkage on the sphere in which this joint is the first, at any angle.
+pub(super) fn given_of_sphere(file: &SphereFile, joint: usize) -> Vec<SphereGiven> {
+    let own = &file.linkage.joints[joint];
+    let rotation = Motion::<Rational>::identity().rotation;
+    let driven = SphereGiven { of: own.of, rotation, joint: Some(joint), line: own.line };
+    let others = file.cases[0].given.iter().filter(|one| one.joint != Some(joint)).cloned();
+    std::iter::once(driven).chain(others).collect()
+}
+
+/// Returns the given values of a linkage in the plane with this joint, at any value, and its place among the numbers that are given.
+pub(super) fn given_of_plane(file: &LinkageFile, joint: usize) -> (Vec<Given>, usize) {
+    let is_other = |one: &&Given| !matches!(one, Given::Turn { joint: own, .. } | Given::Shift { joint: own, .. } if *own == joint);
+    let mut given: Vec<Given> = file.cases[0].given.iter().filter(is_other).cloned().collect();
+    let driven = freedoms(&given);
+    given.push(if file.linkage.joints[joint].is_prismatic() {
+        Given::Shift { joint, shift: Rational::new(), line: 0 }
+    } else {
+        Given::Turn { joint, turn: Gaussian { re: Rational::from(1), im: Rational::new() }, within: None, line: 0 }
+    });
+    (given, driven)
+}
+
 /// Adds `axodes` to all rows of a sweep of a linkage on the sphere.
 pub fn of_sphere(document: &mut Value, file: &SphereFile, sweep: &SphereSweep, body: usize) {
     let linkage = &file.linkage;
-    let own = &linkage.joints[sweep.joint];
-    let driven = SphereGiven {
-        of: own.of,
-        rotation: Motion::<Rational>::identity().rotation,
-        joint: Some(sweep.joint),
-        line: own.line,
-    };
-    let others = file.cases[0].given.iter().filter(|one| one.joint != Some(sweep.joint)).cloned();
-    let given: Vec<SphereGiven> = std::iter::once(driven).chain(others).collect();
+    let given = given_of_sphere(file, sweep.joint);
     let found = |mode: &SphereMode| {
         let all = rates(linkage, &given, mode)?.bodies;
         axis(all.get(body)?, &all)
@@ -71,14 +90,7 @@ pub fn of_sphere(document: &mut Value, file: &SphereFile, sweep: &SphereSweep, b
 /// Adds `centrodes` to all rows and limit positions of a sweep of a linkage in the plane.
 pub fn of_plane(document: &mut Value, file: &LinkageFile, sweep: &LinkageSweep, body: usize) {
     let linkage = &file.linkage;
-    let is_other = |one: &&Given| !matches!(one, Given::Turn { joint, .. } | Given::Shift { joint, .. } if *joint == sweep.joint);
-    let mut given: Vec<Given> = file.cases[0].given.iter().filter(is_other).cloned().collect();
-    let driven = freedoms(&given);
-    given.push(if linkage.joints[sweep.joint].is_prismatic() {
-        Given::Shift { joint: sweep.joint, shift: Rational::new(), line: 0 }
-    } else {
-        Given::Turn { joint: sweep.joint, turn: Gaussian { re: Rational::from(1), im: Rational::new() }, within: None, line: 0 }
-    });
+    let (given, driven) = given_of_plane(file, sweep.joint);
     let found = |mode: &LinkageMode| {
         let mut runs = vec![Plane::zero(); freedoms(&given)];
         runs[driven].coefficients[1] = 1.0;
@@ -99,7 +111,7 @@ pub fn of_plane(document: &mut Value, file: &LinkageFile, sweep: &LinkageSweep, 
 }
 
 /// All rows of all branches, then the limit positions.
-fn rows(document: &mut Value) -> Vec<&mut Value> {
+pub(super) fn rows(document: &mut Value) -> Vec<&mut Value> {
     let Some(object) = document.as_object_mut() else { return Vec::new() };
     let (mut rows, mut limits) = (Vec::new(), Vec::new());
     for (key, value) in object {

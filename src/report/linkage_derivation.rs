@@ -13,6 +13,7 @@ use crate::algebra::text::{Format, Names};
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::{LinkageCase, LinkageFile};
 use crate::derivation::{Curve, GroupPolynomial, InputOutput, LinkageDerivation, Symbol};
+use crate::kinematics::linkage::{Gaussian, Linkage};
 use rug::{Integer, Rational};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -319,5 +320,58 @@ pub fn curve_text(file: &LinkageFile, of: &str, curve: &Curve) -> String {
         paragraph(&mut text, &format!("divided out: {factor}{times}, on which a rotation is zero or infinite"));
     }
     let _ = writeln!(text, "\n{} = 0", written(&rational(&curve.polynomial), &names));
+    text
+}
+
+/// A point as a file has it.
+fn place(z: &Gaussian) -> String {
+    let one = |x: &Rational| if x.is_integer() { x.to_string() } else { format!("\"{x}\"") };
+    format!("[{}, {}]", one(&z.re), one(&z.im))
+}
+
+/// A cognate as a mechanism file.
+fn file_of(title: &str, linkage: &Linkage) -> String {
+    let mut text = format!(
+        "title = {}\n\n[mechanism]\nkind = \"linkage\"\nspace = \"plane\"\nground = \"frame\"\njoints = \"shared points\"\n\n\
+         [mechanism.bodies]\n",
+        json!(title)
+    );
+    for body in &linkage.bodies {
+        let points: Vec<String> = body.points.iter().map(|(name, at)| format!("{name} = {}", place(at))).collect();
+        let _ = writeln!(text, "{} = {{ {} }}", body.name, points.join(", "));
+    }
+    text + "\n[[input]]\njoint = \"A\"\ntan_half = 0\n"
+}
+
+fn titled<'a>(file: &LinkageFile, found: &'a [Linkage]) -> Vec<(String, &'a Linkage)> {
+    (1..).zip(found).map(|(k, own)| (format!("Cognate {k} of {}", file.heading.title), own)).collect()
+}
+
+/// The cognates of a four-bar, with the curve of all, as one document.
+#[must_use]
+pub fn cognates_json(
+    file: &LinkageFile,
+    case: usize,
+    (of, curve): (&str, &Curve),
+    found: &[Linkage],
+    equal: &[bool],
+) -> Value {
+    let (body, point) = of.split_once('.').unwrap_or((of, ""));
+    let mut document = curve_json(file, case, body, point, curve);
+    let list = titled(file, found).into_iter().zip(equal).map(|((title, own), is_equal)| {
+        json!({ "file": file_of(&title, own), "same_polynomial": is_equal })
+    });
+    document["cognates"] = list.collect();
+    document
+}
+
+/// The cognates of a four-bar, with the curve of all, for a reader.
+#[must_use]
+pub fn cognates_text(file: &LinkageFile, (of, curve): (&str, &Curve), found: &[Linkage], equal: &[bool]) -> String {
+    let mut text = curve_text(file, of, curve);
+    for ((title, own), is_equal) in titled(file, found).into_iter().zip(equal) {
+        let words = if *is_equal { "the curve of coupler.P has the same polynomial" } else { "polynomials differ: one is reducible" };
+        let _ = write!(text, "\n# {words}\n{}", file_of(&title, own));
+    }
     text
 }

@@ -30,6 +30,7 @@ pub mod number;
 pub mod paper;
 pub mod picture;
 pub mod platform_sweep;
+pub mod ratio;
 pub mod rotation;
 pub mod scene;
 pub mod score;

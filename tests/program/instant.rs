@@ -188,6 +188,53 @@ fn loads_are_held_by_virtual_power() {
     }
 }
 
+/// The ratio is stationary where the slope of the closure equation says so, found by another program with 30 digits.
+#[test]
+fn ratios_have_their_extremes() {
+    let sweep = ["sweep", "linkage/coupler_instant", "--from", "0", "--to", "360 deg", "--steps", "90", "--ratio", "D"];
+    let document = run(&sweep, 0);
+    for branch in document["ratio"]["branches"].as_array().unwrap() {
+        let value = |key: &str| branch[key]["ratio"].as_f64().unwrap();
+        assert!((value("least") - LEAST).abs() < 1e-6 && (value("greatest") - GREATEST).abs() < 1e-6, "{branch}");
+        assert_eq!(branch["constant"], false);
+    }
+    // Both shafts of a double Hooke joint turn alike, and those of the plane-symmetric RRSRR loop on two branches.
+    let shafts =
+        run(&["sweep", "linkage/double_hooke", "--from", "0", "--to", "90 deg", "--steps", "2", "--ratio", "S2"], 2);
+    for branch in shafts["ratio"]["branches"].as_array().unwrap() {
+        assert_eq!(branch["constant"], true);
+        near(&branch["least"]["ratio"], 1.0);
+    }
+    for row in rows(&shafts) {
+        near(&row["ratio"], 1.0);
+    }
+    let loops =
+        run(&["sweep", "homokinetic_rrsrr", "--from", "-90 deg", "--to", "90 deg", "--steps", "4", "--ratio", "q5"], 2);
+    assert!(loops["ratio"]["branches"].as_array().unwrap().iter().any(|branch| branch["constant"] == true));
+    let wrong = run(&["sweep", "linkage/coupler_instant", "--from", "0", "--to", "1", "--ratio", "X"], 1);
+    assert!(wrong.as_str().unwrap().contains("expected one of A, D, B, C"));
+}
+
+/// The least and the greatest ratio of the rocker of that four-bar.
+const LEAST: f64 = -0.502_642_58;
+const GREATEST: f64 = 0.403_403_32;
+
+#[test]
+fn cognates_have_the_polynomial_of_the_four_bar() {
+    let document = run(&["derive", "linkage/coupler_curve", "--trace", "coupler.P", "--cognates"], 0);
+    let list = document["cognates"].as_array().unwrap();
+    assert_eq!(list.len(), 2);
+    for own in list {
+        assert_eq!(own["same_polynomial"], true);
+        assert!(own["file"].as_str().unwrap().contains("\"12/5\", \"18/5\""));
+    }
+    for (name, point) in
+        [("linkage/coupler_curve", "coupler.B"), ("linkage/slider_crank_piston", "coupler.P"), ("puma560", "tool")]
+    {
+        run(&["derive", name, "--trace", point, "--cognates"], 1);
+    }
+}
+
 #[test]
 fn links_of_arms_move_with_the_rates_of_their_joints() {
     let document = run(&["instant", "arm/chain_cc", "--body", "tool", "--rate", "1, 2, 1, 3"], 0);

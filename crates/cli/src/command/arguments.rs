@@ -1,6 +1,7 @@
 //! The words of the command line.
 
 use super::help;
+pub use super::motion_arguments::{DynamicsOptions, InstantOptions, MotionOptions};
 use super::poly::arguments::{PolyOptions, format};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -323,6 +324,9 @@ pub struct DeriveOptions {
     /// Linkages: the curve of a point of a body, as a polynomial in its coordinates
     #[arg(long, value_name = "BODY.POINT", conflicts_with_all = ["explain", "symbolic", "bless", "format"])]
     pub trace: Option<String>,
+    /// --trace of a point of the coupler of a four-bar: the two other four-bars with the same curve, as files
+    #[arg(long, requires = "trace")]
+    pub cognates: bool,
     /// The closure polynomial by one elimination, with its own equations and matrix, compared over the rationals
     #[arg(long, value_name = "WAY", value_parser = way(), conflicts_with_all = ["symbolic", "bless", "transference", "trace"])]
     pub by: Option<Way>,
@@ -395,6 +399,9 @@ pub struct SweepOptions {
     /// JSON of loops (the body behind this joint) and of linkages on the sphere: the axis of the velocity screw, in the same axes
     #[arg(long, value_name = "BODY", requires = "json")]
     pub axodes: Option<String>,
+    /// Loops and linkages: the velocity ratio of this joint to the input, and its least and greatest value on every branch
+    #[arg(long, value_name = "JOINT", conflicts_with_all = ["svg", "quiet"])]
+    pub ratio: Option<String>,
     /// One JSON document
     #[arg(long)]
     pub json: bool,
@@ -602,101 +609,6 @@ fn pair(text: &str) -> Result<(usize, usize), String> {
     let number = |text: &str| text.trim().parse::<usize>().ok()?.checked_sub(1);
     let numbers = text.split_once(',').and_then(|(i, j)| Some((number(i)?, number(j)?)));
     numbers.ok_or_else(|| "expected two numbers from 1, such as 1,6".to_owned())
-}
-
-/// `looproot motion`
-#[derive(Args)]
-#[command(after_help = help::MOTION)]
-pub struct MotionOptions {
-    /// What the numbers are: matrix, quaternion, euler, bryan, axis, euler-vector, rodrigues, wiener, cayley-klein, motion
-    #[arg(long, value_name = "KIND")]
-    pub from: String,
-    /// The numbers, separated by commas, parts by semicolons; plain angles are radians, "10 deg" is read
-    #[arg(allow_hyphen_values = true)]
-    pub numbers: String,
-    /// The order of the axes of Euler angles
-    #[arg(long, value_name = "AXES", default_value = "zxz")]
-    pub axes: String,
-    /// Motions: the parametrisations over the dual numbers, each number as [value, dual part]
-    #[arg(long)]
-    pub dual: bool,
-    /// The rates of all parameters at this angular velocity, in axes fixed in space: "x, y, z"
-    #[arg(long, value_name = "OMEGA", allow_hyphen_values = true)]
-    pub rates: Option<String>,
-    /// One JSON document
-    #[arg(long)]
-    pub json: bool,
-    #[command(flatten)]
-    pub output: OutputOptions,
-}
-
-/// `looproot instant`
-#[derive(Args)]
-#[command(after_help = help::INSTANT)]
-pub struct InstantOptions {
-    /// A file of a linkage, a loop or an arm, the name of a built-in one, or - for standard input
-    pub mechanism: String,
-    /// The body whose motion is asked for; of a loop or an arm the number of the joint before it
-    #[arg(long, value_name = "BODY", required_unless_present = "loads")]
-    pub body: Option<String>,
-    /// The body that is held to stand still [default: the ground]
-    #[arg(long, value_name = "BODY", requires = "body")]
-    pub against: Option<String>,
-    /// The rates of the joint variables of an arm: "1, 0, -2 ..."; the input of anything else runs at unit rate
-    #[arg(long, value_name = "W", allow_hyphen_values = true)]
-    pub rate: Option<String>,
-    #[command(flatten)]
-    pub asked: CaseOptions,
-    /// This point of the body only: coupler.P
-    #[arg(long, value_name = "BODY.POINT", conflicts_with = "inverse", requires = "body")]
-    pub point: Option<String>,
-    /// The inverse motion: that of the other body against this one
-    #[arg(long, requires = "body")]
-    pub inverse: bool,
-    /// Linkages at rest: the drive at the input that holds these forces at points and moments on bodies, in newtons, newton metres
-    /// and axes of the ground, and in the plane the forces in the joints: "coupler.P: 0, -10; rocker: 5"
-    #[arg(long, value_name = "LOADS", allow_hyphen_values = true)]
-    pub loads: Option<String>,
-    /// One JSON document
-    #[arg(long)]
-    pub json: bool,
-    #[command(flatten)]
-    pub read: NumberOptions,
-    #[command(flatten)]
-    pub output: OutputOptions,
-}
-
-/// `looproot dynamics`
-#[derive(Args)]
-#[command(after_help = help::DYNAMICS)]
-pub struct DynamicsOptions {
-    /// A file of a linkage with masses, the name of a built-in one, or - for standard input
-    pub mechanism: String,
-    /// This input of the file only, counted from 1
-    #[arg(long, value_name = "K")]
-    pub input: Option<String>,
-    /// The rates of the inputs, radians or metres per second: 2, or "1, -2"
-    #[arg(long, value_name = "W", default_value = "0", allow_hyphen_values = true)]
-    pub rate: String,
-    /// The forces in all joints, on the second body of each
-    #[arg(long)]
-    pub forces: bool,
-    /// Follow the motion for this time, in seconds: a measurement, with the energy in every row
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub time: Option<f64>,
-    /// --time: the mode from which the motion starts, counted from 1
-    #[arg(long, value_name = "MODE", default_value_t = 1, requires = "time")]
-    pub from: usize,
-    /// --time: number of rows beside the first
-    #[arg(long, value_name = "N", default_value_t = 100, requires = "time")]
-    pub steps: usize,
-    /// One JSON document
-    #[arg(long)]
-    pub json: bool,
-    #[command(flatten)]
-    pub read: NumberOptions,
-    #[command(flatten)]
-    pub output: OutputOptions,
 }
 
 /// `looproot list`

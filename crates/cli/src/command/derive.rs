@@ -39,8 +39,12 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     let chains = if options.trace.is_some() { Chains::Swept } else { options.asked.chains() };
     let read = Options { chains, ..options.read.options() };
     let mut entry = match load_solvable(mechanism, &read)? {
-        Any::Entry(entry) => *entry,
+        Any::Entry(entry) if !options.cognates => *entry,
         Any::Linkage(file) => return super::linkage_derive::run(options, mechanism, &file),
+        _ if options.cognates => {
+            let message = "found --cognates, expected it for a four-bar in the plane";
+            return Err(Error::Invalid(message.to_owned()).into());
+        }
         Any::Sphere(file) => return super::sphere::derive(options, mechanism, &file),
         Any::Space(_) => {
             let message = "closure polynomials of linkages in space are not derived yet";

@@ -21,6 +21,7 @@ pub const SWEEP: &str = "\
 Examples:
   looproot sweep loop.toml --from 0 --to \"360 deg\"             branches and limit positions
   looproot sweep bennett_a --from 0 --to \"360 deg\" --svg -o bennett.svg
+  looproot sweep linkage/coupler_instant --from 0 --to \"360 deg\" --ratio D   a velocity ratio and its extremes
   looproot sweep loop.toml --joint 2 --from 0 --to 1 --csv      one row for every branch and step
   looproot sweep hexapod --joint leg1 --from \"5 cm\" --to \"8 cm\"   a platform: one leg changes its length";
 

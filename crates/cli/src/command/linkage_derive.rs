@@ -8,6 +8,7 @@ use looproot::internal::catalogue::LinkageFile;
 use looproot::internal::derivation::{derive_linkage, trace, trace_mass};
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::linkage::{Accuracy, Gaussian, Given};
+use looproot::internal::linkage::cognates::{COUPLER, cognates};
 use looproot::internal::report::linkage_derivation as report;
 use rug::Rational;
 use std::io::Write;
@@ -20,7 +21,24 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
     let case = &file.cases[index];
     let line = case.given.first().map_or(case.line, Given::line);
     let in_place = |error: Error| error.at(mechanism, line);
-    let (written, exit) = if let Some(asked) = &options.trace {
+    let (written, exit) = if let (true, Some(asked)) = (options.cognates, &options.trace) {
+        let (body, _, place) = file.point(asked)?;
+        let found = cognates(&file.linkage, body, &place).map_err(in_place)?;
+        let curve = trace(&file.linkage, &case.given, body, &place).map_err(in_place)?;
+        let equal = found.iter().map(|own| {
+            let traced = own.bodies[COUPLER]
+                .point("P")
+                .ok_or_else(|| Error::Invalid("found no point of a cognate".to_owned()))?;
+            Ok(trace(own, &[], COUPLER, traced)?.polynomial == curve.polynomial)
+        });
+        let equal: Vec<bool> = equal.collect::<Result<_, Error>>()?;
+        let written = if options.json {
+            format!("{}\n", report::cognates_json(file, index + 1, (asked, &curve), &found, &equal))
+        } else {
+            report::cognates_text(file, (asked, &curve), &found, &equal)
+        };
+        (written, if file.exact && equal.iter().all(|is_equal| *is_equal) { Exit::Complete } else { Exit::NotProved })
+    } else if let Some(asked) = &options.trace {
         let (name, point, curve) = if asked == "mass" {
             ("mass", "centre", trace_mass(&file.linkage, &case.given, &masses(file)?).map_err(in_place)?)
         } else {

@@ -11,6 +11,7 @@ use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::kinematics::linkage::Given;
 use looproot::internal::report::axodes;
 use looproot::internal::report::linkage_sweep::{self as report, Asked, Traced};
+use looproot::internal::report::ratio::Ratio;
 use looproot::internal::sweep::sweep_linkage;
 use looproot::internal::view::drawable;
 use std::io::Write;
@@ -37,10 +38,12 @@ pub fn run(
     let is_length = file.linkage.joints[joint].is_prismatic();
     let variable = if is_length { Variable::Translation } else { Variable::Rotation };
     let range = range(options, variable, &file.reading)?;
+    let follower = options.ratio.as_ref().map(|name| joint_named(file, "--ratio", name)).transpose()?;
     let pool = pool(options.threads)?;
     let found = pool.install(|| sweep_linkage(&file.linkage, file.given(case), joint, range, || ()));
     let found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
     let asked = Asked { file, traced: traced.as_ref() };
+    let ratio = follower.map(|follower| Ratio::of_plane(file, &found, follower));
     let mut output = open()?;
     let out = &mut output.writer;
     match &traced {
@@ -49,6 +52,9 @@ pub fn run(
             if let Some(body) = rolling {
                 axodes::of_plane(&mut document, file, &found, body);
             }
+            if let Some(ratio) = &ratio {
+                ratio.insert(&mut document);
+            }
             if options.scene {
                 drawable(&mut document)?;
             }
@@ -56,9 +62,16 @@ pub fn run(
         }
         None if options.svg => write!(out, "{}", report::joints_svg(file, &found))?,
         Some(traced) if options.svg => write!(out, "{}", report::svg(file, traced, &found))?,
-        _ if options.csv => write!(out, "{}", report::csv(asked, &found))?,
+        _ if options.csv => {
+            let text = report::csv(asked, &found);
+            write!(out, "{}", ratio.map_or(text.clone(), |ratio| ratio.csv(&text)))?;
+        }
         _ if options.quiet => writeln!(out, "{}", report::verdict(&found))?,
-        _ => write!(out, "{}", report::text(asked, &found))?,
+        _ => {
+            let input = &file.linkage.joints[joint].name;
+            let more = ratio.map_or(String::new(), |ratio| ratio.text(input, is_length));
+            write!(out, "{}{more}", report::text(asked, &found))?;
+        }
     }
     out.flush()?;
     Ok(judged(&found.verdict))
@@ -66,7 +79,6 @@ pub fn run(
 
 /// Returns the requested joint, by name, or the first given one of the file.
 fn joint_of(options: &SweepOptions, file: &LinkageFile, given: &[Given]) -> Result<usize, Error> {
-    let joints = &file.linkage.joints;
     let Some(name) = &options.joint else {
         let first = given.iter().find_map(|one| match one {
             Given::Turn { joint, .. } | Given::Shift { joint, .. } => Some(*joint),
@@ -74,10 +86,16 @@ fn joint_of(options: &SweepOptions, file: &LinkageFile, given: &[Given]) -> Resu
         });
         return first.ok_or_else(|| Error::Invalid("found no joint given in the file, expected --joint".to_owned()));
     };
+    joint_named(file, "--joint", name)
+}
+
+/// Returns a joint that has a value by its name.
+fn joint_named(file: &LinkageFile, option: &str, name: &str) -> Result<usize, Error> {
+    let joints = &file.linkage.joints;
     let found = joints.iter().position(|joint| joint.name == *name && !joint.is_gear());
     found.ok_or_else(|| {
         let known: Vec<&str> =
             joints.iter().filter(|joint| !joint.is_gear()).take(12).map(|joint| joint.name.as_str()).collect();
-        Error::Invalid(format!("found --joint {name}, expected one of {}", known.join(", ")))
+        Error::Invalid(format!("found {option} {name}, expected one of {}", known.join(", ")))
     })
 }

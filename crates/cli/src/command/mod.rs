@@ -30,6 +30,7 @@ pub mod list;
 mod loads;
 pub mod mobility;
 pub mod motion;
+mod motion_arguments;
 mod npy;
 mod npz;
 pub mod order;

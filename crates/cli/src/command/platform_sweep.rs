@@ -16,6 +16,11 @@ use std::io::Write;
 
 /// Sweeps the length of a leg through its range and prints the branches.
 pub fn run(options: &SweepOptions, entry: &Entry, open: impl FnOnce() -> Result<Output, Fault>) -> Result<Exit, Fault> {
+    if options.ratio.is_some() {
+        return Err(
+            Error::Invalid("found --ratio for a platform, expected it for a loop or a linkage".to_owned()).into()
+        );
+    }
     let leg = leg(options)?;
     if entry.cases.is_empty() {
         let message =

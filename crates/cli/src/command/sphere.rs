@@ -10,6 +10,7 @@ use looproot::internal::derivation::{sphere_trace, transfer};
 use looproot::internal::error::Error;
 use looproot::internal::linkage::sphere::solve;
 use looproot::internal::report::axodes;
+use looproot::internal::report::ratio::Ratio;
 use looproot::internal::report::sphere as report;
 use looproot::internal::report::sphere_sweep as sweeps;
 use looproot::internal::sweep::sweep_sphere;
@@ -141,11 +142,15 @@ pub fn sweep(
     };
     let case = &file.cases[0];
     let joints = &file.linkage.joints;
-    let joint = match &options.joint {
-        Some(name) => joints.iter().position(|joint| joint.name == *name).ok_or_else(|| {
+    let named = |option: &str, name: &str| {
+        joints.iter().position(|joint| joint.name == *name).ok_or_else(|| {
             let known: Vec<&str> = joints.iter().take(12).map(|joint| joint.name.as_str()).collect();
-            Error::Invalid(format!("found --joint {name}, expected one of {}", known.join(", ")))
-        })?,
+            Error::Invalid(format!("found {option} {name}, expected one of {}", known.join(", ")))
+        })
+    };
+    let follower = options.ratio.as_ref().map(|name| named("--ratio", name)).transpose()?;
+    let joint = match &options.joint {
+        Some(name) => named("--joint", name)?,
         None => case
             .given
             .iter()
@@ -161,10 +166,14 @@ pub fn sweep(
     let found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
     let mut output = open()?;
     let (out, traced) = (&mut output.writer, traced.as_ref());
+    let ratio = follower.map(|follower| Ratio::of_sphere(file, &found, follower));
     if options.json {
         let mut document = sweeps::json(file, traced, &found);
         if let Some(body) = rolling {
             axodes::of_sphere(&mut document, file, &found, body);
+        }
+        if let Some(ratio) = &ratio {
+            ratio.insert(&mut document);
         }
         if options.scene {
             drawable(&mut document)?;
@@ -173,11 +182,13 @@ pub fn sweep(
     } else if options.svg {
         write!(out, "{}", sweeps::svg(file, &found))?;
     } else if options.csv {
-        write!(out, "{}", sweeps::csv(file, traced, &found))?;
+        let text = sweeps::csv(file, traced, &found);
+        write!(out, "{}", ratio.map_or(text.clone(), |ratio| ratio.csv(&text)))?;
     } else if options.quiet {
         writeln!(out, "{}", sweeps::verdict(&found))?;
     } else {
-        write!(out, "{}", sweeps::text(file, traced, &found))?;
+        let more = ratio.map_or(String::new(), |ratio| ratio.text(&joints[joint].name, false));
+        write!(out, "{}{more}", sweeps::text(file, traced, &found))?;
     }
     out.flush()?;
     // Between the inputs nothing is proved.

@@ -17,8 +17,10 @@ use looproot::internal::kinematics::freedom::Freedom;
 use looproot::internal::report::axodes;
 use looproot::internal::report::document::complete;
 use looproot::internal::report::picture::svg;
+use looproot::internal::report::ratio::Ratio;
 use looproot::internal::report::scene;
 use looproot::internal::report::sweep::{self as report, Swept};
+use looproot::internal::report::text::variables;
 use looproot::internal::scene::Stage;
 use looproot::internal::sweep::{Range, Sweep, SweepVerdict, sweep};
 use looproot::internal::verdict::Status;
@@ -68,6 +70,7 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let rolling = options.axodes.as_ref().map(|name| link(name, chain.joint_kinds().len())).transpose()?;
     let swept = swept(options, &entry, chain)?;
     let range = range(options, swept.variable, &entry.reading)?;
+    let follower = options.ratio.as_ref().map(|name| variable(chain, name)).transpose()?;
     let output = open()?;
     let target = if output.is_terminal || options.quiet {
         ProgressDrawTarget::hidden()
@@ -85,22 +88,49 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let found = pool.install(|| sweep(&entry, swept.joint, swept.variable, range, running, || progress.inc(1)));
     let found = found.map_err(|error| in_place(error, &options.mechanism, &entry))?;
     progress.finish_and_clear();
-    write(options, &entry, swept, (&found, rolling), output)?;
+    let ratio = follower.map(|follower| {
+        let follower = (follower.0, follower.1.as_str());
+        Ratio::of_loop(&entry, (swept.joint, swept.variable), &found, follower)
+    });
+    let more = More { rolling, ratio: ratio.transpose()? };
+    write(options, &entry, swept, (&found, &more), output)?;
     Ok(exit(&found))
+}
+
+/// What is requested beside the branches.
+struct More {
+    /// The body whose axodes are requested.
+    rolling: Option<usize>,
+    ratio: Option<Ratio>,
+}
+
+/// Returns a variable of a loop by its name, `q3`, `d3` or `3`, and its place among all.
+fn variable(chain: &Chain, asked: &str) -> Result<(usize, String), Error> {
+    let names: Vec<String> = variables(chain).into_iter().map(|(name, _)| name).collect();
+    let is_named = |name: &&String| *name == asked || name[1..] == *asked;
+    let found = names.iter().find(is_named).and_then(|name| names.iter().position(|own| own == name));
+    let found = found.map(|index| (index, names[index].clone()));
+    found.ok_or_else(|| {
+        let asked: String = asked.chars().take(40).collect();
+        Error::Invalid(format!("found --ratio {asked}, expected one of {}", names.join(", ")))
+    })
 }
 
 fn write(
     options: &SweepOptions,
     entry: &Entry,
     swept: Swept,
-    (found, rolling): (&Sweep, Option<usize>),
+    (found, more): (&Sweep, &More),
     mut output: Output,
 ) -> Result<(), Fault> {
     let out = &mut output.writer;
     if options.json {
         let mut document = report::json(entry, swept, found);
-        if let Some(body) = rolling {
+        if let Some(body) = more.rolling {
             axodes::of_loop(&mut document, entry, (swept.joint, swept.variable), body)?;
+        }
+        if let Some(ratio) = &more.ratio {
+            ratio.insert(&mut document);
         }
         complete(&mut document, entry);
         if let Some(stage) = Stage::of(entry).filter(|_| options.scene) {
@@ -111,11 +141,17 @@ fn write(
     } else if options.svg {
         write!(out, "{}", svg(entry, swept, found))?;
     } else if options.csv {
-        write!(out, "{}", report::csv(entry, found))?;
+        let text = report::csv(entry, found);
+        write!(out, "{}", more.ratio.as_ref().map_or(text.clone(), |ratio| ratio.csv(&text)))?;
     } else if options.quiet {
         writeln!(out, "{}", report::verdict(found))?;
     } else {
         write!(out, "{}", report::text(entry, swept, found))?;
+        if let Some(ratio) = &more.ratio {
+            let letter = if swept.variable == Variable::Rotation { "q" } else { "d" };
+            let text = ratio.text(&format!("{letter}{}", swept.joint), swept.variable == Variable::Translation);
+            write!(out, "{text}")?;
+        }
         if let Some(chain) = entry.chain().filter(|_| found.branches.is_empty()) {
             writeln!(out, "\nthe loop has {}; `looproot mobility` decides whether it moves", Freedom::of(chain))?;
         }

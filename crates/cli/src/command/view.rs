@@ -128,6 +128,7 @@ fn sweep_options(options: &ViewOptions) -> SweepOptions {
         svg: false,
         centrodes: None,
         axodes: None,
+        ratio: None,
         trace: options.trace.clone(),
         json: true,
         scene: true,
