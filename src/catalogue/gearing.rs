@@ -24,6 +24,8 @@ pub enum Gearing {
     },
     /// A pair of involute gears.
     Pair(Box<Pair>),
+    /// A pair of helical gears on skew axes.
+    Crossed(Box<Crossed>),
     /// The involute of a circle at a roll angle.
     Involute(Rational, Box<Angle>),
     /// The path of a point of a rolling circle.
@@ -86,6 +88,19 @@ pub struct Pair {
     pub internal: bool,
 }
 
+/// A pair of involute gears with skew axes.
+#[derive(Clone, Debug)]
+pub struct Crossed {
+    /// The normal module.
+    pub module: Rational,
+    /// The normal pressure angle.
+    pub pressure_angle: Angle,
+    /// The helix angles, of one sign where both gears have the same hand; the axes make their sum.
+    pub helix: [Angle; 2],
+    /// The numbers of teeth.
+    pub teeth: [u32; 2],
+}
+
 impl Gearing {
     /// Returns the value of `find`.
     #[must_use]
@@ -94,6 +109,7 @@ impl Gearing {
             Self::Train(_) => "train",
             Self::Wheels { .. } => "wheels",
             Self::Pair(_) => "pair",
+            Self::Crossed(_) => "crossed",
             Self::Involute(..) => "involute",
             Self::Trochoid(_) => "trochoid",
         }
@@ -104,13 +120,14 @@ const PAIR: [&str; 7] = ["module", "pressure_angle", "helix", "teeth", "shift", 
 
 /// Reads the question of a file of kind `gearing`.
 pub(super) fn gearing(scope: &Scope<'_>, table: &Table<'_>) -> Result<Gearing> {
-    let words = ["train", "wheels", "pair", "involute", "trochoid"];
+    let words = ["train", "wheels", "pair", "crossed", "involute", "trochoid"];
     let keys = [&PAIR[..], &["twist", "radius", "roll", "fixed", "rolling", "arm"]].concat();
     let (find, mechanism, _) = found(scope, table, &words, &keys)?;
     let own: &[&str] = match find {
         "train" => &[],
         "wheels" => &["twist"],
         "pair" => &PAIR,
+        "crossed" => &["module", "pressure_angle", "helix", "teeth"],
         "trochoid" => &["fixed", "rolling", "arm", "mesh"],
         _ => &["radius", "roll"],
     };
@@ -121,6 +138,7 @@ pub(super) fn gearing(scope: &Scope<'_>, table: &Table<'_>) -> Result<Gearing> {
         "train" => train(scope, table),
         "wheels" => wheels(scope, table, &mechanism),
         "pair" => pair(scope, &mechanism),
+        "crossed" => crossed(scope, &mechanism),
         "trochoid" => trochoid(scope, &mechanism),
         _ => {
             // Angles are used as their enclosures, so reading them rounds nothing.
@@ -251,6 +269,39 @@ fn wheels(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>) -> Result
     Ok(Gearing::Wheels { wheels: list, twist })
 }
 
+/// Reads the numbers of teeth of two gears, and where they stand.
+fn teeth<'n>(scope: &Scope<'_>, mechanism: &Table<'n>) -> Result<(&'n Node, [u32; 2])> {
+    let node = scope.need(mechanism, "teeth")?;
+    let [a, b] = scope.exactly::<2>(node, "teeth")?;
+    let teeth = |node: &Node| match scope.count(node, "teeth")? {
+        count @ 3..=MOST_TEETH => Ok(u32::try_from(count).unwrap_or(u32::MAX)),
+        other => Err(scope.fail(node.line, format!("found {other} teeth, expected 3 to {MOST_TEETH}"))),
+    };
+    Ok((node, [teeth(a)?, teeth(b)?]))
+}
+
+fn crossed(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Gearing> {
+    // Angles are used as their enclosures, so reading them rounds nothing.
+    let free = Scope::new(scope.path, scope.reading.clone());
+    let within = |node: &Node, key: &str, [least, most]: [f64; 2]| {
+        let angle = free.angle(node, key)?;
+        let degrees = angle.radians().to_degrees();
+        if !(degrees >= least && degrees <= most) {
+            let message = format!("found {degrees} deg as `{key}`, expected {least} deg to {most} deg");
+            return Err(scope.fail(node.line, message));
+        }
+        Ok(angle)
+    };
+    let [a, b] = scope.exactly::<2>(scope.need(mechanism, "helix")?, "helix")?;
+    let helix = |node: &Node| within(node, "helix", [-80.0, 80.0]);
+    Ok(Gearing::Crossed(Box::new(Crossed {
+        module: positive(scope, scope.need(mechanism, "module")?, "module")?,
+        pressure_angle: within(scope.need(mechanism, "pressure_angle")?, "pressure_angle", [1.0, 60.0])?,
+        helix: [helix(a)?, helix(b)?],
+        teeth: teeth(scope, mechanism)?.1,
+    })))
+}
+
 fn pair(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Gearing> {
     // Angles are used as their enclosures, so reading them rounds nothing.
     let free = Scope::new(scope.path, scope.reading.clone());
@@ -269,13 +320,7 @@ fn pair(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Gearing> {
             (None, None) => Err(scope.fail(mechanism.line(), format!("found no `{key}`, expected one"))),
         }
     };
-    let node = scope.need(mechanism, "teeth")?;
-    let [a, b] = scope.exactly::<2>(node, "teeth")?;
-    let teeth = |node: &Node| match scope.count(node, "teeth")? {
-        count @ 3..=MOST_TEETH => Ok(u32::try_from(count).unwrap_or(u32::MAX)),
-        other => Err(scope.fail(node.line, format!("found {other} teeth, expected 3 to {MOST_TEETH}"))),
-    };
-    let teeth = [teeth(a)?, teeth(b)?];
+    let (node, teeth) = teeth(scope, mechanism)?;
     let internal = is_internal(scope, mechanism)?;
     if internal && teeth[1] <= teeth[0] {
         let message = format!("found {} teeth inside around {}, expected more inside than around", teeth[1], teeth[0]);

@@ -12,14 +12,14 @@ use rug::{Float, Rational};
 const WIDTH: i32 = -60;
 
 /// Cosine and sine of an angle itself.
-fn cos_sin(angle: &Angle) -> (Enclosure, Enclosure) {
+pub(super) fn cos_sin(angle: &Angle) -> (Enclosure, Enclosure) {
     angle.enclosed().cloned().unwrap_or_else(|| {
         let (cos, sin) = exact_cos_sin(angle);
         (Enclosure::of(&cos), Enclosure::of(&sin))
     })
 }
 
-fn whole(n: u32) -> Enclosure {
+pub(super) fn whole(n: u32) -> Enclosure {
     Enclosure::of(&Rational::from(n))
 }
 

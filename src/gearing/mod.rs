@@ -2,6 +2,7 @@
 //!
 //! Trains and wheels are linear and decided over the rationals, and so are trochoids. Involute gears are computed in enclosures of many digits.
 
+mod crossed;
 mod involute;
 mod train;
 mod trochoid;
@@ -17,6 +18,7 @@ pub fn answer(question: &Gearing) -> Answer {
         Gearing::Train(train) => train::answer(train),
         Gearing::Wheels { wheels, twist } => wheels::answer(wheels, twist.as_ref()),
         Gearing::Pair(pair) => involute::pair(pair),
+        Gearing::Crossed(crossed) => crossed::answer(crossed),
         Gearing::Involute(radius, roll) => involute::curve(radius, roll),
         Gearing::Trochoid(rolling) => trochoid::answer(rolling),
     }

@@ -11,7 +11,9 @@ use super::picture::{COLOURS, Frame, escaped, graphs_svg};
 use crate::catalogue::LinkageFile;
 use crate::kinematics::linkage::Gaussian;
 use crate::linkage::answer::LinkageMode;
-use crate::sweep::{End, LinkageSweep};
+use super::table::Columns;
+use crate::sweep::{AssemblyBranch, End, LinkageSweep};
+use looproot_calculus::line::strip::{Strip, strip};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -55,7 +57,35 @@ fn input<'a>(file: &'a LinkageFile, sweep: &LinkageSweep) -> Input<'a> {
 /// The verdict, the branches and the limit positions.
 #[must_use]
 pub fn text(asked: Asked<'_>, sweep: &LinkageSweep) -> String {
-    assembly_sweep::text(input(asked.file, sweep), sweep, None)
+    let text = assembly_sweep::text(input(asked.file, sweep), sweep, None);
+    text + &asked.traced.map_or(String::new(), |traced| straight(traced, sweep))
+}
+
+/// The strips that hold the curves of the point, branch by branch.
+fn strips(traced: &Traced, sweep: &LinkageSweep) -> Vec<Option<Strip>> {
+    let branch = |branch: &AssemblyBranch| {
+        let points = branch.rows.iter().map(|row| traced.at(&sweep.samples[row.step].modes[row.mode]));
+        strip(&points.collect::<Vec<_>>())
+    };
+    sweep.branches.iter().map(branch).collect()
+}
+
+/// How straight the curve of the point is, at the inputs of the sweep.
+fn straight(traced: &Traced, sweep: &LinkageSweep) -> String {
+    let mut table = Columns::new(&["branch", "length [m]", "off a line [m]", "direction [deg]"], &[]);
+    for (k, found) in strips(traced, sweep).iter().enumerate() {
+        let Some(found) = found else { continue };
+        let [x, y] = found.direction;
+        // A line has no sense: its direction is in (-90, 90] degrees.
+        let (x, y) = if x < 0.0 || (x == 0.0 && y < 0.0) { (-x, -y) } else { (x, y) };
+        table.row([
+            (k + 1).to_string(),
+            short(found.length, 9),
+            short(found.deviation, 9),
+            short(y.atan2(x).to_degrees(), 6),
+        ]);
+    }
+    format!("\ncurve of {}: its extent along the nearest line, and how far it is off that line at most\n{}", traced.name, table.text())
 }
 
 /// The values of a mode's joints, those that have one.
@@ -132,6 +162,18 @@ pub fn json(asked: Asked<'_>, sweep: &LinkageSweep) -> Value {
         "variables": variables.collect::<Vec<_>>(),
     });
     assembly_sweep::insert(&mut document, sweep, |mode| place(asked, mode));
+    if let Some(traced) = asked.traced {
+        let shown = |found: &Strip| {
+            json!({
+                "direction": found.direction.map(number),
+                "point": found.point.map(number),
+                "deviation": number(found.deviation),
+                "length": number(found.length),
+            })
+        };
+        let branches = strips(traced, sweep);
+        document["straight"] = branches.iter().map(|found| found.as_ref().map_or(Value::Null, shown)).collect();
+    }
     document
 }
 

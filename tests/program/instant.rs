@@ -235,6 +235,42 @@ fn cognates_have_the_polynomial_of_the_four_bar() {
     }
 }
 
+/// The strip of Chebyshev's line between its middle and the place at which a crank is upright, and that of Watt's, each found by another program.
+#[test]
+fn curves_say_how_straight_they_are() {
+    let of = |name: &str, from: &str, to: &str| {
+        let document = run(&["sweep", name, "--from", from, "--to", to, "--trace", "coupler.P"], 0);
+        let least = document["straight"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|own| (own["deviation"].as_f64().unwrap(), own["length"].as_f64().unwrap()));
+        least.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap()
+    };
+    let (deviation, length) = of("linkage/chebyshev_line", "53.13010235 deg", "90 deg");
+    assert!((deviation - 0.004_876_845).abs() < 1e-7 && (length - 2.0).abs() < 1e-6, "{deviation} {length}");
+    let (deviation, length) = of("linkage/watt_line", "-20 deg", "20 deg");
+    assert!((deviation - 0.002_022_546).abs() < 1e-8 && (length - 1.370_855).abs() < 1e-5, "{deviation} {length}");
+}
+
+/// Helical gears on skew axes: the way to the tips along the line of action and the points at which it touches the base cylinders,
+/// found from the distances of its points from the axes.
+#[test]
+fn gears_on_skew_axes_touch_along_one_line() {
+    let document = run(&["solve", "gearing/crossed_pair"], 0);
+    let mode = &document["results"][0]["modes"][0];
+    near(&mode["contact_ratio"], 1.670_256_510_912_717_6);
+    near(&mode["shaft_angle"], std::f64::consts::FRAC_PI_4);
+    for (k, (base, curvature)) in
+        [(0.021_290_161_443_652_6, 0.010_136_250_476_120_9), (0.029_063_450_267_969_17, 0.011_290_400_806_175_6)]
+            .into_iter()
+            .enumerate()
+    {
+        near(&mode["base_radii"][k], base);
+        near(&mode["flank_curvature_radii"][k], curvature);
+    }
+}
+
 #[test]
 fn links_of_arms_move_with_the_rates_of_their_joints() {
     let document = run(&["instant", "arm/chain_cc", "--body", "tool", "--rate", "1, 2, 1, 3"], 0);

@@ -9,3 +9,4 @@ pub mod plane;
 pub mod pluecker;
 pub mod regulus;
 pub mod ruled;
+pub mod strip;
