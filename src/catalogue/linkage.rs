@@ -508,7 +508,7 @@ impl Reader<'_, '_> {
 }
 
 /// Returns the square root of a positive rational number, and whether it is exact; else it is right to 30 digits.
-pub(super) fn root(square: &Rational) -> (Rational, bool) {
+pub(crate) fn root(square: &Rational) -> (Rational, bool) {
     let (numerator, denominator) = (square.numer(), square.denom());
     if numerator.is_perfect_square() && denominator.is_perfect_square() {
         let root = |n: &Integer| Integer::from(n.sqrt_ref());

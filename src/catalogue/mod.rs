@@ -48,6 +48,7 @@ pub use library::{
     all_names, ansatz_names, builtin, builtin_any, builtin_names, builtin_page, builtin_text, calculus_names, citation,
     moving_names, namesakes,
 };
+pub(crate) use linkage::root;
 pub use linkage::{LinkageCase, LinkageClaim, LinkageClaims, LinkageFile, TraceClaim};
 pub use linkage_configuration::LinkageConfiguration;
 pub use motion::MotionFile;

@@ -155,8 +155,8 @@ impl Linkage {
                 let traced = traced.map(|name| file.point(name)).transpose()?;
                 let traced =
                     traced.map(|(body, name, place)| (body, format!("{}.{name}", file.linkage.bodies[body].name), place));
-                let found =
-                    sweep_sphere(&file.linkage, &file.cases[0].given, number, (range.from, range.to, range.steps))?;
+                let case = &file.cases[0];
+                let found = sweep_sphere(&file.linkage, (&case.given, file.exact && case.exact), number, range)?;
                 sphere_sweep::json(file, traced.as_ref(), &found)
             }
             Kind::Space(_) => return Err(in_space("sweeps")),

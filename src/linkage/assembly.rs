@@ -95,14 +95,22 @@ pub fn glued(linkage: &Linkage, given: &[Given]) -> Result<(Merged, Vec<Link>)> 
 /// # Errors
 /// Where inputs are too few, too many, or meet a rigid part; where a group is beyond what is implemented.
 pub fn groups_of(linkage: &Linkage, given: &[Given]) -> Result<Groups> {
-    let (merged, joints) = glued(linkage, given)?;
+    let (mut merged, joints) = glued(linkage, given)?;
+    // A joint between bodies that inputs hold together is in no group: nothing would say that it closes.
+    let is_held = |(_, [a, b]): &&Link| merged.root(*a) == merged.root(*b);
+    let held = joints.iter().find(is_held).map(|(joint, of)| Group {
+        clusters: of.to_vec(),
+        joints: vec![*joint],
+        gears: Vec::new(),
+        count: -2,
+    });
     let gears = gears_of(linkage)?;
     let found = geared_groups(linkage.bodies.len(), &joints, &gears, merged)?;
     let named = |group: &Group| {
         let names: Vec<&str> = group.clusters.iter().take(8).map(|body| linkage.bodies[*body].name.as_str()).collect();
         names.join(", ") + if group.clusters.len() > 8 { ", ..." } else { "" }
     };
-    if let Some(group) = found.list.iter().find(|group| group.count < 0) {
+    if let Some(group) = held.iter().chain(&found.list).find(|group| group.count < 0) {
         let (merged, free) = glued(linkage, &[])?;
         let without = geared_groups(linkage.bodies.len(), &free, &gears, merged)?;
         if !given.is_empty() && without.list.iter().all(|group| group.count >= 0) {

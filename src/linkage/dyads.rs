@@ -120,15 +120,19 @@ impl Dyads {
         let first = if self.is_turn { Complex::from_polar(1.0, input) } else { Complex::new(input, 0.0) };
         let mut unknowns = vec![first];
         let mut signs = Vec::new();
+        // Rotations whose terms cancel are less accurate, and so is what follows from them.
+        let mut loss = 1.0;
         for dyad in &self.list {
             let turn = |marked: &Marked| {
                 let body = Complex::from_polar(1.0, mode.bodies[marked.body].0.re);
-                body * marked.turn.value(&unknowns).0.conj()
+                let (turn, size) = marked.turn.value(&unknowns);
+                (body * turn.conj(), size)
             };
-            let [rest, turning] = [turn(&dyad.of[0]), turn(&dyad.of[1])];
+            let [(rest, one), (turning, two)] = [turn(&dyad.of[0]), turn(&dyad.of[1])];
+            loss *= one.max(1.0) * two.max(1.0);
             unknowns.push(turning * rest.conj());
             let (value, size) = dyad.equation[0].mul(&Laurent::power(dyad.variable, 1)).value(&unknowns);
-            if !(value.im.abs() > CLEAR * size) {
+            if !(value.im.abs() > CLEAR * size * loss) {
                 return None;
             }
             signs.push(value.im > 0.0);

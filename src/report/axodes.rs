@@ -81,7 +81,9 @@ pub fn of_sphere(document: &mut Value, file: &SphereFile, sweep: &SphereSweep, b
         let all = rates(linkage, &given, mode)?.bodies;
         axis(all.get(body)?, &all)
     };
-    let modes = sweep.branches.iter().flatten().map(|node| &node.mode);
+    let modes = sweep.branches.iter().flat_map(|branch| &branch.rows);
+    let modes = modes.map(|row| &sweep.samples[row.step].modes[row.mode]);
+    let modes: Vec<&SphereMode> = modes.chain(sweep.limits.iter().map(|limit| &limit.mode)).collect();
     for (row, mode) in rows(document).into_iter().zip(modes) {
         row["axodes"] = json!({ linkage.bodies[body].name.clone(): found(mode) });
     }

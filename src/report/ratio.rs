@@ -71,13 +71,17 @@ impl Ratio {
     #[must_use]
     pub fn of_sphere(file: &SphereFile, sweep: &SphereSweep, joint: usize) -> Self {
         let given = given_of_sphere(file, sweep.joint);
-        let input = |step: usize| sweep.inputs.get(step).map_or(f64::NAN, |(input, _)| *input);
-        let row = |node: &crate::sweep::SphereNode| {
-            let found = rates(&file.linkage, &given, &node.mode);
-            Row { input: input(node.step), ratio: found.map(|found| found.joints[joint]) }
+        let branch = |branch: &crate::sweep::AssemblyBranch| {
+            let row = |row: &crate::sweep::AssemblyRow| {
+                let sample = &sweep.samples[row.step];
+                let found = rates(&file.linkage, &given, &sample.modes[row.mode]);
+                Row { input: sample.input, ratio: found.map(|found| found.joints[joint]) }
+            };
+            branch.rows.iter().map(row).collect()
         };
-        let branches = sweep.branches.iter().map(|branch| branch.iter().map(row).collect()).collect();
-        Self { name: file.linkage.joints[joint].name.clone(), branches, step: input(1) - input(0) }
+        let name = file.linkage.joints[joint].name.clone();
+        let step = (sweep.range.to - sweep.range.from) / sweep.range.steps as f64;
+        Self { name, branches: sweep.branches.iter().map(branch).collect(), step }
     }
 
     /// Returns the ratios of a joint variable of a loop, by its place among them.

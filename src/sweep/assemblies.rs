@@ -389,7 +389,10 @@ impl<R: Running> Web<'_, R> {
                             keys.len() - 1
                         });
                         limits[known].branches.push(number);
-                        return (End::Limit(known), limits[known].input);
+                        // What begins between the end of a full turn and its beginning begins a turn before the end.
+                        let is_wrapped = !forwards && self.links[key.0].is_ring;
+                        let turn = if is_wrapped { self.range.to - self.range.from } else { 0.0 };
+                        return (End::Limit(known), limits[known].input - turn);
                     }
                     let is_border =
                         if forwards { place.0 + 1 == self.nodes.len() && ends[1] } else { place.0 == 0 && ends[0] };

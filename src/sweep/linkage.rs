@@ -14,6 +14,9 @@ use num_complex::Complex;
 use rug::Rational;
 use std::f64::consts::TAU;
 
+/// A body at this many times the size of the linkage is on its way to infinity.
+const FAR: f64 = 1e6;
+
 /// The result of a sweep of a linkage.
 pub type LinkageSweep = AssemblySweep<LinkageMode>;
 
@@ -25,7 +28,7 @@ struct Run<'a> {
     /// The size of the linkage: places are compared in parts of it.
     size: f64,
     /// Where the linkage consists of dyads.
-    proof: Option<Proof>,
+    proof: Option<Proof<LinkageMode>>,
 }
 
 impl Run<'_> {
@@ -62,11 +65,15 @@ impl Running for Run<'_> {
         Ok(AssemblySample { input, status, reason: answer.verdict.reason, modes, is_regular })
     }
 
-    /// The distance of two assemblies: the largest turn or step of a body.
+    /// The distance of two assemblies: the largest turn or step of a body. Steps are parts of the size, or of the distance of a body
+    /// on its way to infinity: all steps there would else be too large, however short they are. Very far away its direction counts.
     fn apart(&self, one: &LinkageMode, two: &LinkageMode) -> f64 {
         one.bodies.iter().zip(&two.bodies).fold(0.0, |worst, ((angle, place), (other, at))| {
             let turn = wrapped(angle.re - other.re).abs();
-            let step = (place[0].re - at[0].re).hypot(place[1].re - at[1].re) / self.size;
+            let [here, there] = [place, at].map(|p| [p[0].re, p[1].re]);
+            let [one, two] = [here, there].map(|[x, y]| x.hypot(y));
+            let scale = if one.min(two) > FAR * self.size { [one, two] } else { [self.size.max(one.min(two)); 2] };
+            let step = (here[0] / scale[0] - there[0] / scale[1]).hypot(here[1] / scale[0] - there[1] / scale[1]);
             worst.max(turn).max(step)
         })
     }

@@ -28,7 +28,7 @@ pub use assemblies::{AssemblyBranch, AssemblyLimit, AssemblyRow, AssemblySample,
 pub use linkage::{LinkageSweep, sweep_linkage};
 pub use platform::{PlatformSweep, sweep_platform};
 pub use sample::{Sample, case};
-pub use sphere::{SphereNode, SphereSweep, place as sphere_place, sweep_sphere};
+pub use sphere::{SphereSweep, place as sphere_place, sweep_sphere};
 pub use verdict::SweepVerdict;
 
 use crate::assembly::{Assembly, Workspace};

@@ -1,137 +1,121 @@
 //! The branches of a linkage on the sphere while the angle of a joint runs through a range.
 
+use super::Range;
+use super::assemblies::{AssemblySample, AssemblySweep, Proved, Running, follow, is_listed};
+use super::dyads::Proof;
 use crate::algebra::number::{Angle, HalfTangent, nearest_f64};
-use crate::algebra::polynomial::Polynomial;
-use crate::algebra::ring::Ring;
-use crate::algebra::univariate::Univariate;
-use crate::catalogue::sphere::turned;
-use crate::derivation::{Transfer, transfer};
+use crate::assembly::wrapped;
+use crate::catalogue::root;
 use crate::error::Result;
+use crate::kinematics::motion::dot;
 use crate::kinematics::sphere::{SphereGiven, SphereLinkage};
-use crate::linkage::sphere::{SphereMode, solve};
-use crate::verdict::Verdict;
+use crate::linkage::sphere::{SphereDyads, SphereMode, about, half_turn, solve, start};
+use crate::verdict::Code;
+use looproot_calculus::rotation::matrix::{Matrix, product};
+use num_complex::Complex;
 use rug::Rational;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-/// Half-angle tangents of the steps are multiples of this over 1: small numbers, and closer than any picture shows.
-const GRAIN: f64 = 1.0 / 1_048_576.0;
-/// No joint of a branch turns by more than this in a step, radians; farther modes begin a new branch.
-const STEP: f64 = 2.0;
+/// The result of a sweep of a linkage on the sphere.
+pub type SphereSweep = AssemblySweep<SphereMode>;
 
-/// One position of a branch.
-#[derive(Clone, Debug)]
-pub struct SphereNode {
-    /// The number of the step, from 0.
-    pub step: usize,
-    /// The assembly.
-    pub mode: SphereMode,
-}
+/// Larger tangents of half an angle are those of half a turn: that of pi in f64 is 1.6e16.
+const HALF_TURN: f64 = 1e15;
 
-/// The result over the range.
-#[derive(Clone, Debug)]
-pub struct SphereSweep {
-    /// The joint that runs.
-    pub joint: usize,
-    /// The angle of the input in radians, and the verdict, for every step.
-    pub inputs: Vec<(f64, Verdict)>,
-    /// The real branches, each as its positions in order.
-    pub branches: Vec<Vec<SphereNode>>,
-    /// The angles in (-pi, pi] at which two assemblies of a four-bar meet, exactly counted in the whole turn; none where no transfer
-    /// function of one four-bar is known.
-    pub limits: Option<Vec<f64>>,
-    /// The number of complex limit positions in the whole turn.
-    pub complex_limits: Option<usize>,
-}
-
-/// Runs a joint from one angle to another in `steps` steps; the other inputs stay.
-///
-/// # Errors
-/// As [`solve`].
-pub fn sweep_sphere(
-    linkage: &SphereLinkage,
-    given: &[SphereGiven],
+/// A joint that runs, while other rotations are held.
+struct Run<'a> {
+    linkage: &'a SphereLinkage,
     joint: usize,
-    (from, to, steps): (f64, f64, usize),
-) -> Result<SphereSweep> {
-    let others: Vec<SphereGiven> = given.iter().filter(|one| one.joint != Some(joint)).cloned().collect();
-    let mut branches: Vec<Vec<SphereNode>> = Vec::new();
-    let (mut open, mut inputs): (Vec<usize>, Vec<(f64, Verdict)>) = (Vec::new(), Vec::new());
-    for step in 0..=steps {
-        #[expect(clippy::cast_precision_loss, reason = "steps are few")]
-        let input = from + (to - from) * step as f64 / steps.max(1) as f64;
-        let (rotation, _) = turned(&linkage.joints[joint], &angle(input));
-        let mut all = others.clone();
-        all.push(SphereGiven { of: linkage.joints[joint].of, rotation, joint: Some(joint), line: linkage.joints[joint].line });
-        let answer = solve(linkage, &all, true)?;
-        inputs.push((input, answer.verdict));
-        let mut modes: Vec<SphereMode> = answer.modes.into_iter().filter(|mode| mode.real).collect();
-        let mut still = Vec::new();
-        for branch in open {
-            let last = branches[branch].last().map(|node| node.mode.clone());
-            let nearest = last.and_then(|last| {
-                let distances = modes.iter().map(|mode| apart(mode, &last)).enumerate();
-                distances.filter(|(_, d)| *d < STEP).min_by(|a, b| a.1.total_cmp(&b.1))
-            });
-            if let Some((k, _)) = nearest {
-                branches[branch].push(SphereNode { step, mode: modes.remove(k) });
-                still.push(branch);
+    held: Vec<SphereGiven>,
+    /// The rotation of its second body against the first from which its angle is counted.
+    start: Matrix<Rational>,
+    /// The square of the length of its axis.
+    square: Rational,
+    /// Where the linkage consists of dyads.
+    proof: Option<Proof<SphereMode>>,
+}
+
+impl Running for Run<'_> {
+    type Mode = SphereMode;
+    type Memory = ();
+
+    fn sample(&self, input: f64, (): &mut ()) -> Result<AssemblySample<SphereMode>> {
+        let own = &self.linkage.joints[self.joint];
+        let axis = &own.at[0];
+        let turn = match half_tangent(input, &self.square) {
+            Some(x) => about(axis, &x),
+            None => half_turn(axis),
+        };
+        let rotation = product(&turn, &self.start);
+        let driven = SphereGiven { of: own.of, rotation, joint: Some(self.joint), line: own.line };
+        let given: Vec<SphereGiven> = self.held.iter().cloned().chain([driven]).collect();
+        let answer = solve(self.linkage, &given, true)?;
+        let status = answer.verdict.status;
+        let modes: Vec<SphereMode> = answer.modes.into_iter().filter(|mode| mode.real).collect();
+        let is_regular = is_listed(status) && modes.iter().all(|mode| mode.multiplicity == 1);
+        Ok(AssemblySample { input, status, reason: answer.verdict.reason, modes, is_regular })
+    }
+
+    /// The distance of two assemblies: the largest turn of a joint.
+    fn apart(&self, one: &SphereMode, two: &SphereMode) -> f64 {
+        one.joints.iter().zip(&two.joints).map(|(a, b)| wrapped(a.re - b.re).abs()).fold(0.0, f64::max)
+    }
+
+    /// The assembly between two that are nearly one.
+    fn middle(&self, one: &SphereMode, two: &SphereMode) -> SphereMode {
+        let mut mode = one.clone();
+        for (own, other) in mode.joints.iter_mut().zip(&two.joints) {
+            *own = Complex::new(wrapped(own.re + 0.5 * wrapped(other.re - own.re)), 0.0);
+        }
+        for (own, other) in mode.bodies.iter_mut().zip(&two.bodies) {
+            for (entry, second) in own.iter_mut().flatten().zip(other.iter().flatten()) {
+                *entry = (*entry + second) * 0.5;
             }
         }
-        for mode in modes {
-            still.push(branches.len());
-            branches.push(vec![SphereNode { step, mode }]);
+        mode
+    }
+
+    fn proved(&self, range: Range, is_full_turn: bool, samples: &[AssemblySample<SphereMode>]) -> Result<Proved<SphereMode>> {
+        match &self.proof {
+            Some(proof) => proof.links(range, is_full_turn, samples, |input| self.sample(input, &mut ())),
+            None => Ok(Err(Code::NoExactRoute)),
         }
-        open = still;
     }
-    let found = transfer(linkage, joint).ok().and_then(|found| limits(&found));
-    let (limits, complex_limits) = match found {
-        Some((real, complex)) => (Some(real), Some(complex)),
-        None => (None, None),
-    };
-    Ok(SphereSweep { joint, inputs, branches, limits, complex_limits })
 }
 
-/// The angle as one with a short half-angle tangent.
-fn angle(radians: f64) -> Angle {
-    let wrapped = radians - TAU * (radians / TAU).round();
-    let tangent = (wrapped / 2.0).tan();
-    if wrapped.abs() >= PI || tangent.abs() > 1.0 / GRAIN {
-        return Angle::from_half_tangent(HalfTangent::Infinite);
+/// The tangent of half an angle in radians over the length of an axis whose square is given; `None` for half a turn, and for what f64
+/// does not tell from it.
+pub(super) fn half_tangent(angle: f64, square: &Rational) -> Option<Rational> {
+    match Angle::from_radians(angle).half_tangent() {
+        HalfTangent::Finite(t) if t.to_f64().abs() < HALF_TURN => {
+            // Roots have 30 digits behind the point: those of large numbers are as accurate relatively.
+            let bits = square.denom().significant_bits();
+            let length = root(&Rational::from(square << (2 * bits))).0 >> bits;
+            Some(t / length)
+        }
+        _ => None,
     }
-    let rounded = Rational::from_f64((tangent / GRAIN).round() * GRAIN).unwrap_or_default();
-    Angle::from_half_tangent(HalfTangent::Finite(rounded))
 }
 
-/// The largest difference of a joint.
-fn apart(one: &SphereMode, two: &SphereMode) -> f64 {
-    let turned = |a: f64, b: f64| ((a - b) - TAU * ((a - b) / TAU).round()).abs();
-    one.joints.iter().zip(&two.joints).map(|(a, b)| turned(a.re, b.re)).fold(0.0, f64::max)
-}
-
-/// The real limit positions of one four-bar and the number of complex ones: roots of the discriminant of its transfer function,
-/// which is quadratic in the output.
-fn limits(found: &Transfer) -> Option<(Vec<f64>, usize)> {
-    if found.bodies.len() != 1 {
-        return None;
-    }
-    let exact = found.polynomial.map(|c| Some(Rational::from(c.to_integer())))?;
-    let mut list = exact.coefficients_in(1);
-    list.resize(3, Polynomial::zero());
-    let four = Polynomial::constant(Rational::from(4));
-    let discriminant = list[1].mul(&list[1]).sub(&four.mul(&list[0]).mul(&list[2]));
-    let discriminant: Univariate<Rational> = discriminant.to_univariate(0)?;
-    if discriminant.is_zero() {
-        return None;
-    }
-    // The discriminant has degree 4 in general; what is missing is at infinity, at a half turn.
-    let degree = discriminant.degree().unwrap_or(0);
-    let mut real: Vec<f64> =
-        discriminant.real_roots().into_iter().map(|mut root| 2.0 * root.to_f64().atan()).collect();
-    if degree < 4 {
-        real.push(PI);
-    }
-    real.sort_by(f64::total_cmp);
-    Some((real, 4))
+/// Sweeps a joint of a linkage on the sphere, on all threads of the current pool, while the other given rotations are held; `exact`
+/// says whether no number of the linkage and of these was rounded.
+///
+/// # Errors
+/// For empty ranges, and as [`solve`].
+pub fn sweep_sphere(
+    linkage: &SphereLinkage,
+    (given, exact): (&[SphereGiven], bool),
+    joint: usize,
+    range: Range,
+) -> Result<SphereSweep> {
+    let held: Vec<SphereGiven> = given.iter().filter(|one| one.joint != Some(joint)).cloned().collect();
+    let axis = &linkage.joints[joint].at[0];
+    let proof = SphereDyads::of(linkage, &held, joint).and_then(Proof::on_sphere);
+    let run = Run { linkage, joint, held, start: start(linkage, joint), square: dot(axis, axis), proof };
+    let is_full_turn = ((range.to - range.from).abs() - TAU).abs() < 1e-12;
+    let mut sweep = follow(&run, joint, range, is_full_turn, || ())?;
+    sweep.verdict.proof = sweep.verdict.proof.of_rounded(!exact);
+    Ok(sweep)
 }
 
 /// The direction of a point of a body in an assembly.

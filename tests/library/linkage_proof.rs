@@ -184,6 +184,46 @@ fn a_dyad_on_a_double_root_is_not_taken_for_a_limit() {
 }
 
 #[test]
+fn a_branch_that_begins_where_a_full_turn_begins_lies_within_the_turn() {
+    // At half a turn B is at [0, -2], and D at [4, 1] is as far away as coupler and rocker reach: 5.
+    let bodies = "frame = { A = 0, D = [4, 1] }\ncrank = { A = 0, B = [0, 2] }\n\
+                  coupler = { B = 0, C = 2 }\nrocker = { D = 0, C = 3 }\n";
+    let file = file(bodies, "A");
+    let found = sweep(&file, 24);
+    assert_eq!((found.verdict.proof, found.limits.len()), (Proof::Proved, 2), "{}", found.verdict.reason);
+    for branch in &found.branches {
+        assert!((branch.from + PI).abs() < 1e-6 && branch.to < 1.0, "{} {}", branch.from, branch.to);
+    }
+    agrees(&file, &found);
+}
+
+#[test]
+fn slides_that_become_parallel_end_a_sweep_without_proof() {
+    // Two slides, one fixed in the crank, one in the frame: where they are parallel the pin between them is infinitely far away.
+    let text = "[mechanism]\nkind = \"linkage\"\nspace = \"plane\"\nground = \"frame\"\njoints = [\n\
+        { name = \"A\", type = \"R\", of = [\"frame\", \"crank\"] },\n\
+        { name = \"S\", type = \"P\", of = [\"crank\", \"one\"], along = [0, 1] },\n\
+        { name = \"T\", type = \"P\", of = [\"frame\", \"two\"], along = [3, 4] },\n\
+        { name = \"B\", type = \"R\", of = [\"one\", \"two\"] }]\n\
+        [mechanism.bodies]\nframe = { A = 0, T = [0, 1] }\ncrank = { A = 0, S = 4 }\none = { S = 0, B = 5 }\ntwo = { T = 0, B = 2 }\n\
+        [[input]]\njoint = \"A\"\ntan_half = \"1/2\"\n";
+    let Any::Linkage(file) = any_from_text(text, "test.toml", Format::Toml, &Options::default()).unwrap() else {
+        panic!("a linkage")
+    };
+    let found = sweep(&file, 24);
+    assert_eq!(found.verdict.proof, Proof::None);
+    assert_eq!((found.limits.len(), found.unresolved()), (0, 4));
+}
+
+#[test]
+fn a_second_joint_between_the_bodies_of_the_input_is_not_passed_over() {
+    let bodies = "frame = { A = 0, Q = [1, 1], D = 5 }\ncrank = { A = 0, Q = [1, 1], B = 2 }\n\
+                  coupler = { B = 0, C = 4 }\nrocker = { D = 0, C = 3 }\n";
+    let file = file(bodies, "A");
+    assert!(solve(&file.linkage, &file.cases[0].given, Accuracy::Exact).is_err());
+}
+
+#[test]
 fn linkages_of_dyads_in_the_library_are_proved() {
     let all = [
         "four_bar_coupler",

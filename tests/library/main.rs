@@ -31,6 +31,7 @@ mod real_field;
 mod robots;
 mod space;
 mod sphere;
+mod sphere_proof;
 mod strategies;
 mod sweep_proof;
 mod synthesis;

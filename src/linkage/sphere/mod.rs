@@ -5,9 +5,11 @@
 //! equations have exactly the assemblies for solutions, so that a Gröbner basis over the rationals counts them.
 
 mod answer;
+mod dyads;
 mod equations;
 mod instant;
 
 pub use answer::{Coordinate, SphereAnswer, SphereMode, quaternion, solve};
+pub use dyads::{Function, SphereDyad, SphereDyads, about, half_turn, start};
 pub use equations::{Cluster, System, combination};
 pub use instant::{Rates, rates};

@@ -1,5 +1,6 @@
 //! Functions of rotations as polynomials in half tangents.
 
+use super::critical::Count;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::resultant::resultant;
@@ -22,11 +23,10 @@ pub(super) struct Form {
 }
 
 /// The rotation with a half tangent.
-pub(super) fn rotation((numerator, denominator): (i32, i32)) -> Gaussian {
-    let t = Rational::from((numerator, denominator));
-    let square = Rational::from(&t * &t);
+fn rotation(t: &Rational) -> Gaussian {
+    let square = Rational::from(t * t);
     let length = Rational::from(&square + 1);
-    Complex { re: (1 - square) / &length, im: 2 * t / length }
+    Complex { re: (1 - square) / &length, im: Rational::from(t * 2) / length }
 }
 
 /// `x^power`, as a polynomial of one variable.
@@ -38,10 +38,32 @@ fn gaussian(re: i32, im: i32) -> Gaussian {
     Complex { re: Rational::from(re), im: Rational::from(im) }
 }
 
+impl Count {
+    /// Cosine and sine over length, both times the circle, and the circle, as polynomials in variable k.
+    fn turned(&self, k: usize) -> Option<[Polynomial<Rational>; 3]> {
+        let Self::Angle { from, square, .. } = self else { return None };
+        let x = Polynomial::<Rational>::variable(k);
+        let one = Polynomial::<Rational>::one();
+        let across = x.mul(&x).scale(square);
+        let (circle, cosine, sine) = (one.add(&across), one.sub(&across), x.scale(&Rational::from(2)));
+        // The angle from which it is counted comes first.
+        let start = Rational::from(from * from) * square;
+        let below = Rational::from(&start + 1);
+        let (cos, sin) = (Rational::from(1 - &start) / &below, Rational::from(from * 2) / &below);
+        let together = cosine.scale(&cos).sub(&sine.scale(&Rational::from(&sin * square)));
+        Some([together, cosine.scale(&sin).add(&sine.scale(&cos)), circle])
+    }
+}
+
 impl Form {
-    /// Returns the form of a function whose values are real; `None` where they are not. Variable k is an angle counted from that of
-    /// rotation k of `from`, or a displacement where there is none.
-    pub fn of(function: &Laurent, from: &[Option<Gaussian>]) -> Option<Self> {
+    /// Returns the form of a function whose values are real; `None` where they are not. Variable k is counted as the k-th of `counts`
+    /// says, in half tangents over lengths 1.
+    pub fn of(function: &Laurent, counts: &[Count]) -> Option<Self> {
+        let turn = |count: &Count| match count {
+            Count::Angle { from, .. } => Some(rotation(from)),
+            Count::Displacement(_) => None,
+        };
+        let from: Vec<Option<Gaussian>> = counts.iter().map(turn).collect();
         let largest = |k: usize| {
             let exponents = function.terms().map(|(e, _)| e.get(k).map_or(0, |e| e.unsigned_abs() as usize));
             exponents.max().unwrap_or(0)
@@ -71,21 +93,52 @@ impl Form {
             sum = sum.add(&product);
         }
         let rational = sum.map(|c| (c.im == 0).then(|| c.re.clone()))?;
-        if rational.is_zero() {
+        let degree = |(k, n): (usize, &usize)| if from[k].is_some() { 2 * n } else { *n };
+        Self::reduced(&rational, halves.iter().enumerate().map(degree).collect(), counts)
+    }
+
+    /// Returns the form of a function on the sphere: in it variables 2k and 2k + 1 are the cosine of angle k and its sine over the length
+    /// of the axis.
+    pub fn on_sphere(function: &Polynomial<Rational>, counts: &[Count]) -> Option<Self> {
+        let power = |exponents: &[u32], k: usize| {
+            let at = |n: usize| exponents.get(n).copied().unwrap_or(0) as usize;
+            [at(2 * k), at(2 * k + 1)]
+        };
+        let largest = |k: usize| function.terms().map(|(e, _)| power(&e, k).iter().sum::<usize>()).max().unwrap_or(0);
+        let highest: Vec<usize> = (0..counts.len()).map(largest).collect();
+        // With x = tan(q/2)/l and n = 1 + l^2 x^2, cos q = (1 - l^2 x^2)/n and sin q/l = 2x/n; q begins where x is `from`.
+        let factors: Vec<[Polynomial<Rational>; 3]> = counts.iter().enumerate().map(|(k, c)| c.turned(k)).collect::<Option<_>>()?;
+        let mut sum: Polynomial<Rational> = Polynomial::zero();
+        for (exponents, c) in function.terms() {
+            let mut product = Polynomial::constant(c.clone());
+            for (k, [cosine, sine, circle]) in factors.iter().enumerate() {
+                let [own, other] = power(&exponents, k);
+                let parts = [(cosine, own), (sine, other), (circle, highest[k] - own - other)];
+                for (base, n) in parts {
+                    product = (0..n).fold(product, |product, _| product.mul(base));
+                }
+            }
+            sum = sum.add(&product);
+        }
+        Self::reduced(&sum, highest.iter().map(|n| 2 * n).collect(), counts)
+    }
+
+    /// Returns the form of a polynomial without the factors that have no real zero; `None` of zero.
+    fn reduced(polynomial: &Polynomial<Rational>, degrees: Vec<usize>, counts: &[Count]) -> Option<Self> {
+        if polynomial.is_zero() {
             return None;
         }
-        let degree = |(k, n): (usize, &usize)| if from[k].is_some() { 2 * n } else { *n };
-        let degrees = halves.iter().enumerate().map(degree).collect();
-        let mut form = Self { polynomial: rational.primitive().0, degrees };
-        form.remove_circles(from);
+        let mut form = Self { polynomial: polynomial.primitive().0, degrees };
+        form.remove_circles(counts);
         Some(form)
     }
 
-    /// Divides by factors `1 + x^2`, which have no real zero.
-    fn remove_circles(&mut self, from: &[Option<Gaussian>]) {
-        for k in (0..from.len()).filter(|k| from[*k].is_some()) {
-            let x = Polynomial::<Int>::variable(k);
-            let circle = x.mul(&x).add(&Polynomial::one());
+    /// Divides by factors `1 + l^2 x^2`, which have no real zero.
+    fn remove_circles(&mut self, counts: &[Count]) {
+        for (k, count) in counts.iter().enumerate() {
+            let Count::Angle { square, .. } = count else { continue };
+            let x = Polynomial::<Rational>::variable(k);
+            let circle = x.mul(&x).scale(square).add(&Polynomial::one()).primitive().0;
             while self.degrees[k] >= 2 {
                 let Some(quotient) = self.polynomial.checked_div_exact(&circle) else { break };
                 self.polynomial = quotient;
@@ -100,7 +153,7 @@ impl Form {
     }
 
     /// Returns the resultant with another form; `None` where both vanish at half a turn of the variable, or degrees are too large.
-    pub fn eliminate(&self, other: &Self, variable: usize, from: &[Option<Gaussian>]) -> Option<Self> {
+    pub fn eliminate(&self, other: &Self, variable: usize, counts: &[Count]) -> Option<Self> {
         let [own, others] = [self, other].map(|form| form.degrees[variable]);
         if !(self.is_full(variable) && other.is_full(variable)) || own > HIGHEST {
             return None;
@@ -110,9 +163,9 @@ impl Form {
             return None;
         }
         let degree = |k: usize| if k == variable { 0 } else { self.degrees[k] * others + other.degrees[k] * own };
-        let degrees = (0..from.len()).map(degree).collect();
+        let degrees = (0..counts.len()).map(degree).collect();
         let mut form = Self { polynomial: polynomial.primitive_part(), degrees };
-        form.remove_circles(from);
+        form.remove_circles(counts);
         Some(form)
     }
 

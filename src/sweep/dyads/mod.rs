@@ -8,13 +8,19 @@ mod form;
 
 use super::Range;
 use super::assemblies::{AssemblySample, Link, Proved};
+use crate::algebra::ring::Ring;
 use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::linkage::{Given, Linkage, Pair};
 use crate::linkage::answer::LinkageMode;
 use crate::linkage::dyads::Dyads;
+use crate::linkage::laurent::Laurent;
+use crate::linkage::sphere::{SphereDyads, SphereMode};
 use crate::verdict::Code;
-use critical::{Critical, Criticals};
+use super::sphere::half_tangent;
+use crate::algebra::number::{Angle, HalfTangent};
+use critical::{Count, Counted, Critical, Criticals, Reading};
+use form::Form;
 use rug::Rational;
 use std::collections::BTreeSet;
 
@@ -28,19 +34,66 @@ const LEAST: f64 = 1e-13;
 /// Inputs are no farther apart than this, in radians.
 const LONGEST: f64 = 1.5;
 
-type Sample = AssemblySample<LinkageMode>;
+type Sample<M> = AssemblySample<M>;
 /// The signs of all dyads.
 type Signs = Vec<bool>;
+/// The signs of an assembly at an input; none where one is too close to 0.
+type Signed<M> = Box<dyn Fn(&M, f64) -> Option<Signs> + Send + Sync>;
 
 /// A linkage of dyads and its critical inputs.
-pub(super) struct Proof {
-    dyads: Dyads,
+pub(super) struct Proof<M> {
+    signs: Signed<M>,
     criticals: Criticals,
-    /// The length of the direction of a displacement, 1 of angles.
-    length: f64,
 }
 
-impl Proof {
+/// Dyads in the plane, and the length of the direction of a displacement.
+struct Plane<'a>(&'a Dyads, Rational);
+
+impl Counted for Plane<'_> {
+    const READING: Reading = |input, _| match Angle::from_radians(input).half_tangent() {
+        HalfTangent::Finite(t) => Some(t.clone()),
+        HalfTangent::Infinite => None,
+    };
+
+    fn squares(&self) -> Vec<Option<Rational>> {
+        let angle = || Some(Rational::from(1));
+        let input = if self.0.is_turn { angle() } else { None };
+        std::iter::once(input).chain(self.0.list.iter().map(|_| angle())).collect()
+    }
+
+    fn length(&self) -> Rational {
+        self.1.clone()
+    }
+
+    fn forms(&self, counts: &[Count]) -> Option<Vec<[Form; 2]>> {
+        let forms = self.0.list.iter().map(|dyad| {
+            let [a, b, c] = &dyad.equation;
+            let y = |exponent| Laurent::power(dyad.variable, exponent);
+            let equation = a.mul(&y(1)).add(b).add(&c.mul(&y(-1)));
+            Some([Form::of(&dyad.discriminant, counts)?, Form::of(&equation, counts)?])
+        });
+        forms.collect()
+    }
+}
+
+impl Counted for SphereDyads {
+    const READING: Reading = half_tangent;
+
+    fn squares(&self) -> Vec<Option<Rational>> {
+        self.squares.iter().cloned().map(Some).collect()
+    }
+
+    fn length(&self) -> Rational {
+        Rational::from(1)
+    }
+
+    fn forms(&self, counts: &[Count]) -> Option<Vec<[Form; 2]>> {
+        let form = |function| Form::on_sphere(function, counts);
+        self.list.iter().map(|dyad| Some([form(&dyad.discriminant)?, form(&dyad.equation)?])).collect()
+    }
+}
+
+impl Proof<LinkageMode> {
     /// Returns what is needed for a proof; `None` for linkages that are no dyads, or whose polynomials are too large.
     pub fn of(linkage: &Linkage, held: &[Given], joint: usize) -> Option<Self> {
         let length = match &linkage.joints[joint].pair {
@@ -48,12 +101,23 @@ impl Proof {
             _ => Rational::from(1),
         };
         let dyads = Dyads::of(linkage, held, joint)?;
-        let criticals = Criticals::of(&dyads, &length)?;
-        Some(Self { dyads, criticals, length: length.to_f64() })
+        let part = length.to_f64();
+        let criticals = Criticals::of(&Plane(&dyads, length))?;
+        Some(Self { signs: Box::new(move |mode, input| dyads.signs(mode, input / part)), criticals })
     }
+}
 
+impl Proof<SphereMode> {
+    /// Returns what is needed for a proof on the sphere; `None` where the polynomials are too large.
+    pub fn on_sphere(dyads: SphereDyads) -> Option<Self> {
+        let criticals = Criticals::of(&dyads)?;
+        Some(Self { signs: Box::new(move |mode, _| dyads.signs(mode)), criticals })
+    }
+}
+
+impl<M: Clone> Proof<M> {
     fn variable(&self) -> Variable {
-        if self.dyads.is_turn { Variable::Rotation } else { Variable::Translation }
+        if self.criticals.is_turn() { Variable::Rotation } else { Variable::Translation }
     }
 
     /// Returns the samples with those beside all critical inputs, and how the assemblies of each pass into those of the next one.
@@ -61,13 +125,13 @@ impl Proof {
         &self,
         range: Range,
         is_full_turn: bool,
-        samples: &[Sample],
-        sample: impl Fn(f64) -> Result<Sample>,
-    ) -> Result<Proved<LinkageMode>> {
+        samples: &[Sample<M>],
+        sample: impl Fn(f64) -> Result<Sample<M>>,
+    ) -> Result<Proved<M>> {
         let Some(inputs) = self.inputs(range, is_full_turn, samples) else {
             return Ok(Err(Code::SingularNotDecided));
         };
-        let mut nodes: Vec<(Sample, Option<usize>)> = Vec::new();
+        let mut nodes: Vec<(Sample<M>, Option<usize>)> = Vec::new();
         for (input, step) in inputs {
             let own = match step {
                 Some(step) => samples[step].clone(),
@@ -78,8 +142,8 @@ impl Proof {
             }
             nodes.push((own, step));
         }
-        let signs = |(sample, _): &(Sample, Option<usize>)| -> Option<Vec<Signs>> {
-            sample.modes.iter().map(|mode| self.dyads.signs(mode, sample.input / self.length)).collect()
+        let signs = |(sample, _): &(Sample<M>, Option<usize>)| -> Option<Vec<Signs>> {
+            sample.modes.iter().map(|mode| (self.signs)(mode, sample.input)).collect()
         };
         let Some(signs) = nodes.iter().map(signs).collect::<Option<Vec<_>>>() else {
             return Ok(Err(Code::BranchesNotMatched));
@@ -103,11 +167,11 @@ impl Proof {
     }
 
     /// Returns the inputs to look at, with the steps whose samples they are, in the order of the sweep.
-    fn inputs(&self, range: Range, is_full_turn: bool, samples: &[Sample]) -> Option<Vec<(f64, Option<usize>)>> {
+    fn inputs(&self, range: Range, is_full_turn: bool, samples: &[Sample<M>]) -> Option<Vec<(f64, Option<usize>)>> {
         let values: Vec<f64> = self.criticals.list.iter().map(|critical| critical.value).collect();
         let all = range.turned(&values, self.variable());
         let span = (range.to - range.from).abs();
-        let whole = if self.dyads.is_turn { 1.0 } else { span };
+        let whole = if self.criticals.is_turn() { 1.0 } else { span };
         let mut reaches = Vec::new();
         for (k, input) in all.iter().enumerate() {
             let others = all.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, other)| (other - input).abs());
@@ -129,7 +193,7 @@ impl Proof {
         let mut inputs: Vec<(f64, Option<usize>)> = steps.chain(sides).collect();
         let forward = range.to > range.from;
         inputs.sort_by(|a, b| if forward { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) });
-        if !self.dyads.is_turn {
+        if !self.criticals.is_turn() {
             return Some(inputs);
         }
         let mut filled: Vec<(f64, Option<usize>)> = Vec::new();

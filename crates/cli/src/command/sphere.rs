@@ -3,11 +3,13 @@
 use super::arguments::{DeriveOptions, SolveOptions, SweepOptions};
 use super::exit::{Exit, Fault};
 use super::linkage::{code, refuse, written};
-use super::output::Output;
+use super::output::{Output, pool};
 use super::space_instant::on_sphere;
+use super::sweep::{judged, range};
 use looproot::internal::catalogue::SphereFile;
 use looproot::internal::derivation::{sphere_trace, transfer};
 use looproot::internal::error::Error;
+use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::linkage::sphere::solve;
 use looproot::internal::report::axodes;
 use looproot::internal::report::ratio::Ratio;
@@ -15,7 +17,6 @@ use looproot::internal::report::sphere as report;
 use looproot::internal::report::sphere_sweep as sweeps;
 use looproot::internal::sweep::sweep_sphere;
 use looproot::internal::view::drawable;
-use looproot_algebra::number::Angle;
 use std::borrow::Cow;
 use std::io::Write;
 
@@ -157,12 +158,9 @@ pub fn sweep(
             .find_map(|given| given.joint)
             .ok_or_else(|| Error::Invalid("found no joint given in the file, expected --joint".to_owned()))?,
     };
-    let end = |name: &str, text: &str| {
-        let angle = Angle::parse(text, &file.reading).map_err(Error::from);
-        angle.map(|angle| angle.radians()).map_err(|error| Error::Invalid(format!("{name}: {error}")))
-    };
-    let range = (end("--from", &options.from)?, end("--to", &options.to)?, options.steps);
-    let found = sweep_sphere(&file.linkage, &case.given, joint, range);
+    let range = range(options, Variable::Rotation, &file.reading)?;
+    let pool = pool(options.threads)?;
+    let found = pool.install(|| sweep_sphere(&file.linkage, (&case.given, file.exact && case.exact), joint, range));
     let found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
     let mut output = open()?;
     let (out, traced) = (&mut output.writer, traced.as_ref());
@@ -188,9 +186,8 @@ pub fn sweep(
         writeln!(out, "{}", sweeps::verdict(&found))?;
     } else {
         let more = ratio.map_or(String::new(), |ratio| ratio.text(&joints[joint].name, false));
-        write!(out, "{}{more}", sweeps::text(file, traced, &found))?;
+        write!(out, "{}{more}", sweeps::text(file, &found))?;
     }
     out.flush()?;
-    // Between the inputs nothing is proved.
-    Ok(Exit::NotProved)
+    Ok(judged(&found.verdict))
 }
