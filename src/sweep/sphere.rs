@@ -6,11 +6,11 @@ use super::dyads::Proof;
 use crate::algebra::number::{Angle, HalfTangent, nearest_f64};
 use crate::assembly::wrapped;
 use crate::catalogue::root;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::kinematics::motion::dot;
 use crate::kinematics::sphere::{SphereGiven, SphereLinkage};
 use crate::linkage::sphere::{SphereDyads, SphereMode, about, half_turn, solve, start};
-use crate::verdict::Code;
+use crate::verdict::{Code, Status};
 use looproot_calculus::rotation::matrix::{Matrix, product};
 use num_complex::Complex;
 use rug::Rational;
@@ -49,7 +49,15 @@ impl Running for Run<'_> {
         let rotation = product(&turn, &self.start);
         let driven = SphereGiven { of: own.of, rotation, joint: Some(self.joint), line: own.line };
         let given: Vec<SphereGiven> = self.held.iter().cloned().chain([driven]).collect();
-        let answer = solve(self.linkage, &given, true)?;
+        let answer = match solve(self.linkage, &given, true) {
+            Ok(answer) => answer,
+            // A basis may be too large at one input, and not at others.
+            Err(Error::Unsupported(reason)) => {
+                let status = Status::Incomplete;
+                return Ok(AssemblySample { input, status, reason, modes: Vec::new(), is_regular: false });
+            }
+            Err(error) => return Err(error),
+        };
         let status = answer.verdict.status;
         let modes: Vec<SphereMode> = answer.modes.into_iter().filter(|mode| mode.real).collect();
         let is_regular = is_listed(status) && modes.iter().all(|mode| mode.multiplicity == 1);
@@ -114,6 +122,12 @@ pub fn sweep_sphere(
     let run = Run { linkage, joint, held, start: start(linkage, joint), square: dot(axis, axis), proof };
     let is_full_turn = ((range.to - range.from).abs() - TAU).abs() < 1e-12;
     let mut sweep = follow(&run, joint, range, is_full_turn, || ())?;
+    if let [first, rest @ ..] = sweep.samples.as_slice()
+        && first.status == Status::Incomplete
+        && rest.iter().all(|sample| sample.status == Status::Incomplete)
+    {
+        return Err(Error::Unsupported(first.reason.clone()));
+    }
     sweep.verdict.proof = sweep.verdict.proof.of_rounded(!exact);
     Ok(sweep)
 }
