@@ -11,13 +11,30 @@ use crate::kinematics::motion::Motion;
 use crate::kinematics::placement::rotation_of;
 use rug::Rational;
 
+/// Maximum number of points of a path: a four-bar has nine numbers.
+const MOST_POINTS: usize = 9;
 /// Maximum number of positions, more than any dyad can reach.
 const MOST_POSITIONS: usize = 20;
 /// Number of correct digits of a claimed solution that gives none.
 const DIGITS: u32 = 6;
 /// The keys of a claimed dyad.
-const CLAIMED: [&str; 10] =
-    ["fixed", "moving", "length", "angle", "distance", "crank", "rocker", "coupler", "crank_angle0", "rocker_angle0"];
+const CLAIMED: [&str; 15] = [
+    "fixed",
+    "moving",
+    "length",
+    "angle",
+    "distance",
+    "crank",
+    "rocker",
+    "coupler",
+    "crank_angle0",
+    "rocker_angle0",
+    "A",
+    "B",
+    "C",
+    "D",
+    "third_pivot",
+];
 
 /// The space in which a linkage is sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,6 +99,8 @@ pub enum Task {
     Motion(DyadKind, Vec<Motion<Rational>>),
     /// Crank and rocker of a planar four-bar have to take these pairs of angles.
     Function(Vec<AnglePair>),
+    /// The coupler curve of a planar four-bar has to run through these points, which are different.
+    Path(Vec<[Rational; 2]>),
 }
 
 /// A pair of angles of crank and rocker.
@@ -139,10 +158,7 @@ pub(super) fn synthesis(scope: &mut Scope<'_>, root: &Node, name: &str) -> Resul
     let task = match scope.word(task_node, "task", &["motion", "function", "path"])? {
         "motion" => motion(scope, &table, &mechanism, space)?,
         "function" => function(scope, &table, &mechanism, (space, task_node.line))?,
-        _ => {
-            let message = "found the task path, which is not solved yet: motion and function are".to_owned();
-            return Err(Error::Unsupported(message).at(scope.path, task_node.line));
-        }
+        _ => path(scope, &table, &mechanism, (space, task_node.line))?,
     };
     let exact = !scope.is_rounded();
     let (mut expected, mut line) = (Expected::default(), node.line);
@@ -179,12 +195,12 @@ fn only(scope: &Scope<'_>, table: &Table<'_>, wanted: &str, task: &str) -> Resul
     Ok(())
 }
 
-/// Returns the items of `[[position]]` or `[[pair]]`, at least two.
-fn items<'n>(scope: &Scope<'_>, table: &Table<'n>, key: &str) -> Result<&'n [Node]> {
+/// Returns the items of `[[position]]`, `[[pair]]` or `[[point]]`, at least two and at most this many.
+fn items<'n>(scope: &Scope<'_>, table: &Table<'n>, key: &str, most: usize) -> Result<&'n [Node]> {
     let node = scope.need(table, key)?;
     let items = scope.list(node, key)?;
-    if !(2..=MOST_POSITIONS).contains(&items.len()) {
-        let message = format!("found {} of [[{key}]], expected 2 to {MOST_POSITIONS}", items.len());
+    if !(2..=most).contains(&items.len()) {
+        let message = format!("found {} of [[{key}]], expected 2 to {most}", items.len());
         return Err(scope.fail(node.line, message));
     }
     Ok(items)
@@ -206,7 +222,7 @@ fn motion(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>, space: Sp
         "SS" => DyadKind::SS,
         _ => DyadKind::PPS,
     };
-    let positions = items(scope, table, "position")?.iter().map(|item| match space {
+    let positions = items(scope, table, "position", MOST_POSITIONS)?.iter().map(|item| match space {
         Space::Plane => in_plane(scope, item),
         Space::Sphere => on_sphere(scope, item),
         Space::Space => in_space(scope, item),
@@ -238,7 +254,34 @@ fn function(
         let ratio = ratio.map(|ratio| ratio.rational().clone());
         Ok(AnglePair { angles: [angle("input")?, angle("output")?], ratio })
     };
-    Ok(Task::Function(items(scope, table, "pair")?.iter().map(pair).collect::<Result<_>>()?))
+    Ok(Task::Function(items(scope, table, "pair", MOST_POSITIONS)?.iter().map(pair).collect::<Result<_>>()?))
+}
+
+fn path(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>, (space, line): (Space, usize)) -> Result<Task> {
+    only(scope, table, "point", "path")?;
+    if space != Space::Plane {
+        let message = format!("found the task path in the space {}, which is solved in the plane only", space.word());
+        return Err(Error::Unsupported(message).at(scope.path, line));
+    }
+    if let Some(node) = mechanism.get("dyad") {
+        let message = "found `dyad` beside the task path, expected none: its linkage is a four-bar of four R joints";
+        return Err(scope.fail(node.line, message));
+    }
+    let mut points: Vec<[Rational; 2]> = Vec::new();
+    for item in items(scope, table, "point", MOST_POINTS)? {
+        let own = scope.table(item, "a [[point]]", &["at"])?;
+        let mut point = [Rational::new(), Rational::new()];
+        for (part, node) in point.iter_mut().zip(scope.exactly::<2>(scope.need(&own, "at")?, "at")?) {
+            part.clone_from(scope.length(node, "at")?.rational());
+        }
+        if let Some(k) = points.iter().position(|other| *other == point) {
+            let message =
+                format!("found points {} and {} at the same place, expected different points", k + 1, points.len() + 1);
+            return Err(scope.fail(item.line, message));
+        }
+        points.push(point);
+    }
+    Ok(Task::Path(points))
 }
 
 /// Reads an angle: a value, or a table with `angle` or `tan_half`.

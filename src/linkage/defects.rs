@@ -1,19 +1,36 @@
-//! Four-bars of two dyads of a synthesis in the plane: whether one circuit, and one round of it, takes the coupler through all
-//! positions in their order. \[Wittenburg2016, 17.14.4\]
+//! Four-bars of a synthesis in the plane, of two dyads or with a given coupler curve: whether one circuit, and one round of it, takes the
+//! coupler through all positions or points in their order. \[Wittenburg2016, 17.14.4\]
 
 use crate::catalogue::{DyadKind, Space, SynthesisFile, Task};
 use crate::kinematics::motion::Motion;
+use crate::synthesis::path::{NAMES, moving, pivots};
 use crate::synthesis::{Answer, Dyad};
 use rug::Rational;
 
 /// Lengths and sines closer to 0 than this, relative to the links, decide nothing: far more than the radius of certified dyads.
 const CLOSE: f64 = 1e-9;
 
-/// A four-bar whose crank and rocker are two dyads.
+/// What a four-bar is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Indices of the dyads of crank and rocker among the modes.
+    Dyads([usize; 2]),
+    /// A four-bar of a path, one of its three cognates, with the crank at its pivot A or D.
+    Cognate {
+        /// Its index among the modes.
+        mode: usize,
+        /// 0 for the four-bar itself, 1 and 2 for its cognates.
+        cognate: usize,
+        /// The pivot of the crank.
+        crank: &'static str,
+    },
+}
+
+/// A four-bar that takes its coupler through the positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourBar {
-    /// Indices of the dyads of crank and rocker among the modes.
-    pub dyads: [usize; 2],
+    /// What it is made of.
+    pub source: Source,
     /// The class by Grashof's condition; change-point where the sums are equal to rounding.
     pub class: &'static str,
     /// Whether all positions lie on one circuit; `None` where a position is too close to a limit to say.
@@ -48,11 +65,15 @@ fn length(u: &Point) -> f64 {
     u[0].hypot(u[1])
 }
 
-/// Returns the four-bars of every two real dyads, with either as the crank; none of other tasks than positions of RR dyads in the
-/// plane.
+/// Returns the four-bars of every two real dyads, and those of a path with their cognates, each with either link as the crank; none of
+/// other tasks than paths and positions of RR dyads in the plane.
 #[must_use]
 pub fn four_bars(file: &SynthesisFile, answer: &Answer) -> Vec<FourBar> {
-    let Task::Motion(DyadKind::RR, positions) = &file.task else { return Vec::new() };
+    let positions = match &file.task {
+        Task::Motion(DyadKind::RR, positions) => positions,
+        Task::Path(points) => return of_path(points, answer),
+        _ => return Vec::new(),
+    };
     if file.space != Space::Plane {
         return Vec::new();
     }
@@ -62,8 +83,26 @@ pub fn four_bars(file: &SynthesisFile, answer: &Answer) -> Vec<FourBar> {
     for (crank, first) in &real {
         for (rocker, second) in real.iter().filter(|(rocker, _)| rocker != crank) {
             if let (Some(first), Some(second)) = (Arm::of(first, positions), Arm::of(second, positions)) {
-                list.extend(four_bar([*crank, *rocker], &first, &second));
+                list.extend(four_bar(Source::Dyads([*crank, *rocker]), &first, &second));
             }
+        }
+    }
+    list
+}
+
+/// The four-bars of a path.
+fn of_path(points: &[[Rational; 2]], answer: &Answer) -> Vec<FourBar> {
+    let points: Vec<Point> = points.iter().map(|point| point.each_ref().map(Rational::to_f64)).collect();
+    let mut list = Vec::new();
+    for (mode, own) in answer.modes.iter().enumerate().filter(|(_, mode)| mode.is_real && mode.is_certified()) {
+        for (cognate, names) in NAMES.into_iter().enumerate() {
+            let Some(pivots) = pivots(&own.dyad, names) else { continue };
+            let Some(places) = moving(&pivots, &points) else { continue };
+            let arm = |fixed: Point, k: usize| Arm { fixed, moving: places.iter().map(|place| place[k]).collect() };
+            let (one, other) = (arm(pivots[0], 0), arm(pivots[3], 1));
+            let source = |crank| Source::Cognate { mode, cognate, crank };
+            list.extend(four_bar(source("A"), &one, &other));
+            list.extend(four_bar(source("D"), &other, &one));
         }
     }
     list
@@ -98,7 +137,7 @@ impl Arm {
 }
 
 /// The four-bar of a crank and a rocker; `None` where a link has no length.
-fn four_bar(dyads: [usize; 2], crank: &Arm, rocker: &Arm) -> Option<FourBar> {
+fn four_bar(source: Source, crank: &Arm, rocker: &Arm) -> Option<FourBar> {
     let (b, c) = (crank.moving.first()?, rocker.moving.first()?);
     // Ground, crank, coupler, rocker.
     let ends = [(&rocker.fixed, &crank.fixed), (b, &crank.fixed), (c, b), (c, &rocker.fixed)];
@@ -148,7 +187,7 @@ fn four_bar(dyads: [usize; 2], crank: &Arm, rocker: &Arm) -> Option<FourBar> {
         None
     };
     let in_order = passed.map(|[in_order, _]| in_order);
-    Some(FourBar { dyads, class, one_circuit, in_order, without_limit: passed.map(|[order, free]| order && free) })
+    Some(FourBar { source, class, one_circuit, in_order, without_limit: passed.map(|[order, free]| order && free) })
 }
 
 /// Of a crank that does not turn fully: whether one round of the circuit passes the positions in their order, and whether the crank
@@ -216,7 +255,7 @@ mod tests {
             let angles = [0.3, 1.9, 3.4, 5.2];
             let (moving, other): (Vec<Point>, Vec<Point>) = angles.iter().zip(sides).map(|(a, s)| at(*a, s)).unzip();
             let (crank, rocker) = (Arm { fixed: [0.0, 0.0], moving }, Arm { fixed: [4.0, 0.0], moving: other });
-            four_bar([0, 1], &crank, &rocker).unwrap()
+            four_bar(Source::Dyads([0, 1]), &crank, &rocker).unwrap()
         };
         let sound = of([1.0; 4]);
         assert_eq!((sound.class, sound.one_circuit, sound.in_order), ("crank-rocker", Some(true), Some(true)));
@@ -262,7 +301,7 @@ mod tests {
             let of = |shares: [usize; 5]| {
                 let (moving, other): (Vec<Point>, Vec<Point>) = shares.map(|k| points(walk[walk.len() * k / 10 + 3])).into_iter().unzip();
                 let (one, two) = (Arm { fixed: [0.0, 0.0], moving }, Arm { fixed: [frame, 0.0], moving: other });
-                four_bar([0, 1], &one, &two).unwrap()
+                four_bar(Source::Dyads([0, 1]), &one, &two).unwrap()
             };
             let forth = of([0, 2, 4, 6, 8]);
             assert_eq!((forth.one_circuit, forth.in_order, forth.without_limit), (Some(true), Some(true), Some(false)), "{}", forth.class);
@@ -274,7 +313,7 @@ mod tests {
             let [from, to, ..] = limits[..] else { panic!("two limits: {limits:?}") };
             let (moving, other) = [1, 3, 5, 8].map(|k| points(walk[from + (to - from) * k / 10])).into_iter().unzip();
             let (one, two) = (Arm { fixed: [0.0, 0.0], moving }, Arm { fixed: [frame, 0.0], moving: other });
-            assert_eq!(four_bar([0, 1], &one, &two).unwrap().without_limit, Some(true));
+            assert_eq!(four_bar(Source::Dyads([0, 1]), &one, &two).unwrap().without_limit, Some(true));
         }
     }
 }

@@ -12,6 +12,7 @@ pub mod francis;
 pub mod hessenberg;
 pub mod kernel;
 pub mod newton;
+pub mod paths;
 pub mod plane_curve;
 pub mod polynomial_roots;
 pub mod pose;

@@ -168,7 +168,7 @@ fn list(wanted: &Wanted, points: &[Point], proof: Proof, maker: Maker) -> Answer
 }
 
 /// Dyads in the order of their numbers.
-fn by_numbers(one: &Dyad, other: &Dyad) -> std::cmp::Ordering {
+pub(super) fn by_numbers(one: &Dyad, other: &Dyad) -> std::cmp::Ordering {
     let numbers = |dyad: &Dyad| dyad.parts.iter().flat_map(|part| part.values.clone()).collect::<Vec<_>>();
     let (one, other) = (numbers(one), numbers(other));
     let order = |(x, y): (&num_complex::Complex<f64>, &num_complex::Complex<f64>)| {
@@ -200,7 +200,7 @@ fn mode(wanted: &Wanted, point: &Point, maker: Maker) -> Mode {
 
 impl Answer {
     /// Sorts the dyads by their distance from numbers: those of the fixed and the moving part, or of the fixed part only; of
-    /// four-bars crank, its angle, rocker, its angle and coupler.
+    /// four-bars for pairs of angles crank, its angle, rocker, its angle and coupler; of those for a path A and D, or A, D, B and C.
     ///
     /// # Errors
     /// For another number of numbers than these have.
@@ -211,6 +211,10 @@ impl Answer {
                 parts.flat_map(|part| part.values.iter().map(|z| z.re)).collect::<Vec<f64>>()
             };
             let arms = ["crank", "crank_angle0", "rocker", "rocker_angle0", "coupler"];
+            if dyad.get("A").is_some() {
+                let of = |names: &[&str]| names.iter().flat_map(|name| dyad.real(name)).collect();
+                return [of(&["A", "D"]), of(&["A", "D", "B", "C"])];
+            }
             if dyad.get("crank").is_some() {
                 return [
                     arms[..2].iter().flat_map(|name| dyad.real(name)).collect(),

@@ -48,14 +48,14 @@ impl Dyad {
 }
 
 /// A dyad in the making.
-struct Making {
+pub(super) struct Making {
     parts: Vec<Part>,
     radius: f64,
     is_real: bool,
 }
 
 impl Making {
-    fn new(is_real: bool) -> Self {
+    pub fn new(is_real: bool) -> Self {
         Self { parts: Vec::new(), radius: 0.0, is_real }
     }
 
@@ -70,7 +70,7 @@ impl Making {
         Complex::new(re + 0.0, im + 0.0)
     }
 
-    fn list(&mut self, name: &'static str, discs: &[Disc]) {
+    pub fn list(&mut self, name: &'static str, discs: &[Disc]) {
         let values = discs.iter().map(|disc| self.value(disc)).collect();
         self.parts.push(Part { name, values, is_scalar: false });
     }
@@ -89,7 +89,7 @@ impl Making {
         self.scalar(name, &root);
     }
 
-    fn done(self) -> Dyad {
+    pub fn done(self) -> Dyad {
         Dyad { parts: self.parts, radius: self.radius }
     }
 }

@@ -1,4 +1,4 @@
-//! Dimensional synthesis: all dyads, or function generators, through positions that are given.
+//! Dimensional synthesis: all dyads through positions that are given, all function generators, and all four-bars through points.
 //!
 //! The positions are known and the geometry is not: every position gives polynomial equations in the points and lines of a
 //! dyad, which are solved exactly over the rationals. The answer is a list of all dyads with multiplicity, or the dimension
@@ -15,6 +15,7 @@ mod krawczyk;
 mod linear;
 mod lines;
 mod moments;
+pub mod path;
 mod poles;
 mod remarks;
 mod sample;
@@ -34,7 +35,7 @@ use solved::{Found, solve};
 /// Products of words that a Gröbner basis may take: seven positions of a body on spheres take a fiftieth of it.
 const EFFORT: u64 = 2_000_000_000;
 
-/// Finds all dyads of a file, or function generators.
+/// Finds all dyads of a file, or four-bars.
 ///
 /// # Example
 /// ```
@@ -51,6 +52,7 @@ pub fn synthesize(file: &SynthesisFile) -> Answer {
     let (kind, positions) = match &file.task {
         Task::Motion(kind, positions) => (*kind, positions.clone()),
         Task::Function(pairs) => return function::synthesize(file, pairs),
+        Task::Path(points) => return path::synthesize(file, points),
     };
     let wanted = Wanted { kind, space: file.space, positions, rates: Vec::new(), trivial: 0 };
     let mut answer = match kind {

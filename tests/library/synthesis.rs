@@ -4,6 +4,8 @@
 use looproot::internal::catalogue::{Any, Format, Options, SynthesisFile, any_from_text, moving_names};
 use looproot::internal::claims::judge_any;
 use looproot::internal::error::Error;
+use looproot::internal::linkage::defects::{FourBar, four_bars};
+use looproot::internal::synthesis::path::{NAMES, moving, pivots};
 use looproot::internal::synthesis::{Answer, synthesize};
 use looproot::internal::verdict::{Proof, Status};
 
@@ -164,6 +166,88 @@ fn faults_name_line_and_expectation() {
         assert!(message.contains(words), "{message}");
         assert_eq!(found, line, "{message}");
     }
-    let path = head.replace("motion", "path") + "[[point]]\nat = [1, 2]\n";
-    assert!(matches!(read(&path), Err(Error::Unsupported(_))));
+}
+
+/// A path through these points.
+fn path(points: &[[f64; 2]]) -> String {
+    let mut text = "[mechanism]\nkind = \"synthesis\"\nspace = \"plane\"\ntask = \"path\"\n".to_owned();
+    for [x, y] in points {
+        text += &format!("[[point]]\nat = [{x:?}, {y:?}]\n");
+    }
+    text
+}
+
+/// A four-bar is drawn with its coupler point at nine places: its triple is found among 1442, and the triples take their points.
+#[test]
+fn a_planted_four_bar_is_found_with_its_cognates() {
+    // Frame, crank, coupler and rocker of a crank-rocker, and its coupler point, seen from the crank's end.
+    let (fixed, [crank, coupler, rocker], [u, v]) = ([[0.0, 0.0], [4.0, 1.0]], [1.5, 4.0, 3.5], [2.0, 1.5]);
+    let at = |angle: f64| {
+        let b = [crank * angle.cos(), crank * angle.sin()];
+        let way = [fixed[1][0] - b[0], fixed[1][1] - b[1]];
+        let square = way[0] * way[0] + way[1] * way[1];
+        let along = (square + coupler * coupler - rocker * rocker) / (2.0 * square);
+        let across = (coupler * coupler / square - along * along).sqrt();
+        let c = [b[0] + along * way[0] - across * way[1], b[1] + along * way[1] + across * way[0]];
+        let [x, y] = [(c[0] - b[0]) / coupler, (c[1] - b[1]) / coupler];
+        ([b, c], [b[0] + u * x - v * y, b[1] + u * y + v * x])
+    };
+    let angles = [0.2, 0.9, 1.5, 2.3, 2.9, 3.6, 4.4, 5.0, 5.7];
+    let points = angles.map(|angle| at(angle).1);
+    let file = read(&path(&points)).unwrap();
+    let answer = synthesize(&file);
+    let verdict = &answer.verdict;
+    assert_eq!(
+        (verdict.status, verdict.complex, verdict.certified),
+        (Status::Complete, 1442, 1442),
+        "{}",
+        verdict.reason
+    );
+    assert!(matches!(verdict.proof, Proof::Probable { error, .. } if error < 1e-12), "{:?}", verdict.proof);
+    let ([b, c], _) = at(angles[0]);
+    let wanted = [fixed[0], b, c, fixed[1]];
+    let mut is_found = false;
+    for mode in answer.modes.iter().filter(|mode| mode.is_real) {
+        for names in NAMES {
+            let pivots = pivots(&mode.dyad, names).unwrap();
+            let size = |[x, y]: [f64; 2], [u, v]: [f64; 2]| (x - u).hypot(y - v);
+            let extent = pivots.iter().map(|pivot| size(*pivot, points[0])).fold(1.0, f64::max);
+            let [own, reversed] = [[0, 1, 2, 3], [3, 2, 1, 0]]
+                .map(|order| (0..4).map(|k| size(pivots[order[k]], wanted[k])).fold(0.0, f64::max));
+            is_found |= own.min(reversed) < 1e-8;
+            let lengths = |[b, c]: [[f64; 2]; 2], point: [f64; 2]| {
+                [size(pivots[0], b), size(pivots[3], c), size(b, c), size(b, point), size(c, point)]
+            };
+            let places = moving(&pivots, &points).unwrap();
+            let first = lengths(places[0], points[0]);
+            for (place, point) in places.iter().zip(points) {
+                let off = lengths(*place, point).iter().zip(first).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+                assert!(off < 1e-8 * extent, "{off:e} of {extent}");
+            }
+        }
+    }
+    assert!(is_found, "the four-bar that was planted");
+    // The planted one passes the points in their order, and with it its cognates.
+    let sound = four_bars(&file, &answer).into_iter().filter(FourBar::is_sound).count();
+    assert!(sound >= 6, "{sound}");
+}
+
+#[test]
+fn faults_of_paths_name_line_and_expectation() {
+    let points: Vec<[f64; 2]> = (0..10_i32).map(|k| [f64::from(k), f64::from(k * k)]).collect();
+    for (text, line, words) in [
+        (path(&points), 5, "found 10 of [[point]], expected 2 to 9"),
+        (path(&points[..1]), 5, "found 1 of [[point]], expected 2 to 9"),
+        (path(&[[1.0, 2.0]; 8]), 7, "found points 1 and 2 at the same place, expected different points"),
+        (path(&[[1.0, 2.0], [f64::NAN, 0.0]]).replace("NaN", "nan"), 8, "expected"),
+        (path(&points[..9]).replace("at = [0.0, 0.0]", "at = [0.0, 0.0, 1.0]"), 6, "a list of 2"),
+        (path(&points[..9]).replace("task", "dyad = \"RR\"\ntask"), 4, "found `dyad` beside the task path"),
+        (path(&points[..9]) + "[[pair]]\ninput = 0\noutput = 0\n", 23, "expected [[point]]"),
+    ] {
+        let Err(Error::File { line: found, message, .. }) = read(&text) else { panic!("{text}") };
+        assert!(message.contains(words), "{message}");
+        assert_eq!(found, line, "{message}");
+    }
+    let sphere = path(&points[..9]).replace("plane", "sphere");
+    assert!(matches!(read(&sphere), Err(Error::Unsupported(_))));
 }

@@ -12,6 +12,7 @@ pub(super) fn short(file: &SynthesisFile) -> String {
     match &file.task {
         Task::Motion(dyad, positions) => format!("{} dyad, {}", dyad.word(), counted(positions.len(), "position")),
         Task::Function(pairs) => format!("four-bar, {}", counted(pairs.len(), "pair")),
+        Task::Path(points) => format!("four-bar, {}", counted(points.len(), "point")),
     }
 }
 
@@ -27,6 +28,7 @@ pub(super) fn text(file: &SynthesisFile) -> String {
     let mut table = match &file.task {
         Task::Motion(..) => Columns::new(&["position", "rotation, by rows", "translation"], &["position"]),
         Task::Function(_) => Columns::new(&["pair", "cos, sin of the input", "cos, sin of the output", "ratio of the rates"], &["pair"]),
+        Task::Path(_) => Columns::new(&["point", "x, y"], &["point"]),
     };
     match &file.task {
         Task::Motion(_, positions) => {
@@ -44,6 +46,11 @@ pub(super) fn text(file: &SynthesisFile) -> String {
                 let [input, output] = pair.angles.each_ref().map(|(cos, sin)| format!("{cos}, {sin}"));
                 let ratio = pair.ratio.as_ref().map_or(String::new(), ToString::to_string);
                 table.row([(k + 1).to_string(), input, output, ratio]);
+            }
+        }
+        Task::Path(points) => {
+            for (k, [x, y]) in points.iter().enumerate() {
+                table.row([(k + 1).to_string(), format!("{x}, {y}")]);
             }
         }
     }
@@ -83,6 +90,11 @@ pub fn json(file: &SynthesisFile) -> Value {
                 json!({ "input": angle(input), "output": angle(output), "ratio": ratio })
             };
             object.insert("pairs".into(), pairs.iter().map(pair).collect());
+        }
+        Task::Path(points) => {
+            object.insert("task".into(), json!("path"));
+            let point = |point: &[rug::Rational; 2]| json!(point.each_ref().map(ToString::to_string));
+            object.insert("points".into(), points.iter().map(point).collect());
         }
     }
     let claims = json!({

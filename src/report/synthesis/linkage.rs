@@ -3,12 +3,13 @@
 use crate::catalogue::{AnglePair, DyadKind, Space, SynthesisFile, Task};
 use crate::error::{Error, Result};
 use crate::kinematics::motion::Motion;
+use crate::synthesis::path::{NAMES, moving, pivots};
 use crate::synthesis::{Answer, Dyad};
 use rug::Rational;
 use std::fmt::Write;
 
 /// Names of the ground points and of the body points of the dyads, in their order: those of a four-bar for the first two.
-const NAMES: [[&str; 2]; 6] = [["A", "B"], ["D", "C"], ["G", "E"], ["K", "H"], ["M", "L"], ["P", "N"]];
+const JOINTS: [[&str; 2]; 6] = [["A", "B"], ["D", "C"], ["G", "E"], ["K", "H"], ["M", "L"], ["P", "N"]];
 
 /// The joints and bodies of a file in the making.
 struct Making {
@@ -54,15 +55,24 @@ pub fn toml(file: &SynthesisFile, answer: &Answer, numbers: &[usize]) -> Result<
             };
             making.four_bar(dyad, pairs);
         }
+        (Task::Path(points), _) => {
+            let [dyad] = dyads.as_slice() else {
+                return Err(Error::Invalid(format!(
+                    "found {} numbers in --linkage, expected one four-bar",
+                    dyads.len()
+                )));
+            };
+            making.coupler_curve(dyad, points);
+        }
         (Task::Motion(..), Space::Space) => {
             return Err(Error::Unsupported("linkages of dyads in space are not written as files".to_owned()));
         }
         (Task::Motion(kind, positions), space) => {
-            if !(2..=NAMES.len()).contains(&dyads.len()) {
-                let message = format!("found {} dyads in --linkage, expected 2 to {}", dyads.len(), NAMES.len());
+            if !(2..=JOINTS.len()).contains(&dyads.len()) {
+                let message = format!("found {} dyads in --linkage, expected 2 to {}", dyads.len(), JOINTS.len());
                 return Err(Error::Invalid(message));
             }
-            for (dyad, names) in dyads.iter().zip(NAMES) {
+            for (dyad, names) in dyads.iter().zip(JOINTS) {
                 making.dyad(*kind, space, dyad, names, positions);
             }
         }
@@ -173,6 +183,28 @@ impl Making {
         if self.input.is_none() {
             self.input = Some((ground.to_owned(), values.0, values.1));
         }
+    }
+
+    /// The coupler's origin P is the point that runs through those of the file.
+    fn coupler_curve(&mut self, dyad: &Dyad, points: &[[Rational; 2]]) {
+        for (joint, of) in
+            [("A", ["frame", "crank"]), ("B", ["crank", "coupler"]), ("C", ["coupler", "rocker"]), ("D", ["frame", "rocker"])]
+        {
+            self.joint(joint, "R", of, "");
+        }
+        let points: Vec<[f64; 2]> = points.iter().map(|point| point.each_ref().map(Rational::to_f64)).collect();
+        let Some(pivots) = pivots(dyad, NAMES[0]) else { return };
+        let [a, b, c, d] = &pivots;
+        let length = |p: &[f64; 2], q: &[f64; 2]| digits((p[0] - q[0]).hypot(p[1] - q[1]));
+        let own = |p: &[f64; 2]| list(&[p[0] - points[0][0], p[1] - points[0][1]]);
+        self.frame = vec![format!("A = {}", list(a)), format!("D = {}", list(d))];
+        self.coupler = vec![format!("B = {}", own(b)), format!("C = {}", own(c)), "P = [0, 0]".to_owned()];
+        self.links = vec![
+            format!("crank = {{ A = 0, B = {} }}", length(a, b)),
+            format!("rocker = {{ D = 0, C = {} }}", length(d, c)),
+        ];
+        let angles = moving(&pivots, &points).iter().flatten().map(|[b, _]| (b[1] - a[1]).atan2(b[0] - a[0])).collect();
+        self.input = Some(("A".to_owned(), "angle", angles));
     }
 
     /// Crank and rocker have their zero angles along their x axes, as the pairs of the file have.

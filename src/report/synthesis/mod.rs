@@ -12,6 +12,7 @@ use super::table::{Columns, paragraph};
 use crate::catalogue::{SynthesisFile, Task};
 use crate::synthesis::{Answer, Dyad, Mode, Part, Pole, poles};
 use crate::algebra::number::nearest_f64;
+use crate::verdict::Proof;
 use num_complex::Complex;
 use rug::Rational;
 use serde_json::{Map, Value, json};
@@ -27,6 +28,7 @@ pub fn verdict(file: &SynthesisFile, answer: &Answer) -> String {
     let what = match &file.task {
         Task::Motion(..) => "dyads",
         Task::Function(_) => "four-bars",
+        Task::Path(_) => "four-bars with their cognates",
     };
     let found = if verdict.self_motion > 0 {
         format!("a family of {what} of dimension {}", verdict.self_motion)
@@ -51,12 +53,17 @@ pub fn text(file: &SynthesisFile, answer: &Answer, complex: bool) -> String {
     }
     let shown: Vec<(usize, &Mode)> = (1..).zip(&answer.modes).filter(|(_, mode)| is_shown(mode, complex)).collect();
     if let Some((_, first)) = shown.first() {
-        let names: Vec<&str> = first.dyad.parts.iter().map(|part| part.name).collect();
-        let header = [&["dyad"][..], &names, &["multiplicity", "radius"]].concat();
+        // Both cognates of a four-bar would make a table too wide to be read: the document has them.
+        let columns = |mode: &Mode| -> Vec<Part> {
+            mode.dyad.parts.iter().filter(|part| !part.name.starts_with("cognate")).cloned().collect()
+        };
+        let columns_of_first = columns(first);
+        let names: Vec<&str> = columns_of_first.iter().map(|part| part.name).collect();
+        let header = [&[if matches!(file.task, Task::Motion(..)) { "dyad" } else { "four-bar" }][..], &names, &["multiplicity", "radius"]].concat();
         let mut table = Columns::new(&header, &[]);
         for (id, mode) in &shown {
             let mut row = vec![id.to_string()];
-            row.extend(mode.dyad.parts.iter().map(|part| written(part, mode.is_real)));
+            row.extend(columns(mode).iter().map(|part| written(part, mode.is_real)));
             row.extend([mode.multiplicity.to_string(), at_most(mode.dyad.radius)]);
             table.row(row);
         }
@@ -152,7 +159,7 @@ pub fn json(file: &SynthesisFile, answer: &Answer, complex: bool) -> Value {
         let place = |point: &[Rational; 2]| -> Value { point.iter().map(|c| number(nearest_f64(c))).collect() };
         json!({ "positions": pole.positions.map(|k| k + 1), "fixed": place(&pole.fixed), "moving": place(&pole.moving) })
     });
-    json!({
+    let mut document = json!({
         "title": file.heading.title,
         "kind": "synthesis",
         "name": file.heading.name,
@@ -180,5 +187,11 @@ pub fn json(file: &SynthesisFile, answer: &Answer, complex: bool) -> Value {
             "poles": poles.collect::<Vec<_>>(),
             "warnings": answer.warnings,
         }],
-    })
+    });
+    if let Proof::Probable { error, seed } = verdict.proof {
+        document["seed"] = json!(seed);
+        let verdict = &mut document["results"][0]["verdict"];
+        (verdict["probability_of_error"], verdict["seed"]) = (number(error), json!(seed));
+    }
+    document
 }

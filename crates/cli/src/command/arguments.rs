@@ -39,7 +39,7 @@ pub enum Verb {
     View(Box<ViewOptions>),
     /// Decide whether a loop, an arm, a platform or a framework moves, with proof
     Mobility(MobilityOptions),
-    /// Find all dyads through given positions, or all four-bars for pairs of angles
+    /// Find all dyads through given positions, or all four-bars for pairs of angles or through points
     Synthesize(SynthesizeOptions),
     /// Factor a rational motion and close loops of its factorisations
     Factor(FactorOptions),
@@ -408,9 +408,8 @@ pub struct SweepOptions {
     /// JSON: add the scene and the poses of its bodies at every configuration, so that another program can draw it
     #[arg(long, requires = "json")]
     pub scene: bool,
-    /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
-    pub seed: Option<u64>,
+    #[command(flatten)]
+    pub drawn: super::seed::SeedOptions,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
@@ -532,9 +531,8 @@ pub struct MobilityOptions {
     /// One JSON document
     #[arg(long)]
     pub json: bool,
-    /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
-    pub seed: Option<u64>,
+    #[command(flatten)]
+    pub drawn: super::seed::SeedOptions,
     /// Print the verdict only
     #[arg(short, long, conflicts_with = "json")]
     pub quiet: bool,
@@ -550,7 +548,7 @@ pub struct MobilityOptions {
 pub struct SynthesizeOptions {
     /// A file of a synthesis (kind "synthesis"), the name of a built-in one, or - for standard input
     pub mechanism: String,
-    /// Sort by the distance from these numbers: those of the fixed and the moving point, or of the fixed point only
+    /// Sort by the distance from these numbers: those of the fixed and the moving point or of the fixed point, of a path A, D, B, C or A, D
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     pub near: Option<String>,
     /// The linkage of these dyads, or the four-bar of this number, as a file: 1,3
@@ -559,7 +557,7 @@ pub struct SynthesizeOptions {
     /// A linkage as a mechanism file; `--linkage` names its dyads
     #[arg(long, requires = "linkage", conflicts_with_all = ["json", "quiet", "svg"])]
     pub toml: bool,
-    /// Dyads RR in the plane: the four-bars that pass all positions in their order on one circuit
+    /// Paths, and dyads RR in the plane: the four-bars that pass all points or positions in their order on one circuit
     #[arg(long, conflicts_with_all = ["toml", "svg", "quiet"])]
     pub no_defects: bool,
     /// A drawing of the positions, the dyads and the curves of their points, in the plane
@@ -568,6 +566,8 @@ pub struct SynthesizeOptions {
     /// Complex dyads, too
     #[arg(long)]
     pub complex: bool,
+    #[command(flatten)]
+    pub drawn: super::seed::SeedOptions,
     /// One JSON document
     #[arg(long)]
     pub json: bool,

@@ -45,6 +45,7 @@ Examples:
   looproot synthesize burmester5_4real_a                        all dyads through five positions
   looproot synthesize burmester5_4real_a --linkage 2,4 --toml   the four-bar of two of them, as a file
   looproot synthesize burmester4_a --svg -o curves.svg          circle points and centre points
+  looproot synthesize nine_points_a --no-defects                all four-bars through nine points
   looproot synthesize seven_positions --near \"0, 3, 1\" --json  the nearest fixed point first, as a document";
 
 /// Examples of `conditions`.

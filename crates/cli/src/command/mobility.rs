@@ -16,7 +16,7 @@ use std::io::Write;
 
 /// Decides whether a mechanism moves.
 pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
-    plant(options.seed);
+    plant(options.drawn.seed);
     let entry = match load_any(&options.mechanism, &Options { chains: Chains::Any, ..options.read.options() })? {
         Any::Entry(entry) => entry,
         Any::Framework(_) if options.certificate.is_some() => {

@@ -35,7 +35,7 @@ pub fn run(options: &SweepOptions) -> Result<Exit, Fault> {
 
 /// As [`run`], with output to `open`, which is called once the mechanism is read.
 pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Fault>) -> Result<Exit, Fault> {
-    plant(options.seed);
+    plant(options.drawn.seed);
     // The input is that of the command line, if given.
     let chains = if options.joint.is_some() { Chains::Swept } else { Chains::Solved };
     let entry = match load_solvable(&options.mechanism, &Options { chains, ..options.read.options() })? {

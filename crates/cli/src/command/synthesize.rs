@@ -3,6 +3,7 @@
 use super::arguments::SynthesizeOptions;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
+use super::seed::plant;
 use looproot::internal::catalogue::{Any, DyadKind, Space, Task, load_any};
 use looproot::internal::error::Error;
 use looproot::internal::report::synthesis::{defects, json, linkage, picture, text, verdict};
@@ -16,14 +17,18 @@ pub fn run(options: &SynthesizeOptions) -> Result<Exit, Fault> {
         Any::Synthesis(file) => file,
         other => return Err(unexpected(&options.mechanism, other.kind(), "a synthesis")),
     };
+    plant(options.drawn.seed);
     let mut answer = synthesize(&file);
     if let Some(near) = &options.near {
         answer.sort_near(&numbers(near)?)?;
     }
-    let is_planar = matches!(file.task, Task::Motion(DyadKind::RR, _)) && file.space == Space::Plane;
-    if options.no_defects && !is_planar {
-        let message =
-            "found --no-defects, expected it for positions and RR dyads in the plane, two of which make a four-bar";
+    let has_four_bars = match file.task {
+        Task::Motion(DyadKind::RR, _) => file.space == Space::Plane,
+        Task::Path(_) => true,
+        _ => false,
+    };
+    if options.no_defects && !has_four_bars {
+        let message = "found --no-defects, expected it for points of a path, or for positions and RR dyads in the plane, two of which make a four-bar";
         return Err(Error::Invalid(message.to_owned()).into());
     }
     let written = if let Some(list) = &options.linkage {

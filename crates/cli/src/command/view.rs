@@ -3,6 +3,7 @@
 use super::arguments::{SweepOptions, ViewOptions};
 use super::exit::{Exit, Fault};
 use super::output::{Memory, Output};
+use super::seed::SeedOptions;
 use super::view_map::map;
 use super::{solve, sweep, view_live};
 use looproot::internal::catalogue::{Any, Chains, Options, load_any};
@@ -132,7 +133,7 @@ fn sweep_options(options: &ViewOptions) -> SweepOptions {
         trace: options.trace.clone(),
         json: true,
         scene: true,
-        seed: solve.seed,
+        drawn: SeedOptions { seed: solve.seed },
         threads: solve.threads,
         quiet: true,
         read: solve.read.clone(),
