@@ -9,6 +9,7 @@ mod cuts;
 mod equation;
 mod four_bar;
 pub(crate) mod input_output;
+mod interpolation;
 mod linkage;
 mod platform;
 mod polynomial;
@@ -25,7 +26,11 @@ mod two_sides;
 mod ways;
 
 pub use equation::Equation;
-pub use linkage::{Curve, GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage, trace, trace_mass};
+pub use interpolation::Watch;
+pub use linkage::{
+    Coordinate, Curve, GroupPolynomial, InputOutput, LinkageDerivation, LinkageSymbolic, Symbol, derive_linkage, derive_linkage_with_symbols,
+    in_cosines, trace, trace_mass,
+};
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;
 pub use sphere::{SpecialPoint, SphereCurve, Transfer, sphere_sides, sphere_trace, transfer};

@@ -12,21 +12,21 @@ use crate::algebra::ring::{Domain, Ring};
 use crate::algebra::text::{Format, Names};
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::{LinkageCase, LinkageFile};
-use crate::derivation::{Curve, GroupPolynomial, InputOutput, LinkageDerivation, Symbol};
+use crate::derivation::{Curve, GroupPolynomial, LinkageDerivation, Symbol, in_cosines};
 use crate::kinematics::linkage::{Gaussian, Linkage};
 use rug::{Integer, Rational};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// The text of a polynomial in these variables, or in v1, v2, ... where they are no names.
-fn written(polynomial: &Polynomial<Rational>, names: &[String]) -> String {
+pub(super) fn written(polynomial: &Polynomial<Rational>, names: &[String]) -> String {
     let plain = || Names::given((1..=names.len()).map(|k| format!("v{k}")));
     Names::given(names)
         .or_else(|_| plain())
         .map_or_else(|_| String::new(), |names| Format::Text.polynomial(polynomial, &names))
 }
 
-fn rational(polynomial: &Polynomial<Int>) -> Polynomial<Rational> {
+pub(super) fn rational(polynomial: &Polynomial<Int>) -> Polynomial<Rational> {
     polynomial.map(|c| Some(Rational::from(c.to_integer()))).unwrap_or_else(Polynomial::zero)
 }
 
@@ -36,16 +36,16 @@ fn univariate(polynomial: &Univariate<Integer>) -> Polynomial<Rational> {
 }
 
 /// The half-angle tangent of a body.
-fn tangent(file: &LinkageFile, body: usize) -> String {
+pub(super) fn tangent(file: &LinkageFile, body: usize) -> String {
     format!("t_{}", file.linkage.bodies[body].name)
 }
 
-/// The variables of input and output.
-fn pair(file: &LinkageFile, found: &InputOutput) -> [String; 2] {
-    let joint = &file.linkage.joints[found.input];
+/// The variables of an input and the angle of a body.
+pub(super) fn pair(file: &LinkageFile, input: usize, body: usize) -> [String; 2] {
+    let joint = &file.linkage.joints[input];
     let letter = if joint.is_prismatic() { 'd' } else { 't' };
     let input = format!("{letter}_{}", joint.name);
-    let output = tangent(file, found.body);
+    let output = tangent(file, body);
     if input == output { ["s".to_owned(), "t".to_owned()] } else { [input, output] }
 }
 
@@ -116,17 +116,37 @@ fn coefficients(polynomial: &Univariate<Integer>) -> Vec<String> {
     polynomial.coefficients().iter().map(ToString::to_string).collect()
 }
 
-/// The exponents and the coefficient of every term.
-fn terms(polynomial: &Polynomial<Int>) -> Value {
-    let term = |(exponents, c): (Vec<u32>, &Int)| {
-        let exponent = |k: usize| exponents.get(k).copied().unwrap_or(0);
-        json!([exponent(0), exponent(1), c.to_integer().to_string()])
+/// The exponents of so many variables and the coefficient of every term.
+pub(super) fn terms(polynomial: &Polynomial<Int>, variables: usize) -> Value {
+    let term = |(exponents, c): (Vec<u32>, &Int)| -> Value {
+        let exponent = |k: usize| json!(exponents.get(k).copied().unwrap_or(0));
+        (0..variables).map(exponent).chain([json!(c.to_integer().to_string())]).collect()
     };
     polynomial.terms().map(term).collect()
 }
 
+/// The names of the variables of a relation in cosines and sines.
+pub(super) fn circular(file: &LinkageFile, input: usize, body: usize) -> Vec<String> {
+    let joint = &file.linkage.joints[input];
+    let body = &file.linkage.bodies[body].name;
+    let input = if joint.name == *body { "input" } else { joint.name.as_str() };
+    let output = [format!("c_{body}"), format!("s_{body}")];
+    let first = if joint.is_prismatic() {
+        vec![format!("d_{input}")]
+    } else {
+        vec![format!("c_{input}"), format!("s_{input}")]
+    };
+    first.into_iter().chain(output).collect()
+}
+
+/// Returns the heading of a relation in cosines and sines: that of a four-bar is Freudenstein's equation.
+pub(super) fn heading(file: &LinkageFile, joints: usize, is_turn: bool) -> &'static str {
+    let is_four_bar = joints == 4 && is_turn && file.linkage.joints.iter().all(|joint| !joint.is_prismatic());
+    if is_four_bar { "In cosines and sines, Freudenstein's equation" } else { "In cosines and sines" }
+}
+
 /// The keys that every document of a linkage has.
-fn document(file: &LinkageFile, case: usize) -> Value {
+pub(super) fn document(file: &LinkageFile, case: usize) -> Value {
     json!({
         "name": file.heading.name,
         "version": env!("CARGO_PKG_VERSION"),
@@ -164,7 +184,7 @@ pub fn json(file: &LinkageFile, case: usize, derivation: &LinkageDerivation) -> 
         .collect();
     document["polynomials"] = derivation.polynomials.iter().map(|one| group_json(file, one)).collect();
     document["input_output"] = derivation.input_output.as_ref().map_or(Value::Null, |found| {
-        let variables = pair(file, found);
+        let variables = pair(file, found.input, found.body);
         json!({
             "input": file.linkage.joints[found.input].name,
             "body": file.linkage.bodies[found.body].name,
@@ -172,7 +192,9 @@ pub fn json(file: &LinkageFile, case: usize, derivation: &LinkageDerivation) -> 
             "variables": variables,
             "degrees": [found.polynomial.degree(0), found.polynomial.degree(1)],
             "polynomial": written(&rational(&found.polynomial), &variables),
-            "terms": terms(&found.polynomial),
+            "terms": terms(&found.polynomial, 2),
+            "cosines": in_cosines(&found.polynomial, found.is_turn)
+                .map(|own| written(&rational(&own), &circular(file, found.input, found.body))),
             "agrees": found.agrees,
         })
     });
@@ -229,10 +251,15 @@ pub fn text(file: &LinkageFile, case: &LinkageCase, number: usize, derivation: &
         let _ = writeln!(text, "  {}", written(&univariate(&one.coefficients), &variable));
     }
     if let Some(found) = &derivation.input_output {
-        let variables = pair(file, found);
+        let variables = pair(file, found.input, found.body);
         let joint = &file.linkage.joints[found.input].name;
         let _ = writeln!(text, "\nInput {joint} and output {}", file.linkage.bodies[found.body].name);
         let _ = writeln!(text, "  {}", written(&rational(&found.polynomial), &variables));
+        if let Some(own) = in_cosines(&found.polynomial, found.is_turn) {
+            let names = circular(file, found.input, found.body);
+            let heading = heading(file, found.joints, found.is_turn);
+            let _ = writeln!(text, "\n{heading}\n  {}", written(&rational(&own), &names));
+        }
     }
     for warning in &derivation.warnings {
         paragraph(&mut text, &format!("warning: {warning}"));
@@ -293,7 +320,7 @@ pub fn curve_json(file: &LinkageFile, case: usize, body: &str, point: &str, curv
         "degree": curve.degree(),
         "circularity": circularity(curve),
         "polynomial": written(&rational(&curve.polynomial), &names),
-        "terms": terms(&curve.polynomial),
+        "terms": terms(&curve.polynomial, 2),
         "bodies": bodies(file, curve),
         "rows": curve.rows,
         "square_free": factors.collect::<Value>(),

@@ -22,6 +22,7 @@ pub mod json;
 pub mod linkage;
 pub mod linkage_derivation;
 pub mod linkage_mobility;
+pub mod linkage_symbolic;
 pub mod linkage_sweep;
 pub mod mobility;
 pub mod model;

@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text, builtin_any};
-use looproot::internal::derivation::{Curve, LinkageDerivation, derive_linkage, trace, trace_mass};
+use looproot::internal::derivation::{
+    Curve, LinkageDerivation, Watch, derive_linkage, derive_linkage_with_symbols, in_cosines, trace, trace_mass,
+};
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::linkage::Accuracy;
 use looproot::internal::linkage::answer::solve;
@@ -229,6 +231,65 @@ fn input_and_output_of_a_four_bar_obey_freudensteins_equation() {
             both.agrees && found.polynomials.iter().all(looproot::internal::derivation::GroupPolynomial::is_proved)
         );
     }
+}
+
+#[test]
+fn freudensteins_equation_has_the_lengths_as_symbols() {
+    let bodies = "frame = { A = 0, D = 4 }\ncrank = { A = 0, B = 1 }\n\
+                  coupler = { B = 0, C = 8 }\nrocker = { D = 0, C = 3 }";
+    let file = read(SHARED, bodies, "[[input]]\njoint = \"A\"\ntan_half = \"1/3\"");
+    let found = derive_linkage_with_symbols(&file.linkage, &file.cases[0].given, &[], &Watch::none()).unwrap();
+    let names: Vec<String> = found.symbols.iter().map(|one| one.name(&file.linkage)).collect();
+    assert_eq!(names, ["frame.D.x", "crank.B.x", "coupler.C.x", "rocker.C.x"]);
+    // d^2 + a^2 + c^2 - b^2 + 2 d c cos(out) - 2 d a cos(in) - 2 a c cos(in - out) = 0
+    let [ci, si, co, so, d, a, b, c] = [0, 1, 2, 3, 4, 5, 6, 7].map(Polynomial::<Int>::variable);
+    let twice = |p: Polynomial<Int>| p.add(&p);
+    let cosine = ci.mul(&co).add(&si.mul(&so));
+    let constant = d.mul(&d).add(&a.mul(&a)).add(&c.mul(&c)).sub(&b.mul(&b));
+    let expected = constant
+        .add(&twice(d.mul(&c).mul(&co)))
+        .sub(&twice(d.mul(&a).mul(&ci)))
+        .sub(&twice(a.mul(&c).mul(&cosine)))
+        .primitive_part();
+    let own = in_cosines(&found.polynomial, true).unwrap();
+    assert!(own == expected || own == expected.neg(), "{own:?}");
+    assert!(found.agrees);
+}
+
+#[test]
+fn a_slider_crank_has_its_offset_as_a_symbol() {
+    let joints = "joints = [\n{ name = \"A\", type = \"R\", of = [\"frame\", \"crank\"] },\n\
+                  { name = \"B\", type = \"R\", of = [\"crank\", \"rod\"] },\n\
+                  { name = \"C\", type = \"PR\", of = [\"frame\", \"rod\"], along = [1, 0] },\n]";
+    let bodies = "frame = { A = 0, C = [0, 1] }\ncrank = { A = 0, B = 2 }\nrod = { B = 0, C = 5 }";
+    let file = read(joints, bodies, "[[input]]\njoint = \"A\"\ntan_half = \"1/3\"");
+    let wanted = ["frame.C.y".to_owned(), "rod.C.x".to_owned()];
+    let found = derive_linkage_with_symbols(&file.linkage, &file.cases[0].given, &wanted, &Watch::none()).unwrap();
+    // The height of C: 2 sin(in) + rod sin(out) = offset, in half-angle tangents t of the crank and u of the rod.
+    let [t, u, offset, rod] = [0, 1, 2, 3].map(Polynomial::<Int>::variable);
+    let one = Polynomial::<Int>::one();
+    let (plus_t, plus_u) = (one.add(&t.mul(&t)), one.add(&u.mul(&u)));
+    let four = Polynomial::constant(Int::from(4));
+    let two = Polynomial::constant(Int::from(2));
+    let heights = four.mul(&t).mul(&plus_u).add(&two.mul(&rod).mul(&u).mul(&plus_t));
+    let expected = heights.sub(&offset.mul(&plus_t).mul(&plus_u)).primitive_part();
+    assert!(found.polynomial == expected || found.polynomial == expected.neg(), "{:?}", found.polynomial);
+    assert!(found.agrees);
+}
+
+#[test]
+fn unknown_symbols_and_too_many_are_refused() {
+    let bodies = "frame = { A = [1, 2], D = [4, 5] }\ncrank = { A = [3, 1], B = [1, 2] }\n\
+                  coupler = { B = 0, C = 8 }\nrocker = { D = 0, C = 3 }";
+    let file = read(SHARED, bodies, "[[input]]\njoint = \"A\"\ntan_half = \"1/3\"");
+    let derive = |wanted: &[&str]| {
+        let wanted: Vec<String> = wanted.iter().map(|name| (*name).to_owned()).collect();
+        let found = derive_linkage_with_symbols(&file.linkage, &file.cases[0].given, &wanted, &Watch::none());
+        found.unwrap_err().to_string()
+    };
+    assert!(derive(&["crank.E.x"]).contains("found the symbol crank.E.x, expected some of frame.A.x"));
+    assert!(derive(&["crank.B.x", "crank.B.x"]).contains("twice"));
+    assert!(derive(&[]).contains("found 10 symbols, expected one to 6"));
 }
 
 /// The five-link loop of Stephenson's third six-bar: the polynomial of another program, by the pencil of subsets modulo

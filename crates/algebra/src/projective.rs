@@ -51,10 +51,12 @@ impl Shape {
             (Echelon::of(rows, points.len()), equations)
         };
         let (found, _) = echelon(most);
-        // A factor of degree more fits as well: one more free factor for every degree too many.
+        // A factor of degree more fits as well: one more free factor for every degree too many. Where the vectors span few dimensions
+        // more factors are free, and the degree is above this.
         let free = points.len() - found.rank();
-        let degree = most.checked_sub(free.checked_sub(1)?)?;
-        let (found, equations) = echelon(degree);
+        let least = most.saturating_sub(free.checked_sub(1)?);
+        let mut shapes = (least..=most).map(|degree| (degree, echelon(degree)));
+        let (degree, (found, equations)) = shapes.find(|(_, (found, _))| found.rank() < points.len())?;
         let independent = found.independent_rows().iter().map(|&row| equations[row]).collect();
         (found.rank() + 1 == points.len()).then_some(Self { degree, equations: independent })
     }
@@ -128,6 +130,25 @@ mod tests {
         let scale = Rational::from(7) / entries[3].eval(&Rational::new());
         let scaled: Vec<_> = entries.iter().map(|p| p.scale(&scale).coefficients().to_vec()).collect();
         assert_eq!(scaled, [rationals(&[1, 0, 1]), rationals(&[0, 3]), rationals(&[-4, 0, 1]), rationals(&[7])]);
+    }
+
+    #[test]
+    fn vectors_of_two_dimensions_need_more_points() {
+        // (1 + y^4, y^4, 2, 3 y^4 - 1) up to a factor: six points would do for four dimensions.
+        let vectors = |points: &[i64]| -> Vec<Vec<Rational>> {
+            let vector = |y: &i64| {
+                let (fourth, factor) = (y.pow(4), Rational::from((1, y * y + 3 * y)));
+                rationals(&[1 + fourth, fourth, 2, 3 * fourth - 1]).into_iter().map(|x| x * &factor).collect()
+            };
+            points.iter().map(vector).collect()
+        };
+        let points: Vec<i64> = (2..9).collect();
+        assert_eq!(Shape::of(&rationals(&points), &vectors(&points)), None);
+        let points: Vec<i64> = (2..15).collect();
+        let shape = Shape::of(&rationals(&points), &vectors(&points)).unwrap();
+        assert_eq!(shape.degree, 4);
+        let entries = shape.interpolate(&rationals(&points), &vectors(&points)).unwrap();
+        assert_eq!(entries[0].degree(), Some(4));
     }
 
     #[test]

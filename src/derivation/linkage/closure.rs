@@ -66,10 +66,14 @@ impl GroupPolynomial {
 pub struct InputOutput {
     /// The joint whose value is the first variable: a half-angle tangent or metres.
     pub input: usize,
+    /// Whether the input is an angle.
+    pub is_turn: bool,
     /// The body whose half-angle tangent is the second variable.
     pub body: usize,
     /// The body relative to which its angle is measured.
     pub against: usize,
+    /// Number of joints on whose cycles it rests.
+    pub joints: usize,
     /// The polynomial in both.
     pub polynomial: Polynomial<Int>,
     /// Whether it equals the closure polynomial at the value of the input.
@@ -83,6 +87,8 @@ pub struct LinkageDerivation {
     pub polynomials: Vec<GroupPolynomial>,
     /// The relation of output and input, if one joint is given.
     pub input_output: Option<InputOutput>,
+    /// What relates them.
+    pub(super) relation: Option<Relation>,
     /// The numbers of assemblies of the groups, in the order in which the groups are solved.
     pub groups: Vec<(Vec<Vec<usize>>, usize)>,
     /// The closure equations of the best polynomial, two for every cycle, in `variables`.
@@ -258,14 +264,16 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
         }
         polynomials.extend(own);
     }
-    let input_output = polynomials.first().and_then(|best| input_output(linkage, given, &found, &merged, best));
+    let relation = polynomials.first().and_then(|best| Relation::of(linkage, given, &found, &merged, best));
+    let input_output = polynomials.first().zip(relation.as_ref());
+    let input_output = input_output.and_then(|(best, relation)| relate(linkage, &given[0], relation, best));
     let groups = found.groups.iter().map(|group| (group.bodies.clone(), group.count)).collect();
     let equations = polynomials.first().and_then(|best| {
         let needed = foundations(linkage, &found.groups, best.group, linkage.ground, &merged);
         Part::new(linkage, given, joints_of(&found, &needed))?.equations(best.against)
     });
     let (variables, equations) = equations.unwrap_or_default();
-    Ok(LinkageDerivation { polynomials, input_output, groups, equations, variables, warnings })
+    Ok(LinkageDerivation { polynomials, input_output, relation, groups, equations, variables, warnings })
 }
 
 const WITHOUT: &str =
@@ -340,24 +348,44 @@ fn of_group(
     list
 }
 
-/// Returns the polynomial of the input, if one joint is given, and the body of the best polynomial.
-fn input_output(
-    linkage: &Linkage,
-    given: &[Given],
-    found: &Assemblies,
-    merged: &crate::linkage::groups::Merged,
-    best: &GroupPolynomial,
-) -> Option<InputOutput> {
-    let [one] = given else { return None };
-    let (Given::Turn { joint, .. } | Given::Shift { joint, .. }) = one else { return None };
-    let mut joints = joints_of(found, &foundations(linkage, &found.groups, best.group, linkage.ground, merged));
-    joints.push(*joint);
-    let part = Part::new(linkage, &[], joints)?;
-    let of = linkage.joints[*joint].of;
-    let mut exact = part.exact.clone();
-    let (rest, hidden) = part.measured(best.against, best.body, false, &mut exact)?;
-    let parameter = match one {
-        Given::Turn { .. } => {
+/// The joints whose cycles relate the angle of a body to the motion of an input.
+#[derive(Clone, Debug)]
+pub(super) struct Relation {
+    /// The joint whose value is the input.
+    pub input: usize,
+    /// Whether it turns.
+    pub is_turn: bool,
+    /// The joints, the input among them.
+    pub joints: Vec<usize>,
+    /// The body whose half-angle tangent is the output, and that against which its angle is measured.
+    pub body: usize,
+    pub against: usize,
+}
+
+impl Relation {
+    /// Returns that of the best polynomial, if one joint is given.
+    pub fn of(
+        linkage: &Linkage,
+        given: &[Given],
+        found: &Assemblies,
+        merged: &crate::linkage::groups::Merged,
+        best: &GroupPolynomial,
+    ) -> Option<Self> {
+        let [one] = given else { return None };
+        let (Given::Turn { joint, .. } | Given::Shift { joint, .. }) = one else { return None };
+        let mut joints = joints_of(found, &foundations(linkage, &found.groups, best.group, linkage.ground, merged));
+        joints.push(*joint);
+        let is_turn = matches!(one, Given::Turn { .. });
+        Some(Self { input: *joint, is_turn, joints, body: best.body, against: best.against })
+    }
+
+    /// Returns the polynomial in input, a half-angle tangent or a part of the direction of the joint, and output.
+    pub fn polynomial(&self, linkage: &Linkage) -> Option<Polynomial<Int>> {
+        let part = Part::new(linkage, &[], self.joints.clone())?;
+        let of = linkage.joints[self.input].of;
+        let mut exact = part.exact.clone();
+        let (rest, hidden) = part.measured(self.against, self.body, false, &mut exact)?;
+        let (parameter, is_inverse) = if self.is_turn {
             let is_inverse = part.class_of(of[1])?.0 == rest;
             let (from, to) = if is_inverse { (of[1], of[0]) } else { (of[0], of[1]) };
             if part.class_of(from)?.0 != rest {
@@ -365,36 +393,46 @@ fn input_output(
             }
             let (_, class) = part.measured(from, to, false, &mut exact)?;
             (Parameter::Turn(class), is_inverse)
+        } else {
+            (Parameter::Shift(part.exact.slides.iter().position(|slide| slide.joint == self.input)?), false)
+        };
+        if parameter == Parameter::Turn(hidden) {
+            return None;
         }
-        _ => (Parameter::Shift(part.exact.slides.iter().position(|slide| slide.joint == *joint)?), false),
-    };
-    let (parameter, is_inverse) = parameter;
-    if parameter == Parameter::Turn(hidden) {
-        return None;
+        let pencil = Pencil::new(&exact, rest, &[parameter, Parameter::Turn(hidden)])?;
+        if pencil.sets.is_empty() || pencil.sets.len() > SMALL {
+            return None;
+        }
+        let terms = determinant(&RealForm::new(&pencil)?.matrix, 2)?;
+        let tangents: &[usize] = if self.is_turn { &[0, 1] } else { &[1] };
+        let mut polynomial = without_circles(&terms, 2, tangents)?;
+        if is_inverse {
+            polynomial = polynomial.substitute(0, &Polynomial::variable(0).neg()).primitive_part();
+        }
+        // Factors of the input alone are inputs at which the matrix is singular for all outputs.
+        let content = polynomial.content_in(1);
+        if let Some(rest) = polynomial.checked_div_exact(&content).filter(|_| content.to_constant().is_none()) {
+            polynomial = rest;
+        }
+        Some(polynomial)
     }
-    let pencil = Pencil::new(&exact, rest, &[parameter, Parameter::Turn(hidden)])?;
-    if pencil.sets.is_empty() || pencil.sets.len() > SMALL {
-        return None;
-    }
-    let terms = determinant(&RealForm::new(&pencil)?.matrix, 2)?;
-    let tangents: &[usize] = if matches!(parameter, Parameter::Turn(_)) { &[0, 1] } else { &[1] };
-    let mut polynomial = without_circles(&terms, 2, tangents)?;
-    if is_inverse {
-        polynomial = polynomial.substitute(0, &Polynomial::variable(0).neg()).primitive_part();
-    }
-    // Factors of the input alone are inputs at which the matrix is singular for all outputs.
-    let content = polynomial.content_in(1);
-    if let Some(rest) = polynomial.checked_div_exact(&content).filter(|_| content.to_constant().is_none()) {
-        polynomial = rest;
-    }
-    let agrees = at_input(&polynomial, linkage, one).is_some_and(|own| is_multiple(&own, &best.coefficients));
-    if let Pair::Prismatic { length, .. } = &linkage.joints[*joint].pair {
-        // In metres.
+
+    /// Returns the same polynomial with the input in metres, if it is a displacement.
+    pub fn in_metres(&self, polynomial: Polynomial<Int>, linkage: &Linkage) -> Option<Polynomial<Int>> {
+        let Pair::Prismatic { length, .. } = &linkage.joints[self.input].pair else { return Some(polynomial) };
         let shift = Polynomial::variable(0).scale(&Rational::from(length.recip_ref()));
         let rational = polynomial.map(|c| Some(Rational::from(c.to_integer())))?;
-        polynomial = rational.substitute(0, &shift).primitive().0;
+        Some(rational.substitute(0, &shift).primitive().0)
     }
-    Some(InputOutput { input: *joint, body: best.body, against: best.against, polynomial, agrees })
+}
+
+/// Returns the polynomial of the input, if one joint is given, and the body of the best polynomial.
+fn relate(linkage: &Linkage, one: &Given, relation: &Relation, best: &GroupPolynomial) -> Option<InputOutput> {
+    let polynomial = relation.polynomial(linkage)?;
+    let agrees = at_input(&polynomial, linkage, one).is_some_and(|own| is_multiple(&own, &best.coefficients));
+    let polynomial = relation.in_metres(polynomial, linkage)?;
+    let Relation { input, is_turn, body, against, .. } = *relation;
+    Some(InputOutput { input, is_turn, body, against, joints: relation.joints.len(), polynomial, agrees })
 }
 
 /// Returns the polynomial at the value of the input; `None` for the angle pi.

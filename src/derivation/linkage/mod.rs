@@ -1,9 +1,13 @@
 //! Closure polynomials, input-output polynomials and coupler curves of planar linkages, exactly.
 
 mod closure;
+mod cosines;
+mod symbolic;
 mod trace;
 
 pub use closure::{GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage};
+pub use cosines::in_cosines;
+pub use symbolic::{Coordinate, LinkageSymbolic, derive_linkage_with_symbols};
 pub use trace::{Curve, trace, trace_mass};
 
 use crate::algebra::int::Int;

@@ -13,6 +13,7 @@ pub(crate) use interpolated::derive_interpolated;
 pub(crate) use setting::{Place, Setting};
 
 use super::chain::{Exact, eliminate, exact};
+use super::interpolation::Watch;
 use super::symbols::{Symbols, joint_labels};
 use super::two_sides;
 use crate::algebra::polynomial::Polynomial;
@@ -94,13 +95,13 @@ pub struct Symbolic {
 /// # Errors
 /// [`Error::Unsupported`] if the polynomial has too many terms, or no derivation with numbers exists; [`Error::Invalid`] for an
 /// unknown parameter.
-pub fn derive_with_symbols(entry: &Entry, case: &Case, wanted: &[String]) -> Result<Symbolic> {
+pub fn derive_with_symbols(entry: &Entry, case: &Case, wanted: &[String], watch: &Watch<'_>) -> Result<Symbolic> {
     let is_of_pose = |name: &String| setting::COORDINATES.contains(&name.as_str());
     if case.pose.is_some() && wanted.iter().any(is_of_pose) {
-        return interpolated::derive_interpolated(entry, case, wanted);
+        return interpolated::derive_interpolated(entry, case, wanted, watch);
     }
     match derive_symbolic(entry, case, wanted) {
-        Err(Error::Unsupported(_)) if !wanted.is_empty() => interpolated::derive_interpolated(entry, case, wanted),
+        Err(Error::Unsupported(_)) if !wanted.is_empty() => interpolated::derive_interpolated(entry, case, wanted, watch),
         other => other,
     }
 }

@@ -4,7 +4,7 @@ use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::catalogue::entry::{Case, Entry};
 use crate::algebra::drawn;
-use crate::derivation::{Setting, derive_interpolated, variable_name};
+use crate::derivation::{Setting, Watch, derive_interpolated, variable_name};
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
 use crate::sweep::exact::{Exact, Moved};
@@ -36,7 +36,7 @@ impl Source {
     }
 
     fn interpolated(entry: &Entry, case: &Case, setting: &Setting) -> Result<Self> {
-        let derivation = derive_interpolated(entry, case, std::slice::from_ref(&setting.name))?;
+        let derivation = derive_interpolated(entry, case, std::slice::from_ref(&setting.name), &Watch::none())?;
         let none = || Error::Unsupported("there is no closure polynomial in the parameter and one unknown".to_owned());
         let found = derivation.polynomial.as_ref().ok_or_else(none)?;
         let names = derivation.names.list();

@@ -3,7 +3,7 @@
 use super::{entry, named, real, run, solved};
 use looproot::internal::catalogue::entry::{Case, Design, Entry, Input, InputValue};
 use looproot::internal::derivation::transference::SpatialFourBar;
-use looproot::internal::derivation::{Symbolic, derive, derive_symbolic, derive_with_symbols};
+use looproot::internal::derivation::{Symbolic, Watch, derive, derive_symbolic, derive_with_symbols};
 use looproot::internal::kinematics::chain::{Chain, Geometry, Joint, JointKind};
 use looproot_algebra::number::{Angle, HalfTangent, Number};
 use looproot_algebra::polynomial::Polynomial;
@@ -339,7 +339,7 @@ fn interpolated_polynomials_are_those_of_the_numbers() {
     {
         let entry = entry(path);
         let symbols: Vec<String> = symbols.iter().map(|&name| name.to_owned()).collect();
-        let derived = derive_with_symbols(&entry, &entry.cases[0], &symbols).unwrap();
+        let derived = derive_with_symbols(&entry, &entry.cases[0], &symbols, &Watch::none()).unwrap();
         let expected = derive(&entry, &entry.cases[0]).unwrap().polynomial.unwrap().coefficients;
         let found = at_the_numbers(&derived);
         assert!(found == expected || found == expected.scale(&Integer::from(-1)), "{path}");

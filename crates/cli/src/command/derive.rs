@@ -5,6 +5,7 @@ use super::bless;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use super::seed::plant;
+use super::symbols;
 use super::wanted::{in_place, wanted};
 use looproot::internal::catalogue::entry::{Design, Entry};
 use looproot::internal::catalogue::{Any, Chains, Options, load_solvable};
@@ -65,9 +66,11 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         return by(options, mechanism, &whole, (&entry, index), way);
     }
     let (written, exit) = if let Some(list) = &options.symbolic {
-        let names: Vec<String> = list.split(',').map(|name| name.trim().to_owned()).filter(|n| !n.is_empty()).collect();
-        let derivation =
-            derive_with_symbols(&entry, case, &names).map_err(|error| in_place(error, mechanism, &entry))?;
+        let names = symbols::names(list);
+        let derived = symbols::watched(options, |watch| derive_with_symbols(&entry, case, &names, watch));
+        let Some(derivation) = derived.map_err(|error| in_place(error, mechanism, &entry))? else {
+            return Ok(Exit::Interrupted);
+        };
         let written = if options.json {
             document(symbolic::json(&entry, index + 1, &derivation), &whole)
         } else if let Some(format) = options.format {

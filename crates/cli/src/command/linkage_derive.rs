@@ -4,12 +4,13 @@ use super::arguments::DeriveOptions;
 use super::exit::{Exit, Fault};
 use super::linkage::{posed, wanted};
 use super::output::Output;
+use super::symbols;
 use looproot::internal::catalogue::LinkageFile;
-use looproot::internal::derivation::{derive_linkage, trace, trace_mass};
+use looproot::internal::derivation::{derive_linkage, derive_linkage_with_symbols, trace, trace_mass};
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::linkage::{Accuracy, Gaussian, Given};
 use looproot::internal::linkage::cognates::{COUPLER, cognates};
-use looproot::internal::report::linkage_derivation as report;
+use looproot::internal::report::{linkage_derivation as report, linkage_symbolic as symbolic};
 use rug::Rational;
 use std::io::Write;
 
@@ -54,6 +55,20 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
             report::curve_text(file, asked, &curve)
         };
         (written, if file.exact { Exit::Complete } else { Exit::NotProved })
+    } else if let Some(list) = &options.symbolic {
+        let names = symbols::names(list);
+        let derived =
+            symbols::watched(options, |watch| derive_linkage_with_symbols(&file.linkage, &case.given, &names, watch));
+        let Some(found) = derived.map_err(in_place)? else { return Ok(Exit::Interrupted) };
+        let written = if options.json {
+            format!("{}\n", symbolic::json(file, index + 1, &found))
+        } else if options.quiet {
+            symbolic::verdict(file, &found) + "\n"
+        } else {
+            symbolic::text(file, &found)
+        };
+        // It is compared at values drawn at random, which is no proof.
+        (written, Exit::NotProved)
     } else {
         let derivation = derive_linkage(&file.linkage, &case.given).map_err(in_place)?;
         let written = if options.json {
@@ -100,7 +115,6 @@ pub fn refuse(options: &DeriveOptions) -> Result<(), Error> {
         (options.format.is_some(), "--format"),
         (options.explain.is_some(), "--explain"),
         (options.transference, "--transference"),
-        (options.symbolic.is_some(), "--symbolic"),
     ];
     match found.iter().find(|(is_there, _)| *is_there) {
         Some((_, option)) => Err(Error::Unsupported(format!("found {option} for a linkage, which has none yet"))),

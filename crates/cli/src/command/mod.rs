@@ -47,6 +47,7 @@ pub mod space_instant;
 mod sphere;
 mod stream;
 pub mod sweep;
+mod symbols;
 pub mod synthesize;
 pub mod transference;
 pub mod verify;

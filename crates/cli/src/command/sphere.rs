@@ -85,6 +85,11 @@ pub fn run(options: &SolveOptions, file: &SphereFile, output: Output) -> Result<
 /// Derives the transfer function of the joint that is given, or the curve of a point.
 pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Result<Exit, Fault> {
     super::linkage_derive::refuse(options)?;
+    if options.symbolic.is_some() {
+        return Err(
+            Error::Unsupported("found --symbolic for a linkage on the sphere, which has none yet".to_owned()).into()
+        );
+    }
     let file = &*posed(options.asked.input.as_deref(), file)?;
     let index = wanted(options.asked.input.as_deref(), file)?.start;
     let in_place = |error: Error| error.at(mechanism, file.cases[index].line);

@@ -1,0 +1,232 @@
+//! The relation of input and output of a linkage with coordinates of its points as symbols.
+
+use super::closure::{Relation, derive_linkage};
+use super::cosines::integers;
+use crate::algebra::int::Int;
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::Domain;
+use crate::derivation::equation::primitive;
+use crate::derivation::interpolation::{COMPARED, Family, Source, Values, Watch};
+use crate::error::{Error, Result};
+use crate::kinematics::linkage::{Given, Linkage};
+use rug::{Integer, Rational};
+
+/// Maximum number of symbols: each multiplies the number of derivations by four or more.
+const MOST_SYMBOLS: usize = 6;
+
+/// A coordinate of a point in its body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coordinate {
+    /// The body.
+    pub body: usize,
+    /// The number of the point in the body.
+    pub point: usize,
+    /// 0 for x, 1 for y.
+    pub axis: usize,
+    /// The coordinate in the file, in metres.
+    pub value: Rational,
+    /// The joints at this point, and which of their two bodies has it.
+    ends: Vec<(usize, usize)>,
+}
+
+impl Coordinate {
+    fn text(&self, linkage: &Linkage, between: char) -> String {
+        let body = &linkage.bodies[self.body];
+        let axis = ['x', 'y'][self.axis];
+        format!("{}{between}{}{between}{axis}", body.name, body.points[self.point].0)
+    }
+
+    /// Returns its name in a request: `crank.B.x`.
+    #[must_use]
+    pub fn name(&self, linkage: &Linkage) -> String {
+        self.text(linkage, '.')
+    }
+
+    /// Returns the name of its variable: `crank_B_x`.
+    #[must_use]
+    pub fn variable(&self, linkage: &Linkage) -> String {
+        self.text(linkage, '_')
+    }
+
+    /// Returns the coordinates of all points at which some joints are.
+    fn all(linkage: &Linkage, joints: &[usize]) -> Result<Vec<Self>> {
+        let mut list = Vec::new();
+        for (body, own) in linkage.bodies.iter().enumerate() {
+            for (point, (name, place)) in own.points.iter().enumerate() {
+                let ends = joints.iter().flat_map(|joint| [(*joint, 0), (*joint, 1)]);
+                let is_here = |(joint, side): &(usize, usize)| {
+                    let joint = &linkage.joints[*joint];
+                    joint.of[*side] == body && joint.at[*side] == *place
+                };
+                let ends: Vec<(usize, usize)> = ends.filter(is_here).collect();
+                if ends.is_empty() {
+                    continue;
+                }
+                if let Some((other, _)) = own.points.iter().find(|(other, at)| other != name && at == place) {
+                    let message = format!(
+                        "the points {other} and {name} of {} are at one place, so that their coordinates are no separate symbols",
+                        own.name
+                    );
+                    return Err(Error::Unsupported(message));
+                }
+                for (axis, value) in [&place.re, &place.im].into_iter().enumerate() {
+                    list.push(Self { body, point, axis, value: value.clone(), ends: ends.clone() });
+                }
+            }
+        }
+        Ok(list)
+    }
+
+    /// Replaces it by another number.
+    fn put(&self, linkage: &mut Linkage, value: &Rational) {
+        let place = &mut linkage.bodies[self.body].points[self.point].1;
+        let own = if self.axis == 0 { &mut place.re } else { &mut place.im };
+        own.clone_from(value);
+        let place = place.clone();
+        for (joint, side) in &self.ends {
+            linkage.joints[*joint].at[*side].clone_from(&place);
+        }
+    }
+}
+
+/// The relation of input and output with symbols.
+#[derive(Clone, Debug)]
+pub struct LinkageSymbolic {
+    /// The joint whose value is variable 0: a half-angle tangent or metres.
+    pub input: usize,
+    /// Whether the input is an angle.
+    pub is_turn: bool,
+    /// The body whose half-angle tangent is variable 1.
+    pub body: usize,
+    /// The body relative to which its angle is measured.
+    pub against: usize,
+    /// The joints on whose cycles the relation rests.
+    pub joints: Vec<usize>,
+    /// The symbols: the variables from 2.
+    pub symbols: Vec<Coordinate>,
+    /// The coordinates that keep the numbers of the file, zeros apart.
+    pub numbers: Vec<Coordinate>,
+    /// The polynomial.
+    pub polynomial: Polynomial<Int>,
+    /// Number of other values, drawn at random, at which it equals the relation that is derived from numbers.
+    pub compared: usize,
+    /// Whether at the numbers of the file the relation derived from these divides it.
+    pub agrees: bool,
+}
+
+/// The relations at values of the symbols.
+struct Relations<'l> {
+    linkage: &'l Linkage,
+    relation: &'l Relation,
+    symbols: &'l [Coordinate],
+    /// The degrees in input and output.
+    degrees: [usize; 2],
+}
+
+impl Relations<'_> {
+    fn at(&self, values: &[Rational]) -> Option<Polynomial<Int>> {
+        let mut linkage = self.linkage.clone();
+        for (symbol, value) in self.symbols.iter().zip(values) {
+            symbol.put(&mut linkage, value);
+        }
+        self.relation.polynomial(&linkage)
+    }
+}
+
+impl Source for Relations<'_> {
+    /// Returns the coefficients of all products of powers of input and output, the output varies fastest.
+    fn coefficients(&self, values: &[Rational]) -> Option<Vec<Integer>> {
+        let [input, output] = self.degrees;
+        let mut list = vec![Integer::new(); (input + 1) * (output + 1)];
+        for (exponents, c) in self.at(values)?.terms() {
+            let power = |k: usize| exponents.get(k).map_or(0, |e| *e as usize);
+            if power(0) > input || power(1) > output {
+                return None;
+            }
+            list[power(0) * (output + 1) + power(1)] = c.to_integer();
+        }
+        Some(list)
+    }
+}
+
+/// Returns the symbols that are wanted, or all coordinates other than zero, and the other coordinates.
+fn chosen(linkage: &Linkage, joints: &[usize], wanted: &[String]) -> Result<(Vec<Coordinate>, Vec<Coordinate>)> {
+    let all = Coordinate::all(linkage, joints)?;
+    if let Some(twice) = wanted.iter().enumerate().find(|(k, name)| wanted[..*k].contains(name)) {
+        return Err(Error::Invalid(format!("found the symbol {} twice, expected each name once", twice.1)));
+    }
+    let known = |all: &[Coordinate]| {
+        let names: Vec<String> = all.iter().take(24).map(|one| one.name(linkage)).collect();
+        names.join(", ")
+    };
+    if let Some(unknown) = wanted.iter().find(|name| all.iter().all(|one| one.name(linkage) != **name)) {
+        return Err(Error::Invalid(format!("found the symbol {unknown}, expected some of {}", known(&all))));
+    }
+    let is_symbol = |one: &Coordinate| {
+        if wanted.is_empty() { one.value != 0 } else { wanted.contains(&one.name(linkage)) }
+    };
+    let (symbols, numbers): (Vec<Coordinate>, Vec<Coordinate>) = all.into_iter().partition(is_symbol);
+    if symbols.is_empty() || symbols.len() > MOST_SYMBOLS {
+        let message =
+            format!("found {} symbols, expected one to {MOST_SYMBOLS}, some of {}", symbols.len(), known(&symbols));
+        return Err(Error::Unsupported(message));
+    }
+    Ok((symbols, numbers.into_iter().filter(|one| one.value != 0).collect()))
+}
+
+/// Derives the relation of one input and the output with coordinates of points as symbols: those `wanted`, named as
+/// `crank.B.x`, else all of the joints concerned that are not zero.
+///
+/// # Errors
+/// As [`derive_linkage`]; [`Error::Unsupported`] without one given joint, for more than six symbols, if there would be more than 100,000
+/// terms, and where it is ended; [`Error::Invalid`] for an unknown symbol.
+pub fn derive_linkage_with_symbols(
+    linkage: &Linkage,
+    given: &[Given],
+    wanted: &[String],
+    watch: &Watch<'_>,
+) -> Result<LinkageSymbolic> {
+    let none = || {
+        let message = "with symbols the relation of an input and an output is derived, and there is none: expected one given joint and \
+                       a closure polynomial";
+        Error::Unsupported(message.to_owned())
+    };
+    let base = derive_linkage(linkage, given)?;
+    let (relation, own) = base.relation.zip(base.input_output).ok_or_else(none)?;
+    let (symbols, numbers) = chosen(linkage, &relation.joints, wanted)?;
+    let mut source = Relations { linkage, relation: &relation, symbols: &symbols, degrees: [0, 0] };
+    let first = source.at(&Values::Scattered.start(symbols.len())).ok_or_else(none)?;
+    source.degrees = [0, 1].map(|k| first.degree(k) as usize);
+    let [input, output] = source.degrees;
+    let names = symbols.iter().map(|one| one.name(linkage)).collect();
+    let family = Family::new(&source, watch, Values::Scattered, names, (input + 1) * (output + 1));
+    let interpolated = family.interpolated()?;
+    let exponent = |power: usize| u32::try_from(power).unwrap_or(u32::MAX);
+    let powers = |place: usize| [place / (output + 1), place % (output + 1)].map(exponent);
+    let terms = interpolated.terms().map(|(place, others, c)| {
+        let [first, second] = powers(place);
+        ([first, second].into_iter().chain(others).collect::<Vec<u32>>(), c.clone())
+    });
+    let found = primitive(&Polynomial::from_terms(terms));
+    family.compare(&found, 2, |coefficients| {
+        let terms = coefficients.iter().enumerate().filter(|(_, c)| !c.is_zero());
+        Polynomial::from_terms(terms.map(|(place, c)| (powers(place).to_vec(), Rational::from(c))))
+    })?;
+    let polynomial = relation.in_metres(integers(&found), linkage).ok_or_else(none)?;
+    let of_file = symbols.iter().enumerate().map(|(k, one)| (2 + k, Polynomial::constant(one.value.clone())));
+    let rational = polynomial.map(|c| Some(Rational::from(c.to_integer()))).ok_or_else(none)?;
+    let at_file = integers(&rational.substitute_all(&of_file.collect::<Vec<_>>()));
+    let agrees = at_file.checked_div_exact(&own.polynomial).is_some();
+    Ok(LinkageSymbolic {
+        input: relation.input,
+        is_turn: relation.is_turn,
+        body: relation.body,
+        against: relation.against,
+        joints: relation.joints.clone(),
+        symbols,
+        numbers,
+        polynomial,
+        compared: COMPARED,
+        agrees,
+    })
+}
