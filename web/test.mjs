@@ -86,7 +86,8 @@ for (const [name, verb] of [['arm/general_16real', 'an arm'], ['loop/rrsrr', 'a 
     asked.sort((a, b) => a - b);
     t.diagnostic(`${name}: ${asked[20]} ms an answer (median of 40; least ${asked[0]})`);
     // The least, since the machine may be busy with more than this.
-    assert.ok(asked[0] <= 12, `${asked[0]} ms an answer`);
+    // 12 ms on two quiet cores; other machines are slower, and busy.
+    assert.ok(asked[0] <= 30, `${asked[0]} ms an answer`);
     // What is shown is what the native program answers to the same question.
     const question = await page.value("(() => { const l = JSON.parse(document.querySelector('#live').textContent); return l.argument; })()");
     const values = await page.value("[...document.querySelectorAll('#controls label output')].map((o) => parseFloat(o.textContent.replace('\\u2212', '-')))");
