@@ -58,7 +58,7 @@ mod tests {
         let found = in_cosines(&relation, true).unwrap();
         let names = Names::given(["c0", "s0", "c2", "s2"]).unwrap();
         let rational = found.map(|c| Some(Rational::from(c.to_integer()))).unwrap();
-        assert_eq!(Format::Text.polynomial(&rational, &names), "3*c0*c2 + 3*s0*s2 + 4*c0 - 12*c2 + 19");
+        assert_eq!(Format::Text.polynomial(&rational, &names), "3*c0*c2 + 4*c0 + 3*s0*s2 - 12*c2 + 19");
     }
 
     #[test]
