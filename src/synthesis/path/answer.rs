@@ -65,7 +65,7 @@ pub fn mode(certified: &Certified, origin: &[Rational; 2], unit: &Rational) -> O
     }
     three.sort_by(|one, other| size(one).total_cmp(&size(other)));
     let i = Disc::point(Float::new(1), Float::with_val(1, 1));
-    let half = Disc::of(&Rational::from(unit / Rational::from(2)), BITS);
+    let half = Disc::of(&(unit.clone() / 2), BITS);
     let [x, y] = origin.each_ref().map(|q| Disc::of(q, BITS));
     let point = |[z, w]: &Pair| [x.add(&z.add(w).mul(&half)), y.sub(&z.sub(w).mul(&i).mul(&half))];
     let mut making = Making::new(certified.is_real);

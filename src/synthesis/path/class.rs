@@ -4,6 +4,9 @@ use super::curve::UNKNOWNS;
 use crate::algebra::ring::{Field, Ring};
 use num_complex::Complex;
 
+/// A four-bar with the numbers of its class.
+type Numbered = ([Complex<f64>; UNKNOWNS], [Complex<f64>; 3]);
+
 /// Numbers of classes closer than this, relative to their size, are equal: far more than the error of corrected points, and far less than
 /// the distance of classes in general.
 const CLOSE: f64 = 1e-7;
@@ -48,7 +51,7 @@ pub fn distinct(four_bars: impl IntoIterator<Item = [Complex<f64>; UNKNOWNS]>) -
         let numbers = numbers(&z, Field::inverse).filter(|_| has_coupler)?;
         numbers.iter().all(|z| z.is_finite()).then_some((v, numbers))
     };
-    let mut sorted: Vec<(usize, ([Complex<f64>; UNKNOWNS], [Complex<f64>; 3]))> =
+    let mut sorted: Vec<(usize, Numbered)> =
         four_bars.into_iter().filter_map(with_numbers).enumerate().collect();
     sorted.sort_by(|(_, (_, one)), (_, (_, other))| one[0].re.total_cmp(&other[0].re));
     let mut is_new = vec![true; sorted.len()];

@@ -55,10 +55,13 @@ impl Problem {
     fn of(points: &[[Rational; 2]]) -> Option<Self> {
         let (origin, others) = points.split_first()?;
         let ways: Vec<[Rational; 2]> = others.iter().map(|p| [0, 1].map(|k| Rational::from(&p[k] - &origin[k]))).collect();
-        let squares = ways.iter().flatten().map(|q| q.to_f64() * q.to_f64()).sum::<f64>();
-        // A power of two: the points keep their digits. Exponents of f64 fit 32 bits.
+        // A power of two: the points keep their digits. First the size of the largest number, which may be none of f64.
+        let bits = |q: &Rational| q.numer().significant_bits().cast_signed() - q.denom().significant_bits().cast_signed();
+        let largest = Rational::from(1) << ways.iter().flatten().filter(|q| **q != 0).map(bits).max()?;
+        let squares = ways.iter().flatten().map(|q| Rational::from(q / &largest).to_f64().powi(2)).sum::<f64>();
+        #[expect(clippy::cast_possible_truncation, reason = "the root is between 1/8 and 4")]
         let exponent = ((squares / PLACES as f64).sqrt() / SPREAD).log2().round() as i32;
-        let unit = Rational::from(1) << exponent;
+        let unit = largest << exponent;
         let ways: Vec<[Rational; 2]> = ways.into_iter().map(|way| way.map(|q| q / &unit)).collect();
         let data = Data::of(&ways.try_into().ok()?);
         Some(Self { origin: origin.clone(), unit, data })

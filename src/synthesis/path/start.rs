@@ -69,6 +69,7 @@ mod tests {
     /// `cargo test --release -- --ignored monodromy`.
     #[test]
     #[ignore = "a minute"]
+    #[expect(clippy::cast_possible_truncation, reason = "numbers of the file have 24 bits")]
     fn monodromy_finds_the_start() {
         let random = &mut ChaCha8Rng::seed_from_u64(1992);
         let turn = |random: &mut ChaCha8Rng| Complex::from_polar(1.0, random.random_range(0.0..std::f64::consts::TAU));
