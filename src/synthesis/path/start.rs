@@ -68,7 +68,7 @@ mod tests {
     /// Grows one four-bar to all of them, and compares the number, or writes the file with `LOOPROOT_BLESS=1`: a minute with
     /// `cargo test --release -- --ignored monodromy`.
     #[test]
-    #[ignore = "a minute"]
+    #[ignore = "takes a minute: cargo test --release --lib -- --ignored monodromy"]
     #[expect(clippy::cast_possible_truncation, reason = "numbers of the file have 24 bits")]
     fn monodromy_finds_the_start() {
         let random = &mut ChaCha8Rng::seed_from_u64(1992);
