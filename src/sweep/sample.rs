@@ -63,15 +63,19 @@ pub fn case(joint: usize, variable: Variable, input: f64) -> Case {
     Case::given(Input { joint, value }, 0)
 }
 
-/// The angle that a float stands for: that of a whole number of half turns is exact, for an overconstrained loop may close
-/// there in another way than at all neighbours.
+/// The angle that a float stands for: that of its half tangent in f64, so that a loop of rational numbers is one at every input, and
+/// the equations over the rationals decide where f64 does not (far out, two branches that leave for infinity seem to be one
+/// curve). A whole number of half turns is exact, for an overconstrained loop may close there in another way than at all neighbours.
 fn angle(radians: f64) -> Angle {
     let half_turns = (radians / PI).round();
-    if half_turns * PI != radians {
-        return Angle::from_radians(radians);
-    }
+    let is_exact = half_turns * PI == radians;
     let is_odd = half_turns.rem_euclid(2.0) == 1.0;
-    Angle::from_half_tangent(if is_odd { HalfTangent::Infinite } else { HalfTangent::Finite(Rational::new()) })
+    Angle::from_half_tangent(match Rational::from_f64((radians / 2.0).tan()) {
+        _ if is_exact && is_odd => HalfTangent::Infinite,
+        _ if is_exact => HalfTangent::Finite(Rational::new()),
+        Some(half_tangent) => HalfTangent::Finite(half_tangent),
+        None => return Angle::from_radians(radians),
+    })
 }
 
 /// A loop being swept: prepared once.

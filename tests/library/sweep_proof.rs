@@ -7,7 +7,7 @@ use looproot::internal::catalogue::{Format, Options, load, load_text};
 use looproot::internal::derivation::derive;
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::mechanism::Mechanism;
-use looproot::internal::sweep::{Branch, Range, Sweep, sweep};
+use looproot::internal::sweep::{Branch, End, Range, Row, Sweep, sweep};
 use looproot::internal::verdict::{Code, Proof, Status};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -57,6 +57,7 @@ fn loops_of_degree_8_at_most_are_proved() {
         ("cprrrr_1_angle", 1),
         ("rrsrr", 1),
         ("rsrc", 1),
+        ("homokinetic_rrsrr", 1),
         ("planar_4r", 1),
         ("spherical_4r", 1),
         ("slider_crank", 1),
@@ -75,6 +76,67 @@ fn loops_of_degree_8_at_most_are_proved() {
         let joint = loaded.cases[0].input[0].joint;
         let found = swept(&loaded, joint, Variable::Translation, [-3.0, 3.0], 7);
         assert_eq!(found.verdict.code, Code::BranchesProved, "{name}: {}", found.verdict.reason);
+    }
+}
+
+#[test]
+fn far_solutions_beside_a_pole_are_no_self_motion() {
+    // 1e-5 radians beside the input at which its translations grow beyond all bounds, PRRPRRR has solutions 10^5 units away.
+    let found = turn(&entry("prrprrr_6_angle"), 6, 6);
+    assert_eq!(
+        (found.verdict.proof, found.verdict.code),
+        (Proof::Proved, Code::BranchesProved),
+        "{}",
+        found.verdict.reason
+    );
+    assert!(found.branches.iter().any(|branch| matches!(branch.end, End::Infinite(_))));
+}
+
+#[test]
+fn branches_that_cross_beside_others_pass() {
+    // The plane of symmetry holds a circuit of its own, which the other one crosses: one output tells them apart only by a node.
+    for (name, limits) in [("homokinetic_rrsrr", 4), ("dietmaier_a", 6)] {
+        let found = turn(&entry(name), 1, 24);
+        assert_eq!(
+            (found.verdict.proof, found.verdict.code),
+            (Proof::Proved, Code::BranchesProved),
+            "{name}: {}",
+            found.verdict.reason
+        );
+        assert_eq!(found.limits.len(), limits, "{name}");
+    }
+    // By reflection q5 = -q1 - 180 degrees is an assembly at every input.
+    let found = turn(&entry("homokinetic_rrsrr"), 1, 24);
+    let off = |row: &Row| {
+        let q = &found.samples[row.step].modes[row.mode];
+        let sum = (q[0] + q[6] + PI).rem_euclid(TAU);
+        sum.min(TAU - sum)
+    };
+    let mirrored: Vec<usize> =
+        found.branches.iter().map(|branch| branch.rows.iter().filter(|row| off(row) < 1e-9).count()).collect();
+    let whole = found.branches.iter().zip(&mirrored).filter(|(branch, count)| branch.rows.len() == **count).count();
+    assert_eq!((whole, mirrored.iter().filter(|count| **count == 0).count()), (2, 2), "{mirrored:?}");
+}
+
+#[test]
+fn three_axes_through_a_point_are_a_spherical_joint_twice() {
+    for (wrist, spherical) in [("rscr_as_3r", "rscr"), ("rrsrr_as_7r", "rrsrr")] {
+        let [found, single] = [wrist, spherical].map(|name| turn(&entry(name), 1, 12));
+        assert_eq!(
+            (found.verdict.proof, found.verdict.code),
+            (Proof::Proved, Code::BranchesProved),
+            "{wrist}: {}",
+            found.verdict.reason
+        );
+        assert_eq!(found.branches.len(), 2 * single.branches.len(), "{wrist}");
+        let inputs = |found: &Sweep, times: usize| {
+            let mut all: Vec<f64> = found.limits.iter().flat_map(|limit| vec![limit.input; times]).collect();
+            all.sort_by(f64::total_cmp);
+            all
+        };
+        let (own, other) = (inputs(&found, 1), inputs(&single, 2));
+        assert_eq!(own.len(), other.len(), "{wrist}");
+        assert!(own.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-9), "{wrist}: {own:?}, {other:?}");
     }
 }
 

@@ -210,7 +210,10 @@ fn across(
             let fates = meeting(chart, curve, interval, [samples[1], samples[0]], [one, two], passing, input)?;
             Ok(bridge.settle(false, [one.mode, two.mode], &fates))
         }
-        ([one, two], [three, four], Event::Meeting(order)) if chart.curve.degree() == 2 && order % 2 == 0 => {
+        // All other roots are real and simple: they have no part in the discriminant.
+        ([one, two], [three, four], Event::Meeting(order))
+            if passages.len() + 2 == chart.curve.degree() && order % 2 == 0 =>
+        {
             let node = Node { chart, kind: output.kind, interval, ends: places, sheets: [[one, two], [three, four]] };
             for [x, y] in node.pairs(order).ok_or(Code::SingularNotDecided)? {
                 (bridge.forwards[x], bridge.backwards[y]) = (Fate::On(y, Vec::new()), Fate::On(x, Vec::new()));

@@ -14,6 +14,7 @@ mod node;
 mod output;
 mod plane_curve;
 mod relation;
+mod wrist;
 
 pub(super) use moved::Moved;
 pub(super) use output::{Critical, Event, Output};
@@ -32,12 +33,15 @@ use crate::verdict::Code;
 use crossing::Piece;
 use plane_curve::{Integral, S, T};
 use rug::Rational;
+use wrist::Wrist;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 /// Angles of the input are counted from one of these half tangents, so that none critical is half a turn from there.
 /// Any numbers serve that are unlikely to be special.
 const OFFSETS: [(i32, i32); 3] = [(3, 7), (-5, 13), (17, 11)];
+/// Loops of more unknown rotations have no closure polynomial here, unless three of them are those of a spherical joint.
+const MOST_ROTATIONS: usize = 4;
 /// The longest interval of the input that one chart is asked about, in radians: two charts overlap by more than this.
 const LONGEST: f64 = 1.5;
 /// The largest angle of a chart: short of half a turn, where its half tangent is infinite.
@@ -50,6 +54,8 @@ pub(super) struct Exact {
     offset: f64,
     /// The half tangent of that angle.
     pub from: Rational,
+    /// The three axes that are taken for a spherical joint.
+    wrist: Option<Wrist>,
     /// Outputs with their polynomials, computed when first asked for.
     outputs: Vec<(relation::Relation, OnceLock<Option<Output>>)>,
 }
@@ -66,6 +72,10 @@ impl Exact {
         let locked = locked_variable(chain, moved.case).map_err(|_| Code::NoExactRoute)?;
         let layout = Layout::of(chain, locked).map_err(|_| Code::NoExactRoute)?;
         let turns = moved.kind == Variable::Rotation;
+        let rotations = layout.loop_kinds().iter().filter(|kind| **kind == Variable::Rotation).count();
+        // Loops of fewer rotations have closure polynomials of their own.
+        let wrist = if moved.is_input() && rotations > MOST_ROTATIONS { Wrist::of(chain, &layout) } else { None };
+        let layout = Layout { spherical: wrist.map_or(layout.spherical, |wrist| Some(wrist.first)), ..layout };
         for (numerator, denominator) in OFFSETS {
             let half_tangent = if turns { Rational::from((numerator, denominator)) } else { Rational::new() };
             let relations = relation::relations(chain, &layout, moved, &half_tangent);
@@ -80,7 +90,7 @@ impl Exact {
                 }
             }
             if !outputs.is_empty() {
-                return Ok(Self::counted(moved.kind, half_tangent, outputs));
+                return Ok(Self { wrist, ..Self::counted(moved.kind, half_tangent, outputs) });
             }
         }
         Err(Code::NoExactRoute)
@@ -133,7 +143,7 @@ impl Exact {
 
     /// Outputs whose half tangents of the input are counted from an angle with this half tangent.
     fn counted(input: Variable, from: Rational, outputs: Vec<(relation::Relation, OnceLock<Option<Output>>)>) -> Self {
-        Self { input, offset: 2.0 * from.to_f64().atan(), from, outputs }
+        Self { input, offset: 2.0 * from.to_f64().atan(), from, wrist: None, outputs }
     }
 
     /// An output, if it has a closure polynomial.
@@ -166,7 +176,9 @@ impl Exact {
         let mut reason = Code::NoExactRoute;
         for index in 0..self.outputs.len() {
             let Some(output) = self.output(index) else { continue };
-            match crossing::bridge(output, curve, &piece, [low, high]) {
+            let bridge = |samples: [&Sample; 2]| crossing::bridge(output, curve, &piece, samples);
+            let found = self.wrist.map_or_else(|| bridge([low, high]), |wrist| wrist.bridge([low, high], bridge));
+            match found {
                 Ok(bridge) => return Ok(bridge),
                 Err(code) if index == 0 => reason = code,
                 Err(_) => {}
