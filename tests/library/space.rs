@@ -460,3 +460,39 @@ fn entries_keep_their_claims() {
         assert_eq!(judgement.complete, judgement.cases, "{name}");
     }
 }
+
+/// Two quadratics in a row with a second joint Z between two bodies, and its points in them.
+fn with_second_joint(joint: &str, [one, other]: [(&str, &str); 2]) -> SpaceAnswer {
+    let text = include_str!("../../equations/linkage/rssr_ssr.toml");
+    let (mechanism, _) = text.split_once("[[input]]").unwrap();
+    let mut own = mechanism.replacen("joints = [", &format!("joints = [\n    {{ name = \"Z\", {joint} }},"), 1);
+    for (body, point) in [one, other] {
+        own = own.replacen(&format!("\n{body} = {{ "), &format!("\n{body} = {{ {point}, "), 1);
+    }
+    solved(&format!("{own}\n[[input]]\ngiven = {{ A = {{ tan_half = -1 }} }}\n"))
+}
+
+#[test]
+fn a_second_joint_between_bodies_held_together_is_met() {
+    let crank = |joint: &str, points: [&str; 2]| with_second_joint(joint, [("base", points[0]), ("crank", points[1])]);
+    let rod = |length: &str| {
+        let joint = format!("type = \"SS\", of = [\"base\", \"crank\"], at = [\"X\", \"Y\"], length = {length}");
+        crank(&joint, ["X = [0, 0, 0]", "Y = [1, 2, 3]"])
+    };
+    // Turned by -90 degrees about A, the point stands 1912/25 from the origin, squared.
+    assert_eq!((rod("\"sqrt(1912/25)\"").verdict.status, rod("\"sqrt(1912/25)\"").modes.len()), (Status::Complete, 4));
+    assert_eq!(rod("5").verdict.status, Status::Unreachable);
+    let again =
+        |axis: &str, at: [&str; 2]| crank(&format!("type = \"R\", of = [\"base\", \"crank\"], axis = {axis}"), at);
+    let on_axis = ["Z = [-2, -5, 1]", "Z = [-2, -5, 1]"];
+    assert_eq!(again("[0, \"3/5\", \"4/5\"]", on_axis).modes.len(), 4);
+    assert_eq!(again("[1, 0, 0]", on_axis).verdict.status, Status::Unreachable);
+    assert_eq!(again("[0, \"3/5\", \"4/5\"]", ["Z = [0, 0, 0]", "Z = [1, 2, 3]"]).verdict.status, Status::Unreachable);
+    // Bodies of a group that is rigid with the input.
+    let rocker = |axis: &str, points: [&str; 2]| {
+        let joint = format!("type = \"R\", of = [\"base\", \"rocker\"], axis = {axis}");
+        with_second_joint(&joint, [("base", points[0]), ("rocker", points[1])])
+    };
+    assert_eq!(rocker("[\"2/11\", \"6/11\", \"9/11\"]", ["Z = [6, 1, 1]", "Z = [6, 1, 1]"]).modes.len(), 4);
+    assert_eq!(rocker("[1, 0, 0]", ["Z = [0, 0, 0]", "Z = [1, 2, 3]"]).verdict.status, Status::Unreachable);
+}
