@@ -1,7 +1,7 @@
 //! The real modes at one input.
 
 use crate::algebra::number::{Angle, HalfTangent, Number};
-use crate::assembly::{Assembly, Roots, Workspace};
+use crate::assembly::{Assembly, Roots, Workspace, wrapped};
 use crate::catalogue::entry::{Case, Input, InputValue};
 use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
@@ -16,6 +16,9 @@ use std::f64::consts::PI;
 const CLOSED: f64 = 1e-13;
 /// Condition numbers up to this are those of simple modes, also where no proof says so.
 const REGULAR: f64 = 1e8;
+/// Two modes closer than this are at a limit position for all that f64 can tell: Newton's method finds a double root to the square root of
+/// its precision, 1e-8, and a step from one mode must not end on the other.
+const APART: f64 = 1e-6;
 
 /// The result at one input.
 #[derive(Clone, Debug)]
@@ -98,7 +101,7 @@ impl Swept<'_> {
         let is_known = solution.verdict.status != Status::Incomplete || !solution.modes.is_empty();
         // An overconstrained loop of rounded numbers closes to rounding, and has no certified modes.
         let closes = |mode: &FullMode| self.is_overconstrained && mode.residual <= CLOSED && mode.condition <= REGULAR;
-        let is_regular = is_known
+        let is_simple = is_known
             && solution.verdict.status != Status::SelfMotion
             && real().all(|mode| mode.multiplicity == 1 && (mode.certified || closes(mode)));
         let mut modes: Vec<Vec<f64>> = real().map(|mode| mode.q.iter().map(|z| z.re).collect()).collect();
@@ -111,7 +114,8 @@ impl Swept<'_> {
             point[INPUT] = input / unit;
             point
         };
-        let points = modes.iter().map(|q| here(self.curve.point(q))).collect();
+        let points: Vec<Point> = modes.iter().map(|q| here(self.curve.point(q))).collect();
+        let is_regular = is_simple && are_apart(self.curve.kinds(), &points);
         let pair = |q: &Vec<Complex<f64>>| {
             let upper = q.iter().map(|z| z.im).find(|im| *im != 0.0).is_some_and(|im| im > 0.0);
             let part = |of: fn(&Complex<f64>) -> f64| q.iter().map(of).collect::<Vec<f64>>();
@@ -123,4 +127,11 @@ impl Swept<'_> {
         let (status, reason) = (solution.verdict.status, solution.verdict.reason);
         Ok(Sample { input, status, reason, modes, is_regular, points, pairs })
     }
+}
+
+/// Whether no two points are one for f64.
+fn are_apart(kinds: &[Variable; 7], points: &[Point]) -> bool {
+    let difference = |k: usize, x: f64| if kinds[k] == Variable::Rotation { wrapped(x) } else { x };
+    let is_apart = |p: &Point, q: &Point| (0..kinds.len()).any(|k| difference(k, p[k] - q[k]).abs() > APART);
+    points.iter().enumerate().all(|(k, p)| points[..k].iter().all(|q| is_apart(p, q)))
 }
