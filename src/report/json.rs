@@ -1,13 +1,14 @@
 //! JSON as equations/result.schema.json describes it: radians, lengths in metres, finite numbers only.
 
-use super::model::asked;
+use super::model::Asked;
 use super::text::View;
 use crate::catalogue::entry::{Case, Entry, Kind};
 use crate::kinematics::platform_limits::Part;
 use crate::kinematics::tolerance::PoseError;
-use crate::mechanism::{ArmAnswer, Family, FullMode, Solution};
+use crate::mechanism::{Family, FullMode, Solution};
 use crate::verdict::{Proof, Verdict};
 use num_complex::Complex;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Map, Value, json};
 
 /// The word of a kind.
@@ -46,68 +47,138 @@ pub fn foot(seed: Option<u64>) -> String {
     seed.map_or_else(|| "] }".to_owned(), |seed| format!("], \"seed\": {seed} }}"))
 }
 
-/// The answer to one case; `number` is its number in the file, from 1, and `labels` those of the joint variables.
+/// The answer to one case as a value, to insert more into. [`Answer`] writes the same without one.
 #[must_use]
 pub fn result(number: usize, case: &Case, solution: &Solution, labels: &[String], view: &View) -> Value {
-    let mut verdict = verdict(&solution.verdict);
-    verdict["near"] = json!(solution.near());
-    let mut result = json!({ "case": number, "asked": Value::Object(asked(case)), "verdict": verdict });
-    if let Some(arm) = &solution.arm {
-        insert_arm(&mut result, arm);
-    }
-    if let Some(platform) = &solution.platform {
-        result["legs"] = json!(platform.legs.map(self::number));
-        result["route"] = json!(platform.route);
-        if !platform.outside.is_empty() {
-            result["outside"] = words(&platform.outside);
+    json!(Answer { number, case, solution, labels, view })
+}
+
+/// The answer to one case as it is written. A tree of values takes as long as it takes to solve an arm with parallel axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Answer<'a> {
+    /// Its number in the file, from 1.
+    pub number: usize,
+    /// The question.
+    pub case: &'a Case,
+    /// The answer.
+    pub solution: &'a Solution,
+    /// Labels of the joint variables.
+    pub labels: &'a [String],
+    /// Which modes are listed.
+    pub view: &'a View,
+}
+
+impl Serialize for Answer<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let solution = self.solution;
+        let mut map = to.serialize_map(None)?;
+        map.serialize_entry("case", &self.number)?;
+        map.serialize_entry("asked", &Asked(self.case))?;
+        map.serialize_entry("verdict", &Judged(solution))?;
+        if let Some((q, miss)) = solution.arm.as_ref().and_then(|arm| arm.nearest.as_ref()) {
+            let q: Value = q.iter().map(|x| number(*x)).collect();
+            map.serialize_entry("nearest", &json!({ "q": q, "error": Miss(miss) }))?;
         }
+        if let Some(platform) = &solution.platform {
+            map.serialize_entry("legs", &platform.legs.map(Finite))?;
+            map.serialize_entry("route", &platform.route)?;
+            if !platform.outside.is_empty() {
+                map.serialize_entry("outside", &words(&platform.outside))?;
+            }
+        }
+        let is_platform = solution.platform.is_some();
+        map.serialize_entry("modes", &Modes(solution, self.view))?;
+        let families = solution.families.iter().map(|one| family(one, self.labels, is_platform));
+        map.serialize_entry("families", &families.collect::<Vec<_>>())?;
+        map.serialize_entry("warnings", &solution.warnings)?;
+        map.serialize_entry("timings_us", &Timings(solution))?;
+        map.end()
     }
-    let numbered = (1..).zip(&solution.modes).filter(|(_, mode)| view.shows(mode));
-    result["modes"] = numbered.map(|(id, mode)| self::mode(id, mode)).collect();
-    let is_platform = solution.platform.is_some();
-    result["families"] = solution.families.iter().map(|one| family(one, labels, is_platform)).collect();
-    result["warnings"] = json!(solution.warnings);
-    result["timings_us"] = json!({ "prepare": tenths(solution.prepare_us), "solve": tenths(solution.solve_us) });
-    result
+}
+
+/// A finite number, else null; zero has no sign.
+struct Finite(f64);
+
+impl Serialize for Finite {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        // What is not finite is null in JSON.
+        to.serialize_f64(self.0 + 0.0)
+    }
+}
+
+/// The time of a solution.
+struct Timings<'a>(&'a Solution);
+
+impl Serialize for Timings<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(Some(2))?;
+        map.serialize_entry("prepare", &Finite(in_tenths(self.0.prepare_us)))?;
+        map.serialize_entry("solve", &Finite(in_tenths(self.0.solve_us)))?;
+        map.end()
+    }
+}
+
+/// The verdict of a solution: that of the list, with what only a solution has.
+struct Judged<'a>(&'a Solution);
+
+impl Serialize for Judged<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(None)?;
+        insert_verdict(&mut map, &self.0.verdict, self.0.near())?;
+        if let Some(arm) = self.0.arm.as_ref().filter(|arm| !arm.conditions.is_empty()) {
+            map.serialize_entry("conditions", &arm.conditions)?;
+        }
+        map.end()
+    }
 }
 
 /// A verdict, key by key.
-#[must_use]
-pub fn verdict(verdict: &Verdict) -> Value {
-    let mut object = json!({
-        "status": verdict.status.word(),
-        "proof": verdict.proof.word(),
-        "code": verdict.code.word(),
-        "complex_complete": verdict.complex_complete,
-        "complex": verdict.complex,
-        "real": verdict.real,
-        "at_infinity": verdict.at_infinity,
-        "self_motion": verdict.self_motion,
-        "certified": verdict.certified,
-        "near": 0,
-        "reason": verdict.reason,
-    });
+fn insert_verdict<M: SerializeMap>(map: &mut M, verdict: &Verdict, near: usize) -> Result<(), M::Error> {
+    map.serialize_entry("status", verdict.status.word())?;
+    map.serialize_entry("proof", verdict.proof.word())?;
+    map.serialize_entry("code", verdict.code.word())?;
+    map.serialize_entry("complex_complete", &verdict.complex_complete)?;
+    map.serialize_entry("complex", &verdict.complex)?;
+    map.serialize_entry("real", &verdict.real)?;
+    map.serialize_entry("at_infinity", &verdict.at_infinity)?;
+    map.serialize_entry("self_motion", &verdict.self_motion)?;
+    map.serialize_entry("certified", &verdict.certified)?;
+    map.serialize_entry("near", &near)?;
+    map.serialize_entry("reason", &verdict.reason)?;
     if let Proof::Probable { error, seed } = verdict.proof {
-        object["probability_of_error"] = number(error);
-        object["seed"] = json!(seed);
+        map.serialize_entry("probability_of_error", &Finite(error))?;
+        map.serialize_entry("seed", &seed)?;
     }
-    object
+    Ok(())
 }
 
-/// Inserts the part that only arms of few or many joints have.
-fn insert_arm(result: &mut Value, arm: &ArmAnswer) {
-    if !arm.conditions.is_empty() {
-        result["verdict"]["conditions"] = json!(arm.conditions);
-    }
-    if let Some((q, miss)) = &arm.nearest {
-        let q: Value = q.iter().map(|x| number(*x)).collect();
-        result["nearest"] = json!({ "q": q, "error": error(miss) });
+/// A verdict as a value.
+#[must_use]
+pub fn verdict(verdict: &Verdict) -> Value {
+    json!(Alone(verdict))
+}
+
+/// A verdict of a list in which no mode is near.
+struct Alone<'a>(&'a Verdict);
+
+impl Serialize for Alone<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(None)?;
+        insert_verdict(&mut map, self.0, 0)?;
+        map.end()
     }
 }
 
 /// By how much a pose is missed.
-fn error(miss: &PoseError) -> Value {
-    json!({ "position": number(miss.position), "orientation": number(miss.orientation) })
+struct Miss<'a>(&'a PoseError);
+
+impl Serialize for Miss<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(Some(2))?;
+        map.serialize_entry("position", &Finite(self.0.position))?;
+        map.serialize_entry("orientation", &Finite(self.0.orientation))?;
+        map.end()
+    }
 }
 
 /// A set of solutions of dimension 1 and more; joint variables are numbered from 1.
@@ -131,43 +202,72 @@ fn family(family: &Family, labels: &[String], is_platform: bool) -> Value {
     })
 }
 
-/// A mode; `id` is its number among all modes, listed or not.
-fn mode(id: usize, mode: &FullMode) -> Value {
-    let value = |z: &Complex<f64>| if mode.real { number(z.re) } else { json!([number(z.re), number(z.im)]) };
-    let values = |part: &[Complex<f64>]| part.iter().map(value).collect::<Value>();
-    let mut object = json!({ "id": id, "real": mode.real });
-    match (&mode.platform, mode.q.split_at_checked(4)) {
-        (Some(_), Some((quaternion, position))) => {
-            object["quaternion"] = values(quaternion);
-            object["position"] = values(position);
-        }
-        _ => object["q"] = values(&mode.q),
+/// The modes that are listed.
+struct Modes<'a>(&'a Solution, &'a View);
+
+impl Serialize for Modes<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let numbered = (1..).zip(&self.0.modes).filter(|(_, mode)| self.1.shows(mode));
+        to.collect_seq(numbered.map(|(id, mode)| Listed(id, mode)))
     }
-    object["multiplicity"] = json!((mode.multiplicity > 0).then_some(mode.multiplicity));
-    object["residual"] = number(mode.residual);
-    object["condition"] = number(mode.condition);
-    object["certified"] = json!(mode.certified);
-    object["radius"] = number(mode.radius);
-    if mode.near {
-        object["near"] = json!(true);
-    }
-    if let Some(miss) = &mode.error {
-        object["error"] = error(miss);
-    }
-    match &mode.platform {
-        Some(platform) => {
-            let velocity = platform.velocity.as_ref();
-            object["mirror"] = json!(platform.mirror);
-            if let Some(within) = mode.within_limits {
-                object["within_limits"] = json!(within);
-                object["outside"] = words(&platform.outside);
+}
+
+/// A mode with its number among all modes, listed or not.
+struct Listed<'a>(usize, &'a FullMode);
+
+impl Serialize for Listed<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let Self(id, mode) = self;
+        let mut map = to.serialize_map(None)?;
+        map.serialize_entry("id", id)?;
+        map.serialize_entry("real", &mode.real)?;
+        match (&mode.platform, mode.q.split_at_checked(4)) {
+            (Some(_), Some((quaternion, position))) => {
+                map.serialize_entry("quaternion", &Values(quaternion, mode.real))?;
+                map.serialize_entry("position", &Values(position, mode.real))?;
             }
-            object["singular_values"] = json!(velocity.map(|v| v.singular_values.map(number)));
-            object["twist"] = json!(velocity.and_then(|v| v.twist.map(|rows| rows.map(|row| row.map(number)))));
+            _ => map.serialize_entry("q", &Values(&mode.q, mode.real))?,
         }
-        None => object["within_limits"] = json!(mode.within_limits),
+        map.serialize_entry("multiplicity", &(mode.multiplicity > 0).then_some(mode.multiplicity))?;
+        map.serialize_entry("residual", &Finite(mode.residual))?;
+        map.serialize_entry("condition", &Finite(mode.condition))?;
+        map.serialize_entry("certified", &mode.certified)?;
+        map.serialize_entry("radius", &Finite(mode.radius))?;
+        if mode.near {
+            map.serialize_entry("near", &true)?;
+        }
+        if let Some(miss) = &mode.error {
+            map.serialize_entry("error", &Miss(miss))?;
+        }
+        match &mode.platform {
+            Some(platform) => {
+                let velocity = platform.velocity.as_ref();
+                map.serialize_entry("mirror", &platform.mirror)?;
+                if let Some(within) = mode.within_limits {
+                    map.serialize_entry("within_limits", &within)?;
+                    map.serialize_entry("outside", &words(&platform.outside))?;
+                }
+                map.serialize_entry("singular_values", &velocity.map(|v| v.singular_values.map(Finite)))?;
+                let twist = velocity.and_then(|v| v.twist.map(|rows| rows.map(|row| row.map(Finite))));
+                map.serialize_entry("twist", &twist)?;
+            }
+            None => map.serialize_entry("within_limits", &mode.within_limits)?,
+        }
+        map.end()
     }
-    object
+}
+
+/// Coordinates of a mode: numbers where it is real, else pairs of real and imaginary part.
+struct Values<'a>(&'a [Complex<f64>], bool);
+
+impl Serialize for Values<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        if self.1 {
+            to.collect_seq(self.0.iter().map(|z| Finite(z.re)))
+        } else {
+            to.collect_seq(self.0.iter().map(|z| [Finite(z.re), Finite(z.im)]))
+        }
+    }
 }
 
 /// The parts of a platform that are outside their limits.
@@ -185,5 +285,9 @@ pub fn number(x: f64) -> Value {
 /// Microseconds with one decimal.
 #[must_use]
 pub fn tenths(microseconds: f64) -> Value {
-    number((microseconds * 10.0).round() / 10.0)
+    number(in_tenths(microseconds))
+}
+
+fn in_tenths(microseconds: f64) -> f64 {
+    (microseconds * 10.0).round() / 10.0
 }

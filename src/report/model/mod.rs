@@ -25,6 +25,7 @@ use super::table::paragraph;
 use crate::catalogue::entry::{Case, Design, Entry, Expected, InputValue, Kind, Source};
 use crate::catalogue::{Any, citation};
 use crate::kinematics::chain::Placement;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -214,7 +215,7 @@ pub fn json(entry: &Entry) -> Value {
         Design::Platform(platform) => platform::insert(&mut object, entry, platform),
     }
     object.insert("exact".into(), json!(!entry.rounded));
-    object.insert("cases".into(), json!(entry.cases.iter().map(case).collect::<Vec<_>>()));
+    object.insert("cases".into(), json!(entry.cases.iter().map(Claimed).collect::<Vec<_>>()));
     Value::Object(object)
 }
 
@@ -238,29 +239,46 @@ fn labels(name: &str, title: &str, kind: &str, kinds: &str, source: Option<&Sour
     object
 }
 
-fn case(case: &Case) -> Value {
-    let mut object = asked(case);
-    object.insert("expected".into(), expected(&case.expected, case.legs_squared.is_some()));
-    Value::Object(object)
+/// A case with its claims.
+struct Claimed<'a>(&'a Case);
+
+impl Serialize for Claimed<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(None)?;
+        Asked(self.0).insert(&mut map)?;
+        map.serialize_entry("expected", &expected(&self.0.expected, self.0.legs_squared.is_some()))?;
+        map.end()
+    }
 }
 
-/// Returns the request of a case: a pose, the value of a joint, or the lengths of legs.
-pub(super) fn asked(case: &Case) -> Map<String, Value> {
-    let mut object = Map::new();
-    if let Some(pose) = &case.pose {
-        object.insert("matrix".into(), json!(matrix(pose)));
+/// The request of a case: a pose, the value of a joint, or the lengths of legs.
+pub(super) struct Asked<'a>(pub &'a Case);
+
+impl Serialize for Asked<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(None)?;
+        self.insert(&mut map)?;
+        map.end()
     }
-    for input in &case.input {
-        object.insert("joint".into(), json!(input.joint));
-        match &input.value {
-            InputValue::Angle(angle) => object.insert("angle".into(), number(angle.radians())),
-            InputValue::Distance(distance) => object.insert("distance".into(), number(distance.to_f64())),
-        };
+}
+
+impl Asked<'_> {
+    fn insert<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+        if let Some(pose) = &self.0.pose {
+            map.serialize_entry("matrix", &matrix(pose))?;
+        }
+        for input in &self.0.input {
+            map.serialize_entry("joint", &input.joint)?;
+            match &input.value {
+                InputValue::Angle(angle) => map.serialize_entry("angle", &number(angle.radians()))?,
+                InputValue::Distance(distance) => map.serialize_entry("distance", &number(distance.to_f64()))?,
+            }
+        }
+        if let Some(squares) = &self.0.legs_squared {
+            map.serialize_entry("legs", &platform::lengths(squares).map(number))?;
+        }
+        Ok(())
     }
-    if let Some(squares) = &case.legs_squared {
-        object.insert("legs".into(), json!(platform::lengths(squares).map(number)));
-    }
-    object
 }
 
 /// The claims of a case.

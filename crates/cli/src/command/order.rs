@@ -56,13 +56,18 @@ impl Order {
         Ok(Self { variables, limits: entry.limits.clone(), near, turns: options.turns })
     }
 
+    /// Whether answers are printed as they were found.
+    pub fn is_as_found(&self) -> bool {
+        self.near.is_none() && !self.turns
+    }
+
     /// Returns the solution with its real modes sorted by their distance to the values of `--near`.
     pub fn sorted<'a>(&self, solution: &'a Solution) -> Cow<'a, Solution> {
+        let Some(near) = &self.near else { return Cow::Borrowed(solution) };
         let mut sorted = solution.clone();
-        let near = match &self.near {
-            None => return Cow::Borrowed(solution),
-            Some(Near::Joints(near)) => near,
-            Some(Near::Pose(platform, near)) => {
+        let near = match near {
+            Near::Joints(near) => near,
+            Near::Pose(platform, near) => {
                 let pose = |mode: &FullMode| pose_of(&real_parts(mode)).filter(|_| mode.real);
                 let key = |mode: &FullMode| pose(mode).map_or(f64::INFINITY, |pose| platform.distance(&pose, near));
                 sorted.modes.sort_by(|a, b| key(a).total_cmp(&key(b)));

@@ -32,6 +32,7 @@ use looproot::internal::verdict::{Code, Proof, Status, Verdict};
 use looproot_algebra::drawn::seed_used;
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -90,8 +91,9 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
     let exit = match prepared {
         Ok(mechanism) => {
             let listed = wanted.map(Job::Listed);
-            let jobs = listed.chain(rows.into_iter().flatten().map(Job::Row));
-            let work = Work { options, entry: &entry, mechanism: &mechanism, reader };
+            let jobs = listed.chain((1..).zip(rows.into_iter().flatten()).map(|(number, row)| Job::Row(number, row)));
+            let lines = report.lines();
+            let work = Work { options, entry: &entry, mechanism: &mechanism, reader, lines };
             work.solve(jobs, total, &mut report)?
         }
         // The document of a mechanism that cannot be solved reports that for each case.
@@ -100,8 +102,7 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
                 report.add(
                     index + 1,
                     &entry.cases[index],
-                    &unsupported(&in_place(error.clone(), &options.mechanism, &entry)),
-                    None,
+                    &Answer::alone(unsupported(&in_place(error.clone(), &options.mechanism, &entry))),
                 )?;
             }
             Exit::Unsupported
@@ -138,8 +139,18 @@ fn refuse_loop(entry: &Entry) -> Result<(), Error> {
 enum Job {
     /// A case of the file, by its index.
     Listed(usize),
-    /// A row of a table.
-    Row(Row),
+    /// A row of a table, and its number, from 1.
+    Row(usize, Row),
+}
+
+impl Job {
+    /// Returns the number of the case, from 1.
+    fn number(&self) -> usize {
+        match self {
+            Self::Listed(index) => index + 1,
+            Self::Row(number, _) => *number,
+        }
+    }
 }
 
 /// The data that all threads share.
@@ -148,6 +159,13 @@ struct Work<'a> {
     entry: &'a Entry,
     mechanism: &'a Mechanism,
     reader: Option<PoseRows<'a>>,
+    lines: Option<Lines>,
+}
+
+/// What is needed to write the JSON of an answer on the thread that has found it.
+struct Lines {
+    labels: Vec<String>,
+    view: View,
 }
 
 /// Returns the stage on which the bodies are posed, if the scene is requested.
@@ -158,8 +176,20 @@ fn staged(options: &SolveOptions, entry: &Entry) -> Result<Option<Stage>, Error>
     Ok(Stage::of(entry).filter(|_| options.scene))
 }
 
-/// A solution and, if requested, the derivatives at each of its modes.
-type Answer = (Solution, Option<Vec<Option<Derivatives>>>);
+/// A solution and what was made of it where it was found.
+struct Answer {
+    solution: Solution,
+    /// The derivatives at each mode, if requested.
+    derivatives: Option<Vec<Option<Derivatives>>>,
+    /// Its JSON, where nothing is added to it.
+    text: Option<String>,
+}
+
+impl Answer {
+    fn alone(solution: Solution) -> Self {
+        Self { solution, derivatives: None, text: None }
+    }
+}
 
 /// The result of a job: its case and the answer, or the error of the row.
 type Outcome<'a> = Result<(Cow<'a, Case>, Result<Answer, Error>), Error>;
@@ -184,16 +214,13 @@ impl<'a> Work<'a> {
             (!stopped).then(|| self.outcome(job, memory))
         };
         let mut exit = Exit::Complete;
-        let mut number = 0;
         let take = |batch: Vec<(Job, Option<Outcome<'_>>)>| -> Result<bool, Fault> {
             for (job, outcome) in batch {
                 let Some(outcome) = outcome else {
                     exit = Exit::Interrupted;
                     return Ok(false);
                 };
-                let place = if let Job::Listed(index) = job { index + 1 } else { number + 1 };
-                exit = exit.max(report_one(report, &job, place, outcome)?);
-                number += 1;
+                exit = exit.max(report_one(report, &job, outcome)?);
             }
             report.flush()?;
             Ok(true)
@@ -206,40 +233,43 @@ impl<'a> Work<'a> {
     fn outcome(&self, job: &Job, memory: &mut (Workspace, Assembly)) -> Outcome<'a> {
         let case = match (job, &self.reader) {
             (Job::Listed(index), _) => Cow::Borrowed(&self.entry.cases[*index]),
-            (Job::Row(row), Some(reader)) => Cow::Owned(row.case(reader)?),
-            (Job::Row(_), None) => return Err(Error::Invalid("a row without a table".to_owned())),
+            (Job::Row(_, row), Some(reader)) => Cow::Owned(row.case(reader)?),
+            (Job::Row(..), None) => return Err(Error::Invalid("a row without a table".to_owned())),
         };
-        let answer = self.answer(&case, memory);
+        let answer = self.answer(job.number(), &case, memory);
         Ok((case, answer))
     }
 
     /// Solves one case.
-    fn answer(&self, case: &Case, memory: &mut (Workspace, Assembly)) -> Result<Answer, Error> {
+    fn answer(&self, number: usize, case: &Case, memory: &mut (Workspace, Assembly)) -> Result<Answer, Error> {
         let roots = if self.options.real { Roots::Real } else { Roots::All };
         let solution = self.mechanism.solve(case, roots, &mut memory.0, &mut memory.1)?;
         let curve = if self.options.derivatives { Some(InputCurve::of(self.entry, case)?) } else { None };
         let derivatives = curve.map(|curve| solution.modes.iter().map(|mode| curve.derivatives(mode)).collect());
-        Ok((solution, derivatives))
+        let text = self.lines.as_ref().and_then(|Lines { labels, view }| {
+            serde_json::to_string(&json::Answer { number, case, solution: &solution, labels, view }).ok()
+        });
+        Ok(Answer { solution, derivatives, text })
     }
 }
 
 /// Reports one job, and returns its exit code.
-fn report_one(report: &mut Report<'_>, job: &Job, number: usize, outcome: Outcome<'_>) -> Result<Exit, Fault> {
+fn report_one(report: &mut Report<'_>, job: &Job, outcome: Outcome<'_>) -> Result<Exit, Fault> {
+    let number = job.number();
     match (outcome, job) {
-        (Err(error), Job::Row(row)) => {
+        (Err(error), Job::Row(_, row)) => {
             report.refuse(number, row.line, &error)?;
             Ok(Exit::Misuse)
         }
         (Ok((case, Err(error))), _) if error.unsupported().is_some() => {
-            let solution = unsupported(&error);
-            report.add(number, &case, &solution, None)?;
-            Ok(Exit::of(&solution))
+            let answer = Answer::alone(unsupported(&error));
+            report.add(number, &case, &answer)?;
+            Ok(Exit::of(&answer.solution))
         }
         (Err(error), Job::Listed(_)) | (Ok((_, Err(error))), _) => Err(error.into()),
-        (Ok((case, Ok((solution, derivatives)))), _) => {
-            let exit = Exit::of(&solution);
-            report.add(number, &case, &solution, derivatives.as_deref())?;
-            Ok(exit)
+        (Ok((case, Ok(answer))), _) => {
+            report.add(number, &case, &answer)?;
+            Ok(Exit::of(&answer.solution))
         }
     }
 }
@@ -380,13 +410,15 @@ impl<'a> Report<'a> {
         self.form != Form::Text
     }
 
-    fn add(
-        &mut self,
-        number: usize,
-        case: &Case,
-        solution: &Solution,
-        derivatives: Option<&[Option<Derivatives>]>,
-    ) -> Result<(), Fault> {
+    /// Returns what writes an answer as JSON, where nothing else is inserted into it.
+    fn lines(&self) -> Option<Lines> {
+        let is_plain = self.stage.is_none() && self.follow.is_none() && self.order.is_as_found();
+        (self.is_json() && is_plain).then(|| Lines { labels: self.labels.clone(), view: self.view })
+    }
+
+    fn add(&mut self, number: usize, case: &Case, answer: &Answer) -> Result<(), Fault> {
+        let Answer { solution, derivatives, text } = answer;
+        let derivatives = derivatives.as_deref();
         if let Some(certificates) = &mut self.certificates {
             certificates.add(self.entry, number, case, solution)?;
         }
@@ -424,10 +456,13 @@ impl<'a> Report<'a> {
                 text += &self.order.turns_text(solution, &self.view);
                 self.output.writer.write_all(text.as_bytes())?;
             }
-            Form::Document | Form::Lines => {
-                let document = document();
-                self.write_value(&document)?;
-            }
+            Form::Document | Form::Lines => match text.as_ref().filter(|_| derivatives.is_none()) {
+                Some(text) => self.write_value(text)?,
+                None => {
+                    let document = document();
+                    self.write_value(&document)?;
+                }
+            },
         }
         self.written += 1;
         self.tally[solution.verdict.status as usize] += 1;
@@ -436,7 +471,7 @@ impl<'a> Report<'a> {
     }
 
     /// Writes an element of the list of results.
-    fn write_value(&mut self, value: &Value) -> Result<(), Fault> {
+    fn write_value(&mut self, value: &impl Display) -> Result<(), Fault> {
         let out = &mut self.output.writer;
         match self.form {
             Form::Document if self.written == 0 => {
