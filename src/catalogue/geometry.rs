@@ -26,7 +26,7 @@ pub(super) struct Mechanism {
 
 /// Reads the `[mechanism]` table.
 pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
-    let anything = [&["convention", "joints", "tool", "home"], &platform::KEYS[..]].concat();
+    let anything = [&["convention", "joints", "bonds", "tool", "home"], &platform::KEYS[..]].concat();
     let table = scope.table(node, "[mechanism]", &anything)?;
     let kind = match scope.word(scope.need(&table, "kind")?, "kind", &["arm", "loop", "platform"])? {
         "arm" => Kind::Arm,
@@ -43,15 +43,24 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
             "the [mechanism] of an arm",
             &["kind", "convention", "joints", "base", "tool", "home", "limits"],
         )?,
-        _ => scope.table(node, "the [mechanism] of a loop", &["kind", "convention", "joints", "home", "limits"])?,
+        _ => scope.table(node, "the [mechanism] of a loop", &["kind", "convention", "joints", "bonds", "home", "limits"])?,
     };
     let convention = table.get("convention").ok_or_else(|| {
-        let expected = "expected one of dh, modified-dh, screws (there is no default)";
+        let expected = match kind {
+            Kind::Arm => "expected one of dh, modified-dh, screws (there is no default)",
+            _ => "expected one of dh, modified-dh, screws, bonds (there is no default)",
+        };
         scope.fail(table.line(), format!("found no `convention` in the [mechanism], {expected}"))
     })?;
-    let convention = scope.word(convention, "convention", &["dh", "modified-dh", "screws"])?;
-    let joints = scope.need(&table, "joints")?;
-    let nodes = scope.list(joints, "joints")?;
+    let known = ["dh", "modified-dh", "screws", "bonds"];
+    let convention = scope.word(convention, "convention", &known[..if kind == Kind::Arm { 3 } else { 4 }])?;
+    let (key, other) = if convention == "bonds" { ("bonds", "joints") } else { ("joints", "bonds") };
+    if let Some(other) = table.get(other) {
+        let message = format!("found `{}` with convention \"{convention}\", expected `{key}`", if key == "joints" { "bonds" } else { "joints" });
+        return Err(scope.fail(other.line, message));
+    }
+    let joints = scope.need(&table, key)?;
+    let nodes = scope.list(joints, key)?;
     if nodes.len() > 64 {
         return Err(scope.fail(joints.line, format!("found {} joints, expected at most 64", nodes.len())));
     }
@@ -63,8 +72,9 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
                 scope.fail(home.line, "found `home` beside DH joints, expected it only with convention \"screws\"")
             );
         }
-        let joints = nodes.iter().map(|node| joint(scope, node)).collect::<Result<_>>()?;
-        if convention == "dh" { Geometry::Dh(joints) } else { Geometry::ModifiedDh(joints) }
+        let read = if convention == "bonds" { bond } else { joint };
+        let joints = nodes.iter().map(|node| read(scope, node)).collect::<Result<_>>()?;
+        if convention == "modified-dh" { Geometry::ModifiedDh(joints) } else { Geometry::Dh(joints) }
     };
     let placed = |key: &str| table.get(key).map_or(Ok(Placement::identity()), |node| scope.matrix(node, key));
     let chain = Chain { geometry, base: placed("base")?, tool: placed("tool")? };
@@ -196,6 +206,27 @@ fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
         }
     };
     Ok(Joint { kind, a, alpha, d, theta0, pitch: pitch(scope, &table, kind)? })
+}
+
+/// Reads a bond of a ring: an R joint about itself. Neighbouring bonds meet at an atom, so that their axes have no distance; the twist is
+/// the supplement of the angle between them at the atom, and the joint's angle is the torsion of the bond.
+fn bond(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
+    let table = scope.table(node, "a bond", &["length", "angle", "tan_half_angle", "name"])?;
+    let length_node = scope.need(&table, "length")?;
+    let d = scope.length(length_node, "length")?;
+    if !(d.to_f64() > 0.0) {
+        return Err(scope.fail(length_node.line, "found a bond whose length is not positive, expected one above 0"));
+    }
+    let at_atom = angle(scope, &table, "angle", "tan_half_angle", true)?;
+    let (_, sine) = at_atom.cos_sin_f64();
+    if !(sine >= 0.0 && at_atom.radians().abs() <= 3.2) {
+        return Err(scope.fail(
+            node.line,
+            format!("found the angle {:.1} deg between two bonds, expected one from 0 to 180 deg", at_atom.radians().to_degrees()),
+        ));
+    }
+    let (a, alpha, theta0) = (Number::zero(), at_atom.supplement(), Angle::zero());
+    Ok(Joint { kind: JointKind::Revolute, a, alpha, d, theta0, pitch: None })
 }
 
 fn pitch(scope: &Scope<'_>, table: &Table<'_>, kind: JointKind) -> Result<Option<Number>> {

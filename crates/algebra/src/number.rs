@@ -438,6 +438,31 @@ impl Angle {
         }
     }
 
+    /// Returns half a turn less this angle.
+    ///
+    /// # Example
+    /// ```
+    /// use looproot_algebra::number::{Angle, HalfTangent, Reading};
+    /// let angle = Angle::parse("acos(-3/5)", &Reading::default())?.supplement();
+    /// assert_eq!(*angle.half_tangent(), HalfTangent::Finite((1, 2).into()));
+    /// # Ok::<(), looproot_algebra::error::Error>(())
+    /// ```
+    #[must_use]
+    pub fn supplement(&self) -> Self {
+        let half_tangent = match &self.half_tangent {
+            HalfTangent::Infinite => HalfTangent::Finite(Rational::new()),
+            HalfTangent::Finite(t) if t.is_zero() => HalfTangent::Infinite,
+            HalfTangent::Finite(t) => HalfTangent::Finite(Rational::from(t.recip_ref())),
+        };
+        let opposite = |cosine: &Enclosure| cosine.scaled(&Rational::from(-1));
+        let enclosed = self.enclosed.as_ref().map(|of| Box::new((opposite(&of.0), of.1.clone())));
+        let phase = self.phase.as_ref().map(|of| Arc::new((of.0.neg(), of.1.clone())));
+        let written = self.written.text().map(|text| Written::new(&format!("180 deg - ({text})"), Rational::from(1)));
+        let written = written.unwrap_or_default();
+        let (exact, turned) = (self.exact, Self::from_half_tangent(half_tangent));
+        if exact { turned } else { Self { exact, enclosed, phase, written, ..turned } }
+    }
+
     /// Returns the angle modulo a full turn as an expression in radians, or with its unit; `None` if none is known.
     #[must_use]
     pub fn text(&self) -> Option<String> {
