@@ -186,6 +186,36 @@ fn screws_are_read() {
     assert!(complaint(&text(&joint.replace("0, 0, 1", "0, 0").repeat(6), home)).contains("a list of 3"));
 }
 
+/// A bond is an R joint about itself, twisted by the supplement of the angle at its atom.
+#[test]
+fn rings_of_bonds_are_read() {
+    let ring = |bonds: &str| format!("[mechanism]\nkind = \"loop\"\nconvention = \"bonds\"\nbonds = [\n{bonds}]\n");
+    let bond = "{ length = 2, tan_half_angle = \"3/2\" },\n";
+    let entry = read(&ring(&bond.repeat(6))).unwrap();
+    let Geometry::Dh(joints) = &entry.chain().unwrap().geometry else { panic!("DH joints") };
+    let half_tangents = joints.iter().map(|joint| joint.alpha.half_tangent().clone());
+    assert!(half_tangents.eq(std::iter::repeat_n(HalfTangent::Finite((2, 3).into()), 6)));
+    assert!(joints.iter().all(|joint| joint.d.to_f64() == 2.0 && joint.a.to_f64() == 0.0));
+    // Of no rational half tangent: cosine and sine of 70 degrees are those that are meant.
+    let written = read(&ring(&"{ length = 1, angle = \"110 deg\" },\n".repeat(6))).unwrap();
+    let Geometry::Dh(joints) = &written.chain().unwrap().geometry else { panic!("DH joints") };
+    let (cosine, sine) = joints[0].alpha.cos_sin_f64();
+    assert!((cosine - 70_f64.to_radians().cos()).abs() < 1e-16 && (sine - 70_f64.to_radians().sin()).abs() < 1e-16);
+    let wrong = |from: &str, to: &str| complaint(&ring(&bond.repeat(6).replacen(from, to, 1)));
+    assert!(wrong("length = 2", "length = 0").contains("test.toml:5: found a bond whose length is not positive"));
+    assert!(
+        wrong("tan_half_angle = \"3/2\"", "angle = \"200 deg\"")
+            .contains("found the angle 200.0 deg between two bonds")
+    );
+    assert!(
+        wrong("length = 2", "lenght = 2").contains("found the unknown key `lenght` in a bond; did you mean `length`?")
+    );
+    let named = ring(&bond.repeat(6)).replace("\nbonds =", "\njoints =");
+    assert!(complaint(&named).contains("test.toml:4: found `joints` with convention \"bonds\", expected `bonds`"));
+    let of_an_arm = complaint(&ring(&bond.repeat(6)).replace("\"loop\"", "\"arm\""));
+    assert!(of_an_arm.contains("found the unknown key `bonds` in the [mechanism] of an arm"), "{of_an_arm}");
+}
+
 #[test]
 fn mistakes_are_named_with_their_line() {
     for (from, to, message) in [
