@@ -16,6 +16,7 @@ pub mod platform_degree;
 pub mod platform_height;
 pub mod platform_incidence;
 pub mod platform_long;
+pub mod platform_null;
 pub mod platform_polynomial;
 pub mod point_reach;
 pub mod rearranged;

@@ -4,6 +4,7 @@
 mod cases;
 mod equations;
 mod exact;
+mod null;
 mod poses;
 mod special;
 mod template;

@@ -1,6 +1,7 @@
 //! Prime fields: the prime is in the type for generic code, or a value for proofs with several primes.
 
 use super::ring::{Domain, Field, Ring};
+use num_complex::Complex;
 use rug::{Integer, Rational};
 use std::fmt;
 
@@ -243,6 +244,19 @@ impl<const P: u64> ModP<P> {
     pub fn value(self) -> u64 {
         Self::MODULUS.leave(self.0)
     }
+
+    /// Returns a square root. Every residue has one together with `i = sqrt(-1)`.
+    ///
+    /// # Panics
+    /// Does not compile for a prime that is 1 modulo 4: `i` is a residue then.
+    #[must_use]
+    pub fn square_root(self) -> Complex<Self> {
+        const { assert!(P % 4 == 3, "the prime is 3 modulo 4") };
+        // The square of a^((p+1)/4) is a if a is a square, and -a if not.
+        let root = Self(Self::MODULUS.pow(self.0, P.div_ceil(4)));
+        let zero = Self::zero();
+        if root.mul(&root) == self { Complex { re: root, im: zero } } else { Complex { re: zero, im: root } }
+    }
 }
 
 impl<const P: u64> fmt::Debug for ModP<P> {
@@ -316,6 +330,15 @@ mod tests {
             assert_eq!(p % 4, 3);
         }
         assert_eq!(primes().next().map(|m| m.prime()), Some(PRIME_62));
+    }
+
+    #[test]
+    fn every_residue_has_a_square_root() {
+        type Residue = ModP<PRIME_61>;
+        for n in 0..50 {
+            let root = Residue::new(n).square_root();
+            assert_eq!(root.mul(&root), Complex { re: Residue::new(n), im: Residue::zero() });
+        }
     }
 
     #[test]

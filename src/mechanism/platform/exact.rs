@@ -94,7 +94,8 @@ impl ExactSide<'_> {
         // Poses are isolated: none lies on a curve of them.
         search.assembly.self_motion = 0;
         let (mut is_repeated, mut is_longer) = (false, false);
-        if poses == MOST_POSES && known.is_none() {
+        let most = self.incidence.map_or(MOST_POSES, |(most, _)| most);
+        if poses == most && !curves && known.is_none() {
             // Poses that f64 does not reach are computed from the exact data.
             self.solve_in_high_precision::<LIMBS>(search, poses);
             is_repeated = true;
@@ -105,7 +106,8 @@ impl ExactSide<'_> {
             }
             if search.proved() == poses {
                 search.keep_proved();
-                let count = Some(counted(poses, null, curves));
+                let bound = self.incidence.map(|(most, why)| at_most(most, why));
+                let count = Some(bound.unwrap_or_else(|| counted(poses, null, curves)));
                 return PlatformKnowledge { count, ..PlatformKnowledge::default() };
             }
         }
