@@ -7,7 +7,7 @@ use super::robots;
 use super::scope::nearest;
 use super::text::{Any, Format, ansatz_from_text, any_from_text, load_text};
 use crate::error::{Error, Result};
-use include_dir::{Dir, DirEntry, include_dir};
+use include_dir::{Dir, DirEntry, File, include_dir};
 use std::sync::OnceLock;
 
 static LIBRARY: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/equations");
@@ -75,24 +75,38 @@ pub fn all_names() -> Vec<String> {
     names().to_vec()
 }
 
-/// The names of everything in the library, in order, collected once.
-fn names() -> &'static [String] {
-    static NAMES: OnceLock<Vec<String>> = OnceLock::new();
-    NAMES.get_or_init(|| {
-        let mut names = Vec::new();
-        collect(&LIBRARY, &mut names);
-        names.sort();
-        names
+/// The files of mechanisms of everything in the library.
+struct Shelf {
+    /// Their names, in order.
+    names: Vec<String>,
+    /// The files in the same order: a search by path would compare it with all of them.
+    files: Vec<&'static File<'static>>,
+}
+
+/// The files of the library, collected once.
+fn shelf() -> &'static Shelf {
+    static SHELF: OnceLock<Shelf> = OnceLock::new();
+    SHELF.get_or_init(|| {
+        let mut found = Vec::new();
+        collect(&LIBRARY, &mut found);
+        found.sort_by(|(a, _), (b, _)| a.cmp(b));
+        let (names, files) = found.into_iter().unzip();
+        Shelf { names, files }
     })
 }
 
-fn collect(folder: &Dir<'_>, names: &mut Vec<String>) {
+/// The names of everything in the library, in order.
+fn names() -> &'static [String] {
+    &shelf().names
+}
+
+fn collect(folder: &'static Dir<'static>, found: &mut Vec<(String, &'static File<'static>)>) {
     for entry in folder.entries() {
         match entry {
-            DirEntry::Dir(folder) => collect(folder, names),
+            DirEntry::Dir(folder) => collect(folder, found),
             DirEntry::File(file) => {
                 if let Some(name) = file.path().to_str().and_then(|path| path.strip_suffix(".toml")) {
-                    names.push(name.replace('\\', "/"));
+                    found.push((name.replace('\\', "/"), file));
                 }
             }
         }
@@ -133,9 +147,8 @@ fn find(name: &str) -> Option<(String, &'static str)> {
 fn find_in(is_kind: fn(&str) -> bool, name: &str) -> Option<(String, &'static str)> {
     let name = name.strip_suffix(".toml").unwrap_or(name);
     let name = &today(name);
-    let full = names().iter().find(|full| is_called(full, name) && is_kind(full))?;
-    let text = LIBRARY.get_file(format!("{full}.toml"))?.contents_utf8()?;
-    Some((full.clone(), text))
+    let place = names().iter().position(|full| is_called(full, name) && is_kind(full))?;
+    Some((names()[place].clone(), shelf().files[place].contents_utf8()?))
 }
 
 /// Returns the text of a file of the library, with or without its folder; `None` for an unknown name.

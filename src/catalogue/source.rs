@@ -17,7 +17,7 @@ use std::path::Path;
 /// [`Error::Io`] if nothing can be read, [`Error::UnknownEntry`] for a name that is neither file nor entry,
 /// [`Error::File`] with file and line for faults of the text, [`Error::Unsupported`] for kinds not solved yet.
 pub fn load(name: &str, options: &Options) -> Result<Entry> {
-    match text_of(name, library::has(name))? {
+    match text_of(name, || library::has(name))? {
         Some((text, path, format)) => load_text(&text, path, format, options),
         None => library::builtin(name, options),
     }
@@ -28,7 +28,7 @@ pub fn load(name: &str, options: &Options) -> Result<Entry> {
 /// # Errors
 /// As [`load`].
 pub fn load_solvable(name: &str, options: &Options) -> Result<Any> {
-    if let Some((text, path, format)) = text_of(name, library::has(name))? {
+    if let Some((text, path, format)) = text_of(name, || library::has(name))? {
         return solvable_from_text(&text, path, format, options);
     }
     match library::builtin_calculus(name, options) {
@@ -42,7 +42,7 @@ pub fn load_solvable(name: &str, options: &Options) -> Result<Any> {
 /// # Errors
 /// As [`load`].
 pub fn load_any(name: &str, options: &Options) -> Result<Any> {
-    match text_of(name, library::has(name))? {
+    match text_of(name, || library::has(name))? {
         Some((text, path, format)) => any_from_text(&text, path, format, options),
         None => library::builtin_any(name, options),
     }
@@ -54,7 +54,7 @@ pub fn load_any(name: &str, options: &Options) -> Result<Any> {
 /// As [`load`].
 pub fn load_ansatz(name: &str, options: &Options) -> Result<Ansatz> {
     let built_in = library::builtin_ansatz(name, options);
-    match (text_of(name, built_in.is_some())?, built_in) {
+    match (text_of(name, || built_in.is_some())?, built_in) {
         (Some((text, path, format)), _) => ansatz_from_text(&text, path, format, options),
         (None, Some(found)) => found,
         (None, None) => Err(library::unknown(name)),
@@ -62,8 +62,8 @@ pub fn load_ansatz(name: &str, options: &Options) -> Result<Ansatz> {
 }
 
 /// Returns the text of a file or of standard input, its name in errors, and its format; `None` if nothing has
-/// this name.
-fn text_of(name: &str, is_built_in: bool) -> Result<Option<(String, &str, Format)>> {
+/// this name. The library is asked only where no file has it.
+fn text_of(name: &str, is_built_in: impl Fn() -> bool) -> Result<Option<(String, &str, Format)>> {
     let unreadable = |message: String| Error::Io { path: name.to_owned(), message };
     if name == "-" {
         let bytes = bounded(std::io::stdin().lock(), name)?;
@@ -73,11 +73,11 @@ fn text_of(name: &str, is_built_in: bool) -> Result<Option<(String, &str, Format
     }
     let path = Path::new(name);
     let metadata = match std::fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() && !is_built_in => {
+        Ok(metadata) if metadata.is_dir() && !is_built_in() => {
             return Err(unreadable("found a directory, expected a file".to_owned()));
         }
         Ok(metadata) if !metadata.is_dir() => metadata,
-        _ if is_built_in => return Ok(None),
+        _ if is_built_in() => return Ok(None),
         Err(fault) if fault.kind() == std::io::ErrorKind::NotFound => return Ok(None),
         Err(fault) => return Err(unreadable(fault.to_string())),
         Ok(_) => return Err(unreadable("found a directory, expected a file".to_owned())),

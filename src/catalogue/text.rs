@@ -46,6 +46,11 @@ pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> R
         Format::Csv => return dh_table::entry(&scope, text, &name),
         Format::Urdf => return urdf::entry(&scope, text, &name, options),
     };
+    entry_of(&mut scope, &root, &name)
+}
+
+/// Reads an arm, a loop or a platform from the values of a file.
+fn entry_of(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<Entry> {
     let others = [
         FileKind::Framework,
         FileKind::Linkage,
@@ -56,8 +61,8 @@ pub fn load_text(text: &str, path: &str, format: Format, options: &Options) -> R
         FileKind::Lines,
         FileKind::Gearing,
     ];
-    refuse(&scope, &root, &others, "an arm, a loop or a platform with numbers")?;
-    job::entry(&mut scope, &root, &name)
+    refuse(scope, root, &others, "an arm, a loop or a platform with numbers")?;
+    job::entry(scope, root, name)
 }
 
 /// A mechanism file of any kind.
@@ -112,20 +117,25 @@ pub fn any_from_text(text: &str, path: &str, format: Format, options: &Options) 
             return load_text(text, path, format, options).map(|entry| Any::Entry(Box::new(entry)));
         }
     };
-    Ok(match FileKind::of(&root).map(|(kind, _)| kind) {
-        Some(FileKind::Framework) => Any::Framework(Box::new(framework(&mut scope, &root, &name)?)),
-        Some(FileKind::Linkage) => match lives_in(&root).as_deref() {
-            Some("sphere") => Any::Sphere(Box::new(sphere(&mut scope, &root, &name)?)),
-            Some("space") => Any::Space(Box::new(space(&mut scope, &root, &name)?)),
-            _ => Any::Linkage(Box::new(linkage(&mut scope, &root, &name)?)),
+    any_of(&mut scope, &root, &name)
+}
+
+/// Reads a mechanism of any kind from the values of a file.
+fn any_of(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<Any> {
+    Ok(match FileKind::of(root).map(|(kind, _)| kind) {
+        Some(FileKind::Framework) => Any::Framework(Box::new(framework(scope, root, name)?)),
+        Some(FileKind::Linkage) => match lives_in(root).as_deref() {
+            Some("sphere") => Any::Sphere(Box::new(sphere(scope, root, name)?)),
+            Some("space") => Any::Space(Box::new(space(scope, root, name)?)),
+            _ => Any::Linkage(Box::new(linkage(scope, root, name)?)),
         },
-        Some(FileKind::Motion) => Any::Motion(Box::new(motion(&mut scope, &root, &name)?)),
-        Some(FileKind::Synthesis) => Any::Synthesis(Box::new(synthesis(&mut scope, &root, &name)?)),
-        Some(FileKind::Conditions) => Any::Conditions(Box::new(ansatz(&mut scope, &root, &name)?)),
+        Some(FileKind::Motion) => Any::Motion(Box::new(motion(scope, root, name)?)),
+        Some(FileKind::Synthesis) => Any::Synthesis(Box::new(synthesis(scope, root, name)?)),
+        Some(FileKind::Conditions) => Any::Conditions(Box::new(ansatz(scope, root, name)?)),
         Some(kind @ (FileKind::Displacement | FileKind::Lines | FileKind::Gearing)) => {
-            Any::Calculus(Box::new(calculus(&mut scope, &root, &name, kind)?))
+            Any::Calculus(Box::new(calculus(scope, root, name, kind)?))
         }
-        _ => Any::Entry(Box::new(job::entry(&mut scope, &root, &name)?)),
+        _ => Any::Entry(Box::new(job::entry(scope, root, name)?)),
     })
 }
 
@@ -134,16 +144,19 @@ pub fn any_from_text(text: &str, path: &str, format: Format, options: &Options) 
 /// # Errors
 /// As [`load_text`].
 pub(super) fn solvable_from_text(text: &str, path: &str, format: Format, options: &Options) -> Result<Any> {
+    let (text, name, mut scope) = prepared(text, path, options)?;
     let root = match format {
-        Format::Toml => node::from_toml(text.trim_start_matches('\u{feff}'), path).ok(),
-        Format::Json => node::from_json(text.trim_start_matches('\u{feff}'), path).ok(),
-        Format::Csv | Format::Urdf => None,
-    };
-    match root.and_then(|root| FileKind::of(&root)) {
-        Some((FileKind::Displacement | FileKind::Lines | FileKind::Gearing | FileKind::Linkage, _)) => {
-            any_from_text(text, path, format, options)
+        Format::Toml => node::from_toml(text, path)?,
+        Format::Json => node::from_json(text, path)?,
+        Format::Csv | Format::Urdf => {
+            return load_text(text, path, format, options).map(|entry| Any::Entry(Box::new(entry)));
         }
-        _ => load_text(text, path, format, options).map(|entry| Any::Entry(Box::new(entry))),
+    };
+    match FileKind::of(&root) {
+        Some((FileKind::Displacement | FileKind::Lines | FileKind::Gearing | FileKind::Linkage, _)) => {
+            any_of(&mut scope, &root, &name)
+        }
+        _ => entry_of(&mut scope, &root, &name).map(|entry| Any::Entry(Box::new(entry))),
     }
 }
 

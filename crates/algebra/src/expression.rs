@@ -55,6 +55,19 @@ pub(super) fn evaluate(text: &str) -> Result<Quantified, String> {
     Ok(Quantified { value, unit })
 }
 
+/// Reads a decimal or an integer with or without a unit, the common case: nothing has to be enclosed. `None` for everything else, faults
+/// included.
+pub(super) fn plain(text: &str) -> Option<(Rational, Option<Unit>)> {
+    let mut reader = Reader { rest: text.trim(), depth: 0 };
+    let negative = reader.symbol('-');
+    if text.len() > LONGEST || !reader.rest.starts_with(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    let size = reader.rational().ok()?;
+    let unit = reader.unit().ok()?;
+    reader.rest.is_empty().then(|| (if negative { -size } else { size }, unit))
+}
+
 /// Returns the text, cut to a readable length.
 pub(super) fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 {
@@ -235,6 +248,10 @@ impl<'a> Reader<'a> {
     }
 
     fn number(&mut self) -> Result<Value, String> {
+        self.rational().map(Value::from_rational)
+    }
+
+    fn rational(&mut self) -> Result<Rational, String> {
         let start = self.rest;
         let whole = self.digits();
         let mut fraction = "";
@@ -261,7 +278,7 @@ impl<'a> Reader<'a> {
             return Err(format!("`{}`, not a number", shortened(start)));
         };
         self.rest = self.rest.trim_start();
-        Ok(Value::from_rational(decimal(integer, exponent - places)))
+        Ok(decimal(integer, exponent - places))
     }
 
     fn unit(&mut self) -> Result<Option<Unit>, String> {

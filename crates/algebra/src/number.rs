@@ -2,7 +2,7 @@
 
 use super::approximation::simplest_within;
 use super::enclosure::Enclosure;
-use super::expression::{Quantified, Unit, evaluate, shortened};
+use super::expression::{Quantified, Unit, evaluate, plain, shortened};
 use super::ring::Ring;
 use super::surd::{Closed, Phase};
 use super::value::{BITS, Value};
@@ -14,6 +14,8 @@ pub use super::half_tangent::HalfTangent;
 
 /// Sizes beyond this, and nonzero ones below its inverse, are taken for mistakes: their squares leave the range of f64.
 const LARGEST: f64 = 1e150;
+/// A decimal of a size from this to its inverse is within the bounds by far.
+const COMMON: f64 = 1e-100;
 /// Decimal digits to which irrational values are replaced by rationals for exact work, by default.
 pub const DIGITS: u32 = 15;
 /// Maximum number of digits that can be requested; the working precision has 77.
@@ -235,14 +237,22 @@ impl Number {
             Quantity::Length => "a length",
             Quantity::Ratio => "a number without unit",
         };
-        let Quantified { value, unit } = read(text, expected)?;
-        let scale = match (quantity, unit) {
-            (Quantity::Length, None) => reading.length.clone(),
-            (Quantity::Length, Some(Unit::Metre)) | (Quantity::Ratio, None) => Rational::from(1),
-            (Quantity::Length, Some(Unit::Centimetre)) => Rational::from((1, 100)),
-            (Quantity::Length, Some(Unit::Millimetre)) => Rational::from((1, 1000)),
-            _ => return Err(Error::Invalid(format!("found `{}`, expected {expected}", shortened(text)))),
+        let scale = |unit: Option<Unit>| match (quantity, unit) {
+            (Quantity::Length, None) => Ok(reading.length.clone()),
+            (Quantity::Length, Some(Unit::Metre)) | (Quantity::Ratio, None) => Ok(Rational::from(1)),
+            (Quantity::Length, Some(Unit::Centimetre)) => Ok(Rational::from((1, 100))),
+            (Quantity::Length, Some(Unit::Millimetre)) => Ok(Rational::from((1, 1000))),
+            _ => Err(Error::Invalid(format!("found `{}`, expected {expected}", shortened(text)))),
         };
+        if let Some((rational, unit)) = plain(text) {
+            let number = Self::exact(rational * scale(unit)?);
+            // Sizes near the bounds are compared in more digits.
+            if number.rational.is_zero() || (COMMON..1.0 / COMMON).contains(&number.float.abs()) {
+                return Ok(number);
+            }
+        }
+        let Quantified { value, unit } = read(text, expected)?;
+        let scale = scale(unit)?;
         let value = value.mul(&Value::from_rational(scale.clone()));
         check_size(&value.float(), text)?;
         let closed = value.closed().map(Arc::new);
@@ -582,6 +592,31 @@ mod tests {
 
     fn refused(text: &str) -> String {
         Number::parse(text, Quantity::Ratio, &Reading::default()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn decimals_are_what_they_are_as_expressions() {
+        let reading = Reading { length: Rational::from((1, 1000)), ..Reading::default() };
+        let pairs = [
+            ("0", "0 * 2"),
+            ("-0.0", "(0)"),
+            ("150", "(150)"),
+            (" -1.5e-3 ", "(-1.5e-3)"),
+            ("1_000.25", "(1000.25)"),
+            ("2 mm", "(2) mm"),
+            ("-3.5cm", "(-3.5) cm"),
+            ("7e80 m", "(7e80) m"),
+            ("1e-120", "(1e-120)"),
+            ("9e149", "(9e149)"),
+            ("12.", "(12)"),
+        ];
+        for (text, sum) in pairs {
+            let [number, other] = [text, sum].map(|text| Number::parse(text, Quantity::Length, &reading).unwrap());
+            assert_eq!(number, other, "{text}");
+        }
+        for text in ["1e151", "1e-160", "2 deg", "1 m 2", "--", "1e", "1.2.3", ""] {
+            assert!(Number::parse(text, Quantity::Length, &reading).is_err(), "{text}");
+        }
     }
 
     #[test]
