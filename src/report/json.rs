@@ -31,6 +31,26 @@ pub fn head(entry: &Entry, keys: &Map<String, Value>) -> String {
     text + " \"results\": ["
 }
 
+/// The document that [`head`], the results and [`foot`] write; `branches` are those of a path of poses.
+#[must_use]
+pub fn document(
+    entry: &Entry,
+    keys: &Map<String, Value>,
+    results: Vec<Value>,
+    branches: Option<Value>,
+    seed: Option<u64>,
+) -> Value {
+    let mut document = line_of_document(entry, keys)["document"].take();
+    document["results"] = Value::Array(results);
+    if let Some(branches) = branches {
+        document["branches"] = branches;
+    }
+    if let Some(seed) = seed {
+        document["seed"] = json!(seed);
+    }
+    document
+}
+
 /// The first of several lines of JSON: what holds for all of them.
 #[must_use]
 pub fn line_of_document(entry: &Entry, keys: &Map<String, Value>) -> Value {

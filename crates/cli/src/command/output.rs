@@ -3,6 +3,7 @@
 use super::arguments::{Colour, OutputOptions};
 use super::exit::Fault;
 use looproot::internal::error::Error;
+use serde_json::Value;
 use std::cell::RefCell;
 use std::fs::File;
 use std::io::{BufWriter, IsTerminal, Write, stdout};
@@ -17,7 +18,12 @@ pub struct Output {
     pub colour: bool,
     /// Whether a terminal shows the output as it grows.
     pub is_terminal: bool,
+    /// The place for a document that is read at once: it need not become text.
+    pub document: Option<Slot>,
 }
+
+/// The place for a document.
+pub type Slot = Rc<RefCell<Option<Value>>>;
 
 impl Output {
     /// Opens the output. The input file is never overwritten.
@@ -41,29 +47,33 @@ impl Output {
             Colour::Always => true,
             Colour::Never => false,
         };
-        Ok(Self { writer, colour, is_terminal })
+        Ok(Self { writer, colour, is_terminal, document: None })
     }
 }
 
-/// An output buffer that can be read afterwards.
+/// An output that can be read afterwards.
 #[derive(Clone, Default)]
-pub struct Memory(Rc<RefCell<Vec<u8>>>);
+pub struct Memory {
+    bytes: Rc<RefCell<Vec<u8>>>,
+    document: Slot,
+}
 
 impl Memory {
     /// Returns an output that writes to the buffer.
     pub fn output(&self) -> Output {
-        Output { writer: Box::new(self.clone()), colour: false, is_terminal: false }
+        let writer = Box::new(self.clone());
+        Output { writer, colour: false, is_terminal: false, document: Some(self.document.clone()) }
     }
 
-    /// Returns the bytes written.
-    pub fn take(&self) -> Vec<u8> {
-        self.0.take()
+    /// Returns the document that was written, as it is or as text.
+    pub fn take(&self) -> serde_json::Result<Value> {
+        self.document.take().map_or_else(|| serde_json::from_slice(&self.bytes.take()), Ok)
     }
 }
 
 impl Write for Memory {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.borrow_mut().extend_from_slice(bytes);
+        self.bytes.borrow_mut().extend_from_slice(bytes);
         Ok(bytes.len())
     }
 

@@ -348,6 +348,8 @@ struct Report<'a> {
     progress: ProgressBar,
     certificates: Option<Certificates>,
     answers: Option<AnswerFile>,
+    /// The results of a document that is read at once.
+    results: Vec<Value>,
 }
 
 impl<'a> Report<'a> {
@@ -403,6 +405,7 @@ impl<'a> Report<'a> {
             progress,
             certificates,
             answers: None,
+            results: Vec::new(),
         }
     }
 
@@ -412,7 +415,10 @@ impl<'a> Report<'a> {
 
     /// Returns what writes an answer as JSON, where nothing else is inserted into it.
     fn lines(&self) -> Option<Lines> {
-        let is_plain = self.stage.is_none() && self.follow.is_none() && self.order.is_as_found();
+        let is_plain = self.stage.is_none()
+            && self.follow.is_none()
+            && self.order.is_as_found()
+            && self.output.document.is_none();
         (self.is_json() && is_plain).then(|| Lines { labels: self.labels.clone(), view: self.view })
     }
 
@@ -457,10 +463,10 @@ impl<'a> Report<'a> {
                 self.output.writer.write_all(text.as_bytes())?;
             }
             Form::Document | Form::Lines => match text.as_ref().filter(|_| derivatives.is_none()) {
-                Some(text) => self.write_value(text)?,
+                Some(text) => self.write(text)?,
                 None => {
                     let document = document();
-                    self.write_value(&document)?;
+                    self.write_value(document)?;
                 }
             },
         }
@@ -470,8 +476,17 @@ impl<'a> Report<'a> {
         Ok(())
     }
 
+    /// Writes an element of the list of results, or keeps it for a document that is read at once.
+    fn write_value(&mut self, value: Value) -> Result<(), Fault> {
+        if self.form == Form::Document && self.output.document.is_some() {
+            self.results.push(value);
+            return Ok(());
+        }
+        self.write(&value)
+    }
+
     /// Writes an element of the list of results.
-    fn write_value(&mut self, value: &impl Display) -> Result<(), Fault> {
+    fn write(&mut self, value: &impl Display) -> Result<(), Fault> {
         let out = &mut self.output.writer;
         match self.form {
             Form::Document if self.written == 0 => {
@@ -497,7 +512,7 @@ impl<'a> Report<'a> {
         };
         if self.is_json() {
             let value = json!({ "case": number, "line": line, "error": { "code": "bad-row", "message": message } });
-            self.write_value(&value)?;
+            self.write_value(value)?;
         } else {
             complain(&error.to_string());
         }
@@ -523,6 +538,11 @@ impl<'a> Report<'a> {
             answers.close()?;
         }
         self.progress.finish_and_clear();
+        if let (Form::Document, Some(slot)) = (self.form, &self.output.document) {
+            let branches = self.follow.as_ref().map(Follow::json);
+            slot.replace(Some(json::document(self.entry, &self.keys, self.results, branches, seed_used())));
+            return Ok(());
+        }
         let out = &mut self.output.writer;
         match self.form {
             Form::Document if self.written == 0 => {

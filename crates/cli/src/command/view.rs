@@ -68,8 +68,7 @@ fn document(options: &ViewOptions) -> Result<(Exit, Value), Fault> {
             Err(fault) => return framework(options)?.ok_or(fault),
         }
     };
-    let document = serde_json::from_slice(&memory.take());
-    let document = document.map_err(|error| Error::Invalid(format!("the answer is no document: {error}")))?;
+    let document = memory.take().map_err(|error| Error::Invalid(format!("the answer is no document: {error}")))?;
     Ok((exit, document))
 }
 
