@@ -62,7 +62,8 @@ const MOVE = `(async (k, value) => {
 })`;
 const ROWS = "document.querySelectorAll('table tbody tr').length";
 
-for (const [name, verb] of [['arm/general_16real', 'an arm'], ['loop/rrsrr', 'a loop'], ['platform/dietmaier_40real', 'a platform']]) {
+for (const [name, verb] of [['arm/general_16real', 'an arm'], ['loop/rrsrr', 'a loop'], ['platform/dietmaier_40real', 'a platform'],
+  ['platform/hexapod', 'a hexapod with plane plates']]) {
   test(`a live page solves ${verb} anew`, { timeout: 120_000 }, async (t) => {
     if (!chromium) { t.skip('no browser'); return; }
     const path = join(folder, `${name.replace('/', '-')}.html`);
