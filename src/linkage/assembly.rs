@@ -195,6 +195,15 @@ fn placed(linkage: &Linkage, given: &[Given], place: Placing) -> Result<Assembli
     Ok(shallow)
 }
 
+/// The bodies that these inputs glue, and the joints that they leave free.
+///
+/// # Errors
+/// Where an input glues bodies that are one already.
+pub fn held_and_free(linkage: &Linkage, given: &[Given]) -> Result<(State, Vec<usize>)> {
+    let (_, joints) = glued(linkage, given)?;
+    Ok((started(linkage, given, place_of)?, joints.into_iter().map(|(joint, _)| joint).collect()))
+}
+
 /// The bodies that the inputs glue.
 fn started(linkage: &Linkage, given: &[Given], place: Placing) -> Result<State> {
     let mut start = State::new(linkage.bodies.len(), SHALLOW);

@@ -11,13 +11,13 @@ use super::groups::Group;
 use super::isotropic::{Isotropic, Value};
 use super::points::{EFFORT, Points};
 use super::quadratic::{Root, Solved};
+use super::real_system::{Form, circles, constant, cycle_forms, turned, unknowns};
 use super::state::{Number, State, number};
 use crate::algebra::disc::Disc;
 use crate::algebra::groebner::{Basis, Equation, MOST_VARIABLES};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Linkage, Pair};
-use num_complex::Complex;
 use rug::{Float, Rational};
 
 /// Largest sum of the numbers of teeth in lowest terms: monomials of a basis have degrees up to 127.
@@ -33,9 +33,6 @@ struct Mesh {
     exponents: Vec<i32>,
     factor: Number,
 }
-
-/// A complex number whose parts are polynomials.
-type Form = Complex<Equation>;
 
 /// Returns the numerator and the denominator of a ratio of gears.
 ///
@@ -86,7 +83,7 @@ pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State
     let (Some(cycles), Some(factors)) = (equations.exact(), factors) else {
         return Solved::Undecided("a group with gears stands on an assembly whose numbers are not rational".to_owned());
     };
-    let unknowns = 2 * (equations.classes - 1) + equations.slides.len();
+    let unknowns = unknowns(equations);
     if unknowns > MOST_VARIABLES {
         return Solved::Undecided(format!("a group with gears has more than {MOST_VARIABLES} unknowns"));
     }
@@ -115,45 +112,9 @@ fn wheel(equations: &Equations<Number>, meshes: &[Mesh]) -> Option<Number> {
     }
 }
 
-fn constant(z: &Gaussian) -> Form {
-    let part = |q: &Rational| Equation::from_rational(q).unwrap_or_else(Equation::zero);
-    Form { re: part(&z.re), im: part(&z.im) }
-}
-
-/// A power of the rotation of a class: `T_n(x) + i y U_(n-1)(x)`, in which y appears at most once.
-fn turned(class: usize, exponent: i32) -> Form {
-    if class == 0 {
-        return Form::one();
-    }
-    let (x, y) = (Equation::variable(2 * class - 2), Equation::variable(2 * class - 1));
-    let two_x = x.add(&x);
-    // T and U of degrees n - 1 and n - 2, n and n - 1.
-    let (mut below, mut here) = ((Equation::one(), Equation::zero()), (x, Equation::one()));
-    if exponent == 0 {
-        here = below.clone();
-    }
-    for _ in 1..exponent.unsigned_abs() {
-        let next = (two_x.mul(&here.0).sub(&below.0), two_x.mul(&here.1).sub(&below.1));
-        below = std::mem::replace(&mut here, next);
-    }
-    let im = here.1.mul(&y);
-    Form { re: here.0, im: if exponent < 0 { im.neg() } else { im } }
-}
-
 /// The polynomials that vanish: both parts of every cycle and every pair of gears, and the circles of the classes.
 fn system(cycles: &Equations<Isotropic<Gaussian>>, meshes: &[Mesh], factors: &[Gaussian]) -> Vec<Equation> {
-    let mut list = Vec::new();
-    for (k, cycle) in cycles.cycles.iter().enumerate() {
-        let mut sum = Form::zero();
-        for (class, c) in cycle.iter().enumerate() {
-            sum = sum.add(&constant(&c.z).mul(&turned(class, 1)));
-        }
-        for (q, slide) in cycles.slides.iter().enumerate() {
-            let way = Form { re: Equation::variable(2 * (cycles.classes - 1) + q), im: Equation::zero() };
-            sum = sum.add(&constant(&slide.coefficients[k].z).mul(&turned(slide.class, 1)).mul(&way));
-        }
-        list.extend([sum.re, sum.im]);
-    }
+    let mut list: Vec<Equation> = cycle_forms(cycles).into_iter().flat_map(|sum| [sum.re, sum.im]).collect();
     for (mesh, factor) in meshes.iter().zip(factors) {
         let side = |sign: i32| {
             let terms = mesh.exponents.iter().enumerate().filter(|(_, exponent)| **exponent * sign > 0);
@@ -162,10 +123,7 @@ fn system(cycles: &Equations<Isotropic<Gaussian>>, meshes: &[Mesh], factors: &[G
         let difference = side(1).sub(&constant(factor).mul(&side(-1)));
         list.extend([difference.re, difference.im]);
     }
-    for class in 1..cycles.classes {
-        let square = turned(class, 1);
-        list.push(square.re.mul(&square.re).add(&square.im.mul(&square.im)).sub(&Equation::one()));
-    }
+    list.extend(circles(cycles.classes));
     list.retain(|equation| !equation.is_zero());
     list
 }

@@ -203,7 +203,7 @@ pub fn insert<M>(document: &mut Value, sweep: &AssemblySweep<M>, place: impl Fn(
         "reason": sweep.verdict.reason,
         "branches": sweep.branches.len(),
         "limits": sweep.limits.len(),
-        "complex_limits": null,
+        "complex_limits": sweep.complex_limits,
         "inputs": sweep.samples.len(),
         "incomplete": sweep.incomplete(),
         "self_motion": self_motions,

@@ -90,6 +90,9 @@ pub struct AssemblySweep<M> {
     pub branches: Vec<AssemblyBranch>,
     /// The limit positions, in the order of the sweep.
     pub limits: Vec<AssemblyLimit<M>>,
+    /// The proved number of complex limit positions of the input in its whole turn, or on its whole line; `None` where they are not
+    /// counted.
+    pub complex_limits: Option<usize>,
     /// Whether the range is a full turn, whose end is its beginning.
     pub is_full_turn: bool,
     /// Is every branch found.
@@ -273,7 +276,7 @@ pub(super) fn follow<R: Running>(
     let web = Web { run, nodes, links, range };
     let (branches, limits) = web.branches(ends);
     let verdict = SweepVerdict::none();
-    let mut sweep = AssemblySweep { joint, range, samples, branches, limits, is_full_turn, verdict };
+    let mut sweep = AssemblySweep { joint, range, samples, branches, limits, complex_limits: None, is_full_turn, verdict };
     sweep.verdict = SweepVerdict::of_assemblies(&sweep, unproved);
     Ok(sweep)
 }

@@ -9,6 +9,7 @@ use crate::assembly::wrapped;
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Accuracy, Gaussian, Given, Linkage, Pair};
 use crate::linkage::answer::{LinkageMode, solve};
+use crate::linkage::limits::complex_limits;
 use crate::verdict::Code;
 use num_complex::Complex;
 use rug::Rational;
@@ -134,5 +135,6 @@ pub fn sweep_linkage(
     };
     let mut sweep = follow(&run, joint, range, is_full_turn, tick)?;
     sweep.verdict.proof = sweep.verdict.proof.of_rounded(is_rounded);
+    sweep.complex_limits = if is_rounded { None } else { complex_limits(linkage, &run.held, joint) };
     Ok(sweep)
 }

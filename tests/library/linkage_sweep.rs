@@ -1,9 +1,10 @@
 //! Sweeps of linkages: branches, limit positions, traced points.
 #![allow(clippy::unwrap_used)]
 
-use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text};
+use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text, builtin_any};
 use looproot::internal::kinematics::linkage::Accuracy;
 use looproot::internal::linkage::answer::solve;
+use looproot::internal::linkage::limits::complex_limits;
 use looproot::internal::report::linkage_sweep::Traced;
 use looproot::internal::sweep::{End, LinkageSweep, Range, sweep_linkage};
 use looproot::internal::verdict::{Proof, Status};
@@ -75,6 +76,45 @@ fn a_traced_point_keeps_its_distance_from_the_crank() {
         }
     }
     assert!(rows >= 24);
+}
+
+/// cos = (a^2 + d^2 - (b +- c)^2)/(2 a d) has two angles for every cosine but 1 and -1, where the linkage passes a change point.
+#[test]
+fn complex_limit_positions_of_four_bars_are_those_of_the_law_of_cosines() {
+    for (lengths, count) in [
+        ([3, 4, 3, 6], 4),
+        ([2, 5, 4, 6], 4),
+        ([5, 4, 6, 2], 4),
+        // Change points: one cosine is -1; both are 1 and -1.
+        ([2, 3, 4, 5], 2),
+        ([2, 3, 2, 3], 0),
+    ] {
+        let file = four_bar(lengths, "1/2");
+        let joint = file.linkage.joints.iter().position(|joint| joint.name == "A").unwrap();
+        assert_eq!(complex_limits(&file.linkage, &[], joint), Some(count), "{lengths:?}");
+    }
+}
+
+/// Six-bars with a swept joint and its complex limit positions, counted by another program: Groebner bases of the closure equations and the
+/// determinant of their derivatives, modulo 32003. Watt's has the 4 limits of its first dyad with 2 assemblies of the second, and 8 of the second.
+const SIX_BARS: &[(&str, &str, usize)] = &[
+    ("watt_1", "A", 16),
+    ("watt_2", "A", 16),
+    ("stephenson_1", "A", 20),
+    ("stephenson_2", "A", 24),
+    ("stephenson_3", "A", 20),
+    ("stephenson_3_triad", "H", 24),
+];
+
+#[test]
+fn complex_limit_positions_of_six_bars_are_counted() {
+    for (name, joint, count) in SIX_BARS {
+        let Any::Linkage(file) = builtin_any(&format!("linkage/{name}"), &Options::default()).unwrap() else {
+            panic!("a linkage")
+        };
+        let joint = file.linkage.joints.iter().position(|own| own.name == *joint).unwrap();
+        assert_eq!(complex_limits(&file.linkage, &[], joint), Some(*count), "{name}");
+    }
 }
 
 #[test]

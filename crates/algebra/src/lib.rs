@@ -23,7 +23,7 @@ pub mod interval;
 pub mod lift;
 pub mod local_multiplicity;
 pub mod long_float;
-mod minors;
+pub mod minors;
 pub mod modp;
 pub mod modular;
 pub mod monomial;

@@ -32,7 +32,8 @@ pub(super) fn parameters<'a, R: Ring + 'a>(polynomials: impl Iterator<Item = &'a
 ///
 /// # Panics
 /// When there are more than 20 columns, or the shape is wrong.
-pub(super) fn maximal_minors<R: Ring>(rows: &[Vec<R>], columns: usize) -> Vec<R> {
+#[must_use]
+pub fn maximal_minors<R: Ring>(rows: &[Vec<R>], columns: usize) -> Vec<R> {
     assert!(columns <= 20, "expansion by minors is for small matrices");
     assert!(rows.len() + 1 == columns && rows.iter().all(|row| row.len() == columns), "one row less than columns");
     let mut minors = vec![None; 1 << columns];
@@ -46,6 +47,15 @@ pub(super) fn maximal_minors<R: Ring>(rows: &[Vec<R>], columns: usize) -> Vec<R>
     }
     let all = (1 << columns) - 1;
     (0..columns).map(|c| minors[all & !(1 << c)].take().unwrap_or_else(R::zero)).collect()
+}
+
+/// Returns the determinant of a square matrix over any ring, by its minors; 1 for the empty matrix.
+///
+/// # Panics
+/// When there are more than 20 columns, or the matrix is not square.
+#[must_use]
+pub fn determinant_by_minors<R: Ring>(rows: &[Vec<R>]) -> R {
+    rows.split_first().map_or_else(R::one, |(top, rest)| expand(top, &maximal_minors(rest, top.len())))
 }
 
 /// Returns the determinant with one more row on top, from the maximal minors below it.
