@@ -184,12 +184,13 @@ fn joint(scope: &Scope<'_>, linkage: &SpaceLinkage, node: &Node) -> Result<Space
     let keys = ["name", "type", "of", "at", "axis", "axes", "zero", "length"];
     let table = scope.table(node, "a joint in space", &keys)?;
     let name = scope.text(scope.need(&table, "name")?, "name")?.to_owned();
-    let kinds = ["R", "P", "S", "U", "SS", "SPS", "parallelogram"];
+    let kinds = ["R", "P", "S", "U", "SS", "SPS", "UPU", "parallelogram"];
     let kind = scope.word(scope.need(&table, "type")?, "type", &kinds)?;
     let allowed: &[&str] = match kind {
         "R" | "P" => &["name", "type", "of", "at", "axis", "zero"],
         "U" => &["name", "type", "of", "at", "axes"],
         "SS" => &["name", "type", "of", "at", "length"],
+        "UPU" => &["name", "type", "of", "at", "axis"],
         "parallelogram" => &["name", "type", "of", "at", "axis", "length"],
         _ => &["name", "type", "of", "at"],
     };
@@ -224,6 +225,10 @@ fn joint(scope: &Scope<'_>, linkage: &SpaceLinkage, node: &Node) -> Result<Space
         }
         "SS" => SpacePair::Rod(length()?),
         "SPS" => SpacePair::Leg,
+        "UPU" => {
+            let [a, b] = scope.exactly::<2>(scope.need(&table, "axis")?, "axis")?;
+            SpacePair::UniversalLeg([direction(scope, a, "axis")?, direction(scope, b, "axis")?])
+        }
         "parallelogram" => SpacePair::Parallelogram(axes(scope, &table, &name, line)?, length()?),
         _ => SpacePair::Spherical,
     };
@@ -327,18 +332,18 @@ fn given(linkage: &SpaceLinkage, joint: usize, value: &InputValue, line: usize) 
             let way = along.each_ref().map(|c| Rational::from(c * &part));
             (Known::Motion(Box::new(moved(own, axis.home.rotation.clone(), &way))), distance.to_f64(), exact)
         }
-        (SpacePair::Leg, InputValue::Distance(distance)) => {
+        (SpacePair::Leg | SpacePair::UniversalLeg(_), InputValue::Distance(distance)) => {
             let square = distance.squared();
             let whole = square.closed().and_then(|closed| closed.as_rational());
             let exact = whole.is_some();
             (Known::Square(whole.unwrap_or_else(|| square.rational().clone())), distance.to_f64(), exact)
         }
-        (SpacePair::Revolute(_) | SpacePair::Prismatic(_) | SpacePair::Leg, _) => {
+        (SpacePair::Revolute(_) | SpacePair::Prismatic(_) | SpacePair::Leg | SpacePair::UniversalLeg(_), _) => {
             let wanted = if own.is_distance() == Some(true) { "a distance" } else { "an angle" };
             return Err(Error::Invalid(format!("found a value of another kind for the joint {}, expected {wanted}", own.name)));
         }
         _ => {
-            let message = format!("found the joint {} of type {} as an input, expected R, P or SPS", own.name, own.pair.word());
+            let message = format!("found the joint {} of type {} as an input, expected R, P, SPS or UPU", own.name, own.pair.word());
             return Err(Error::Invalid(message));
         }
     };
@@ -377,7 +382,7 @@ fn length(scope: &Scope<'_>, node: &Node) -> Result<Number> {
 
 fn without_value(scope: &Scope<'_>, joint: &SpaceJoint, line: usize) -> Error {
     let word = joint.pair.word();
-    scope.fail(line, format!("found an input of the joint {} of type {word}, expected one of type R, P or SPS", joint.name))
+    scope.fail(line, format!("found an input of the joint {} of type {word}, expected one of type R, P, SPS or UPU", joint.name))
 }
 
 fn value_in(scope: &Scope<'_>, joint: &SpaceJoint, table: &Table<'_>) -> Result<InputValue> {

@@ -4,7 +4,7 @@ use super::{Finding, Judgement, Sort};
 use crate::catalogue::{SpaceClaim, SpaceFile};
 use crate::error::Result;
 use crate::linkage::space::{SpaceAnswer, SpaceMode, solve};
-use crate::verdict::Status;
+use crate::verdict::{Proof, Status};
 use std::f64::consts::TAU;
 
 /// Judges the claims of a file of a linkage in space.
@@ -15,7 +15,9 @@ pub(super) fn space(file: &SpaceFile) -> Result<Judgement> {
     let mut judgement = Judgement { cases: file.cases.len(), ..Judgement::default() };
     for (number, case) in (1..).zip(&file.cases) {
         let answer = solve(&file.linkage, &case.given, file.exact && case.exact)?;
+        let is_probable = matches!(answer.verdict.proof, Proof::Probable { .. });
         match answer.verdict.status {
+            Status::Complete | Status::Unreachable if is_probable => {}
             Status::Complete | Status::Unreachable => judgement.complete += 1,
             Status::SelfMotion => judgement.self_motions += 1,
             Status::Incomplete | Status::Unsupported => {}

@@ -2,4 +2,5 @@
 
 pub mod half_angle;
 pub mod study;
+pub mod universal_leg;
 pub mod woernle_lee;

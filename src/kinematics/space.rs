@@ -47,6 +47,9 @@ pub enum SpacePair {
     Rod(Rational),
     /// SPS: a leg between two points whose length is the value.
     Leg,
+    /// UPU: a leg between two points with a universal joint at each end, whose length is the value; the axis fixed in each body. Its two
+    /// middle axes are parallel.
+    UniversalLeg([Vector<Rational>; 2]),
     /// Parallelogram: R, a circular translation, R; the direction of both axes in each body and the square of the length of the rods.
     Parallelogram([Vector<Rational>; 2], Rational),
 }
@@ -62,6 +65,7 @@ impl SpacePair {
             Self::Universal(_) => "U",
             Self::Rod(_) => "SS",
             Self::Leg => "SPS",
+            Self::UniversalLeg(_) => "UPU",
             Self::Parallelogram(..) => "parallelogram",
         }
     }
@@ -73,7 +77,7 @@ impl SpacePair {
             Self::Revolute(_) | Self::Prismatic(_) => 5,
             Self::Universal(_) => 4,
             Self::Spherical | Self::Parallelogram(..) => 3,
-            Self::Rod(_) => 1,
+            Self::Rod(_) | Self::UniversalLeg(_) => 1,
             Self::Leg => 0,
         }
     }
@@ -100,7 +104,7 @@ impl SpaceJoint {
     pub fn is_distance(&self) -> Option<bool> {
         match self.pair {
             SpacePair::Revolute(_) => Some(false),
-            SpacePair::Prismatic(_) | SpacePair::Leg => Some(true),
+            SpacePair::Prismatic(_) | SpacePair::Leg | SpacePair::UniversalLeg(_) => Some(true),
             _ => None,
         }
     }

@@ -1,10 +1,11 @@
 //! Assemblies of linkages in space as text and as JSON.
 
 use super::document::units;
-use super::json::{number, tenths};
+use super::json::{number, tenths, verdict as verdict_json};
 use super::model;
 use super::number::{counted, duration, short};
 use super::table::{Columns, paragraph};
+use crate::algebra::drawn;
 use crate::catalogue::{SpaceCase, SpaceFile};
 use crate::kinematics::space::{Known, SpaceGiven};
 use crate::linkage::space::{Coordinate, SpaceAnswer, SpaceMode};
@@ -70,7 +71,7 @@ fn joint_variables(file: &SpaceFile) -> Value {
 /// One document for all cases.
 #[must_use]
 pub fn json(file: &SpaceFile, results: &[Value]) -> Value {
-    json!({
+    let mut document = json!({
         "title": file.heading.title,
         "kind": "linkage",
         "name": file.heading.name,
@@ -79,7 +80,11 @@ pub fn json(file: &SpaceFile, results: &[Value]) -> Value {
         "joint_variables": joint_variables(file),
         "mechanism": model::space_json(file),
         "results": results,
-    })
+    });
+    if let Some(seed) = drawn::seed_used() {
+        document["seed"] = json!(seed);
+    }
+    document
 }
 
 fn value(z: &Coordinate, real: bool) -> Value {
@@ -123,7 +128,7 @@ pub fn result(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAn
     let groups = answer.groups.iter().map(|group| {
         let names = |bodies: &Vec<usize>| bodies.iter().map(|body| linkage.bodies[*body].name.clone()).collect::<Vec<_>>();
         let bodies = group.bodies.iter().map(names).collect::<Vec<_>>();
-        json!({ "bodies": bodies, "count": group.count, "route": "Gröbner basis" })
+        json!({ "bodies": bodies, "count": group.count, "route": group.route })
     });
     let families = answer.sample.iter().map(|(sample, joints)| {
         let labels: Vec<&str> = joints.iter().map(|joint| linkage.joints[*joint].name.as_str()).collect();
@@ -134,19 +139,7 @@ pub fn result(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAn
     json!({
         "case": index,
         "asked": asked_json(file, &case.given),
-        "verdict": {
-            "status": verdict.status.word(),
-            "proof": verdict.proof.word(),
-            "code": verdict.code.word(),
-            "complex_complete": verdict.complex_complete,
-            "complex": verdict.complex,
-            "real": verdict.real,
-            "at_infinity": verdict.at_infinity,
-            "self_motion": verdict.self_motion,
-            "certified": verdict.certified,
-            "near": 0,
-            "reason": verdict.reason,
-        },
+        "verdict": verdict_json(verdict),
         "groups": groups.collect::<Value>(),
         "modes": modes.map(|(id, own)| mode(file, id, own)).collect::<Value>(),
         "families": families.collect::<Value>(),

@@ -1,4 +1,4 @@
-//! Krawczyk's theorem: equations linear in two groups of unknowns have exactly one solution near given values.
+//! Krawczyk's theorem: as many equations as unknowns have exactly one solution near given values.
 //!
 //! For a matrix A and a box of radius r about c, `|A f(c)| + |I - A f'(box)| r < r` proves that f has exactly one zero in
 //! the box, complex ones counted. \[Krawczyk1969\]
@@ -14,7 +14,7 @@ use num_complex::Complex;
 use rug::{Float, Rational};
 
 /// Bits of centres.
-const BITS: u32 = 512;
+pub(crate) const BITS: u32 = 512;
 /// The radius of a box over the size of its centre is two to the power of minus this: far below an f64's rounding, and far above
 /// that of the centres.
 const RADIUS_BITS: u32 = 160;
@@ -40,6 +40,70 @@ fn centre(disc: &Disc) -> Disc {
     Disc::point(Float::with_val(BITS, &disc.re), Float::with_val(BITS, &disc.im))
 }
 
+/// As many equations as unknowns.
+pub(crate) trait Square {
+    /// Returns the values.
+    fn values(&self, unknowns: &[Disc]) -> Vec<Disc>;
+
+    /// Returns the derivatives, column by column.
+    fn slopes(&self, unknowns: &[Disc]) -> Vec<Vec<Disc>>;
+
+    /// Returns the rows of an approximate inverse of the derivatives.
+    fn inverse(&self, unknowns: &[Disc]) -> Option<Vec<Vec<Disc>>> {
+        let columns = self.slopes(unknowns);
+        let size = unknowns.len();
+        let row = |i: usize| {
+            let unit = (0..size).map(|j| if i == j { Disc::one() } else { zero() });
+            columns.iter().map(|column| column[i].clone()).chain(unit).collect()
+        };
+        let inverse = solved((0..size).map(row).collect())?;
+        Some(inverse.into_iter().map(|row| row.iter().map(centre).collect()).collect())
+    }
+
+    /// Returns a point brought near a solution by Newton's method.
+    fn refined(&self, mut unknowns: Vec<Disc>) -> Option<Vec<Disc>> {
+        for _ in 0..STEPS {
+            let inverse = self.inverse(&unknowns)?;
+            let values = self.values(&unknowns);
+            unknowns = unknowns.iter().zip(&inverse).map(|(z, row)| centre(&z.sub(&dot(row, &values)))).collect();
+        }
+        Some(unknowns)
+    }
+
+    /// Returns a box about a point that holds exactly one solution, and whether that is real, for equations with real coefficients;
+    /// `None` where that is not shown.
+    fn certified(&self, mut unknowns: Vec<Disc>) -> Option<(Vec<Disc>, bool)> {
+        let largest = unknowns.iter().map(Disc::at_most).fold(Float::with_val(64, 1), |x, y| if y > x { y } else { x });
+        let radius = largest >> RADIUS_BITS;
+        let is_real = unknowns.iter().all(|z| *z.im.as_abs() <= radius);
+        if is_real {
+            // The conjugate of a zero in a box about a real point is a zero in it: they are one.
+            unknowns = unknowns.iter().map(|z| Disc::point(z.re.clone(), Float::new(BITS))).collect();
+        }
+        let inverse = self.inverse(&unknowns)?;
+        let values = self.values(&unknowns);
+        let boxes: Vec<Disc> = unknowns.iter().map(|z| z.clone().widened(&radius)).collect();
+        let columns = self.slopes(&boxes);
+        for (i, row) in inverse.iter().enumerate() {
+            let mut reach = dot(row, &values).at_most();
+            for (k, column) in columns.iter().enumerate() {
+                let unit = if i == k { Disc::one() } else { zero() };
+                let off = unit.sub(&dot(row, column)).at_most();
+                // Rounded to nearest; the sum is compared with half the radius, which is far more than all roundings.
+                reach += Float::with_val(64, off * &radius);
+            }
+            if !(reach < Float::with_val(64, &radius * &Float::with_val(64, Rational::from((1, 2))))) {
+                return None;
+            }
+        }
+        let is_complex = unknowns.iter().any(|z| *z.im.as_abs() > Float::with_val(64, &radius * 2_u32));
+        if !is_real && !is_complex {
+            return None;
+        }
+        Some((boxes, is_real))
+    }
+}
+
 /// The equations at a point, with one more that fixes the scale of a direction.
 struct System<'a> {
     wanted: &'a Wanted,
@@ -48,7 +112,7 @@ struct System<'a> {
     chart: usize,
 }
 
-impl System<'_> {
+impl Square for System<'_> {
     fn values(&self, unknowns: &[Disc]) -> Vec<Disc> {
         let mut values = self.wanted.equations(&place(unknowns, self.directions));
         if self.directions > 0 {
@@ -72,18 +136,6 @@ impl System<'_> {
             with(Disc::one()).iter().zip(&with(zero())).map(|(x, y)| x.sub(y)).collect()
         };
         (0..unknowns.len()).map(column).collect()
-    }
-
-    /// The rows of an approximate inverse of the derivatives.
-    fn inverse(&self, unknowns: &[Disc]) -> Option<Vec<Vec<Disc>>> {
-        let columns = self.slopes(unknowns);
-        let size = unknowns.len();
-        let row = |i: usize| {
-            let unit = (0..size).map(|j| if i == j { Disc::one() } else { zero() });
-            columns.iter().map(|column| column[i].clone()).chain(unit).collect()
-        };
-        let inverse = solved((0..size).map(row).collect())?;
-        Some(inverse.into_iter().map(|row| row.iter().map(centre).collect()).collect())
     }
 }
 
@@ -114,14 +166,10 @@ impl Certified {
             };
             Some(v[..3].iter().map(disc).collect())
         };
-        let mut unknowns = [over(y, last)?, over(x, *x.last()?)?].concat();
         let system = System { wanted, directions, chart };
-        for _ in 0..STEPS {
-            let inverse = system.inverse(&unknowns)?;
-            let values = system.values(&unknowns);
-            unknowns = unknowns.iter().zip(&inverse).map(|(z, row)| centre(&z.sub(&dot(row, &values)))).collect();
-        }
-        system.certified(unknowns)
+        let unknowns = system.refined([over(y, last)?, over(x, *x.last()?)?].concat())?;
+        let (boxes, is_real) = system.certified(unknowns)?;
+        Some(Self { boxes, directions, is_real })
     }
 
     /// The unknowns in discs.
@@ -132,38 +180,5 @@ impl Certified {
     /// Returns whether the moving point is proved to be another one.
     pub fn is_apart_from(&self, other: &Self) -> bool {
         self.boxes[3..].iter().zip(&other.boxes[3..]).any(|(x, y)| x.sub(y).is_not_zero())
-    }
-}
-
-impl System<'_> {
-    fn certified(&self, mut unknowns: Vec<Disc>) -> Option<Certified> {
-        let largest = unknowns.iter().map(Disc::at_most).fold(Float::with_val(64, 1), |x, y| if y > x { y } else { x });
-        let radius = largest >> RADIUS_BITS;
-        let is_real = unknowns.iter().all(|z| *z.im.as_abs() <= radius);
-        if is_real {
-            // The conjugate of a zero in a box about a real point is a zero in it: they are one.
-            unknowns = unknowns.iter().map(|z| Disc::point(z.re.clone(), Float::new(BITS))).collect();
-        }
-        let inverse = self.inverse(&unknowns)?;
-        let values = self.values(&unknowns);
-        let boxes: Vec<Disc> = unknowns.iter().map(|z| z.clone().widened(&radius)).collect();
-        let columns = self.slopes(&boxes);
-        for (i, row) in inverse.iter().enumerate() {
-            let mut reach = dot(row, &values).at_most();
-            for (k, column) in columns.iter().enumerate() {
-                let unit = if i == k { Disc::one() } else { zero() };
-                let off = unit.sub(&dot(row, column)).at_most();
-                // Rounded to nearest; the sum is compared with half the radius, which is far more than all roundings.
-                reach += Float::with_val(64, off * &radius);
-            }
-            if !(reach < Float::with_val(64, &radius * &Float::with_val(64, Rational::from((1, 2))))) {
-                return None;
-            }
-        }
-        let is_complex = unknowns.iter().any(|z| *z.im.as_abs() > Float::with_val(64, &radius * 2_u32));
-        if !is_real && !is_complex {
-            return None;
-        }
-        Some(Certified { boxes, directions: self.directions, is_real })
     }
 }

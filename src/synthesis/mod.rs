@@ -11,7 +11,7 @@ mod curves;
 mod dyad;
 mod equations;
 mod function;
-mod krawczyk;
+pub(crate) mod krawczyk;
 mod linear;
 mod lines;
 mod moments;

@@ -299,6 +299,29 @@ fn series(random: &mut ChaCha8Rng) -> Planted {
     (draft, text, 4)
 }
 
+/// A plate on three UPU legs: the axis in the plate is a combination of that in the base and of the leg.
+fn universal(random: &mut ChaCha8Rng) -> Planted {
+    let mut draft = Draft::new();
+    draft.body("plate", pose(random));
+    for leg in 1..=3 {
+        let [a, b, n] = [(); 3].map(|()| point(random));
+        let way = less(&b, &a);
+        let part = |random: &mut ChaCha8Rng| Rational::from((random.random_range(1..7), random.random_range(1..4)));
+        let m = plus(&scaled(&n, &part(random)), &scaled(&way, &part(random)));
+        let (first, second) = (format!("A{leg}"), format!("B{leg}"));
+        draft.mark("base", &first, &a);
+        draft.mark("plate", &second, &b);
+        let own = written(&draft.pose("plate").inverse().rotate(&m));
+        draft.joints.push(format!(
+            "{{ name = \"leg{leg}\", type = \"UPU\", of = [\"base\", \"plate\"], at = [\"{first}\", \"{second}\"], axis = [{}, {own}] }}",
+            written(&n)
+        ));
+        draft.given.push(format!("leg{leg} = {{ distance = \"sqrt({})\" }}", square(&way)));
+    }
+    let text = draft.text(None);
+    (draft, text, 84)
+}
+
 fn planted(random: &mut ChaCha8Rng, kind: &str) -> Planted {
     match kind {
         "delta" => delta(random, false),
@@ -404,6 +427,49 @@ fn a_plate_on_points_of_a_line_moves() {
 }
 
 #[test]
+fn a_plate_on_three_legs_with_universal_joints_has_84_assemblies() {
+    let (draft, text, count) = universal(&mut ChaCha8Rng::seed_from_u64(2));
+    let answer = solved(&text);
+    assert_eq!(answer.verdict.status, Status::Complete, "{}", answer.verdict.reason);
+    assert!(matches!(answer.verdict.proof, Proof::Probable { .. }));
+    assert_eq!((answer.verdict.complex, answer.modes.len()), (count, count));
+    assert!(is_listed(&answer, &draft));
+    assert!(answer.modes.iter().map(|mode| mode.residual).fold(0.0, f64::max) < 1e-9);
+}
+
+/// Points at the corners of equilateral triangles and axes along their circles, as in Tsai's robot, have fewer.
+#[test]
+fn an_equilateral_plate_on_universal_joints_has_78_assemblies() {
+    let text = r#"
+[mechanism]
+kind = "linkage"
+space = "space"
+ground = "base"
+joints = [
+    { name = "leg1", type = "UPU", of = ["base", "plate"], at = ["A1", "B1"], axis = [[0, 1, -1], [0, 1, -1]] },
+    { name = "leg2", type = "UPU", of = ["plate", "base"], at = ["B2", "A2"], axis = [[-1, 0, 1], [-1, 0, 1]] },
+    { name = "leg3", type = "UPU", of = ["base", "plate"], at = ["A3", "B3"], axis = [[1, -1, 0], [1, -1, 0]] },
+]
+[mechanism.bodies]
+base = { A1 = [3, 0, 0], A2 = [0, 3, 0], A3 = [0, 0, 3] }
+plate = { B1 = [2, 0, 0], B2 = [0, 2, 0], B3 = [0, 0, 2] }
+[[input]]
+given = { leg1 = { distance = "sqrt(13)" }, leg2 = { distance = "sqrt(15)" }, leg3 = { distance = "sqrt(18)" } }
+"#;
+    let answer = solved(text);
+    assert_eq!(answer.verdict.status, Status::Complete, "{}", answer.verdict.reason);
+    assert_eq!((answer.verdict.complex, answer.modes.len(), answer.verdict.real), (78, 78, 28));
+    for (from, to, message) in [
+        ("axis = [[0, 1, -1], [0, 1, -1]]", "axis = [0, 1, -1]", "found 3"),
+        ("axis = [[0, 1, -1], [0, 1, -1]]", "length = 3", "length"),
+        ("leg1 = { distance = \"sqrt(13)\" }", "leg1 = { tan_half = 1 }", "expected"),
+    ] {
+        let found = refused(&text.replacen(from, to, 1));
+        assert!(found.contains(message) && found.contains("test.toml:"), "{to}: {found}");
+    }
+}
+
+#[test]
 fn wrong_linkages_in_space_are_named() {
     let (_, text, _) = tripod(&mut ChaCha8Rng::seed_from_u64(7), "RRS1");
     let given = text.find("given = { ").unwrap();
@@ -452,12 +518,13 @@ tan_half = "1/2"
 
 #[test]
 fn entries_keep_their_claims() {
-    for name in ["3rrs", "3rps", "delta", "rssr_ssr", "geared_five_bar", "geared_five_bar_reversed"] {
+    for name in ["3rrs", "3rps", "3upu", "delta", "rssr_ssr", "geared_five_bar", "geared_five_bar_reversed"] {
         let any = builtin_any(&format!("linkage/{name}"), &Options::default()).unwrap();
         let judgement = judge_any(&any).unwrap();
         let failed: Vec<String> = judgement.failures().map(|finding| finding.message.clone()).collect();
         assert!(failed.is_empty(), "{name}: {failed:?}");
-        assert_eq!(judgement.complete, judgement.cases, "{name}");
+        // That of a plate on UPU legs is probable.
+        assert_eq!(judgement.complete, if name == "3upu" { 0 } else { judgement.cases }, "{name}");
     }
 }
 

@@ -2,8 +2,10 @@
 
 use super::clusters::{clusters, groups};
 use super::equations::System;
+use super::universal::{Count, Plate, PlatePose};
 use super::values::{mode, real_point};
 use crate::algebra::disc::Disc;
+use crate::algebra::drawn;
 use crate::algebra::groebner::{Basis, FiniteRing};
 use crate::error::{Error, Result};
 use crate::kinematics::motion::{Motion, Vector};
@@ -18,6 +20,11 @@ use std::time::Instant;
 const BITS: [u32; 4] = [320, 1280, 5120, 20_480];
 /// Largest radius, for lengths of 1, beyond which no more bits are computed.
 const WANTED: f64 = 4.0 * f64::EPSILON;
+
+/// What a list of all assemblies rests on.
+const EXACTLY: &str = "a Gröbner basis over the rationals";
+/// What a count rests on.
+const MODULO: &str = "a Gröbner basis modulo a prime drawn at run time";
 
 /// A number of an assembly, real of a real one.
 pub type Coordinate = Complex<f64>;
@@ -60,6 +67,8 @@ pub struct SpaceGroup {
     pub bodies: Vec<Vec<usize>>,
     /// Its assemblies, with multiplicity.
     pub count: usize,
+    /// The way in which they were found, in words.
+    pub route: &'static str,
 }
 
 /// The answer to a case.
@@ -89,24 +98,58 @@ pub fn solve(linkage: &SpaceLinkage, given: &[SpaceGiven], exact: bool) -> Resul
     let start = Instant::now();
     let all = bodies(linkage);
     let system = System::of(linkage, given, &all)?;
+    let plate = Plate::of(linkage, given, &system);
+    let (mut modes, mut sample, verdict, route);
+    if let Some((plate, count)) = plate.and_then(|plate| plate.count().map(|count| (plate, count))) {
+        (modes, sample, route) = (Vec::new(), None, "paths");
+        match count {
+            Count::Finite(count) => modes = posed(linkage, given, &system, &plate, count),
+            Count::Dimension(_) => sample = real_point(linkage, given, &system),
+        }
+        verdict = counted_verdict(&modes, count, sample.is_some(), exact);
+    } else {
+        (modes, sample, verdict) = by_basis(linkage, given, &system, exact)?;
+        route = "Gröbner basis";
+    }
+    sort(&mut modes);
+    let groups = counted(linkage, given, verdict.complex, route)?;
+    Ok(SpaceAnswer { verdict, modes, sample, groups, solve_us: start.elapsed().as_secs_f64() * 1e6 })
+}
+
+/// The assemblies, a point of a set of them, and the verdict.
+type Listed = (Vec<SpaceMode>, Option<(SpaceMode, Vec<usize>)>, Verdict);
+
+/// All assemblies by a Gröbner basis over the rationals.
+fn by_basis(linkage: &SpaceLinkage, given: &[SpaceGiven], system: &System, exact: bool) -> Result<Listed> {
     let basis = Basis::of(system.unknowns, &system.equations, EFFORT).ok_or_else(too_much)?;
     let dimension = basis.dimension();
     let mut modes = Vec::new();
     let mut sample = None;
     match dimension {
         None => {}
-        Some(0) => modes = isolated(linkage, given, &system, &basis).ok_or_else(too_much)?,
-        Some(_) => sample = real_point(linkage, given, &system),
+        Some(0) => modes = isolated(linkage, given, system, &basis).ok_or_else(too_much)?,
+        Some(_) => sample = real_point(linkage, given, system),
     }
+    let verdict = verdict(EXACTLY, &modes, dimension, sample.is_some(), exact);
+    Ok((modes, sample, verdict))
+}
+
+/// The poses of a plate on UPU legs, at most this many.
+fn posed(linkage: &SpaceLinkage, given: &[SpaceGiven], system: &System, plate: &Plate, most: usize) -> Vec<SpaceMode> {
+    let poses = plate.poses(most);
+    let one = |pose: &PlatePose| {
+        mode(linkage, given, system, &[Some(Motion::identity()), Some(pose.place.clone())], pose.is_real, 1)
+    };
+    poses.iter().filter_map(one).collect()
+}
+
+/// Real assemblies first.
+fn sort(modes: &mut [SpaceMode]) {
     let key = |mode: &SpaceMode| mode.bodies.iter().map(|body| body.translation[0].re).collect::<Vec<f64>>();
     modes.sort_by(|a, b| {
         let order = key(a).into_iter().zip(key(b)).map(|(x, y)| x.total_cmp(&y)).find(|order| order.is_ne());
         b.real.cmp(&a.real).then(order.unwrap_or(std::cmp::Ordering::Equal))
     });
-    let total = modes.iter().map(|mode| mode.multiplicity).sum();
-    let groups = counted(linkage, given, total)?;
-    let verdict = verdict(&modes, dimension, sample.is_some(), exact);
-    Ok(SpaceAnswer { verdict, modes, sample, groups, solve_us: start.elapsed().as_secs_f64() * 1e6 })
 }
 
 /// All bodies, the ground first.
@@ -117,7 +160,12 @@ pub fn bodies(linkage: &SpaceLinkage) -> Vec<usize> {
 }
 
 /// The groups with their counts: the whole has the product of them.
-fn counted(linkage: &SpaceLinkage, given: &[SpaceGiven], total: usize) -> Result<Vec<SpaceGroup>> {
+fn counted(
+    linkage: &SpaceLinkage,
+    given: &[SpaceGiven],
+    total: usize,
+    route: &'static str,
+) -> Result<Vec<SpaceGroup>> {
     let list = clusters(linkage, given, &bodies(linkage))?;
     let found = groups(linkage, given, &list);
     let mut parts: Vec<(Vec<usize>, usize)> = Vec::new();
@@ -135,7 +183,7 @@ fn counted(linkage: &SpaceLinkage, given: &[SpaceGiven], total: usize) -> Result
         }
         parts.retain(|part| !inner(part));
         parts.push((held, whole));
-        result.push(SpaceGroup { bodies: group.bodies, count: whole / before });
+        result.push(SpaceGroup { bodies: group.bodies, count: whole / before, route });
     }
     Ok(result)
 }
@@ -199,7 +247,45 @@ fn places(system: &System, values: &[Disc]) -> Option<Vec<Option<Motion<Disc>>>>
     system.places.iter().map(place).collect()
 }
 
-fn verdict(modes: &[SpaceMode], dimension: Option<usize>, has_point: bool, exact: bool) -> Verdict {
+/// The verdict on a list whose number is known modulo a prime.
+fn counted_verdict(modes: &[SpaceMode], count: Count, has_point: bool, exact: bool) -> Verdict {
+    let count = match count {
+        Count::Finite(count) => count,
+        Count::Dimension(dimension) => return verdict(MODULO, modes, Some(dimension), has_point, exact),
+    };
+    let real = modes.iter().filter(|mode| mode.real).count();
+    // A count of rounded numbers is none of the numbers that were rounded.
+    let probable =
+        if exact { Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() } } else { Proof::None };
+    let (status, code, proof, reason) = match (modes.len() == count, real) {
+        (true, 0) => {
+            let reason = format!("{MODULO}: {count} assemblies with multiplicity; all are proved and none of them is real");
+            (Status::Unreachable, Code::NoSolution, probable, reason)
+        }
+        (true, _) => {
+            let reason = format!("{MODULO}: {count} assemblies with multiplicity; all are proved, by Krawczyk's theorem");
+            (Status::Complete, Code::CountMet, probable, reason)
+        }
+        (false, _) => {
+            let reason = format!("{MODULO}: {count} assemblies with multiplicity, of which {} were found and proved", modes.len());
+            (Status::Incomplete, Code::TooFew, Proof::None, reason)
+        }
+    };
+    Verdict {
+        status,
+        proof,
+        code,
+        complex_complete: modes.len() == count,
+        complex: count,
+        real,
+        at_infinity: 0,
+        self_motion: 0,
+        certified: modes.len(),
+        reason: if exact { reason } else { reason + "; some numbers of the file were rounded" },
+    }
+}
+
+fn verdict(basis: &str, modes: &[SpaceMode], dimension: Option<usize>, has_point: bool, exact: bool) -> Verdict {
     let complex: usize = modes.iter().map(|mode| mode.multiplicity).sum();
     let real: usize = modes.iter().filter(|mode| mode.real).map(|mode| mode.multiplicity).sum();
     let proved = Proof::Proved.of_rounded(!exact);
@@ -208,31 +294,31 @@ fn verdict(modes: &[SpaceMode], dimension: Option<usize>, has_point: bool, exact
             Status::Unreachable,
             Code::NoSolution,
             proved,
-            "a Gröbner basis over the rationals: the equations of the joints contradict one another".to_owned(),
+            format!("{basis}: the equations of the joints contradict one another"),
         ),
         (Some(0), 0) => (
             Status::Unreachable,
             Code::NoSolution,
             proved,
-            format!("a Gröbner basis over the rationals: {complex} assemblies with multiplicity, none of them real"),
+            format!("{basis}: {complex} assemblies with multiplicity, none of them real"),
         ),
         (Some(0), _) => (
             Status::Complete,
             Code::GeneralBoundMet,
             proved,
-            format!("a Gröbner basis over the rationals: the joints have {complex} assemblies with multiplicity"),
+            format!("{basis}: the joints have {complex} assemblies with multiplicity"),
         ),
         (Some(dimension), _) if has_point => (
             Status::SelfMotion,
             Code::SelfMotion,
             Proof::None,
-            format!("a Gröbner basis over the rationals: the assemblies form a set of dimension {dimension}, complex ones counted; a real one near which others lie to first order is listed"),
+            format!("{basis}: the assemblies form a set of dimension {dimension}, complex ones counted; a real one near which others lie to first order is listed"),
         ),
         (Some(dimension), _) => (
             Status::Incomplete,
             Code::TooFew,
             Proof::None,
-            format!("a Gröbner basis over the rationals: the assemblies form a set of dimension {dimension}, complex ones counted; no real one was found in it"),
+            format!("{basis}: the assemblies form a set of dimension {dimension}, complex ones counted; no real one was found in it"),
         ),
     };
     Verdict {

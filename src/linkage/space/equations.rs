@@ -304,7 +304,10 @@ impl System {
                 list.push(dot(&direction(0, a)?, &direction(1, b)?));
             }
             SpacePair::Rod(square) => list.push(dot(&apart, &apart).sub(&number(square))),
-            SpacePair::Leg => {
+            SpacePair::Leg | SpacePair::UniversalLeg(_) => {
+                if let SpacePair::UniversalLeg([a, b]) = &own.pair {
+                    list.push(dot(&cross(&direction(0, a)?, &direction(1, b)?), &apart));
+                }
                 let known = given.iter().find(|one| one.joint == Some(joint)).map(|one| &one.known);
                 if let Some(Known::Square(square)) = known {
                     list.push(dot(&apart, &apart).sub(&number(square)));

@@ -7,6 +7,7 @@ mod answer;
 mod clusters;
 mod equations;
 mod rates;
+mod universal;
 mod values;
 
 pub use answer::{Coordinate, SpaceAnswer, SpaceGroup, SpaceMode, solve};

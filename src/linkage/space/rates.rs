@@ -142,6 +142,7 @@ fn closure(joint: &SpaceJoint, bodies: &[Moving]) -> Vec<Scalar> {
         SpacePair::Universal([a, b]) => [apart.as_slice(), &[dot(&direction(0, a), &direction(1, b))]].concat(),
         SpacePair::Rod(length) => vec![square(length)],
         SpacePair::Leg => Vec::new(),
+        SpacePair::UniversalLeg([a, b]) => vec![dot(&cross(&direction(0, a), &direction(1, b)), &apart)],
         SpacePair::Parallelogram([a, b], length) => {
             let turned = difference(&direction(0, a), &direction(1, b));
             [turned.as_slice(), &[square(length)]].concat()
@@ -172,7 +173,7 @@ fn value(joint: &SpaceJoint, bodies: &[Moving]) -> Option<Scalar> {
             Some(sin.mul(&now(&cos)).sub(&cos.mul(&now(&sin))))
         }
         SpacePair::Prismatic(axis) => Some(dot(&apart, &bodies[joint.of[0]].rotate(&unit(&axis.sphere.at[0])))),
-        SpacePair::Leg => dot(&apart, &apart).sqrt(),
+        SpacePair::Leg | SpacePair::UniversalLeg(_) => dot(&apart, &apart).sqrt(),
         _ => None,
     }
 }

@@ -144,6 +144,10 @@ fn open(joint: &SpaceJoint, bodies: &[Motion<Coordinate>]) -> f64 {
         SpacePair::Revolute(_) | SpacePair::Spherical | SpacePair::Universal(_) => norm(&apart),
         SpacePair::Rod(square) | SpacePair::Parallelogram(_, square) => length(square),
         SpacePair::Leg => 0.0,
+        SpacePair::UniversalLeg(axes) => {
+            let [n, m] = [0, 1].map(|side| bodies[joint.of[side]].rotate(&float(&axes[side])));
+            dot(&cross(&n, &m), &apart).norm() / (norm(&n) * norm(&m))
+        }
         SpacePair::Prismatic(axis) => {
             let along = bodies[joint.of[0]].rotate(&float(&axis.sphere.at[0]));
             norm(&cross(&along, &apart)) / norm(&along)
@@ -163,7 +167,7 @@ fn value(joint: &SpaceJoint, bodies: &[Motion<Coordinate>], real: bool) -> Optio
             let length = dot(&axis.sphere.at[0], &axis.sphere.at[0]);
             Some(clean(dot(&apart, &u) / nearest_f64(&length).sqrt()))
         }
-        SpacePair::Leg => Some(clean(dot(&apart, &apart).sqrt())),
+        SpacePair::Leg | SpacePair::UniversalLeg(_) => Some(clean(dot(&apart, &apart).sqrt())),
         _ => None,
     }
 }

@@ -76,6 +76,7 @@ pub fn json(file: &SpaceFile) -> Value {
                 object["axis"] = json!(axis.sphere.at.each_ref().map(list));
                 object["zero"] = json!(axis.sphere.zero.each_ref().map(list));
             }
+            SpacePair::UniversalLeg(axes) => object["axis"] = json!(axes.each_ref().map(list)),
             SpacePair::Universal(axes) => object["axes"] = json!(axes.each_ref().map(list)),
             SpacePair::Rod(square) => object["length"] = root(square),
             SpacePair::Parallelogram(axes, square) => {

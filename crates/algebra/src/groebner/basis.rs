@@ -1,14 +1,15 @@
 //! Buchberger's algorithm with the criteria of Gebauer and Möller.
 
+use super::coefficient::Coefficient;
 use super::monomial::{MOST_VARIABLES, Monomial};
-use super::polynomial::{Equation, Polynomial, Work, remainder};
+use super::polynomial::{Equation, Polynomial, Work, remainder, subtract};
 use rug::Integer;
 
-/// The reduced Gröbner basis of an ideal over the rationals.
+/// The reduced Gröbner basis of an ideal: over the rationals, with integer coefficients, or modulo a prime.
 #[derive(Clone, Debug)]
-pub struct Basis {
+pub struct Basis<C = Integer> {
     pub(super) variables: usize,
-    pub(super) elements: Vec<Polynomial>,
+    pub(super) elements: Vec<Polynomial<C>>,
 }
 
 /// Two elements whose leading terms are made to cancel.
@@ -20,8 +21,8 @@ struct Pair {
 }
 
 /// A basis under construction.
-struct Making {
-    elements: Vec<Polynomial>,
+struct Making<C> {
+    elements: Vec<Polynomial<C>>,
     /// Whether the leading monomial of an element is a multiple of that of a later one; such an element serves in pairs only.
     is_old: Vec<bool>,
     pairs: Vec<Pair>,
@@ -29,9 +30,9 @@ struct Making {
     effort: u64,
 }
 
-impl Basis {
+impl<C: Coefficient> Basis<C> {
     /// Returns the basis of the ideal of these equations in `variables` variables; `None` if that takes more products of words
-    /// than `effort`, or monomials of a degree above 127.
+    /// than `effort`, or monomials of a degree above 127, or if a denominator is 0 modulo the prime.
     ///
     /// # Panics
     /// If there are too many variables.
@@ -42,10 +43,13 @@ impl Basis {
     pub fn of(variables: usize, equations: &[Equation], effort: u64) -> Option<Self> {
         assert!(variables <= MOST_VARIABLES, "at most {MOST_VARIABLES} variables");
         let mut making = Making { elements: Vec::new(), is_old: Vec::new(), pairs: Vec::new(), effort };
-        let mut given: Vec<Polynomial> = equations.iter().filter_map(Polynomial::of).collect();
+        let mut given: Vec<Polynomial<C>> = Vec::new();
+        for equation in equations {
+            given.extend(Polynomial::normalised(C::terms(equation.terms())?));
+        }
         given.sort_by_key(|p| (p.leading(), p.terms.len()));
         for polynomial in given {
-            let work: Work = polynomial.terms.into_iter().collect();
+            let work: Work<C> = polynomial.terms.into_iter().collect();
             making.admit(work)?;
         }
         while let Some(pair) = making.next() {
@@ -65,8 +69,38 @@ impl Basis {
         (0..1_u32 << self.variables).filter(is_free).map(|set| set.count_ones() as usize).max()
     }
 
+    /// Returns the monomials that are no multiples of leading ones, in their order: as many as there are solutions, with multiplicity.
+    /// `None` for infinitely many, and for more than `most`.
+    pub(super) fn standard(&self, most: usize) -> Option<Vec<Monomial>> {
+        let leading: Vec<Monomial> = self.elements.iter().map(Polynomial::leading).collect();
+        let is_standard = |m: &Monomial| !leading.iter().any(|l| l.divides(*m));
+        let mut standard: Vec<Monomial> = vec![Monomial::one()].into_iter().filter(is_standard).collect();
+        let mut at = 0;
+        while at < standard.len() {
+            for k in 0..self.variables {
+                let product = standard[at].times(Monomial::variable(k))?;
+                if is_standard(&product) && !standard.contains(&product) {
+                    standard.push(product);
+                }
+            }
+            at += 1;
+            if standard.len() > most {
+                return None;
+            }
+        }
+        standard.sort_unstable();
+        Some(standard)
+    }
+
+    /// Returns the number of solutions, complex ones included, with multiplicity; `None` if there are infinitely many, or more
+    /// than `most`.
+    #[must_use]
+    pub fn count(&self, most: usize) -> Option<usize> {
+        self.standard(most).map(|standard| standard.len())
+    }
+
     /// Returns the elements in the order of their leading monomials.
-    pub(super) fn by_size(&self) -> Vec<&Polynomial> {
+    pub(super) fn by_size(&self) -> Vec<&Polynomial<C>> {
         self.elements.iter().collect()
     }
 }
@@ -76,9 +110,9 @@ fn support(monomial: Monomial) -> u32 {
     (0..MOST_VARIABLES).filter(|k| monomial.exponent(*k) > 0).map(|k| 1 << k).sum()
 }
 
-impl Making {
+impl<C: Coefficient> Making<C> {
     /// Returns the elements by which everything is reduced.
-    fn reducers(&self) -> Vec<&Polynomial> {
+    fn reducers(&self) -> Vec<&Polynomial<C>> {
         self.elements.iter().zip(&self.is_old).filter(|(_, old)| !**old).map(|(p, _)| p).collect()
     }
 
@@ -89,26 +123,23 @@ impl Making {
     }
 
     /// Returns the combination of two elements in which their leading terms cancel.
-    fn difference(&self, pair: Pair) -> Option<Work> {
+    fn difference(&self, pair: Pair) -> Option<Work<C>> {
         let (p, q) = (&self.elements[pair.first], &self.elements[pair.second]);
-        let common = Integer::from(p.coefficient().gcd_ref(q.coefficient()));
+        let (a, b) = p.coefficient().ratio(q.coefficient());
+        let mut minus = C::nothing();
+        minus.subtract_product(&b, &C::unit());
         let mut work = Work::new();
-        for (own, other, sign) in [(p, q, 1), (q, p, -1)] {
-            let factor = Integer::from(other.coefficient().div_exact_ref(&common)) * sign;
-            let monomial = pair.multiple.over(own.leading());
-            for (m, c) in &own.terms[1..] {
-                *work.entry(m.times(monomial)?).or_default() += Integer::from(c * &factor);
-            }
-        }
+        subtract(&mut work, &minus, pair.multiple.over(p.leading()), p)?;
+        subtract(&mut work, &a, pair.multiple.over(q.leading()), q)?;
         Some(work)
     }
 
     /// Reduces a polynomial, and adds the remainder as an element; `None` if a degree is too large.
-    fn admit(&mut self, work: Work) -> Option<()> {
+    fn admit(&mut self, work: Work<C>) -> Option<()> {
         let mut effort = self.effort;
-        let rest = remainder(work, &self.reducers(), &mut Integer::from(1), &mut effort)?;
+        let rest = remainder(work, &self.reducers(), &mut C::unit(), &mut effort)?;
         self.effort = effort;
-        let Some(element) = Polynomial::primitive(rest) else { return Some(()) };
+        let Some(element) = Polynomial::normalised(rest) else { return Some(()) };
         self.update_pairs(element.leading())?;
         for (other, old) in self.elements.iter().zip(&mut self.is_old) {
             *old |= element.leading().divides(other.leading());
@@ -146,19 +177,21 @@ impl Making {
     }
 
     /// Returns the reduced basis.
-    fn finished(self, variables: usize) -> Option<Basis> {
+    fn finished(self, variables: usize) -> Option<Basis<C>> {
         let mut effort = self.effort;
-        let mut minimal: Vec<Polynomial> =
+        let mut minimal: Vec<Polynomial<C>> =
             self.elements.into_iter().zip(self.is_old).filter(|(_, old)| !old).map(|(p, _)| p).collect();
         minimal.sort_by_key(Polynomial::leading);
-        let mut elements: Vec<Polynomial> = Vec::new();
+        let mut elements: Vec<Polynomial<C>> = Vec::new();
         for polynomial in minimal {
-            let below: Vec<&Polynomial> = elements.iter().collect();
-            let mut scale = Integer::from(1);
-            let mut tail: Work = polynomial.terms.iter().skip(1).cloned().collect();
+            let below: Vec<&Polynomial<C>> = elements.iter().collect();
+            let mut scale = C::unit();
+            let mut tail: Work<C> = polynomial.terms.iter().skip(1).cloned().collect();
             tail = remainder(tail, &below, &mut scale, &mut effort)?;
-            tail.insert(polynomial.leading(), Integer::from(polynomial.coefficient() * &scale));
-            elements.extend(Polynomial::primitive(tail));
+            let mut leading = polynomial.coefficient().clone();
+            leading.scale(&scale);
+            tail.insert(polynomial.leading(), leading);
+            elements.extend(Polynomial::normalised(tail));
         }
         Some(Basis { variables, elements })
     }
@@ -167,6 +200,7 @@ impl Making {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawn::Drawn;
     use crate::ring::Ring;
 
     fn x(k: usize) -> Equation {
@@ -179,6 +213,20 @@ mod tests {
 
     fn basis(variables: usize, equations: &[Equation]) -> Basis {
         Basis::of(variables, equations, 100_000).unwrap()
+    }
+
+    /// Two quadrics in general position: four points over the rationals and modulo a prime.
+    #[test]
+    fn counts_over_the_rationals_and_modulo_a_prime_agree() {
+        let square = |k: usize| x(k).mul(&x(k));
+        let conics = [
+            square(0).add(&square(1).mul(&number(3))).sub(&x(0).mul(&x(1))).sub(&number(7)),
+            square(0).mul(&number(2)).sub(&square(1)).add(&x(0)).sub(&number(1)),
+        ];
+        assert_eq!(basis(2, &conics).count(8), Some(4));
+        assert_eq!(basis(2, &conics).count(3), None);
+        let modular = Basis::<Drawn>::of(2, &conics, 100_000).unwrap();
+        assert_eq!((modular.dimension(), modular.count(8)), (Some(0), Some(4)));
     }
 
     /// The cyclic 4-roots form curves.

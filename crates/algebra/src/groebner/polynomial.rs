@@ -1,8 +1,9 @@
 //! Polynomials in several variables with integer coefficients, and their reduction by others.
 
+use super::coefficient::Coefficient;
 use super::monomial::Monomial;
 use crate::ring::Ring;
-use rug::{Integer, Rational};
+use rug::Rational;
 use std::collections::BTreeMap;
 
 /// A polynomial with rational coefficients, by which a system is given; a ring, so that equations can be written down with
@@ -96,45 +97,21 @@ impl Ring for Equation {
     }
 }
 
-/// Integer coefficients without common factor, the first one positive; the largest monomial first.
+/// A polynomial that is not 0, up to a factor: the largest monomial first.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Polynomial {
-    pub terms: Vec<(Monomial, Integer)>,
+pub(super) struct Polynomial<C> {
+    pub terms: Vec<(Monomial, C)>,
 }
 
 /// A polynomial being reduced to its normal form, with the largest monomial at hand.
-pub(super) type Work = BTreeMap<Monomial, Integer>;
+pub(super) type Work<C> = BTreeMap<Monomial, C>;
 
-impl Polynomial {
-    /// Returns the primitive multiple of an equation; `None` for zero.
-    pub fn of(equation: &Equation) -> Option<Self> {
-        let mut denominator = Integer::from(1);
-        for c in equation.terms.values() {
-            denominator.lcm_mut(c.denom());
-        }
-        let whole = |c: &Rational| Integer::from(denominator.div_exact_ref(c.denom())) * c.numer();
-        Self::primitive(equation.terms.iter().map(|(m, c)| (*m, whole(c))).collect())
-    }
-
-    /// Returns the primitive multiple of a sum of terms; `None` for zero.
-    pub fn primitive(work: Work) -> Option<Self> {
-        let mut terms: Vec<(Monomial, Integer)> = work.into_iter().rev().filter(|(_, c)| *c != 0).collect();
-        let mut content = terms.first()?.1.clone();
-        for (_, c) in &terms[1..] {
-            if content == 1 || content == -1 {
-                break;
-            }
-            content.gcd_mut(c);
-        }
-        if content.is_negative() != terms[0].1.is_negative() {
-            content = -content;
-        }
-        if content != 1 {
-            for (_, c) in &mut terms {
-                c.div_exact_mut(&content);
-            }
-        }
-        Some(Self { terms })
+impl<C: Coefficient> Polynomial<C> {
+    /// Returns the normalised multiple of a sum of terms; `None` for zero.
+    pub fn normalised(work: Work<C>) -> Option<Self> {
+        let mut terms: Vec<(Monomial, C)> = work.into_iter().rev().filter(|(_, c)| !c.is_nothing()).collect();
+        C::normalise(&mut terms);
+        (!terms.is_empty()).then_some(Self { terms })
     }
 
     /// Returns the largest monomial.
@@ -143,20 +120,20 @@ impl Polynomial {
     }
 
     /// Returns the coefficient of the largest monomial.
-    pub fn coefficient(&self) -> &Integer {
+    pub fn coefficient(&self) -> &C {
         &self.terms[0].1
     }
 }
 
-/// Returns the cost of a product of two numbers, in words.
-fn words(x: &Integer, y: &Integer) -> u64 {
-    1 + u64::from(x.significant_bits() + y.significant_bits()) / 64
-}
-
 /// Computes `work -= factor monomial polynomial` without the leading term; `None` if a degree is too large.
-fn subtract(work: &mut Work, factor: &Integer, monomial: Monomial, polynomial: &Polynomial) -> Option<()> {
+pub(super) fn subtract<C: Coefficient>(
+    work: &mut Work<C>,
+    factor: &C,
+    monomial: Monomial,
+    polynomial: &Polynomial<C>,
+) -> Option<()> {
     for (m, c) in &polynomial.terms[1..] {
-        *work.entry(m.times(monomial)?).or_default() -= Integer::from(c * factor);
+        work.entry(m.times(monomial)?).or_insert_with(C::nothing).subtract_product(c, factor);
     }
     Some(())
 }
@@ -164,24 +141,27 @@ fn subtract(work: &mut Work, factor: &Integer, monomial: Monomial, polynomial: &
 /// Returns the remainder of a sum of terms by polynomials: no monomial of it is a multiple of a leading one. `scale` receives
 /// the factor by which everything was multiplied. `None` if a degree is too large, or if this takes more products of words
 /// than `effort` has; those used are subtracted from it.
-pub(super) fn remainder(mut work: Work, by: &[&Polynomial], scale: &mut Integer, effort: &mut u64) -> Option<Work> {
+pub(super) fn remainder<C: Coefficient>(
+    mut work: Work<C>,
+    by: &[&Polynomial<C>],
+    scale: &mut C,
+    effort: &mut u64,
+) -> Option<Work<C>> {
     let mut rest = Work::new();
-    while let Some((monomial, mut c)) = work.pop_last() {
-        if c == 0 {
+    while let Some((monomial, c)) = work.pop_last() {
+        if c.is_nothing() {
             continue;
         }
         let Some(divisor) = by.iter().find(|p| p.leading().divides(monomial)) else {
             rest.insert(monomial, c);
             continue;
         };
-        let common = Integer::from(c.gcd_ref(divisor.coefficient()));
-        c.div_exact_mut(&common);
-        let factor = Integer::from(divisor.coefficient().div_exact_ref(&common));
-        let terms = divisor.terms.len() + if factor == 1 { 0 } else { work.len() + rest.len() };
-        *effort = effort.checked_sub(terms as u64 * words(&c, divisor.coefficient()))?;
-        if factor != 1 {
-            work.values_mut().chain(rest.values_mut()).for_each(|x| *x *= &factor);
-            *scale *= &factor;
+        let (c, factor) = c.ratio(divisor.coefficient());
+        let terms = divisor.terms.len() + if factor.is_unit() { 0 } else { work.len() + rest.len() };
+        *effort = effort.checked_sub(terms as u64 * c.words(divisor.coefficient()))?;
+        if !factor.is_unit() {
+            work.values_mut().chain(rest.values_mut()).for_each(|x| x.scale(&factor));
+            scale.scale(&factor);
         }
         subtract(&mut work, &c, monomial.over(divisor.leading()), divisor)?;
     }

@@ -3,7 +3,7 @@
 
 use super::basis::Basis;
 use super::monomial::Monomial;
-use super::polynomial::{Equation, Polynomial, Work, remainder};
+use super::polynomial::{Equation, Work, remainder};
 use crate::ring::Ring;
 use crate::univariate::Univariate;
 use rug::{Integer, Rational};
@@ -33,7 +33,7 @@ impl FiniteRing {
     /// Returns the ring of a basis; `None` if there are infinitely many zeros, or more than 64.
     #[must_use]
     pub fn of(basis: &Basis) -> Option<Self> {
-        let standard = standard_monomials(basis)?;
+        let standard = basis.standard(MOST)?;
         let places = standard.iter().enumerate().map(|(k, m)| (*m, k)).collect();
         let mut ring = Self { basis: basis.clone(), standard, places, traces: Vec::new(), products: Vec::new() };
         ring.multiply()?;
@@ -60,7 +60,7 @@ impl FiniteRing {
             denominator.lcm_mut(c.denom());
         }
         let whole = |c: &Rational| Integer::from(denominator.div_exact_ref(c.denom())) * c.numer();
-        let work: Work = equation.terms().iter().map(|(m, c)| (*m, whole(c))).collect();
+        let work: Work<Integer> = equation.terms().iter().map(|(m, c)| (*m, whole(c))).collect();
         let mut scale = denominator.clone();
         // The normal forms of small monomials take no more work than the basis itself.
         let mut effort = u64::MAX;
@@ -134,28 +134,6 @@ impl FiniteRing {
         coefficients.reverse();
         Some((Univariate::new(coefficients), powers))
     }
-}
-
-/// Returns the monomials that are no multiples of leading ones; `None` for infinitely many, and for more than 64.
-fn standard_monomials(basis: &Basis) -> Option<Vec<Monomial>> {
-    let leading: Vec<Monomial> = basis.elements.iter().map(Polynomial::leading).collect();
-    let is_standard = |m: &Monomial| !leading.iter().any(|l| l.divides(*m));
-    let mut standard: Vec<Monomial> = vec![Monomial::one()].into_iter().filter(is_standard).collect();
-    let mut at = 0;
-    while at < standard.len() {
-        for k in 0..basis.variables {
-            let product = standard[at].times(Monomial::variable(k))?;
-            if is_standard(&product) && !standard.contains(&product) {
-                standard.push(product);
-            }
-        }
-        at += 1;
-        if standard.len() > MOST {
-            return None;
-        }
-    }
-    standard.sort_unstable();
-    Some(standard)
 }
 
 fn dot(x: &[Rational], y: &[Rational]) -> Rational {
