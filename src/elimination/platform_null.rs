@@ -119,7 +119,8 @@ pub fn null_solutions(platform: &Platform<Rational>) -> usize {
     for d in &before {
         for e in &behind {
             let (is_inverse, double) = (are_inverse(d, e), double_classes(d, e));
-            if !(is_inverse || !double.is_empty()) || !base.is_exact(d) || !plate.is_exact(e) {
+            let is_candidate = is_inverse || !double.is_empty();
+            if !is_candidate || !base.is_exact(d) || !plate.is_exact(e) {
                 continue;
             }
             for (one, other) in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {

@@ -614,7 +614,7 @@ mod tests {
             let [number, other] = [text, sum].map(|text| Number::parse(text, Quantity::Length, &reading).unwrap());
             assert_eq!(number, other, "{text}");
         }
-        for text in ["1e151", "1e-160", "2 deg", "1 m 2", "--", "1e", "1.2.3", ""] {
+        for text in ["1e154", "1e-160", "2 deg", "1 m 2", "--", "1e", "1.2.3", ""] {
             assert!(Number::parse(text, Quantity::Length, &reading).is_err(), "{text}");
         }
     }
