@@ -55,14 +55,14 @@ impl<C: Ring> UniversalLeg<C> {
         let (of_w, of_x) = (self.between(&w, times), self.between(x, times));
         let back = apply(&self.leg.matrix, &of_x, times);
         let by_x = std::array::from_fn(|k| of_w[k].sub(&back[k]));
-        [joined(twice(self.leg.half_slope(&w, x, times)), twice(w)), joined(by_x, of_x)]
+        [joined(&twice(self.leg.half_slope(&w, x, times)), &twice(w)), joined(&by_x, &of_x)]
     }
 }
 
 /// Returns x and y as one vector.
-pub fn joined<R>(x: Four<R>, y: Four<R>) -> Eight<R> {
-    let ([a, b, c, d], [e, f, g, h]) = (x, y);
-    [a, b, c, d, e, f, g, h]
+#[must_use]
+pub fn joined<R: Clone>(x: &Four<R>, y: &Four<R>) -> Eight<R> {
+    std::array::from_fn(|k| if k < 4 { x[k].clone() } else { y[k - 4].clone() })
 }
 
 #[cfg(test)]

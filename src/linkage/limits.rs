@@ -20,7 +20,7 @@ use super::state::Number;
 use crate::algebra::groebner::{Basis, Equation, FiniteRing, MOST_VARIABLES, Solutions};
 use crate::algebra::minors::{determinant_by_minors, maximal_minors};
 use crate::algebra::ring::Ring;
-use crate::kinematics::linkage::{Gaussian, Given, Linkage};
+use crate::kinematics::linkage::{Gaussian, Given, Linkage, LinkageJoint};
 
 /// Products of words that a basis may take: a second.
 const EFFORT: u64 = 300_000_000;
@@ -31,7 +31,7 @@ const MOST_CYCLES: usize = 4;
 /// the linkage has gears, takes too much work, moves with its input held, or has limit positions that coincide.
 #[must_use]
 pub fn complex_limits(linkage: &Linkage, held: &[Given], joint: usize) -> Option<usize> {
-    if linkage.joints.iter().any(|joint| joint.is_gear()) {
+    if linkage.joints.iter().any(LinkageJoint::is_gear) {
         return None;
     }
     let (state, joints) = held_and_free(linkage, held).ok()?;

@@ -99,18 +99,11 @@ pub fn solve(linkage: &SpaceLinkage, given: &[SpaceGiven], exact: bool) -> Resul
     let all = bodies(linkage);
     let system = System::of(linkage, given, &all)?;
     let plate = Plate::of(linkage, given, &system);
-    let (mut modes, mut sample, verdict, route);
-    if let Some((plate, count)) = plate.and_then(|plate| plate.count().map(|count| (plate, count))) {
-        (modes, sample, route) = (Vec::new(), None, "paths");
-        match count {
-            Count::Finite(count) => modes = posed(linkage, given, &system, &plate, count),
-            Count::Dimension(_) => sample = real_point(linkage, given, &system),
-        }
-        verdict = counted_verdict(&modes, count, sample.is_some(), exact);
-    } else {
-        (modes, sample, verdict) = by_basis(linkage, given, &system, exact)?;
-        route = "Gröbner basis";
-    }
+    let counted_plate = plate.and_then(|plate| plate.count().map(|count| (plate, count)));
+    let ((mut modes, sample, verdict), route) = match counted_plate {
+        Some((plate, count)) => (by_paths(linkage, given, &system, (&plate, count), exact), "paths"),
+        None => (by_basis(linkage, given, &system, exact)?, "Gröbner basis"),
+    };
     sort(&mut modes);
     let groups = counted(linkage, given, verdict.complex, route)?;
     Ok(SpaceAnswer { verdict, modes, sample, groups, solve_us: start.elapsed().as_secs_f64() * 1e6 })
@@ -134,13 +127,23 @@ fn by_basis(linkage: &SpaceLinkage, given: &[SpaceGiven], system: &System, exact
     Ok((modes, sample, verdict))
 }
 
-/// The poses of a plate on UPU legs, at most this many.
-fn posed(linkage: &SpaceLinkage, given: &[SpaceGiven], system: &System, plate: &Plate, most: usize) -> Vec<SpaceMode> {
-    let poses = plate.poses(most);
+/// All assemblies of a plate on UPU legs, whose number is known modulo a prime.
+fn by_paths(
+    linkage: &SpaceLinkage,
+    given: &[SpaceGiven],
+    system: &System,
+    (plate, count): (&Plate, Count),
+    exact: bool,
+) -> Listed {
     let one = |pose: &PlatePose| {
         mode(linkage, given, system, &[Some(Motion::identity()), Some(pose.place.clone())], pose.is_real, 1)
     };
-    poses.iter().filter_map(one).collect()
+    let (modes, sample) = match count {
+        Count::Finite(count) => (plate.poses(count).iter().filter_map(one).collect(), None),
+        Count::Dimension(_) => (Vec::new(), real_point(linkage, given, system)),
+    };
+    let verdict = counted_verdict(&modes, count, sample.is_some(), exact);
+    (modes, sample, verdict)
 }
 
 /// Real assemblies first.

@@ -207,7 +207,7 @@ impl Square for Fixed<'_> {
         let [x, y] = halves(unknowns);
         let unit = std::array::from_fn(|k| if k == self.chart { Disc::one() } else { Disc::zero() });
         let mut rows: Vec<[Disc; 8]> = self.legs.iter().flat_map(|leg| leg.slopes(&x, &y, times)).collect();
-        rows.extend([joined(y, x), unit]);
+        rows.extend([joined(&y, &x), unit]);
         (0..8).map(|k| rows.iter().map(|row| row[k].clone()).collect()).collect()
     }
 }

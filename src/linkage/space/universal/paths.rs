@@ -60,15 +60,15 @@ impl Family<8> for Moving<'_> {
                     + scalar(&w, &first.between(&x, times))
                     + scalar(&w, &second.between(&x, times)),
             ];
-            for form in 0..2 {
-                here.values[2 * k + form] = values[form];
-                here.jacobian[2 * k + form] = slopes[form];
-                here.drift[2 * k + form] = drifts[form];
+            for (form, ((value, slope), drift)) in values.into_iter().zip(slopes).zip(drifts).enumerate() {
+                here.values[2 * k + form] = value;
+                here.jacobian[2 * k + form] = slope;
+                here.drift[2 * k + form] = drift;
             }
         }
         // Study's condition.
         here.values[6] = scalar(&x, &y);
-        here.jacobian[6] = joined(y, x);
+        here.jacobian[6] = joined(&y, &x);
         here.jacobian[7] = *patch;
         here
     }
