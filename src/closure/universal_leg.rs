@@ -99,7 +99,7 @@ mod tests {
         // N times the vector of the leg, p + R b - a.
         let (b, a) = (rotated([-1, -3, 3]), vector([1, 4, 0]));
         let d: Vector<Rational> = std::array::from_fn(|k| Rational::from(&p[k] - &a[k]) * &norm + &b[k]);
-        assert_eq!(dot(&d, &d), Rational::from(&length + 11 * norm.clone()) * &norm);
+        assert_eq!(dot(&d, &d), (&length + 11 * norm.clone()) * &norm);
         assert_eq!(dot(&vector([-3, 3, 1]), &cross(&rotated([2, -5, 7]), &d)), axes * norm);
     }
 

@@ -415,10 +415,8 @@ impl<'a> Report<'a> {
 
     /// Returns what writes an answer as JSON, where nothing else is inserted into it.
     fn lines(&self) -> Option<Lines> {
-        let is_plain = self.stage.is_none()
-            && self.follow.is_none()
-            && self.order.is_as_found()
-            && self.output.document.is_none();
+        let is_plain =
+            self.stage.is_none() && self.follow.is_none() && self.order.is_as_found() && self.output.document.is_none();
         (self.is_json() && is_plain).then(|| Lines { labels: self.labels.clone(), view: self.view })
     }
 
@@ -462,13 +460,14 @@ impl<'a> Report<'a> {
                 text += &self.order.turns_text(solution, &self.view);
                 self.output.writer.write_all(text.as_bytes())?;
             }
-            Form::Document | Form::Lines => match text.as_ref().filter(|_| derivatives.is_none()) {
-                Some(text) => self.write(text)?,
-                None => {
+            Form::Document | Form::Lines => {
+                if let Some(text) = text.as_ref().filter(|_| derivatives.is_none()) {
+                    self.write(text)?;
+                } else {
                     let document = document();
                     self.write_value(document)?;
                 }
-            },
+            }
         }
         self.written += 1;
         self.tally[solution.verdict.status as usize] += 1;
