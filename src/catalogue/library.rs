@@ -1,4 +1,4 @@
-//! The built-in library: the files of equations/, embedded.
+//! The built-in library: the files of equations/ that the program reads, embedded as `build.rs` sorts them.
 
 use super::ansatz::Ansatz;
 use super::entry::Entry;
@@ -10,7 +10,10 @@ use crate::error::{Error, Result};
 use include_dir::{Dir, DirEntry, File, include_dir};
 use std::sync::OnceLock;
 
-static LIBRARY: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/equations");
+static LIBRARY: Dir<'static> = include_dir!("$OUT_DIR/mechanisms");
+
+/// The derived equations, apart from the rest: what does not show them does not contain them.
+static PAGES: Dir<'static> = include_dir!("$OUT_DIR/pages");
 
 /// The folder of the loops with symbols, which cannot be solved as mechanisms.
 const CONDITIONS: &str = "conditions/";
@@ -162,7 +165,7 @@ pub fn builtin_text(name: &str) -> Option<&'static str> {
 pub fn builtin_page(name: &str) -> Option<(String, &'static str)> {
     let (full, _) = find(name)?;
     let file = format!("{full}.eqs");
-    let text = LIBRARY.get_file(&file)?.contents_utf8()?;
+    let text = PAGES.get_file(&file)?.contents_utf8()?;
     Some((format!("equations/{file}"), text))
 }
 
